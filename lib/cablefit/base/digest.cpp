@@ -1,0 +1,64 @@
+#include "cablefit/base/digest.hpp"
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "cablefit/base/input_file.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr std::size_t kBlockBytes = 1u << 18;
+
+class Sha256 {
+ public:
+  Sha256() { require(EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr)); }
+
+  void add(std::string_view bytes) {
+    require(EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()));
+  }
+
+  std::string hex() {
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
+    unsigned int n_bytes = 0;
+    require(EVP_DigestFinal_ex(context_.get(), digest.data(), &n_bytes));
+    std::string text;
+    for (unsigned int i = 0; i < n_bytes; ++i) text += fmt::format("{:02x}", digest[i]);
+    return text;
+  }
+
+ private:
+  // No input can make these calls fail, only a broken library.
+  static void require(int status) {
+    if (status != 1) throw std::runtime_error("libcrypto offers no SHA-256");
+  }
+
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_{EVP_MD_CTX_new(),
+                                                                   &EVP_MD_CTX_free};
+};
+
+}  // namespace
+
+std::string sha256_of_file(const std::string& path) {
+  InputFile file(path);
+  Sha256 sha256;
+  std::vector<char> block(kBlockBytes);
+  while (const std::size_t n_read = file.read(block.data(), block.size())) {
+    sha256.add({block.data(), n_read});
+  }
+  return sha256.hex();
+}
+
+std::string sha256_of_text(std::string_view text) {
+  Sha256 sha256;
+  sha256.add(text);
+  return sha256.hex();
+}
+
+}  // namespace cablefit

@@ -1,0 +1,14 @@
+// Results appear whole or not at all: written beside the target under a temporary name, flushed to
+// disk, then renamed.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace cablefit {
+
+/// Creates missing parent folders. "-" writes to standard output. Throws Error(output) naming the
+/// path and the system's reason; nothing is left behind then.
+void write_whole(const std::string& path, std::string_view content);
+
+}  // namespace cablefit

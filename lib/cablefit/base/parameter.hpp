@@ -1,0 +1,48 @@
+// What a parameter is, and what was estimated for it.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cablefit {
+
+inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
+/// A row of a table of parameters. `unit` is for a rotary axis; linear_unit() gives the other.
+struct ParameterInfo {
+  std::string_view name;    ///< as in results: "J_link"
+  std::string_view symbol;  ///< as in the paper: "J_M"
+  std::string_view unit;    ///< "kg m^2"
+  std::string_view meaning;
+  double lower = -kUnbounded;  ///< physical bound, in SI
+  double upper = kUnbounded;
+};
+
+/// The unit of the same quantity on a linear axis: "N m" -> "N", "kg m^2" -> "kg", "rad" -> "m",
+/// ...
+std::string linear_unit(std::string_view rotary_unit);
+
+/// An estimate with its uncertainty. NaN stands for "none": printed as a dash, null in JSON.
+struct Estimate {
+  std::string name;
+  std::string symbol;
+  std::string unit;
+  double value = std::numeric_limits<double>::quiet_NaN();
+  double sd = std::numeric_limits<double>::quiet_NaN();        ///< the one cablefit stands behind
+  double sd_white = std::numeric_limits<double>::quiet_NaN();  ///< the paper's (25)
+  double ci_low = std::numeric_limits<double>::quiet_NaN();    ///< 95 % interval
+  double ci_high = std::numeric_limits<double>::quiet_NaN();
+  double cad = std::numeric_limits<double>::quiet_NaN();  ///< information, never fitted to
+  std::string not_identifiable;  ///< why there is no sd; empty when there is one
+  std::string active_bound;      ///< "f_sm >= 0" when the fit stands on it
+
+  /// 100 sd / |value|, NaN when either is missing or the value is 0.
+  double rsd_percent() const;
+};
+
+/// The estimate of that name, or nullptr.
+const Estimate* find_estimate(const std::vector<Estimate>& estimates, std::string_view name);
+
+}  // namespace cablefit

@@ -1,0 +1,116 @@
+#include "cablefit/dynamic/estimates.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cablefit/estimate/long_run.hpp"
+
+namespace cablefit {
+namespace {
+
+// An inertia whose column is explained to more than this by position and the other columns cannot be told
+// from a torque that depends on position: stiffness, gravity, a wrong elastic stage.
+constexpr double kPositionAlias = 0.98;
+
+/// R^2 of column `k` on the other effect columns and the position.
+double explained_by_position(const RowStatistics& rows, const DynamicColumns& c, Eigen::Index k) {
+  LinearProblem problem;
+  for (Eigen::Index j = 0; j < c.n_effects; ++j)
+    if (j != k) problem.regressors.push_back(j);
+  problem.regressors.push_back(c.position);
+  problem.names.assign(problem.regressors.size(), "");
+  problem.response = Eigen::VectorXd::Unit(c.count, k);
+  const double total = rows.r().col(k).squaredNorm();
+  return total > 0 ? 1 - solve(rows, problem).rss / total : 1;
+}
+
+Eigen::MatrixXd stage1_covariance(const RowStatistics& rows, const DynamicColumns& c,
+                                  const LinearSolution& s, const ElasticFit& stage1, std::size_t which) {
+  const Eigen::Index n = c.n_elastic[which];
+  if (stage1.covariance.rows() != n) return Eigen::MatrixXd::Zero(s.x.size(), s.x.size());
+  const Eigen::MatrixXd cross = rows.r().leftCols(c.n_effects).transpose() *
+                                rows.r().middleCols(c.elastic[which], n);
+  const Eigen::MatrixXd sensitivity = s.solve_operator * cross;
+  return sensitivity * stage1.covariance * sensitivity.transpose();
+}
+
+Estimate bounded_estimate(Estimate e, const LinearSolution& s, Eigen::Index k, double t) {
+  e.active_bound = e.name + " >= 0";
+  e.sd = s.unbounded_sd(k);
+  e.ci_low = 0;
+  e.ci_high = std::max(0.0, s.unbounded_x(k) + t * e.sd);
+  return e;
+}
+
+Estimate make_estimate(const ParameterInfo& info, const LinearSolution& s, const Eigen::MatrixXd& extra,
+                       Eigen::Index k, bool linear_motion, bool honest) {
+  Estimate e;
+  e.name = info.name;
+  e.symbol = info.symbol;
+  e.unit = linear_motion ? linear_unit(info.unit) : std::string(info.unit);
+  e.not_identifiable = s.not_identifiable[static_cast<std::size_t>(k)];
+  e.value = s.x(k);
+  if (!e.not_identifiable.empty()) return e;
+  const double t = t_quantile_975(s.degrees_of_freedom);
+  if (s.at_bound[static_cast<std::size_t>(k)]) return bounded_estimate(e, s, k, t);
+  e.sd_white = std::sqrt(s.covariance_white(k, k));
+  e.sd = honest ? std::sqrt(s.covariance(k, k) + extra(k, k)) : e.sd_white;
+  e.ci_low = std::max(info.lower, e.value - t * e.sd);
+  e.ci_high = e.value + t * e.sd;
+  return e;
+}
+
+void refuse(Estimate& e, const std::string& why) {
+  e.not_identifiable = why;
+  e.sd = e.sd_white = e.ci_low = e.ci_high = std::numeric_limits<double>::quiet_NaN();
+}
+
+/// An inertia has to be positive: an interval that reaches zero has determined nothing.
+void judge_inertia(const RowStatistics& rows, const DynamicColumns& c, Eigen::Index k, Estimate& e,
+                   double residual_rms) {
+  if (!e.not_identifiable.empty()) return;
+  const double explained = explained_by_position(rows, c, k);
+  if (explained > kPositionAlias) {
+    refuse(e, fmt::format("the acceleration is {:.1f} % a function of position, speed and direction (one sine?): "
+                          "inertia cannot be told from stiffness or gravity; move at several frequencies",
+                          100 * explained));
+    return;
+  }
+  const double torque = std::abs(e.value) * rows.r().col(k).norm() /
+                        std::sqrt(static_cast<double>(std::max<Eigen::Index>(1, rows.n_rows())));
+  if (!e.active_bound.empty() || e.ci_low <= 0)
+    refuse(e, fmt::format("the inertial torque of {:.2g} rms drowns in what the model leaves ({:.2g} rms); move faster",
+                          torque, residual_rms));
+}
+
+}  // namespace
+
+void add_estimates(const RowStatistics& rows, const DynamicColumns& c, const LinearSolution& s,
+                   const ElasticFit* stage1, std::size_t which, bool linear_motion, bool honest,
+                   DynamicFit& fit) {
+  const std::string equation(to_string(c.side));
+  Eigen::MatrixXd extra = Eigen::MatrixXd::Zero(s.x.size(), s.x.size());
+  if (stage1 != nullptr) extra = stage1_covariance(rows, c, s, *stage1, which);
+  Eigen::Index k = 0;
+  for (const Effect* effect : c.effects)
+    for (const ParameterInfo& info : effect->parameters) {
+      Estimate e = make_estimate(info, s, extra, k, linear_motion, honest);
+      if (effect->inertia != nullptr) judge_inertia(rows, c, k, e, s.rms());
+      fit.verdicts[e.name] = e.not_identifiable.empty() ? "identified" : "not identifiable";
+      fit.parameters.push_back(std::move(e));
+      ++k;
+    }
+  TorqueError& error = fit.torque_error[equation];
+  error.rms = s.rms();
+  Eigen::VectorXd y = s.residual_combination;
+  for (Eigen::Index j = 0; j < s.x.size(); ++j) y(j) += s.x(j);
+  const double total = (rows.r() * y).norm();
+  error.relative = total > 0 ? std::sqrt(s.rss) / total : 0;
+  fit.weight[equation] = s.rss > 0 ? static_cast<double>(s.n_rows) / s.rss : 0;
+  fit.condition[equation] = s.condition;
+  fit.effective_rows[equation] = s.effective_rows;
+  fit.warnings.insert(fit.warnings.end(), s.warnings.begin(), s.warnings.end());
+}
+
+}  // namespace cablefit

@@ -1,0 +1,119 @@
+#include "cablefit/dynamic/ratios.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "cablefit/estimate/least_squares.hpp"
+#include "cablefit/estimate/long_run.hpp"
+
+namespace cablefit {
+namespace {
+
+struct Ratio {
+  const char* name;
+  const char* unit;
+  double sign;
+  double lower;
+};
+constexpr std::array<Ratio, 4> kRatios = {{{"K/J_link", "1/s^2", 1, 0},
+                                           {"f_v/J_link", "1/s", 1, 0},
+                                           {"f_s/J_link", "rad/s^2", 1, 0},
+                                           {"constant", "rad/s^2", 1, -kUnbounded}}};
+constexpr Eigen::Index kResponse = 4;
+
+Equation ratio_equation(double rest_speed) {
+  Equation equation;
+  equation.name = "link";
+  equation.columns.assign(kResponse + 1, "");
+  equation.averaged.assign(kResponse + 1, true);
+  equation.rest_speed = rest_speed;
+  equation.speed = [](const Signals& signals) { return signals.joints[0].qd; };
+  equation.fill = [](const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
+    const JointSignals& s = signals.joints[0];
+    out.col(0) = s.theta - s.q;
+    out.col(1) = -s.qd;
+    out.col(2) = -s.q_direction;
+    out.col(3).setOnes();
+    out.col(kResponse) = s.qdd;
+  };
+  return equation;
+}
+
+}  // namespace
+
+DynamicPreload fit_ratios(std::span<const LogSurvey> logs, const std::string& name,
+                          const PartFilter& wanted, const DynamicOptions& options) {
+  for (const LogSurvey& log : logs) {
+    require_channel(log.plan, Channel::q, "the ratios of a flexible joint");
+    require_channel(log.plan, Channel::theta, "the ratios of a flexible joint");
+  }
+  DynamicPreload preload;
+  preload.name = name;
+  preload.linear_motion = logs.front().plan.rig.linear_motion;
+  preload.rig_path = logs.front().plan.rig.path;
+  const ChosenSettings settings = moving_settings(logs, wanted, options.samples, 0);
+  preload.decisions = settings.decisions;
+  const std::array<Equation, 1> equations = {ratio_equation(settings.rest_speed_q)};
+  const RowStatistics blank(kResponse + 1, expected_rows(logs, wanted, settings.rows), options.honest_sd);
+  RowStatistics rows = blank;
+  RowCounts& counts = preload.counts["link"];
+  preload.windows = stream_rows(
+      logs, wanted, settings.rows, equations, options.samples.threads,
+      [&](RowBatch batch) {
+        RowStatistics part = blank.empty_copy();
+        part.add(batch.equations[0].rows, batch.equations[0].numbers);
+        return std::pair(std::move(part), batch.equations[0].counts);
+      },
+      [&](const std::pair<RowStatistics, RowCounts>& result) {
+        rows.add(result.first);
+        counts += result.second;
+      });
+
+  LinearProblem problem;
+  for (std::size_t k = 0; k < kRatios.size(); ++k) {
+    problem.regressors.push_back(static_cast<Eigen::Index>(k));
+    problem.names.emplace_back(kRatios[k].name);
+    problem.lower.push_back(kRatios[k].lower);
+  }
+  problem.response = Eigen::VectorXd::Unit(kResponse + 1, kResponse);
+  const LinearSolution s = solve(rows, problem);
+  DynamicFit fit;
+  fit.model = "ratios";
+  fit.estimator = options.estimator;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const Ratio& ratio = kRatios[static_cast<std::size_t>(k)];
+    Estimate e;
+    e.name = e.symbol = ratio.name;
+    e.unit = ratio.unit;
+    e.value = s.x(k);
+    e.not_identifiable = s.not_identifiable[static_cast<std::size_t>(k)];
+    const double t = t_quantile_975(s.degrees_of_freedom);
+    if (s.at_bound[static_cast<std::size_t>(k)]) {
+      e.active_bound = e.name + " >= 0";
+      e.sd = s.unbounded_sd(k);
+      e.ci_low = 0;
+      e.ci_high = std::max(0.0, s.unbounded_x(k) + t * e.sd);
+    } else if (e.not_identifiable.empty()) {
+      e.sd_white = std::sqrt(s.covariance_white(k, k));
+      e.sd = options.honest_sd ? std::sqrt(s.covariance(k, k)) : e.sd_white;
+      e.ci_low = e.value - t * e.sd;
+      e.ci_high = e.value + t * e.sd;
+    }
+    fit.parameters.push_back(e);
+  }
+  for (const char* absolute : {"J_link", "J_motor", "f_v", "f_s", "f_vm", "f_sm", "offset"}) {
+    Estimate e;
+    e.name = e.symbol = absolute;
+    e.not_identifiable = "no torque is measured: only ratios to J_link show";
+    fit.verdicts[absolute] = "not identifiable";
+    fit.parameters.push_back(e);
+  }
+  fit.effective_rows["link"] = s.effective_rows;
+  fit.condition["link"] = s.condition;
+  fit.warnings = s.warnings;
+  preload.fits.push_back(std::move(fit));
+  preload.warnings.push_back("no torque in the log: ratios to J_link are all that can be identified");
+  return preload;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,135 @@
+#include "cablefit/dynamic/torque_delay.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/estimate/least_squares.hpp"
+#include "cablefit/estimate/long_run.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr int kWindows = 8;
+
+Eigen::ArrayXd slope(const Eigen::ArrayXd& x, double h) {
+  Eigen::ArrayXd d = Eigen::ArrayXd::Zero(x.size());
+  if (x.size() > 2)
+    d.segment(1, x.size() - 2) = (x.tail(x.size() - 2) - x.head(x.size() - 2)) / (2 * h);
+  return d;
+}
+
+/// The equation with two columns more: slope of the measured and of the model's torque.
+Equation with_slopes(const Equation& base, const DynamicColumns& c, const Eigen::VectorXd& model) {
+  Equation equation = base;
+  equation.averaged.insert(equation.averaged.end(), {true, true});
+  equation.columns.insert(equation.columns.end(), {"", ""});
+  equation.fill = [base, c, model](const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
+    base.fill(signals, out.leftCols(c.count));
+    out.col(c.count) = slope(out.col(c.torque).array(), signals.period);
+    out.col(c.count + 1) = slope((out.leftCols(c.count) * model).array(), signals.period);
+  };
+  return equation;
+}
+
+RowStatistics pilot_rows(std::span<const LogSurvey> logs, const std::vector<PilotWindow>& pilot,
+                         const RowSettings& rows, const Equation& equation) {
+  Eigen::Index expected = 0;
+  for (const PilotWindow& p : pilot) expected += (p.window.end - p.window.begin) / rows.decimate + 1;
+  RowStatistics statistics(static_cast<Eigen::Index>(equation.columns.size()), expected);
+  Eigen::Index offset = 0;
+  std::size_t log = 0;
+  for (const PilotWindow& p : pilot) {
+    if (p.log != log) offset += static_cast<Eigen::Index>(logs[log].n_rows) / rows.decimate + 1;
+    log = p.log;
+    const RowBatch batch = make_rows(p.window, logs[p.log], offset, rows, {&equation, 1});
+    statistics.add(batch.equations[0].rows, batch.equations[0].numbers);
+  }
+  return statistics;
+}
+
+}  // namespace
+
+TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFilter& wanted,
+                                  const RowSettings& row_settings, double rest_speed, Side side,
+                                  const ElasticFit* elastic) {
+  TorqueDelay delay;
+  RowSettings rows = row_settings;
+  rows.signal.torque_held = false;
+  std::vector<const ElasticFit*> fits;
+  if (elastic != nullptr) fits.push_back(elastic);
+  const DynamicColumns c = dynamic_columns(side, fits);
+  const Equation base = dynamic_equation(c, fits, false, rest_speed);
+  double rate = 0, period = 0;
+  for (const LogSurvey& log : logs)
+    for (const PartSurvey& part : log.parts)
+      if (wanted(part)) rate = std::max(rate, 1 / part.period);
+  period = 1 / rate;
+  const auto pilot = pilot_windows(logs, wanted, row_halo(rows, rate), kWindows);
+
+  LinearProblem problem;
+  for (Eigen::Index k = 0; k < c.n_effects; ++k) problem.regressors.push_back(k);
+  problem.names.assign(problem.regressors.size(), "");
+  problem.response = dynamic_response(c, fits, 0);
+  const RowStatistics plain = pilot_rows(logs, pilot, rows, base);
+  if (plain.n_rows() < 50) {
+    delay.reason = "too few rows in motion to estimate a torque delay";
+    return delay;
+  }
+  const LinearSolution start = solve(plain, problem);
+  // The model's torque: effects plus elastic torque, i.e. the torque column less the residual.
+  Eigen::VectorXd model = Eigen::VectorXd::Unit(c.count, c.torque) - start.residual_combination;
+  const RowStatistics rowsx = pilot_rows(logs, pilot, rows, with_slopes(base, c, model));
+
+  // Instruments [W, model slope], regressors [W, measured slope].
+  const Eigen::Index p = c.n_effects + 1;
+  const Eigen::MatrixXd gram = rowsx.r().transpose() * rowsx.r();
+  std::vector<Eigen::Index> z, x;
+  for (Eigen::Index k = 0; k < c.n_effects; ++k) z.push_back(k), x.push_back(k);
+  x.push_back(c.count);
+  z.push_back(c.count + 1);
+  Eigen::VectorXd response = Eigen::VectorXd::Zero(c.count + 2);
+  response.head(c.count) = problem.response;
+  Eigen::VectorXd scale(p);
+  for (Eigen::Index k = 0; k < p; ++k) scale(k) = 1 / std::sqrt(std::max(gram(z[static_cast<std::size_t>(k)], z[static_cast<std::size_t>(k)]), 1e-300));
+  Eigen::MatrixXd zx(p, p);
+  Eigen::VectorXd zy(p);
+  for (Eigen::Index i = 0; i < p; ++i) {
+    const auto zi = z[static_cast<std::size_t>(i)];
+    for (Eigen::Index j = 0; j < p; ++j)
+      zx(i, j) = scale(i) * gram(zi, x[static_cast<std::size_t>(j)]) * scale(j);
+    zy(i) = scale(i) * gram.row(zi).dot(response);
+  }
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(zx);
+  if (!lu.isInvertible()) {
+    delay.reason = "the motion does not determine a torque delay";
+    return delay;
+  }
+  const Eigen::VectorXd solution = scale.cwiseProduct(lu.solve(zy));
+  Eigen::VectorXd residual = response;
+  for (Eigen::Index k = 0; k < p; ++k) residual(x[static_cast<std::size_t>(k)]) -= solution(k);
+  Eigen::MatrixXd scores(static_cast<Eigen::Index>(rowsx.cells().size()), p);
+  for (std::size_t cell = 0; cell < rowsx.cells().size(); ++cell) {
+    const Eigen::VectorXd all = rowsx.cells()[cell].gram * residual;
+    for (Eigen::Index k = 0; k < p; ++k)
+      scores(static_cast<Eigen::Index>(cell), k) = scale(k) * all(z[static_cast<std::size_t>(k)]);
+  }
+  // Influence of each cell on the delay alone: the last row of (Z'X)^-1 times its scores.
+  const Eigen::RowVectorXd last = lu.inverse().row(p - 1);
+  const LongRunCovariance spread = long_run_covariance(scores * last.transpose());
+  delay.estimated = true;
+  delay.seconds = solution(p - 1);
+  delay.sd = scale(p - 1) * std::sqrt(spread.covariance(0, 0));
+  const double hold = rows.signal.torque_period > 0 ? rows.signal.torque_period : period;
+  delay.held = std::abs(delay.seconds - hold / 2) < std::abs(delay.seconds);
+  delay.reason = fmt::format("the torque acts {:.3g} +- {:.2g} ms after its time stamp (1 sd): nearer to {}",
+                             1e3 * delay.seconds, 1e3 * delay.sd,
+                             delay.held ? fmt::format("half a hold of {:.3g} ms (zoh)", 1e3 * hold) : "0 (none)");
+  if (std::abs(delay.seconds - (delay.held ? hold / 2 : 0)) > std::max(4 * delay.sd, 0.25 * hold))
+    delay.reason += "; neither fits well: look for a further delay in the drive or the log";
+  return delay;
+}
+
+}  // namespace cablefit

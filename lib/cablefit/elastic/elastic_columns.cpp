@@ -1,0 +1,108 @@
+#include "cablefit/elastic/elastic_columns.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace cablefit {
+namespace {
+
+Eigen::ArrayXd deflection(const Transmission& transmission, const JointSignals& s) {
+  const double zero = transmission.theta_0.size() > 0 ? transmission.theta_0(0) : 0.0;
+  return s.theta - zero - s.q;
+}
+
+// d tau_elas_m / d theta of a fitted transmission, one joint.
+double motor_stiffness(const Transmission& transmission, double q, double theta) {
+  if (transmission.cables.empty()) return transmission.linear_stiffness(0);
+  double sum = 0;
+  for (const Cable& cable : transmission.cables) {
+    const double zero = transmission.theta_0.size() > 0 ? transmission.theta_0(0) : 0.0;
+    const double l = cable.motor_radius(0) * (theta - zero) - cable.link_radius(0) * q +
+                     cable.initial_elongation;
+    sum += cable.motor_radius(0) * cable.motor_radius(0) * cable.stiffness(l);
+  }
+  return sum;
+}
+
+}  // namespace
+
+Eigen::Index n_elastic_columns(const Transmission& transmission) {
+  Eigen::Index n = 0;
+  for (const Cable& cable : transmission.cables) n += cable.law->n_coefficients(cable.order);
+  return n;
+}
+
+void elastic_basis(const Transmission& transmission, const JointSignals& s, ElasticSide side,
+                   Eigen::Ref<Eigen::MatrixXd> out) {
+  const double zero = transmission.theta_0.size() > 0 ? transmission.theta_0(0) : 0.0;
+  std::array<double, kMaxCableOrder> values{};
+  Eigen::Index first = 0;
+  for (const Cable& cable : transmission.cables) {
+    const int n = cable.law->n_coefficients(cable.order);
+    const double gain = side == ElasticSide::motor ? cable.motor_radius(0) : cable.link_radius(0);
+    for (Eigen::Index i = 0; i < out.rows(); ++i) {
+      const double l = cable.motor_radius(0) * (s.theta(i) - zero) -
+                       cable.link_radius(0) * s.q(i) + cable.initial_elongation;
+      if (l > 0) {
+        cable.law->basis(cable.order, l, values.data());
+      } else {
+        values.fill(0);
+      }
+      for (int k = 0; k < n; ++k) out(i, first + k) = gain * values[static_cast<std::size_t>(k)];
+    }
+    first += n;
+  }
+}
+
+BlockedColumns blocked_columns(const Transmission& transmission) {
+  BlockedColumns c;
+  c.n_basis = n_elastic_columns(transmission);
+  c.offset = c.basis + c.n_basis;
+  c.direction = c.offset + 1;
+  c.speed = c.direction + 1;
+  c.zero = c.speed + 1;
+  c.tau = c.zero + 1;
+  c.count = c.tau + 1;
+  return c;
+}
+
+Equation blocked_equation(const Transmission& transmission, const Transmission* pilot, bool sliding,
+                          double rest_speed, double still_speed) {
+  const BlockedColumns c = blocked_columns(transmission);
+  Equation equation;
+  equation.name = "blocked";
+  equation.columns.assign(static_cast<std::size_t>(c.count), "");
+  equation.averaged.assign(static_cast<std::size_t>(c.count), false);  // quasi-static: no difference
+  equation.fill = [transmission, c, pilot](const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
+    const JointSignals& s = signals.joints[0];
+    out.col(c.deflection) = deflection(transmission, s);
+    elastic_basis(transmission, s, ElasticSide::motor, out.middleCols(c.basis, c.n_basis));
+    out.col(c.offset).setOnes();
+    out.col(c.direction) = s.approach;
+    out.col(c.speed) = s.thetad;
+    if (pilot == nullptr) {
+      out.col(c.zero).setZero();
+    } else {
+      for (Eigen::Index i = 0; i < out.rows(); ++i)
+        out(i, c.zero) = -motor_stiffness(*pilot, s.q(i), s.theta(i));
+    }
+    out.col(c.tau) = s.tau;
+  };
+  const auto slow = [rest_speed](const JointSignals& s) {
+    return (s.thetad.abs() < rest_speed).cast<double>().eval();
+  };
+  if (sliding) {
+    equation.rest_speed = rest_speed;
+    equation.speed = [](const Signals& signals) { return signals.joints[0].thetad; };
+  }
+  equation.use = [sliding, slow, still_speed](const Signals& signals) -> Eigen::ArrayXd {
+    const JointSignals& s = signals.joints[0];
+    Eigen::ArrayXd use = (s.approach != 0.0).cast<double>();  // before the first motion: no branch
+    if (!sliding) use *= slow(s);
+    if (still_speed > 0) use *= (s.qd.abs() < still_speed).cast<double>();
+    return use;
+  };
+  return equation;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,80 @@
+#include "cablefit/estimate/row_statistics.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+
+namespace cablefit {
+namespace {
+
+constexpr Eigen::Index kQrBlock = 1024;  // rows that stay in the second-level cache with R
+
+}  // namespace
+
+StreamingQr::StreamingQr(Eigen::Index n_columns)
+    : r_(Eigen::MatrixXd::Zero(n_columns, n_columns)) {}
+
+void StreamingQr::absorb(const Rows& rows) {
+  const Eigen::Index n = r_.cols();
+  work_.resize(n + rows.rows(), n);
+  work_.topRows(n) = r_;
+  work_.bottomRows(rows.rows()) = rows;
+  Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> qr(work_);
+  r_ = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
+}
+
+void StreamingQr::add(const Rows& rows) {
+  for (Eigen::Index begin = 0; begin < rows.rows(); begin += kQrBlock)
+    absorb(rows.middleRows(begin, std::min(kQrBlock, rows.rows() - begin)));
+}
+
+void StreamingQr::add(const StreamingQr& other) { absorb(other.r_); }
+
+RowStatistics::RowStatistics(Eigen::Index n_columns, bool with_cells, Eigen::Index cell_rows)
+    : n_columns_(n_columns), cell_rows_(cell_rows), with_cells_(with_cells), qr_(n_columns) {}
+
+RowStatistics::RowStatistics(Eigen::Index n_columns, Eigen::Index expected_rows, bool with_cells)
+    : RowStatistics(n_columns, with_cells,
+                    std::max<Eigen::Index>(1, (expected_rows + kMaxCells - 1) / kMaxCells)) {}
+
+RowStatistics RowStatistics::empty_copy() const {
+  return RowStatistics(n_columns_, with_cells_, cell_rows_);
+}
+
+void RowStatistics::add(const Rows& rows, std::span<const Eigen::Index> numbers) {
+  if (rows.rows() == 0) return;
+  qr_.add(rows);
+  if (with_cells_) add_to_cells(rows, numbers);
+  n_rows_ += rows.rows();
+}
+
+void RowStatistics::add_to_cells(const Rows& rows, std::span<const Eigen::Index> numbers) {
+  Eigen::Index begin = 0;
+  while (begin < rows.rows()) {
+    const Eigen::Index id = numbers[static_cast<std::size_t>(begin)] / cell_rows_;
+    Eigen::Index end = begin + 1;
+    while (end < rows.rows() && numbers[static_cast<std::size_t>(end)] / cell_rows_ == id) ++end;
+    if (cells_.empty() || cells_.back().id != id)
+      cells_.push_back({id, 0, Eigen::MatrixXd::Zero(n_columns_, n_columns_)});
+    GramCell& cell = cells_.back();
+    const auto part = rows.middleRows(begin, end - begin);
+    cell.gram.noalias() += part.transpose() * part;
+    cell.n_rows += end - begin;
+    begin = end;
+  }
+}
+
+void RowStatistics::add(const RowStatistics& later) {
+  if (later.n_rows_ == 0) return;
+  qr_.add(later.qr_);
+  for (const GramCell& cell : later.cells_) {
+    if (!cells_.empty() && cells_.back().id == cell.id) {
+      cells_.back().gram += cell.gram;
+      cells_.back().n_rows += cell.n_rows;
+    } else {
+      cells_.push_back(cell);
+    }
+  }
+  n_rows_ += later.n_rows_;
+}
+
+}  // namespace cablefit

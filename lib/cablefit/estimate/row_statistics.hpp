@@ -1,0 +1,72 @@
+// Everything the estimators need of millions of rows, in constant memory: the triangular factor of a
+// streamed Householder QR (for the estimates: it does not square the condition number) and the Gram
+// matrix of each of at most kMaxCells stretches of rows (for honest standard deviations and for
+// held-out blocks, where its precision is plenty).
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+namespace cablefit {
+
+/// Rows hold all columns of an equation side by side, regressors and responses alike; which is which
+/// is decided when solving, so that one pass over a log serves every model fitted to it.
+using Rows = Eigen::Ref<const Eigen::MatrixXd>;
+
+/// R of [rows] = Q R, n_columns x n_columns, upper triangular (Golub & Van Loan, ch. 5; TSQR of
+/// Demmel et al. 2012). The order in which blocks are added decides the last bits: keep it fixed.
+class StreamingQr {
+ public:
+  explicit StreamingQr(Eigen::Index n_columns);
+  void add(const Rows& rows);
+  void add(const StreamingQr& other);
+  const Eigen::MatrixXd& r() const { return r_; }
+
+ private:
+  void absorb(const Rows& rows);
+  Eigen::MatrixXd r_;
+  Eigen::MatrixXd work_;
+};
+
+/// Gram matrix of the rows numbered [id * cell_rows, (id + 1) * cell_rows).
+struct GramCell {
+  Eigen::Index id = 0;
+  Eigen::Index n_rows = 0;
+  Eigen::MatrixXd gram;  ///< n_columns x n_columns, symmetric, full
+};
+
+class RowStatistics {
+ public:
+  static constexpr Eigen::Index kMaxCells = 2048;
+
+  /// `expected_rows` decides how long a cell is (at least one row); 0 cells when `with_cells` is off.
+  RowStatistics(Eigen::Index n_columns, Eigen::Index expected_rows, bool with_cells = true);
+  /// An empty accumulator of the same layout, for another thread or window.
+  RowStatistics empty_copy() const;
+
+  /// Rows with their numbers on the time grid (ascending, gaps where rows were dropped), so that a cell
+  /// is a stretch of time.
+  void add(const Rows& rows, std::span<const Eigen::Index> numbers);
+  /// What another accumulator saw; its rows come after those of this one.
+  void add(const RowStatistics& later);
+
+  Eigen::Index n_rows() const { return n_rows_; }
+  Eigen::Index n_columns() const { return n_columns_; }
+  Eigen::Index cell_rows() const { return cell_rows_; }
+  const Eigen::MatrixXd& r() const { return qr_.r(); }
+  const std::vector<GramCell>& cells() const { return cells_; }
+
+ private:
+  RowStatistics(Eigen::Index n_columns, bool with_cells, Eigen::Index cell_rows);
+  void add_to_cells(const Rows& rows, std::span<const Eigen::Index> numbers);
+
+  Eigen::Index n_columns_;
+  Eigen::Index cell_rows_;
+  bool with_cells_;
+  Eigen::Index n_rows_ = 0;
+  StreamingQr qr_;
+  std::vector<GramCell> cells_;
+};
+
+}  // namespace cablefit

@@ -1,0 +1,63 @@
+#include "cablefit/log/byte_source.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "cablefit/base/input_file.hpp"
+#include "cablefit/log/compression.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr std::size_t kMagicBytes = 4;
+
+constexpr std::array kCompressions{
+    Compression{"gzip", is_gzip, unpack_gzip},
+    Compression{"zstd", is_zstd, unpack_zstd},
+};
+
+class FileSource final : public ByteSource {
+ public:
+  explicit FileSource(const std::string& path) : file_(path) {}
+  std::size_t read(char* to, std::size_t n_bytes) override { return file_.read(to, n_bytes); }
+
+ private:
+  InputFile file_;
+};
+
+}  // namespace
+
+std::string_view PeekableSource::peek(std::size_t n_bytes) {
+  std::size_t n_held = head_.size();
+  head_.resize(std::max(n_bytes, n_held));
+  while (n_held < n_bytes) {
+    const std::size_t n_read = source_->read(head_.data() + n_held, n_bytes - n_held);
+    if (n_read == 0) break;
+    n_held += n_read;
+  }
+  head_.resize(n_held);
+  return {head_.data(), std::min(n_bytes, n_held)};
+}
+
+std::size_t PeekableSource::read(char* to, std::size_t n_bytes) {
+  if (n_taken_ == head_.size()) return source_->read(to, n_bytes);
+  const std::size_t n_copied = std::min(n_bytes, head_.size() - n_taken_);
+  std::copy_n(head_.data() + n_taken_, n_copied, to);
+  n_taken_ += n_copied;
+  return n_copied;
+}
+
+std::span<const Compression> compressions() { return kCompressions; }
+
+std::unique_ptr<PeekableSource> open_bytes(const std::string& path) {
+  auto file = std::make_unique<PeekableSource>(std::make_unique<FileSource>(path));
+  const std::string_view magic = file->peek(kMagicBytes);
+  for (const Compression& compression : kCompressions) {
+    if (!compression.recognises(magic)) continue;
+    return std::make_unique<PeekableSource>(compression.unpack(std::move(file), path));
+  }
+  return file;
+}
+
+}  // namespace cablefit

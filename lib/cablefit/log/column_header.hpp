@@ -1,0 +1,19 @@
+// Column names as CSV header cells and JSON keys have them.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "cablefit/log/log_reader.hpp"
+
+namespace cablefit {
+
+/// "theta [deg]" or "theta(deg)" -> name "theta", unit "deg". An index ("q[1]") belongs to the
+/// name.
+ColumnHeader to_column_header(std::string_view text, const Place& place);
+
+/// Throws Error(input) when two columns have one name, or when no column has any. Columns without
+/// a name (pandas writes its row numbers so) may be many: nobody can ask for them.
+void check_names(const std::vector<ColumnHeader>& columns, const Place& header_place);
+
+}  // namespace cablefit

@@ -1,0 +1,111 @@
+// The cells of a CSV row, parsed where they stand. This is the hot loop of reading a log: nothing
+// here allocates, and a function that meets anything wrong returns nullptr; finding out what is
+// wrong is left to csv_complaint.hpp.
+#pragma once
+
+#include <fast_float/fast_float.h>
+
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "cablefit/log/csv_dialect.hpp"
+
+namespace cablefit {
+
+/// Reads a finite number with an optional sign at the very start of [p, end); returns its end.
+inline const char* read_number(const char* p, const char* end, double& value) {
+  if (end - p > 1 && *p == '+' && p[1] != '-' && p[1] != '+') ++p;
+  const auto [rest, status] = fast_float::from_chars(p, end, value);
+  // Out of range is judged by the value: an infinity is refused, a tiny number is zero.
+  const bool is_read = status == std::errc() || status == std::errc::result_out_of_range;
+  return is_read && std::isfinite(value) ? rest : nullptr;
+}
+
+/// How cells are told apart. Every function takes and returns places within one line.
+template <Delimiter kDelimiter>
+struct RowSyntax {
+  static constexpr bool kBlanksDelimit = kDelimiter == Delimiter::blanks;
+
+  static bool is_blank(char c) { return c == ' ' || (c == '\t' && kDelimiter != Delimiter::tab); }
+  static bool is_delimiter(char c) {
+    return kBlanksDelimit ? is_blank(c) : c == static_cast<char>(kDelimiter);
+  }
+  static const char* skip_blanks(const char* p, const char* end) {
+    while (p != end && is_blank(*p)) ++p;
+    return p;
+  }
+
+  /// First delimiter at or after `p`, or the end.
+  static const char* find_delimiter(const char* p, const char* end) {
+    if constexpr (kBlanksDelimit) {
+      while (p != end && !is_blank(*p)) ++p;
+      return p;
+    }
+    const void* found =
+        std::memchr(p, static_cast<char>(kDelimiter), static_cast<std::size_t>(end - p));
+    return found == nullptr ? end : static_cast<const char*>(found);
+  }
+
+  /// From behind the content of a cell to the delimiter that ends it; nullptr when more follows.
+  static const char* finish_cell(const char* p, const char* end) {
+    if constexpr (!kBlanksDelimit) p = skip_blanks(p, end);
+    return p == end || is_delimiter(*p) ? p : nullptr;
+  }
+  /// From the end of a cell to the content of the next one; nullptr when there is no next one.
+  static const char* next_cell(const char* p, const char* end) {
+    if constexpr (kBlanksDelimit) {
+      p = skip_blanks(p, end);
+      return p == end ? nullptr : p;
+    }
+    return p == end ? nullptr : skip_blanks(p + 1, end);
+  }
+  /// Whether the cell that ends at `p` is the last one.
+  static bool is_row_end(const char* p, const char* end) {
+    if constexpr (kBlanksDelimit) p = skip_blanks(p, end);
+    return p == end;
+  }
+
+  /// From an opening quote to behind the closing one; a doubled quote stands for itself.
+  static const char* skip_quoted(const char* p, const char* end) {
+    for (++p; p != end; ++p) {
+      if (*p != '"') continue;
+      if (p + 1 == end || p[1] != '"') return p + 1;
+      ++p;
+    }
+    return nullptr;
+  }
+
+  static const char* skip_cell(const char* p, const char* end) {
+    if (p == end || *p != '"') return find_delimiter(p, end);
+    p = skip_quoted(p, end);
+    return p == nullptr ? nullptr : finish_cell(p, end);
+  }
+
+  static const char* number_cell(const char* p, const char* end, double& value) {
+    const bool is_quoted = p != end && *p == '"';
+    p = read_number(p + (is_quoted ? 1 : 0), end, value);
+    if (p == nullptr) return nullptr;
+    if (is_quoted && (p == end || *p++ != '"')) return nullptr;
+    return finish_cell(p, end);
+  }
+
+  /// `text` points into the line, or into `scratch` when doubled quotes had to be resolved.
+  static const char* text_cell(const char* p, const char* end, std::string_view& text,
+                               std::string& scratch) {
+    const char* const begin = p;
+    p = skip_cell(p, end);
+    if (p == nullptr) return nullptr;
+    const char* last = p;
+    while (last != begin && is_blank(last[-1])) --last;
+    text = {begin, static_cast<std::size_t>(last - begin)};
+    if (!text.starts_with('"')) return p;
+    text = text.substr(1, text.size() - 2);
+    if (text.find('"') != std::string_view::npos) text = scratch = without_doubled_quotes(text);
+    return p;
+  }
+};
+
+}  // namespace cablefit

@@ -1,0 +1,148 @@
+#include "cablefit/log/json_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "cablefit/base/quote.hpp"
+#include "cablefit/log/chunk_rows.hpp"
+#include "cablefit/log/column_header.hpp"
+#include "cablefit/log/json_channels.hpp"
+#include "cablefit/log/json_records.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr std::size_t kHeadBytes = 1u << 16;
+constexpr std::size_t kBlockBytes = 1u << 16;
+
+// The byte that says what a JSON text is, after blanks and a byte order mark.
+char first_byte(std::string_view head) {
+  const std::size_t first = head.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+  return first == std::string_view::npos ? '\0' : head[first];
+}
+
+class JsonReader final : public LogReader {
+ public:
+  explicit JsonReader(std::unique_ptr<JsonTable> table) : table_(std::move(table)) {
+    header_.path = table_->path;
+    header_.sample_rate = table_->sample_rate;
+    for (const JsonColumn& column : table_->columns) header_.columns.push_back(column.header);
+  }
+
+  const LogHeader& header() const override { return header_; }
+
+  void select(std::vector<std::size_t> numbers, std::vector<std::size_t> texts) override {
+    assert(n_read_ == 0);
+    for (const std::size_t k : numbers) require_numbers(table_->columns.at(k));
+    words_.clear();
+    for (const std::size_t k : texts) words_.push_back(table_->columns.at(k).words);
+    numbers_ = std::move(numbers);
+    texts_ = std::move(texts);
+  }
+
+  const std::vector<std::string>& words(std::size_t k) const override { return words_[k].list(); }
+
+  bool next(LogChunk& chunk, std::size_t max_rows) override {
+    assert(max_rows > 0);
+    chunk.first_row = n_read_;
+    chunk.n_rows = std::min(max_rows, table_->n_rows - n_read_);
+    chunk.numbers.resize(numbers_.size());
+    chunk.texts.resize(texts_.size());
+    resize_rows(chunk, chunk.n_rows);
+    for (std::size_t k = 0; k < numbers_.size(); ++k) {
+      read(table_->columns[numbers_[k]].first, chunk.n_rows, chunk.numbers[k],
+           [](double value) { return value; });
+    }
+    for (std::size_t k = 0; k < texts_.size(); ++k) read_texts(k, chunk);
+    read_lines(chunk);
+    n_read_ += chunk.n_rows;
+    return chunk.n_rows > 0;
+  }
+
+ private:
+  static void require_numbers(const JsonColumn& column) {
+    if (column.kind == JsonColumn::Kind::number) return;
+    throw input_error(column.header.place,
+                      "column " + quoted(column.header.name) + " holds texts, not numbers",
+                      "write numbers without quotes");
+  }
+
+  void read_texts(std::size_t k, LogChunk& chunk) {
+    const JsonColumn& column = table_->columns[texts_[k]];
+    if (column.kind == JsonColumn::Kind::text) {
+      return read(column.first, chunk.n_rows, chunk.texts[k],
+                  [](double value) { return static_cast<std::uint32_t>(value); });
+    }
+    // Numbers are labels too: "run": [1, 1, 2].
+    read(column.first, chunk.n_rows, chunk.texts[k], [&](double value) {
+      const std::uint32_t index = words_[k].index_of(fmt::format("{}", value));
+      if (words_[k].is_full()) throw too_many_words(column.header);
+      return index;
+    });
+  }
+
+  void read_lines(LogChunk& chunk) {
+    if (!table_->first_line) return std::fill(chunk.lines.begin(), chunk.lines.end(), 0);
+    read(*table_->first_line, chunk.n_rows, chunk.lines,
+         [](double value) { return static_cast<std::uint64_t>(value); });
+  }
+
+  /// `n_rows` values of the column that begins at `first` in the spill file, from row n_read_ on.
+  template <typename Value, typename Convert>
+  void read(std::size_t first, std::size_t n_rows, std::vector<Value>& to, Convert convert) {
+    const std::size_t stride = table_->stride;
+    const std::size_t n_rows_at_once = std::max<std::size_t>(1, kBlockBytes / stride);
+    for (std::size_t row = 0; row < n_rows; row += n_rows_at_once) {
+      const std::size_t n = std::min(n_rows_at_once, n_rows - row);
+      block_.resize((n - 1) * stride + 1);
+      table_->values.read(first + (n_read_ + row) * stride, block_);
+      for (std::size_t i = 0; i < n; ++i) to[row + i] = convert(block_[i * stride]);
+    }
+  }
+
+  std::unique_ptr<JsonTable> table_;
+  LogHeader header_;
+  std::vector<std::size_t> numbers_;
+  std::vector<std::size_t> texts_;
+  std::vector<Words> words_;  // per selected text column
+  std::vector<double> block_;
+  std::size_t n_read_ = 0;
+};
+
+void parse(ByteSource& source, JsonLayout& layout, const std::string& path) {
+  std::vector<char> block(kBlockBytes);
+  const NextBlock next_block = [&]() -> std::string_view {
+    return {block.data(), source.read(block.data(), block.size())};
+  };
+  parse_json_events(next_block, path, layout);
+  layout.finish();
+}
+
+void check(const JsonTable& table) {
+  std::vector<ColumnHeader> headers;
+  for (const JsonColumn& column : table.columns) headers.push_back(column.header);
+  check_names(headers, {table.path});
+  if (table.n_rows == 0) throw input_error({table.path}, "no values", "a log needs samples");
+}
+
+}  // namespace
+
+bool looks_like_json(std::string_view head) {
+  return first_byte(head) == '{' || first_byte(head) == '[';
+}
+
+std::unique_ptr<LogReader> open_json(std::unique_ptr<ByteSource> source, const std::string& path) {
+  PeekableSource text(std::move(source));
+  auto table = std::make_unique<JsonTable>();
+  table->path = path;
+  const bool is_records = first_byte(text.peek(kHeadBytes)) == '[';
+  const auto layout = is_records ? make_records_layout(*table) : make_channels_layout(*table);
+  parse(text, *layout, path);
+  check(*table);
+  return std::make_unique<JsonReader>(std::move(table));
+}
+
+}  // namespace cablefit

@@ -1,0 +1,21 @@
+// The table of log formats. A new format is one file with these two functions and one row here.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "cablefit/log/byte_source.hpp"
+#include "cablefit/log/log_reader.hpp"
+
+namespace cablefit {
+
+struct LogFormatRow {
+  LogFormat format;
+  std::unique_ptr<LogReader> (*open)(std::unique_ptr<ByteSource> source, const std::string& path);
+};
+
+/// In the order in which they are tried.
+std::span<const LogFormatRow> log_format_rows();
+
+}  // namespace cablefit

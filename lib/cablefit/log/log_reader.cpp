@@ -1,0 +1,35 @@
+#include "cablefit/log/log_reader.hpp"
+
+#include <utility>
+
+#include "cablefit/log/byte_source.hpp"
+#include "cablefit/log/log_formats.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr std::size_t kHeadBytes = 1u << 16;
+
+void check_is_text(std::string_view head, const std::string& path) {
+  if (head.empty()) {
+    throw input_error({path}, "file is empty", "give a log with a header line and samples");
+  }
+  if (head.find('\0') != std::string_view::npos) {
+    throw input_error({path}, "is not text",
+                      "give CSV or JSON in UTF-8, plain or packed by gzip or zstd");
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<LogReader> open_log(const std::string& path) {
+  auto source = open_bytes(path);
+  const std::string_view head = source->peek(kHeadBytes);
+  check_is_text(head, path);
+  for (const LogFormatRow& row : log_format_rows()) {
+    if (row.format.recognises(head)) return row.open(std::move(source), path);
+  }
+  throw input_error({path}, "format is not known", "give CSV or JSON");
+}
+
+}  // namespace cablefit

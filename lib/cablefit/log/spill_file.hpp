@@ -1,0 +1,38 @@
+// Numbers parked outside memory: an unlinked temporary file, so that it is gone whatever happens to
+// the process.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace cablefit {
+
+class SpillFile {
+ public:
+  SpillFile() = default;
+  ~SpillFile();
+  SpillFile(const SpillFile&) = delete;
+  SpillFile& operator=(const SpillFile&) = delete;
+
+  /// How many numbers were appended.
+  std::size_t size() const { return n_written_ + tail_.size(); }
+  /// Throws Error(output) when the temporary folder has no room.
+  void append(double value) {
+    if (tail_.size() == kTailSize) flush();
+    tail_.push_back(value);
+  }
+  /// Copies the numbers from index `first` on; all of them must have been appended.
+  void read(std::size_t first, std::span<double> to) const;
+
+ private:
+  static constexpr std::size_t kTailSize = 1u << 17;  // small logs never reach the disk
+
+  void flush();
+
+  int descriptor_ = -1;  // opened by the first flush()
+  std::size_t n_written_ = 0;
+  std::vector<double> tail_;  // what follows the numbers in the file
+};
+
+}  // namespace cablefit

@@ -1,0 +1,133 @@
+// What model files and result files have in common.
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <limits>
+
+#include "cablefit/base/quote.hpp"
+#include "cablefit/model/file/parts.hpp"
+#include "cablefit/model/json_reading.hpp"
+
+namespace cablefit::model_file {
+namespace {
+
+/// Factor to SI of the unit as written, which must be of the same kind as `expected`.
+double factor_to_si(const JsonNode* node, std::string_view expected) {
+  if (!node) return 1.0;
+  const Unit unit = unit_at(*node, node->text());
+  if (unit.dimension != parse_unit(expected).dimension) {
+    throw node->error(fmt::format("unit {} is of another kind", cablefit::quoted(node->text())),
+                      fmt::format("expected a unit like '{}'", expected));
+  }
+  return unit.scale;
+}
+
+/// Null and missing are NaN, the library's "none".
+double number_or_none(const JsonNode& object, std::string_view key) {
+  const JsonNode* node = object.find(key);
+  if (!node || node->is_null()) return std::numeric_limits<double>::quiet_NaN();
+  return node->number();
+}
+
+void read_interval(const JsonNode* node, double factor, Estimate* estimate) {
+  if (!node || node->is_null()) return;
+  const std::vector<double> interval = n_numbers(*node, 2);
+  estimate->ci_low = factor * interval[0];
+  estimate->ci_high = factor * interval[1];
+}
+
+double read_value(const JsonNode& object, const std::string& name) {
+  const JsonNode& node = object.at("value");
+  if (!node.is_null()) return node.number();
+  throw node.error(fmt::format("{} has no value", cablefit::quoted(name)),
+                   text_or(object, "not_identifiable", "fit it from other data, or give a value"));
+}
+
+double total_inertia(const std::vector<EffectInstance>& effects) {
+  double total = 0;
+  for (const EffectInstance& instance : effects) {
+    if (!instance.effect->inertia) continue;
+    std::vector<double> values;
+    for (const Estimate& parameter : instance.parameters) values.push_back(parameter.value);
+    total += instance.effect->inertia(values.data());
+  }
+  return total;
+}
+
+/// The rig file named in another file, see read_rig_reference.
+std::filesystem::path locate(const std::string& named, const std::string& inside) {
+  const auto beside = std::filesystem::path(inside).parent_path() / named;
+  std::error_code ignored;
+  return std::filesystem::exists(beside, ignored) ? beside : std::filesystem::path(named);
+}
+
+}  // namespace
+
+Estimate read_estimate(const JsonNode& node, std::string name, std::string_view symbol,
+                       std::string_view unit) {
+  Estimate estimate;
+  estimate.name = std::move(name);
+  estimate.symbol = symbol;
+  estimate.unit = unit;
+  if (!node.is_object()) {
+    estimate.value = node.number();
+    return estimate;
+  }
+  const double factor = factor_to_si(node.find("unit"), unit);
+  estimate.value = factor * read_value(node, estimate.name);
+  estimate.sd = factor * number_or_none(node, "sd");
+  estimate.sd_white = factor * number_or_none(node, "sd_white");
+  estimate.cad = factor * number_or_none(node, "cad");
+  read_interval(node.find("ci95"), factor, &estimate);
+  estimate.not_identifiable = text_or(node, "not_identifiable", "");
+  estimate.active_bound = text_or(node, "active_bound", "");
+  return estimate;
+}
+
+Estimate read_strict_estimate(const JsonNode& node, std::string name, std::string_view symbol,
+                              std::string_view unit) {
+  if (node.is_object()) {
+    node.allow_only({"value", "unit", "sd", "rsd_percent", "sd_white", "ci95", "cad",
+                     "not_identifiable", "active_bound"});
+  }
+  return read_estimate(node, std::move(name), symbol, unit);
+}
+
+std::string parameter_unit(const ParameterInfo& parameter, const Rig& rig) {
+  return rig.linear_motion ? linear_unit(parameter.unit) : std::string(parameter.unit);
+}
+
+Estimate blank_estimate(const ParameterInfo& parameter, int joint, const Rig& rig) {
+  Estimate estimate;
+  estimate.name = joint_parameter_name(parameter.name, joint, rig.n_joints());
+  estimate.symbol = parameter.symbol;
+  estimate.unit = parameter_unit(parameter, rig);
+  return estimate;
+}
+
+std::string stiffness_unit(const Rig& rig) { return rig.linear_motion ? "N/m" : "N m/rad"; }
+
+Rig read_rig_reference(const JsonNode* node) {
+  if (!node || node->is_null()) return default_rig();
+  if (!node->is_string()) return parse_rig(*node);
+  const auto path = locate(node->text(), node->place.file);
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) {
+    throw node->error(fmt::format("no rig file {}", cablefit::quoted(node->text())),
+                      "paths are relative to this file, or to the current folder");
+  }
+  return read_rig(path.string());
+}
+
+void require_inertia(const Model& model, const JsonNode& node) {
+  for (std::size_t k = 0; k < model.joints.size(); ++k) {
+    const JointModel& joint = model.joints[k];
+    const bool link_moves = model.rigid || total_inertia(joint.link) > 0;
+    if (link_moves && total_inertia(joint.motor) > 0) continue;
+    throw node.error(fmt::format("the {} of joint '{}' has no positive inertia",
+                                 link_moves ? "motor" : "link", model.rig.joints[k]),
+                     "give its \"inertia\" a value above 0");
+  }
+}
+
+}  // namespace cablefit::model_file

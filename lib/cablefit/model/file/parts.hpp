@@ -1,0 +1,49 @@
+// Readers and writers behind model.hpp. Internal to model/.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "cablefit/base/json_document.hpp"
+#include "cablefit/model/model.hpp"
+
+namespace cablefit::model_file {
+
+inline constexpr std::string_view kModelSchema = "cablefit/model/1";
+inline constexpr std::string_view kResultSchema = "cablefit/dynamic/1";
+
+/// What the caller asked for; empty: nothing in particular.
+struct Wanted {
+  std::string preload, model;
+};
+
+/// cablefit/model/1. `choice` says in words what was taken.
+Model read_model_file(const JsonNode& root, const Wanted& wanted, std::string* choice);
+/// cablefit/dynamic/1.
+Model read_result_file(const JsonNode& root, const Wanted& wanted, std::string* choice);
+
+/// A parameter of that name and unit (SI): a bare number, or an object with value, and perhaps unit
+/// (converted; must be of the same kind), sd, sd_white, ci95, cad, not_identifiable, active_bound.
+Estimate read_estimate(const JsonNode& node, std::string name, std::string_view symbol,
+                       std::string_view unit);
+/// The same for a file written by hand: any other key is an error.
+Estimate read_strict_estimate(const JsonNode& node, std::string name, std::string_view symbol,
+                              std::string_view unit);
+/// Unit of an effect's parameter on this rig's axes.
+std::string parameter_unit(const ParameterInfo& parameter, const Rig& rig);
+/// A blank estimate of an effect's parameter: name with the joint's index, symbol and unit.
+Estimate blank_estimate(const ParameterInfo& parameter, int joint, const Rig& rig);
+/// Unit of the linear stiffness K.
+std::string stiffness_unit(const Rig& rig);
+
+/// "transmission" of a model file, for the cables that the model's rig has.
+void read_transmission(const JsonNode& node, Model* model);
+
+/// A rig: an object in place, or the path of a rig file, relative to the file it stands in or, when
+/// there is none, to the current folder. Null or missing: the default rig.
+Rig read_rig_reference(const JsonNode* node);
+
+/// Throws at `place` unless every axis carries a positive inertia.
+void require_inertia(const Model& model, const JsonNode& node);
+
+}  // namespace cablefit::model_file

@@ -1,0 +1,166 @@
+// cablefit/dynamic/1 as a model: one fit of one preload.
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "cablefit/base/quote.hpp"
+#include "cablefit/model/file/fit_parameters.hpp"
+#include "cablefit/model/file/parts.hpp"
+#include "cablefit/model/json_reading.hpp"
+
+namespace cablefit::model_file {
+namespace {
+
+constexpr std::string_view kPreferredModel = "poly";  // the paper's own, see the contract
+
+/// The item whose `key` is `wanted`; when nothing is wanted the preferred or else the first one.
+const JsonNode& pick(const JsonNode& list, std::string_view key, std::string_view wanted,
+                     std::string_view preferred) {
+  if (wanted.empty()) {
+    const JsonNode* item = find_item(list, key, preferred);
+    return item ? *item : list.items.front();
+  }
+  if (const JsonNode* item = find_item(list, key, wanted)) return *item;
+  std::vector<std::string_view> known;
+  for (const JsonNode& item : list.items) known.push_back(item.at(key).text());
+  fail_unknown(list, key == "name" ? "preload" : key, wanted, known);
+}
+
+/// "preload 'low' (of low, high)": what was taken, and the others when nobody had asked.
+std::string describe(const JsonNode& list, const JsonNode& taken, std::string_view what,
+                     std::string_view key, std::string_view wanted) {
+  std::string text = fmt::format("{} '{}'", what, taken.at(key).text());
+  if (!wanted.empty() || list.items.size() < 2) return text;
+  std::string others;
+  for (const JsonNode& item : list.items) {
+    others += (others.empty() ? "" : ", ") + item.at(key).text();
+  }
+  return fmt::format("{} (of {})", text, others);
+}
+
+Estimate take(const JsonNode& node, const Estimate& blank) {
+  return read_estimate(node, blank.name, blank.symbol, blank.unit);
+}
+
+/// Every effect of the side of which the fit has a parameter.
+std::vector<EffectInstance> take_effects(FitParameters* parameters, Side side, int joint,
+                                         const Model& model) {
+  std::vector<EffectInstance> result;
+  for (const Effect& effect : effects()) {
+    if (effect.side != side) continue;
+    EffectInstance instance{&effect, {}};
+    for (const ParameterInfo& info : effect.parameters) {
+      const Estimate blank = blank_estimate(info, joint, model.rig);
+      const JsonNode* node = parameters->find_dynamic(blank.name);
+      if (node) instance.parameters.push_back(take(*node, blank));
+    }
+    if (instance.parameters.empty()) continue;
+    parameters->require_all(effect, joint, model.rig);
+    result.push_back(instance);
+  }
+  return result;
+}
+
+void take_coefficients(FitParameters* parameters, Cable* cable, Model* model) {
+  const bool cable_space = model->rig.cables_given;
+  cable->coefficients.clear();
+  for (int j = 0; j < cable->n_coefficients(); ++j) {
+    const std::string name = coefficient_name(*cable, j, cable_space);
+    const std::string unit = coefficient_unit(j, cable_space);
+    model->elastic.push_back(read_estimate(parameters->at_elastic(name), name, name, unit));
+    cable->coefficients.push_back(model->elastic.back().value);
+  }
+}
+
+void take_elongation(FitParameters* parameters, Cable* cable, Model* model) {
+  const std::string name = elongation_name(*cable);
+  const JsonNode* node = parameters->find_elastic(name);
+  if (!node) return;
+  const std::string unit(elongation_unit(model->rig.cables_given));
+  model->elastic.push_back(read_estimate(*node, name, name, unit));
+  cable->initial_elongation = model->elastic.back().value;
+}
+
+void take_cables(FitParameters* parameters, Model* model) {
+  const JsonNode* order = parameters->elastic() ? parameters->elastic()->find("order") : nullptr;
+  for (Cable& cable : model->transmission.cables) {
+    if (order) cable.order = std::min(static_cast<int>(order->positive()), cable.law->max_order);
+    take_coefficients(parameters, &cable, model);
+  }
+  for (Cable& cable : model->transmission.cables) take_elongation(parameters, &cable, model);
+}
+
+void take_linear_stiffness(FitParameters* parameters, Model* model) {
+  const int n = model->rig.n_joints();
+  model->transmission.cables.clear();
+  model->transmission.linear_stiffness.resize(n);
+  for (int k = 0; k < n; ++k) {
+    const std::string name = joint_parameter_name("K", k + 1, n);
+    model->elastic.push_back(
+        read_estimate(parameters->at_elastic(name), name, name, stiffness_unit(model->rig)));
+    model->transmission.linear_stiffness[k] = model->elastic.back().value;
+  }
+}
+
+/// What stage 1 found besides, for information.
+void take_other_results(const JsonNode& elastic, Model* model) {
+  for (const JsonNode& item : some_items(elastic.at("parameters"))) {
+    const std::string& name = item.at("name").text();
+    if (find_estimate(model->elastic, name)) continue;
+    const std::string unit = text_or(item, "unit", "");
+    model->elastic.push_back(read_estimate(item, name, name, unit));
+  }
+}
+
+void take_transmission(FitParameters* parameters, Model* model) {
+  const int n = model->rig.n_joints();
+  model->transmission = model->rig.transmission;
+  if (parameters->find_elastic(joint_parameter_name("K", 1, n))) {
+    take_linear_stiffness(parameters, model);
+  } else {
+    take_cables(parameters, model);
+  }
+  const JsonNode* elastic = parameters->elastic();
+  if (!elastic) return;
+  const JsonNode* zero = elastic->find("theta_0");
+  if (zero && !zero->is_null()) {
+    const std::vector<double> values = n_numbers(*zero, n);
+    model->transmission.theta_0 = Eigen::Map<const Eigen::VectorXd>(values.data(), n);
+  }
+  take_other_results(*elastic, model);
+}
+
+void take_joints(FitParameters* parameters, Model* model) {
+  const int n = model->rig.n_joints();
+  const std::string_view rigid_name = base_effects(Side::rigid).front().parameters.front().name;
+  model->rigid = parameters->find_dynamic(joint_parameter_name(rigid_name, 1, n)) != nullptr;
+  const Side motor = model->rigid ? Side::rigid : Side::motor;
+  for (int joint = 1; joint <= n; ++joint) {
+    JointModel& axes = model->joints.emplace_back();
+    if (!model->rigid) axes.link = take_effects(parameters, Side::link, joint, *model);
+    axes.motor = take_effects(parameters, motor, joint, *model);
+  }
+}
+
+}  // namespace
+
+Model read_result_file(const JsonNode& root, const Wanted& wanted, std::string* choice) {
+  const JsonNode& preloads = root.at("preloads");
+  const JsonNode& preload = pick(preloads, "name", wanted.preload, "");
+  const JsonNode& fits = preload.at("fits");
+  const JsonNode& fit = pick(fits, "model", wanted.model, kPreferredModel);
+  Model model;
+  model.name = fit.at("model").text();
+  model.preload = preload.at("name").text();
+  model.rig = read_rig_reference(preload.find("rig"));
+  FitParameters parameters(fit);
+  take_joints(&parameters, &model);
+  if (!model.rigid) take_transmission(&parameters, &model);
+  parameters.require_all_used();
+  require_inertia(model, fit);
+  *choice = describe(preloads, preload, "preload", "name", wanted.preload) + ", " +
+            describe(fits, fit, "model", "model", wanted.model);
+  return model;
+}
+
+}  // namespace cablefit::model_file

@@ -1,0 +1,94 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cablefit/model/file/writer.hpp"
+
+namespace cablefit::model_file {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json column_json(const ColumnMapping& mapping) {
+  Json json{{"column", mapping.column}};
+  if (mapping.scale != 1) json["scale"] = mapping.scale;
+  if (mapping.shift != 0) json["shift"] = mapping.shift;
+  if (!mapping.unit.empty()) json["unit"] = mapping.unit;
+  return json;
+}
+
+Json load_json(const Load& load) {
+  Json json{{"type", load.law->name}};
+  for (const auto& [key, value] : load.law->entries(load.parameters)) {
+    std::visit([&, name = std::string(key)](const auto& v) { json[name] = v; }, value);
+  }
+  return json;
+}
+
+Json controller_json(const Controller& controller) {
+  Json json{{"type", controller.type}, {"kp", controller.kp}, {"kd", controller.kd}};
+  if (std::isfinite(controller.limit)) json["limit"] = controller.limit;
+  if (controller.period > 0) json["period"] = controller.period;
+  json["reference"] = controller.reference;
+  return json;
+}
+
+Json sensor_json(const SensorInfo& sensor) {
+  Json json = Json::object();
+  if (sensor.quantum) json["quantum"] = *sensor.quantum;
+  if (sensor.noise) json["noise"] = *sensor.noise;
+  return json;
+}
+
+Json vector_json(const Eigen::VectorXd& values) {
+  return std::vector<double>(values.begin(), values.end());
+}
+
+Json cables_json(const Rig& rig) {
+  Json list = Json::array();
+  for (const Cable& cable : rig.transmission.cables) {
+    Json json{{"name", cable.name},
+              {"motor_radius", vector_json(cable.motor_radius)},
+              {"link_radius", vector_json(cable.link_radius)},
+              {"law", cable.law->name},
+              {"order", cable.order}};
+    if (rig.search_elongation[list.size()]) {
+      json["initial_elongation"] = "search";
+    } else {
+      json["initial_elongation"] = cable.initial_elongation;
+    }
+    list.push_back(json);
+  }
+  return list;
+}
+
+std::string_view name_of(TorqueHold hold) {
+  return hold == TorqueHold::zoh ? "zoh" : hold == TorqueHold::none ? "none" : "auto";
+}
+
+template <typename Map, typename ToJson>
+void add_map(Json* json, const char* key, const Map& map, ToJson to_json) {
+  for (const auto& [name, value] : map) (*json)[key][name] = to_json(value);
+}
+
+}  // namespace
+
+Json rig_json(const Rig& rig) {
+  Json json = Json::object();
+  if (!rig.name.empty()) json["name"] = rig.name;
+  if (!rig.preload.empty()) json["preload"] = rig.preload;
+  add_map(&json, "columns", rig.columns, column_json);
+  if (rig.linear_motion) json["motion"] = "linear";
+  if (rig.torque_hold != TorqueHold::automatic) json["torque_hold"] = name_of(rig.torque_hold);
+  if (rig.torque_period > 0) json["torque_period"] = rig.torque_period;
+  if (rig.load.law) json["load"] = load_json(rig.load);
+  if (rig.controller) json["controller"] = controller_json(*rig.controller);
+  add_map(&json, "sensors", rig.sensors, sensor_json);
+  add_map(&json, "cad", rig.cad, [](double value) { return value; });
+  if (rig.joints != Rig().joints) {
+    for (const std::string& name : rig.joints) json["joints"].push_back({{"name", name}});
+  }
+  if (rig.cables_given) json["cables"] = cables_json(rig);
+  return json;
+}
+
+}  // namespace cablefit::model_file

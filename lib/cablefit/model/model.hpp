@@ -1,0 +1,53 @@
+// A model (cablefit/model/1): rig, effects per axis, cables, every parameter with value and sd.
+// What `simulate` runs and `refine` extends.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cablefit/base/parameter.hpp"
+#include "cablefit/model/cables.hpp"
+#include "cablefit/model/effects.hpp"
+#include "cablefit/model/rig.hpp"
+
+namespace cablefit {
+
+/// An effect with numbers: parameters[i].name matches effect->parameters[i].name (with the joint's
+/// index "[k]" when there are several joints).
+struct EffectInstance {
+  const Effect* effect = nullptr;
+  std::vector<Estimate> parameters;
+};
+
+/// Name of a joint's parameter in results: "f_v", or "f_v[2]" when there are several joints.
+std::string joint_parameter_name(std::string_view name, int joint, int n_joints);
+
+struct JointModel {
+  std::vector<EffectInstance> link;   ///< empty on a rigid drive
+  std::vector<EffectInstance> motor;  ///< for a rigid drive the effects of Side::rigid
+};
+
+struct Model {
+  std::string name;  ///< "poly", "linear", "rigid"
+  std::string preload;
+  Rig rig;
+  std::vector<JointModel> joints;
+  Transmission transmission;  ///< with coefficients; unused on a rigid drive
+  /// Stage-1 parameters with their sd, for the file: the coefficients of every cable (or K), then
+  /// l_o and theta_0 if estimated, then what else stage 1 found (offset, f_sm).
+  std::vector<Estimate> elastic;
+  bool rigid = false;
+};
+
+/// The model's name when no fit has told: "rigid", "linear" or "poly".
+std::string_view default_model_name(const Model& model);
+
+/// A model file, or a result file (cablefit/dynamic/1) plus the preload and model wanted; empty:
+/// the only one, else the first preload and "poly". `choice` says in words which was taken. Throws
+/// Error(input) with file:line:column.
+Model read_model(const std::string& path, const std::string& preload, const std::string& model,
+                 std::string& choice);
+/// The text of a cablefit/model/1 file.
+std::string model_json(const Model& model);
+
+}  // namespace cablefit

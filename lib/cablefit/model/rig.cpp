@@ -1,0 +1,81 @@
+#include "cablefit/model/rig.hpp"
+
+#include <array>
+#include <filesystem>
+
+#include "cablefit/model/json_reading.hpp"
+#include "cablefit/model/rig/parts.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, bool>, 2> kMotions{
+    {{"rotary", false}, {"linear", true}}};
+constexpr std::array<std::pair<std::string_view, TorqueHold>, 3> kHolds{
+    {{"auto", TorqueHold::automatic}, {"zoh", TorqueHold::zoh}, {"none", TorqueHold::none}}};
+constexpr int kDefaultOrder = 2;
+
+/// One antagonist pair per joint in joint space: what a rig has when its file names no cables.
+void set_default_cables(Rig* rig) {
+  rig->transmission = antagonist_pairs(rig->n_joints(), kDefaultOrder);
+  rig->search_elongation.assign(rig->transmission.cables.size(), false);
+}
+
+void read_torque_hold(const JsonNode& node, Rig* rig) {
+  if (const JsonNode* hold = node.find("torque_hold")) rig->torque_hold = choose(*hold, kHolds);
+  const JsonNode* period = node.find("torque_period");
+  if (!period) return;
+  rig->torque_period = period->positive();
+  if (rig->torque_hold == TorqueHold::none) {
+    throw period->error("torque_period without a hold", "use \"torque_hold\": \"zoh\" or drop it");
+  }
+}
+
+}  // namespace
+
+Rig default_rig() {
+  Rig rig;
+  set_default_cables(&rig);
+  return rig;
+}
+
+Rig parse_rig(const JsonNode& node) {
+  node.allow_only({"schema", "name", "preload", "columns", "motion", "torque_hold", "torque_period",
+                   "load", "controller", "sensors", "cad", "joints", "cables"});
+  check_schema(node, "cablefit/rig/1");
+  Rig rig;
+  rig.path = node.place.file;
+  rig.name = text_or(node, "name", "");
+  rig.preload = text_or(node, "preload", "");
+  if (const JsonNode* motion = node.find("motion")) rig.linear_motion = choose(*motion, kMotions);
+  read_torque_hold(node, &rig);
+
+  if (const JsonNode* joints = node.find("joints")) rig.joints = rig_parts::read_joints(*joints);
+  set_default_cables(&rig);
+  if (const JsonNode* cables = node.find("cables")) rig_parts::read_cables(*cables, &rig);
+
+  const int n = rig.n_joints();
+  if (const JsonNode* columns = node.find("columns")) {
+    rig.columns = rig_parts::read_columns(*columns, n);
+  }
+  if (const JsonNode* load = node.find("load")) rig.load = rig_parts::read_load(*load, n);
+  if (const JsonNode* controller = node.find("controller")) {
+    rig.controller = rig_parts::read_controller(*controller);
+  }
+  if (const JsonNode* sensors = node.find("sensors")) {
+    rig.sensors = rig_parts::read_sensors(*sensors, n);
+  }
+  if (const JsonNode* cad = node.find("cad")) rig.cad = rig_parts::read_cad(*cad, rig);
+  return rig;
+}
+
+Rig read_rig(const std::string& path) { return parse_rig(read_json_file(path)); }
+
+Rig rig_for_log(const std::string& log_path, const std::string& rig_option) {
+  if (!rig_option.empty()) return read_rig(rig_option);
+  const auto beside = std::filesystem::path(log_path).parent_path() / "rig.json";
+  std::error_code ignored;
+  return std::filesystem::exists(beside, ignored) ? read_rig(beside.string()) : default_rig();
+}
+
+}  // namespace cablefit

@@ -1,0 +1,72 @@
+// The rig file (cablefit/rig/1): what a log's columns mean and what the bench is made of.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cablefit/base/parameter.hpp"
+#include "cablefit/model/cables.hpp"
+#include "cablefit/model/load.hpp"
+
+namespace cablefit {
+
+/// Where a channel comes from: a foreign column with a unit, sign and scale.
+struct ColumnMapping {
+  std::string column;  ///< as in the log's header
+  double scale = 1.0;  ///< SI value = (value as written) * scale * (unit's factor) + shift
+  double shift = 0.0;  ///< in the unit given, rarely needed
+  std::string unit;    ///< of value*scale; empty: the header's unit, else SI
+};
+
+enum class TorqueHold { automatic, zoh, none };
+
+/// tau = kp (ref - theta) + kd d(ref - theta)/dt by backward differences at its period, clipped.
+struct Controller {
+  std::string type = "pd";
+  double kp = 0, kd = 0;
+  double limit = kUnbounded;            ///< |tau| <= limit, N m
+  double period = 0;                    ///< s; 0: the log's
+  std::string reference = "theta_ref";  ///< column
+};
+
+class JsonNode;
+
+struct SensorInfo {
+  std::optional<double> quantum;  ///< rad
+  std::optional<double> noise;    ///< sd, SI
+};
+
+struct Rig {
+  std::string path;  ///< empty: the default rig
+  std::string name;
+  std::string preload;  ///< name of the preload setting, may be empty
+  std::map<std::string, ColumnMapping>
+      columns;                 ///< by channel: "t", "q", "theta", "tau", "tau_load", "q1", ...
+  bool linear_motion = false;  ///< m, N, kg instead of rad, N m, kg m^2
+  TorqueHold torque_hold = TorqueHold::automatic;
+  double torque_period = 0;  ///< s; 0: the log's
+  Load load;
+  std::optional<Controller> controller;
+  std::map<std::string, SensorInfo> sensors;  ///< by channel
+  std::map<std::string, double> cad;          ///< by parameter name
+  std::vector<std::string> joints = {"1"};
+  Transmission transmission;            ///< coefficients empty: to be fitted
+  bool cables_given = false;            ///< parameters live in cable space
+  std::vector<bool> search_elongation;  ///< per cable: "initial_elongation": "search"
+
+  int n_joints() const { return static_cast<int>(joints.size()); }
+};
+
+/// The paper's rig: one joint, two antagonist cables in joint space.
+Rig default_rig();
+/// Throws Error(input) at file:line:column: unknown keys with "did you mean", negative masses, ...
+Rig read_rig(const std::string& path);
+/// The same from an object inside another file, e.g. a model file's "rig".
+Rig parse_rig(const JsonNode& node);
+/// `rig_option` (--rig) when not empty, else rig.json beside the log when there is one, else the
+/// default rig.
+Rig rig_for_log(const std::string& log_path, const std::string& rig_option);
+
+}  // namespace cablefit

@@ -1,0 +1,162 @@
+#include "cablefit/samples/channels.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "cablefit/base/catalog.hpp"
+#include "cablefit/base/units.hpp"
+
+namespace cablefit {
+namespace {
+
+// A row of the table of channels: name and dimension (m, kg, s, A) on a rotary and a linear axis.
+struct ChannelInfo {
+  Channel channel;
+  std::string_view name;
+  std::string_view quantity;
+  Dimension rotary, linear;
+};
+
+constexpr Dimension kNumber{0, 0, 0, 0}, kLength{1, 0, 0, 0}, kTime{0, 0, 1, 0};
+constexpr Dimension kRate{0, 0, -1, 0}, kSpeed{1, 0, -1, 0};
+constexpr Dimension kTorque{2, 1, -2, 0}, kForce{1, 1, -2, 0};
+
+constexpr std::array<ChannelInfo, 6> kInfo = {{
+    {Channel::q, "q", "a position", kNumber, kLength},
+    {Channel::theta, "theta", "a position", kNumber, kLength},
+    {Channel::w, "w", "a velocity", kRate, kSpeed},
+    {Channel::tau, "tau", "a torque", kTorque, kForce},
+    {Channel::tau_load, "tau_load", "a torque", kTorque, kForce},
+    {Channel::theta_ref, "theta_ref", "a position", kNumber, kLength},
+}};
+
+const ChannelInfo& info_of(Channel channel) {
+  return *std::find_if(kInfo.begin(), kInfo.end(),
+                       [&](const ChannelInfo& row) { return row.channel == channel; });
+}
+
+std::optional<std::size_t> find_column(const LogHeader& header, std::string_view name) {
+  for (std::size_t k = 0; k < header.columns.size(); ++k)
+    if (header.columns[k].name == name) return k;
+  return std::nullopt;
+}
+
+std::string names_of(const LogHeader& header) {
+  std::vector<std::string_view> names;
+  for (std::size_t k = 0; k < std::min<std::size_t>(header.columns.size(), 20); ++k)
+    names.push_back(header.columns[k].name);
+  return fmt::format("{}{}", fmt::join(names, ", "), header.columns.size() > 20 ? ", ..." : "");
+}
+
+// The column a channel is read from: the rig file's when it names one, else the channel's own name.
+std::optional<std::size_t> column_of(const LogHeader& header, const Rig& rig,
+                                     const std::string& channel) {
+  const auto mapped = rig.columns.find(channel);
+  if (mapped == rig.columns.end()) return find_column(header, channel);
+  if (const auto column = find_column(header, mapped->second.column)) return column;
+  std::vector<std::string_view> known;
+  for (const ColumnHeader& c : header.columns) known.push_back(c.name);
+  throw input_error({header.path, header.columns.empty() ? 1 : header.columns[0].place.line, 0},
+                    fmt::format("no column '{}', which the rig file names for {}",
+                                mapped->second.column, channel),
+                    fmt::format("columns are {}; {}", names_of(header),
+                                suggestion(mapped->second.column, known)));
+}
+
+Unit checked_unit(const std::string& text, const Place& place, const Dimension& expected,
+                  std::string_view what, std::string_view quantity) {
+  Unit unit;
+  try {
+    unit = parse_unit(text);
+  } catch (const Error& error) {
+    throw input_error(place, fmt::format("unit '{}' of {}: {}", text, what, error.what()),
+                      "write units such as [deg], [N m], [mN m], [rad/s]");
+  }
+  if (unit.dimension != expected)
+    throw input_error(place, fmt::format("unit '{}' of {} is not {}'s", text, what, quantity),
+                      "correct the unit in the header or in the rig file");
+  return unit;
+}
+
+Slot make_slot(const LogHeader& header, const Rig& rig, const ChannelInfo& info, int joint,
+               std::size_t column, const std::string& channel) {
+  Slot slot{info.channel, joint, column, 1, 0};
+  const ColumnHeader& cell = header.columns[column];
+  const auto mapped = rig.columns.find(channel);
+  const ColumnMapping mapping = mapped == rig.columns.end() ? ColumnMapping{} : mapped->second;
+  const std::string& unit_text = mapping.unit.empty() ? cell.unit : mapping.unit;
+  double unit_scale = 1;
+  if (!unit_text.empty())
+    unit_scale = checked_unit(unit_text, cell.place, rig.linear_motion ? info.linear : info.rotary,
+                              fmt::format("column '{}'", cell.name), info.quantity)
+                     .scale;
+  slot.factor = mapping.scale * unit_scale;
+  slot.shift = mapping.shift * unit_scale;
+  return slot;
+}
+
+void resolve_time(LogPlan& plan) {
+  plan.time_column = column_of(plan.header, plan.rig, "t");
+  if (!plan.time_column) {
+    if (plan.header.sample_rate) return;
+    throw input_error({plan.path, 1, 0}, "no column 't' and no sample rate",
+                      fmt::format("name the time column 't' or map it in the rig file; columns are {}",
+                                  names_of(plan.header)));
+  }
+  const ColumnHeader& cell = plan.header.columns[*plan.time_column];
+  const auto mapped = plan.rig.columns.find("t");
+  const std::string& unit =
+      mapped != plan.rig.columns.end() && !mapped->second.unit.empty() ? mapped->second.unit : cell.unit;
+  if (!unit.empty())
+    plan.time_factor = checked_unit(unit, cell.place, kTime, "column 't'", "a time").scale;
+  if (mapped != plan.rig.columns.end()) plan.time_factor *= mapped->second.scale;
+}
+
+}  // namespace
+
+std::string_view channel_name(Channel channel) { return info_of(channel).name; }
+
+int LogPlan::find(Channel channel, int joint) const {
+  for (std::size_t k = 0; k < slots.size(); ++k)
+    if (slots[k].channel == channel && slots[k].joint == joint) return static_cast<int>(k);
+  return -1;
+}
+
+LogPlan plan_log(const std::string& path, const Rig& rig) {
+  LogPlan plan;
+  plan.path = path;
+  plan.rig = rig;
+  plan.header = open_log(path)->header();
+  resolve_time(plan);
+  for (int joint = 0; joint < rig.n_joints(); ++joint)
+    for (const ChannelInfo& info : kInfo) {
+      const std::string indexed = fmt::format("{}{}", info.name, joint + 1);
+      const bool plain_first = rig.n_joints() == 1;
+      std::string channel = plain_first ? std::string(info.name) : indexed;
+      auto column = column_of(plan.header, rig, channel);
+      if (!column && plain_first) column = column_of(plan.header, rig, channel = indexed);
+      if (column) plan.slots.push_back(make_slot(plan.header, rig, info, joint, *column, channel));
+    }
+  plan.preload_column = column_of(plan.header, rig, "preload");
+  plan.phase_column = column_of(plan.header, rig, "phase");
+  plan.run_column = column_of(plan.header, rig, "run");
+  if (plan.slots.empty())
+    throw input_error({path, 1, 0}, "no column is called q, theta, w, tau or tau_load",
+                      fmt::format("rename columns or write a rig file that maps them; columns are {}",
+                                  names_of(plan.header)));
+  return plan;
+}
+
+void require_channel(const LogPlan& plan, Channel channel, std::string_view why) {
+  if (plan.has(channel)) return;
+  std::vector<std::string_view> known;
+  for (const ColumnHeader& c : plan.header.columns) known.push_back(c.name);
+  throw input_error({plan.path, plan.header.columns.empty() ? 1 : plan.header.columns[0].place.line, 0},
+                    fmt::format("missing column '{}', needed for {}", channel_name(channel), why),
+                    fmt::format("add it, or map it in a rig file; columns are {}",
+                                names_of(plan.header)));
+}
+
+}  // namespace cablefit

@@ -1,0 +1,54 @@
+// From columns as written to channels in SI: which column feeds which channel of which joint, with
+// what unit, sign and scale. The only place that converts.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cablefit/log/log_reader.hpp"
+#include "cablefit/model/rig.hpp"
+
+namespace cablefit {
+
+enum class Channel { q, theta, w, tau, tau_load, theta_ref };
+inline constexpr std::array kChannels = {Channel::q,   Channel::theta,    Channel::w,
+                                         Channel::tau, Channel::tau_load, Channel::theta_ref};
+std::string_view channel_name(Channel channel);
+
+/// One numeric channel of one joint and the column it is read from: SI = factor * raw + shift.
+struct Slot {
+  Channel channel = Channel::q;
+  int joint = 0;
+  std::size_t column = 0;  ///< index into the log's header
+  double factor = 1;
+  double shift = 0;
+};
+
+/// How one log is read. `slots` are the columns of every sample block, in this order.
+struct LogPlan {
+  std::string path;
+  Rig rig;
+  LogHeader header;
+  std::vector<Slot> slots;
+  std::optional<std::size_t> time_column;
+  double time_factor = 1;
+  std::optional<std::size_t> preload_column, phase_column, run_column;
+
+  /// Position of a channel among `slots`, or -1.
+  int find(Channel channel, int joint = 0) const;
+  bool has(Channel channel, int joint = 0) const { return find(channel, joint) >= 0; }
+};
+
+/// Opens the log, reads its header and resolves every channel by the rig file or by name. Throws
+/// Error(input) at the header cell for a unit of the wrong kind, for a mapped column that is not
+/// there, when there is neither t nor a sample rate, and when no channel is found at all.
+LogPlan plan_log(const std::string& path, const Rig& rig);
+
+/// Throws Error(input) "missing column 'q' ..." when the log lacks a channel the caller needs.
+void require_channel(const LogPlan& plan, Channel channel, std::string_view why);
+
+}  // namespace cablefit

@@ -1,0 +1,121 @@
+#include "cablefit/samples/row_stream.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cablefit {
+namespace {
+
+// Number of slow rows in [0, i), so that "any slow row within m" is one subtraction.
+std::vector<Eigen::Index> count_before(const Eigen::Array<bool, Eigen::Dynamic, 1>& flag) {
+  std::vector<Eigen::Index> before(static_cast<std::size_t>(flag.size()) + 1, 0);
+  for (Eigen::Index i = 0; i < flag.size(); ++i)
+    before[static_cast<std::size_t>(i) + 1] = before[static_cast<std::size_t>(i)] + flag(i);
+  return before;
+}
+
+class RowMask {
+ public:
+  RowMask(const Equation& equation, const Signals& signals, const RowSettings& settings)
+      : n_(signals.n_rows()), reach_(settings.rest_margin + settings.decimate) {
+    if (equation.speed && equation.rest_speed > 0)
+      slow_before_ = count_before(equation.speed(signals).abs() < equation.rest_speed);
+    if (equation.use) use_ = equation.use(signals);
+  }
+  bool at_rest(Eigen::Index i) const {
+    if (slow_before_.empty()) return false;
+    const auto from = static_cast<std::size_t>(std::max<Eigen::Index>(0, i - reach_));
+    const auto to = static_cast<std::size_t>(std::min<Eigen::Index>(n_, i + reach_ + 1));
+    return slow_before_[to] > slow_before_[from];
+  }
+  bool used(Eigen::Index i) const { return use_.size() == 0 || use_(i) != 0; }
+
+ private:
+  Eigen::Index n_, reach_;
+  std::vector<Eigen::Index> slow_before_;
+  Eigen::ArrayXd use_;
+};
+
+EquationBatch equation_rows(const Equation& equation, const Signals& signals, const Window& window,
+                            const RowSettings& settings, Eigen::Index offset) {
+  const Eigen::Index n = signals.n_rows();
+  const auto n_columns = static_cast<Eigen::Index>(equation.columns.size());
+  Eigen::MatrixXd columns(n, n_columns);
+  equation.fill(signals, columns);
+  for (Eigen::Index k = 0; k < n_columns; ++k)
+    if (equation.averaged[static_cast<std::size_t>(k)]) triangle_average(columns.col(k).array());
+
+  const RowMask mask(equation, signals, settings);
+  const Decimation decimation(settings.decimate);
+  const Eigen::Index edge = std::max(settings.drop_edge, kDifferenceEdge);
+  // Rows that can be trusted, in window coordinates.
+  const Eigen::Index first = window.starts_segment ? edge : 0;
+  const Eigen::Index last = window.ends_segment ? n - edge : n;
+  const Eigen::Index m = settings.decimate;
+
+  EquationBatch batch;
+  std::vector<Eigen::Index> centres;
+  for (Eigen::Index i = window.begin; i < window.end; ++i) {
+    const Eigen::Index at = i - window.first;
+    if (at < first || at >= last) {
+      ++batch.counts.rows_at_edges;
+      continue;
+    }
+    if ((i - edge) % m != 0) continue;
+    if (!mask.used(at)) {
+      ++batch.counts.rows_not_used;
+    } else if (mask.at_rest(at)) {
+      ++batch.counts.rows_at_rest;
+    } else {
+      centres.push_back(at);
+    }
+  }
+  batch.rows.resize(static_cast<Eigen::Index>(centres.size()), n_columns);
+  Eigen::RowVectorXd row(n_columns);
+  for (std::size_t k = 0; k < centres.size(); ++k) {
+    const Eigen::Index at = centres[k];
+    decimation.apply(columns, at, first, last, row);
+    batch.rows.row(static_cast<Eigen::Index>(k)) = row;
+    batch.numbers.push_back(offset + (window.rows_before + window.first + at) / m);
+    batch.t.push_back(window.t0 + static_cast<double>(window.first + at) * window.period);
+  }
+  batch.counts.rows_used = centres.size();
+  return batch;
+}
+
+}  // namespace
+
+void RowCounts::operator+=(const RowCounts& other) {
+  rows_used += other.rows_used;
+  rows_at_rest += other.rows_at_rest;
+  rows_not_used += other.rows_not_used;
+  rows_at_edges += other.rows_at_edges;
+}
+
+Eigen::Index row_halo(const RowSettings& settings, double rate) {
+  const Eigen::Index averaging = 1;
+  return signal_halo(settings.signal, rate) + Decimation(settings.decimate).half_width() +
+         averaging + settings.rest_margin + settings.decimate;
+}
+
+Eigen::Index expected_rows(std::span<const LogSurvey> logs, const PartFilter& wanted,
+                           const RowSettings& settings) {
+  Eigen::Index rows = 0;
+  for (const LogSurvey& log : logs)
+    for (const PartSurvey& part : log.parts)
+      if (wanted(part)) rows += static_cast<Eigen::Index>(part.n_rows) / settings.decimate;
+  return rows;
+}
+
+RowBatch make_rows(const Window& window, const LogSurvey& log, Eigen::Index number_offset,
+                   const RowSettings& settings, std::span<const Equation> equations) {
+  RowBatch batch;
+  batch.part = window.part;
+  const Signals signals = make_signals(window, log.plan, settings.signal);
+  for (const Equation& equation : equations)
+    batch.equations.push_back(
+        equation_rows(equation, signals, window, settings, number_offset));
+  return batch;
+}
+
+}  // namespace cablefit

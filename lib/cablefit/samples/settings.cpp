@@ -1,0 +1,228 @@
+#include "cablefit/samples/settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace cablefit {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kBlockedCutoff = 10;     // Hz; sweeps of a blocked link are slower than 1 Hz
+constexpr double kMaxShareOfRate = 0.2;   // beyond it a five-point difference is off by 1 %
+constexpr double kRigidShareOfRate = 0.1;
+constexpr double kResonanceFactor = 2.5;  // the elastic torque's band: J_motor within 0.5 % (README)
+constexpr double kNoiseBias = 0.0025;     // largest share of noise in the acceleration's variance
+constexpr double kSamplesPerPeriod = 2.5; // rows per period of the cut-off after decimation
+constexpr double kLowestCutoff = 1;
+constexpr int kPilotWindows = 4;
+
+double highest_rate(std::span<const LogSurvey> logs, const PartFilter& wanted) {
+  double rate = 0;
+  for (const LogSurvey& log : logs)
+    for (const PartSurvey& part : log.parts)
+      if (wanted(part)) rate = std::max(rate, 1 / part.period);
+  return rate;
+}
+
+double worst_noise(std::span<const LogSurvey> logs, const PartFilter& wanted, Channel channel) {
+  double worst = 0;
+  for (const LogSurvey& log : logs)
+    for (const PartSurvey& part : log.parts)
+      if (wanted(part)) worst = std::max(worst, position_noise(log, part, channel));
+  return worst;
+}
+
+void decide(ChosenSettings& chosen, std::string name, std::string value, std::string reason) {
+  chosen.decisions.push_back({std::move(name), std::move(value), std::move(reason)});
+}
+
+const char* kByOption = "given";
+
+void choose_decimation(ChosenSettings& chosen, const SampleOptions& options, double rate) {
+  RowSettings& rows = chosen.rows;
+  if (options.decimate) {
+    rows.decimate = *options.decimate;
+    decide(chosen, "decimation", std::to_string(rows.decimate), kByOption);
+    return;
+  }
+  if (rows.signal.cutoff > 0)
+    rows.decimate = std::max(1, static_cast<int>(rate / (kSamplesPerPeriod * rows.signal.cutoff)));
+  decide(chosen, "decimation", std::to_string(rows.decimate),
+         fmt::format("{:g} rows a period of the cut-off", kSamplesPerPeriod));
+}
+
+void choose_edges(ChosenSettings& chosen, const SampleOptions& options, double rate) {
+  RowSettings& rows = chosen.rows;
+  if (options.drop_edge) {
+    rows.drop_edge = std::max<Eigen::Index>(*options.drop_edge, kDifferenceEdge);
+    decide(chosen, "edge rows", std::to_string(rows.drop_edge), kByOption);
+    return;
+  }
+  const double cutoff = rows.signal.cutoff;
+  rows.drop_edge = cutoff > 0 ? std::max<Eigen::Index>(
+                                    kDifferenceEdge, static_cast<Eigen::Index>(std::ceil(2 * rate / cutoff)))
+                              : kDifferenceEdge;
+  decide(chosen, "edge rows", std::to_string(rows.drop_edge), "two periods of the cut-off");
+}
+
+void choose_filter_order(ChosenSettings& chosen, const SampleOptions& options) {
+  chosen.rows.signal.filter_order = options.filter_order.value_or(4);
+  decide(chosen, "filter order", std::to_string(chosen.rows.signal.filter_order),
+         options.filter_order ? kByOption : "Butterworth, forward and backward");
+}
+
+// Root mean square of the largest acceleration column (link or motor) over the pilot rows.
+double pilot_acceleration(std::span<const LogSurvey> logs, std::span<const PilotWindow> pilot,
+                          const SignalSettings& settings, Channel channel) {
+  double sum = 0;
+  Eigen::Index n = 0;
+  for (const PilotWindow& p : pilot) {
+    const Signals signals = make_signals(p.window, logs[p.log].plan, settings);
+    const JointSignals& s = signals.joints[0];
+    const Eigen::ArrayXd& a = channel == Channel::q ? s.qdd : s.thetadd;
+    if (a.size() < 3 * kDifferenceEdge) continue;
+    const auto inner = a.segment(kDifferenceEdge, a.size() - 2 * kDifferenceEdge);
+    sum += inner.square().sum();
+    n += inner.size();
+  }
+  return n > 0 ? std::sqrt(sum / static_cast<double>(n)) : 0;
+}
+
+// The filter blurs a reversal over about 1/(2 pi cut-off): slower than the speed gained in that time the
+// sign of the velocity is not known, however good the encoder.
+double rest_speed(std::span<const LogSurvey> logs, const PartFilter& wanted, const RowSettings& rows,
+                  std::span<const PilotWindow> pilot, Channel channel, double rate) {
+  const double band = rows.signal.cutoff > 0 ? rows.signal.cutoff : rate / 2;
+  const double noise = velocity_noise(worst_noise(logs, wanted, channel), band, rate);
+  const double blur = pilot_acceleration(logs, pilot, rows.signal, channel) / (2 * kPi * band);
+  return std::max(4 * noise, blur);
+}
+
+void choose_rest_speed(ChosenSettings& chosen, std::span<const LogSurvey> logs,
+                       const PartFilter& wanted, const SampleOptions& options, double rate) {
+  RowSettings& rows = chosen.rows;
+  if (options.rest_speed) {
+    chosen.rest_speed_theta = chosen.rest_speed_q = *options.rest_speed;
+    decide(chosen, "rest speed", fmt::format("{:.3g}", *options.rest_speed), kByOption);
+  } else {
+    const auto pilot = pilot_windows(logs, wanted, signal_halo(rows.signal, rate), kPilotWindows);
+    chosen.rest_speed_theta = rest_speed(logs, wanted, rows, pilot, Channel::theta, rate);
+    chosen.rest_speed_q = rest_speed(logs, wanted, rows, pilot, Channel::q, rate);
+    decide(chosen, "rest speed",
+           fmt::format("motor {:.3g}, link {:.3g}", chosen.rest_speed_theta, chosen.rest_speed_q),
+           "speed gained within the filter's blur, at least 4 sd of the speed's noise");
+  }
+  if (chosen.rest_speed_theta > 0 && rows.signal.cutoff > 0)
+    rows.rest_margin = static_cast<Eigen::Index>(std::ceil(rate / (4 * rows.signal.cutoff)));
+}
+
+// Lowers the cut-off until position noise is a negligible part of the acceleration: noise in a
+// regressor shrinks its coefficient by that share (errors in variables).
+double quiet_cutoff(std::span<const LogSurvey> logs, const PartFilter& wanted,
+                    const RowSettings& rows, double cutoff, double rate) {
+  const double noise = worst_noise(logs, wanted, Channel::theta);
+  RowSettings trial = rows;
+  for (;; cutoff *= 0.8) {
+    trial.signal.cutoff = cutoff;
+    if (cutoff <= kLowestCutoff || noise == 0) return cutoff;
+    const auto pilot =
+        pilot_windows(logs, wanted, signal_halo(trial.signal, rate), kPilotWindows);
+    const double total = pilot_acceleration(logs, pilot, trial.signal, Channel::theta);
+    const double noisy = acceleration_noise(noise, cutoff, rate);
+    if (total == 0 || noisy * noisy <= kNoiseBias * total * total) return cutoff;
+  }
+}
+
+void choose_moving_cutoff(ChosenSettings& chosen, std::span<const LogSurvey> logs,
+                          const PartFilter& wanted, const SampleOptions& options, double resonance,
+                          double rate) {
+  double& cutoff = chosen.rows.signal.cutoff;
+  if (options.cutoff) {
+    cutoff = *options.cutoff;
+    decide(chosen, "cut-off", cutoff > 0 ? fmt::format("{:.4g} Hz", cutoff) : "none", kByOption);
+  } else {
+    const double wish = resonance > 0 ? std::min(kResonanceFactor * resonance, kMaxShareOfRate * rate)
+                                      : kRigidShareOfRate * rate;
+    cutoff = quiet_cutoff(logs, wanted, chosen.rows, wish, rate);
+    std::string reason = resonance > 0 && wish < kMaxShareOfRate * rate
+                             ? fmt::format("{:g} times the resonance f0 = {:.3g} Hz", kResonanceFactor, resonance)
+                             : fmt::format("{:g} of the sample rate", wish / rate);
+    if (cutoff < wish)
+      reason = fmt::format("position noise below {:g} % of the acceleration's variance", 100 * kNoiseBias);
+    decide(chosen, "cut-off", fmt::format("{:.4g} Hz", cutoff), reason);
+  }
+  if (resonance > 0 && cutoff > 0 && cutoff < 2 * resonance)
+    chosen.warnings.push_back(
+        fmt::format("the cut-off of {:.4g} Hz is below twice the resonance f0 = {:.3g} Hz: J_motor will "
+                    "come out too small; record at a higher rate or with a finer encoder",
+                    cutoff, resonance));
+}
+
+}  // namespace
+
+double position_noise(const LogSurvey& log, const PartSurvey& part, Channel channel, int joint) {
+  const int k = log.plan.find(channel, joint);
+  if (k < 0) return 0;
+  const auto sensor = log.plan.rig.sensors.find(std::string(channel_name(channel)));
+  if (sensor != log.plan.rig.sensors.end()) {
+    const double quantum = sensor->second.quantum.value_or(0) / std::sqrt(12.0);
+    const double noise = sensor->second.noise.value_or(0);
+    if (quantum > 0 || noise > 0) return std::hypot(quantum, noise);
+  }
+  const ChannelSurvey& c = part.channels[static_cast<std::size_t>(k)];
+  return std::max(c.noise, c.quantum / std::sqrt(12.0));
+}
+
+double velocity_noise(double noise, double cutoff, double rate) {
+  // Power of white noise is noise^2 over 0..rate/2; differentiation weighs it with (2 pi f)^2.
+  return noise * 2 * kPi * std::sqrt(std::pow(cutoff, 3) / 3 * 2 / rate);
+}
+
+double acceleration_noise(double noise, double cutoff, double rate) {
+  return noise * 4 * kPi * kPi * std::sqrt(std::pow(cutoff, 5) / 5 * 2 / rate);
+}
+
+std::vector<PilotWindow> pilot_windows(std::span<const LogSurvey> logs, const PartFilter& wanted,
+                                       Eigen::Index halo, int max_windows) {
+  std::vector<PilotWindow> pilot;
+  for (std::size_t k = 0; k < logs.size(); ++k) {
+    int taken = 0;
+    for_each_window(logs[k], wanted, halo, 2 * kDifferenceEdge + 2, [&](Window&& window) {
+      pilot.push_back({k, std::move(window)});
+      return ++taken < max_windows;
+    });
+  }
+  return pilot;
+}
+
+ChosenSettings blocked_settings(std::span<const LogSurvey> logs, const PartFilter& wanted,
+                                const SampleOptions& options) {
+  ChosenSettings chosen;
+  const double rate = highest_rate(logs, wanted);
+  choose_filter_order(chosen, options);
+  double& cutoff = chosen.rows.signal.cutoff;
+  cutoff = options.cutoff.value_or(std::min(kBlockedCutoff, kMaxShareOfRate * rate));
+  decide(chosen, "cut-off", cutoff > 0 ? fmt::format("{:.4g} Hz", cutoff) : "none",
+         options.cutoff ? kByOption : "quasi-static");
+  choose_decimation(chosen, options, rate);
+  choose_edges(chosen, options, rate);
+  choose_rest_speed(chosen, logs, wanted, options, rate);
+  chosen.rows.signal.torque_held = options.torque_hold == TorqueHold::zoh;
+  return chosen;
+}
+
+ChosenSettings moving_settings(std::span<const LogSurvey> logs, const PartFilter& wanted,
+                               const SampleOptions& options, double resonance) {
+  ChosenSettings chosen;
+  const double rate = highest_rate(logs, wanted);
+  choose_filter_order(chosen, options);
+  choose_moving_cutoff(chosen, logs, wanted, options, resonance, rate);
+  choose_decimation(chosen, options, rate);
+  choose_edges(chosen, options, rate);
+  choose_rest_speed(chosen, logs, wanted, options, rate);
+  return chosen;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,63 @@
+// Which filter, decimation, edges and rest threshold: chosen from the log unless the user says, and
+// always told with the reason.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cablefit/samples/row_stream.hpp"
+
+namespace cablefit {
+
+/// What the command line may fix; anything left out is chosen.
+struct SampleOptions {
+  std::optional<double> cutoff;        ///< Hz; 0: no filter
+  std::optional<int> filter_order;
+  std::optional<int> decimate;
+  std::optional<long> drop_edge;       ///< rows
+  std::optional<double> rest_speed;    ///< rad/s; 0: keep all
+  std::optional<TorqueHold> torque_hold;
+  int threads = 1;
+};
+
+/// A choice as printed: "cutoff", "126 Hz", "2 f0, f0 = 63 Hz from the elastic fit".
+struct Decision {
+  std::string name, value, reason;
+};
+
+struct ChosenSettings {
+  RowSettings rows;
+  double rest_speed_theta = 0;  ///< rad/s, for equations of the motor (or rigid) side
+  double rest_speed_q = 0;      ///< rad/s, for equations of the link side
+  std::vector<Decision> decisions;
+  std::vector<std::string> warnings;
+};
+
+/// sd of the white noise on a position channel (rad): the rig's quantum / sqrt(12) when given, else the
+/// larger of what sixth differences show and the log's own quantum / sqrt(12).
+double position_noise(const LogSurvey& log, const PartSurvey& part, Channel channel, int joint = 0);
+
+/// sd of velocity and acceleration that white position noise leaves below a cut-off (one-sided band
+/// 0..cutoff of rate/2).
+double velocity_noise(double position_noise, double cutoff, double rate);
+double acceleration_noise(double position_noise, double cutoff, double rate);
+
+/// Quasi-static stage 1: a low cut-off, rest dropped.
+ChosenSettings blocked_settings(std::span<const LogSurvey> logs, const PartFilter& wanted,
+                                const SampleOptions& options);
+
+/// Stage 2. `resonance`: f0 of the elastic fit in Hz, or 0 for a rigid drive.
+ChosenSettings moving_settings(std::span<const LogSurvey> logs, const PartFilter& wanted,
+                               const SampleOptions& options, double resonance);
+
+/// Up to the first `max_windows` wanted windows of every log, for choosing and for small tests.
+struct PilotWindow {
+  std::size_t log;
+  Window window;
+};
+std::vector<PilotWindow> pilot_windows(std::span<const LogSurvey> logs, const PartFilter& wanted,
+                                       Eigen::Index halo, int max_windows);
+
+}  // namespace cablefit

@@ -1,0 +1,126 @@
+#include "cablefit/samples/signals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace cablefit {
+namespace {
+
+// d/dt and d2/dt2 of fourth order; the three values at either end repeat their neighbour and are never
+// used (kDifferenceEdge).
+void differentiate(const Eigen::ArrayXd& x, double h, Eigen::ArrayXd& first, Eigen::ArrayXd& second) {
+  const Eigen::Index n = x.size();
+  first = Eigen::ArrayXd::Zero(n);
+  second = Eigen::ArrayXd::Zero(n);
+  if (n < 5) return;
+  const Eigen::Index m = n - 4;
+  const auto a = x.head(m), b = x.segment(1, m), c = x.segment(2, m), d = x.segment(3, m), e = x.tail(m);
+  first.segment(2, m) = (a - 8 * b + 8 * d - e) / (12 * h);
+  second.segment(2, m) = (16 * (b + d) - a - e - 30 * c) / (12 * h * h);
+}
+
+void differentiate_velocity(const Eigen::ArrayXd& v, double h, Eigen::ArrayXd& acceleration) {
+  Eigen::ArrayXd unused;
+  differentiate(v, h, acceleration, unused);
+}
+
+// tau(t - delay) by linear interpolation between rows; for the usual delay of half a row this is the
+// mean of tau[i-1] and tau[i], exactly what a second difference at i sees of a held torque.
+Eigen::ArrayXd delayed(const Eigen::ArrayXd& tau, double rows) {
+  const Eigen::Index n = tau.size();
+  Eigen::ArrayXd out(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double at = std::max(0.0, static_cast<double>(i) - rows);
+    const auto k = std::min(n - 1, static_cast<Eigen::Index>(at));
+    const double share = at - static_cast<double>(k);
+    out(i) = (1 - share) * tau(k) + (share > 0 ? share * tau(std::min(n - 1, k + 1)) : 0);
+  }
+  return out;
+}
+
+Eigen::ArrayXd column(const Eigen::MatrixXd& data, const LogPlan& plan, Channel channel, int joint) {
+  const int k = plan.find(channel, joint);
+  return k < 0 ? Eigen::ArrayXd() : Eigen::ArrayXd(data.col(k).array());
+}
+
+JointSignals joint_signals(const Eigen::MatrixXd& data, const LogPlan& plan, int joint, double h,
+                           const SignalSettings& settings) {
+  JointSignals s;
+  s.q = column(data, plan, Channel::q, joint);
+  s.theta = column(data, plan, Channel::theta, joint);
+  s.tau = column(data, plan, Channel::tau, joint);
+  s.tau_load = column(data, plan, Channel::tau_load, joint);
+  if (s.q.size() > 0) differentiate(s.q, h, s.qd, s.qdd);
+  if (s.theta.size() > 0) differentiate(s.theta, h, s.thetad, s.thetadd);
+  if (s.theta.size() == 0 && plan.has(Channel::w, joint)) {
+    s.thetad = column(data, plan, Channel::w, joint);
+    differentiate_velocity(s.thetad, h, s.thetadd);
+    s.theta = Eigen::ArrayXd::Zero(s.thetad.size());  // no position: nothing may depend on it
+  }
+  if (s.tau.size() > 0 && settings.torque_held) {
+    const double hold = settings.torque_period > 0 ? settings.torque_period : h;
+    s.tau = delayed(s.tau, hold / (2 * h));
+  }
+  const Load& load = plan.rig.load;
+  if (load.law != nullptr && !load.law->from_column) {
+    const Eigen::ArrayXd& position = s.q.size() > 0 ? s.q : s.theta;  // a rigid drive may log theta only
+    s.tau_load =
+        position.unaryExpr([&](double q) { return load.law->torque(load.parameters, q); });
+  }
+  return s;
+}
+
+void add_directions(std::vector<JointSignals>& joints, const Butterworth* low_pass, const Window& window) {
+  for (JointSignals& s : joints) {
+    Eigen::MatrixXd directions(window.data.rows(), 2);
+    directions.col(0) = s.qd.size() > 0 ? s.qd.sign().eval() : Eigen::ArrayXd::Zero(directions.rows()).eval();
+    directions.col(1) = s.thetad.size() > 0 ? s.thetad.sign().eval() : Eigen::ArrayXd::Zero(directions.rows()).eval();
+    if (low_pass != nullptr) low_pass->apply(directions, window.starts_segment, window.ends_segment);
+    s.q_direction = directions.col(0);
+    s.theta_direction = directions.col(1);
+  }
+}
+
+}  // namespace
+
+Eigen::Index Signals::n_rows() const {
+  if (joints.empty()) return 0;
+  return std::max(joints[0].q.size(), joints[0].theta.size());
+}
+
+Eigen::Index signal_halo(const SignalSettings& settings, double rate) {
+  const Eigen::Index differences = kDifferenceEdge + 1;
+  if (settings.cutoff <= 0) return differences;
+  // Twice: the direction of motion is filtered after the signals it comes from.
+  return 2 * Butterworth(settings.filter_order, settings.cutoff, rate).settling_rows() + differences;
+}
+
+Signals make_signals(const Window& window, const LogPlan& plan, const SignalSettings& settings) {
+  Signals signals{window.first, window.begin, window.end, window.t0, window.period, {}};
+  Eigen::MatrixXd data = window.data;
+  std::optional<Butterworth> low_pass;
+  if (settings.cutoff > 0) {
+    low_pass.emplace(settings.filter_order, settings.cutoff, 1 / window.period);
+    low_pass->apply(data, window.starts_segment, window.ends_segment);
+  }
+  for (int joint = 0; joint < plan.rig.n_joints(); ++joint) {
+    signals.joints.push_back(joint_signals(data, plan, joint, window.period, settings));
+    signals.joints.back().approach = window.approach.col(joint).array().sign();
+  }
+  add_directions(signals.joints, low_pass ? &*low_pass : nullptr, window);
+  return signals;
+}
+
+void triangle_average(Eigen::Ref<Eigen::ArrayXd> column) {
+  const Eigen::Index n = column.size();
+  if (n < 3) return;
+  double before = column(0);
+  for (Eigen::Index i = 1; i + 1 < n; ++i) {
+    const double here = column(i);
+    column(i) = (before + 10 * here + column(i + 1)) / 12;
+    before = here;
+  }
+}
+
+}  // namespace cablefit

@@ -1,0 +1,52 @@
+// From a window of raw samples to smooth positions, velocities and accelerations.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "cablefit/samples/butterworth.hpp"
+#include "cablefit/samples/windows.hpp"
+
+namespace cablefit {
+
+/// How signals are made from samples.
+struct SignalSettings {
+  double cutoff = 0;          ///< Hz; 0: no low-pass
+  int filter_order = 4;
+  bool torque_held = false;   ///< tau[i] acts from t[i] until t[i] + torque_period
+  double torque_period = 0;   ///< s; 0: the log's period
+};
+
+/// Signals of one joint over the rows of a window; an empty array where the log has no such channel.
+/// Position-like signals are filtered; derivatives are five-point central differences of fourth order.
+/// `tau` is filtered and moved by half the hold (tau(t - T/2)) when it is held.
+struct JointSignals {
+  Eigen::ArrayXd q, qd, qdd;              ///< rad, rad/s, rad/s^2
+  Eigen::ArrayXd theta, thetad, thetadd;
+  Eigen::ArrayXd tau, tau_load;           ///< N m
+  /// sgn(qd), sgn(thetad) through the same low-pass as the signals: real friction flips at once, and the
+  /// filter has smoothed that flip in every other term of the equation.
+  Eigen::ArrayXd q_direction, theta_direction;
+  Eigen::ArrayXd approach;                ///< -1, 0, 1: direction of the last motion of theta
+};
+
+struct Signals {
+  Eigen::Index first = 0, begin = 0, end = 0;  ///< as in Window
+  double t0 = 0, period = 0;
+  std::vector<JointSignals> joints;
+  Eigen::Index n_rows() const;
+};
+
+/// Rows a filtered window needs on either side.
+Eigen::Index signal_halo(const SignalSettings& settings, double rate);
+/// First and last rows of a segment at which differences are not to be trusted.
+inline constexpr Eigen::Index kDifferenceEdge = 3;
+
+Signals make_signals(const Window& window, const LogPlan& plan, const SignalSettings& settings);
+
+/// Average over the triangle (1, 10, 1)/12 of +-1 sample, in place. A second difference IS the mean
+/// acceleration under that triangle (Numerov), so every other column of an equation must be averaged
+/// alike: without it J_motor is 1.8 % too large at 1 kHz on the paper's rig, through K T^2/(12 J).
+void triangle_average(Eigen::Ref<Eigen::ArrayXd> column);
+
+}  // namespace cablefit

@@ -1,0 +1,262 @@
+#include "cablefit/samples/survey.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cablefit/base/catalog.hpp"
+#include "cablefit/base/digest.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr std::size_t kChunkRows = 8192;
+constexpr std::size_t kMinRows = 8;
+constexpr double kGapEven = 1.5;     // an even clock: a missing row is a gap
+constexpr double kGapUneven = 5;     // an uneven one: interpolate over a few missed rows, not more
+constexpr double kUnevenJitter = 0.3;  // of the period; less is rounding of the printed time
+// A link whose position varies less than this share of the motor's is blocked.
+constexpr double kStillShare = 0.02;
+
+// Running look at one channel. Sixth differences remove any motion that a fifth-order polynomial
+// follows over seven samples; for white noise their variance is C(12,6) = 924 times its own.
+class ChannelScan {
+ public:
+  void add(double x) {
+    if (n_ == 0) min_ = max_ = x;
+    if (x < min_) min_ = x, at_min_ = 0;
+    if (x > max_) max_ = x, at_max_ = 0;
+    at_min_ += x == min_;
+    at_max_ += x == max_;
+    if (n_ > 0) {
+      const double step = std::abs(x - last_[0]);
+      if (step > 0 && (quantum_ == 0 || step < quantum_)) quantum_ = step;
+    }
+    if (since_break_ >= 6) {
+      const double d6 = x - 6 * last_[0] + 15 * last_[1] - 20 * last_[2] + 15 * last_[3] -
+                        6 * last_[4] + last_[5];
+      sum_d6_ += d6 * d6;
+      ++n_d6_;
+    }
+    for (int k = 5; k > 0; --k) last_[k] = last_[k - 1];
+    last_[0] = x;
+    ++n_;
+    ++since_break_;
+  }
+  void restart() { since_break_ = 0; }
+
+  ChannelSurvey result() const {
+    ChannelSurvey s{min_, max_, quantum_, 0, 0};
+    if (n_d6_ > 0) s.noise = std::sqrt(sum_d6_ / static_cast<double>(n_d6_) / 924);
+    if (n_ > 0 && max_ > min_)
+      s.at_limits = static_cast<double>(at_min_ + at_max_) / static_cast<double>(n_);
+    return s;
+  }
+
+ private:
+  double min_ = 0, max_ = 0, quantum_ = 0, sum_d6_ = 0;
+  double last_[6] = {};
+  std::size_t n_ = 0, n_d6_ = 0, since_break_ = 0, at_min_ = 0, at_max_ = 0;
+};
+
+Error clock_error(double t, double step, const Place& place) {
+  if (step == 0)
+    return input_error(place, fmt::format("time stands still at t = {:g} s", t),
+                       "remove the duplicate row");
+  return input_error(place, fmt::format("time runs back to t = {:g} s", t),
+                     "sort the rows, or tell runs apart with a 'run' column");
+}
+
+// The clock of one part. Steps are kept as a histogram-free summary: the period is the mean of the
+// steps that are no gaps, found against the running median of the first rows.
+class ClockScan {
+ public:
+  void add(double t, bool continues, const Place& place) {
+    if (n_ == 0) first_ = t;
+    if (continues) {
+      const double step = t - last_;
+      if (!(step > 0))
+        throw clock_error(t, step, place);
+      add_step(step);
+    }
+    last_ = t;
+    ++n_;
+  }
+  void fill(PartSurvey& part) {
+    if (n_steps_ < early_.size()) calibrate(n_steps_);
+    part.n_rows = n_;
+    part.t_first = first_;
+    part.t_last = last_;
+    const double n = static_cast<double>(std::max<std::size_t>(1, n_counted_));
+    part.period = sum_ / n;
+    part.jitter = part.period > 0 ? std::sqrt(std::max(0.0, sum_squares_ / n - part.period * part.period)) / part.period : 0;
+    part.worst_jitter = part.period > 0 ? std::max(max_ - part.period, part.period - min_) / part.period : 0;
+    part.uneven = part.worst_jitter > kUnevenJitter;
+    part.n_gaps = n_gaps_;
+  }
+
+ private:
+  void add_step(double step) {
+    if (n_steps_ < early_.size()) {
+      early_[n_steps_++] = step;
+      if (n_steps_ == early_.size()) calibrate(n_steps_);
+      return;
+    }
+    ++n_steps_;
+    count(step);
+  }
+  void calibrate(std::size_t n) {
+    if (n == 0) return;
+    std::array<double, 64> sorted = early_;
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<long>(n / 2), sorted.begin() + static_cast<long>(n));
+    median_ = sorted[n / 2];
+    std::size_t off = 0;
+    for (std::size_t k = 0; k < n; ++k) off += std::abs(early_[k] - median_) > kUnevenJitter * median_;
+    gap_ = gap_factor(10 * off > n) * median_;
+    for (std::size_t k = 0; k < n; ++k) count(early_[k]);
+  }
+  void count(double step) {
+    if (step > gap_) {
+      ++n_gaps_;
+      return;
+    }
+    sum_ += step;
+    sum_squares_ += step * step;
+    min_ = n_counted_ == 0 ? step : std::min(min_, step);
+    max_ = std::max(max_, step);
+    ++n_counted_;
+  }
+
+  std::array<double, 64> early_{};
+  double first_ = 0, last_ = 0, median_ = 0, gap_ = 0, sum_ = 0, sum_squares_ = 0, min_ = 0, max_ = 0;
+  std::size_t n_ = 0, n_steps_ = 0, n_counted_ = 0, n_gaps_ = 0;
+};
+
+struct PartScan {
+  PartTracker::Key key;
+  ClockScan clock;
+  std::vector<ChannelScan> channels;
+};
+
+Phase phase_of(const PartTracker::Key& key, const PartSurvey& part, const LogPlan& plan) {
+  if (key.phase == "blocked") return Phase::blocked;
+  if (key.phase == "moving") return Phase::moving;
+  const int q = plan.find(Channel::q);
+  const int theta = plan.find(Channel::theta);
+  if (q < 0 || theta < 0) return Phase::moving;
+  const double moved = part.channels[static_cast<std::size_t>(q)].range();
+  const double reference = part.channels[static_cast<std::size_t>(theta)].range();
+  return moved <= kStillShare * reference ? Phase::blocked : Phase::moving;
+}
+
+void check_phase(const std::string& phase, const LogPlan& plan, std::uint64_t line) {
+  if (phase.empty() || phase == "blocked" || phase == "moving") return;
+  constexpr std::array<std::string_view, 2> known = {"blocked", "moving"};
+  throw input_error({plan.path, line, 0}, fmt::format("unknown phase '{:.40}'", phase),
+                    suggestion(phase, known));
+}
+
+}  // namespace
+
+std::string_view to_string(Phase phase) { return phase == Phase::blocked ? "blocked" : "moving"; }
+
+double gap_factor(bool uneven) { return uneven ? kGapUneven : kGapEven; }
+
+double time_of(const LogPlan& plan, const LogChunk& chunk, std::size_t row) {
+  if (plan.time_column) return chunk.numbers[0][row] * plan.time_factor;
+  return static_cast<double>(chunk.first_row + row) / *plan.header.sample_rate;
+}
+
+PartTracker::PartTracker(const LogPlan& plan, std::string default_preload)
+    : plan_(plan), default_preload_(default_preload.empty() ? "default" : std::move(default_preload)) {
+  for (const auto& column : {plan.preload_column, plan.phase_column, plan.run_column})
+    if (column) texts_.push_back(*column);
+  current_.resize(texts_.size());
+}
+
+std::vector<std::size_t> PartTracker::numeric_columns() const {
+  std::vector<std::size_t> columns;
+  if (plan_.time_column) columns.push_back(*plan_.time_column);
+  for (const Slot& slot : plan_.slots) columns.push_back(slot.column);
+  return columns;
+}
+
+std::vector<std::size_t> PartTracker::text_columns() const { return texts_; }
+
+const PartTracker::Key& PartTracker::key(const LogReader& reader, const LogChunk& chunk,
+                                         std::size_t row, bool& changed) {
+  changed = !started_;
+  for (std::size_t k = 0; k < texts_.size(); ++k) changed |= chunk.texts[k][row] != current_[k];
+  if (!changed) return key_;
+  started_ = true;
+  for (std::size_t k = 0; k < texts_.size(); ++k) current_[k] = chunk.texts[k][row];
+  std::size_t next = 0;
+  const auto word = [&](const std::optional<std::size_t>& column, const std::string& otherwise) {
+    if (!column) return otherwise;
+    const std::size_t k = next++;
+    const std::string& text = reader.words(k)[current_[k]];
+    return text.empty() ? otherwise : text;
+  };
+  key_.preload = word(plan_.preload_column, default_preload_);
+  key_.phase = word(plan_.phase_column, "");
+  key_.run = word(plan_.run_column, "");
+  check_phase(key_.phase, plan_, chunk.lines[row]);
+  return key_;
+}
+
+LogSurvey survey_log(const LogPlan& plan, const std::string& preload) {
+  LogSurvey survey;
+  survey.plan = plan;
+  survey.default_preload = preload;
+  survey.sha256 = sha256_of_file(plan.path);
+  const auto reader = open_log(plan.path);
+  PartTracker tracker(survey.plan, preload);
+  reader->select(tracker.numeric_columns(), tracker.text_columns());
+  const std::size_t first_slot = plan.time_column ? 1 : 0;
+
+  std::vector<PartScan> scans;
+  std::size_t current = 0;
+  LogChunk chunk;
+  while (reader->next(chunk, kChunkRows)) {
+    for (std::size_t row = 0; row < chunk.n_rows; ++row) {
+      bool changed = false;
+      const PartTracker::Key& key = tracker.key(*reader, chunk, row, changed);
+      if (changed) {
+        current = static_cast<std::size_t>(
+            std::find_if(scans.begin(), scans.end(), [&](const PartScan& s) { return s.key == key; }) -
+            scans.begin());
+        if (current == scans.size())
+          scans.push_back({key, {}, std::vector<ChannelScan>(plan.slots.size())});
+        for (ChannelScan& channel : scans[current].channels) channel.restart();
+      }
+      PartScan& scan = scans[current];
+      scan.clock.add(time_of(plan, chunk, row), !changed, {plan.path, chunk.lines[row], 0});
+      for (std::size_t k = 0; k < plan.slots.size(); ++k) {
+        const Slot& slot = plan.slots[k];
+        scan.channels[k].add(chunk.numbers[first_slot + k][row] * slot.factor + slot.shift);
+      }
+    }
+    survey.n_rows += chunk.n_rows;
+  }
+  for (PartScan& scan : scans) {
+    PartSurvey part;
+    part.preload = scan.key.preload;
+    part.run = scan.key.run;
+    for (const ChannelScan& channel : scan.channels) part.channels.push_back(channel.result());
+    scan.clock.fill(part);
+    part.phase_given = !scan.key.phase.empty();
+    part.phase = phase_of(scan.key, part, plan);
+    if (part.n_rows < kMinRows)
+      throw input_error({plan.path, 0, 0},
+                        fmt::format("{} row{} of preload '{:.40}'{}", part.n_rows,
+                                    part.n_rows == 1 ? "" : "s", part.preload,
+                                    part.run.empty() ? "" : fmt::format(", run '{:.40}'", part.run)),
+                        fmt::format("at least {} rows are needed to see any motion", kMinRows));
+    survey.parts.push_back(std::move(part));
+  }
+  return survey;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,70 @@
+// A Transmission laid out for the inner loop of the simulator: plain arrays, no allocation.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "cablefit/model/cables.hpp"
+
+namespace cablefit {
+
+class Coupling {
+ public:
+  explicit Coupling(const Transmission& transmission);
+
+  std::size_t n_cables() const { return cables_.size(); }
+
+  /// tau_elas_l and tau_elas_m (N m, n_joints each) at these positions (rad).
+  void torques(const double* q, const double* theta, double* link, double* motor) const;
+  /// Tension of one cable (N; joint space N m).
+  double tension(std::size_t cable, const double* q, const double* theta) const;
+
+ private:
+  struct Strand {
+    void (*basis)(int order, double l, double* values);
+    int order, n_coefficients;
+    std::array<double, kMaxCableOrder> coefficients;
+    double slack;              ///< l at q = theta = 0
+    std::size_t first_radius;  ///< into the radii below
+  };
+
+  std::size_t n_joints_;
+  std::vector<Strand> cables_;
+  std::vector<double> motor_radius_, link_radius_;  ///< [cable][joint]
+  std::vector<double> stiffness_, theta_0_;         ///< linear model, per joint
+};
+
+inline double Coupling::tension(std::size_t cable, const double* q, const double* theta) const {
+  const Strand& strand = cables_[cable];
+  const double* motor_radius = motor_radius_.data() + strand.first_radius;
+  const double* link_radius = link_radius_.data() + strand.first_radius;
+  double l = strand.slack;
+  for (std::size_t k = 0; k < n_joints_; ++k)
+    l += motor_radius[k] * theta[k] - link_radius[k] * q[k];
+  if (!(l > 0)) return 0.0;
+  std::array<double, kMaxCableOrder> values;
+  strand.basis(strand.order, l, values.data());
+  double force = 0;
+  for (std::size_t j = 0; j < static_cast<std::size_t>(strand.n_coefficients); ++j) {
+    force += strand.coefficients[j] * values[j];
+  }
+  return force;
+}
+
+inline void Coupling::torques(const double* q, const double* theta, double* link,
+                              double* motor) const {
+  for (std::size_t k = 0; k < stiffness_.size(); ++k) {
+    link[k] = motor[k] = stiffness_[k] * (theta[k] - theta_0_[k] - q[k]);
+  }
+  if (cables_.empty()) return;
+  for (std::size_t k = 0; k < n_joints_; ++k) link[k] = motor[k] = 0.0;
+  for (std::size_t i = 0; i < cables_.size(); ++i) {
+    const double f = tension(i, q, theta);
+    for (std::size_t k = 0; k < n_joints_; ++k) {
+      link[k] += f * link_radius_[cables_[i].first_radius + k];
+      motor[k] += f * motor_radius_[cables_[i].first_radius + k];
+    }
+  }
+}
+
+}  // namespace cablefit

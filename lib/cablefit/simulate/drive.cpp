@@ -1,0 +1,109 @@
+#include "cablefit/simulate/drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cablefit {
+namespace {
+
+bool is_whole(double value) { return std::abs(value - std::round(value)) < 1e-6; }
+
+double controller_period(const Model& model, const SimulationInput& input) {
+  const double period = model.rig.controller->period;
+  return period > 0 ? period : input.period;
+}
+
+/// Resolution of a joint's motor encoder: "theta2" when given, else "theta".
+double theta_quantum(const Rig& rig, std::size_t joint) {
+  for (const std::string& name : {"theta" + std::to_string(joint + 1), std::string("theta")}) {
+    const auto sensor = rig.sensors.find(name);
+    if (sensor != rig.sensors.end() && sensor->second.quantum) return *sensor->second.quantum;
+  }
+  return 0.0;
+}
+
+double first_difference(const Eigen::ArrayXXd& table, Eigen::Index joint) {
+  return table.rows() > 1 ? table(1, joint) - table(0, joint) : 0.0;
+}
+
+}  // namespace
+
+Clock make_clock(const Model& model, const SimulationInput& input,
+                 const SimulationOptions& options) {
+  const auto least = std::max(1.0, std::ceil(input.period / options.step - 1e-6));
+  double n = least;
+  if (options.closed_loop) {
+    const double commands_per_row = input.period / controller_period(model, input);
+    while (n < 2 * least && !is_whole(n / commands_per_row)) ++n;
+    if (!is_whole(n / commands_per_row)) n = least;
+  }
+  return {static_cast<Eigen::Index>(n), input.period / n};
+}
+
+double between_rows(const Eigen::ArrayXXd& table, Eigen::Index row, double fraction,
+                    Eigen::Index joint) {
+  const Eigen::Index next = std::min(row + 1, table.rows() - 1);
+  return table(row, joint) + fraction * (table(next, joint) - table(row, joint));
+}
+
+ReplayDrive::ReplayDrive(const SimulationInput& input, const SimulationOptions& options,
+                         const Clock& clock)
+    : input_(input),
+      hold_(options.hold_torque),
+      steps_per_row_(static_cast<double>(clock.steps_per_row)),
+      tau_(static_cast<std::size_t>(input.tau.cols())) {}
+
+const std::vector<double>& ReplayDrive::torque(Eigen::Index row, Eigen::Index step,
+                                               const std::vector<double>& /*theta*/) {
+  const double fraction = hold_ ? 0.0 : (static_cast<double>(step) + 0.5) / steps_per_row_;
+  for (std::size_t k = 0; k < tau_.size(); ++k) {
+    tau_[k] = between_rows(input_.tau, row, fraction, static_cast<Eigen::Index>(k));
+  }
+  return tau_;
+}
+
+PdDrive::PdDrive(const Model& model, const SimulationInput& input, const Clock& clock)
+    : input_(input),
+      controller_(*model.rig.controller),
+      period_(controller_period(model, input)),
+      steps_per_row_(static_cast<double>(clock.steps_per_row)),
+      steps_per_command_(period_ / clock.h),
+      tau_(model.joints.size()) {
+  for (std::size_t k = 0; k < tau_.size(); ++k) {
+    const auto joint = static_cast<Eigen::Index>(k);
+    quantum_.push_back(theta_quantum(model.rig, k));
+    const double position = input.theta0.size() ? input.theta0[joint] : 0.0;
+    const double velocity = input.thetad0.size() ? input.thetad0[joint] : 0.0;
+    const double reference_rate = first_difference(input.theta_ref, joint) / input.period;
+    const double reference = input.theta_ref(0, joint) - period_ * reference_rate;
+    previous_error_.push_back(reference - measured(position - period_ * velocity, k));
+  }
+}
+
+double PdDrive::measured(double theta, std::size_t joint) const {
+  const double quantum = quantum_[joint];
+  return quantum > 0 ? quantum * std::round(theta / quantum) : theta;
+}
+
+const std::vector<double>& PdDrive::torque(Eigen::Index row, Eigen::Index step,
+                                           const std::vector<double>& theta) {
+  const double now = static_cast<double>(row) * steps_per_row_ + static_cast<double>(step);
+  if (now >= std::round(n_commands_ * steps_per_command_)) command(row, step, theta);
+  return tau_;
+}
+
+void PdDrive::command(Eigen::Index row, Eigen::Index step, const std::vector<double>& theta) {
+  ++n_commands_;
+  const double fraction = static_cast<double>(step) / steps_per_row_;
+  for (std::size_t k = 0; k < tau_.size(); ++k) {
+    const auto joint = static_cast<Eigen::Index>(k);
+    const double error =
+        between_rows(input_.theta_ref, row, fraction, joint) - measured(theta[k], k);
+    const double rate = (error - previous_error_[k]) / period_;
+    previous_error_[k] = error;
+    const double tau = controller_.kp * error + controller_.kd * rate;
+    tau_[k] = std::clamp(tau, -controller_.limit, controller_.limit);
+  }
+}
+
+}  // namespace cablefit

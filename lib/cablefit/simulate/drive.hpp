@@ -1,0 +1,69 @@
+// Where the motor torque comes from: the log's column, or the rig's position controller. Internal
+// to the simulator.
+#pragma once
+
+#include <vector>
+
+#include "cablefit/simulate/simulator.hpp"
+
+namespace cablefit {
+
+/// Steps per row of the input, and the time one takes.
+struct Clock {
+  Eigen::Index steps_per_row;
+  double h;  ///< s
+};
+
+/// As many steps as `options.step` asks for; in closed loop a few more when only then the
+/// controller's period is a whole number of steps.
+Clock make_clock(const Model& model, const SimulationInput& input,
+                 const SimulationOptions& options);
+
+/// Row `row` of a table, `fraction` (0 .. 1) of the way to the next; the last row is held.
+double between_rows(const Eigen::ArrayXXd& table, Eigen::Index row, double fraction,
+                    Eigen::Index joint);
+
+class Drive {
+ public:
+  virtual ~Drive() = default;
+  /// Torque per joint (N m) over the step `step` of row `row`, given the motor positions before it.
+  virtual const std::vector<double>& torque(Eigen::Index row, Eigen::Index step,
+                                            const std::vector<double>& theta) = 0;
+};
+
+/// The torque of the log, held over a row or linear between rows.
+class ReplayDrive final : public Drive {
+ public:
+  ReplayDrive(const SimulationInput& input, const SimulationOptions& options, const Clock& clock);
+  const std::vector<double>& torque(Eigen::Index row, Eigen::Index step,
+                                    const std::vector<double>& theta) override;
+
+ private:
+  const SimulationInput& input_;
+  bool hold_;
+  double steps_per_row_;
+  std::vector<double> tau_;
+};
+
+/// A PD controller on the quantised motor position, see Controller. The torque is held over its
+/// period. Its first difference is that of a start at the initial velocity.
+class PdDrive final : public Drive {
+ public:
+  PdDrive(const Model& model, const SimulationInput& input, const Clock& clock);
+  const std::vector<double>& torque(Eigen::Index row, Eigen::Index step,
+                                    const std::vector<double>& theta) override;
+
+ private:
+  void command(Eigen::Index row, Eigen::Index step, const std::vector<double>& theta);
+  double measured(double theta, std::size_t joint) const;
+
+  const SimulationInput& input_;
+  Controller controller_;
+  double period_, steps_per_row_, steps_per_command_;
+  double n_commands_ = 0;
+  std::vector<double> quantum_;         ///< rad; 0: none
+  std::vector<double> previous_error_;  ///< rad, at the last command
+  std::vector<double> tau_;
+};
+
+}  // namespace cablefit

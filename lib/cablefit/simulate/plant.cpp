@@ -1,0 +1,108 @@
+#include "cablefit/simulate/plant.hpp"
+
+#include <cmath>
+
+namespace cablefit {
+namespace {
+
+constexpr double kLargestState = 1e6;
+
+std::vector<double> initial(const Eigen::VectorXd& value, std::size_t n) {
+  if (value.size() == 0) return std::vector<double>(n, 0.0);
+  return {value.begin(), value.end()};
+}
+
+bool all_bounded(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(),
+                     [](double value) { return std::abs(value) <= kLargestState; });
+}
+
+bool all_have_inertia(const std::vector<Axis>& axes) {
+  return std::all_of(axes.begin(), axes.end(), [](const Axis& axis) { return axis.inertia() > 0; });
+}
+
+void write_row(const std::vector<double>& values, Eigen::Index row, Eigen::ArrayXXd* table) {
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    (*table)(row, static_cast<Eigen::Index>(k)) = values[k];
+  }
+}
+
+}  // namespace
+
+Plant::Plant(const Model& model, const SimulationInput& input, bool link_blocked)
+    : is_rigid_(model.rigid),
+      link_blocked_(link_blocked),
+      load_(model.rig.load),
+      coupling_(model.rigid ? Transmission{} : model.transmission) {
+  const std::size_t n = model.joints.size();
+  for (const JointModel& joint : model.joints) {
+    motor_.emplace_back(joint.motor);
+    if (!is_rigid_) link_.emplace_back(joint.link);
+  }
+  q_ = initial(input.q0, n);
+  qd_ = link_blocked ? std::vector<double>(n, 0.0) : initial(input.qd0, n);
+  theta_ = initial(is_rigid_ && input.theta0.size() == 0 ? input.q0 : input.theta0, n);
+  thetad_ = initial(is_rigid_ && input.thetad0.size() == 0 ? input.qd0 : input.thetad0, n);
+  elastic_link_.resize(n);
+  elastic_motor_.resize(n);
+}
+
+void Plant::step(const double* tau, const double* tau_load, double h) {
+  if (is_rigid_) {
+    step_rigid(tau, tau_load, h);
+  } else {
+    step_elastic(tau, tau_load, h);
+  }
+}
+
+void Plant::step_elastic(const double* tau, const double* tau_load, double h) {
+  for (std::size_t k = 0; k < theta_.size(); ++k) {
+    theta_[k] += 0.5 * h * thetad_[k];
+    q_[k] += 0.5 * h * qd_[k];
+  }
+  coupling_.torques(q_.data(), theta_.data(), elastic_link_.data(), elastic_motor_.data());
+  advance_motors(tau, h);
+  if (!link_blocked_) advance_links(tau_load, h);
+}
+
+void Plant::advance_motors(const double* tau, double h) {
+  for (std::size_t k = 0; k < theta_.size(); ++k) {
+    thetad_[k] = motor_[k].advance(theta_[k], thetad_[k], tau[k] - elastic_motor_[k], h);
+    theta_[k] += 0.5 * h * thetad_[k];
+  }
+}
+
+void Plant::advance_links(const double* tau_load, double h) {
+  for (std::size_t k = 0; k < q_.size(); ++k) {
+    const double torque = elastic_link_[k] + tau_load[k] + load_at(q_[k]);
+    qd_[k] = link_[k].advance(q_[k], qd_[k], torque, h);
+    q_[k] += 0.5 * h * qd_[k];
+  }
+}
+
+void Plant::step_rigid(const double* tau, const double* tau_load, double h) {
+  for (std::size_t k = 0; k < theta_.size(); ++k) {
+    theta_[k] += 0.5 * h * thetad_[k];
+    const double torque = tau[k] + tau_load[k] + load_at(theta_[k]);
+    thetad_[k] = motor_[k].advance(theta_[k], thetad_[k], torque, h);
+    theta_[k] += 0.5 * h * thetad_[k];
+  }
+}
+
+bool Plant::is_sane() const {
+  return all_bounded(q_) && all_bounded(qd_) && all_bounded(theta_) && all_bounded(thetad_) &&
+         all_have_inertia(link_) && all_have_inertia(motor_);
+}
+
+void Plant::record(Eigen::Index row, SimulationResult* result) const {
+  write_row(is_rigid_ ? theta_ : q_, row, &result->q);
+  write_row(is_rigid_ ? thetad_ : qd_, row, &result->qd);
+  write_row(theta_, row, &result->theta);
+  write_row(thetad_, row, &result->thetad);
+  for (std::size_t i = 0; i < coupling_.n_cables(); ++i) {
+    result->tension(row, static_cast<Eigen::Index>(i)) =
+        coupling_.tension(i, q_.data(), theta_.data());
+  }
+}
+
+}  // namespace cablefit

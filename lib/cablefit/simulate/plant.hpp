@@ -1,0 +1,44 @@
+// The plant: all axes, the transmission between them and the load. Internal to the simulator.
+#pragma once
+
+#include <vector>
+
+#include "cablefit/simulate/axis.hpp"
+#include "cablefit/simulate/coupling.hpp"
+#include "cablefit/simulate/simulator.hpp"
+
+namespace cablefit {
+
+class Plant {
+ public:
+  Plant(const Model& model, const SimulationInput& input, bool link_blocked);
+
+  /// One step of length h (s). tau and tau_load (N m): one per joint, at the middle of the step;
+  /// tau_load is what the log gives, a load law of q is added.
+  void step(const double* tau, const double* tau_load, double h);
+
+  std::size_t n_joints() const { return theta_.size(); }
+  const std::vector<double>& theta() const { return theta_; }
+  /// Every state is finite and within +-1e6, every inertia positive.
+  bool is_sane() const;
+  /// Writes positions, velocities and tensions into row `row` of the result.
+  void record(Eigen::Index row, SimulationResult* result) const;
+
+ private:
+  double load_at(double position) const {
+    return load_.law ? load_.law->torque(load_.parameters, position) : 0.0;
+  }
+  void step_elastic(const double* tau, const double* tau_load, double h);
+  void step_rigid(const double* tau, const double* tau_load, double h);
+  void advance_motors(const double* tau, double h);
+  void advance_links(const double* tau_load, double h);
+
+  bool is_rigid_, link_blocked_;
+  Load load_;
+  std::vector<Axis> link_, motor_;
+  Coupling coupling_;
+  std::vector<double> q_, qd_, theta_, thetad_;
+  std::vector<double> elastic_link_, elastic_motor_;  ///< N m, of the present step
+};
+
+}  // namespace cablefit

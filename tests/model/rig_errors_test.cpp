@@ -1,0 +1,91 @@
+// What a user gets to read for a wrong rig file: exact texts, as data.
+#include <catch2/catch.hpp>
+#include <string>
+
+#include "cablefit/base/json_document.hpp"
+#include "cablefit/model/rig.hpp"
+#include "tests/support/message.hpp"
+
+namespace {
+
+using namespace cablefit;
+using test::message_of;
+
+struct BadRig {
+  std::string json, message;
+};
+
+const BadRig kBadRigs[] = {
+    {R"({"colums": {}})", "rig.json:1:12: unknown key 'colums'; did you mean 'columns'?"},
+    {R"({"schema": "cablefit/model/1"})",
+     "rig.json:1:12: schema 'cablefit/model/1'; expected 'cablefit/rig/1'"},
+    {R"({"columns": {"thetta": "motor"}})",
+     "rig.json:1:24: unknown channel 'thetta'; did you mean 'theta'?"},
+    {"{\"columns\": {\n  \"q\": \"link\",\n  \"q2\": \"elbow\"}}",
+     "rig.json:3:9: channel 'q2' is not of this rig; its joints are numbered 1 to 1"},
+    {R"({"columns": {"tau": {"column": "i_q", "scale": 0}}})",
+     "rig.json:1:48: scale is 0; leave it out for 1, -1 turns the sign"},
+    {R"({"columns": {"run": {"column": "r", "scale": 2}}})",
+     "rig.json:1:21: channel 'run' holds text; give its column only, without scale, shift or unit"},
+    {R"({"columns": {"theta": {"scale": 2}}})",
+     "rig.json:1:23: missing key 'column' in 'columns.theta'; add it to this object"},
+    {R"({"columns": {"theta": "motor [degg]"}})",
+     "rig.json:1:23: unknown unit 'degg'; did you mean 'deg'?"},
+    {R"({"motion": "linnear"})", "rig.json:1:12: unknown value 'linnear'; did you mean 'linear'?"},
+    {R"({"torque_hold": true})",
+     "rig.json:1:17: 'torque_hold' is true or false, not a text; write it in double quotes"},
+    {R"({"torque_hold": "none", "torque_period": 0.001})",
+     "rig.json:1:42: torque_period without a hold; use \"torque_hold\": \"zoh\" or drop it"},
+    {R"({"load": {"type": "hanging_mas"}})",
+     "rig.json:1:19: unknown load 'hanging_mas'; did you mean 'hanging_mass'?"},
+    {R"({"load": {"type": "hanging_mass", "mass": -40, "radius": 0.1}})",
+     "rig.json:1:43: 'load.mass' is -40, not positive; give a number above 0"},
+    {R"({"load": {"type": "hanging_mass", "mass": 40, "radius": 0.1, "direction": 0.5}})",
+     "rig.json:1:75: direction must be 1 or -1; 1: the weight turns the link towards larger q"},
+    {R"({"load": {"type": "table", "q": [0, 2, 1], "torque": [1, 2, 3]}})",
+     "rig.json:1:40: q must ascend; sort the points by q"},
+    {R"({"load": {"type": "constant", "torque": 3}, "joints": [{"name": "a"}, {"name": "b"}]})",
+     "rig.json:1:19: load 'constant' on a rig of 2 joints; log tau_load1, tau_load2, ... and use "
+     "{\"type\": \"column\"}"},
+    {R"({"controller": {"kd": 3}})",
+     "rig.json:1:16: missing key 'kp' in 'controller'; add it to this object"},
+    {R"({"controller": {"type": "pid", "kp": 3}})",
+     "rig.json:1:25: unknown value 'pid'; known: pd"},
+    {R"({"sensors": {"q": {"quantum": 0}}})",
+     "rig.json:1:31: 'sensors.q.quantum' is 0, not positive; give a number above 0"},
+    {R"({"sensors": {"q": {"noise": -0.1}}})",
+     "rig.json:1:29: -0.1 is negative; expected 0 or more"},
+    {R"({"sensors": {"phase": {}}})",
+     "rig.json:1:23: channel 'phase' has no sensor; it holds text"},
+    {R"({"cad": {"J_lnk": 0.3}})",
+     "rig.json:1:19: unknown parameter 'J_lnk'; did you mean 'J_link'?"},
+    {R"({"joints": [{"name": "a"}, {"name": "a"}]})",
+     "rig.json:1:37: 'a' appears twice; give each its own name"},
+    {R"({"joints": []})",
+     "rig.json:1:12: expected a list with at least one item; write [{...}, ...]"},
+    {R"({"cables": [{"name": "a", "motor_radius": [0.1, 0.2], "link_radius": 0.1}]})",
+     "rig.json:1:43: 2 number(s), expected 1; give one per joint"},
+    {R"({"cables": [{"name": "a", "motor_radius": 0, "link_radius": 0.1}]})",
+     "rig.json:1:43: radius is 0; give the signed radius in m, - where the motion slackens it"},
+    {R"({"cables": [{"name": "a", "motor_radius": 1, "link_radius": 1, "law": "liner"}]})",
+     "rig.json:1:71: unknown cable law 'liner'; did you mean 'linear'?"},
+    {R"({"cables": [{"name": "a", "motor_radius": 1, "link_radius": 1, "order": 1.5}]})",
+     "rig.json:1:73: order 1.5 of a polynomial cable; the order of the force is a whole number "
+     "from "
+     "1 to 9; 1 is linear, 2 is K_0 l + K_1 l^2"},
+    {R"({"cables": [{"name": "a", "motor_radius": 1, "link_radius": 1,
+        "initial_elongation": "find"}]})",
+     "rig.json:2:31: unknown initial_elongation 'find'; give a number in m, or \"search\" to "
+     "estimate it"},
+    {R"({"columns": []})",
+     "rig.json:1:13: 'columns' is an array, not an object; write it as {\"key\": value}"},
+};
+
+TEST_CASE("a wrong rig file says where and what to do") {
+  for (const BadRig& bad : kBadRigs) {
+    INFO(bad.json);
+    CHECK(message_of([&] { (void)parse_rig(parse_json(bad.json, "rig.json")); }) == bad.message);
+  }
+}
+
+}  // namespace
