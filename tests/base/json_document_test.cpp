@@ -81,8 +81,9 @@ TEST_CASE("syntax errors are told in our words, at the token") {
         "rig.json:1:5: comment is not closed; write /* .. */ or // ..");
   CHECK(parse_message("[1.]") ==
         "rig.json:1:2: number is not complete; write numbers as 1.5 or -3e-4");
-  CHECK(parse_message("[tru]") == "rig.json:1:2: no JSON value starts like this; write texts in "
-                                  "double quotes, numbers as 1.5 or -3e-4");
+  CHECK(parse_message("[tru]") ==
+        "rig.json:1:2: no JSON value starts like this; write texts in "
+        "double quotes, numbers as 1.5 or -3e-4");
   CHECK(parse_message("[1e999]") == "rig.json:1:2: number is too large; the largest is 1.8e308");
   const std::string no_value =
       "no JSON value starts like this; write texts in double quotes, numbers as 1.5 or -3e-4";

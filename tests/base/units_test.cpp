@@ -108,7 +108,7 @@ TEST_CASE("an unknown unit is named, with a near match") {
   CHECK(unit_message("rads/s") == "unknown unit 'rads' in 'rads/s'; did you mean 'rad'?");
   CHECK(unit_message("foo") ==
         "unknown unit 'foo'; known: m, g, s, min, h, Hz, A, V, W, J, N, rad, deg, °, grad, rev, "
-        "turn, rpm, %, 1");
+        "turn, rpm, %");
   CHECK(unit_message("N lightyear").starts_with("unknown unit 'lightyear' in 'N lightyear'; "));
 }
 
@@ -120,6 +120,10 @@ TEST_CASE("a unit that breaks the grammar is shown") {
   CHECK(unit_message("m^x") == "unit 'm^x' has no integer behind '^'" + hint);
   CHECK(unit_message("m^10") == "unit 'm^10' has an exponent beyond 9" + hint);
   CHECK(unit_message("m^99999999999") == "unit 'm^99999999999' has an exponent beyond 9" + hint);
+  CHECK(unit_message("m⁻") == "unit 'm⁻' has a sign without an exponent" + hint);
+  CHECK(unit_message("s -1") == "unit 's -1' lacks a unit at '-1'" + hint);
+  CHECK(unit_message("10 N") == "unit '10 N' lacks a unit at '0 N'" + hint);
+  CHECK(unit_message("2 N") == "unit '2 N' lacks a unit at '2 N'" + hint);
   CHECK(unit_message("N/(m") == "unit 'N/(m' lacks a ')'" + hint);
   CHECK(unit_message("m)") == "unit 'm)' has ')' out of place" + hint);
   CHECK(unit_message("m\x01") == "unit 'm\\x01' lacks a unit at '\\x01'" + hint);

@@ -186,7 +186,7 @@ TEST_CASE("ragged rows are errors, whatever is selected") {
         "log.csv:2: row has 3 cells, the header has 2" + hint);
   CHECK(read_message("t q\n0 1 2\n", {"t"}) ==
         "log.csv:2: row has 3 cells, the header has 2" + hint);
-  CHECK(read_message("t q\n0\n", {"t"}) == "log.csv:2: row has 1 cells, the header has 2" + hint);
+  CHECK(read_message("t q\n0\n", {"t"}) == "log.csv:2: row has 1 cell, the header has 2" + hint);
 }
 
 TEST_CASE("header lines that name nothing are refused") {

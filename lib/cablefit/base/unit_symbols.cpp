@@ -44,7 +44,6 @@ constexpr std::array kSymbols{
     Symbol{"turn", {kTurn, kNumber}, false, false},
     Symbol{"rpm", {kTurn / 60.0, kFrequency}, true, false},
     Symbol{"%", {0.01, kNumber}, false, false},
-    Symbol{"1", {1.0, kNumber}, false, false},
 };
 
 struct Prefix {

@@ -60,9 +60,11 @@ class UnitParser {
       if (!skip(")")) throw malformed("lacks a ')'");
       return power(unit, parse_exponent());
     }
+    if (skip("1")) return {};
     const std::string_view word = take_word();
-    if (word.empty())
+    if (word.empty()) {
       throw malformed("lacks a unit at " + (rest_.empty() ? "its end" : quoted(rest_)));
+    }
     const int exponent = parse_exponent();
     const auto unit = word_to_unit(word, exponent);
     if (!unit) throw input_error({}, unknown(word), known_units_near(word));
@@ -74,6 +76,7 @@ class UnitParser {
     const bool is_marked = skip("^");
     std::string digits = take_superscripts();
     if (digits.empty()) digits = take_integer();
+    if (digits == "-") throw malformed("has a sign without an exponent");
     if (digits.empty() && is_marked) throw malformed("has no integer behind '^'");
     if (digits.empty()) return 1;
     const int exponent = digits.size() > 3 ? kMaxExponent + 1 : std::atoi(digits.c_str());
@@ -104,7 +107,6 @@ class UnitParser {
   }
 
   std::string_view take_word() {
-    if (skip("1")) return "1";
     std::size_t end = 0;
     while (end < rest_.size() && is_letter_at(end)) ++end;
     const std::string_view word = rest_.substr(0, end);
@@ -133,9 +135,10 @@ class UnitParser {
     rest_.remove_prefix(token.size());
     return true;
   }
-  // A minus between letters joins them: "N-m".
+  // A minus before a letter joins too: "N-m". Before a digit it is a misplaced exponent.
   void skip_dot() {
-    if (skip("-")) return;
+    const bool is_minus = rest_.size() > 1 && rest_[0] == '-';
+    if (is_minus && std::isalpha(static_cast<unsigned char>(rest_[1])) != 0) skip("-");
     std::any_of(kDots.begin(), kDots.end(), [&](std::string_view dot) { return skip(dot); });
   }
 

@@ -62,11 +62,6 @@ const PartSurvey* first_part(const Job& job, const LogSurvey** log = nullptr) {
   return nullptr;
 }
 
-double nominal_inertia(const Rig& rig, const char* name) {
-  const auto found = rig.cad.find(name);
-  return found == rig.cad.end() ? 0 : found->second;
-}
-
 // f0 of the elastic drive needs inertias, which are what is looked for. A first fit with a generous band
 // gives them; the CAD values are never used.
 double resonance(double stiffness, double j_link, double j_motor) {
@@ -188,7 +183,8 @@ void choose_settings(Job& job, DynamicPreload& preload, const ElasticResult& ela
     const double rate = 1 / part->period;
     for (EquationFit& e : pilot) e.rows.emplace(e.columns.count, expected);
     for (const PilotWindow& p :
-         pilot_windows(job.logs, job.wanted, row_halo(job.settings.rows, rate), 8))
+         pilot_windows(job.logs, job.wanted, job.settings.rows.signal,
+                       row_halo(job.settings.rows, rate), 8))
       for (EquationFit& e : pilot) {
         const RowBatch batch = make_rows(p.window, job.logs[p.log], 0, job.settings.rows, {&e.equation, 1});
         e.rows->add(batch.equations[0].rows, batch.equations[0].numbers);
@@ -258,15 +254,9 @@ void note_extrapolation(const Job& job, const ElasticResult& elastic, DynamicPre
   for (const ElasticPreload& stage1 : elastic.preloads) {
     if (stage1.name != job.preload) continue;
     double low = 0, high = 0;
-    for (const LogSurvey& log : job.logs)
-      for (const PartSurvey& part : log.parts) {
-        if (!job.wanted(part)) continue;
-        // Deflection is far smaller than the motion, so its range comes from the pilot rows.
-        (void)part;
-      }
     const LogSurvey* log = nullptr;
     const PartSurvey* part = first_part(job, &log);
-    for (const PilotWindow& p : pilot_windows(job.logs, job.wanted,
+    for (const PilotWindow& p : pilot_windows(job.logs, job.wanted, job.settings.rows.signal,
                                               signal_halo(job.settings.rows.signal, 1 / part->period), 4)) {
       const Signals signals = make_signals(p.window, job.logs[p.log].plan, job.settings.rows.signal);
       const Eigen::ArrayXd phi = signals.joints[0].theta - signals.joints[0].q -

@@ -12,6 +12,9 @@ namespace {
 // An inertia whose column is explained to more than this by position and the other columns cannot be told
 // from a torque that depends on position: stiffness, gravity, a wrong elastic stage.
 constexpr double kPositionAlias = 0.98;
+// Relative change of an inertia when torques of position are allowed beside it.
+constexpr double kShiftNoted = 0.2;
+constexpr double kShiftRefused = 2.0 / 3;
 
 /// R^2 of column `k` on the other effect columns and the position.
 double explained_by_position(const RowStatistics& rows, const DynamicColumns& c, Eigen::Index k) {
@@ -23,6 +26,22 @@ double explained_by_position(const RowStatistics& rows, const DynamicColumns& c,
   problem.response = Eigen::VectorXd::Unit(c.count, k);
   const double total = rows.r().col(k).squaredNorm();
   return total > 0 ? 1 - solve(rows, problem).rss / total : 1;
+}
+
+/// Effect column `k`'s coefficient when a torque proportional to position or to the elastic columns is
+/// allowed as well: what a wrong stiffness, gravity or hysteresis would look like.
+double with_position_torque(const RowStatistics& rows, const DynamicColumns& c, Eigen::Index k,
+                            const LinearSolution& s, std::size_t which) {
+  LinearProblem problem;
+  for (Eigen::Index j = 0; j < c.n_effects; ++j) problem.regressors.push_back(j);
+  problem.regressors.push_back(c.position);
+  if (!c.elastic.empty())
+    for (Eigen::Index j = 0; j < c.n_elastic[which]; ++j)
+      problem.regressors.push_back(c.elastic[which] + j);
+  problem.names.assign(problem.regressors.size(), "");
+  problem.response = s.residual_combination;
+  for (Eigen::Index j = 0; j < c.n_effects; ++j) problem.response(j) += s.x(j);
+  return solve(rows, problem).x(k);
 }
 
 Eigen::MatrixXd stage1_covariance(const RowStatistics& rows, const DynamicColumns& c,
@@ -67,8 +86,9 @@ void refuse(Estimate& e, const std::string& why) {
 }
 
 /// An inertia has to be positive: an interval that reaches zero has determined nothing.
-void judge_inertia(const RowStatistics& rows, const DynamicColumns& c, Eigen::Index k, Estimate& e,
-                   double residual_rms) {
+void judge_inertia(const RowStatistics& rows, const DynamicColumns& c, const LinearSolution& s,
+                   Eigen::Index k, std::size_t which, Estimate& e,
+                   std::vector<std::string>& warnings) {
   if (!e.not_identifiable.empty()) return;
   const double explained = explained_by_position(rows, c, k);
   if (explained > kPositionAlias) {
@@ -77,11 +97,27 @@ void judge_inertia(const RowStatistics& rows, const DynamicColumns& c, Eigen::In
                           100 * explained));
     return;
   }
-  const double torque = std::abs(e.value) * rows.r().col(k).norm() /
+  const double inertia = std::max(std::abs(s.unbounded_x(k)), std::abs(e.value));
+  const double torque = inertia * rows.r().col(k).norm() /
                         std::sqrt(static_cast<double>(std::max<Eigen::Index>(1, rows.n_rows())));
-  if (!e.active_bound.empty() || e.ci_low <= 0)
-    refuse(e, fmt::format("the inertial torque of {:.2g} rms drowns in what the model leaves ({:.2g} rms); move faster",
-                          torque, residual_rms));
+  // Noise averages out, a wrong model does not: an inertial torque far below a residual that is mostly
+  // systematic (few effective rows) would only fit that residual.
+  const bool systematic = s.effective_rows < 0.25 * static_cast<double>(s.n_rows);
+  const bool drowned = systematic && torque < 0.1 * s.rms();
+  const double alternative = with_position_torque(rows, c, k, s, which);
+  if (!e.active_bound.empty() || e.ci_low <= 0 || drowned)
+    refuse(e, fmt::format("an inertial torque of {:.2g} rms drowns in what the model leaves ({:.2g} rms); move faster",
+                          torque, s.rms()));
+  const double shift = e.value > 0 ? std::abs(alternative - e.value) / e.value : 0;
+  if (!e.not_identifiable.empty() || shift < kShiftNoted) return;
+  if (shift > kShiftRefused)
+    refuse(e, fmt::format("{:.3g} turns into {:.3g} when a torque that depends on position is allowed: the motion cannot "
+                          "tell inertia from a wrong elastic stage; move faster",
+                          e.value, alternative));
+  else
+    warnings.push_back(fmt::format("{} rests on the elastic stage: {:.3g} turns into {:.3g} when a torque that depends on "
+                                   "position is allowed",
+                                   e.name, e.value, alternative));
 }
 
 }  // namespace
@@ -96,7 +132,7 @@ void add_estimates(const RowStatistics& rows, const DynamicColumns& c, const Lin
   for (const Effect* effect : c.effects)
     for (const ParameterInfo& info : effect->parameters) {
       Estimate e = make_estimate(info, s, extra, k, linear_motion, honest);
-      if (effect->inertia != nullptr) judge_inertia(rows, c, k, e, s.rms());
+      if (effect->inertia != nullptr) judge_inertia(rows, c, s, k, which, e, fit.warnings);
       fit.verdicts[e.name] = e.not_identifiable.empty() ? "identified" : "not identifiable";
       fit.parameters.push_back(std::move(e));
       ++k;

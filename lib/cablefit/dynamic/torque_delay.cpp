@@ -67,7 +67,7 @@ TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFil
     for (const PartSurvey& part : log.parts)
       if (wanted(part)) rate = std::max(rate, 1 / part.period);
   period = 1 / rate;
-  const auto pilot = pilot_windows(logs, wanted, row_halo(rows, rate), kWindows);
+  const auto pilot = pilot_windows(logs, wanted, rows.signal, row_halo(rows, rate), kWindows);
 
   LinearProblem problem;
   for (Eigen::Index k = 0; k < c.n_effects; ++k) problem.regressors.push_back(k);

@@ -98,7 +98,7 @@ Equation blocked_equation(const Transmission& transmission, const Transmission* 
   equation.use = [sliding, slow, still_speed](const Signals& signals) -> Eigen::ArrayXd {
     const JointSignals& s = signals.joints[0];
     Eigen::ArrayXd use = (s.approach != 0.0).cast<double>();  // before the first motion: no branch
-    if (!sliding) use *= slow(s);
+    if (!sliding) use *= slow(s);  // no row is slower than 0: then all count as sliding
     if (still_speed > 0) use *= (s.qd.abs() < still_speed).cast<double>();
     return use;
   };

@@ -20,6 +20,7 @@ constexpr double kArbitraryZero = 0.05;   // of the peak torque: a larger offset
 constexpr double kSlidingShare = 0.1;     // fewer rows in motion: the log is made of plateaus
 constexpr double kSpeedCollinear = 0.98;  // speed and direction tell the same
 constexpr double kSignificant = 2;        // paired block test, standard errors
+constexpr double kPathShare = 0.02;       // of the peak torque: left over by the best static law
 constexpr double kLoopShare = 0.05;       // of the peak torque: a loop this wide is worth words
 
 /// Rows of one preload under one choice of theta_0.
@@ -433,14 +434,15 @@ void note_loop(ElasticPreload& preload, const BlockedRows& rows) {
   const ElasticFit& best = *preload.find(preload.selected);
   const Estimate* friction = find_estimate(best.parameters, "f_sm");
   preload.loop_half_width = friction != nullptr ? friction->value : 0;
-  const double share = preload.peak_torque > 0 ? preload.loop_half_width / preload.peak_torque : 0;
-  const double unexplained = best.rms_error;
+  const double peak = preload.peak_torque;
+  const double share = peak > 0 ? preload.loop_half_width / peak : 0;
+  const double left = peak > 0 ? best.rms_error / peak : 0;
   // A friction band is as wide everywhere; what is left beyond it depends on the path.
-  if (share > kLoopShare && unexplained > 0.02 * preload.peak_torque)
+  if (left > kPathShare && (share > kLoopShare || left > kLoopShare))
     preload.warnings.push_back(fmt::format(
         "no static law explains this loop: it is {:.3g} {} wide ({:.0f} % of the peak torque of {:.3g} {}) and {:.3g} "
         "{} rms remain beyond a constant friction band; suspect hysteresis or friction that grows with load",
-        2 * preload.loop_half_width, unit, 200 * share, preload.peak_torque, unit, unexplained, unit));
+        2 * preload.loop_half_width, unit, 200 * share, peak, unit, best.rms_error, unit));
   if (rows.plateaus)
     preload.warnings.push_back(
         "the motor hardly moves between plateaus: torques at rest lie within the friction band, so f_sm is a lower "
@@ -580,9 +582,9 @@ Job make_job(std::span<const LogSurvey> logs, const ElasticOptions& options, con
   job.basis = rig.transmission;
   if (!job.orders_given) job.basis = with_order(job.basis, options.order > 0 ? options.order : options.max_order);
   if (still) {
-    // The link stands still when it is slower than its own encoder and filter can tell.
     job.still_speed = std::max(job.settings.rest_speed_q, 1e-12);
-    job.settings.rows.signal.cutoff = options.samples.cutoff.value_or(job.settings.rows.signal.cutoff);
+    // The link rests only for moments: keep more rows of them.
+    if (!options.samples.decimate) job.settings.rows.decimate = std::max(1, job.settings.rows.decimate / 8);
   }
   return job;
 }

@@ -155,6 +155,15 @@ void honest_covariance(const RowStatistics& rows, const LinearProblem& problem,
   const double n = static_cast<double>(out.n_rows);
   const double small_sample = n / std::max(1.0, n - out.n_params);
   out.covariance = small_sample * hac.covariance;
+  // No credit for anti-correlated residuals: encoder quantisation looks like that, and what the filter
+  // leaves of a bias does not shrink with it.
+  for (Eigen::Index k = 0; k < p; ++k) {
+    const double white = out.covariance_white(k, k);
+    if (!(out.covariance(k, k) > 0) || out.covariance(k, k) >= white) continue;
+    const double grow = std::sqrt(white / out.covariance(k, k));
+    out.covariance.row(k) *= grow;
+    out.covariance.col(k) *= grow;
+  }
   out.degrees_of_freedom = hac.degrees_of_freedom;
   double inflation = 0;
   int counted = 0;

@@ -22,7 +22,8 @@ struct LinearProblem {
 struct LinearSolution {
   Eigen::VectorXd x;                      ///< estimates; 0 where not determined
   Eigen::MatrixXd covariance_white;       ///< the paper's (25), sigma^2 (W'W)^-1
-  Eigen::MatrixXd covariance;             ///< honest: HAC sandwich over the cells, else the white one
+  /// Honest: HAC sandwich over the cells, never below the white one; the white one without cells.
+  Eigen::MatrixXd covariance;
   Eigen::MatrixXd solve_operator;         ///< (W'W)^-1, p x p; 0 rows for fixed or undetermined
   std::vector<std::string> not_identifiable;  ///< per parameter, empty text when it is determined
   std::vector<bool> at_bound;

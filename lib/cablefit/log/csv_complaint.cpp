@@ -38,8 +38,7 @@ Error number_complaint(const std::string& text, const std::string& column, const
   if (text.empty()) {
     return input_error(place, "empty cell in column " + column, "fill it or take the row out");
   }
-  const char* what = "{} in column {} is not a number";
-  return input_error(place, fmt::format(fmt::runtime(what), quoted(text), column),
+  return input_error(place, quoted(text) + " in column " + column + " is not a number",
                      number_hint(text));
 }
 
@@ -56,10 +55,10 @@ Error row_complaint(const CsvLine& line, const LogHeader& header, Delimiter deli
     return input_error(place(cell), "quote is not closed", "write a cell as \"a, b\"");
   }
   if (cells.size() != header.columns.size()) {
-    return input_error(
-        {header.path, line.number},
-        fmt::format("row has {} cells, the header has {}", cells.size(), header.columns.size()),
-        "give every row one cell per column");
+    return input_error({header.path, line.number},
+                       fmt::format("row has {} cell{}, the header has {}", cells.size(),
+                                   cells.size() == 1 ? "" : "s", header.columns.size()),
+                       "give every row one cell per column");
   }
   for (const std::size_t column : numbers) {
     const Cell& cell = cells[column];

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "cablefit/base/catalog.hpp"

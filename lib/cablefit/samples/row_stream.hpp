@@ -94,7 +94,7 @@ WindowCounts stream_rows(std::span<const LogSurvey> logs, const PartFilter& want
       const Eigen::Index halo = row_halo(settings, rate);
       const WindowCounts counts = for_each_window(
           logs[k], wanted, halo, 2 * settings.drop_edge + 2 * kDifferenceEdge + settings.decimate,
-          [&](Window&& window) { return emit(Item{k, offset, std::move(window)}); });
+          bridge_seconds(settings.signal), [&](Window&& window) { return emit(Item{k, offset, std::move(window)}); });
       total.rows_read += counts.rows_read;
       total.rows_resampled += counts.rows_resampled;
       total.rows_too_short += counts.rows_too_short;

@@ -17,6 +17,10 @@ constexpr double kNoiseBias = 0.0025;     // largest share of noise in the accel
 constexpr double kSamplesPerPeriod = 2.5; // rows per period of the cut-off after decimation
 constexpr double kLowestCutoff = 1;
 constexpr int kPilotWindows = 4;
+constexpr double kSlowShare = 0.25;       // of the sweep speed that noise may reach, at four sd
+constexpr double kRestShare = 0.02;       // of the sweep speed: slower is a reversal
+constexpr double kStillShare = 0.05;      // of the link's speed: slower is standing still
+constexpr double kSweepLag = 0.25;        // s over which a sweep's speed is measured
 
 double highest_rate(std::span<const LogSurvey> logs, const PartFilter& wanted) {
   double rate = 0;
@@ -39,6 +43,13 @@ void decide(ChosenSettings& chosen, std::string name, std::string value, std::st
 }
 
 const char* kByOption = "given";
+
+void check_cutoff(const SampleOptions& options, double rate) {
+  if (options.cutoff && *options.cutoff >= 0.45 * rate)
+    throw usage_error(fmt::format("--cutoff {:g} is not below 0.45 of the sample rate of {:.4g} Hz",
+                                  *options.cutoff, rate),
+                      "choose a lower cut-off, or 0 for no filter");
+}
 
 void choose_decimation(ChosenSettings& chosen, const SampleOptions& options, double rate) {
   RowSettings& rows = chosen.rows;
@@ -90,6 +101,26 @@ double pilot_acceleration(std::span<const LogSurvey> logs, std::span<const Pilot
   return n > 0 ? std::sqrt(sum / static_cast<double>(n)) : 0;
 }
 
+// Speed of a slow sweep: the upper quartile of |theta(t + lag) - theta(t)| / lag, so that holds and plateaus
+// do not hide it, above what noise alone would show.
+double sweep_speed(std::span<const LogSurvey> logs, const PartFilter& wanted, Channel channel,
+                   double noise) {
+  std::vector<double> speeds;
+  for (const PilotWindow& p : pilot_windows(logs, wanted, {}, 0, kPilotWindows)) {
+    const int k = logs[p.log].plan.find(channel);
+    if (k < 0) continue;
+    const auto theta = p.window.data.col(k);
+    const auto lag = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(kSweepLag / p.window.period));
+    for (Eigen::Index i = lag; i < theta.size(); i += std::max<Eigen::Index>(1, lag / 4))
+      speeds.push_back(std::abs(theta(i) - theta(i - lag)) / (static_cast<double>(lag) * p.window.period));
+  }
+  if (speeds.empty()) return 0;
+  const auto quartile = speeds.begin() + static_cast<long>(3 * speeds.size() / 4);
+  std::nth_element(speeds.begin(), quartile, speeds.end());
+  const double of_noise = std::sqrt(2.0) * noise / kSweepLag;
+  return std::sqrt(std::max(0.0, *quartile * *quartile - of_noise * of_noise));
+}
+
 // The filter blurs a reversal over about 1/(2 pi cut-off): slower than the speed gained in that time the
 // sign of the velocity is not known, however good the encoder.
 double rest_speed(std::span<const LogSurvey> logs, const PartFilter& wanted, const RowSettings& rows,
@@ -107,7 +138,7 @@ void choose_rest_speed(ChosenSettings& chosen, std::span<const LogSurvey> logs,
     chosen.rest_speed_theta = chosen.rest_speed_q = *options.rest_speed;
     decide(chosen, "rest speed", fmt::format("{:.3g}", *options.rest_speed), kByOption);
   } else {
-    const auto pilot = pilot_windows(logs, wanted, signal_halo(rows.signal, rate), kPilotWindows);
+    const auto pilot = pilot_windows(logs, wanted, rows.signal, signal_halo(rows.signal, rate), kPilotWindows);
     chosen.rest_speed_theta = rest_speed(logs, wanted, rows, pilot, Channel::theta, rate);
     chosen.rest_speed_q = rest_speed(logs, wanted, rows, pilot, Channel::q, rate);
     decide(chosen, "rest speed",
@@ -128,7 +159,7 @@ double quiet_cutoff(std::span<const LogSurvey> logs, const PartFilter& wanted,
     trial.signal.cutoff = cutoff;
     if (cutoff <= kLowestCutoff || noise == 0) return cutoff;
     const auto pilot =
-        pilot_windows(logs, wanted, signal_halo(trial.signal, rate), kPilotWindows);
+        pilot_windows(logs, wanted, trial.signal, signal_halo(trial.signal, rate), kPilotWindows);
     const double total = pilot_acceleration(logs, pilot, trial.signal, Channel::theta);
     const double noisy = acceleration_noise(noise, cutoff, rate);
     if (total == 0 || noisy * noisy <= kNoiseBias * total * total) return cutoff;
@@ -185,11 +216,12 @@ double acceleration_noise(double noise, double cutoff, double rate) {
 }
 
 std::vector<PilotWindow> pilot_windows(std::span<const LogSurvey> logs, const PartFilter& wanted,
-                                       Eigen::Index halo, int max_windows) {
+                                       const SignalSettings& settings, Eigen::Index halo,
+                                       int max_windows) {
   std::vector<PilotWindow> pilot;
   for (std::size_t k = 0; k < logs.size(); ++k) {
     int taken = 0;
-    for_each_window(logs[k], wanted, halo, 2 * kDifferenceEdge + 2, [&](Window&& window) {
+    for_each_window(logs[k], wanted, halo, 2 * kDifferenceEdge + 2, bridge_seconds(settings), [&](Window&& window) {
       pilot.push_back({k, std::move(window)});
       return ++taken < max_windows;
     });
@@ -201,14 +233,42 @@ ChosenSettings blocked_settings(std::span<const LogSurvey> logs, const PartFilte
                                 const SampleOptions& options) {
   ChosenSettings chosen;
   const double rate = highest_rate(logs, wanted);
+  check_cutoff(options, rate);
   choose_filter_order(chosen, options);
+  const double noise = worst_noise(logs, wanted, Channel::theta);
+  const double sweep = sweep_speed(logs, wanted, Channel::theta, noise);
   double& cutoff = chosen.rows.signal.cutoff;
-  cutoff = options.cutoff.value_or(std::min(kBlockedCutoff, kMaxShareOfRate * rate));
-  decide(chosen, "cut-off", cutoff > 0 ? fmt::format("{:.4g} Hz", cutoff) : "none",
-         options.cutoff ? kByOption : "quasi-static");
+  if (options.cutoff) {
+    cutoff = *options.cutoff;
+    decide(chosen, "cut-off", cutoff > 0 ? fmt::format("{:.4g} Hz", cutoff) : "none", kByOption);
+  } else {
+    cutoff = std::min(kBlockedCutoff, kMaxShareOfRate * rate);
+    decide(chosen, "cut-off", fmt::format("{:.4g} Hz", cutoff), "quasi-static");
+  }
   choose_decimation(chosen, options, rate);
   choose_edges(chosen, options, rate);
-  choose_rest_speed(chosen, logs, wanted, options, rate);
+  const double band = cutoff > 0 ? cutoff : rate / 2;
+  const double unseen = 4 * velocity_noise(noise, band, rate);
+  const double noise_q = worst_noise(logs, wanted, Channel::q);
+  chosen.rest_speed_q = std::max(4 * velocity_noise(noise_q, band, rate),
+                                 kStillShare * sweep_speed(logs, wanted, Channel::q, noise_q));
+  if (cutoff > 0) chosen.rows.rest_margin = static_cast<Eigen::Index>(std::ceil(rate / (4 * cutoff)));
+  if (options.rest_speed) {
+    chosen.rest_speed_theta = *options.rest_speed;
+    decide(chosen, "rest speed", fmt::format("{:.3g}", chosen.rest_speed_theta), kByOption);
+  } else if (unseen > kSlowShare * sweep) {
+    // Too slow for the encoder to tell motion from rest row by row: the direction of the last motion is
+    // all there is, and it is enough for the branch.
+    chosen.rest_speed_theta = 0;
+    decide(chosen, "rest speed", "0",
+           fmt::format("a sweep of {:.2g} rad/s does not stand out of the speed's noise; rows go by the direction of "
+                       "the last motion",
+                       sweep));
+  } else {
+    chosen.rest_speed_theta = std::max(unseen, kRestShare * sweep);
+    decide(chosen, "rest speed", fmt::format("{:.3g}", chosen.rest_speed_theta),
+           fmt::format("{:g} of the sweep's speed, at least 4 sd of the speed's noise", kRestShare));
+  }
   chosen.rows.signal.torque_held = options.torque_hold == TorqueHold::zoh;
   return chosen;
 }
@@ -217,6 +277,7 @@ ChosenSettings moving_settings(std::span<const LogSurvey> logs, const PartFilter
                                const SampleOptions& options, double resonance) {
   ChosenSettings chosen;
   const double rate = highest_rate(logs, wanted);
+  check_cutoff(options, rate);
   choose_filter_order(chosen, options);
   choose_moving_cutoff(chosen, logs, wanted, options, resonance, rate);
   choose_decimation(chosen, options, rate);

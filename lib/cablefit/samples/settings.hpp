@@ -44,7 +44,8 @@ double position_noise(const LogSurvey& log, const PartSurvey& part, Channel chan
 double velocity_noise(double position_noise, double cutoff, double rate);
 double acceleration_noise(double position_noise, double cutoff, double rate);
 
-/// Quasi-static stage 1: a low cut-off, rest dropped.
+/// Quasi-static stage 1: a low cut-off, rest dropped. `rest_speed_q` is the speed below which a link
+/// counts as standing still: 5 % of its upper quartile, at least 4 sd of its noise.
 ChosenSettings blocked_settings(std::span<const LogSurvey> logs, const PartFilter& wanted,
                                 const SampleOptions& options);
 
@@ -58,6 +59,7 @@ struct PilotWindow {
   Window window;
 };
 std::vector<PilotWindow> pilot_windows(std::span<const LogSurvey> logs, const PartFilter& wanted,
-                                       Eigen::Index halo, int max_windows);
+                                       const SignalSettings& settings, Eigen::Index halo,
+                                       int max_windows);
 
 }  // namespace cablefit

@@ -96,6 +96,10 @@ Eigen::Index signal_halo(const SignalSettings& settings, double rate) {
   return 2 * Butterworth(settings.filter_order, settings.cutoff, rate).settling_rows() + differences;
 }
 
+double bridge_seconds(const SignalSettings& settings) {
+  return settings.cutoff > 0 ? 0.25 / settings.cutoff : 0;
+}
+
 Signals make_signals(const Window& window, const LogPlan& plan, const SignalSettings& settings) {
   Signals signals{window.first, window.begin, window.end, window.t0, window.period, {}};
   Eigen::MatrixXd data = window.data;

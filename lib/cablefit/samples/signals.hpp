@@ -39,6 +39,8 @@ struct Signals {
 
 /// Rows a filtered window needs on either side.
 Eigen::Index signal_halo(const SignalSettings& settings, double rate);
+/// Longest hole of an uneven log that the filter bridges, s: a quarter period of the cut-off.
+double bridge_seconds(const SignalSettings& settings);
 /// First and last rows of a segment at which differences are not to be trusted.
 inline constexpr Eigen::Index kDifferenceEdge = 3;
 

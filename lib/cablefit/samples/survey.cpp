@@ -17,6 +17,7 @@ constexpr std::size_t kMinRows = 8;
 constexpr double kGapEven = 1.5;     // an even clock: a missing row is a gap
 constexpr double kGapUneven = 5;     // an uneven one: interpolate over a few missed rows, not more
 constexpr double kUnevenJitter = 0.3;  // of the period; less is rounding of the printed time
+constexpr double kUnevenShare = 0.01;  // of the steps off by that much; fewer are dropped rows
 // A link whose position varies less than this share of the motor's is blocked.
 constexpr double kStillShare = 0.02;
 
@@ -69,69 +70,84 @@ Error clock_error(double t, double step, const Place& place) {
                      "sort the rows, or tell runs apart with a 'run' column");
 }
 
-// The clock of one part. Steps are kept as a histogram-free summary: the period is the mean of the
-// steps that are no gaps, found against the running median of the first rows.
+// Steps of time up to a longest one, beyond which they are gaps.
+struct StepSums {
+  double longest = 0, sum = 0, squares = 0, low = 0, high = 0;
+  std::size_t n = 0, n_gaps = 0;
+
+  void add(double step) {
+    if (step > longest) {
+      ++n_gaps;
+      return;
+    }
+    low = n == 0 ? step : std::min(low, step);
+    high = std::max(high, step);
+    sum += step;
+    squares += step * step;
+    ++n;
+  }
+};
+
+// The clock of one part. Whether a step is a gap depends on whether the clock is even, which shows only
+// at the end, so both ways of counting are kept. The scale is the median of the first steps.
 class ClockScan {
  public:
   void add(double t, bool continues, const Place& place) {
-    if (n_ == 0) first_ = t;
+    if (n_rows_ == 0) first_ = t;
     if (continues) {
       const double step = t - last_;
-      if (!(step > 0))
-        throw clock_error(t, step, place);
+      if (!(step > 0)) throw clock_error(t, step, place);
       add_step(step);
     }
     last_ = t;
-    ++n_;
+    ++n_rows_;
   }
   void fill(PartSurvey& part) {
-    if (n_steps_ < early_.size()) calibrate(n_steps_);
-    part.n_rows = n_;
+    if (n_steps_ < early_.size()) calibrate();
+    part.uneven = static_cast<double>(n_off_) > kUnevenShare * static_cast<double>(n_steps_);
+    const StepSums& steps = part.uneven ? uneven_ : even_;
+    const double n = static_cast<double>(std::max<std::size_t>(1, steps.n));
+    part.n_rows = n_rows_;
     part.t_first = first_;
     part.t_last = last_;
-    const double n = static_cast<double>(std::max<std::size_t>(1, n_counted_));
-    part.period = sum_ / n;
-    part.jitter = part.period > 0 ? std::sqrt(std::max(0.0, sum_squares_ / n - part.period * part.period)) / part.period : 0;
-    part.worst_jitter = part.period > 0 ? std::max(max_ - part.period, part.period - min_) / part.period : 0;
-    part.uneven = part.worst_jitter > kUnevenJitter;
-    part.n_gaps = n_gaps_;
+    part.period = steps.sum / n;
+    part.n_gaps = steps.n_gaps;
+    if (!(part.period > 0)) return;
+    const double variance = steps.squares / n - part.period * part.period;
+    part.jitter = std::sqrt(std::max(0.0, variance)) / part.period;
+    part.worst_jitter = std::max(steps.high - part.period, part.period - steps.low) / part.period;
   }
 
  private:
   void add_step(double step) {
     if (n_steps_ < early_.size()) {
       early_[n_steps_++] = step;
-      if (n_steps_ == early_.size()) calibrate(n_steps_);
+      if (n_steps_ == early_.size()) calibrate();
       return;
     }
     ++n_steps_;
     count(step);
   }
-  void calibrate(std::size_t n) {
-    if (n == 0) return;
+  void calibrate() {
+    if (n_steps_ == 0) return;
     std::array<double, 64> sorted = early_;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<long>(n / 2), sorted.begin() + static_cast<long>(n));
-    median_ = sorted[n / 2];
-    std::size_t off = 0;
-    for (std::size_t k = 0; k < n; ++k) off += std::abs(early_[k] - median_) > kUnevenJitter * median_;
-    gap_ = gap_factor(10 * off > n) * median_;
-    for (std::size_t k = 0; k < n; ++k) count(early_[k]);
+    const auto middle = sorted.begin() + static_cast<long>(n_steps_ / 2);
+    std::nth_element(sorted.begin(), middle, sorted.begin() + static_cast<long>(n_steps_));
+    median_ = *middle;
+    even_.longest = gap_factor(false) * median_;
+    uneven_.longest = gap_factor(true) * median_;
+    for (std::size_t k = 0; k < n_steps_; ++k) count(early_[k]);
   }
   void count(double step) {
-    if (step > gap_) {
-      ++n_gaps_;
-      return;
-    }
-    sum_ += step;
-    sum_squares_ += step * step;
-    min_ = n_counted_ == 0 ? step : std::min(min_, step);
-    max_ = std::max(max_, step);
-    ++n_counted_;
+    even_.add(step);
+    uneven_.add(step);
+    n_off_ += std::abs(step - median_) > kUnevenJitter * median_;
   }
 
   std::array<double, 64> early_{};
-  double first_ = 0, last_ = 0, median_ = 0, gap_ = 0, sum_ = 0, sum_squares_ = 0, min_ = 0, max_ = 0;
-  std::size_t n_ = 0, n_steps_ = 0, n_counted_ = 0, n_gaps_ = 0;
+  StepSums even_, uneven_;
+  double first_ = 0, last_ = 0, median_ = 0;
+  std::size_t n_rows_ = 0, n_steps_ = 0, n_off_ = 0;
 };
 
 struct PartScan {

@@ -173,6 +173,11 @@ class Resampler {
   Eigen::Index next_ = 0;
 };
 
+double longest_step(const PartSurvey& part, double bridge) {
+  const double usual = gap_factor(part.uneven) * part.period;
+  return part.uneven ? std::max(usual, bridge) : usual;
+}
+
 std::size_t part_of(const LogSurvey& log, const PartTracker::Key& key) {
   for (std::size_t k = 0; k < log.parts.size(); ++k) {
     const PartSurvey& part = log.parts[k];
@@ -187,7 +192,7 @@ std::size_t part_of(const LogSurvey& log, const PartTracker::Key& key) {
 }  // namespace
 
 WindowCounts for_each_window(const LogSurvey& log, const std::function<bool(const PartSurvey&)>& wanted,
-                             Eigen::Index halo, Eigen::Index min_rows,
+                             Eigen::Index halo, Eigen::Index min_rows, double bridge,
                              const std::function<bool(Window&&)>& sink) {
   WindowCounts counts;
   const LogPlan& plan = log.plan;
@@ -220,7 +225,7 @@ WindowCounts for_each_window(const LogSurvey& log, const std::function<bool(cons
         row(static_cast<Eigen::Index>(k)) =
             chunk.numbers[first_slot + k][i] * plan.slots[k].factor + plan.slots[k].shift;
       ++counts.rows_read;
-      const bool gap = !changed && t - t_last > gap_factor(part.uneven) * part.period;
+      const bool gap = !changed && t - t_last > longest_step(part, bridge);
       t_last = t;
       if (changed || gap) {
         if (!cutter.finish()) return counts;

@@ -37,9 +37,10 @@ struct WindowCounts {
 inline constexpr Eigen::Index kWindowRows = 8192;
 
 /// One pass over the parts for which `wanted` says true. `halo` rows on either side where there are
-/// any. Segments shorter than `min_rows` are left out and counted. Return false from `sink` to stop.
+/// any. `bridge`: holes up to this long (s) in an uneven log are interpolated over, a quarter period of
+/// the cut-off, say; longer ones, and any missing row of an even log, begin a new segment. Segments shorter than `min_rows` are left out and counted. Return false from `sink` to stop.
 WindowCounts for_each_window(const LogSurvey& log, const std::function<bool(const PartSurvey&)>& wanted,
-                             Eigen::Index halo, Eigen::Index min_rows,
+                             Eigen::Index halo, Eigen::Index min_rows, double bridge,
                              const std::function<bool(Window&&)>& sink);
 
 }  // namespace cablefit

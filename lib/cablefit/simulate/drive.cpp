@@ -55,7 +55,15 @@ ReplayDrive::ReplayDrive(const SimulationInput& input, const SimulationOptions& 
 
 const std::vector<double>& ReplayDrive::torque(Eigen::Index row, Eigen::Index step,
                                                const std::vector<double>& /*theta*/) {
-  const double fraction = hold_ ? 0.0 : (static_cast<double>(step) + 0.5) / steps_per_row_;
+  return interpolate(row, hold_ ? 0.0 : (static_cast<double>(step) + 0.5) / steps_per_row_);
+}
+
+const std::vector<double>& ReplayDrive::torque_at(Eigen::Index row,
+                                                  const std::vector<double>& /*theta*/) {
+  return interpolate(row, 0.0);
+}
+
+const std::vector<double>& ReplayDrive::interpolate(Eigen::Index row, double fraction) {
   for (std::size_t k = 0; k < tau_.size(); ++k) {
     tau_[k] = between_rows(input_.tau, row, fraction, static_cast<Eigen::Index>(k));
   }

@@ -29,6 +29,9 @@ class Drive {
   /// Torque per joint (N m) over the step `step` of row `row`, given the motor positions before it.
   virtual const std::vector<double>& torque(Eigen::Index row, Eigen::Index step,
                                             const std::vector<double>& theta) = 0;
+  /// Torque per joint (N m) at the very beginning of row `row`, for the record.
+  virtual const std::vector<double>& torque_at(Eigen::Index row,
+                                               const std::vector<double>& theta) = 0;
 };
 
 /// The torque of the log, held over a row or linear between rows.
@@ -37,8 +40,11 @@ class ReplayDrive final : public Drive {
   ReplayDrive(const SimulationInput& input, const SimulationOptions& options, const Clock& clock);
   const std::vector<double>& torque(Eigen::Index row, Eigen::Index step,
                                     const std::vector<double>& theta) override;
+  const std::vector<double>& torque_at(Eigen::Index row, const std::vector<double>& theta) override;
 
  private:
+  const std::vector<double>& interpolate(Eigen::Index row, double fraction);
+
   const SimulationInput& input_;
   bool hold_;
   double steps_per_row_;
@@ -52,6 +58,10 @@ class PdDrive final : public Drive {
   PdDrive(const Model& model, const SimulationInput& input, const Clock& clock);
   const std::vector<double>& torque(Eigen::Index row, Eigen::Index step,
                                     const std::vector<double>& theta) override;
+  const std::vector<double>& torque_at(Eigen::Index row,
+                                       const std::vector<double>& theta) override {
+    return torque(row, 0, theta);
+  }
 
  private:
   void command(Eigen::Index row, Eigen::Index step, const std::vector<double>& theta);

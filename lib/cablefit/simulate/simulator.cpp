@@ -86,7 +86,8 @@ SimulationResult simulate(const Model& model, const SimulationInput& input,
       return result;
     }
     plant.record(row, &result);
-    record_torque(drive->torque(row, 0, plant.theta()), row, &result);
+    record_torque(drive->torque_at(row, plant.theta()), row, &result);
+    if (row == n_rows - 1) break;
     for (Eigen::Index step = 0; step < clock.steps_per_row; ++step) {
       const std::vector<double>& tau = drive->torque(row, step, plant.theta());
       plant.step(tau.data(), load.at(row, step).data(), clock.h);

@@ -37,7 +37,8 @@ struct SimulationOptions {
   bool link_blocked = false;  ///< the link is held at q0, as in stage 1; not on a rigid drive
 };
 
-/// Positions rad, velocities rad/s, applied torque N m, tension per cable; rows x joints (cables).
+/// State at every row: positions rad, velocities rad/s, tension per cable (N; joint space N m), and
+/// the motor torque N m applied from the row on; rows x joints (cables). Linear model: no cables.
 struct SimulationResult {
   Eigen::ArrayXXd q, theta, qd, thetad, tau, tension;
   /// First row at which a state was no longer finite or left +-1e6; rows from there on are NaN.
@@ -54,7 +55,7 @@ SimulationResult simulate(const Model& model, const SimulationInput& input,
 /// Agreement of a simulated with a measured signal over the rows of a segment.
 struct Gap {
   double rms = 0, max_abs = 0;
-  double relative = 0;  ///< rms / rms of the measured signal about its mean
+  double relative = 0;  ///< rms / rms of the measured signal about its mean; that 0: inf or NaN
 };
 Gap gap(const Eigen::Ref<const Eigen::ArrayXd>& measured,
         const Eigen::Ref<const Eigen::ArrayXd>& simulated);

@@ -127,20 +127,37 @@ class TransmissionWriter {
   std::set<std::string> used_;
 };
 
-/// As nlohmann's dump(2), but what fits on a line stays on one.
-std::string pretty(const Json& json, std::size_t indent) {
-  const std::string flat = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  const bool is_leaf = !json.is_structured() || json.empty();
-  if (is_leaf || indent + flat.size() <= kLineWidth) return flat;
-  const std::string margin(indent + 2, ' ');
+std::string scalar(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// Members or items as text, each by `print`, between `separator`s.
+template <typename Print>
+std::string joined(const Json& json, const std::string& separator, Print print) {
   std::string text;
   for (const auto& [key, value] : json.items()) {
-    text += text.empty() ? "\n" : ",\n";
-    text += margin + (json.is_object() ? Json(key).dump() + ": " : "");
-    text += pretty(value, indent + 2);
+    if (!text.empty()) text += separator;
+    text += (json.is_object() ? scalar(key) + ": " : "") + print(value);
   }
-  text += "\n" + std::string(indent, ' ');
+  return text;
+}
+
+std::string bracketed(const Json& json, const std::string& text) {
   return json.is_object() ? "{" + text + "}" : "[" + text + "]";
+}
+
+std::string one_line(const Json& json) {
+  return json.is_structured() ? bracketed(json, joined(json, ", ", one_line)) : scalar(json);
+}
+
+/// What fits on a line stays on one; everything else as nlohmann's dump(2).
+std::string pretty(const Json& json, std::size_t indent) {
+  const std::string flat = one_line(json);
+  if (!json.is_structured() || indent + flat.size() <= kLineWidth) return flat;
+  const std::string margin = "\n" + std::string(indent + 2, ' ');
+  const auto print = [indent](const Json& value) { return pretty(value, indent + 2); };
+  return bracketed(json,
+                   margin + joined(json, "," + margin, print) + "\n" + std::string(indent, ' '));
 }
 
 }  // namespace

@@ -1,0 +1,43 @@
+// A report as plain data: what is said, not how it looks. Functions make one from a result
+// (elastic_document.hpp, ...), writers turn it into text (writers.hpp).
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace cablefit {
+
+struct Column {
+  std::string group;  ///< printed over neighbours of the same group; may be empty
+  std::string title;
+  std::string unit;     ///< printed in brackets below the title; may be empty
+  bool is_text = false; ///< flush left; numbers stand flush right
+};
+
+struct Table {
+  std::string title;
+  std::vector<Column> columns;
+  std::vector<std::vector<std::string>> rows;  ///< each as long as `columns`
+  std::vector<std::string> notes;
+  bool detail = false;  ///< for files and for --verbose, not for the usual screen
+};
+
+/// "name = value (reason)", for all preloads or for those named.
+struct DecisionLine {
+  std::string where;  ///< "low", "low, high"; empty: everywhere
+  std::string name, value, reason;
+};
+
+struct Document {
+  std::string title;
+  std::vector<Table> tables;
+  std::vector<std::string> paragraphs;  ///< after the tables
+  std::vector<DecisionLine> decisions;
+  std::vector<std::string> warnings;
+  Table tidy;  ///< one row per preload, model and parameter at full precision, for CSV
+};
+
+/// The document without what only --verbose shows.
+Document without_details(Document document);
+
+}  // namespace cablefit

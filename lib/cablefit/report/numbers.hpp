@@ -1,0 +1,27 @@
+// Numbers as people like to read them: as many digits as their uncertainty leaves meaningful.
+#pragma once
+
+#include <string>
+
+namespace cablefit {
+
+/// "-": there is no number.
+inline constexpr const char* kNoNumber = "-";
+
+/// `n_digits` significant digits, without an exponent between 1e-4 and 1e7. NaN gives "-".
+std::string significant(double value, int n_digits);
+
+/// The value up to the second digit of its sd: 1367.71 with sd 1.234 is "1367.7". Four significant
+/// digits when there is no sd.
+std::string value_text(double value, double sd);
+
+/// The sd with two digits, as many decimals as value_text() gives the value.
+std::string sd_text(double value, double sd);
+
+/// "1367.7 +- 1.2"; the value alone when there is no sd.
+std::string value_with_sd(double value, double sd);
+
+/// Shortest text that reads back as the same bits; empty for NaN and infinities.
+std::string exact(double value);
+
+}  // namespace cablefit

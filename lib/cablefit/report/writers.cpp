@@ -1,0 +1,49 @@
+#include "cablefit/report/writers.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/base/quote.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr std::array kWriters{
+    ReportWriter{"text", ".txt", "tables as in the terminal, with all details", write_text},
+    ReportWriter{"csv", ".csv", "one row per preload, model and parameter, at full precision",
+                 write_csv},
+    ReportWriter{"markdown", ".md", "tables, choices and warnings", write_markdown},
+};
+
+std::string known_extensions() {
+  std::string list;
+  for (const ReportWriter& writer : kWriters) {
+    list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", writer.extension, writer.name);
+  }
+  return list;
+}
+
+}  // namespace
+
+Document without_details(Document document) {
+  std::erase_if(document.tables, [](const Table& table) { return table.detail; });
+  return document;
+}
+
+std::span<const ReportWriter> report_writers() { return kWriters; }
+
+const ReportWriter& report_writer_for(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  for (const ReportWriter& writer : kWriters) {
+    if (writer.extension == extension) return writer;
+  }
+  throw usage_error(extension.empty()
+                        ? fmt::format("--report {} has no extension to tell the format", quoted(path))
+                        : fmt::format("no report format {}", quoted(extension)),
+                    "there are " + known_extensions());
+}
+
+}  // namespace cablefit

@@ -1,0 +1,120 @@
+// data/schema/ documents what the readers accept: the same keys, effects, laws and channels.
+#include <catch2/catch.hpp>
+#include <set>
+#include <string>
+
+#include "cablefit/base/json_document.hpp"
+#include "cablefit/model/model.hpp"
+#include "tests/support/message.hpp"
+#include "tests/support/temp_folder.hpp"
+
+namespace {
+
+using namespace cablefit;
+using test::message_of;
+using test::TempFolder;
+using Names = std::set<std::string>;
+
+JsonNode schema(const std::string& name) {
+  return read_json_file(std::string(CABLEFIT_DATA) + "/schema/" + name + ".schema.json");
+}
+
+Names properties(const JsonNode& schema_node) {
+  Names names;
+  for (const auto& member : schema_node.at("properties").members) names.insert(member.first);
+  return names;
+}
+
+/// The names behind "known: " in the message about an unknown one.
+Names known_names(const std::string& message) {
+  const auto start = message.find("known: ");
+  REQUIRE(start != std::string::npos);
+  std::string name;
+  Names names;
+  for (const char c : message.substr(start + 7) + ",") {
+    if (c == ',') names.insert(std::exchange(name, ""));
+    if (c != ',' && c != ' ') name += c;
+  }
+  return names;
+}
+
+Names known_to_rig_reader(const std::string& rig) {
+  return known_names(message_of([&] { (void)parse_rig(parse_json(rig, "rig.json")); }));
+}
+
+Names known_to_model_reader(const std::string& model) {
+  const TempFolder folder;
+  const std::string path = folder.write("model.json", model);
+  std::string choice;
+  return known_names(message_of([&] { (void)read_model(path, "", "", choice); }));
+}
+
+TEST_CASE("the rig schema has the reader's keys") {
+  const JsonNode root = schema("rig");
+  const JsonNode& keys = root.at("properties");
+  CHECK(properties(root) == known_to_rig_reader(R"({"?": 0})"));
+  CHECK(properties(keys.at("controller")) == known_to_rig_reader(R"({"controller": {"?": 0}})"));
+  CHECK(properties(keys.at("cables").at("items")) ==
+        known_to_rig_reader(R"({"cables": [{"?": 0}]})"));
+  CHECK(properties(keys.at("joints").at("items")) ==
+        known_to_rig_reader(R"({"joints": [{"?": 0}]})"));
+  const JsonNode& sensor = keys.at("sensors").at("patternProperties").members.front().second;
+  CHECK(properties(sensor) == known_to_rig_reader(R"({"sensors": {"q": {"?": 0}}})"));
+  const JsonNode& column = root.at("$defs").at("numeric_column").at("oneOf").items.at(1);
+  CHECK(properties(column) == known_to_rig_reader(R"({"columns": {"q": {"?": 0}}})"));
+}
+
+TEST_CASE("the rig schema has every load law and cable law") {
+  const JsonNode root = schema("rig");
+  Names loads, laws;
+  for (const JsonNode& load : root.at("properties").at("load").at("oneOf").items) {
+    const std::string type = load.at("properties").at("type").at("const").text();
+    loads.insert(type);
+    INFO(type);
+    CHECK(properties(load) ==
+          known_to_rig_reader(R"({"load": {"type": ")" + type + R"(", "?": 0}})"));
+  }
+  CHECK(loads == known_to_rig_reader(R"({"load": {"type": "?"}})"));
+  const JsonNode& cable = root.at("properties").at("cables").at("items").at("properties");
+  for (const std::string& name : cable.at("law").at("enum").texts()) laws.insert(name);
+  CHECK(laws.size() == cable_laws().size());
+  for (const CableLaw& law : cable_laws()) CHECK(laws.count(std::string(law.name)) == 1);
+}
+
+TEST_CASE("the model schema has every effect with its parameters") {
+  const JsonNode root = schema("model");
+  const JsonNode& joint = root.at("properties").at("joints").at("items").at("properties");
+  for (const Side side : {Side::link, Side::motor, Side::rigid}) {
+    const JsonNode& side_node = joint.at(to_string(side));
+    Names names;
+    for (const Effect& effect : effects()) {
+      if (effect.side != side) continue;
+      names.insert(std::string(effect.name));
+      Names parameters;
+      for (const ParameterInfo& info : effect.parameters) parameters.insert(std::string(info.name));
+      CHECK(properties(side_node.at("properties").at(effect.name)) == parameters);
+    }
+    CHECK(properties(side_node) == names);
+  }
+}
+
+TEST_CASE("the model schema has the reader's keys") {
+  const JsonNode root = schema("model");
+  const JsonNode& keys = root.at("properties");
+  const std::string start = R"({"schema": "cablefit/model/1", )";
+  const std::string joints = R"("joints": [{"link": {"inertia": {"J_link": 1}},
+                                             "motor": {"inertia": {"J_motor": 1}}}], )";
+  CHECK(properties(root) == known_to_model_reader(start + R"("?": 0})"));
+  const Names joint_keys = known_to_model_reader(start + R"("joints": [{"?": 0}]})");
+  CHECK(properties(keys.at("joints").at("items")) == joint_keys);
+  CHECK(properties(keys.at("transmission")) ==
+        known_to_model_reader(start + joints + R"("transmission": {"?": 0}})"));
+  CHECK(properties(keys.at("transmission").at("properties").at("cables").at("items")) ==
+        known_to_model_reader(start + joints +
+                              R"("transmission": {"cables": [{"name": "1", "?": 0}]}})"));
+  CHECK(properties(root.at("$defs").at("parameter").at("oneOf").items.at(1)) ==
+        known_to_model_reader(start + R"("joints": [{"link": {"inertia": {"J_link": {"?": 0}}},
+                                                     "motor": {}}]})"));
+}
+
+}  // namespace
