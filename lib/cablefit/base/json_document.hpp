@@ -23,10 +23,10 @@ class JsonNode {
   bool boolean_value = false;
   double number_value = 0;
   std::string string_value;
-  std::vector<JsonNode> items;     ///< of an array
-  std::vector<Member> members;     ///< of an object, in the order of the file
-  Place place;                     ///< of the value
-  std::string path;                ///< "joints[0].name", for messages
+  std::vector<JsonNode> items;  ///< of an array
+  std::vector<Member> members;  ///< of an object, in the order of the file
+  Place place;                  ///< of the value
+  std::string path;             ///< "joints[0].name", for messages
 
   bool is_null() const { return kind == Kind::null; }
   bool is_object() const { return kind == Kind::object; }
@@ -51,8 +51,8 @@ class JsonNode {
   Error error(const std::string& what, const std::string& hint) const;
 };
 
-/// Reads a file. Throws Error(input) for a missing file, bad JSON (line and column), duplicate keys,
-/// more than 64 levels or more than `max_bytes`.
+/// Reads a file. Throws Error(input) for a missing file, bad JSON (line and column), duplicate
+/// keys, more than 64 levels or more than `max_bytes`.
 JsonNode read_json_file(const std::string& path, std::size_t max_bytes = 256u << 20);
 /// Same from text; `name` stands for the file in messages.
 JsonNode parse_json(std::string_view text, const std::string& name);

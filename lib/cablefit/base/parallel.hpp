@@ -8,9 +8,9 @@
 namespace cablefit {
 
 /// `produce(emit)` runs on the calling thread and hands items to emit(item) -> bool (false: stop).
-/// `map(item)` runs on up to `threads - 1` other threads (inline when threads <= 1) and must not touch
-/// shared state; `reduce(result)` runs on the calling thread in the order of production. An exception
-/// from any of them comes out here, after the running tasks have ended.
+/// `map(item)` runs on up to `threads - 1` other threads (inline when threads <= 1) and must not
+/// touch shared state; `reduce(result)` runs on the calling thread in the order of production. An
+/// exception from any of them comes out here, after the running tasks have ended.
 template <class Item, class Produce, class Map, class Reduce>
 void ordered_pipeline(int threads, Produce produce, Map map, Reduce reduce) {
   using Result = decltype(map(std::declval<Item>()));
@@ -30,8 +30,9 @@ void ordered_pipeline(int threads, Produce produce, Map map, Reduce reduce) {
   };
   produce([&](Item&& item) {
     while (running.size() >= depth) reduce_first();
-    running.push_back(std::async(std::launch::async,
-                                 [&map, item = std::move(item)]() mutable { return map(std::move(item)); }));
+    running.push_back(std::async(std::launch::async, [&map, item = std::move(item)]() mutable {
+      return map(std::move(item));
+    }));
     return true;
   });
   while (!running.empty()) reduce_first();

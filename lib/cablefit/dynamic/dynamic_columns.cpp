@@ -20,7 +20,8 @@ void fill_elastic(const ElasticFit& fit, Side side, const JointSignals& s,
   if (is_linear(fit)) {
     out.col(0) = s.theta - fit.transmission.theta_0(0) - s.q;
   } else {
-    elastic_basis(fit.transmission, s, side == Side::link ? ElasticSide::link : ElasticSide::motor, out);
+    elastic_basis(fit.transmission, s, side == Side::link ? ElasticSide::link : ElasticSide::motor,
+                  out);
   }
 }
 
@@ -71,11 +72,14 @@ Equation dynamic_equation(const DynamicColumns& c, const std::vector<const Elast
   equation.name = to_string(c.side);
   equation.columns.assign(static_cast<std::size_t>(c.count), "");
   equation.averaged.assign(static_cast<std::size_t>(c.count), true);
-  // A held torque is exact as the mean of two samples; a measured one is averaged like everything else.
+  // A held torque is exact as the mean of two samples; a measured one is averaged like everything
+  // else.
   if (torque_held && c.side != Side::link)
     equation.averaged[static_cast<std::size_t>(c.torque)] = false;
   equation.rest_speed = rest_speed;
-  equation.speed = [side = c.side](const Signals& signals) { return velocity(side, signals.joints[0]); };
+  equation.speed = [side = c.side](const Signals& signals) {
+    return velocity(side, signals.joints[0]);
+  };
   equation.fill = [c, fits](const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
     const JointSignals& s = signals.joints[0];
     effect_columns(c.effects, c.side, s, out.leftCols(c.n_effects));
@@ -84,18 +88,20 @@ Equation dynamic_equation(const DynamicColumns& c, const std::vector<const Elast
     out.col(c.position) = position(c.side, s);
     out.col(c.torque).setZero();
     if (c.side != Side::link) out.col(c.torque) = s.tau;
-    // A load on the link, or directly on the axis of a rigid drive, stands on the side of the torque.
+    // A load on the link, or directly on the axis of a rigid drive, stands on the side of the
+    // torque.
     if (c.side != Side::motor && s.tau_load.size() > 0) out.col(c.torque).array() += s.tau_load;
   };
   return equation;
 }
 
-Eigen::VectorXd dynamic_response(const DynamicColumns& c, const std::vector<const ElasticFit*>& fits,
-                                 std::size_t which) {
+Eigen::VectorXd dynamic_response(const DynamicColumns& c,
+                                 const std::vector<const ElasticFit*>& fits, std::size_t which) {
   Eigen::VectorXd response = Eigen::VectorXd::Unit(c.count, c.torque);
   if (fits.empty()) return response;
   const double sign = c.side == Side::link ? 1.0 : -1.0;
-  response.segment(c.elastic[which], c.n_elastic[which]) = sign * elastic_coefficients(*fits[which]);
+  response.segment(c.elastic[which], c.n_elastic[which]) =
+      sign * elastic_coefficients(*fits[which]);
   return response;
 }
 

@@ -1,5 +1,5 @@
-// The equations of stage 2 as columns: effects of one side, elastic basis of every model in question,
-// position (to see what an inertia could be confused with) and torque.
+// The equations of stage 2 as columns: effects of one side, elastic basis of every model in
+// question, position (to see what an inertia could be confused with) and torque.
 #pragma once
 
 #include <vector>
@@ -13,11 +13,11 @@ namespace cablefit {
 struct DynamicColumns {
   Side side = Side::motor;
   std::vector<const Effect*> effects;
-  Eigen::Index n_effects = 0;                 ///< effect columns come first
-  std::vector<Eigen::Index> elastic;          ///< first column of each elastic fit's basis
+  Eigen::Index n_effects = 0;         ///< effect columns come first
+  std::vector<Eigen::Index> elastic;  ///< first column of each elastic fit's basis
   std::vector<Eigen::Index> n_elastic;
-  Eigen::Index position = 0;                  ///< q or theta
-  Eigen::Index torque = 0;                    ///< tau (motor, rigid) or tau_load (link)
+  Eigen::Index position = 0;  ///< q or theta
+  Eigen::Index torque = 0;    ///< tau (motor, rigid) or tau_load (link)
   Eigen::Index count = 0;
 };
 
@@ -28,8 +28,8 @@ DynamicColumns dynamic_columns(Side side, const std::vector<const ElasticFit*>& 
 Equation dynamic_equation(const DynamicColumns& columns, const std::vector<const ElasticFit*>& fits,
                           bool torque_held, double rest_speed);
 
-/// The response as a combination of columns: tau - Z K on the motor side, tau_load + Z K on the link
-/// side, for elastic fit number `which` (ignored on a rigid drive).
+/// The response as a combination of columns: tau - Z K on the motor side, tau_load + Z K on the
+/// link side, for elastic fit number `which` (ignored on a rigid drive).
 Eigen::VectorXd dynamic_response(const DynamicColumns& columns,
                                  const std::vector<const ElasticFit*>& fits, std::size_t which);
 
@@ -37,7 +37,7 @@ Eigen::VectorXd dynamic_response(const DynamicColumns& columns,
 Eigen::VectorXd elastic_coefficients(const ElasticFit& fit);
 
 /// Regressor columns of the given effects over full-rate rows.
-void effect_columns(const std::vector<const Effect*>& effects, Side side, const JointSignals& signals,
-                    Eigen::Ref<Eigen::MatrixXd> out);
+void effect_columns(const std::vector<const Effect*>& effects, Side side,
+                    const JointSignals& signals, Eigen::Ref<Eigen::MatrixXd> out);
 
 }  // namespace cablefit

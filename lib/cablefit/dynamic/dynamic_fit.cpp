@@ -22,8 +22,10 @@ constexpr std::array<DynamicModel, 4> kModels = {{
      "Fichera & Grossard 2017, (14), (29), (31)", true},
     {"poly", "tau_elas = sum over taut cables of P_i or S_i sum_j k_ij l_i^(j+1)",
      "Fichera & Grossard 2017, (14), (19), (30), (31)", true},
-    {"rigid", "J a + f_v v + f_s sgn(v) + offset = tau (+ tau_load)", "Khalil & Dombre 2004, ch. 12", false},
-    {"ratios", "qdd = (K/J_link)(theta - q) - (f_v/J_link) qd - (f_s/J_link) sgn(qd), no torque measured",
+    {"rigid", "J a + f_v v + f_s sgn(v) + offset = tau (+ tau_load)",
+     "Khalil & Dombre 2004, ch. 12", false},
+    {"ratios",
+     "qdd = (K/J_link)(theta - q) - (f_v/J_link) qd - (f_s/J_link) sgn(qd), no torque measured",
      "Fichera & Grossard 2017, (14a), divided by J_M", false},
 }};
 
@@ -38,7 +40,7 @@ struct Job {
   const DynamicOptions& options;
   std::string preload;
   PartFilter wanted;
-  std::vector<const ElasticFit*> elastic;   // one per elastic model asked for
+  std::vector<const ElasticFit*> elastic;  // one per elastic model asked for
   std::vector<std::string> models;
   bool rigid = false;
   ChosenSettings settings;
@@ -62,8 +64,8 @@ const PartSurvey* first_part(const Job& job, const LogSurvey** log = nullptr) {
   return nullptr;
 }
 
-// f0 of the elastic drive needs inertias, which are what is looked for. A first fit with a generous band
-// gives them; the CAD values are never used.
+// f0 of the elastic drive needs inertias, which are what is looked for. A first fit with a generous
+// band gives them; the CAD values are never used.
 double resonance(double stiffness, double j_link, double j_motor) {
   if (!(j_link > 0) || !(j_motor > 0) || !(stiffness > 0)) return 0;
   return std::sqrt(stiffness * (1 / j_motor + 1 / j_link)) / (2 * 3.14159265358979323846);
@@ -71,13 +73,15 @@ double resonance(double stiffness, double j_link, double j_motor) {
 
 std::vector<EquationFit> make_equations(const Job& job) {
   std::vector<EquationFit> equations;
-  const std::vector<Side> sides = job.rigid ? std::vector<Side>{Side::rigid}
-                                            : std::vector<Side>{Side::link, Side::motor};
+  const std::vector<Side> sides =
+      job.rigid ? std::vector<Side>{Side::rigid} : std::vector<Side>{Side::link, Side::motor};
   for (const Side side : sides) {
     EquationFit e;
     e.columns = dynamic_columns(side, job.elastic);
-    const double rest = side == Side::link ? job.settings.rest_speed_q : job.settings.rest_speed_theta;
-    e.equation = dynamic_equation(e.columns, job.elastic, job.settings.rows.signal.torque_held, rest);
+    const double rest =
+        side == Side::link ? job.settings.rest_speed_q : job.settings.rest_speed_theta;
+    e.equation =
+        dynamic_equation(e.columns, job.elastic, job.settings.rows.signal.torque_held, rest);
     equations.push_back(std::move(e));
   }
   return equations;
@@ -144,7 +148,9 @@ void measure_largest(const Job& job, const std::vector<EquationFit>& equations,
           for (std::size_t f = 0; f < n_fits; ++f)
             if (batch.equations[k].rows.rows() > 0)
               found[f * plain.size() + k] =
-                  (batch.equations[k].rows * solutions[f][k].residual_combination).cwiseAbs().maxCoeff();
+                  (batch.equations[k].rows * solutions[f][k].residual_combination)
+                      .cwiseAbs()
+                      .maxCoeff();
         return found;
       },
       [&](const std::vector<double>& found) {
@@ -182,11 +188,11 @@ void choose_settings(Job& job, DynamicPreload& preload, const ElasticResult& ela
     const Eigen::Index expected = expected_rows(job.logs, job.wanted, job.settings.rows);
     const double rate = 1 / part->period;
     for (EquationFit& e : pilot) e.rows.emplace(e.columns.count, expected);
-    for (const PilotWindow& p :
-         pilot_windows(job.logs, job.wanted, job.settings.rows.signal,
-                       row_halo(job.settings.rows, rate), 8))
+    for (const PilotWindow& p : pilot_windows(job.logs, job.wanted, job.settings.rows.signal,
+                                              row_halo(job.settings.rows, rate), 8))
       for (EquationFit& e : pilot) {
-        const RowBatch batch = make_rows(p.window, job.logs[p.log], 0, job.settings.rows, {&e.equation, 1});
+        const RowBatch batch =
+            make_rows(p.window, job.logs[p.log], 0, job.settings.rows, {&e.equation, 1});
         e.rows->add(batch.equations[0].rows, batch.equations[0].numbers);
       }
     const std::size_t last = job.elastic.size() - 1;
@@ -210,11 +216,12 @@ void choose_settings(Job& job, DynamicPreload& preload, const ElasticResult& ela
   preload.delay = estimate_torque_delay(job.logs, job.wanted, job.settings.rows, rest, side,
                                         job.rigid ? nullptr : job.elastic.back());
   if (hold == TorqueHold::automatic) {
-    job.settings.decisions.push_back({"torque hold", preload.delay.held ? "zoh" : "none", preload.delay.reason});
+    job.settings.decisions.push_back(
+        {"torque hold", preload.delay.held ? "zoh" : "none", preload.delay.reason});
   } else {
     preload.delay.held = hold == TorqueHold::zoh;
-    job.settings.decisions.push_back({"torque hold", preload.delay.held ? "zoh" : "none",
-                                      "given; " + preload.delay.reason});
+    job.settings.decisions.push_back(
+        {"torque hold", preload.delay.held ? "zoh" : "none", "given; " + preload.delay.reason});
   }
   job.settings.rows.signal.torque_held = preload.delay.held;
 }
@@ -239,7 +246,8 @@ std::vector<DynamicFit> fit_models(const Job& job, const std::vector<EquationFit
     for (const EquationFit& e : equations) {
       LinearSolution s = solve_equation(e, job.elastic, m);
       const ElasticFit* stage1 = job.rigid ? nullptr : job.elastic[m];
-      add_estimates(*e.rows, e.columns, s, stage1, m, rig.linear_motion, job.options.honest_sd, fit);
+      add_estimates(*e.rows, e.columns, s, stage1, m, rig.linear_motion, job.options.honest_sd,
+                    fit);
       by_equation.push_back(std::move(s));
     }
     add_cad(fit, rig);
@@ -256,9 +264,11 @@ void note_extrapolation(const Job& job, const ElasticResult& elastic, DynamicPre
     double low = 0, high = 0;
     const LogSurvey* log = nullptr;
     const PartSurvey* part = first_part(job, &log);
-    for (const PilotWindow& p : pilot_windows(job.logs, job.wanted, job.settings.rows.signal,
-                                              signal_halo(job.settings.rows.signal, 1 / part->period), 4)) {
-      const Signals signals = make_signals(p.window, job.logs[p.log].plan, job.settings.rows.signal);
+    for (const PilotWindow& p :
+         pilot_windows(job.logs, job.wanted, job.settings.rows.signal,
+                       signal_halo(job.settings.rows.signal, 1 / part->period), 4)) {
+      const Signals signals =
+          make_signals(p.window, job.logs[p.log].plan, job.settings.rows.signal);
       const Eigen::ArrayXd phi = signals.joints[0].theta - signals.joints[0].q -
                                  job.elastic.front()->transmission.theta_0(0);
       low = std::min(low, phi.minCoeff());
@@ -267,7 +277,8 @@ void note_extrapolation(const Job& job, const ElasticResult& elastic, DynamicPre
     const double span = stage1.deflection_high - stage1.deflection_low;
     if (low < stage1.deflection_low - 0.02 * span || high > stage1.deflection_high + 0.02 * span)
       preload.warnings.push_back(
-          fmt::format("deflections of {:.3g} to {:.3g} {} leave the range of stage 1 ({:.3g} to {:.3g}): the elastic "
+          fmt::format("deflections of {:.3g} to {:.3g} {} leave the range of stage 1 ({:.3g} to "
+                      "{:.3g}): the elastic "
                       "torque is extrapolated there",
                       low, high, stage1.unit, stage1.deflection_low, stage1.deflection_high));
   }
@@ -300,13 +311,15 @@ DynamicPreload fit_preload(Job job, const ElasticResult& elastic) {
     preload.counts[e.equation.name] = e.counts;
     if (e.counts.rows_used < 4 * static_cast<std::size_t>(e.columns.n_effects))
       throw Error(ErrorKind::not_identifiable,
-                  fmt::format("preload '{}': only {} rows in motion on the {} side; record a longer or faster motion, "
+                  fmt::format("preload '{}': only {} rows in motion on the {} side; record a "
+                              "longer or faster motion, "
                               "or lower --rest-speed",
                               job.preload, e.counts.rows_used, e.equation.name));
   }
   preload.fits = fit_models(job, equations, rig);
   preload.decisions = job.settings.decisions;
-  preload.warnings.insert(preload.warnings.end(), job.settings.warnings.begin(), job.settings.warnings.end());
+  preload.warnings.insert(preload.warnings.end(), job.settings.warnings.begin(),
+                          job.settings.warnings.end());
   if (!job.rigid) note_extrapolation(job, elastic, preload);
   return preload;
 }
@@ -326,7 +339,8 @@ const ElasticFit& stage1_fit(const ElasticResult& elastic, const std::string& pr
   for (const ElasticPreload& p : elastic.preloads) {
     if (p.name != preload) continue;
     if (const ElasticFit* fit = p.find(model)) return *fit;
-    throw input_error({path, 0, 0}, fmt::format("stage 1 has no '{}' fit for preload '{}'", model, preload),
+    throw input_error({path, 0, 0},
+                      fmt::format("stage 1 has no '{}' fit for preload '{}'", model, preload),
                       "run 'cablefit elastic' again");
   }
   std::vector<std::string_view> known;
@@ -364,7 +378,8 @@ DynamicResult fit_dynamic(std::span<const LogSurvey> logs, const ElasticResult& 
     result.inputs.push_back({log.plan.path, log.sha256, log.n_rows});
     torque &= log.plan.has(Channel::tau);
     for (const PartSurvey& part : log.parts)
-      if (part.phase == Phase::moving && (options.preload.empty() || options.preload == part.preload))
+      if (part.phase == Phase::moving &&
+          (options.preload.empty() || options.preload == part.preload))
         names.insert(part.preload);
   }
   if (names.empty())

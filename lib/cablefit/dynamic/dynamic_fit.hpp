@@ -1,5 +1,5 @@
-// Stage 2 (Fichera & Grossard 2017, 4.1.2): inertias, frictions and offset from moving logs, given the
-// elastic torque of stage 1.
+// Stage 2 (Fichera & Grossard 2017, 4.1.2): inertias, frictions and offset from moving logs, given
+// the elastic torque of stage 1.
 //   link   J_link qdd + f_v qd + f_s sgn(qd)                       = tau_elas_l + tau_load
 //   motor  J_motor thetadd + f_vm thetad + f_sm sgn(thetad) + offset = tau - tau_elas_m
 #pragma once
@@ -34,13 +34,13 @@ struct DynamicOptions {
   SampleOptions samples;
   std::vector<std::string> models = {"poly"};  ///< names of the table
   std::string estimator = "wls";
-  bool honest_sd = true;                       ///< --sd honest | white
-  std::string preload;                         ///< only this one; empty: all
+  bool honest_sd = true;  ///< --sd honest | white
+  std::string preload;    ///< only this one; empty: all
 };
 
 /// Fits every preload of the moving logs. `elastic`: stage 1, may be empty for rigid drives. Throws
-/// Error(input) for missing channels or stage-1 results, Error(not_identifiable) when nothing could be
-/// determined at all.
+/// Error(input) for missing channels or stage-1 results, Error(not_identifiable) when nothing could
+/// be determined at all.
 DynamicResult fit_dynamic(std::span<const LogSurvey> logs, const ElasticResult& elastic,
                           const DynamicOptions& options);
 

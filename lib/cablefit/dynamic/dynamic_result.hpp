@@ -16,15 +16,15 @@ struct TorqueError {
 };
 
 struct DynamicFit {
-  std::string model;                           ///< "linear", "poly", "rigid", "ratios"
-  std::string estimator;                       ///< "ols", "wls"
+  std::string model;      ///< "linear", "poly", "rigid", "ratios"
+  std::string estimator;  ///< "ols", "wls"
   std::vector<Estimate> parameters;
-  std::map<std::string, TorqueError> torque_error;   ///< by equation: "motor", "link"
-  std::map<std::string, double> weight;        ///< by equation: 1/variance of its residual, (N m)^-2
-  std::map<std::string, double> condition;     ///< cond(W) by equation, columns as they are
+  std::map<std::string, TorqueError> torque_error;  ///< by equation: "motor", "link"
+  std::map<std::string, double> weight;     ///< by equation: 1/variance of its residual, (N m)^-2
+  std::map<std::string, double> condition;  ///< cond(W) by equation, columns as they are
   std::map<std::string, double> effective_rows;
-  std::optional<ElasticFit> elastic;           ///< what was used of stage 1
-  std::map<std::string, std::string> verdicts; ///< "J_link": "identified", ...
+  std::optional<ElasticFit> elastic;            ///< what was used of stage 1
+  std::map<std::string, std::string> verdicts;  ///< "J_link": "identified", ...
   std::vector<std::string> warnings;
 };
 
@@ -39,10 +39,10 @@ struct TorqueDelay {
 struct DynamicPreload {
   std::string name;
   bool linear_motion = false;
-  double resonance = 0;                        ///< f0, Hz; 0 on a rigid drive
-  double load_inertia = 0;                     ///< of the hanging or swinging mass, part of J_link
+  double resonance = 0;     ///< f0, Hz; 0 on a rigid drive
+  double load_inertia = 0;  ///< of the hanging or swinging mass, part of J_link
   TorqueDelay delay;
-  std::map<std::string, RowCounts> counts;     ///< by equation
+  std::map<std::string, RowCounts> counts;  ///< by equation
   WindowCounts windows;
   std::vector<Decision> decisions;
   std::vector<DynamicFit> fits;

@@ -9,8 +9,8 @@
 namespace cablefit {
 namespace {
 
-// An inertia whose column is explained to more than this by position and the other columns cannot be told
-// from a torque that depends on position: stiffness, gravity, a wrong elastic stage.
+// An inertia whose column is explained to more than this by position and the other columns cannot
+// be told from a torque that depends on position: stiffness, gravity, a wrong elastic stage.
 constexpr double kPositionAlias = 0.98;
 // Relative change of an inertia when torques of position are allowed beside it.
 constexpr double kShiftNoted = 0.2;
@@ -28,8 +28,8 @@ double explained_by_position(const RowStatistics& rows, const DynamicColumns& c,
   return total > 0 ? 1 - solve(rows, problem).rss / total : 1;
 }
 
-/// Effect column `k`'s coefficient when a torque proportional to position or to the elastic columns is
-/// allowed as well: what a wrong stiffness, gravity or hysteresis would look like.
+/// Effect column `k`'s coefficient when a torque proportional to position or to the elastic columns
+/// is allowed as well: what a wrong stiffness, gravity or hysteresis would look like.
 double with_position_torque(const RowStatistics& rows, const DynamicColumns& c, Eigen::Index k,
                             const LinearSolution& s, std::size_t which) {
   LinearProblem problem;
@@ -45,11 +45,12 @@ double with_position_torque(const RowStatistics& rows, const DynamicColumns& c, 
 }
 
 Eigen::MatrixXd stage1_covariance(const RowStatistics& rows, const DynamicColumns& c,
-                                  const LinearSolution& s, const ElasticFit& stage1, std::size_t which) {
+                                  const LinearSolution& s, const ElasticFit& stage1,
+                                  std::size_t which) {
   const Eigen::Index n = c.n_elastic[which];
   if (stage1.covariance.rows() != n) return Eigen::MatrixXd::Zero(s.x.size(), s.x.size());
-  const Eigen::MatrixXd cross = rows.r().leftCols(c.n_effects).transpose() *
-                                rows.r().middleCols(c.elastic[which], n);
+  const Eigen::MatrixXd cross =
+      rows.r().leftCols(c.n_effects).transpose() * rows.r().middleCols(c.elastic[which], n);
   const Eigen::MatrixXd sensitivity = s.solve_operator * cross;
   return sensitivity * stage1.covariance * sensitivity.transpose();
 }
@@ -62,15 +63,16 @@ Estimate bounded_estimate(Estimate e, const LinearSolution& s, Eigen::Index k, d
   return e;
 }
 
-Estimate make_estimate(const ParameterInfo& info, const LinearSolution& s, const Eigen::MatrixXd& extra,
-                       Eigen::Index k, bool linear_motion, bool honest) {
+Estimate make_estimate(const ParameterInfo& info, const LinearSolution& s,
+                       const Eigen::MatrixXd& extra, Eigen::Index k, bool linear_motion,
+                       bool honest) {
   Estimate e;
   e.name = info.name;
   e.symbol = info.symbol;
   e.unit = linear_motion ? linear_unit(info.unit) : std::string(info.unit);
   e.not_identifiable = s.not_identifiable[static_cast<std::size_t>(k)];
-  e.value = s.x(k);
   if (!e.not_identifiable.empty()) return e;
+  e.value = s.x(k);
   const double t = t_quantile_975(s.degrees_of_freedom);
   if (s.at_bound[static_cast<std::size_t>(k)]) return bounded_estimate(e, s, k, t);
   e.sd_white = std::sqrt(s.covariance_white(k, k));
@@ -82,7 +84,8 @@ Estimate make_estimate(const ParameterInfo& info, const LinearSolution& s, const
 
 void refuse(Estimate& e, const std::string& why) {
   e.not_identifiable = why;
-  e.sd = e.sd_white = e.ci_low = e.ci_high = std::numeric_limits<double>::quiet_NaN();
+  e.active_bound.clear();
+  e.value = e.sd = e.sd_white = e.ci_low = e.ci_high = std::numeric_limits<double>::quiet_NaN();
 }
 
 /// An inertia has to be positive: an interval that reaches zero has determined nothing.
@@ -92,32 +95,38 @@ void judge_inertia(const RowStatistics& rows, const DynamicColumns& c, const Lin
   if (!e.not_identifiable.empty()) return;
   const double explained = explained_by_position(rows, c, k);
   if (explained > kPositionAlias) {
-    refuse(e, fmt::format("the acceleration is {:.1f} % a function of position, speed and direction (one sine?): "
-                          "inertia cannot be told from stiffness or gravity; move at several frequencies",
-                          100 * explained));
+    refuse(
+        e,
+        fmt::format(
+            "the acceleration is {:.1f} % a function of position, speed and direction (one sine?): "
+            "inertia cannot be told from stiffness or gravity; move at several frequencies",
+            100 * explained));
     return;
   }
   const double inertia = std::max(std::abs(s.unbounded_x(k)), std::abs(e.value));
   const double torque = inertia * rows.r().col(k).norm() /
                         std::sqrt(static_cast<double>(std::max<Eigen::Index>(1, rows.n_rows())));
-  // Noise averages out, a wrong model does not: an inertial torque far below a residual that is mostly
-  // systematic (few effective rows) would only fit that residual.
+  // Noise averages out, a wrong model does not: an inertial torque far below a residual that is
+  // mostly systematic (few effective rows) would only fit that residual.
   const bool systematic = s.effective_rows < 0.25 * static_cast<double>(s.n_rows);
   const bool drowned = systematic && torque < 0.1 * s.rms();
   const double alternative = with_position_torque(rows, c, k, s, which);
   if (!e.active_bound.empty() || e.ci_low <= 0 || drowned)
-    refuse(e, fmt::format("an inertial torque of {:.2g} rms drowns in what the model leaves ({:.2g} rms); move faster",
+    refuse(e, fmt::format("an inertial torque of {:.2g} rms drowns in what the model leaves "
+                          "({:.2g} rms); move faster",
                           torque, s.rms()));
   const double shift = e.value > 0 ? std::abs(alternative - e.value) / e.value : 0;
   if (!e.not_identifiable.empty() || shift < kShiftNoted) return;
   if (shift > kShiftRefused)
-    refuse(e, fmt::format("{:.3g} turns into {:.3g} when a torque that depends on position is allowed: the motion cannot "
+    refuse(e, fmt::format("{:.3g} turns into {:.3g} when a torque that depends on position is "
+                          "allowed: the motion cannot "
                           "tell inertia from a wrong elastic stage; move faster",
                           e.value, alternative));
   else
-    warnings.push_back(fmt::format("{} rests on the elastic stage: {:.3g} turns into {:.3g} when a torque that depends on "
-                                   "position is allowed",
-                                   e.name, e.value, alternative));
+    warnings.push_back(fmt::format(
+        "{} rests on the elastic stage: {:.3g} turns into {:.3g} when a torque that depends on "
+        "position is allowed",
+        e.name, e.value, alternative));
 }
 
 }  // namespace

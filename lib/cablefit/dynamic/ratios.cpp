@@ -54,7 +54,8 @@ DynamicPreload fit_ratios(std::span<const LogSurvey> logs, const std::string& na
   const ChosenSettings settings = moving_settings(logs, wanted, options.samples, 0);
   preload.decisions = settings.decisions;
   const std::array<Equation, 1> equations = {ratio_equation(settings.rest_speed_q)};
-  const RowStatistics blank(kResponse + 1, expected_rows(logs, wanted, settings.rows), options.honest_sd);
+  const RowStatistics blank(kResponse + 1, expected_rows(logs, wanted, settings.rows),
+                            options.honest_sd);
   RowStatistics rows = blank;
   RowCounts& counts = preload.counts["link"];
   preload.windows = stream_rows(
@@ -85,8 +86,8 @@ DynamicPreload fit_ratios(std::span<const LogSurvey> logs, const std::string& na
     Estimate e;
     e.name = e.symbol = ratio.name;
     e.unit = ratio.unit;
-    e.value = s.x(k);
     e.not_identifiable = s.not_identifiable[static_cast<std::size_t>(k)];
+    if (e.not_identifiable.empty()) e.value = s.x(k);
     const double t = t_quantile_975(s.degrees_of_freedom);
     if (s.at_bound[static_cast<std::size_t>(k)]) {
       e.active_bound = e.name + " >= 0";
@@ -112,7 +113,8 @@ DynamicPreload fit_ratios(std::span<const LogSurvey> logs, const std::string& na
   fit.condition["link"] = s.condition;
   fit.warnings = s.warnings;
   preload.fits.push_back(std::move(fit));
-  preload.warnings.push_back("no torque in the log: ratios to J_link are all that can be identified");
+  preload.warnings.push_back(
+      "no torque in the log: ratios to J_link are all that can be identified");
   return preload;
 }
 

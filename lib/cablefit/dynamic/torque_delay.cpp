@@ -37,7 +37,8 @@ Equation with_slopes(const Equation& base, const DynamicColumns& c, const Eigen:
 RowStatistics pilot_rows(std::span<const LogSurvey> logs, const std::vector<PilotWindow>& pilot,
                          const RowSettings& rows, const Equation& equation) {
   Eigen::Index expected = 0;
-  for (const PilotWindow& p : pilot) expected += (p.window.end - p.window.begin) / rows.decimate + 1;
+  for (const PilotWindow& p : pilot)
+    expected += (p.window.end - p.window.begin) / rows.decimate + 1;
   RowStatistics statistics(static_cast<Eigen::Index>(equation.columns.size()), expected);
   Eigen::Index offset = 0;
   std::size_t log = 0;
@@ -93,7 +94,10 @@ TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFil
   Eigen::VectorXd response = Eigen::VectorXd::Zero(c.count + 2);
   response.head(c.count) = problem.response;
   Eigen::VectorXd scale(p);
-  for (Eigen::Index k = 0; k < p; ++k) scale(k) = 1 / std::sqrt(std::max(gram(z[static_cast<std::size_t>(k)], z[static_cast<std::size_t>(k)]), 1e-300));
+  for (Eigen::Index k = 0; k < p; ++k)
+    scale(k) =
+        1 / std::sqrt(std::max(gram(z[static_cast<std::size_t>(k)], z[static_cast<std::size_t>(k)]),
+                               1e-300));
   Eigen::MatrixXd zx(p, p);
   Eigen::VectorXd zy(p);
   for (Eigen::Index i = 0; i < p; ++i) {
@@ -124,9 +128,10 @@ TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFil
   delay.sd = scale(p - 1) * std::sqrt(spread.covariance(0, 0));
   const double hold = rows.signal.torque_period > 0 ? rows.signal.torque_period : period;
   delay.held = std::abs(delay.seconds - hold / 2) < std::abs(delay.seconds);
-  delay.reason = fmt::format("the torque acts {:.3g} +- {:.2g} ms after its time stamp (1 sd): nearer to {}",
-                             1e3 * delay.seconds, 1e3 * delay.sd,
-                             delay.held ? fmt::format("half a hold of {:.3g} ms (zoh)", 1e3 * hold) : "0 (none)");
+  delay.reason = fmt::format(
+      "the torque acts {:.3g} +- {:.2g} ms after its time stamp (1 sd): nearer to {}",
+      1e3 * delay.seconds, 1e3 * delay.sd,
+      delay.held ? fmt::format("half a hold of {:.3g} ms (zoh)", 1e3 * hold) : "0 (none)");
   if (std::abs(delay.seconds - (delay.held ? hold / 2 : 0)) > std::max(4 * delay.sd, 0.25 * hold))
     delay.reason += "; neither fits well: look for a further delay in the drive or the log";
   return delay;

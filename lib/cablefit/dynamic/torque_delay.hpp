@@ -1,5 +1,6 @@
-// Is the torque in the log the one that acts at that instant, or is it held until the next sample? The
-// delay between the two is estimated, with an interval, and the nearer of the two conventions is taken.
+// Is the torque in the log the one that acts at that instant, or is it held until the next sample?
+// The delay between the two is estimated, with an interval, and the nearer of the two conventions
+// is taken.
 #pragma once
 
 #include "cablefit/dynamic/dynamic_columns.hpp"
@@ -8,8 +9,8 @@
 namespace cablefit {
 
 /// Motor-side (or rigid) equation with tau(t - d) = tau - d dtau/dt. d is estimated by instrumental
-/// variables: the derivative of the MODEL's torque is the instrument for that of the measured one, whose
-/// noise would otherwise pull d towards 0. Uses the first windows of every log (pilot).
+/// variables: the derivative of the MODEL's torque is the instrument for that of the measured one,
+/// whose noise would otherwise pull d towards 0. Uses the first windows of every log (pilot).
 TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFilter& wanted,
                                   const RowSettings& rows, double rest_speed, Side side,
                                   const ElasticFit* elastic);

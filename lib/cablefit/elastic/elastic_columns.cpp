@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace cablefit {
 namespace {
@@ -41,8 +42,8 @@ void elastic_basis(const Transmission& transmission, const JointSignals& s, Elas
     const int n = cable.law->n_coefficients(cable.order);
     const double gain = side == ElasticSide::motor ? cable.motor_radius(0) : cable.link_radius(0);
     for (Eigen::Index i = 0; i < out.rows(); ++i) {
-      const double l = cable.motor_radius(0) * (s.theta(i) - zero) -
-                       cable.link_radius(0) * s.q(i) + cable.initial_elongation;
+      const double l = cable.motor_radius(0) * (s.theta(i) - zero) - cable.link_radius(0) * s.q(i) +
+                       cable.initial_elongation;
       if (l > 0) {
         cable.law->basis(cable.order, l, values.data());
       } else {
@@ -72,19 +73,22 @@ Equation blocked_equation(const Transmission& transmission, const Transmission* 
   Equation equation;
   equation.name = "blocked";
   equation.columns.assign(static_cast<std::size_t>(c.count), "");
-  equation.averaged.assign(static_cast<std::size_t>(c.count), false);  // quasi-static: no difference
-  equation.fill = [transmission, c, pilot](const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
+  equation.averaged.assign(static_cast<std::size_t>(c.count),
+                           false);  // quasi-static: no difference
+  const std::optional<Transmission> curve = pilot ? std::optional(*pilot) : std::nullopt;
+  equation.fill = [transmission, c, curve](const Signals& signals,
+                                           Eigen::Ref<Eigen::MatrixXd> out) {
     const JointSignals& s = signals.joints[0];
     out.col(c.deflection) = deflection(transmission, s);
     elastic_basis(transmission, s, ElasticSide::motor, out.middleCols(c.basis, c.n_basis));
     out.col(c.offset).setOnes();
     out.col(c.direction) = s.approach;
     out.col(c.speed) = s.thetad;
-    if (pilot == nullptr) {
+    if (!curve) {
       out.col(c.zero).setZero();
     } else {
       for (Eigen::Index i = 0; i < out.rows(); ++i)
-        out(i, c.zero) = -motor_stiffness(*pilot, s.q(i), s.theta(i));
+        out(i, c.zero) = -motor_stiffness(*curve, s.q(i), s.theta(i));
     }
     out.col(c.tau) = s.tau;
   };

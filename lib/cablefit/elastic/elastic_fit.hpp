@@ -1,5 +1,6 @@
-// Stage 1 (Fichera & Grossard 2017, 4.1.1): the link is blocked, the motor is moved slowly, and the torque
-// it needs is the elastic torque, up to the motor's own friction: tau = tau_elas(theta - q) + offset +- f_sm.
+// Stage 1 (Fichera & Grossard 2017, 4.1.1): the link is blocked, the motor is moved slowly, and the
+// torque it needs is the elastic torque, up to the motor's own friction: tau = tau_elas(theta - q)
+// + offset +- f_sm.
 #pragma once
 
 #include <span>
@@ -9,23 +10,25 @@
 
 namespace cablefit {
 
-/// Where tau_elas is zero. The paper's deflection zero is known and the drive may have an offset; a log
-/// whose encoder zero is arbitrary has an unknown theta_0 instead. Both at once only a kink can tell apart.
+/// Where tau_elas is zero. The paper's deflection zero is known and the drive may have an offset; a
+/// log whose encoder zero is arbitrary has an unknown theta_0 instead. Both at once only a kink can
+/// tell apart.
 enum class ZeroMode { automatic, offset, theta_0 };
 
 struct ElasticOptions {
   SampleOptions samples;
-  int order = 0;             ///< of the polynomial cables; 0: the lowest that held-out blocks support
+  int order = 0;  ///< of the polynomial cables; 0: the lowest that held-out blocks support
   int max_order = 6;
-  double materiality = 0.01; ///< of the peak torque: less difference on held-out blocks does not matter
-  bool still = false;        ///< also use the parts of moving logs in which the link stands still
+  double materiality =
+      0.01;            ///< of the peak torque: less difference on held-out blocks does not matter
+  bool still = false;  ///< also use the parts of moving logs in which the link stands still
   ZeroMode zero = ZeroMode::automatic;
-  std::string preload;       ///< only this one; empty: all
+  std::string preload;  ///< only this one; empty: all
 };
 
-/// Fits every preload found in the blocked logs (with `still`: in all logs). Throws Error(input) when
-/// there is no blocked log, a channel is missing, or theta never moves; Error(not_identifiable) when no
-/// parameter could be determined for any preload.
+/// Fits every preload found in the blocked logs (with `still`: in all logs). Throws Error(input)
+/// when there is no blocked log, a channel is missing, or theta never moves;
+/// Error(not_identifiable) when no parameter could be determined for any preload.
 ElasticResult fit_elastic(std::span<const LogSurvey> logs, const ElasticOptions& options);
 
 }  // namespace cablefit

@@ -19,37 +19,37 @@ struct InputFile {
 };
 
 struct ElasticFit {
-  std::string model;                  ///< "linear", "poly"
-  int order = 1;                      ///< of the force, per cable
-  std::vector<Estimate> parameters;   ///< K, or K1_0 ...; then offset or theta_0, f_sm
-  Transmission transmission;          ///< the fitted curve, coefficients and theta_0 filled in
-  double offset = 0;                  ///< N m, drive offset that went with it
+  std::string model;                 ///< "linear", "poly"
+  int order = 1;                     ///< of the force, per cable
+  std::vector<Estimate> parameters;  ///< K, or K1_0 ...; then offset or theta_0, f_sm
+  Transmission transmission;         ///< the fitted curve, coefficients and theta_0 filled in
+  double offset = 0;                 ///< N m, drive offset that went with it
   /// Honest covariance of the elastic coefficients alone, in the order of the first parameters.
   Eigen::MatrixXd covariance;
-  double rms_error = 0, max_abs_error = 0;            ///< N m, over all rows used
-  double held_out_rms = 0, held_out_max = 0;          ///< N m, over blocks the fit had not seen
-  bool passive = true;                ///< every cable only pulls over the range it was used in
-  double condition = 0;               ///< scaled condition number
+  double rms_error = 0, max_abs_error = 0;    ///< N m, over all rows used
+  double held_out_rms = 0, held_out_max = 0;  ///< N m, over blocks the fit had not seen
+  bool passive = true;   ///< every cable only pulls over the range it was used in
+  double condition = 0;  ///< scaled condition number
   double effective_rows = 0;
   std::vector<std::string> warnings;
 };
 
 struct ElasticPreload {
   std::string name;
-  std::string unit = "rad";           ///< of the deflection
+  std::string unit = "rad";  ///< of the deflection
   double deflection_low = 0, deflection_high = 0;
-  double peak_torque = 0;             ///< N m, largest |tau - offset| in the rows used
-  double loop_half_width = 0;         ///< N m, f_sm of the selected fit
+  double peak_torque = 0;      ///< N m, largest |tau - offset| in the rows used
+  double loop_half_width = 0;  ///< N m, f_sm of the selected fit
   bool both_branches = true;
   RowCounts counts;
   WindowCounts windows;
-  std::vector<ElasticFit> fits;       ///< linear first
-  std::string selected;               ///< "linear" or "poly"
-  std::vector<std::string> selection; ///< both criteria, in words
+  std::vector<ElasticFit> fits;        ///< linear first
+  std::string selected;                ///< "linear" or "poly"
+  std::vector<std::string> selection;  ///< both criteria, in words
   std::vector<Decision> decisions;
   std::vector<std::string> warnings;
   bool linear_motion = false;
-  std::string rig_path;               ///< empty: the default rig
+  std::string rig_path;  ///< empty: the default rig
 
   const ElasticFit* find(const std::string& model) const;
 };

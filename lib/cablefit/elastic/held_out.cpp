@@ -7,15 +7,16 @@
 namespace cablefit {
 namespace {
 
-// Least squares from a Gram matrix with scaled columns. Its precision (condition squared) is plenty for
-// comparing models; estimates that are reported come from the QR.
+// Least squares from a Gram matrix with scaled columns. Its precision (condition squared) is plenty
+// for comparing models; estimates that are reported come from the QR.
 Eigen::VectorXd solve_gram(const Eigen::MatrixXd& gram, const std::vector<Eigen::Index>& regressors,
                            const Eigen::VectorXd& response) {
   const auto p = static_cast<Eigen::Index>(regressors.size());
   Eigen::MatrixXd a(p, p);
   Eigen::VectorXd b(p), scale(p);
   for (Eigen::Index i = 0; i < p; ++i) {
-    const double norm = std::sqrt(gram(regressors[static_cast<std::size_t>(i)], regressors[static_cast<std::size_t>(i)]));
+    const double norm = std::sqrt(
+        gram(regressors[static_cast<std::size_t>(i)], regressors[static_cast<std::size_t>(i)]));
     scale(i) = norm > 0 ? 1 / norm : 1;
   }
   for (Eigen::Index i = 0; i < p; ++i) {
@@ -45,7 +46,8 @@ HeldOut::HeldOut(const RowStatistics& rows)
 
 Eigen::Index HeldOut::block_of(Eigen::Index cell_id) const {
   const Eigen::Index span = std::max<Eigen::Index>(1, last_id_ - first_id_ + 1);
-  return std::clamp<Eigen::Index>((cell_id - first_id_) * kHeldOutBlocks / span, 0, kHeldOutBlocks - 1);
+  return std::clamp<Eigen::Index>((cell_id - first_id_) * kHeldOutBlocks / span, 0,
+                                  kHeldOutBlocks - 1);
 }
 
 std::vector<Eigen::VectorXd> HeldOut::fits(const std::vector<Eigen::Index>& regressors,
@@ -70,7 +72,8 @@ Eigen::VectorXd HeldOut::block_errors(const std::vector<Eigen::VectorXd>& fits) 
     const auto k = static_cast<std::size_t>(block);
     if (block_rows_[k] == 0) continue;
     const Eigen::VectorXd& v = fits[static_cast<std::size_t>(block % kHeldOutFolds)];
-    errors.push_back(std::max(0.0, v.dot(block_grams_[k] * v)) / static_cast<double>(block_rows_[k]));
+    errors.push_back(std::max(0.0, v.dot(block_grams_[k] * v)) /
+                     static_cast<double>(block_rows_[k]));
   }
   return Eigen::Map<Eigen::VectorXd>(errors.data(), static_cast<Eigen::Index>(errors.size()));
 }

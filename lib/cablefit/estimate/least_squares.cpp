@@ -15,13 +15,13 @@ namespace {
 // Columns whose scaled singular value is below this cannot be told apart in double precision data
 // that carries at best nine digits ("%.9g").
 constexpr double kRankTolerance = 1e-9;
-constexpr double kNullComponent = 0.05;       // share in a null direction that counts as taking part
+constexpr double kNullComponent = 0.05;  // share in a null direction that counts as taking part
 constexpr double kCorrelationWarning = 0.95;  // estimation-rules: warn above
 
 struct ScaledSolve {
   Eigen::VectorXd x;
-  Eigen::MatrixXd inverse;             // (W'W)^-1 over the free columns, 0 elsewhere
-  Eigen::MatrixXd null_directions;     // p x (p - rank), columns of unit norm, in scaled parameters
+  Eigen::MatrixXd inverse;          // (W'W)^-1 over the free columns, 0 elsewhere
+  Eigen::MatrixXd null_directions;  // p x (p - rank), columns of unit norm, in scaled parameters
   double condition_scaled = 0;
   double condition = 0;
 };
@@ -37,10 +37,11 @@ ScaledSolve solve_scaled(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
   const Eigen::VectorXd& sv = svd.singularValues();
   Eigen::Index rank = 0;
   while (rank < sv.size() && sv(rank) > kRankTolerance * sv(0)) ++rank;
-  s.condition_scaled = sv(sv.size() - 1) > 0 ? sv(0) / sv(sv.size() - 1)
-                                             : std::numeric_limits<double>::infinity();
+  s.condition_scaled =
+      sv(sv.size() - 1) > 0 ? sv(0) / sv(sv.size() - 1) : std::numeric_limits<double>::infinity();
   const Eigen::VectorXd plain = Eigen::JacobiSVD<Eigen::MatrixXd>(a).singularValues();
-  s.condition = plain(p - 1) > 0 ? plain(0) / plain(p - 1) : std::numeric_limits<double>::infinity();
+  s.condition =
+      plain(p - 1) > 0 ? plain(0) / plain(p - 1) : std::numeric_limits<double>::infinity();
   s.null_directions = svd.matrixV().rightCols(p - rank);
   if (rank == p) {
     // Full rank: backward stable QR; the SVD above only answers how well determined it is.
@@ -94,8 +95,8 @@ FreeFit fit_free(const RowStatistics& rows, const LinearProblem& problem,
   return fit;
 }
 
-// Physical bounds by an active set: fix the worst offender on its bound and fit again. All bounds are
-// 0 here in practice (inertia, friction), and columns are few.
+// Physical bounds by an active set: fix the worst offender on its bound and fit again. All bounds
+// are 0 here in practice (inertia, friction), and columns are few.
 FreeFit fit_bounded(const RowStatistics& rows, const LinearProblem& problem,
                     std::vector<bool>& at_bound, Eigen::VectorXd& x) {
   for (;;) {
@@ -109,7 +110,8 @@ FreeFit fit_bounded(const RowStatistics& rows, const LinearProblem& problem,
     for (std::size_t k = 0; k < fit.free.size(); ++k) {
       const Eigen::Index j = fit.free[k];
       if (x(j) >= problem.lower[static_cast<std::size_t>(j)]) continue;
-      const double scale = std::sqrt(fit.solve.inverse(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)));
+      const double scale =
+          std::sqrt(fit.solve.inverse(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)));
       const double ratio = (problem.lower[static_cast<std::size_t>(j)] - x(j)) / scale;
       if (ratio > worst_ratio) {
         worst_ratio = ratio;
@@ -137,7 +139,8 @@ void honest_covariance(const RowStatistics& rows, const LinearProblem& problem,
   const auto n_cells = static_cast<Eigen::Index>(rows.cells().size());
   if (n_cells < 8) {
     out.covariance = out.covariance_white;
-    out.degrees_of_freedom = static_cast<double>(std::max<Eigen::Index>(1, out.n_rows - out.n_params));
+    out.degrees_of_freedom =
+        static_cast<double>(std::max<Eigen::Index>(1, out.n_rows - out.n_params));
     out.effective_rows = static_cast<double>(out.n_rows);
     return;
   }
@@ -155,8 +158,8 @@ void honest_covariance(const RowStatistics& rows, const LinearProblem& problem,
   const double n = static_cast<double>(out.n_rows);
   const double small_sample = n / std::max(1.0, n - out.n_params);
   out.covariance = small_sample * hac.covariance;
-  // No credit for anti-correlated residuals: encoder quantisation looks like that, and what the filter
-  // leaves of a bias does not shrink with it.
+  // No credit for anti-correlated residuals: encoder quantisation looks like that, and what the
+  // filter leaves of a bias does not shrink with it.
   for (Eigen::Index k = 0; k < p; ++k) {
     const double white = out.covariance_white(k, k);
     if (!(out.covariance(k, k) > 0) || out.covariance(k, k) >= white) continue;
@@ -225,8 +228,7 @@ LinearSolution solve(const RowStatistics& rows, const LinearProblem& problem) {
   out.unbounded_x = unbounded.solve.x;
   // Same noise level and the same ratio of honest to white sd as the bounded fit.
   const double honesty = std::sqrt(static_cast<double>(out.n_rows) / out.effective_rows);
-  out.unbounded_sd =
-      honesty * (out.rss / dof * unbounded.solve.inverse.diagonal()).cwiseSqrt();
+  out.unbounded_sd = honesty * (out.rss / dof * unbounded.solve.inverse.diagonal()).cwiseSqrt();
   note_correlations(problem, out);
   return out;
 }

@@ -11,33 +11,35 @@
 namespace cablefit {
 
 /// Minimise |rows * (response - sum_j regressors[j] x_j)|. Columns of the rows are addressed by
-/// index; the response is a combination of columns (tau + Z K, say), so `response` is n_columns long.
+/// index; the response is a combination of columns (tau + Z K, say), so `response` is n_columns
+/// long.
 struct LinearProblem {
   std::vector<Eigen::Index> regressors;
-  std::vector<std::string> names;    ///< one per regressor, for messages
-  std::vector<double> lower;         ///< bound per regressor, -inf for none; empty: no bounds
+  std::vector<std::string> names;  ///< one per regressor, for messages
+  std::vector<double> lower;       ///< bound per regressor, -inf for none; empty: no bounds
   Eigen::VectorXd response;
 };
 
 struct LinearSolution {
-  Eigen::VectorXd x;                      ///< estimates; 0 where not determined
-  Eigen::MatrixXd covariance_white;       ///< the paper's (25), sigma^2 (W'W)^-1
+  Eigen::VectorXd x;                 ///< estimates; 0 where not determined
+  Eigen::MatrixXd covariance_white;  ///< the paper's (25), sigma^2 (W'W)^-1
   /// Honest: HAC sandwich over the cells, never below the white one; the white one without cells.
   Eigen::MatrixXd covariance;
-  Eigen::MatrixXd solve_operator;         ///< (W'W)^-1, p x p; 0 rows for fixed or undetermined
+  Eigen::MatrixXd solve_operator;             ///< (W'W)^-1, p x p; 0 rows for fixed or undetermined
   std::vector<std::string> not_identifiable;  ///< per parameter, empty text when it is determined
   std::vector<bool> at_bound;
-  Eigen::VectorXd unbounded_x, unbounded_sd;  ///< of the fit without bounds, for the interval at one
-  Eigen::VectorXd residual_combination;   ///< n_columns: rows * this = residual
-  double rss = 0;                         ///< sum of squared residuals
+  Eigen::VectorXd unbounded_x,
+      unbounded_sd;                      ///< of the fit without bounds, for the interval at one
+  Eigen::VectorXd residual_combination;  ///< n_columns: rows * this = residual
+  double rss = 0;                        ///< sum of squared residuals
   Eigen::Index n_rows = 0;
-  int n_params = 0;                       ///< determined and not at a bound
-  double condition_scaled = 0;            ///< of the columns scaled to unit norm
-  double condition = 0;                   ///< of the columns as they are, cond(W)
-  double degrees_of_freedom = 0;          ///< for t quantiles
-  double effective_rows = 0;              ///< effective sample size
-  Eigen::MatrixXd correlation;            ///< of the estimates (white)
-  std::vector<std::string> warnings;      ///< "f_v and f_s cannot be told apart: correlation 0.99"
+  int n_params = 0;                   ///< determined and not at a bound
+  double condition_scaled = 0;        ///< of the columns scaled to unit norm
+  double condition = 0;               ///< of the columns as they are, cond(W)
+  double degrees_of_freedom = 0;      ///< for t quantiles
+  double effective_rows = 0;          ///< effective sample size
+  Eigen::MatrixXd correlation;        ///< of the estimates (white)
+  std::vector<std::string> warnings;  ///< "f_v and f_s cannot be told apart: correlation 0.99"
 
   double rms() const;
 };

@@ -44,7 +44,8 @@ Eigen::MatrixXd kernel_sum(const Eigen::MatrixXd& v, double bandwidth) {
       std::min<Eigen::Index>(v.rows() - 1, static_cast<Eigen::Index>(std::ceil(5 * bandwidth)));
   for (Eigen::Index lag = 1; lag <= last; ++lag) {
     const double weight = quadratic_spectral(static_cast<double>(lag) / bandwidth);
-    const Eigen::MatrixXd gamma = v.bottomRows(v.rows() - lag).transpose() * v.topRows(v.rows() - lag);
+    const Eigen::MatrixXd gamma =
+        v.bottomRows(v.rows() - lag).transpose() * v.topRows(v.rows() - lag);
     total += weight * (gamma + gamma.transpose());
   }
   return total;
@@ -79,9 +80,8 @@ LongRunCovariance long_run_covariance(const Eigen::Ref<const Eigen::MatrixXd>& s
   // int k^2 = 1 for the QS kernel. The prewhitening coefficient is estimated too: its own error,
   // (d log 1/(1-rho)^2)^2 var(rho) with var(rho) = (1-rho^2)/n, is added.
   const double worst = rho.cwiseAbs().maxCoeff();
-  const double relative_variance =
-      2 * result.bandwidth / n_white +
-      4 * (1 - worst * worst) / ((1 - worst) * (1 - worst)) / n_white;
+  const double relative_variance = 2 * result.bandwidth / n_white +
+                                   4 * (1 - worst * worst) / ((1 - worst) * (1 - worst)) / n_white;
   result.degrees_of_freedom = std::max(2.0, 2 / relative_variance);
   return result;
 }

@@ -1,7 +1,7 @@
-// Everything the estimators need of millions of rows, in constant memory: the triangular factor of a
-// streamed Householder QR (for the estimates: it does not square the condition number) and the Gram
-// matrix of each of at most kMaxCells stretches of rows (for honest standard deviations and for
-// held-out blocks, where its precision is plenty).
+// Everything the estimators need of millions of rows, in constant memory: the triangular factor of
+// a streamed Householder QR (for the estimates: it does not square the condition number) and the
+// Gram matrix of each of at most kMaxCells stretches of rows (for honest standard deviations and
+// for held-out blocks, where its precision is plenty).
 #pragma once
 
 #include <Eigen/Core>
@@ -10,8 +10,8 @@
 
 namespace cablefit {
 
-/// Rows hold all columns of an equation side by side, regressors and responses alike; which is which
-/// is decided when solving, so that one pass over a log serves every model fitted to it.
+/// Rows hold all columns of an equation side by side, regressors and responses alike; which is
+/// which is decided when solving, so that one pass over a log serves every model fitted to it.
 using Rows = Eigen::Ref<const Eigen::MatrixXd>;
 
 /// R of [rows] = Q R, n_columns x n_columns, upper triangular (Golub & Van Loan, ch. 5; TSQR of
@@ -40,13 +40,14 @@ class RowStatistics {
  public:
   static constexpr Eigen::Index kMaxCells = 2048;
 
-  /// `expected_rows` decides how long a cell is (at least one row); 0 cells when `with_cells` is off.
+  /// `expected_rows` decides how long a cell is (at least one row); 0 cells when `with_cells` is
+  /// off.
   RowStatistics(Eigen::Index n_columns, Eigen::Index expected_rows, bool with_cells = true);
   /// An empty accumulator of the same layout, for another thread or window.
   RowStatistics empty_copy() const;
 
-  /// Rows with their numbers on the time grid (ascending, gaps where rows were dropped), so that a cell
-  /// is a stretch of time.
+  /// Rows with their numbers on the time grid (ascending, gaps where rows were dropped), so that a
+  /// cell is a stretch of time.
   void add(const Rows& rows, std::span<const Eigen::Index> numbers);
   /// What another accumulator saw; its rows come after those of this one.
   void add(const RowStatistics& later);

@@ -24,16 +24,18 @@ struct ColumnHeader {
 struct LogHeader {
   std::string path;
   std::vector<ColumnHeader> columns;
-  std::optional<double> sample_rate;  ///< Hz, from JSON "sample_rate"; then there may be no column t
+  std::optional<double>
+      sample_rate;  ///< Hz, from JSON "sample_rate"; then there may be no column t
 };
 
 /// Consecutive rows of the selected columns. Arrays are indexed [selected column][row].
 struct LogChunk {
   std::size_t first_row = 0;  ///< index of row 0 within the log
   std::size_t n_rows = 0;
-  std::vector<std::vector<double>> numbers;       ///< of the selected numeric columns, all finite
-  std::vector<std::vector<std::uint32_t>> texts;  ///< of the selected text columns: index into words()
-  std::vector<std::uint64_t> lines;               ///< line of each row in the file (JSON records too; 0 unknown)
+  std::vector<std::vector<double>> numbers;  ///< of the selected numeric columns, all finite
+  std::vector<std::vector<std::uint32_t>>
+      texts;                         ///< of the selected text columns: index into words()
+  std::vector<std::uint64_t> lines;  ///< line of each row in the file (JSON records too; 0 unknown)
 };
 
 /// One pass over one log. Open it again for another pass.

@@ -24,7 +24,7 @@ struct Table {
 
 /// "name = value (reason)", for all preloads or for those named.
 struct DecisionLine {
-  std::string where;  ///< "low", "low, high"; empty: everywhere
+  std::vector<std::string> where;  ///< names of preloads; empty: everywhere
   std::string name, value, reason;
 };
 
@@ -36,6 +36,9 @@ struct Document {
   std::vector<std::string> warnings;
   Table tidy;  ///< one row per preload, model and parameter at full precision, for CSV
 };
+
+/// "low, high: " or nothing.
+std::string where_text(const DecisionLine& line);
 
 /// The document without what only --verbose shows.
 Document without_details(Document document);

@@ -37,11 +37,9 @@ std::string table_text(const Table& table) {
 }
 
 std::string decision_text(const DecisionLine& line) {
-  std::string text = "- ";
-  if (!line.where.empty()) text += markdown_text(line.where) + ": ";
-  text += markdown_text(line.name) + " = " + markdown_text(line.value);
-  if (!line.reason.empty()) text += " (" + markdown_text(line.reason) + ")";
-  return text + "\n";
+  std::string text = where_text(line) + line.name + " = " + line.value;
+  if (!line.reason.empty()) text += " (" + line.reason + ")";
+  return "- " + markdown_text(text) + "\n";
 }
 
 }  // namespace

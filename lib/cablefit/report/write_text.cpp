@@ -7,8 +7,7 @@ namespace cablefit {
 namespace {
 
 std::string decision_text(const DecisionLine& line) {
-  std::string text = line.where.empty() ? "  " : "  " + printable(line.where) + ": ";
-  text += printable(line.name + " = " + line.value);
+  std::string text = "  " + printable(where_text(line) + line.name + " = " + line.value);
   if (!line.reason.empty()) text += printable(" (" + line.reason + ")");
   return text + "\n";
 }

@@ -1,6 +1,7 @@
 #include "cablefit/report/writers.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <filesystem>
@@ -28,6 +29,10 @@ std::string known_extensions() {
 
 }  // namespace
 
+std::string where_text(const DecisionLine& line) {
+  return line.where.empty() ? "" : fmt::format("{}: ", fmt::join(line.where, ", "));
+}
+
 Document without_details(Document document) {
   std::erase_if(document.tables, [](const Table& table) { return table.detail; });
   return document;
@@ -41,8 +46,9 @@ const ReportWriter& report_writer_for(const std::string& path) {
     if (writer.extension == extension) return writer;
   }
   throw usage_error(extension.empty()
-                        ? fmt::format("--report {} has no extension to tell the format", quoted(path))
-                        : fmt::format("no report format {}", quoted(extension)),
+                        ? fmt::format("--report {} has no extension to tell the format",
+                                      cablefit::quoted(path))
+                        : fmt::format("no report format {}", cablefit::quoted(extension)),
                     "there are " + known_extensions());
 }
 

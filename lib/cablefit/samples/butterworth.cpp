@@ -8,14 +8,16 @@ namespace cablefit {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kLanes = 4;  // columns filtered side by side, so that the recursion fills the pipeline
+constexpr int kLanes =
+    4;  // columns filtered side by side, so that the recursion fills the pipeline
 using Lane = Eigen::Array<double, kLanes, 1>;
 
 struct State {
   Lane s1 = Lane::Zero(), s2 = Lane::Zero();
 };
 
-// Transposed direct form II; the state that holds a constant input x at its steady output (DC gain 1).
+// Transposed direct form II; the state that holds a constant input x at its steady output (DC gain
+// 1).
 State steady(const Biquad& section, const Lane& x) {
   State state;
   state.s2 = (section.b2 - section.a2) * x;
@@ -79,7 +81,8 @@ void Butterworth::apply(Eigen::Ref<Eigen::MatrixXd> columns, bool odd_start, boo
       const auto column = columns.col(first + lane);
       for (Eigen::Index i = 0; i < before; ++i)
         x[static_cast<std::size_t>(i)](lane) = 2 * column(0) - column(before - i);
-      for (Eigen::Index i = 0; i < n; ++i) x[static_cast<std::size_t>(before + i)](lane) = column(i);
+      for (Eigen::Index i = 0; i < n; ++i)
+        x[static_cast<std::size_t>(before + i)](lane) = column(i);
       for (Eigen::Index i = 0; i < after; ++i)
         x[static_cast<std::size_t>(before + n + i)](lane) = 2 * column(n - 1) - column(n - 2 - i);
     }

@@ -101,14 +101,16 @@ void resolve_time(LogPlan& plan) {
   plan.time_column = column_of(plan.header, plan.rig, "t");
   if (!plan.time_column) {
     if (plan.header.sample_rate) return;
-    throw input_error({plan.path, 1, 0}, "no column 't' and no sample rate",
-                      fmt::format("name the time column 't' or map it in the rig file; columns are {}",
-                                  names_of(plan.header)));
+    throw input_error(
+        {plan.path, 1, 0}, "no column 't' and no sample rate",
+        fmt::format("name the time column 't' or map it in the rig file; columns are {}",
+                    names_of(plan.header)));
   }
   const ColumnHeader& cell = plan.header.columns[*plan.time_column];
   const auto mapped = plan.rig.columns.find("t");
-  const std::string& unit =
-      mapped != plan.rig.columns.end() && !mapped->second.unit.empty() ? mapped->second.unit : cell.unit;
+  const std::string& unit = mapped != plan.rig.columns.end() && !mapped->second.unit.empty()
+                                ? mapped->second.unit
+                                : cell.unit;
   if (!unit.empty())
     plan.time_factor = checked_unit(unit, cell.place, kTime, "column 't'", "a time").scale;
   if (mapped != plan.rig.columns.end()) plan.time_factor *= mapped->second.scale;
@@ -143,9 +145,10 @@ LogPlan plan_log(const std::string& path, const Rig& rig) {
   plan.phase_column = column_of(plan.header, rig, "phase");
   plan.run_column = column_of(plan.header, rig, "run");
   if (plan.slots.empty())
-    throw input_error({path, 1, 0}, "no column is called q, theta, w, tau or tau_load",
-                      fmt::format("rename columns or write a rig file that maps them; columns are {}",
-                                  names_of(plan.header)));
+    throw input_error(
+        {path, 1, 0}, "no column is called q, theta, w, tau or tau_load",
+        fmt::format("rename columns or write a rig file that maps them; columns are {}",
+                    names_of(plan.header)));
   return plan;
 }
 
@@ -153,10 +156,10 @@ void require_channel(const LogPlan& plan, Channel channel, std::string_view why)
   if (plan.has(channel)) return;
   std::vector<std::string_view> known;
   for (const ColumnHeader& c : plan.header.columns) known.push_back(c.name);
-  throw input_error({plan.path, plan.header.columns.empty() ? 1 : plan.header.columns[0].place.line, 0},
-                    fmt::format("missing column '{}', needed for {}", channel_name(channel), why),
-                    fmt::format("add it, or map it in a rig file; columns are {}",
-                                names_of(plan.header)));
+  throw input_error(
+      {plan.path, plan.header.columns.empty() ? 1 : plan.header.columns[0].place.line, 0},
+      fmt::format("missing column '{}', needed for {}", channel_name(channel), why),
+      fmt::format("add it, or map it in a rig file; columns are {}", names_of(plan.header)));
 }
 
 }  // namespace cablefit

@@ -13,7 +13,8 @@ Decimation::Decimation(int factor) : factor_(factor) {
     const double x = static_cast<double>(k) / factor_;
     const double sinc = k == 0 ? 1 : std::sin(pi * x) / (pi * x);
     const double window =
-        half == 0 ? 1 : 0.54 + 0.46 * std::cos(pi * static_cast<double>(k) / static_cast<double>(half));
+        half == 0 ? 1
+                  : 0.54 + 0.46 * std::cos(pi * static_cast<double>(k) / static_cast<double>(half));
     taps_(half + k) = sinc * window;
   }
   taps_ /= taps_.sum();

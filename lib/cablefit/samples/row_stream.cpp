@@ -113,8 +113,7 @@ RowBatch make_rows(const Window& window, const LogSurvey& log, Eigen::Index numb
   batch.part = window.part;
   const Signals signals = make_signals(window, log.plan, settings.signal);
   for (const Equation& equation : equations)
-    batch.equations.push_back(
-        equation_rows(equation, signals, window, settings, number_offset));
+    batch.equations.push_back(equation_rows(equation, signals, window, settings, number_offset));
   return batch;
 }
 

@@ -1,6 +1,6 @@
-// From logs to rows of an equation: filter, differentiate, form every column at the full rate, average
-// and decimate all columns alike, drop edges and rest. The same few lines serve stage 1, stage 2 and
-// everything after; an equation only says what its columns are.
+// From logs to rows of an equation: filter, differentiate, form every column at the full rate,
+// average and decimate all columns alike, drop edges and rest. The same few lines serve stage 1,
+// stage 2 and everything after; an equation only says what its columns are.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,12 +26,12 @@ struct RowSettings {
 
 /// An equation as columns over full-rate rows.
 struct Equation {
-  std::string name;                 ///< "link", "motor", "blocked"
+  std::string name;  ///< "link", "motor", "blocked"
   std::vector<std::string> columns;
-  std::vector<bool> averaged;       ///< per column: averaged over the triangle (not: a held torque)
+  std::vector<bool> averaged;  ///< per column: averaged over the triangle (not: a held torque)
   /// Writes rows x columns.
   std::function<void(const Signals&, Eigen::Ref<Eigen::MatrixXd>)> fill;
-  double rest_speed = 0;            ///< rad/s; rows slower than this are dropped; 0: keep all
+  double rest_speed = 0;  ///< rad/s; rows slower than this are dropped; 0: keep all
   /// Speed by which rest is judged, n rows.
   std::function<Eigen::ArrayXd(const Signals&)> speed;
   /// Rows where this is 0 are left out and counted as "not used"; empty function: all are used.
@@ -72,8 +72,8 @@ Eigen::Index row_halo(const RowSettings& settings, double rate);
 Eigen::Index expected_rows(std::span<const LogSurvey> logs, const PartFilter& wanted,
                            const RowSettings& settings);
 
-/// Runs over all wanted rows of all logs in order: map(RowBatch) on worker threads, reduce(its result)
-/// in order on this one.
+/// Runs over all wanted rows of all logs in order: map(RowBatch) on worker threads, reduce(its
+/// result) in order on this one.
 template <class Map, class Reduce>
 WindowCounts stream_rows(std::span<const LogSurvey> logs, const PartFilter& wanted,
                          const RowSettings& settings, std::span<const Equation> equations,
@@ -94,7 +94,9 @@ WindowCounts stream_rows(std::span<const LogSurvey> logs, const PartFilter& want
       const Eigen::Index halo = row_halo(settings, rate);
       const WindowCounts counts = for_each_window(
           logs[k], wanted, halo, 2 * settings.drop_edge + 2 * kDifferenceEdge + settings.decimate,
-          bridge_seconds(settings.signal), [&](Window&& window) { return emit(Item{k, offset, std::move(window)}); });
+          bridge_seconds(settings.signal), [&](Window&& window) {
+            return emit(Item{k, offset, std::move(window)});
+          });
       total.rows_read += counts.rows_read;
       total.rows_resampled += counts.rows_resampled;
       total.rows_too_short += counts.rows_too_short;

@@ -9,18 +9,19 @@ namespace cablefit {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kBlockedCutoff = 10;     // Hz; sweeps of a blocked link are slower than 1 Hz
-constexpr double kMaxShareOfRate = 0.2;   // beyond it a five-point difference is off by 1 %
+constexpr double kBlockedCutoff = 10;    // Hz; sweeps of a blocked link are slower than 1 Hz
+constexpr double kMaxShareOfRate = 0.2;  // beyond it a five-point difference is off by 1 %
 constexpr double kRigidShareOfRate = 0.1;
-constexpr double kResonanceFactor = 2.5;  // the elastic torque's band: J_motor within 0.5 % (README)
-constexpr double kNoiseBias = 0.0025;     // largest share of noise in the acceleration's variance
-constexpr double kSamplesPerPeriod = 2.5; // rows per period of the cut-off after decimation
+constexpr double kResonanceFactor =
+    2.5;                               // the elastic torque's band: J_motor within 0.5 % (README)
+constexpr double kNoiseBias = 0.0025;  // largest share of noise in the acceleration's variance
+constexpr double kSamplesPerPeriod = 2.5;  // rows per period of the cut-off after decimation
 constexpr double kLowestCutoff = 1;
 constexpr int kPilotWindows = 4;
-constexpr double kSlowShare = 0.25;       // of the sweep speed that noise may reach, at four sd
-constexpr double kRestShare = 0.02;       // of the sweep speed: slower is a reversal
-constexpr double kStillShare = 0.05;      // of the link's speed: slower is standing still
-constexpr double kSweepLag = 0.25;        // s over which a sweep's speed is measured
+constexpr double kSlowShare = 0.25;   // of the sweep speed that noise may reach, at four sd
+constexpr double kRestShare = 0.02;   // of the sweep speed: slower is a reversal
+constexpr double kStillShare = 0.05;  // of the link's speed: slower is standing still
+constexpr double kSweepLag = 0.25;    // s over which a sweep's speed is measured
 
 double highest_rate(std::span<const LogSurvey> logs, const PartFilter& wanted) {
   double rate = 0;
@@ -72,9 +73,10 @@ void choose_edges(ChosenSettings& chosen, const SampleOptions& options, double r
     return;
   }
   const double cutoff = rows.signal.cutoff;
-  rows.drop_edge = cutoff > 0 ? std::max<Eigen::Index>(
-                                    kDifferenceEdge, static_cast<Eigen::Index>(std::ceil(2 * rate / cutoff)))
-                              : kDifferenceEdge;
+  rows.drop_edge =
+      cutoff > 0 ? std::max<Eigen::Index>(kDifferenceEdge,
+                                          static_cast<Eigen::Index>(std::ceil(2 * rate / cutoff)))
+                 : kDifferenceEdge;
   decide(chosen, "edge rows", std::to_string(rows.drop_edge), "two periods of the cut-off");
 }
 
@@ -101,8 +103,8 @@ double pilot_acceleration(std::span<const LogSurvey> logs, std::span<const Pilot
   return n > 0 ? std::sqrt(sum / static_cast<double>(n)) : 0;
 }
 
-// Speed of a slow sweep: the upper quartile of |theta(t + lag) - theta(t)| / lag, so that holds and plateaus
-// do not hide it, above what noise alone would show.
+// Speed of a slow sweep: the upper quartile of |theta(t + lag) - theta(t)| / lag, so that holds and
+// plateaus do not hide it, above what noise alone would show.
 double sweep_speed(std::span<const LogSurvey> logs, const PartFilter& wanted, Channel channel,
                    double noise) {
   std::vector<double> speeds;
@@ -110,9 +112,11 @@ double sweep_speed(std::span<const LogSurvey> logs, const PartFilter& wanted, Ch
     const int k = logs[p.log].plan.find(channel);
     if (k < 0) continue;
     const auto theta = p.window.data.col(k);
-    const auto lag = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(kSweepLag / p.window.period));
+    const auto lag =
+        std::max<Eigen::Index>(1, static_cast<Eigen::Index>(kSweepLag / p.window.period));
     for (Eigen::Index i = lag; i < theta.size(); i += std::max<Eigen::Index>(1, lag / 4))
-      speeds.push_back(std::abs(theta(i) - theta(i - lag)) / (static_cast<double>(lag) * p.window.period));
+      speeds.push_back(std::abs(theta(i) - theta(i - lag)) /
+                       (static_cast<double>(lag) * p.window.period));
   }
   if (speeds.empty()) return 0;
   const auto quartile = speeds.begin() + static_cast<long>(3 * speeds.size() / 4);
@@ -121,10 +125,11 @@ double sweep_speed(std::span<const LogSurvey> logs, const PartFilter& wanted, Ch
   return std::sqrt(std::max(0.0, *quartile * *quartile - of_noise * of_noise));
 }
 
-// The filter blurs a reversal over about 1/(2 pi cut-off): slower than the speed gained in that time the
-// sign of the velocity is not known, however good the encoder.
-double rest_speed(std::span<const LogSurvey> logs, const PartFilter& wanted, const RowSettings& rows,
-                  std::span<const PilotWindow> pilot, Channel channel, double rate) {
+// The filter blurs a reversal over about 1/(2 pi cut-off): slower than the speed gained in that
+// time the sign of the velocity is not known, however good the encoder.
+double rest_speed(std::span<const LogSurvey> logs, const PartFilter& wanted,
+                  const RowSettings& rows, std::span<const PilotWindow> pilot, Channel channel,
+                  double rate) {
   const double band = rows.signal.cutoff > 0 ? rows.signal.cutoff : rate / 2;
   const double noise = velocity_noise(worst_noise(logs, wanted, channel), band, rate);
   const double blur = pilot_acceleration(logs, pilot, rows.signal, channel) / (2 * kPi * band);
@@ -138,7 +143,8 @@ void choose_rest_speed(ChosenSettings& chosen, std::span<const LogSurvey> logs,
     chosen.rest_speed_theta = chosen.rest_speed_q = *options.rest_speed;
     decide(chosen, "rest speed", fmt::format("{:.3g}", *options.rest_speed), kByOption);
   } else {
-    const auto pilot = pilot_windows(logs, wanted, rows.signal, signal_halo(rows.signal, rate), kPilotWindows);
+    const auto pilot =
+        pilot_windows(logs, wanted, rows.signal, signal_halo(rows.signal, rate), kPilotWindows);
     chosen.rest_speed_theta = rest_speed(logs, wanted, rows, pilot, Channel::theta, rate);
     chosen.rest_speed_q = rest_speed(logs, wanted, rows, pilot, Channel::q, rate);
     decide(chosen, "rest speed",
@@ -174,21 +180,24 @@ void choose_moving_cutoff(ChosenSettings& chosen, std::span<const LogSurvey> log
     cutoff = *options.cutoff;
     decide(chosen, "cut-off", cutoff > 0 ? fmt::format("{:.4g} Hz", cutoff) : "none", kByOption);
   } else {
-    const double wish = resonance > 0 ? std::min(kResonanceFactor * resonance, kMaxShareOfRate * rate)
-                                      : kRigidShareOfRate * rate;
+    const double wish = resonance > 0
+                            ? std::min(kResonanceFactor * resonance, kMaxShareOfRate * rate)
+                            : kRigidShareOfRate * rate;
     cutoff = quiet_cutoff(logs, wanted, chosen.rows, wish, rate);
-    std::string reason = resonance > 0 && wish < kMaxShareOfRate * rate
-                             ? fmt::format("{:g} times the resonance f0 = {:.3g} Hz", kResonanceFactor, resonance)
-                             : fmt::format("{:g} of the sample rate", wish / rate);
+    std::string reason =
+        resonance > 0 && wish < kMaxShareOfRate * rate
+            ? fmt::format("{:g} times the resonance f0 = {:.3g} Hz", kResonanceFactor, resonance)
+            : fmt::format("{:g} of the sample rate", wish / rate);
     if (cutoff < wish)
-      reason = fmt::format("position noise below {:g} % of the acceleration's variance", 100 * kNoiseBias);
+      reason = fmt::format("position noise below {:g} % of the acceleration's variance",
+                           100 * kNoiseBias);
     decide(chosen, "cut-off", fmt::format("{:.4g} Hz", cutoff), reason);
   }
   if (resonance > 0 && cutoff > 0 && cutoff < 2 * resonance)
-    chosen.warnings.push_back(
-        fmt::format("the cut-off of {:.4g} Hz is below twice the resonance f0 = {:.3g} Hz: J_motor will "
-                    "come out too small; record at a higher rate or with a finer encoder",
-                    cutoff, resonance));
+    chosen.warnings.push_back(fmt::format(
+        "the cut-off of {:.4g} Hz is below twice the resonance f0 = {:.3g} Hz: J_motor will "
+        "come out too small; record at a higher rate or with a finer encoder",
+        cutoff, resonance));
 }
 
 }  // namespace
@@ -221,10 +230,11 @@ std::vector<PilotWindow> pilot_windows(std::span<const LogSurvey> logs, const Pa
   std::vector<PilotWindow> pilot;
   for (std::size_t k = 0; k < logs.size(); ++k) {
     int taken = 0;
-    for_each_window(logs[k], wanted, halo, 2 * kDifferenceEdge + 2, bridge_seconds(settings), [&](Window&& window) {
-      pilot.push_back({k, std::move(window)});
-      return ++taken < max_windows;
-    });
+    for_each_window(logs[k], wanted, halo, 2 * kDifferenceEdge + 2, bridge_seconds(settings),
+                    [&](Window&& window) {
+                      pilot.push_back({k, std::move(window)});
+                      return ++taken < max_windows;
+                    });
   }
   return pilot;
 }
@@ -252,22 +262,25 @@ ChosenSettings blocked_settings(std::span<const LogSurvey> logs, const PartFilte
   const double noise_q = worst_noise(logs, wanted, Channel::q);
   chosen.rest_speed_q = std::max(4 * velocity_noise(noise_q, band, rate),
                                  kStillShare * sweep_speed(logs, wanted, Channel::q, noise_q));
-  if (cutoff > 0) chosen.rows.rest_margin = static_cast<Eigen::Index>(std::ceil(rate / (4 * cutoff)));
+  if (cutoff > 0)
+    chosen.rows.rest_margin = static_cast<Eigen::Index>(std::ceil(rate / (4 * cutoff)));
   if (options.rest_speed) {
     chosen.rest_speed_theta = *options.rest_speed;
     decide(chosen, "rest speed", fmt::format("{:.3g}", chosen.rest_speed_theta), kByOption);
   } else if (unseen > kSlowShare * sweep) {
-    // Too slow for the encoder to tell motion from rest row by row: the direction of the last motion is
-    // all there is, and it is enough for the branch.
+    // Too slow for the encoder to tell motion from rest row by row: the direction of the last
+    // motion is all there is, and it is enough for the branch.
     chosen.rest_speed_theta = 0;
     decide(chosen, "rest speed", "0",
-           fmt::format("a sweep of {:.2g} rad/s does not stand out of the speed's noise; rows go by the direction of "
+           fmt::format("a sweep of {:.2g} rad/s does not stand out of the speed's noise; rows go "
+                       "by the direction of "
                        "the last motion",
                        sweep));
   } else {
     chosen.rest_speed_theta = std::max(unseen, kRestShare * sweep);
-    decide(chosen, "rest speed", fmt::format("{:.3g}", chosen.rest_speed_theta),
-           fmt::format("{:g} of the sweep's speed, at least 4 sd of the speed's noise", kRestShare));
+    decide(
+        chosen, "rest speed", fmt::format("{:.3g}", chosen.rest_speed_theta),
+        fmt::format("{:g} of the sweep's speed, at least 4 sd of the speed's noise", kRestShare));
   }
   chosen.rows.signal.torque_held = options.torque_hold == TorqueHold::zoh;
   return chosen;

@@ -13,11 +13,11 @@ namespace cablefit {
 
 /// What the command line may fix; anything left out is chosen.
 struct SampleOptions {
-  std::optional<double> cutoff;        ///< Hz; 0: no filter
+  std::optional<double> cutoff;  ///< Hz; 0: no filter
   std::optional<int> filter_order;
   std::optional<int> decimate;
-  std::optional<long> drop_edge;       ///< rows
-  std::optional<double> rest_speed;    ///< rad/s; 0: keep all
+  std::optional<long> drop_edge;     ///< rows
+  std::optional<double> rest_speed;  ///< rad/s; 0: keep all
   std::optional<TorqueHold> torque_hold;
   int threads = 1;
 };
@@ -35,8 +35,8 @@ struct ChosenSettings {
   std::vector<std::string> warnings;
 };
 
-/// sd of the white noise on a position channel (rad): the rig's quantum / sqrt(12) when given, else the
-/// larger of what sixth differences show and the log's own quantum / sqrt(12).
+/// sd of the white noise on a position channel (rad): the rig's quantum / sqrt(12) when given, else
+/// the larger of what sixth differences show and the log's own quantum / sqrt(12).
 double position_noise(const LogSurvey& log, const PartSurvey& part, Channel channel, int joint = 0);
 
 /// sd of velocity and acceleration that white position noise leaves below a cut-off (one-sided band
@@ -44,8 +44,8 @@ double position_noise(const LogSurvey& log, const PartSurvey& part, Channel chan
 double velocity_noise(double position_noise, double cutoff, double rate);
 double acceleration_noise(double position_noise, double cutoff, double rate);
 
-/// Quasi-static stage 1: a low cut-off, rest dropped. `rest_speed_q` is the speed below which a link
-/// counts as standing still: 5 % of its upper quartile, at least 4 sd of its noise.
+/// Quasi-static stage 1: a low cut-off, rest dropped. `rest_speed_q` is the speed below which a
+/// link counts as standing still: 5 % of its upper quartile, at least 4 sd of its noise.
 ChosenSettings blocked_settings(std::span<const LogSurvey> logs, const PartFilter& wanted,
                                 const SampleOptions& options);
 

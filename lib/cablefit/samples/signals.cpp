@@ -7,15 +7,17 @@
 namespace cablefit {
 namespace {
 
-// d/dt and d2/dt2 of fourth order; the three values at either end repeat their neighbour and are never
-// used (kDifferenceEdge).
-void differentiate(const Eigen::ArrayXd& x, double h, Eigen::ArrayXd& first, Eigen::ArrayXd& second) {
+// d/dt and d2/dt2 of fourth order; the three values at either end repeat their neighbour and are
+// never used (kDifferenceEdge).
+void differentiate(const Eigen::ArrayXd& x, double h, Eigen::ArrayXd& first,
+                   Eigen::ArrayXd& second) {
   const Eigen::Index n = x.size();
   first = Eigen::ArrayXd::Zero(n);
   second = Eigen::ArrayXd::Zero(n);
   if (n < 5) return;
   const Eigen::Index m = n - 4;
-  const auto a = x.head(m), b = x.segment(1, m), c = x.segment(2, m), d = x.segment(3, m), e = x.tail(m);
+  const auto a = x.head(m), b = x.segment(1, m), c = x.segment(2, m), d = x.segment(3, m),
+             e = x.tail(m);
   first.segment(2, m) = (a - 8 * b + 8 * d - e) / (12 * h);
   second.segment(2, m) = (16 * (b + d) - a - e - 30 * c) / (12 * h * h);
 }
@@ -25,8 +27,8 @@ void differentiate_velocity(const Eigen::ArrayXd& v, double h, Eigen::ArrayXd& a
   differentiate(v, h, acceleration, unused);
 }
 
-// tau(t - delay) by linear interpolation between rows; for the usual delay of half a row this is the
-// mean of tau[i-1] and tau[i], exactly what a second difference at i sees of a held torque.
+// tau(t - delay) by linear interpolation between rows; for the usual delay of half a row this is
+// the mean of tau[i-1] and tau[i], exactly what a second difference at i sees of a held torque.
 Eigen::ArrayXd delayed(const Eigen::ArrayXd& tau, double rows) {
   const Eigen::Index n = tau.size();
   Eigen::ArrayXd out(n);
@@ -39,7 +41,8 @@ Eigen::ArrayXd delayed(const Eigen::ArrayXd& tau, double rows) {
   return out;
 }
 
-Eigen::ArrayXd column(const Eigen::MatrixXd& data, const LogPlan& plan, Channel channel, int joint) {
+Eigen::ArrayXd column(const Eigen::MatrixXd& data, const LogPlan& plan, Channel channel,
+                      int joint) {
   const int k = plan.find(channel, joint);
   return k < 0 ? Eigen::ArrayXd() : Eigen::ArrayXd(data.col(k).array());
 }
@@ -64,19 +67,23 @@ JointSignals joint_signals(const Eigen::MatrixXd& data, const LogPlan& plan, int
   }
   const Load& load = plan.rig.load;
   if (load.law != nullptr && !load.law->from_column) {
-    const Eigen::ArrayXd& position = s.q.size() > 0 ? s.q : s.theta;  // a rigid drive may log theta only
-    s.tau_load =
-        position.unaryExpr([&](double q) { return load.law->torque(load.parameters, q); });
+    const Eigen::ArrayXd& position =
+        s.q.size() > 0 ? s.q : s.theta;  // a rigid drive may log theta only
+    s.tau_load = position.unaryExpr([&](double q) { return load.law->torque(load.parameters, q); });
   }
   return s;
 }
 
-void add_directions(std::vector<JointSignals>& joints, const Butterworth* low_pass, const Window& window) {
+void add_directions(std::vector<JointSignals>& joints, const Butterworth* low_pass,
+                    const Window& window) {
   for (JointSignals& s : joints) {
     Eigen::MatrixXd directions(window.data.rows(), 2);
-    directions.col(0) = s.qd.size() > 0 ? s.qd.sign().eval() : Eigen::ArrayXd::Zero(directions.rows()).eval();
-    directions.col(1) = s.thetad.size() > 0 ? s.thetad.sign().eval() : Eigen::ArrayXd::Zero(directions.rows()).eval();
-    if (low_pass != nullptr) low_pass->apply(directions, window.starts_segment, window.ends_segment);
+    directions.col(0) =
+        s.qd.size() > 0 ? s.qd.sign().eval() : Eigen::ArrayXd::Zero(directions.rows()).eval();
+    directions.col(1) = s.thetad.size() > 0 ? s.thetad.sign().eval()
+                                            : Eigen::ArrayXd::Zero(directions.rows()).eval();
+    if (low_pass != nullptr)
+      low_pass->apply(directions, window.starts_segment, window.ends_segment);
     s.q_direction = directions.col(0);
     s.theta_direction = directions.col(1);
   }
@@ -93,7 +100,8 @@ Eigen::Index signal_halo(const SignalSettings& settings, double rate) {
   const Eigen::Index differences = kDifferenceEdge + 1;
   if (settings.cutoff <= 0) return differences;
   // Twice: the direction of motion is filtered after the signals it comes from.
-  return 2 * Butterworth(settings.filter_order, settings.cutoff, rate).settling_rows() + differences;
+  return 2 * Butterworth(settings.filter_order, settings.cutoff, rate).settling_rows() +
+         differences;
 }
 
 double bridge_seconds(const SignalSettings& settings) {

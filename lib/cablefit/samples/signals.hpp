@@ -11,23 +11,23 @@ namespace cablefit {
 
 /// How signals are made from samples.
 struct SignalSettings {
-  double cutoff = 0;          ///< Hz; 0: no low-pass
+  double cutoff = 0;  ///< Hz; 0: no low-pass
   int filter_order = 4;
-  bool torque_held = false;   ///< tau[i] acts from t[i] until t[i] + torque_period
-  double torque_period = 0;   ///< s; 0: the log's period
+  bool torque_held = false;  ///< tau[i] acts from t[i] until t[i] + torque_period
+  double torque_period = 0;  ///< s; 0: the log's period
 };
 
-/// Signals of one joint over the rows of a window; an empty array where the log has no such channel.
-/// Position-like signals are filtered; derivatives are five-point central differences of fourth order.
-/// `tau` is filtered and moved by half the hold (tau(t - T/2)) when it is held.
+/// Signals of one joint over the rows of a window; an empty array where the log has no such
+/// channel. Position-like signals are filtered; derivatives are five-point central differences of
+/// fourth order. `tau` is filtered and moved by half the hold (tau(t - T/2)) when it is held.
 struct JointSignals {
-  Eigen::ArrayXd q, qd, qdd;              ///< rad, rad/s, rad/s^2
+  Eigen::ArrayXd q, qd, qdd;  ///< rad, rad/s, rad/s^2
   Eigen::ArrayXd theta, thetad, thetadd;
-  Eigen::ArrayXd tau, tau_load;           ///< N m
-  /// sgn(qd), sgn(thetad) through the same low-pass as the signals: real friction flips at once, and the
-  /// filter has smoothed that flip in every other term of the equation.
+  Eigen::ArrayXd tau, tau_load;  ///< N m
+  /// sgn(qd), sgn(thetad) through the same low-pass as the signals: real friction flips at once,
+  /// and the filter has smoothed that flip in every other term of the equation.
   Eigen::ArrayXd q_direction, theta_direction;
-  Eigen::ArrayXd approach;                ///< -1, 0, 1: direction of the last motion of theta
+  Eigen::ArrayXd approach;  ///< -1, 0, 1: direction of the last motion of theta
 };
 
 struct Signals {
@@ -47,8 +47,9 @@ inline constexpr Eigen::Index kDifferenceEdge = 3;
 Signals make_signals(const Window& window, const LogPlan& plan, const SignalSettings& settings);
 
 /// Average over the triangle (1, 10, 1)/12 of +-1 sample, in place. A second difference IS the mean
-/// acceleration under that triangle (Numerov), so every other column of an equation must be averaged
-/// alike: without it J_motor is 1.8 % too large at 1 kHz on the paper's rig, through K T^2/(12 J).
+/// acceleration under that triangle (Numerov), so every other column of an equation must be
+/// averaged alike: without it J_motor is 1.8 % too large at 1 kHz on the paper's rig, through K
+/// T^2/(12 J).
 void triangle_average(Eigen::Ref<Eigen::ArrayXd> column);
 
 }  // namespace cablefit

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t kChunkRows = 8192;
 constexpr std::size_t kMinRows = 8;
-constexpr double kGapEven = 1.5;     // an even clock: a missing row is a gap
-constexpr double kGapUneven = 5;     // an uneven one: interpolate over a few missed rows, not more
+constexpr double kGapEven = 1.5;  // an even clock: a missing row is a gap
+constexpr double kGapUneven = 5;  // an uneven one: interpolate over a few missed rows, not more
 constexpr double kUnevenJitter = 0.3;  // of the period; less is rounding of the printed time
 constexpr double kUnevenShare = 0.01;  // of the steps off by that much; fewer are dropped rows
 // A link whose position varies less than this share of the motor's is blocked.
@@ -88,8 +88,8 @@ struct StepSums {
   }
 };
 
-// The clock of one part. Whether a step is a gap depends on whether the clock is even, which shows only
-// at the end, so both ways of counting are kept. The scale is the median of the first steps.
+// The clock of one part. Whether a step is a gap depends on whether the clock is even, which shows
+// only at the end, so both ways of counting are kept. The scale is the median of the first steps.
 class ClockScan {
  public:
   void add(double t, bool continues, const Place& place) {
@@ -186,7 +186,8 @@ double time_of(const LogPlan& plan, const LogChunk& chunk, std::size_t row) {
 }
 
 PartTracker::PartTracker(const LogPlan& plan, std::string default_preload)
-    : plan_(plan), default_preload_(default_preload.empty() ? "default" : std::move(default_preload)) {
+    : plan_(plan),
+      default_preload_(default_preload.empty() ? "default" : std::move(default_preload)) {
   for (const auto& column : {plan.preload_column, plan.phase_column, plan.run_column})
     if (column) texts_.push_back(*column);
   current_.resize(texts_.size());
@@ -240,9 +241,10 @@ LogSurvey survey_log(const LogPlan& plan, const std::string& preload) {
       bool changed = false;
       const PartTracker::Key& key = tracker.key(*reader, chunk, row, changed);
       if (changed) {
-        current = static_cast<std::size_t>(
-            std::find_if(scans.begin(), scans.end(), [&](const PartScan& s) { return s.key == key; }) -
-            scans.begin());
+        current =
+            static_cast<std::size_t>(std::find_if(scans.begin(), scans.end(),
+                                                  [&](const PartScan& s) { return s.key == key; }) -
+                                     scans.begin());
         if (current == scans.size())
           scans.push_back({key, {}, std::vector<ChannelScan>(plan.slots.size())});
         for (ChannelScan& channel : scans[current].channels) channel.restart();
@@ -265,11 +267,12 @@ LogSurvey survey_log(const LogPlan& plan, const std::string& preload) {
     part.phase_given = !scan.key.phase.empty();
     part.phase = phase_of(scan.key, part, plan);
     if (part.n_rows < kMinRows)
-      throw input_error({plan.path, 0, 0},
-                        fmt::format("{} row{} of preload '{:.40}'{}", part.n_rows,
-                                    part.n_rows == 1 ? "" : "s", part.preload,
-                                    part.run.empty() ? "" : fmt::format(", run '{:.40}'", part.run)),
-                        fmt::format("at least {} rows are needed to see any motion", kMinRows));
+      throw input_error(
+          {plan.path, 0, 0},
+          fmt::format("{} row{} of preload '{:.40}'{}", part.n_rows, part.n_rows == 1 ? "" : "s",
+                      part.preload,
+                      part.run.empty() ? "" : fmt::format(", run '{:.40}'", part.run)),
+          fmt::format("at least {} rows are needed to see any motion", kMinRows));
     survey.parts.push_back(std::move(part));
   }
   return survey;

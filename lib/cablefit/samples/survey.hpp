@@ -16,9 +16,9 @@ std::string_view to_string(Phase phase);
 /// What one channel looks like within one part. SI.
 struct ChannelSurvey {
   double min = 0, max = 0;
-  double quantum = 0;   ///< smallest step between neighbours that occurs, 0 for a constant
-  double noise = 0;     ///< sd of white noise, from sixth differences (they remove smooth motion)
-  double at_limits = 0; ///< share of rows exactly at min or max: saturation when large
+  double quantum = 0;    ///< smallest step between neighbours that occurs, 0 for a constant
+  double noise = 0;      ///< sd of white noise, from sixth differences (they remove smooth motion)
+  double at_limits = 0;  ///< share of rows exactly at min or max: saturation when large
   double range() const { return max - min; }
 };
 
@@ -26,21 +26,21 @@ struct ChannelSurvey {
 struct PartSurvey {
   std::string preload, run;
   Phase phase = Phase::moving;
-  bool phase_given = false;      ///< by a column, not by whether q stands still
+  bool phase_given = false;  ///< by a column, not by whether q stands still
   std::size_t n_rows = 0;
-  std::size_t n_gaps = 0;        ///< jumps in time; nothing is differenced across them
+  std::size_t n_gaps = 0;  ///< jumps in time; nothing is differenced across them
   double t_first = 0, t_last = 0;
-  double period = 0;             ///< s, mean time between rows outside gaps
-  double jitter = 0;             ///< sd of the time between rows / period
-  double worst_jitter = 0;       ///< largest deviation from the period / period
-  bool uneven = false;           ///< has to be resampled to an even grid
+  double period = 0;                    ///< s, mean time between rows outside gaps
+  double jitter = 0;                    ///< sd of the time between rows / period
+  double worst_jitter = 0;              ///< largest deviation from the period / period
+  bool uneven = false;                  ///< has to be resampled to an even grid
   std::vector<ChannelSurvey> channels;  ///< as LogPlan::slots
 };
 
 struct LogSurvey {
   LogPlan plan;
   std::string sha256;
-  std::string default_preload;   ///< of rows without a preload of their own
+  std::string default_preload;  ///< of rows without a preload of their own
   std::size_t n_rows = 0;
   std::vector<PartSurvey> parts;
 };

@@ -52,7 +52,11 @@ class SegmentCutter {
  public:
   SegmentCutter(const LogPlan& plan, Eigen::Index halo, Eigen::Index min_rows,
                 const std::function<bool(Window&&)>& sink, WindowCounts& counts)
-      : plan_(plan), halo_(halo), min_rows_(min_rows), sink_(sink), counts_(counts),
+      : plan_(plan),
+        halo_(halo),
+        min_rows_(min_rows),
+        sink_(sink),
+        counts_(counts),
         n_slots_(static_cast<Eigen::Index>(plan.slots.size())),
         trackers_(static_cast<std::size_t>(plan.rig.n_joints())) {
     buffer_.resize(kWindowRows + 2 * halo + 1, n_slots_ + plan.rig.n_joints());
@@ -191,7 +195,8 @@ std::size_t part_of(const LogSurvey& log, const PartTracker::Key& key) {
 
 }  // namespace
 
-WindowCounts for_each_window(const LogSurvey& log, const std::function<bool(const PartSurvey&)>& wanted,
+WindowCounts for_each_window(const LogSurvey& log,
+                             const std::function<bool(const PartSurvey&)>& wanted,
                              Eigen::Index halo, Eigen::Index min_rows, double bridge,
                              const std::function<bool(Window&&)>& sink) {
   WindowCounts counts;

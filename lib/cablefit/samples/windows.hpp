@@ -1,5 +1,6 @@
-// A log cut into windows on a fixed grid: each carries a halo of neighbours on both sides, so that a
-// window can be filtered and differenced on its own, on any thread, with the same bits as any other way.
+// A log cut into windows on a fixed grid: each carries a halo of neighbours on both sides, so that
+// a window can be filtered and differenced on its own, on any thread, with the same bits as any
+// other way.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,34 +13,37 @@ namespace cablefit {
 /// A segment is a stretch of evenly spaced rows without a gap, within one part. This window answers
 /// for rows [begin, end) of its segment; `data` holds rows [first, first + data.rows()).
 struct Window {
-  std::size_t part = 0;         ///< index into LogSurvey::parts
-  std::size_t segment = 0;      ///< running number within the log
+  std::size_t part = 0;     ///< index into LogSurvey::parts
+  std::size_t segment = 0;  ///< running number within the log
   Eigen::Index begin = 0, end = 0, first = 0;
-  Eigen::Index rows_before = 0; ///< rows of the log in earlier segments, whether used or not
-  bool starts_segment = false;  ///< data.row(0) is the segment's first row
-  bool ends_segment = false;    ///< data's last row is the segment's last
-  double t0 = 0;                ///< time of the segment's row 0, s
-  double period = 0;            ///< s
-  Eigen::MatrixXd data;         ///< rows x LogPlan::slots, SI
-  /// rows x joints: the direction (-1, 1; 0 before any motion) in which theta last moved by more than
-  /// its noise. At rest this tells from which side the place was approached.
+  Eigen::Index rows_before = 0;  ///< rows of the log in earlier segments, whether used or not
+  bool starts_segment = false;   ///< data.row(0) is the segment's first row
+  bool ends_segment = false;     ///< data's last row is the segment's last
+  double t0 = 0;                 ///< time of the segment's row 0, s
+  double period = 0;             ///< s
+  Eigen::MatrixXd data;          ///< rows x LogPlan::slots, SI
+  /// rows x joints: the direction (-1, 1; 0 before any motion) in which theta last moved by more
+  /// than its noise. At rest this tells from which side the place was approached.
   Eigen::MatrixXd approach;
 };
 
 /// What had to be done to get an even grid; printed in reports.
 struct WindowCounts {
   std::size_t rows_read = 0;
-  std::size_t rows_resampled = 0;   ///< rows made by linear interpolation (uneven clocks)
-  std::size_t rows_too_short = 0;   ///< rows in segments shorter than `min_rows`
+  std::size_t rows_resampled = 0;  ///< rows made by linear interpolation (uneven clocks)
+  std::size_t rows_too_short = 0;  ///< rows in segments shorter than `min_rows`
   std::size_t segments = 0;
 };
 
 inline constexpr Eigen::Index kWindowRows = 8192;
 
 /// One pass over the parts for which `wanted` says true. `halo` rows on either side where there are
-/// any. `bridge`: holes up to this long (s) in an uneven log are interpolated over, a quarter period of
-/// the cut-off, say; longer ones, and any missing row of an even log, begin a new segment. Segments shorter than `min_rows` are left out and counted. Return false from `sink` to stop.
-WindowCounts for_each_window(const LogSurvey& log, const std::function<bool(const PartSurvey&)>& wanted,
+/// any. `bridge`: holes up to this long (s) in an uneven log are interpolated over, a quarter
+/// period of the cut-off, say; longer ones, and any missing row of an even log, begin a new
+/// segment. Segments shorter than `min_rows` are left out and counted. Return false from `sink` to
+/// stop.
+WindowCounts for_each_window(const LogSurvey& log,
+                             const std::function<bool(const PartSurvey&)>& wanted,
                              Eigen::Index halo, Eigen::Index min_rows, double bridge,
                              const std::function<bool(Window&&)>& sink);
 

@@ -10,7 +10,7 @@
 // exceeds `level`: it stands exactly still otherwise (Moreau 1988, "Unilateral contact and dry
 // friction"; the stop is placed inside the step, so that reversals keep the order). Second order in
 // h, through stops, reversals and cables that go slack too. Explicit in the elastic torque: stable
-// for h < 2/omega of the stiffest mode (paper's rig: 390 rad/s at rest, h omega = 0.01 at 25 us).
+// for h < 2/omega of the stiffest mode (paper's rig: 350 to 630 rad/s, h omega < 0.016 at 25 us).
 #pragma once
 
 #include <Eigen/Core>

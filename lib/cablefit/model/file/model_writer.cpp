@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -143,7 +145,7 @@ std::string joined(const Json& json, const std::string& separator, Print print) 
 }
 
 std::string bracketed(const Json& json, const std::string& text) {
-  return json.is_object() ? "{" + text + "}" : "[" + text + "]";
+  return fmt::format("{1}{0}{2}", text, json.is_object() ? '{' : '[', json.is_object() ? '}' : ']');
 }
 
 std::string one_line(const Json& json) {
@@ -154,10 +156,10 @@ std::string one_line(const Json& json) {
 std::string pretty(const Json& json, std::size_t indent) {
   const std::string flat = one_line(json);
   if (!json.is_structured() || indent + flat.size() <= kLineWidth) return flat;
-  const std::string margin = "\n" + std::string(indent + 2, ' ');
+  const std::string margin = fmt::format("\n{:{}}", "", indent + 2);
   const auto print = [indent](const Json& value) { return pretty(value, indent + 2); };
-  return bracketed(json,
-                   margin + joined(json, "," + margin, print) + "\n" + std::string(indent, ' '));
+  const std::string inner = joined(json, "," + margin, print);
+  return bracketed(json, fmt::format("{}{}\n{:{}}", margin, inner, "", indent));
 }
 
 }  // namespace

@@ -1,0 +1,22 @@
+// Errors of the candidates: order by held-out blocks, largest errors by a second look at the rows.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cablefit/elastic/candidates.hpp"
+
+namespace cablefit {
+
+/// Lowest order that no higher one (up to options.max_order) beats significantly on held-out
+/// blocks, by a paired test over blocks; the reason goes to `words`.
+int choose_order(const ElasticJob& job, const BlockedRows& rows, const Nuisance& nuisance,
+                 std::vector<std::string>& words);
+
+/// Streams the rows again: largest errors of every fit, in sample and on held-out blocks,
+/// deflection range and peak torque. candidates[k], solutions[k] belong to preload.fits[k].
+void measure_errors(const ElasticJob& job, const BlockedRows& rows,
+                    const std::vector<Candidate>& candidates,
+                    const std::vector<LinearSolution>& solutions, ElasticPreload& preload);
+
+}  // namespace cablefit

@@ -1,0 +1,140 @@
+#include "cablefit/report/dynamic_document.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "cablefit/report/document_parts.hpp"
+#include "cablefit/report/numbers.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr int kErrorDigits = 3;
+
+std::set<std::string> all_equations(const DynamicResult& result) {
+  std::set<std::string> equations;
+  for (const DynamicPreload& preload : result.preloads) {
+    for (const DynamicFit& fit : preload.fits) {
+      for (const auto& [equation, error] : fit.torque_error) equations.insert(equation);
+    }
+  }
+  return equations;
+}
+
+Table error_table(const DynamicResult& result) {
+  const bool linear_motion = !result.preloads.empty() && result.preloads.front().linear_motion;
+  Table table;
+  table.title = "Torque errors: what the model leaves, relative to the torque it explains";
+  table.columns = {{"", "preload", "", true}, {"", "model", "", true}};
+  const std::set<std::string> equations = all_equations(result);
+  for (const std::string& equation : equations) {
+    const std::string group = equation + " equation";
+    table.columns.push_back({group, "rms", torque_unit(linear_motion)});
+    table.columns.push_back({group, "max", torque_unit(linear_motion)});
+    table.columns.push_back({group, "relative", "%"});
+  }
+  for (const DynamicPreload& preload : result.preloads) {
+    for (const DynamicFit& fit : preload.fits) {
+      std::vector<std::string> row = {preload.name, fit.model};
+      for (const std::string& equation : equations) {
+        const auto found = fit.torque_error.find(equation);
+        const bool has = found != fit.torque_error.end();
+        const TorqueError error = has ? found->second : TorqueError{};
+        row.push_back(has ? significant(error.rms, kErrorDigits) : kNoNumber);
+        row.push_back(has ? significant(error.max_abs, kErrorDigits) : kNoNumber);
+        row.push_back(has ? significant(100 * error.relative, kErrorDigits) : kNoNumber);
+      }
+      table.rows.push_back(row);
+    }
+  }
+  return table;
+}
+
+Table sd_table(const DynamicResult& result) {
+  Table table;
+  table.title = "Standard deviations: the one cablefit stands behind, and the paper's (25)";
+  table.columns = {{"", "preload", "", true},   {"", "model", "", true},
+                   {"", "parameter", "", true}, {"", "unit", "", true},
+                   {"", "value", ""},           {"", "sd", ""},
+                   {"", "sd of (25)", ""},      {"95 % interval", "from", ""},
+                   {"95 % interval", "to", ""}};
+  table.detail = true;
+  for (const DynamicPreload& preload : result.preloads) {
+    for (const DynamicFit& fit : preload.fits) {
+      for (const Estimate& e : fit.parameters) {
+        if (!e.not_identifiable.empty()) continue;
+        table.rows.push_back({preload.name, fit.model, e.name, e.unit, value_text(e.value, e.sd),
+                              sd_text(e.value, e.sd), significant(e.sd_white, 2),
+                              value_text(e.ci_low, e.sd), value_text(e.ci_high, e.sd)});
+      }
+    }
+  }
+  return table;
+}
+
+Table conditioning_table(const DynamicResult& result) {
+  Table table;
+  table.title = "Conditioning";
+  table.columns = {{"", "preload", "", true}, {"", "model", "", true}, {"", "equation", "", true},
+                   {"", "cond(W)", ""},       {"", "effective rows", ""}};
+  table.detail = true;
+  for (const DynamicPreload& preload : result.preloads) {
+    for (const DynamicFit& fit : preload.fits) {
+      for (const auto& [equation, condition] : fit.condition) {
+        const auto rows = fit.effective_rows.find(equation);
+        const double effective = rows == fit.effective_rows.end() ? 0 : rows->second;
+        table.rows.push_back({preload.name, fit.model, equation, significant(condition, 3),
+                              fmt::format("{:.0f}", effective)});
+      }
+    }
+  }
+  return table;
+}
+
+void add_tidy_rows(Table& table, const DynamicPreload& preload, const DynamicFit& fit) {
+  for (const Estimate& e : fit.parameters) {
+    add_tidy(table, preload.name, fit.model, fit.estimator, e);
+  }
+  const std::string torque = torque_unit(preload.linear_motion);
+  for (const auto& [equation, error] : fit.torque_error) {
+    const auto add = [&](const char* what, const std::string& unit, double value) {
+      add_tidy_number(table, preload.name, fit.model, fit.estimator,
+                      fmt::format("torque_error_{}_{}", equation, what), unit, value);
+    };
+    add("rms", torque, error.rms);
+    add("max_abs", torque, error.max_abs);
+    add("relative", "", error.relative);
+  }
+}
+
+}  // namespace
+
+Document dynamic_document(const DynamicResult& result) {
+  Document document;
+  document.title = "Stage 2, link moving: inertias, friction and offset";
+  document.tidy = tidy_table();
+  Table counts = counts_table();
+  add_warnings(document, "", result.warnings);
+  for (const DynamicPreload& preload : result.preloads) {
+    for (const auto& [equation, rows] : preload.counts) {
+      add_counts(counts, preload.name, equation, rows, preload.windows);
+    }
+    add_decisions(document, preload.name, preload.decisions);
+    add_warnings(document, preload.name, preload.warnings);
+    for (const DynamicFit& fit : preload.fits) {
+      add_warnings(document, preload.name + ", " + fit.model, fit.warnings);
+      add_tidy_rows(document.tidy, preload, fit);
+    }
+  }
+  finish_decisions(document, result.preloads.size());
+  document.tables = parameter_tables(result);
+  const Table errors = error_table(result);
+  if (errors.columns.size() > 2) document.tables.push_back(errors);
+  document.tables.push_back(sd_table(result));
+  document.tables.push_back(conditioning_table(result));
+  document.tables.push_back(counts);
+  return document;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,92 @@
+#include "cablefit/report/dynamic_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "cablefit/report/json_parts.hpp"
+
+namespace cablefit {
+namespace {
+
+using report_json::Json;
+
+Json errors_json(const std::map<std::string, TorqueError>& errors) {
+  Json json = Json::object();
+  for (const auto& [equation, error] : errors) {
+    json[equation] = {
+        {"rms", error.rms}, {"max_abs", error.max_abs}, {"relative", error.relative}};
+  }
+  return json;
+}
+
+template <typename Value>
+Json by_name(const std::map<std::string, Value>& values) {
+  Json json = Json::object();
+  for (const auto& [name, value] : values) json[name] = value;
+  return json;
+}
+
+Json stage1_json(const ElasticFit& fit) {
+  return Json{{"order", fit.order},
+              {"theta_0", report_json::per_joint(fit.transmission.encoder_zero())},
+              {"offset", fit.offset},
+              {"parameters", report_json::parameters(fit.parameters)}};
+}
+
+Json fit_json(const DynamicFit& fit) {
+  Json json{{"model", fit.model},
+            {"estimator", fit.estimator},
+            {"parameters", report_json::parameters(fit.parameters)},
+            {"torque_error", errors_json(fit.torque_error)},
+            {"weight", by_name(fit.weight)},
+            {"condition", by_name(fit.condition)},
+            {"effective_rows", by_name(fit.effective_rows)}};
+  if (fit.elastic) json["elastic"] = stage1_json(*fit.elastic);
+  json["verdicts"] = by_name(fit.verdicts);
+  json["warnings"] = fit.warnings;
+  return json;
+}
+
+Json delay_json(const TorqueDelay& delay) {
+  Json json{{"seconds", nullptr}, {"sd", nullptr}, {"held", delay.held}, {"reason", delay.reason}};
+  if (!delay.estimated) return json;
+  json["seconds"] = delay.seconds;
+  json["sd"] = delay.sd;
+  return json;
+}
+
+Json counts_json(const DynamicPreload& preload) {
+  Json counts = report_json::window_counts(preload.windows);
+  counts["equations"] = Json::object();
+  for (const auto& [equation, rows] : preload.counts) {
+    counts["equations"][equation] = report_json::row_counts(rows);
+  }
+  return counts;
+}
+
+Json preload_json(const DynamicPreload& preload) {
+  Json fits = Json::array();
+  for (const DynamicFit& fit : preload.fits) fits.push_back(fit_json(fit));
+  return Json{{"name", preload.name},
+              {"rig", report_json::rig(preload.rig_path)},
+              {"linear_motion", preload.linear_motion},
+              {"resonance_hz", preload.resonance > 0 ? Json(preload.resonance) : Json()},
+              {"load_inertia", preload.load_inertia},
+              {"torque_delay", delay_json(preload.delay)},
+              {"fits", fits},
+              {"counts", counts_json(preload)},
+              {"decisions", report_json::decisions(preload.decisions)},
+              {"warnings", preload.warnings}};
+}
+
+}  // namespace
+
+std::string dynamic_json(const DynamicResult& result) {
+  Json json = report_json::header("dynamic", result.inputs, result.warnings);
+  json["preloads"] = Json::array();
+  for (const DynamicPreload& preload : result.preloads) {
+    json["preloads"].push_back(preload_json(preload));
+  }
+  return report_json::text(json);
+}
+
+}  // namespace cablefit

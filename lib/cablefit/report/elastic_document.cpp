@@ -1,0 +1,124 @@
+#include "cablefit/report/elastic_document.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cablefit/report/document_parts.hpp"
+#include "cablefit/report/numbers.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr int kErrorDigits = 3;
+
+std::string error_text(double error) { return significant(error, kErrorDigits); }
+
+/// "0.012 +- 0.003", "-" when the fit has no such parameter. `scale`: mrad instead of rad.
+std::string estimate_text(const ElasticFit& fit, const char* name, double scale, Footnotes& notes) {
+  const Estimate* e = find_estimate(fit.parameters, name);
+  if (e == nullptr) return kNoNumber;
+  if (!e->not_identifiable.empty()) {
+    return "not identifiable " + notes.mark(e->name + ": " + e->not_identifiable);
+  }
+  if (!e->active_bound.empty()) {
+    return "0 " + notes.mark(fmt::format("at its bound {}; 95 % interval up to {}", e->active_bound,
+                                         significant(e->ci_high, 2)));
+  }
+  return value_with_sd(scale * e->value, scale * e->sd);
+}
+
+Table fits_table(const ElasticResult& result) {
+  const bool linear_motion = !result.preloads.empty() && result.preloads.front().linear_motion;
+  const std::string torque = torque_unit(linear_motion);
+  Table table;
+  Footnotes notes;
+  table.title = "Fits";
+  table.columns = {{"", "preload", "", true},
+                   {"", "model", "", true},
+                   {"", "order", ""},
+                   {"", "offset", torque},
+                   {"", "theta_0", linear_motion ? "mm" : "mrad"},
+                   {"", "f_sm", torque},
+                   {"error", "rms", torque},
+                   {"error", "max", torque},
+                   {"error on held-out blocks", "rms", torque},
+                   {"error on held-out blocks", "max", torque},
+                   {"", "", "", true}};
+  for (const ElasticPreload& preload : result.preloads) {
+    for (const ElasticFit& fit : preload.fits) {
+      std::string remark = fit.model == preload.selected ? "selected" : "";
+      if (!fit.passive) remark += remark.empty() ? "pushes" : ", pushes";
+      table.rows.push_back({preload.name, fit.model, fmt::format("{}", fit.order),
+                            estimate_text(fit, "offset", 1, notes),
+                            estimate_text(fit, "theta_0", 1e3, notes),
+                            estimate_text(fit, "f_sm", 1, notes), error_text(fit.rms_error),
+                            error_text(fit.max_abs_error), error_text(fit.held_out_rms),
+                            error_text(fit.held_out_max), remark});
+    }
+  }
+  table.notes = notes.lines();
+  return table;
+}
+
+Table sd_table(const ElasticResult& result) {
+  Table table;
+  table.title = "Standard deviations: the one cablefit stands behind, and the paper's (25)";
+  table.columns = {{"", "preload", "", true}, {"", "model", "", true}, {"", "parameter", "", true},
+                   {"", "unit", "", true},    {"", "value", ""},       {"", "sd", ""},
+                   {"", "sd of (25)", ""},    {"95 % interval", "from", ""},
+                   {"95 % interval", "to", ""}};
+  table.detail = true;
+  for (const ElasticPreload& preload : result.preloads) {
+    for (const ElasticFit& fit : preload.fits) {
+      for (const Estimate& e : fit.parameters) {
+        table.rows.push_back({preload.name, fit.model, e.name, e.unit, value_text(e.value, e.sd),
+                              sd_text(e.value, e.sd), significant(e.sd_white, 2),
+                              value_text(e.ci_low, e.sd), value_text(e.ci_high, e.sd)});
+      }
+    }
+  }
+  return table;
+}
+
+void add_tidy_rows(Table& table, const ElasticPreload& preload, const ElasticFit& fit) {
+  const std::string method = fmt::format("order {}", fit.order);
+  for (const Estimate& e : fit.parameters) add_tidy(table, preload.name, fit.model, method, e);
+  const auto add = [&](const char* name, const std::string& unit, double value) {
+    add_tidy_number(table, preload.name, fit.model, method, name, unit, value);
+  };
+  const std::string torque = torque_unit(preload.linear_motion);
+  add("rms_error", torque, fit.rms_error);
+  add("max_abs_error", torque, fit.max_abs_error);
+  add("held_out_rms", torque, fit.held_out_rms);
+  add("held_out_max", torque, fit.held_out_max);
+  add("deflection_low", preload.unit, preload.deflection_low);
+  add("deflection_high", preload.unit, preload.deflection_high);
+}
+
+}  // namespace
+
+Document elastic_document(const ElasticResult& result) {
+  Document document;
+  document.title = "Stage 1, link blocked: elastic torque against deflection theta - q";
+  document.tidy = tidy_table();
+  Table counts = counts_table();
+  add_warnings(document, "", result.warnings);
+  for (const ElasticPreload& preload : result.preloads) {
+    add_counts(counts, preload.name, "blocked", preload.counts, preload.windows);
+    add_decisions(document, preload.name, preload.decisions);
+    for (const std::string& words : preload.selection) {
+      document.paragraphs.push_back(preload.name + ": " + words);
+    }
+    add_warnings(document, preload.name, preload.warnings);
+    for (const ElasticFit& fit : preload.fits) {
+      add_warnings(document, preload.name + ", " + fit.model, fit.warnings);
+      add_tidy_rows(document.tidy, preload, fit);
+    }
+  }
+  finish_decisions(document, result.preloads.size());
+  document.tables = {stiffness_table(result), fits_table(result), sd_table(result), counts};
+  return document;
+}
+
+}  // namespace cablefit

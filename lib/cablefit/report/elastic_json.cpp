@@ -1,0 +1,71 @@
+#include "cablefit/report/elastic_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "cablefit/report/json_parts.hpp"
+
+namespace cablefit {
+namespace {
+
+using report_json::Json;
+
+Json matrix_json(const Eigen::MatrixXd& matrix) {
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    Json row = Json::array();
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json fit_json(const ElasticFit& fit) {
+  return Json{{"model", fit.model},
+              {"order", fit.order},
+              {"parameters", report_json::parameters(fit.parameters)},
+              {"rms_error", fit.rms_error},
+              {"max_abs_error", fit.max_abs_error},
+              {"held_out_rms", fit.held_out_rms},
+              {"held_out_max", fit.held_out_max},
+              {"passive", fit.passive},
+              {"theta_0", report_json::per_joint(fit.transmission.encoder_zero())},
+              {"offset", fit.offset},
+              {"covariance", matrix_json(fit.covariance)},
+              {"effective_rows", fit.effective_rows},
+              {"condition", fit.condition},
+              {"warnings", fit.warnings}};
+}
+
+Json preload_json(const ElasticPreload& preload) {
+  Json fits = Json::array();
+  for (const ElasticFit& fit : preload.fits) fits.push_back(fit_json(fit));
+  Json counts = report_json::window_counts(preload.windows);
+  counts["equations"]["blocked"] = report_json::row_counts(preload.counts);
+  return Json{{"name", preload.name},
+              {"rig", report_json::rig(preload.rig_path)},
+              {"linear_motion", preload.linear_motion},
+              {"deflection_range", {preload.deflection_low, preload.deflection_high}},
+              {"peak_torque", preload.peak_torque},
+              {"loop_half_width", preload.loop_half_width},
+              {"both_branches", preload.both_branches},
+              {"fits", fits},
+              {"selected", preload.selected},
+              {"passive", preload.find(preload.selected)->passive},
+              {"selection", preload.selection},
+              {"counts", counts},
+              {"decisions", report_json::decisions(preload.decisions)},
+              {"warnings", preload.warnings}};
+}
+
+}  // namespace
+
+std::string elastic_json(const ElasticResult& result) {
+  Json json = report_json::header("elastic", result.inputs, result.warnings);
+  json["preloads"] = Json::array();
+  for (const ElasticPreload& preload : result.preloads) {
+    json["preloads"].push_back(preload_json(preload));
+  }
+  return report_json::text(json);
+}
+
+}  // namespace cablefit
