@@ -10,8 +10,8 @@ namespace cablefit {
 struct Column {
   std::string group;  ///< printed over neighbours of the same group; may be empty
   std::string title;
-  std::string unit;     ///< printed in brackets below the title; may be empty
-  bool is_text = false; ///< flush left; numbers stand flush right
+  std::string unit;      ///< printed in brackets below the title; may be empty
+  bool is_text = false;  ///< flush left; numbers stand flush right
 };
 
 struct Table {

@@ -68,9 +68,9 @@ void add_warnings(Document& document, const std::string& where,
 Table counts_table() {
   Table table;
   table.title = "Rows";
-  table.columns = {{"", "preload", "", true}, {"", "equation", "", true},
-                   {"of the log", "read", ""}, {"of the log", "resampled", ""},
-                   {"of the log", "too short", ""}, {"of the log", "at edges", ""},
+  table.columns = {{"", "preload", "", true},           {"", "equation", "", true},
+                   {"of the log", "read", ""},          {"of the log", "resampled", ""},
+                   {"of the log", "too short", ""},     {"of the log", "at edges", ""},
                    {"after decimation", "at rest", ""}, {"after decimation", "not used", ""},
                    {"after decimation", "used", ""}};
   return table;
@@ -107,8 +107,8 @@ void add_tidy(Table& table, const std::string& preload, const std::string& model
 void add_tidy_number(Table& table, const std::string& preload, const std::string& model,
                      const std::string& method, const std::string& name, const std::string& unit,
                      double value) {
-  table.rows.push_back({preload, model, method, name, "", unit, exact(value), "", "", "", "", "",
-                        "", "", ""});
+  table.rows.push_back(
+      {preload, model, method, name, "", unit, exact(value), "", "", "", "", "", "", "", ""});
 }
 
 std::string torque_unit(bool linear_motion) { return linear_motion ? "N" : "N m"; }

@@ -76,8 +76,11 @@ Table sd_table(const DynamicResult& result) {
 Table conditioning_table(const DynamicResult& result) {
   Table table;
   table.title = "Conditioning";
-  table.columns = {{"", "preload", "", true}, {"", "model", "", true}, {"", "equation", "", true},
-                   {"", "cond(W)", ""},       {"", "effective rows", ""}};
+  table.columns = {{"", "preload", "", true},
+                   {"", "model", "", true},
+                   {"", "equation", "", true},
+                   {"", "cond(W)", ""},
+                   {"", "effective rows", ""}};
   table.detail = true;
   for (const DynamicPreload& preload : result.preloads) {
     for (const DynamicFit& fit : preload.fits) {

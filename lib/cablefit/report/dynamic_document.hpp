@@ -10,8 +10,9 @@ namespace cablefit {
 
 Document dynamic_document(const DynamicResult& result);
 
-/// Table 2: parameters as rows with the paper's symbol, unit and CAD value; per preload and model the
-/// value and its relative standard deviation. As many tables as it takes to stay readable in width.
+/// Table 2: parameters as rows with the paper's symbol, unit and CAD value; per preload and model
+/// the value and its relative standard deviation. As many tables as it takes to stay readable in
+/// width.
 std::vector<Table> parameter_tables(const DynamicResult& result);
 
 }  // namespace cablefit

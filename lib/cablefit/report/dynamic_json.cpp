@@ -12,8 +12,7 @@ using report_json::Json;
 Json errors_json(const std::map<std::string, TorqueError>& errors) {
   Json json = Json::object();
   for (const auto& [equation, error] : errors) {
-    json[equation] = {
-        {"rms", error.rms}, {"max_abs", error.max_abs}, {"relative", error.relative}};
+    json[equation] = {{"rms", error.rms}, {"max_abs", error.max_abs}, {"relative", error.relative}};
   }
   return json;
 }

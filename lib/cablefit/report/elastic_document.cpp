@@ -36,21 +36,20 @@ Table fits_table(const ElasticResult& result) {
   table.title = "Fits";
   table.columns = {{"", "preload", "", true},
                    {"", "model", "", true},
-                   {"", "order", ""},
                    {"", "offset", torque},
                    {"", "theta_0", linear_motion ? "mm" : "mrad"},
                    {"", "f_sm", torque},
                    {"error", "rms", torque},
                    {"error", "max", torque},
-                   {"error on held-out blocks", "rms", torque},
-                   {"error on held-out blocks", "max", torque},
+                   {"held-out blocks", "rms", torque},
+                   {"held-out blocks", "max", torque},
                    {"", "", "", true}};
   for (const ElasticPreload& preload : result.preloads) {
     for (const ElasticFit& fit : preload.fits) {
       std::string remark = fit.model == preload.selected ? "selected" : "";
       if (!fit.passive) remark += remark.empty() ? "pushes" : ", pushes";
-      table.rows.push_back({preload.name, fit.model, fmt::format("{}", fit.order),
-                            estimate_text(fit, "offset", 1, notes),
+      const std::string order = fit.model == "linear" ? "" : fmt::format(", order {}", fit.order);
+      table.rows.push_back({preload.name, fit.model + order, estimate_text(fit, "offset", 1, notes),
                             estimate_text(fit, "theta_0", 1e3, notes),
                             estimate_text(fit, "f_sm", 1, notes), error_text(fit.rms_error),
                             error_text(fit.max_abs_error), error_text(fit.held_out_rms),
@@ -64,9 +63,10 @@ Table fits_table(const ElasticResult& result) {
 Table sd_table(const ElasticResult& result) {
   Table table;
   table.title = "Standard deviations: the one cablefit stands behind, and the paper's (25)";
-  table.columns = {{"", "preload", "", true}, {"", "model", "", true}, {"", "parameter", "", true},
-                   {"", "unit", "", true},    {"", "value", ""},       {"", "sd", ""},
-                   {"", "sd of (25)", ""},    {"95 % interval", "from", ""},
+  table.columns = {{"", "preload", "", true},   {"", "model", "", true},
+                   {"", "parameter", "", true}, {"", "unit", "", true},
+                   {"", "value", ""},           {"", "sd", ""},
+                   {"", "sd of (25)", ""},      {"95 % interval", "from", ""},
                    {"95 % interval", "to", ""}};
   table.detail = true;
   for (const ElasticPreload& preload : result.preloads) {

@@ -8,8 +8,9 @@ namespace cablefit {
 
 Document elastic_document(const ElasticResult& result);
 
-/// Table 1 alone: linear stiffness with the deflection range it was fitted on (it depends on it), and
-/// the coefficients of every cable. Preloads are rows; where that grows too wide, coefficients are.
+/// Table 1 alone: linear stiffness with the deflection range it was fitted on (it depends on it),
+/// and the coefficients of every cable. Preloads are rows; where that grows too wide, coefficients
+/// are.
 Table stiffness_table(const ElasticResult& result);
 
 }  // namespace cablefit

@@ -7,9 +7,9 @@
 
 namespace cablefit {
 
-/// Curves, estimates, covariance, ranges and everything else of the file. The rig of each preload is
-/// read from its "rig" path (beside the file or from the current folder), null being the default rig.
-/// Throws Error(input) at file:line:column for what is missing or does not fit together.
+/// Curves, estimates, covariance, ranges and everything else of the file. The rig of each preload
+/// is read from its "rig" path (beside the file or from the current folder), null being the default
+/// rig. Throws Error(input) at file:line:column for what is missing or does not fit together.
 ElasticResult read_elastic_result(const std::string& path);
 
 }  // namespace cablefit

@@ -29,8 +29,14 @@ bool has_sd(double sd) { return std::isfinite(sd) && sd > 0; }
 /// How value and sd are printed alike.
 struct Style {
   bool exponent = false;
-  int decimals = 0;
+  int decimals = 0;  ///< negative: rounded to tens, hundreds, ...
 };
+
+std::string fixed(double value, int decimals) {
+  if (decimals >= 0) return fmt::format("{:.{}f}", value, decimals);
+  const double step = std::pow(10.0, -decimals);
+  return fmt::format("{:.0f}", step * std::round(value / step));
+}
 
 Style style_of(double value, double sd) {
   const int last_digit = exponent_of(sd, kDigitsOfSd) - (kDigitsOfSd - 1);
@@ -38,7 +44,7 @@ Style style_of(double value, double sd) {
   if (needs_exponent(size)) {
     return {true, std::max(kDigitsOfSd - 1, exponent_of(size, kDigitsOfSd) - last_digit)};
   }
-  return {false, std::max(0, -last_digit)};
+  return {false, -last_digit};
 }
 
 }  // namespace
@@ -47,8 +53,7 @@ std::string significant(double value, int n_digits) {
   if (!std::isfinite(value)) return kNoNumber;
   if (value == 0) return "0";
   if (needs_exponent(value)) return fmt::format("{:.{}e}", value, n_digits - 1);
-  const int decimals = n_digits - 1 - exponent_of(value, n_digits);
-  return fmt::format("{:.{}f}", value, std::max(0, decimals));
+  return fixed(value, n_digits - 1 - exponent_of(value, n_digits));
 }
 
 std::string value_text(double value, double sd) {
@@ -56,13 +61,13 @@ std::string value_text(double value, double sd) {
   if (!has_sd(sd)) return significant(value, kDigitsWithoutSd);
   const Style style = style_of(value, sd);
   return style.exponent ? fmt::format("{:.{}e}", value, style.decimals)
-                        : fmt::format("{:.{}f}", value, style.decimals);
+                        : fixed(value, style.decimals);
 }
 
 std::string sd_text(double value, double sd) {
   if (!has_sd(sd)) return sd == 0 ? "0" : kNoNumber;
   const Style style = style_of(value, sd);
-  return style.exponent ? significant(sd, kDigitsOfSd) : fmt::format("{:.{}f}", sd, style.decimals);
+  return style.exponent ? fmt::format("{:.{}e}", sd, kDigitsOfSd - 1) : fixed(sd, style.decimals);
 }
 
 std::string value_with_sd(double value, double sd) {

@@ -55,7 +55,8 @@ std::string cad_text(std::span<const DynamicPreload> preloads, const Row& row) {
     }
   }
   std::string text;
-  for (const double value : values) text += (text.empty() ? "" : " / ") + fmt::format("{:g}", value);
+  for (const double value : values)
+    text += (text.empty() ? "" : " / ") + fmt::format("{:g}", value);
   return text.empty() ? kNoNumber : text;
 }
 
@@ -69,7 +70,8 @@ Cells cells_of(const Estimate* e, Footnotes& notes) {
   if (!e->not_identifiable.empty()) {
     return {"not identifiable", notes.mark(e->name + ": " + e->not_identifiable)};
   }
-  if (!e->active_bound.empty()) return {significant(e->value, kRsdDigits), notes.mark(bound_note(*e))};
+  if (!e->active_bound.empty())
+    return {significant(e->value, kRsdDigits), notes.mark(bound_note(*e))};
   return {value_text(e->value, e->sd), significant(e->rsd_percent(), kRsdDigits)};
 }
 
@@ -114,15 +116,34 @@ std::vector<Column> columns_of(std::span<const DynamicPreload> preloads) {
   return columns;
 }
 
+/// The paper's sd takes neighbouring rows for independent, which filtered data are not.
+std::string sd_note(std::span<const DynamicPreload> preloads) {
+  double least = kUnbounded, most = 0;
+  for (const DynamicPreload& preload : preloads) {
+    for (const DynamicFit& fit : preload.fits) {
+      for (const Estimate& e : fit.parameters) {
+        if (!e.not_identifiable.empty() || !(e.sd_white > 0) || !(e.sd > e.sd_white)) continue;
+        least = std::min(least, e.sd / e.sd_white);
+        most = std::max(most, e.sd / e.sd_white);
+      }
+    }
+  }
+  if (most == 0) return "";
+  return fmt::format(
+      "rsd: of an sd that holds for filtered data, {} to {} times that of the paper's (25)",
+      significant(least, kRsdDigits), significant(most, kRsdDigits));
+}
+
 Table parameter_table(std::span<const DynamicPreload> preloads) {
   Table table;
   Footnotes notes;
   table.title = "Dynamics (Table 2)";
   table.columns = columns_of(preloads);
   for (const Row& row : all_parameters(preloads)) {
-    table.rows.push_back(row_of(
-        preloads, {label(row), row.unit, cad_text(preloads, row)},
-        [&](const DynamicPreload&, const DynamicFit& fit) { return cells_of(find_row(fit, row), notes); }));
+    table.rows.push_back(row_of(preloads, {label(row), row.unit, cad_text(preloads, row)},
+                                [&](const DynamicPreload&, const DynamicFit& fit) {
+                                  return cells_of(find_row(fit, row), notes);
+                                }));
     if (row.name != "J_link" || !has_load_inertia(preloads)) continue;
     table.rows.push_back(row_of(preloads, {"  without the load", row.unit, kNoNumber},
                                 [&](const DynamicPreload& preload, const DynamicFit& fit) {
@@ -130,6 +151,8 @@ Table parameter_table(std::span<const DynamicPreload> preloads) {
                                 }));
   }
   table.notes = notes.lines();
+  const std::string note = sd_note(preloads);
+  if (!note.empty()) table.notes.push_back(note);
   return table;
 }
 

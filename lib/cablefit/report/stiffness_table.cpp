@@ -68,7 +68,8 @@ Cell cell_of(const ElasticPreload& preload, const Coefficient& wanted, Footnotes
 }
 
 std::string range_text(const ElasticPreload& preload) {
-  return fmt::format("{:.1f} .. {:.1f}", 1e3 * preload.deflection_low, 1e3 * preload.deflection_high);
+  return fmt::format("{:.1f} .. {:.1f}", 1e3 * preload.deflection_low,
+                     1e3 * preload.deflection_high);
 }
 
 std::string range_unit(const ElasticResult& result) {

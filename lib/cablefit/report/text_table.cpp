@@ -42,8 +42,8 @@ std::vector<std::size_t> column_widths(const Table& table) {
   std::vector<std::size_t> widths;
   for (std::size_t k = 0; k < table.columns.size(); ++k) {
     const Column& column = table.columns[k];
-    std::size_t width = std::max(n_characters(printable(column.title)),
-                                 n_characters(printable(unit_line(column))));
+    std::size_t width =
+        std::max(n_characters(printable(column.title)), n_characters(printable(unit_line(column))));
     for (const auto& row : table.rows) width = std::max(width, n_characters(printable(row[k])));
     widths.push_back(width);
   }
@@ -60,8 +60,9 @@ enum class Flush { left, right, centre };
 std::string padded(const std::string& text, std::size_t width, Flush flush) {
   const std::string shown = printable(text);
   const std::size_t missing = width - std::min(width, n_characters(shown));
-  const std::size_t before =
-      flush == Flush::left ? 0 : flush == Flush::right ? missing : missing / 2;
+  const std::size_t before = flush == Flush::left    ? 0
+                             : flush == Flush::right ? missing
+                                                     : missing / 2;
   return std::string(before, ' ') + shown + std::string(missing - before, ' ');
 }
 

@@ -47,7 +47,8 @@ std::string decision_text(const DecisionLine& line) {
 std::string write_markdown(const Document& document) {
   std::string text = "# " + markdown_text(document.title) + "\n\n";
   for (const Table& table : document.tables) text += table_text(table);
-  for (const std::string& paragraph : document.paragraphs) text += markdown_text(paragraph) + "\n\n";
+  for (const std::string& paragraph : document.paragraphs)
+    text += markdown_text(paragraph) + "\n\n";
   if (!document.decisions.empty()) text += "## Choices\n\n";
   for (const DecisionLine& line : document.decisions) text += decision_text(line);
   if (!document.decisions.empty()) text += "\n";

@@ -24,8 +24,8 @@ std::string write_text(const Document& document) {
     begin_block();
     text += text_table(table);
   }
+  if (!document.paragraphs.empty()) begin_block();
   for (const std::string& paragraph : document.paragraphs) {
-    begin_block();
     text += printable(paragraph) + "\n";
   }
   if (!document.decisions.empty()) {

@@ -45,11 +45,11 @@ const ReportWriter& report_writer_for(const std::string& path) {
   for (const ReportWriter& writer : kWriters) {
     if (writer.extension == extension) return writer;
   }
-  throw usage_error(extension.empty()
-                        ? fmt::format("--report {} has no extension to tell the format",
-                                      cablefit::quoted(path))
-                        : fmt::format("no report format {}", cablefit::quoted(extension)),
-                    "there are " + known_extensions());
+  throw usage_error(
+      extension.empty()
+          ? fmt::format("--report {} has no extension to tell the format", cablefit::quoted(path))
+          : fmt::format("no report format {}", cablefit::quoted(extension)),
+      "there are " + known_extensions());
 }
 
 }  // namespace cablefit

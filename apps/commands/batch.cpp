@@ -1,0 +1,62 @@
+// cablefit batch: every cell of a campaign, and its gates.
+#include "cablefit/campaign/batch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cablefit/report/batch_document.hpp"
+#include "cablefit/report/dynamic_json.hpp"
+#include "cablefit/report/elastic_json.hpp"
+#include "commands/command.hpp"
+#include "commands/command_line.hpp"
+#include "commands/delivery.hpp"
+
+namespace cablefit::apps {
+namespace {
+
+constexpr const char* kExample =
+    "Example:\n"
+    "  cablefit batch data/campaign.json --report summary.md\n"
+    "Exit code 1: a limit of the campaign was passed; each failed gate is one line.\n";
+
+constexpr int kGateFailed = 1;
+
+/// The gravest of what went wrong: 5, 3, 4, 1 in that order.
+int exit_code(const BatchResult& result) {
+  int code = 0;
+  const auto rank = [](int c) { return c == 5 ? 4 : c == 3 ? 3 : c == 4 ? 2 : c == 1 ? 1 : 0; };
+  for (const BatchCell& cell : result.cells)
+    if (rank(cell.exit_code) > rank(code)) code = cell.exit_code;
+  const bool failed = std::any_of(result.gates.begin(), result.gates.end(),
+                                  [](const Gate& gate) { return !gate.passed; });
+  return code == 0 && failed ? kGateFailed : code;
+}
+
+}  // namespace
+
+int run_batch(const Arguments& arguments) {
+  CLI::App app("Fit every preload of a campaign and judge its limits.", "batch");
+  CommonOptions options;
+  std::string path;
+  app.add_option("campaign", path, "campaign file (cablefit/campaign/1)")
+      ->required()
+      ->type_name("CAMPAIGN");
+  add_sd_option(app, options);
+  add_sample_options(app, options);
+  add_output_options(app, options);
+  app.footer(kExample);
+  if (!parse(app, arguments)) return 0;
+
+  BatchOptions batch;
+  batch.samples = options.samples;
+  batch.honest_sd = options.honest_sd;
+  const BatchResult result = cablefit::run_batch(read_campaign(path), batch);
+  deliver(options, batch_document(result),
+          {{"batch.json", batch_json(result)},
+           {"elastic.json", elastic_json(result.all_elastic())},
+           {"dynamic.json", dynamic_json(result.all_dynamic())}});
+  return exit_code(result);
+}
+
+}  // namespace cablefit::apps

@@ -1,0 +1,32 @@
+// The table of commands. A new one is one file with a function and one row in commands.cpp.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cablefit::apps {
+
+using Arguments = std::vector<std::string>;  ///< of the command, without its own name
+
+struct Command {
+  std::string_view name;
+  std::string_view help;                   ///< one line
+  int (*run)(const Arguments& arguments);  ///< returns the exit code
+};
+
+std::span<const Command> commands();
+/// Throws Error(usage) with a near match.
+const Command& find_command(const std::string& name);
+/// What `cablefit --help` prints.
+std::string overview();
+
+/// The rows of the table.
+int run_check(const Arguments& arguments);
+int run_elastic(const Arguments& arguments);
+int run_dynamic(const Arguments& arguments);
+int run_batch(const Arguments& arguments);
+int run_list(const Arguments& arguments);
+
+}  // namespace cablefit::apps

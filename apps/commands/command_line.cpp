@@ -1,0 +1,122 @@
+#include "commands/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/Config.hpp>
+#include <CLI/Error.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "cablefit/base/catalog.hpp"
+#include "cablefit/base/error.hpp"
+#include "cablefit/base/output_file.hpp"
+#include "cablefit/base/quote.hpp"
+
+namespace cablefit::apps {
+namespace {
+
+constexpr double kLargestWhole = 1e15;  // exact in a double
+
+std::string range_text(Range range) {
+  if (std::isinf(range.high)) return fmt::format("{:g} or more", range.low);
+  return fmt::format("{:g} to {:g}", range.low, range.high);
+}
+
+Error bad_value(const std::string& option, const std::string& text, const std::string& wanted) {
+  return usage_error(fmt::format("{} {} is not {}", option, cablefit::quoted(text), wanted),
+                     fmt::format("see --help"));
+}
+
+/// Every option of the command, for a near match.
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+Error unknown_option(const CLI::App& app, const std::string& argument) {
+  const std::string name = argument.substr(0, argument.find('='));
+  const std::vector<std::string> names = option_names(app);
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  const auto nearest = nearest_name(name, known);
+  return usage_error("unknown option " + cablefit::quoted(name),
+                     nearest ? fmt::format("did you mean '{}'?", *nearest)
+                             : fmt::format("see '{} --help'", app.get_name()));
+}
+
+}  // namespace
+
+double parse_number(const std::string& option, const std::string& text, Range range) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  const bool is_number = !text.empty() && *end == '\0' && std::isfinite(value);
+  if (!is_number) throw bad_value(option, text, "a number");
+  if (value < range.low || value > range.high) throw bad_value(option, text, range_text(range));
+  return value;
+}
+
+long parse_whole(const std::string& option, const std::string& text, Range range) {
+  range.high = std::min(range.high, kLargestWhole);
+  const bool is_whole = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+  if (!is_whole) throw bad_value(option, text, "a whole number");
+  return static_cast<long>(parse_number(option, text, range));
+}
+
+void require_known(const std::string& what, const std::string& text,
+                   const std::vector<std::string>& known) {
+  if (std::find(known.begin(), known.end(), text) != known.end()) return;
+  throw usage_error(fmt::format("unknown {} {}", what, cablefit::quoted(text)),
+                    suggestion(text, std::vector<std::string_view>(known.begin(), known.end())));
+}
+
+void add_number(CLI::App& app, const std::string& name, const std::string& unit, Range range,
+                std::function<void(double)> use, const std::string& help) {
+  app.add_option_function<std::string>(
+         name, [=](const std::string& text) { use(parse_number(name, text, range)); }, help)
+      ->type_name(unit);
+}
+
+void add_whole(CLI::App& app, const std::string& name, const std::string& unit, Range range,
+               std::function<void(long)> use, const std::string& help) {
+  app.add_option_function<std::string>(
+         name, [=](const std::string& text) { use(parse_whole(name, text, range)); }, help)
+      ->type_name(unit);
+}
+
+void add_choice(CLI::App& app, const std::string& name, const std::string& what,
+                const std::vector<std::string>& known, std::function<void(const std::string&)> use,
+                const std::string& help) {
+  const auto take = [=](const std::string& text) {
+    require_known(what, text, known);
+    use(text);
+  };
+  app.add_option_function<std::string>(name, take, help)
+      ->type_name(fmt::format("{}", fmt::join(known, "|")));
+}
+
+bool parse(CLI::App& app, const Arguments& arguments) {
+  app.allow_extras();
+  try {
+    app.parse(Arguments(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
+  } catch (const CLI::CallForHelp&) {
+    write_whole("-", app.help());
+    return false;
+  } catch (const CLI::ParseError& error) {
+    throw usage_error(error.what(), fmt::format("see '{} --help'", app.get_name()));
+  }
+  const std::vector<std::string> extras = app.remaining();
+  for (const std::string& extra : extras) {
+    if (!extra.empty() && extra.front() == '-') throw unknown_option(app, extra);
+  }
+  if (!extras.empty()) {
+    throw usage_error("unexpected argument " + cablefit::quoted(extras.front()),
+                      fmt::format("see '{} --help'", app.get_name()));
+  }
+  return true;
+}
+
+}  // namespace cablefit::apps

@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+
+#include <array>
+
+#include "cablefit/base/catalog.hpp"
+#include "cablefit/base/error.hpp"
+#include "cablefit/base/quote.hpp"
+#include "commands/command.hpp"
+
+namespace cablefit::apps {
+namespace {
+
+constexpr std::array kCommands{
+    Command{"check", "what is in a log, is it usable, and what can be identified from it",
+            run_check},
+    Command{"elastic", "stage 1, link blocked: linear and per-cable polynomial stiffness (Table 1)",
+            run_elastic},
+    Command{"dynamic", "stage 2, link moving: inertias, friction and offset with sd (Table 2)",
+            run_dynamic},
+    Command{"batch", "all preloads of a campaign side by side, with gates for CI", run_batch},
+    Command{"list", "effects, models, estimators and formats that cablefit knows", run_list},
+};
+
+}  // namespace
+
+std::span<const Command> commands() { return kCommands; }
+
+const Command& find_command(const std::string& name) {
+  std::vector<std::string_view> known;
+  for (const Command& command : kCommands) {
+    if (command.name == name) return command;
+    known.push_back(command.name);
+  }
+  throw usage_error("unknown command " + cablefit::quoted(name), suggestion(name, known));
+}
+
+std::string overview() {
+  std::string text =
+      "cablefit: identification of cable-driven robot transmissions from logs\n\n"
+      "Usage: cablefit COMMAND [ARGUMENTS]\n\nCommands:\n";
+  for (const Command& command : kCommands) {
+    text += fmt::format("  {:<10}{}\n", command.name, command.help);
+  }
+  return text +
+         "\n'cablefit COMMAND --help' shows its options and an example; 'cablefit --version' the "
+         "version.\n"
+         "Exit codes: 0 done, 1 a gate failed, 2 usage, 3 bad input, 4 not identifiable or not "
+         "converged,\n5 could not write, 70 internal error.\n";
+}
+
+}  // namespace cablefit::apps

@@ -1,0 +1,155 @@
+#include "commands/common_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <thread>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/model/rig.hpp"
+#include "cablefit/report/writers.hpp"
+#include "commands/command_line.hpp"
+#include "commands/problems.hpp"
+
+namespace cablefit::apps {
+namespace {
+
+constexpr unsigned kMostThreads = 8;  // beyond, reading the log is what takes the time
+
+int default_threads() {
+  return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads));
+}
+
+/// "zoh" and "none"; "auto" overrides what a rig file says.
+TorqueHold torque_hold(const std::string& name) {
+  return name == "zoh"    ? TorqueHold::zoh
+         : name == "none" ? TorqueHold::none
+                          : TorqueHold::automatic;
+}
+
+void require_distinct(const std::vector<std::string>& logs) {
+  std::set<std::string> seen;
+  for (const std::string& log : logs) {
+    std::error_code ignored;
+    const auto path = std::filesystem::weakly_canonical(log, ignored).string();
+    if (seen.insert(path).second) continue;
+    throw usage_error(fmt::format("log {} is given twice", log), "its rows would count double");
+  }
+}
+
+void require_file(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(path, ignored)) return;
+  throw input_error(
+      {path, 0, 0}, "a folder, not a log",
+      fmt::format("name its files, e.g. {}/*.csv", path.substr(0, path.find_last_not_of('/') + 1)));
+}
+
+LogSurvey read_log(const std::string& path, const CommonOptions& options) {
+  require_file(path);
+  const Rig rig = rig_for_log(path, options.rig);
+  return survey_log(plan_log(path, rig), rig.preload.empty() ? options.preload : rig.preload);
+}
+
+void require_preload(const std::vector<LogSurvey>& logs, const std::string& wanted) {
+  if (wanted.empty()) return;
+  std::set<std::string> names;
+  for (const LogSurvey& log : logs) {
+    for (const PartSurvey& part : log.parts) names.insert(part.preload);
+  }
+  require_known("preload", wanted, {names.begin(), names.end()});
+}
+
+}  // namespace
+
+void add_log_options(CLI::App& app, CommonOptions& options) {
+  app.add_option("LOG", options.logs, "logs: CSV or JSON, also .gz and .zst")->type_name("");
+  app.add_option("--rig", options.rig, "rig file; default: rig.json beside each log")
+      ->type_name("FILE");
+  app.add_option("--preload", options.preload, "only this preload")->type_name("NAME");
+}
+
+void add_output_options(CLI::App& app, CommonOptions& options) {
+  app.add_option("--out", options.out, "folder of the result files [cablefit-out]")
+      ->type_name("DIR");
+  app.add_option("--json", options.json, "the whole result as JSON; - for standard output")
+      ->type_name("FILE");
+  const auto add_report = [&options](const std::vector<std::string>& files) {
+    for (const std::string& file : files) (void)report_writer_for(file);
+    options.reports = files;
+  };
+  app.add_option_function<std::vector<std::string>>(
+         "--report", add_report, "a report; the format goes by .md, .csv or .txt; repeatable")
+      ->type_name("FILE")
+      ->type_size(1)
+      ->expected(1, 1000)
+      ->allow_extra_args(false);
+  options.samples.threads = default_threads();
+  add_whole(
+      app, "--threads", "N", {1, 1024},
+      [&options](long n) { options.samples.threads = static_cast<int>(n); },
+      "threads [one per core, at most 8]; the result does not depend on it");
+  add_whole(
+      app, "--seed", "N", {0}, [&options](long n) { options.seed = static_cast<unsigned long>(n); },
+      "seed of random numbers, where any are drawn [1]");
+  app.add_flag("--quiet", options.quiet, "print warnings only");
+  app.add_flag("--verbose", options.verbose, "print all tables");
+}
+
+void add_sample_options(CLI::App& app, CommonOptions& options) {
+  SampleOptions& samples = options.samples;
+  add_choice(
+      app, "--torque-hold", "torque hold", {"auto", "zoh", "none"},
+      [&samples](const std::string& name) { samples.torque_hold = torque_hold(name); },
+      "is tau held until the next row (zoh), or the mean around t (none)");
+  add_number(
+      app, "--cutoff", "HZ", {0}, [&samples](double hz) { samples.cutoff = hz; },
+      "cut-off of the low-pass; 0: no filter");
+  add_whole(
+      app, "--filter-order", "N", {1, 10},
+      [&samples](long n) { samples.filter_order = static_cast<int>(n); },
+      "order of the Butterworth filter, run forward and backward [4]");
+  add_whole(
+      app, "--decimate", "N", {1, 100000},
+      [&samples](long n) { samples.decimate = static_cast<int>(n); },
+      "keep every N-th row, after a zero-phase FIR");
+  add_whole(
+      app, "--drop-edge", "N", {0}, [&samples](long n) { samples.drop_edge = n; },
+      "rows dropped at both ends of each stretch");
+  add_number(
+      app, "--rest-speed", "RAD_S", {0}, [&samples](double v) { samples.rest_speed = v; },
+      "rows slower than this are left out; 0: keep all");
+}
+
+void add_sd_option(CLI::App& app, CommonOptions& options) {
+  add_choice(
+      app, "--sd", "kind of sd", {"honest", "white"},
+      [&options](const std::string& kind) { options.honest_sd = kind == "honest"; },
+      "white: the paper's (25) alone, the fastest");
+}
+
+std::vector<LogSurvey> read_logs(const CommonOptions& options) {
+  if (options.logs.empty()) throw usage_error("no log given", "name one or more log files");
+  require_distinct(options.logs);
+  std::vector<LogSurvey> logs;
+  Problems problems;
+  for (const std::string& path : options.logs) {
+    problems.collect([&] { logs.push_back(read_log(path, options)); });
+  }
+  problems.throw_if_any();
+  require_preload(logs, options.preload);
+  return logs;
+}
+
+std::vector<LogSurvey> logs_with(const std::vector<LogSurvey>& logs,
+                                 const std::function<bool(const PartSurvey&)>& wanted) {
+  std::vector<LogSurvey> chosen;
+  for (const LogSurvey& log : logs) {
+    if (std::any_of(log.parts.begin(), log.parts.end(), wanted)) chosen.push_back(log);
+  }
+  return chosen;
+}
+
+}  // namespace cablefit::apps

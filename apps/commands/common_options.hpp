@@ -1,0 +1,45 @@
+// Options that all commands share, reading the logs they name, and writing what they ask for.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cablefit/report/document.hpp"
+#include "cablefit/samples/settings.hpp"
+
+namespace cablefit::apps {
+
+struct CommonOptions {
+  std::vector<std::string> logs;
+  std::string rig;
+  std::string out = "cablefit-out";
+  std::string json;  ///< "-": standard output, and nothing else there
+  std::vector<std::string> reports;
+  bool quiet = false;
+  bool verbose = false;
+  SampleOptions samples;
+  std::string preload;
+  bool honest_sd = true;
+  unsigned long seed = 1;  ///< of random numbers, for commands that draw any
+};
+
+/// LOG..., --rig, --preload.
+void add_log_options(CLI::App& app, CommonOptions& options);
+/// --out, --json, --report, --threads, --quiet, --verbose, --seed.
+void add_output_options(CLI::App& app, CommonOptions& options);
+/// --torque-hold, --cutoff, --filter-order, --decimate, --drop-edge, --rest-speed.
+void add_sample_options(CLI::App& app, CommonOptions& options);
+/// --sd honest|white.
+void add_sd_option(CLI::App& app, CommonOptions& options);
+
+/// Surveys every log, each with its rig. All that is wrong with any of them is told at once. Throws
+/// Error(usage) without logs, for one given twice and for a --preload that none of them has.
+std::vector<LogSurvey> read_logs(const CommonOptions& options);
+
+/// The logs with a part for which `wanted` says true.
+std::vector<LogSurvey> logs_with(const std::vector<LogSurvey>& logs,
+                                 const std::function<bool(const PartSurvey&)>& wanted);
+
+}  // namespace cablefit::apps

@@ -1,0 +1,156 @@
+// cablefit dynamic: stage 2.
+#include "cablefit/dynamic/dynamic_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "cablefit/base/digest.hpp"
+#include "cablefit/base/error.hpp"
+#include "cablefit/elastic/elastic_fit.hpp"
+#include "cablefit/report/dynamic_document.hpp"
+#include "cablefit/report/dynamic_json.hpp"
+#include "cablefit/report/elastic_json.hpp"
+#include "cablefit/report/elastic_reader.hpp"
+#include "commands/command.hpp"
+#include "commands/command_line.hpp"
+#include "commands/delivery.hpp"
+
+namespace cablefit::apps {
+namespace {
+
+constexpr const char* kExample =
+    "Example, after 'cablefit elastic data/low/blocked.csv data/high/blocked.csv':\n"
+    "  cablefit dynamic --model both data/low/moving*.csv data/high/moving*.csv\n";
+
+struct DynamicCommand {
+  CommonOptions common;
+  DynamicOptions fit;
+  std::string elastic_file;  ///< --elastic; empty: <out>/elastic.json
+};
+
+/// Stage 1, and where it came from.
+struct Stage1 {
+  ElasticResult result;
+  std::vector<InputFile> inputs;
+  Decision decision;
+  bool is_new = false;  ///< fitted here, to be written as well
+};
+
+std::vector<std::string> model_names() {
+  std::vector<std::string> names = {"both"};
+  for (const DynamicModel& model : dynamic_models()) names.emplace_back(model.name);
+  return names;
+}
+
+std::vector<std::string> estimator_names() {
+  std::vector<std::string> names;
+  for (const Estimator& estimator : estimators()) names.emplace_back(estimator.name);
+  return names;
+}
+
+void add_dynamic_options(CLI::App& app, DynamicCommand& command) {
+  command.fit.models = {"linear", "poly"};
+  add_choice(
+      app, "--model", "model", model_names(),
+      [&command](const std::string& name) {
+        command.fit.models = name == "both" ? std::vector<std::string>{"linear", "poly"}
+                                            : std::vector<std::string>{name};
+      },
+      "elastic model, or none [both: linear and poly]");
+  app.add_option("--elastic", command.elastic_file, "result of stage 1 [OUT/elastic.json]")
+      ->type_name("FILE");
+  add_choice(
+      app, "--estimator", "estimator", estimator_names(),
+      [&command](const std::string& name) { command.fit.estimator = name; },
+      "see 'cablefit list estimators' [wls]");
+}
+
+bool needs_stage1(const DynamicCommand& command, const std::vector<LogSurvey>& moving) {
+  const bool has_torque = std::all_of(moving.begin(), moving.end(), [](const LogSurvey& log) {
+    return log.plan.has(Channel::tau);
+  });
+  const auto models = dynamic_models();
+  const auto row = std::find_if(models.begin(), models.end(), [&](const DynamicModel& model) {
+    return model.name == command.fit.models.front();
+  });
+  return has_torque && row->elastic;
+}
+
+Stage1 read_stage1(const std::string& path) {
+  Stage1 stage1;
+  stage1.result = read_elastic_result(path);
+  stage1.inputs = {{path, sha256_of_file(path), 0}};
+  stage1.decision = {"stage 1", path, "from an earlier 'cablefit elastic'"};
+  return stage1;
+}
+
+Stage1 fit_stage1(const DynamicCommand& command, const std::vector<LogSurvey>& blocked) {
+  ElasticOptions options;
+  options.samples.threads = command.common.samples.threads;
+  options.preload = command.common.preload;
+  Stage1 stage1;
+  stage1.result = fit_elastic(blocked, options);
+  stage1.inputs = stage1.result.inputs;
+  stage1.decision = {"stage 1", "from the blocked logs given", "there was no result of stage 1"};
+  stage1.is_new = true;
+  return stage1;
+}
+
+Stage1 get_stage1(const DynamicCommand& command, const std::vector<LogSurvey>& logs) {
+  if (!command.elastic_file.empty()) return read_stage1(command.elastic_file);
+  const auto path = (std::filesystem::path(command.common.out) / "elastic.json").string();
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored)) return read_stage1(path);
+  const std::vector<LogSurvey> blocked =
+      logs_with(logs, [](const PartSurvey& part) { return part.phase == Phase::blocked; });
+  if (!blocked.empty()) return fit_stage1(command, blocked);
+  throw input_error({path, 0, 0}, "no result of stage 1",
+                    "run 'cablefit elastic' on blocked logs first, add them here, name a result "
+                    "with --elastic FILE, or use --model rigid");
+}
+
+void add_stage1(const Stage1& stage1, DynamicResult& result) {
+  result.inputs.insert(result.inputs.end(), stage1.inputs.begin(), stage1.inputs.end());
+  for (DynamicPreload& preload : result.preloads) {
+    preload.decisions.insert(preload.decisions.begin(), stage1.decision);
+  }
+}
+
+}  // namespace
+
+int run_dynamic(const Arguments& arguments) {
+  CLI::App app("Stage 2: inertias, friction and offset of the moving drive.", "cablefit dynamic");
+  DynamicCommand command;
+  CommonOptions& options = command.common;
+  add_log_options(app, options);
+  add_dynamic_options(app, command);
+  add_sd_option(app, options);
+  add_sample_options(app, options);
+  add_output_options(app, options);
+  app.footer(kExample);
+  if (!parse(app, arguments)) return 0;
+  if (options.logs.empty()) {  // a campaign in this folder will name them
+    throw usage_error("no log given and no campaign.json here", "name one or more log files");
+  }
+
+  const std::vector<LogSurvey> logs = read_logs(options);
+  const std::vector<LogSurvey> moving =
+      logs_with(logs, [](const PartSurvey& part) { return part.phase == Phase::moving; });
+  command.fit.samples = options.samples;
+  command.fit.preload = options.preload;
+  command.fit.honest_sd = options.honest_sd;
+  Stage1 stage1;
+  const bool is_elastic = !moving.empty() && needs_stage1(command, moving);
+  if (is_elastic) stage1 = get_stage1(command, logs);
+  DynamicResult result = fit_dynamic(moving.empty() ? logs : moving, stage1.result, command.fit);
+  if (is_elastic) add_stage1(stage1, result);
+
+  std::vector<ResultFile> files = {{"dynamic.json", dynamic_json(result)}};
+  if (stage1.is_new) files.push_back({"elastic.json", elastic_json(stage1.result)});
+  deliver(options, dynamic_document(result), files);
+  return 0;
+}
+
+}  // namespace cablefit::apps

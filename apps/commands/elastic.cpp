@@ -1,0 +1,69 @@
+// cablefit elastic: stage 1.
+#include "cablefit/elastic/elastic_fit.hpp"
+
+#include "cablefit/report/elastic_document.hpp"
+#include "cablefit/report/elastic_json.hpp"
+#include "commands/command.hpp"
+#include "commands/command_line.hpp"
+#include "commands/delivery.hpp"
+
+namespace cablefit::apps {
+namespace {
+
+constexpr const char* kExample =
+    "Example:\n"
+    "  cablefit elastic data/low/blocked.csv data/high/blocked.csv --report table1.md\n";
+
+void add_elastic_options(CLI::App& app, ElasticOptions& elastic) {
+  const auto take_order = [&elastic](const std::string& text) {
+    elastic.order =
+        text == "auto" ? 0 : static_cast<int>(parse_whole("--order", text, {1, kMaxCableOrder}));
+  };
+  app.add_option_function<std::string>(
+         "--order", take_order,
+         "order of the cables' force; auto: the lowest that held-out blocks support")
+      ->type_name("N|auto");
+  add_whole(
+      app, "--max-order", "N", {1, kMaxCableOrder},
+      [&elastic](long n) { elastic.max_order = static_cast<int>(n); },
+      "highest order that auto tries [6]");
+  app.add_flag("--still", elastic.still, "also use moving logs, where their link stands still");
+  add_choice(
+      app, "--zero", "zero", {"auto", "offset", "theta_0"},
+      [&elastic](const std::string& name) {
+        elastic.zero = name == "offset"    ? ZeroMode::offset
+                       : name == "theta_0" ? ZeroMode::theta_0
+                                           : ZeroMode::automatic;
+      },
+      "what is unknown: the drive's offset, or the encoder's zero");
+  add_number(
+      app, "--materiality", "PERCENT", {0, 100},
+      [&elastic](double percent) { elastic.materiality = percent / 100; },
+      "of the peak torque: a smaller difference between models does not matter [1]");
+}
+
+}  // namespace
+
+int run_elastic(const Arguments& arguments) {
+  CLI::App app("Stage 1: torque against deflection while the link is blocked.", "cablefit elastic");
+  CommonOptions options;
+  ElasticOptions elastic;
+  add_log_options(app, options);
+  add_elastic_options(app, elastic);
+  add_sample_options(app, options);
+  add_output_options(app, options);
+  app.footer(kExample);
+  if (!parse(app, arguments)) return 0;
+
+  const std::vector<LogSurvey> logs = read_logs(options);
+  elastic.samples = options.samples;
+  elastic.preload = options.preload;
+  const std::vector<LogSurvey> blocked = logs_with(
+      logs, [&](const PartSurvey& part) { return elastic.still || part.phase == Phase::blocked; });
+  // Without any blocked log the fit says what to do, for the logs that were given.
+  const ElasticResult result = fit_elastic(blocked.empty() ? logs : blocked, elastic);
+  deliver(options, elastic_document(result), {{"elastic.json", elastic_json(result)}});
+  return 0;
+}
+
+}  // namespace cablefit::apps

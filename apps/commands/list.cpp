@@ -1,0 +1,131 @@
+// cablefit list: the tables of the library, as they are.
+#include <fmt/format.h>
+
+#include <functional>
+
+#include "cablefit/dynamic/dynamic_fit.hpp"
+#include "cablefit/log/log_reader.hpp"
+#include "cablefit/model/cables.hpp"
+#include "cablefit/model/effects.hpp"
+#include "cablefit/model/load.hpp"
+#include "cablefit/report/list_json.hpp"
+#include "cablefit/report/writers.hpp"
+#include "commands/command.hpp"
+#include "commands/command_line.hpp"
+#include "commands/delivery.hpp"
+
+namespace cablefit::apps {
+namespace {
+
+constexpr const char* kExample =
+    "Example:\n"
+    "  cablefit list effects\n";
+
+/// A table whose columns hold text only.
+Table text_table_of(const std::string& title, const std::vector<std::string>& columns) {
+  Table table;
+  table.title = title;
+  for (const std::string& name : columns) table.columns.push_back({"", name, "", true});
+  return table;
+}
+
+std::string parameters_of(const Effect& effect) {
+  std::string text;
+  for (const ParameterInfo& info : effect.parameters) {
+    text += fmt::format("{}{} [{}]", text.empty() ? "" : ", ", info.name, info.unit);
+  }
+  return text;
+}
+
+std::vector<Table> effect_tables() {
+  Table table = text_table_of("Effects", {"name", "side", "equation", "parameters", "source"});
+  for (const Effect& effect : effects()) {
+    table.rows.push_back({std::string(effect.name), std::string(to_string(effect.side)),
+                          std::string(effect.equation), parameters_of(effect),
+                          std::string(effect.source)});
+  }
+  return {table};
+}
+
+std::vector<Table> model_tables() {
+  Table models = text_table_of("Models of stage 2", {"name", "equation", "source"});
+  for (const DynamicModel& model : dynamic_models()) {
+    models.rows.push_back(
+        {std::string(model.name), std::string(model.equation), std::string(model.source)});
+  }
+  Table cables =
+      text_table_of("Cable laws (rig file: cables, law)", {"name", "equation", "source"});
+  for (const CableLaw& law : cable_laws()) {
+    cables.rows.push_back(
+        {std::string(law.name), std::string(law.equation), std::string(law.source)});
+  }
+  Table loads = text_table_of("Load laws (rig file: load, type)", {"name", "equation"});
+  for (const LoadLaw& law : load_laws()) {
+    loads.rows.push_back({std::string(law.name), std::string(law.equation)});
+  }
+  return {models, cables, loads};
+}
+
+std::vector<Table> estimator_tables() {
+  Table table = text_table_of("Estimators", {"name", "description", "source"});
+  for (const Estimator& row : estimators()) {
+    table.rows.push_back(
+        {std::string(row.name), std::string(row.description), std::string(row.source)});
+  }
+  return {table};
+}
+
+std::vector<Table> format_tables() {
+  Table logs = text_table_of("Log formats, also as .gz and .zst", {"name", "description"});
+  for (const LogFormat& format : log_formats()) {
+    logs.rows.push_back({std::string(format.name), std::string(format.description)});
+  }
+  Table reports = text_table_of("Report formats", {"name", "extension", "description"});
+  for (const ReportWriter& writer : report_writers()) {
+    reports.rows.push_back(
+        {std::string(writer.name), std::string(writer.extension), std::string(writer.description)});
+  }
+  return {logs, reports};
+}
+
+struct Section {
+  const char* name;
+  std::vector<Table> (*tables)();
+};
+
+constexpr Section kSections[] = {{"effects", effect_tables},
+                                 {"models", model_tables},
+                                 {"estimators", estimator_tables},
+                                 {"formats", format_tables}};
+
+std::vector<std::string> section_names() {
+  std::vector<std::string> names;
+  for (const Section& section : kSections) names.emplace_back(section.name);
+  return names;
+}
+
+}  // namespace
+
+int run_list(const Arguments& arguments) {
+  CLI::App app("What cablefit knows.", "cablefit list");
+  CommonOptions options;
+  std::string wanted;
+  app.add_option("WHAT", wanted, "effects, models, estimators or formats [all]")->type_name("");
+  app.add_option("--json", options.json, "as JSON; - for standard output")->type_name("FILE");
+  app.footer(kExample);
+  if (!parse(app, arguments)) return 0;
+  if (!wanted.empty()) require_known("list", wanted, section_names());
+
+  Document document;
+  std::vector<ListSection> sections;
+  for (const Section& section : kSections) {
+    if (!wanted.empty() && wanted != section.name) continue;
+    const std::vector<Table> tables = section.tables();
+    sections.push_back({section.name, tables});
+    document.tables.insert(document.tables.end(), tables.begin(), tables.end());
+  }
+  deliver(options, document, {{"", list_json(sections)}});
+  return 0;
+}
+
+}  // namespace cablefit::apps

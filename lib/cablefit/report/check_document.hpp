@@ -1,0 +1,11 @@
+// What `cablefit check` found, as a report.
+#pragma once
+
+#include "cablefit/report/document.hpp"
+#include "cablefit/samples/check.hpp"
+
+namespace cablefit {
+
+Document check_document(const CheckResult& result);
+
+}  // namespace cablefit

@@ -1,0 +1,84 @@
+#include "cablefit/report/check_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "cablefit/report/json_parts.hpp"
+
+namespace cablefit {
+namespace {
+
+using report_json::Json;
+
+Json channel_json(const CheckedChannel& channel) {
+  const ChannelSurvey& s = channel.survey;
+  return Json{{"name", channel.name},
+              {"unit", channel.unit},
+              {"min", s.min},
+              {"max", s.max},
+              {"quantum", s.quantum},
+              {"noise", s.noise},
+              {"at_limits", s.at_limits}};
+}
+
+Json excitation_json(const Excitation& e) {
+  if (e.channel.empty()) return nullptr;
+  return Json{{"channel", e.channel},
+              {"rest_speed", e.rest_speed},
+              {"share_at_rest", e.share_at_rest},
+              {"fastest", e.fastest},
+              {"speed_bands", e.speed_bands}};
+}
+
+Json delay_json(const CheckedDelay& delay) {
+  if (!delay.estimated) return nullptr;
+  return Json{{"seconds", delay.seconds}, {"sd", delay.sd}, {"reason", delay.reason}};
+}
+
+Json part_json(const CheckedPart& part) {
+  const PartSurvey& s = part.survey;
+  Json channels = Json::array();
+  for (const CheckedChannel& channel : part.channels) channels.push_back(channel_json(channel));
+  return Json{{"preload", s.preload},
+              {"run", s.run},
+              {"phase", to_string(s.phase)},
+              {"phase_given", s.phase_given},
+              {"rows", s.n_rows},
+              {"duration", s.t_last - s.t_first},
+              {"rate", 1 / s.period},
+              {"jitter", s.jitter},
+              {"worst_jitter", s.worst_jitter},
+              {"gaps", s.n_gaps},
+              {"resampled", s.uneven},
+              {"channels", channels},
+              {"excitation", excitation_json(part.excitation)},
+              {"torque_delay", delay_json(part.delay)},
+              {"identifies", part.identifies},
+              {"warnings", part.warnings}};
+}
+
+Json log_json(const CheckedLog& log) {
+  Json parts = Json::array();
+  for (const CheckedPart& part : log.parts) parts.push_back(part_json(part));
+  return Json{{"path", log.path},
+              {"rig", report_json::rig(log.rig_path)},
+              {"linear_motion", log.linear_motion},
+              {"usable", log.usable()},
+              {"unused_columns", log.unused_columns},
+              {"parts", parts}};
+}
+
+}  // namespace
+
+std::string check_json(const CheckResult& result) {
+  std::vector<InputFile> inputs;
+  Json logs = Json::array();
+  for (const CheckedLog& log : result.logs) {
+    inputs.push_back({log.path, log.sha256, log.rows});
+    logs.push_back(log_json(log));
+  }
+  Json json = report_json::header("check", inputs, result.warnings);
+  json["logs"] = logs;
+  return report_json::text(json);
+}
+
+}  // namespace cablefit

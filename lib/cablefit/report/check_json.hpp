@@ -1,0 +1,12 @@
+// cablefit/check/1, see data/schema/check.schema.json.
+#pragma once
+
+#include <string>
+
+#include "cablefit/samples/check.hpp"
+
+namespace cablefit {
+
+std::string check_json(const CheckResult& result);
+
+}  // namespace cablefit

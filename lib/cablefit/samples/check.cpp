@@ -1,0 +1,186 @@
+#include "cablefit/samples/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/samples/signals.hpp"
+#include "cablefit/samples/speed_histogram.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr double kSaturated = 0.01;  // share of rows at the limits of tau
+constexpr double kMostlyAtRest = 0.8;
+constexpr double kFewSteps = 100;  // a position that spans fewer encoder steps
+
+std::string unit_of(Channel channel, bool linear_motion) {
+  const bool is_torque = channel == Channel::tau || channel == Channel::tau_load;
+  if (is_torque) return linear_motion ? "N" : "N m";
+  if (channel == Channel::w) return linear_motion ? "m/s" : "rad/s";
+  return linear_motion ? "m" : "rad";
+}
+
+std::vector<CheckedChannel> channels_of(const LogSurvey& log, const PartSurvey& part) {
+  std::vector<CheckedChannel> channels;
+  const Rig& rig = log.plan.rig;
+  for (std::size_t k = 0; k < log.plan.slots.size(); ++k) {
+    const Slot& slot = log.plan.slots[k];
+    std::string name(channel_name(slot.channel));
+    if (rig.n_joints() > 1) name += std::to_string(slot.joint + 1);
+    const std::string unit = unit_of(slot.channel, rig.linear_motion);
+    channels.push_back({name, unit, unit == "rad", part.channels[k]});
+  }
+  return channels;
+}
+
+const Eigen::ArrayXd& speed_of(const Signals& signals, const std::string& channel) {
+  return channel == "q" ? signals.joints[0].qd : signals.joints[0].thetad;
+}
+
+Excitation excitation_of(const LogSurvey& log, const PartSurvey& part,
+                         const SampleOptions& options) {
+  Excitation excitation;
+  for (const Channel channel : {Channel::q, Channel::w, Channel::theta}) {
+    if (log.plan.has(channel)) excitation.channel = channel_name(channel);
+  }
+  if (excitation.channel.empty()) return excitation;
+  const PartFilter wanted = [&part](const PartSurvey& other) {
+    return other.preload == part.preload && other.run == part.run && other.phase == part.phase &&
+           other.t_first == part.t_first;
+  };
+  const std::span<const LogSurvey> one(&log, 1);
+  const ChosenSettings chosen = part.phase == Phase::blocked
+                                    ? blocked_settings(one, wanted, options)
+                                    : moving_settings(one, wanted, options, 0);
+  const SignalSettings& settings = chosen.rows.signal;
+  excitation.rest_speed = excitation.channel == "q" ? chosen.rest_speed_q : chosen.rest_speed_theta;
+  SpeedHistogram histogram;
+  double n = 0, n_at_rest = 0;
+  for_each_window(log, wanted, signal_halo(settings, 1 / part.period), 2 * kDifferenceEdge + 2,
+                  bridge_seconds(settings), [&](Window&& window) {
+                    const Signals signals = make_signals(window, log.plan, settings);
+                    const Eigen::ArrayXd& speed = speed_of(signals, excitation.channel);
+                    for (Eigen::Index i = window.begin; i < window.end; ++i) {
+                      const double v = std::abs(speed(i - window.first));
+                      n += 1;
+                      if (v <= excitation.rest_speed) n_at_rest += 1;
+                      if (v > excitation.rest_speed) histogram.add(v);
+                    }
+                    return true;
+                  });
+  excitation.share_at_rest = n > 0 ? n_at_rest / n : 0;
+  excitation.fastest = histogram.fastest();
+  excitation.speed_bands = histogram.fastest() > 0 ? histogram.bands() : 0;
+  return excitation;
+}
+
+std::vector<std::string> identified_by(const LogPlan& plan, const PartSurvey& part) {
+  const bool q = plan.has(Channel::q), theta = plan.has(Channel::theta);
+  const bool tau = plan.has(Channel::tau);
+  const auto moves = [&](Channel channel) {
+    const int k = plan.find(channel);
+    return k >= 0 && part.channels[static_cast<std::size_t>(k)].range() > 0;
+  };
+  const bool drive_moves = moves(Channel::theta) || moves(Channel::w);
+  if (part.phase == Phase::blocked) {
+    return q && tau && drive_moves ? std::vector<std::string>{"elastic"}
+                                   : std::vector<std::string>{};
+  }
+  if (q && theta && tau && moves(Channel::q) && drive_moves) return {"dynamic", "rigid"};
+  if (tau && drive_moves) return {"rigid"};
+  if (q && theta && moves(Channel::q)) return {"ratios"};
+  return {};
+}
+
+void note_channels(CheckedPart& part) {
+  for (const CheckedChannel& channel : part.channels) {
+    const ChannelSurvey& s = channel.survey;
+    if (channel.name.rfind("tau", 0) == 0 && channel.name.rfind("tau_load", 0) != 0 &&
+        s.at_limits > kSaturated) {
+      part.warnings.push_back(
+          fmt::format("{} stands at its limits in {:.1f} % of the rows: saturation? clipped torque "
+                      "biases every parameter",
+                      channel.name, 100 * s.at_limits));
+    }
+    if (channel.is_angle && s.quantum > 0 && s.range() < kFewSteps * s.quantum) {
+      if (part.survey.phase == Phase::blocked && channel.name.front() == 'q') continue;
+      part.warnings.push_back(fmt::format("{} spans only {:.0f} steps of its encoder", channel.name,
+                                          s.range() / s.quantum));
+    }
+  }
+}
+
+void note_motion(const LogPlan& plan, CheckedPart& part) {
+  const auto warn = [&part](const std::string& text) { part.warnings.push_back(text); };
+  const Excitation& e = part.excitation;
+  if (part.identifies.empty()) {
+    warn(
+        "nothing can be identified from this part: stage 1 needs q, theta and tau with the link "
+        "blocked; stage 2 the same with the link moving; a rigid drive theta or w, and tau");
+  }
+  if (part.survey.uneven) warn("the clock is uneven: rows will be made anew on an even grid");
+  if (part.survey.phase == Phase::blocked || e.channel.empty()) return;
+  if (e.share_at_rest > kMostlyAtRest) {
+    warn(fmt::format("the drive rests in {:.0f} % of the rows", 100 * e.share_at_rest));
+  }
+  if (e.speed_bands == 1) {
+    warn("one speed only: viscous and Coulomb friction cannot be told apart");
+  }
+  const bool has_load = plan.has(Channel::tau_load) || plan.rig.load.law != nullptr;
+  if (part.identifies.front() == "dynamic" && !has_load) {
+    warn("no tau_load column and no load law in the rig file: the load will be taken as 0");
+  }
+}
+
+CheckedPart check_part(const LogSurvey& log, const PartSurvey& survey,
+                       const SampleOptions& options) {
+  CheckedPart part;
+  part.survey = survey;
+  part.channels = channels_of(log, survey);
+  part.excitation = excitation_of(log, survey, options);
+  part.identifies = identified_by(log.plan, survey);
+  note_channels(part);
+  note_motion(log.plan, part);
+  return part;
+}
+
+std::vector<std::string> unused_columns(const LogPlan& plan) {
+  std::vector<std::string> unused;
+  for (std::size_t k = 0; k < plan.header.columns.size(); ++k) {
+    const bool is_slot = std::any_of(plan.slots.begin(), plan.slots.end(),
+                                     [k](const Slot& slot) { return slot.column == k; });
+    const bool is_other = plan.time_column == k || plan.preload_column == k ||
+                          plan.phase_column == k || plan.run_column == k;
+    if (!is_slot && !is_other) unused.push_back(plan.header.columns[k].name);
+  }
+  return unused;
+}
+
+}  // namespace
+
+bool CheckedLog::usable() const {
+  return std::any_of(parts.begin(), parts.end(),
+                     [](const CheckedPart& part) { return !part.identifies.empty(); });
+}
+
+CheckResult check_logs(std::span<const LogSurvey> logs, const SampleOptions& options) {
+  CheckResult result;
+  for (const LogSurvey& log : logs) {
+    CheckedLog checked{log.plan.path,
+                       log.sha256,
+                       log.plan.rig.path,
+                       log.n_rows,
+                       log.plan.rig.linear_motion,
+                       unused_columns(log.plan),
+                       {}};
+    for (const PartSurvey& part : log.parts) {
+      checked.parts.push_back(check_part(log, part, options));
+    }
+    result.logs.push_back(std::move(checked));
+  }
+  return result;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,64 @@
+// What is in a log, and what can be made of it: everything a person wants to know before a fit.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cablefit/samples/settings.hpp"
+
+namespace cablefit {
+
+struct CheckedChannel {
+  std::string name;  ///< "q", or "q2" on a rig of several joints
+  std::string unit;
+  bool is_angle = false;
+  ChannelSurvey survey;
+};
+
+/// How the drive (theta or w, else q) was moved, first joint.
+struct Excitation {
+  std::string channel;       ///< empty: no channel tells
+  double rest_speed = 0;     ///< rad/s, below this it counts as at rest
+  double share_at_rest = 0;  ///< of the rows
+  double fastest = 0;        ///< rad/s
+  int speed_bands = 0;       ///< of ten equal bands up to `fastest`, those with 1 % of the motion
+};
+
+/// For `cablefit check` on rigid drives; elastic ones need stage 1 first.
+struct CheckedDelay {
+  bool estimated = false;
+  double seconds = 0, sd = 0;
+  std::string reason;
+};
+
+struct CheckedPart {
+  PartSurvey survey;
+  std::vector<CheckedChannel> channels;
+  Excitation excitation;
+  CheckedDelay delay;
+  /// Among "elastic" (stage 1), "dynamic" (stage 2), "rigid", "ratios".
+  std::vector<std::string> identifies;
+  std::vector<std::string> warnings;
+};
+
+struct CheckedLog {
+  std::string path, sha256, rig_path;
+  std::size_t rows = 0;
+  bool linear_motion = false;
+  std::vector<std::string> unused_columns;
+  std::vector<CheckedPart> parts;
+
+  /// Whether any part is good for anything.
+  bool usable() const;
+};
+
+struct CheckResult {
+  std::vector<CheckedLog> logs;
+  std::vector<std::string> warnings;
+};
+
+/// One more pass over each log, for the speeds.
+CheckResult check_logs(std::span<const LogSurvey> logs, const SampleOptions& options);
+
+}  // namespace cablefit
