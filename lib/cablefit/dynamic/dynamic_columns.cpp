@@ -49,6 +49,7 @@ DynamicColumns dynamic_columns(Side side, const std::vector<const ElasticFit*>& 
     c.n_elastic.push_back(is_linear(*fit) ? 1 : n_elastic_columns(fit->transmission));
     c.count += c.n_elastic.back();
   }
+  if (!fits.empty()) c.deflection = c.count++;
   c.position = c.count++;
   c.torque = c.count++;
   return c;
@@ -85,6 +86,7 @@ Equation dynamic_equation(const DynamicColumns& c, const std::vector<const Elast
     effect_columns(c.effects, c.side, s, out.leftCols(c.n_effects));
     for (std::size_t k = 0; k < fits.size(); ++k)
       fill_elastic(*fits[k], c.side, s, out.middleCols(c.elastic[k], c.n_elastic[k]));
+    if (c.deflection >= 0) out.col(c.deflection) = s.theta - s.q;
     out.col(c.position) = position(c.side, s);
     out.col(c.torque).setZero();
     if (c.side != Side::link) out.col(c.torque) = s.tau;

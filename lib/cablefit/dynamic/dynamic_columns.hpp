@@ -16,8 +16,9 @@ struct DynamicColumns {
   Eigen::Index n_effects = 0;         ///< effect columns come first
   std::vector<Eigen::Index> elastic;  ///< first column of each elastic fit's basis
   std::vector<Eigen::Index> n_elastic;
-  Eigen::Index position = 0;  ///< q or theta
-  Eigen::Index torque = 0;    ///< tau (motor, rigid) or tau_load (link)
+  Eigen::Index deflection = -1;  ///< theta - q, for its range; -1 on a rigid drive
+  Eigen::Index position = 0;     ///< q or theta
+  Eigen::Index torque = 0;       ///< tau (motor, rigid) or tau_load (link)
   Eigen::Index count = 0;
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kDigitsOfSd = 2;
 constexpr int kDigitsWithoutSd = 4;
-constexpr double kSmallest = 1e-4;  // beyond these an exponent is easier to read
+constexpr double kSmallest = 1e-5;  // beyond these an exponent is easier to read
 constexpr double kLargest = 1e7;
 
 /// Decimal exponent of the value once it is rounded to so many digits: 0.0996 to two is 0.10.

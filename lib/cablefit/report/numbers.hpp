@@ -8,7 +8,7 @@ namespace cablefit {
 /// "-": there is no number.
 inline constexpr const char* kNoNumber = "-";
 
-/// `n_digits` significant digits, without an exponent between 1e-4 and 1e7. NaN gives "-".
+/// `n_digits` significant digits, without an exponent between 1e-5 and 1e7. NaN gives "-".
 std::string significant(double value, int n_digits);
 
 /// The value up to the second digit of its sd: 1367.71 with sd 1.234 is "1367.7". Four significant

@@ -130,7 +130,7 @@ std::string sd_note(std::span<const DynamicPreload> preloads) {
   }
   if (most == 0) return "";
   return fmt::format(
-      "rsd: of an sd that holds for filtered data, {} to {} times that of the paper's (25)",
+      "rsd: relative sd that holds for filtered data, {} to {} times that of the paper's (25)",
       significant(least, kRsdDigits), significant(most, kRsdDigits));
 }
 

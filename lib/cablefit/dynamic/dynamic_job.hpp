@@ -1,0 +1,53 @@
+// One preload's stage 2 on its way: what is fitted to which rows, with which settings.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cablefit/dynamic/dynamic_columns.hpp"
+#include "cablefit/dynamic/dynamic_fit.hpp"
+#include "cablefit/estimate/least_squares.hpp"
+
+namespace cablefit {
+
+struct DynamicJob {
+  std::span<const LogSurvey> logs;
+  const DynamicOptions& options;
+  std::string preload;
+  PartFilter wanted;
+  std::vector<const ElasticFit*> elastic;  ///< stage 1, one per entry of `models`; none when rigid
+  std::vector<std::string> models;
+  bool rigid = false;
+  ChosenSettings settings;
+
+  /// The first log with a wanted part, and that part.
+  const LogSurvey& first_log() const;
+  const PartSurvey& first_part() const;
+  const Rig& rig() const { return first_log().plan.rig; }
+};
+
+/// One equation of the model with its rows.
+struct EquationRows {
+  DynamicColumns columns;
+  Equation equation;
+  std::optional<RowStatistics> rows;
+  RowCounts counts;
+};
+
+/// Link and motor, or the one equation of a rigid drive; no rows yet.
+std::vector<EquationRows> make_equations(const DynamicJob& job);
+
+/// Streams all wanted rows into the equations.
+WindowCounts collect_rows(const DynamicJob& job, std::vector<EquationRows>& equations);
+
+/// The fit of model number `which` to one equation.
+LinearSolution solve_equation(const EquationRows& equation,
+                              const std::vector<const ElasticFit*>& elastic, std::size_t which);
+
+/// Chooses filter, decimation, rest speeds and torque hold: fills job.settings, and the resonance
+/// and the torque delay of `preload`. `elastic`: stage 1, for its deflection range.
+void choose_settings(DynamicJob& job, DynamicPreload& preload, const ElasticResult& elastic);
+
+}  // namespace cablefit

@@ -1,0 +1,85 @@
+#include <cmath>
+
+#include "cablefit/dynamic/dynamic_job.hpp"
+#include "cablefit/dynamic/torque_delay.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kWideBand = 0.15;  // of the rate: the widest band the differences allow
+constexpr int kPilotWindows = 8;
+
+// f0 of the elastic drive needs inertias, which are what is looked for. A first fit with a generous
+// band gives them; the CAD values are never used.
+double resonance(double stiffness, double j_link, double j_motor) {
+  if (!(j_link > 0) || !(j_motor > 0) || !(stiffness > 0)) return 0;
+  return std::sqrt(stiffness * (1 / j_motor + 1 / j_link)) / (2 * kPi);
+}
+
+/// The stiffness at the middle of the torque range used, for f0.
+double typical_stiffness(const ElasticFit& fit, const ElasticPreload& preload) {
+  if (fit.transmission.cables.empty()) return fit.transmission.linear_stiffness(0);
+  double sum = 0;
+  const double deflection = 0.5 * std::max(-preload.deflection_low, preload.deflection_high);
+  for (const Cable& cable : fit.transmission.cables) {
+    const double r = cable.motor_radius(0);
+    for (const double phi : {-deflection, deflection})
+      sum += 0.5 * r * r * cable.stiffness(r * phi + cable.initial_elongation);
+  }
+  return sum;
+}
+
+/// Rows of the pilot windows alone.
+std::vector<EquationRows> pilot_equations(const DynamicJob& job, double rate) {
+  std::vector<EquationRows> pilot = make_equations(job);
+  const Eigen::Index expected = expected_rows(job.logs, job.wanted, job.settings.rows);
+  for (EquationRows& e : pilot) e.rows.emplace(e.columns.count, expected);
+  for (const PilotWindow& p : pilot_windows(job.logs, job.wanted, job.settings.rows.signal,
+                                            row_halo(job.settings.rows, rate), kPilotWindows))
+    for (EquationRows& e : pilot) {
+      const RowBatch batch =
+          make_rows(p.window, job.logs[p.log], 0, job.settings.rows, {&e.equation, 1});
+      e.rows->add(batch.equations[0].rows, batch.equations[0].numbers);
+    }
+  return pilot;
+}
+
+/// f0 of the elastic drive, 0 when it lies beyond half the rate.
+double find_resonance(DynamicJob& job, const ElasticResult& elastic) {
+  const double rate = 1 / job.first_part().period;
+  SampleOptions wide = job.options.samples;
+  if (!wide.cutoff) wide.cutoff = kWideBand * rate;
+  job.settings = moving_settings(job.logs, job.wanted, wide, 0);
+  const std::vector<EquationRows> pilot = pilot_equations(job, rate);
+  const std::size_t last = job.elastic.size() - 1;
+  const double j_link = solve_equation(pilot[0], job.elastic, last).x(0);
+  const double j_motor = solve_equation(pilot[1], job.elastic, last).x(0);
+  for (const ElasticPreload& stage1 : elastic.preloads) {
+    if (stage1.name != job.preload) continue;
+    const double f0 = resonance(typical_stiffness(*job.elastic[last], stage1), j_link, j_motor);
+    return f0 < rate / 2 ? f0 : 0;
+  }
+  return 0;
+}
+
+}  // namespace
+
+void choose_settings(DynamicJob& job, DynamicPreload& preload, const ElasticResult& elastic) {
+  preload.resonance = job.rigid ? 0 : find_resonance(job, elastic);
+  job.settings = moving_settings(job.logs, job.wanted, job.options.samples, preload.resonance);
+  job.settings.rows.signal.torque_period = job.rig().torque_period;
+  preload.delay = estimate_torque_delay(
+      job.logs, job.wanted, job.settings.rows, job.settings.rest_speed_theta,
+      job.rigid ? Side::rigid : Side::motor, job.rigid ? nullptr : job.elastic.back());
+  const TorqueHold hold = job.options.samples.torque_hold.value_or(job.rig().torque_hold);
+  std::string reason = preload.delay.reason;
+  if (hold != TorqueHold::automatic) {
+    preload.delay.held = hold == TorqueHold::zoh;
+    reason = "given; " + reason;
+  }
+  job.settings.decisions.push_back({"torque hold", preload.delay.held ? "zoh" : "none", reason});
+  job.settings.rows.signal.torque_held = preload.delay.held;
+}
+
+}  // namespace cablefit
