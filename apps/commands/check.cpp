@@ -48,7 +48,7 @@ void throw_if_useless(const CheckResult& result) {
 }  // namespace
 
 int run_check(const Arguments& arguments) {
-  CLI::App app("What is in a log, is it usable, and what can be identified from it.", "cablefit check");
+  CLI::App app("What is in a log, is it usable, and what can be identified from it.", "check");
   CommonOptions options;
   add_log_options(app, options);
   add_sample_options(app, options);

@@ -17,16 +17,17 @@
 namespace cablefit::apps {
 namespace {
 
-constexpr double kLargestWhole = 1e15;  // exact in a double
+constexpr std::size_t kMostDigits = 15;  // exact in a double
 
-std::string range_text(Range range) {
-  if (std::isinf(range.high)) return fmt::format("{:g} or more", range.low);
-  return fmt::format("{:g} to {:g}", range.low, range.high);
+/// "a whole number from 1 to 9".
+std::string wanted_text(const char* kind, Range range) {
+  if (std::isinf(range.high)) return fmt::format("{} from {:g} up", kind, range.low);
+  return fmt::format("{} from {:g} to {:g}", kind, range.low, range.high);
 }
 
 Error bad_value(const std::string& option, const std::string& text, const std::string& wanted) {
-  return usage_error(fmt::format("{} {} is not {}", option, cablefit::quoted(text), wanted),
-                     fmt::format("see --help"));
+  return usage_error(fmt::format("{} cannot be {}", option, cablefit::quoted(text)),
+                     "give " + wanted);
 }
 
 /// Every option of the command, for a near match.
@@ -54,16 +55,17 @@ double parse_number(const std::string& option, const std::string& text, Range ra
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   const bool is_number = !text.empty() && *end == '\0' && std::isfinite(value);
-  if (!is_number) throw bad_value(option, text, "a number");
-  if (value < range.low || value > range.high) throw bad_value(option, text, range_text(range));
-  return value;
+  if (is_number && value >= range.low && value <= range.high) return value;
+  throw bad_value(option, text, wanted_text("a number", range));
 }
 
 long parse_whole(const std::string& option, const std::string& text, Range range) {
-  range.high = std::min(range.high, kLargestWhole);
-  const bool is_whole = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-  if (!is_whole) throw bad_value(option, text, "a whole number");
-  return static_cast<long>(parse_number(option, text, range));
+  const bool is_whole = !text.empty() && text.size() <= kMostDigits &&
+                        text.find_first_not_of("0123456789") == std::string::npos;
+  const long value = is_whole ? std::stol(text) : -1;
+  const auto number = static_cast<double>(value);
+  if (is_whole && number >= range.low && number <= range.high) return value;
+  throw bad_value(option, text, wanted_text("a whole number", range));
 }
 
 void require_known(const std::string& what, const std::string& text,
@@ -99,12 +101,17 @@ void add_choice(CLI::App& app, const std::string& name, const std::string& what,
 }
 
 bool parse(CLI::App& app, const Arguments& arguments) {
+  app.name("cablefit " + app.get_name());
   app.allow_extras();
   try {
     app.parse(Arguments(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
   } catch (const CLI::CallForHelp&) {
     write_whole("-", app.help());
     return false;
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string message = error.what();  // "--cutoff: 1 required HZ missing"
+    throw usage_error(message.substr(0, message.find(':')) + " needs a value",
+                      fmt::format("see '{} --help'", app.get_name()));
   } catch (const CLI::ParseError& error) {
     throw usage_error(error.what(), fmt::format("see '{} --help'", app.get_name()));
   }

@@ -121,7 +121,7 @@ void add_stage1(const Stage1& stage1, DynamicResult& result) {
 }  // namespace
 
 int run_dynamic(const Arguments& arguments) {
-  CLI::App app("Stage 2: inertias, friction and offset of the moving drive.", "cablefit dynamic");
+  CLI::App app("Stage 2: inertias, friction and offset of the moving drive.", "dynamic");
   DynamicCommand command;
   CommonOptions& options = command.common;
   add_log_options(app, options);

@@ -16,8 +16,9 @@ constexpr const char* kExample =
 
 void add_elastic_options(CLI::App& app, ElasticOptions& elastic) {
   const auto take_order = [&elastic](const std::string& text) {
-    elastic.order =
-        text == "auto" ? 0 : static_cast<int>(parse_whole("--order", text, {1, kMaxCableOrder}));
+    elastic.order = 0;
+    if (text == "auto") return;
+    elastic.order = static_cast<int>(parse_whole("--order", text, {1, kMaxCableOrder}));
   };
   app.add_option_function<std::string>(
          "--order", take_order,
@@ -45,7 +46,7 @@ void add_elastic_options(CLI::App& app, ElasticOptions& elastic) {
 }  // namespace
 
 int run_elastic(const Arguments& arguments) {
-  CLI::App app("Stage 1: torque against deflection while the link is blocked.", "cablefit elastic");
+  CLI::App app("Stage 1: torque against deflection while the link is blocked.", "elastic");
   CommonOptions options;
   ElasticOptions elastic;
   add_log_options(app, options);

@@ -107,7 +107,7 @@ std::vector<std::string> section_names() {
 }  // namespace
 
 int run_list(const Arguments& arguments) {
-  CLI::App app("What cablefit knows.", "cablefit list");
+  CLI::App app("What cablefit knows.", "list");
   CommonOptions options;
   std::string wanted;
   app.add_option("WHAT", wanted, "effects, models, estimators or formats [all]")->type_name("");

@@ -35,22 +35,22 @@ class Bench {
   Rig rig = default_rig();
 
   const LogSurvey& add(const truth::Log& log) {
-    const std::string path = folder_.file("log" + std::to_string(logs_.size()) + ".csv");
+    const std::string path = folder_->file("log" + std::to_string(logs_.size()) + ".csv");
     truth::write_csv(path, log);
     return add_file(path);
   }
   const LogSurvey& add_text(const std::string& text) {
-    return add_file(folder_.write("log" + std::to_string(logs_.size()) + ".csv", text));
+    return add_file(folder_->write("log" + std::to_string(logs_.size()) + ".csv", text));
   }
   const LogSurvey& add_file(const std::string& path) {
     logs_.push_back(survey_file(path, rig));
     return logs_.back();
   }
   std::span<const LogSurvey> logs() const { return logs_; }
-  const TempFolder& folder() const { return folder_; }
+  const TempFolder& folder() const { return *folder_; }
 
  private:
-  TempFolder folder_;
+  std::unique_ptr<TempFolder> folder_ = std::make_unique<TempFolder>();
   std::vector<LogSurvey> logs_;
 };
 

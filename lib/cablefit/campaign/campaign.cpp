@@ -36,7 +36,8 @@ std::vector<std::string> logs(const JsonNode& cell, std::string_view key,
   std::vector<std::string> paths;
   const JsonNode* list = cell.find(key);
   if (list == nullptr) return paths;
-  if (!list->is_array()) throw list->error("is no list", "write [\"low/blocked*.csv\"]");
+  if (!list->is_array())
+    throw list->error(fmt::format("'{}' is no list", list->path), "write [\"low/blocked*.csv\"]");
   for (const JsonNode& item : list->items)
     for (std::string& path : matches(item, campaign)) paths.push_back(std::move(path));
   return paths;
@@ -51,7 +52,7 @@ CampaignCell read_cell(const JsonNode& node, const std::string& campaign) {
   cell.moving = logs(node, "moving", campaign);
   cell.validation = logs(node, "validation", campaign);
   if (cell.blocked.empty())
-    throw node.error("has no blocked logs", "stage 1 needs a log with the link blocked");
+    throw node.error("the cell has no blocked logs", "stage 1 needs a log with the link blocked");
   return cell;
 }
 
@@ -61,7 +62,7 @@ CampaignLimits read_limits(const JsonNode& node, const std::string& campaign) {
   if (const JsonNode* rsd = node.find("rsd_percent")) limits.rsd_percent = rsd->positive();
   if (const JsonNode* error = node.find("torque_error")) limits.torque_error = error->positive();
   if (const JsonNode* effect = node.find("new_effect"); effect != nullptr && effect->boolean())
-    throw effect->error("cannot be gated yet", "leave it out or write false");
+    throw effect->error("'new_effect' cannot be gated yet", "leave it out or write false");
   if (const JsonNode* drift = node.find("drift")) {
     drift->allow_only({"baseline", "percent"});
     limits.drift_baseline = matches(drift->at("baseline"), campaign).front();
@@ -79,7 +80,8 @@ void read_models(const JsonNode& node, Campaign& campaign) {
                        "known: linear, poly");
     campaign.models.push_back(model);
   }
-  if (campaign.models.empty()) throw node.error("is empty", "write [\"linear\", \"poly\"]");
+  if (campaign.models.empty())
+    throw node.error("'models' is empty", "write [\"linear\", \"poly\"]");
 }
 
 }  // namespace
@@ -89,8 +91,9 @@ Campaign read_campaign(const std::string& path) {
   root.allow_only({"schema", "name", "cells", "models", "estimator", "limits"});
   const JsonNode& schema = root.at("schema");
   if (schema.text() != kSchema)
-    throw schema.error(fmt::format("is {}, not a campaign", cablefit::quoted(schema.text())),
-                       fmt::format("a campaign file says \"{}\"", kSchema));
+    throw schema.error(
+        fmt::format("'schema' is {}, not a campaign", cablefit::quoted(schema.text())),
+        fmt::format("a campaign file says \"{}\"", kSchema));
   Campaign campaign;
   campaign.path = path;
   if (const JsonNode* name = root.find("name")) campaign.name = name->text();
@@ -99,16 +102,15 @@ Campaign read_campaign(const std::string& path) {
   if (const JsonNode* limits = root.find("limits")) campaign.limits = read_limits(*limits, path);
   const JsonNode& cells = root.at("cells");
   if (!cells.is_array() || cells.items.empty())
-    throw cells.error("holds no cells",
+    throw cells.error("'cells' is empty",
                       "a cell is {\"rig\", \"preload\", \"blocked\", \"moving\"}");
   std::set<std::pair<std::string, std::string>> seen;
   for (const JsonNode& node : cells.items) {
     campaign.cells.push_back(read_cell(node, path));
     const CampaignCell& cell = campaign.cells.back();
     if (!seen.insert({cell.rig, cell.preload}).second)
-      throw node.error(
-          fmt::format("is a second cell of preload {}", cablefit::quoted(cell.preload)),
-          "merge the two, or name the preloads differently");
+      throw node.error(fmt::format("a second cell of preload {}", cablefit::quoted(cell.preload)),
+                       "merge the two, or name the preloads differently");
   }
   return campaign;
 }

@@ -112,8 +112,9 @@ JsonNode read_baseline(const std::string& path) {
   JsonNode root = read_json_file(path);
   const JsonNode& schema = root.at("schema");
   if (schema.text() != "cablefit/batch/1")
-    throw schema.error(fmt::format("is {}, not a batch result", cablefit::quoted(schema.text())),
-                       "keep the batch.json of a good run as the baseline");
+    throw schema.error(
+        fmt::format("'schema' is {}, not a batch result", cablefit::quoted(schema.text())),
+        "keep the batch.json of a good run as the baseline");
   return root;
 }
 

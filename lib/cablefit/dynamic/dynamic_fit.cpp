@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
 
 #include "cablefit/base/catalog.hpp"
 #include "cablefit/dynamic/dynamic_job.hpp"
@@ -211,16 +210,15 @@ DynamicResult fit_dynamic(std::span<const LogSurvey> logs, const ElasticResult& 
                           const DynamicOptions& options) {
   check_names(options);
   DynamicResult result;
-  std::set<std::string> names;
   bool torque = true;
   for (const LogSurvey& log : logs) {
     result.inputs.push_back({log.plan.path, log.sha256, log.n_rows});
     torque &= log.plan.has(Channel::tau);
-    for (const PartSurvey& part : log.parts)
-      if (part.phase == Phase::moving &&
-          (options.preload.empty() || options.preload == part.preload))
-        names.insert(part.preload);
   }
+  const std::vector<std::string> names = preload_names(logs, [&](const PartSurvey& part) {
+    return part.phase == Phase::moving &&
+           (options.preload.empty() || options.preload == part.preload);
+  });
   if (names.empty())
     throw input_error({logs.empty() ? "" : logs.front().plan.path, 0, 0}, "no moving log",
                       "give a log in which the link moves, or a 'phase' column that says so");

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "cablefit/elastic/elastic_checks.hpp"
 #include "cablefit/elastic/model_errors.hpp"
@@ -140,16 +139,6 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
   return preload;
 }
 
-std::set<std::string> preload_names(std::span<const LogSurvey> logs,
-                                    const ElasticOptions& options) {
-  std::set<std::string> names;
-  for (const LogSurvey& log : logs)
-    for (const PartSurvey& part : log.parts)
-      if (options.still || part.phase == Phase::blocked)
-        if (options.preload.empty() || options.preload == part.preload) names.insert(part.preload);
-  return names;
-}
-
 }  // namespace
 
 const ElasticFit* ElasticPreload::find(const std::string& model) const {
@@ -166,7 +155,10 @@ ElasticResult fit_elastic(std::span<const LogSurvey> logs, const ElasticOptions&
     require_channel(log.plan, Channel::theta, "the deflection theta - q");
     require_channel(log.plan, Channel::tau, "the elastic torque");
   }
-  const std::set<std::string> names = preload_names(logs, options);
+  const std::vector<std::string> names = preload_names(logs, [&](const PartSurvey& part) {
+    return (options.still || part.phase == Phase::blocked) &&
+           (options.preload.empty() || options.preload == part.preload);
+  });
   if (names.empty())
     throw input_error({logs.empty() ? "" : logs.front().plan.path, 0, 0},
                       options.preload.empty()

@@ -19,7 +19,7 @@ std::string estimate_text(const ElasticFit& fit, const char* name, double scale,
   const Estimate* e = find_estimate(fit.parameters, name);
   if (e == nullptr) return kNoNumber;
   if (!e->not_identifiable.empty()) {
-    return "not identifiable " + notes.mark(e->name + ": " + e->not_identifiable);
+    return "not identifiable " + notes.mark(e->not_identifiable);
   }
   if (!e->active_bound.empty()) {
     return "0 " + notes.mark(fmt::format("at its bound {}; 95 % interval up to {}", e->active_bound,

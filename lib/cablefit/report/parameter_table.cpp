@@ -68,7 +68,7 @@ std::string bound_note(const Estimate& e) {
 Cells cells_of(const Estimate* e, Footnotes& notes) {
   if (e == nullptr) return {kNoNumber, ""};
   if (!e->not_identifiable.empty()) {
-    return {"not identifiable", notes.mark(e->name + ": " + e->not_identifiable)};
+    return {"not identifiable", notes.mark(e->not_identifiable)};
   }
   if (!e->active_bound.empty())
     return {significant(e->value, kRsdDigits), notes.mark(bound_note(*e))};

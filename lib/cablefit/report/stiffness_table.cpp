@@ -12,6 +12,8 @@ namespace cablefit {
 namespace {
 
 constexpr int kMaxOrderSideBySide = 3;
+constexpr const char* kLinear = "Linear";
+constexpr const char* kPolynomial = "Polynomial";
 
 /// A coefficient that some preload has; what has another unit is another one.
 struct Coefficient {
@@ -28,12 +30,12 @@ std::size_t n_coefficients(const ElasticFit& fit) {
 }
 
 std::string group_of(const ElasticFit& fit) {
-  return fit.transmission.cables.empty() ? "Linear" : "Polynomial";
+  return fit.transmission.cables.empty() ? kLinear : kPolynomial;
 }
 
 std::vector<Coefficient> all_coefficients(const ElasticResult& result) {
   std::vector<Coefficient> all;
-  for (const char* group : {"Linear", "Polynomial"}) {
+  for (const char* group : {kLinear, kPolynomial}) {
     for (const ElasticPreload& preload : result.preloads) {
       for (const ElasticFit& fit : preload.fits) {
         if (group_of(fit) != group) continue;
@@ -49,7 +51,7 @@ std::vector<Coefficient> all_coefficients(const ElasticResult& result) {
   }
   // Orders differ between preloads: K1_2 of the second belongs beside K1_1 of the first.
   std::stable_sort(all.begin(), all.end(), [](const Coefficient& a, const Coefficient& b) {
-    return a.group == "Polynomial" && b.group == "Polynomial" && a.name < b.name;
+    return a.group == kPolynomial && b.group == kPolynomial && a.name < b.name;
   });
   return all;
 }
@@ -60,7 +62,7 @@ Cell cell_of(const ElasticPreload& preload, const Coefficient& wanted, Footnotes
     const Estimate* e = find_estimate(fit.parameters, wanted.name);
     if (e == nullptr || e->unit != wanted.unit) continue;
     if (!e->not_identifiable.empty()) {
-      return {"not identifiable", notes.mark(e->name + ": " + e->not_identifiable)};
+      return {"not identifiable", notes.mark(e->not_identifiable)};
     }
     return {value_text(e->value, e->sd), "+- " + sd_text(e->value, e->sd)};
   }
@@ -77,17 +79,29 @@ std::string range_unit(const ElasticResult& result) {
   return linear_motion ? "mm" : "mrad";
 }
 
+/// The linear stiffness depends on the range it was fitted on, so the range stands beside it.
 Table preloads_as_rows(const ElasticResult& result, const std::vector<Coefficient>& coefficients) {
   Table table;
   Footnotes notes;
-  table.columns = {{"", "preload", "", true}, {"", "deflection", range_unit(result)}};
-  for (const Coefficient& c : coefficients) table.columns.push_back({c.group, c.name, c.unit});
+  const auto is_last_linear = [&](std::size_t k) {
+    return coefficients[k].group == kLinear &&
+           (k + 1 == coefficients.size() || coefficients[k + 1].group != kLinear);
+  };
+  table.columns = {{"", "preload", "", true}};
+  for (std::size_t k = 0; k < coefficients.size(); ++k) {
+    const Coefficient& c = coefficients[k];
+    table.columns.push_back({c.group, c.name, c.unit});
+    if (is_last_linear(k)) table.columns.push_back({kLinear, "deflection", range_unit(result)});
+  }
   for (const ElasticPreload& preload : result.preloads) {
-    std::vector<std::string> values = {preload.name, range_text(preload)}, sds = {"", ""};
-    for (const Coefficient& c : coefficients) {
-      const Cell cell = cell_of(preload, c, notes);
+    std::vector<std::string> values = {preload.name}, sds = {""};
+    for (std::size_t k = 0; k < coefficients.size(); ++k) {
+      const Cell cell = cell_of(preload, coefficients[k], notes);
       values.push_back(cell.value);
       sds.push_back(cell.sd);
+      if (!is_last_linear(k)) continue;
+      values.push_back(range_text(preload));
+      sds.emplace_back();
     }
     table.rows.push_back(values);
     table.rows.push_back(sds);

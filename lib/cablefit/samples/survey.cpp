@@ -185,6 +185,16 @@ double time_of(const LogPlan& plan, const LogChunk& chunk, std::size_t row) {
   return static_cast<double>(chunk.first_row + row) / *plan.header.sample_rate;
 }
 
+std::vector<std::string> preload_names(std::span<const LogSurvey> logs,
+                                       const std::function<bool(const PartSurvey&)>& wanted) {
+  std::vector<std::string> names;
+  for (const LogSurvey& log : logs)
+    for (const PartSurvey& part : log.parts)
+      if (wanted(part) && std::find(names.begin(), names.end(), part.preload) == names.end())
+        names.push_back(part.preload);
+  return names;
+}
+
 PartTracker::PartTracker(const LogPlan& plan, std::string default_preload)
     : plan_(plan),
       default_preload_(default_preload.empty() ? "default" : std::move(default_preload)) {

@@ -2,7 +2,9 @@
 // quantum and noise. One pass in constant memory; everything later passes decide rests on it.
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -49,6 +51,11 @@ struct LogSurvey {
 /// runs back, an unknown phase, and a part with fewer than 8 rows.
 /// `preload`: name for parts without a preload column (the rig's, or an option); empty: "default".
 LogSurvey survey_log(const LogPlan& plan, const std::string& preload);
+
+/// Names of the preloads of the parts for which `wanted` says true, in the order in which they
+/// come.
+std::vector<std::string> preload_names(std::span<const LogSurvey> logs,
+                                       const std::function<bool(const PartSurvey&)>& wanted);
 
 /// Follows preload/phase/run from row to row; used by every pass alike.
 class PartTracker {

@@ -1,0 +1,65 @@
+// Results of the repository's own data: as the schemas say, the same for any number of threads, and
+// the same whether stage 1 comes from memory or from its file.
+#include <catch2/catch.hpp>
+
+#include "cablefit/dynamic/dynamic_fit.hpp"
+#include "cablefit/elastic/elastic_fit.hpp"
+#include "cablefit/model/rig.hpp"
+#include "cablefit/report/check_json.hpp"
+#include "cablefit/report/dynamic_json.hpp"
+#include "cablefit/report/elastic_json.hpp"
+#include "cablefit/report/elastic_reader.hpp"
+#include "tests/report/schema.hpp"
+#include "tests/support/temp_folder.hpp"
+
+namespace {
+
+using namespace cablefit;
+
+LogSurvey survey(const std::string& name) {
+  const std::string path = CABLEFIT_DATA "/" + name;
+  const Rig rig = rig_for_log(path, "");
+  return survey_log(plan_log(path, rig), rig.preload);
+}
+
+ElasticResult stage1(int threads) {
+  ElasticOptions options;
+  options.order = 2;
+  options.samples.threads = threads;
+  const std::vector<LogSurvey> logs = {survey("low/blocked.csv")};
+  return fit_elastic(logs, options);
+}
+
+DynamicResult stage2(const ElasticResult& elastic, int threads) {
+  DynamicOptions options;
+  options.models = {"linear", "poly"};
+  options.samples.threads = threads;
+  const std::vector<LogSurvey> logs = {survey("low/moving_load30.csv")};
+  return fit_dynamic(logs, elastic, options);
+}
+
+TEST_CASE("real results are as the schemas say, whatever the number of threads") {
+  const ElasticResult elastic = stage1(1);
+  CHECK(test::schema_errors("elastic", elastic_json(elastic)) == "");
+  CHECK(elastic_json(stage1(4)) == elastic_json(elastic));
+
+  const std::string dynamic = dynamic_json(stage2(elastic, 1));
+  CHECK(test::schema_errors("dynamic", dynamic) == "");
+  CHECK(dynamic_json(stage2(elastic, 4)) == dynamic);
+
+  const test::TempFolder folder;
+  const ElasticResult read =
+      read_elastic_result(folder.write("elastic.json", elastic_json(elastic)));
+  CHECK(dynamic_json(stage2(read, 1)) == dynamic);
+}
+
+TEST_CASE("a check of real logs is as its schema says") {
+  const std::vector<LogSurvey> logs = {survey("low/blocked.csv"), survey("low/moving_load30.csv")};
+  const CheckResult result = check_logs(logs, {});
+  CHECK(test::schema_errors("check", check_json(result)) == "");
+  CHECK(result.logs[0].parts[0].identifies == std::vector<std::string>{"elastic"});
+  CHECK(result.logs[1].parts[0].identifies == std::vector<std::string>{"dynamic", "rigid"});
+  CHECK(result.logs[1].parts[0].excitation.speed_bands > 3);
+}
+
+}  // namespace

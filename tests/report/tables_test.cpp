@@ -1,0 +1,108 @@
+// Table 1 and Table 2, laid out from results made by hand.
+#include <catch2/catch.hpp>
+
+#include "cablefit/report/dynamic_document.hpp"
+#include "cablefit/report/elastic_document.hpp"
+#include "cablefit/report/text_table.hpp"
+#include "cablefit/report/writers.hpp"
+#include "tests/report/results.hpp"
+
+namespace {
+
+using namespace cablefit;
+using Catch::Matchers::Contains;
+using Row = std::vector<std::string>;
+
+TEST_CASE("Table 1 has preloads as rows and dashes where a cable is of lower order") {
+  CHECK(text_table(stiffness_table(test::elastic_result())) ==
+        "Stiffness (Table 1)\n"
+        "\n"
+        "                   Linear                           Polynomial\n"
+        "preload          K    deflection       K1_0         K1_1       K2_0         K2_1\n"
+        "         [N m/rad]        [mrad]  [N m/rad]  [N m/rad^2]  [N m/rad]  [N m/rad^2]\n"
+        "--------------------------------------------------------------------------------\n"
+        "low           1819  -44.5 .. 33.3     1368.0      37894.5     1368.0      37894.5\n");
+}
+
+TEST_CASE("above order 3 every coefficient has a row of its own") {
+  ElasticResult result;
+  result.preloads = {test::elastic_preload("low", 2, 2), test::elastic_preload("high", 5, 4)};
+  const Table table = stiffness_table(result);
+  CHECK(text_table_width(table) <= kTextWidth);
+  REQUIRE(table.rows.size() == 1 + 1 + 5 + 4);
+  CHECK(table.rows[1][0] == "K");
+  CHECK(table.rows[6][0] == "K1_4");
+  CHECK(table.rows[6][2] == "-");
+  CHECK(table.rows[6][4] != "-");
+  CHECK(table.rows[7][0] == "K2_0");
+}
+
+TEST_CASE("Table 2 marks what is not identifiable and what stands at a bound") {
+  const std::vector<Table> tables = parameter_tables(test::dynamic_result());
+  REQUIRE(tables.size() == 1);
+  const Table& table = tables.front();
+  CHECK(text_table_width(table) <= kTextWidth);
+  REQUIRE(table.rows.size() == 3);
+  CHECK(Row(table.rows[0].begin(), table.rows[0].begin() + 5) ==
+        Row{"J_link (J_M)", "kg m^2", "0.3", "0.339", "4.3"});
+  CHECK(Row(table.rows[1].begin() + 5, table.rows[1].begin() + 7) ==
+        Row{"not identifiable", "[1]"});
+  CHECK(Row(table.rows[2].begin() + 5, table.rows[2].begin() + 7) == Row{"0", "[2]"});
+  REQUIRE(table.notes.size() == 3);
+  CHECK(table.notes[0] == "[1] cannot be told apart from f_s in these logs");
+  CHECK(table.notes[1] == "[2] at its bound f_s >= 0: 95 % interval up to 0.12 N m");
+  CHECK_THAT(table.notes[2], Contains("4.0 to 4.0 times that of the paper's (25)"));
+}
+
+TEST_CASE("Table 2 is cut into tables of readable width") {
+  DynamicResult result;
+  for (const char* name : {"a", "b", "c", "d", "e"}) {
+    result.preloads.push_back(test::dynamic_preload(name));
+  }
+  const std::vector<Table> tables = parameter_tables(result);
+  CHECK(tables.size() > 1);
+  for (const Table& table : tables) CHECK(text_table_width(table) <= kTextWidth);
+}
+
+TEST_CASE("a load's own inertia is part of J_link, and told") {
+  DynamicResult result;
+  result.preloads = {test::dynamic_preload("low")};
+  result.preloads[0].load_inertia = 0.3;
+  const Table table = parameter_tables(result).front();
+  CHECK(Row(table.rows[1].begin(), table.rows[1].begin() + 5) ==
+        Row{"  without the load", "kg m^2", "-", "0.039", "37"});
+}
+
+TEST_CASE("a linear axis has forces and masses") {
+  ElasticResult result;
+  result.preloads = {test::elastic_preload("low", 2, 2)};
+  result.preloads[0].linear_motion = true;
+  result.preloads[0].unit = "m";
+  const std::string text = write_text(elastic_document(result));
+  CHECK_THAT(text, Contains("[mm]") && Contains("[N]") && !Contains("[mrad]"));
+}
+
+TEST_CASE("decisions that all preloads share stand once") {
+  const Document document = elastic_document(test::elastic_result());
+  REQUIRE(document.decisions.size() == 3);
+  CHECK(where_text(document.decisions[0]) == "");
+  CHECK(document.decisions[0].name == "cut-off");
+  CHECK(where_text(document.decisions[1]) == "low: ");
+  CHECK(where_text(document.decisions[2]) == "high: ");
+}
+
+TEST_CASE("the tidy table has a row per preload, model and parameter") {
+  const Document document = dynamic_document(test::dynamic_result());
+  std::size_t n_parameters = 0;
+  for (const Row& row : document.tidy.rows) {
+    CHECK(row.size() == document.tidy.columns.size());
+    n_parameters += row[3].rfind("torque_error", 0) == 0 ? 0 : 1;
+  }
+  CHECK(n_parameters == 2 * 2 * 3);
+  // Not identifiable: a value, but nothing that could pass for its uncertainty.
+  const Row& f_v = document.tidy.rows[3 + 6 + 1];
+  CHECK(Row(f_v.begin() + 3, f_v.begin() + 12) ==
+        Row{"f_v", "f_v", "N m s/rad", "5.601", "", "", "", "", ""});
+}
+
+}  // namespace
