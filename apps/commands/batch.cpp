@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 
 #include "cablefit/report/batch_document.hpp"
 #include "cablefit/report/dynamic_json.hpp"
@@ -33,6 +34,12 @@ int exit_code(const BatchResult& result) {
   return code == 0 && failed ? kGateFailed : code;
 }
 
+/// A failed gate is never silent.
+void print_failed_gates(const BatchResult& result) {
+  for (const Gate& gate : result.gates)
+    if (!gate.passed) fmt::print(stderr, "{}\n", gate.text);
+}
+
 }  // namespace
 
 int run_batch(const Arguments& arguments) {
@@ -50,12 +57,13 @@ int run_batch(const Arguments& arguments) {
 
   BatchOptions batch;
   batch.samples = options.samples;
-  batch.honest_sd = options.honest_sd;
+  batch.honest_sd = batch.elastic.honest_sd = options.honest_sd;
   const BatchResult result = cablefit::run_batch(read_campaign(path), batch);
   deliver(options, batch_document(result),
           {{"batch.json", batch_json(result)},
            {"elastic.json", elastic_json(result.all_elastic())},
            {"dynamic.json", dynamic_json(result.all_dynamic())}});
+  if (options.quiet || options.json == "-") print_failed_gates(result);
   return exit_code(result);
 }
 

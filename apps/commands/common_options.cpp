@@ -12,6 +12,7 @@
 #include "cablefit/report/writers.hpp"
 #include "commands/command_line.hpp"
 #include "commands/problems.hpp"
+#include "commands/progress.hpp"
 
 namespace cablefit::apps {
 namespace {
@@ -133,6 +134,7 @@ void add_sd_option(CLI::App& app, CommonOptions& options) {
 std::vector<LogSurvey> read_logs(const CommonOptions& options) {
   if (options.logs.empty()) throw usage_error("no log given", "name one or more log files");
   require_distinct(options.logs);
+  const Progress progress(options.quiet, "reading logs");
   std::vector<LogSurvey> logs;
   Problems problems;
   for (const std::string& path : options.logs) {

@@ -8,6 +8,7 @@
 
 #include "cablefit/base/digest.hpp"
 #include "cablefit/base/error.hpp"
+#include "cablefit/campaign/campaign.hpp"
 #include "cablefit/elastic/elastic_fit.hpp"
 #include "cablefit/report/dynamic_document.hpp"
 #include "cablefit/report/dynamic_json.hpp"
@@ -16,6 +17,7 @@
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
+#include "commands/progress.hpp"
 
 namespace cablefit::apps {
 namespace {
@@ -23,6 +25,8 @@ namespace {
 constexpr const char* kExample =
     "Example, after 'cablefit elastic data/low/blocked.csv data/high/blocked.csv':\n"
     "  cablefit dynamic --model both data/low/moving*.csv data/high/moving*.csv\n";
+
+constexpr const char* kCampaignHere = "campaign.json";
 
 struct DynamicCommand {
   CommonOptions common;
@@ -90,6 +94,7 @@ Stage1 fit_stage1(const DynamicCommand& command, const std::vector<LogSurvey>& b
   ElasticOptions options;
   options.samples.threads = command.common.samples.threads;
   options.preload = command.common.preload;
+  const Progress progress(command.common.quiet, "fitting stage 1");
   Stage1 stage1;
   stage1.result = fit_elastic(blocked, options);
   stage1.inputs = stage1.result.inputs;
@@ -118,6 +123,25 @@ void add_stage1(const Stage1& stage1, DynamicResult& result) {
   }
 }
 
+/// Without logs on the command line: those of the campaign in this folder.
+std::vector<LogSurvey> campaign_logs(const CommonOptions& options) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(kCampaignHere, ignored))
+    throw usage_error(fmt::format("no log given and no {} here", kCampaignHere),
+                      "name one or more log files");
+  std::vector<LogSurvey> logs;
+  for (const CampaignCell& cell : read_campaign(kCampaignHere).cells) {
+    if (!options.preload.empty() && options.preload != cell.preload) continue;
+    for (const auto* paths : {&cell.blocked, &cell.moving})
+      for (const std::string& path : *paths)
+        logs.push_back(survey_log(plan_log(path, rig_for_log(path, cell.rig)), cell.preload));
+  }
+  if (logs.empty())
+    throw usage_error(fmt::format("{} has no preload '{}'", kCampaignHere, options.preload),
+                      "see its cells");
+  return logs;
+}
+
 }  // namespace
 
 int run_dynamic(const Arguments& arguments) {
@@ -131,11 +155,8 @@ int run_dynamic(const Arguments& arguments) {
   add_output_options(app, options);
   app.footer(kExample);
   if (!parse(app, arguments)) return 0;
-  if (options.logs.empty()) {  // a campaign in this folder will name them
-    throw usage_error("no log given and no campaign.json here", "name one or more log files");
-  }
-
-  const std::vector<LogSurvey> logs = read_logs(options);
+  const std::vector<LogSurvey> logs =
+      options.logs.empty() ? campaign_logs(options) : read_logs(options);
   const std::vector<LogSurvey> moving =
       logs_with(logs, [](const PartSurvey& part) { return part.phase == Phase::moving; });
   command.fit.samples = options.samples;
@@ -144,7 +165,10 @@ int run_dynamic(const Arguments& arguments) {
   Stage1 stage1;
   const bool is_elastic = !moving.empty() && needs_stage1(command, moving);
   if (is_elastic) stage1 = get_stage1(command, logs);
-  DynamicResult result = fit_dynamic(moving.empty() ? logs : moving, stage1.result, command.fit);
+  DynamicResult result = [&] {
+    const Progress progress(options.quiet, "fitting stage 2");
+    return fit_dynamic(moving.empty() ? logs : moving, stage1.result, command.fit);
+  }();
   if (is_elastic) add_stage1(stage1, result);
 
   std::vector<ResultFile> files = {{"dynamic.json", dynamic_json(result)}};

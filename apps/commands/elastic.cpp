@@ -6,6 +6,7 @@
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
+#include "commands/progress.hpp"
 
 namespace cablefit::apps {
 namespace {
@@ -51,6 +52,7 @@ int run_elastic(const Arguments& arguments) {
   ElasticOptions elastic;
   add_log_options(app, options);
   add_elastic_options(app, elastic);
+  add_sd_option(app, options);
   add_sample_options(app, options);
   add_output_options(app, options);
   app.footer(kExample);
@@ -59,10 +61,14 @@ int run_elastic(const Arguments& arguments) {
   const std::vector<LogSurvey> logs = read_logs(options);
   elastic.samples = options.samples;
   elastic.preload = options.preload;
+  elastic.honest_sd = options.honest_sd;
   const std::vector<LogSurvey> blocked = logs_with(
       logs, [&](const PartSurvey& part) { return elastic.still || part.phase == Phase::blocked; });
   // Without any blocked log the fit says what to do, for the logs that were given.
-  const ElasticResult result = fit_elastic(blocked.empty() ? logs : blocked, elastic);
+  const ElasticResult result = [&] {
+    const Progress progress(options.quiet, "fitting stage 1");
+    return fit_elastic(blocked.empty() ? logs : blocked, elastic);
+  }();
   deliver(options, elastic_document(result), {{"elastic.json", elastic_json(result)}});
   return 0;
 }

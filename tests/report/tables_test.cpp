@@ -17,11 +17,14 @@ TEST_CASE("Table 1 has preloads as rows and dashes where a cable is of lower ord
   CHECK(text_table(stiffness_table(test::elastic_result())) ==
         "Stiffness (Table 1)\n"
         "\n"
-        "                   Linear                           Polynomial\n"
-        "preload          K    deflection       K1_0         K1_1       K2_0         K2_1\n"
-        "         [N m/rad]        [mrad]  [N m/rad]  [N m/rad^2]  [N m/rad]  [N m/rad^2]\n"
-        "--------------------------------------------------------------------------------\n"
-        "low           1819  -44.5 .. 33.3     1368.0      37894.5     1368.0      37894.5\n");
+        "                  Linear                             Polynomial\n"
+        "preload          K     deflection       K1_0         K1_1       K2_0         K2_1\n"
+        "         [N m/rad]         [mrad]  [N m/rad]  [N m/rad^2]  [N m/rad]  [N m/rad^2]\n"
+        "---------------------------------------------------------------------------------\n"
+        "low           1819  -44.5 .. 33.3     1368.0      37894.5     1368.0      37894.5\n"
+        "             +- 40                    +- 1.1       +- 1.1     +- 1.1       +- 1.1\n"
+        "high          1819  -44.5 .. 33.3     1368.0      37894.5     1368.0            -\n"
+        "             +- 40                    +- 1.1       +- 1.1     +- 1.1\n");
 }
 
 TEST_CASE("above order 3 every coefficient has a row of its own") {

@@ -20,7 +20,8 @@ Document document() {
   d.paragraphs = {"a paragraph", "another"};
   d.decisions = {{{}, "cut-off", "10 Hz", "quasi-static"}, {{"low", "high"}, "order", "2", ""}};
   d.warnings = {"look\x1b here"};
-  d.tidy = {"", {{"", "name"}, {"", "value"}}, {{"a,b", "1.5"}, {"=c", ""}}};
+  d.tidy.columns = {{"", "name", ""}, {"", "value", ""}};
+  d.tidy.rows = {{"a,b", "1.5"}, {"=c", ""}};
   return d;
 }
 

@@ -4,11 +4,17 @@
 
 #include <string>
 #include <string_view>
+#include <system_error>
+
+#include "cablefit/base/error.hpp"
 
 namespace cablefit {
 
 /// Creates missing parent folders. "-" writes to standard output. Throws Error(output) naming the
 /// path and the system's reason; nothing is left behind then.
 void write_whole(const std::string& path, std::string_view content);
+
+/// "cannot write PATH: the system's reason".
+Error output_error(const std::string& path, const std::system_error& failure);
 
 }  // namespace cablefit

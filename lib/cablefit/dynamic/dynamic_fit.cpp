@@ -168,24 +168,27 @@ void require_channels(const LogPlan& plan, bool rigid) {
     if (!plan.has(Channel::w)) require_channel(plan, Channel::theta, "the rigid model");
     return;
   }
-  require_channel(plan, Channel::q, "an elastic model; without it use --model rigid");
+  require_channel(plan, Channel::q, "an elastic model",
+                  "add it, map it in a rig file, or use --model rigid");
   require_channel(plan, Channel::theta, "an elastic model");
 }
 
 const ElasticFit& stage1_fit(const ElasticResult& elastic, const std::string& preload,
-                             const std::string& model, const std::string& path) {
+                             const std::string& model) {
   for (const ElasticPreload& p : elastic.preloads) {
     if (p.name != preload) continue;
     if (const ElasticFit* fit = p.find(model)) return *fit;
-    throw input_error({path, 0, 0},
-                      fmt::format("stage 1 has no '{}' fit for preload '{}'", model, preload),
-                      "run 'cablefit elastic' again");
+    throw Error(ErrorKind::input, fmt::format("stage 1 has no '{}' fit for preload '{:.40}'; run "
+                                              "'cablefit elastic' again",
+                                              model, preload));
   }
-  std::vector<std::string_view> known;
-  for (const ElasticPreload& p : elastic.preloads) known.push_back(p.name);
-  throw input_error({path, 0, 0}, fmt::format("no stage-1 result for preload '{:.40}'", preload),
-                    known.empty() ? "run 'cablefit elastic' on a blocked log of this preload first"
-                                  : suggestion(preload, known));
+  std::string names;
+  for (const ElasticPreload& p : elastic.preloads) names += (names.empty() ? "" : ", ") + p.name;
+  throw Error(
+      ErrorKind::input,
+      fmt::format("stage 1 has no preload '{:.40}', which the moving logs are of; it has {}; run "
+                  "'cablefit elastic' on a blocked log of it, or name the preloads alike",
+                  preload, names.empty() ? "none" : names));
 }
 
 void check_names(const DynamicOptions& options) {
@@ -236,7 +239,7 @@ DynamicResult fit_dynamic(std::span<const LogSurvey> logs, const ElasticResult& 
     for (const LogSurvey& log : logs) require_channels(log.plan, rigid);
     if (!rigid)
       for (const std::string& model : options.models)
-        job.elastic.push_back(&stage1_fit(elastic, name, model, logs.front().plan.path));
+        job.elastic.push_back(&stage1_fit(elastic, name, model));
     result.preloads.push_back(fit_preload(std::move(job), elastic));
   }
   return result;

@@ -2,12 +2,7 @@
 
 namespace cablefit {
 
-const LogSurvey& DynamicJob::first_log() const {
-  for (const LogSurvey& log : logs)
-    for (const PartSurvey& part : log.parts)
-      if (wanted(part)) return log;
-  return logs.front();  // cannot happen: a job is made for parts that exist
-}
+const LogSurvey& DynamicJob::first_log() const { return first_log_with(logs, wanted); }
 
 const PartSurvey& DynamicJob::first_part() const {
   const LogSurvey& log = first_log();

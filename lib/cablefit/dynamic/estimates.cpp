@@ -56,7 +56,7 @@ Eigen::MatrixXd stage1_covariance(const RowStatistics& rows, const DynamicColumn
 }
 
 Estimate bounded_estimate(Estimate e, const LinearSolution& s, Eigen::Index k, double t) {
-  e.active_bound = e.name + " >= 0";
+  e.active_bound = fmt::format("{} >= 0", e.name);
   e.sd = s.unbounded_sd(k);
   e.ci_low = 0;
   e.ci_high = std::max(0.0, s.unbounded_x(k) + t * e.sd);

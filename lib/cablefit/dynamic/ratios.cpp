@@ -1,5 +1,7 @@
 #include "cablefit/dynamic/ratios.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 
@@ -90,7 +92,7 @@ DynamicPreload fit_ratios(std::span<const LogSurvey> logs, const std::string& na
     if (e.not_identifiable.empty()) e.value = s.x(k);
     const double t = t_quantile_975(s.degrees_of_freedom);
     if (s.at_bound[static_cast<std::size_t>(k)]) {
-      e.active_bound = e.name + " >= 0";
+      e.active_bound = fmt::format("{} >= 0", e.name);
       e.sd = s.unbounded_sd(k);
       e.ci_low = 0;
       e.ci_high = std::max(0.0, s.unbounded_x(k) + t * e.sd);

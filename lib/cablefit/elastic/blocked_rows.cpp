@@ -29,7 +29,7 @@ ElasticJob make_job(std::span<const LogSurvey> logs, const ElasticOptions& optio
                  {},
                  false};
   job.settings = blocked_settings(logs, job.wanted, options.samples);
-  const Rig& rig = logs.front().plan.rig;
+  const Rig& rig = job.rig();
   job.orders_given = rig.cables_given && options.order == 0;
   job.basis = rig.transmission;
   if (!job.orders_given)

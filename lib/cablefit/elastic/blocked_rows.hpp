@@ -21,7 +21,8 @@ struct ElasticJob {
   Transmission basis;         ///< cables of the highest order in question, theta_0 = 0
   bool orders_given = false;  ///< by the rig file, per cable
 
-  const Rig& rig() const { return logs.front().plan.rig; }
+  /// Of the first log with rows of this preload.
+  const Rig& rig() const { return first_log_with(logs, wanted).plan.rig; }
 };
 
 /// Chooses the settings. The job refers to `logs` and `options`.

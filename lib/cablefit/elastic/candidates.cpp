@@ -35,7 +35,7 @@ Estimate estimate_of(const std::string& name, const std::string& unit, Eigen::In
   if (!e.not_identifiable.empty()) return e;
   e.value = s.x(k);
   if (s.at_bound[static_cast<std::size_t>(k)]) {
-    e.active_bound = name + " >= 0";
+    e.active_bound = fmt::format("{} >= 0", name);
     e.sd = s.unbounded_sd(k);
     e.ci_low = 0;
     e.ci_high = std::max(0.0, s.unbounded_x(k) + t_quantile_975(s.degrees_of_freedom) * e.sd);
@@ -75,6 +75,14 @@ std::string unit_of(const Candidate& candidate, std::size_t k, bool linear_motio
   return linear_motion ? linear_unit(unit) : unit;
 }
 
+void use_white_sd(Estimate& e) {
+  if (!(e.sd > 0) || !(e.sd_white > 0)) return;
+  const double shrink = e.sd_white / e.sd;
+  e.ci_low = e.value - shrink * (e.value - e.ci_low);
+  e.ci_high = e.value + shrink * (e.ci_high - e.value);
+  e.sd = e.sd_white;
+}
+
 /// Linear spring with an arbitrary encoder zero: K phi + c = K (phi - theta_0), theta_0 = -c/K, by
 /// the delta method.
 Estimate zero_of_line(const LinearSolution& s, Eigen::Index constant, double zero,
@@ -108,7 +116,7 @@ std::vector<std::string> worth_saying(const std::vector<std::string>& warnings,
   for (const std::string& warning : warnings) {
     std::size_t elastic = 0;
     for (std::size_t k = 0; k < candidate.n_elastic; ++k)
-      elastic += warning.find(candidate.names[k] + " ") != std::string::npos;
+      elastic += warning.find(fmt::format("{} ", candidate.names[k])) != std::string::npos;
     if (elastic >= 2) {
       ++between_coefficients;
     } else {
@@ -192,7 +200,7 @@ ElasticFit make_fit(const ElasticJob& job, const Candidate& candidate, const Lin
   fit.effective_rows = s.effective_rows;
   fit.rms_error = s.rms();
   fit.transmission = fitted_transmission(candidate, s);
-  fit.covariance = s.covariance.topLeftCorner(n, n);
+  fit.covariance = (job.options.honest_sd ? s.covariance : s.covariance_white).topLeftCorner(n, n);
   fit.warnings = worth_saying(s.warnings, candidate);
   for (std::size_t k = 0; k < candidate.names.size(); ++k) {
     const std::string& name = candidate.names[k];
@@ -207,6 +215,7 @@ ElasticFit make_fit(const ElasticJob& job, const Candidate& candidate, const Lin
       e.ci_low += zero;
       e.ci_high += zero;
     }
+    if (!job.options.honest_sd) use_white_sd(e);
     if (e.name == "theta_0") fit.transmission.theta_0(0) = e.value;
     if (e.name == "offset") fit.offset = e.value;
     fit.parameters.push_back(std::move(e));

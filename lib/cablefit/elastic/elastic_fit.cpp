@@ -12,6 +12,7 @@ namespace cablefit {
 namespace {
 
 constexpr double kArbitraryZero = 0.05;  // of the peak torque: a larger offset is an encoder zero
+constexpr double kStillNoise = 4;        // counts or sd of noise that are no motion
 constexpr int kZeroIterations = 6;
 constexpr Eigen::Index kMinRows = 10;
 
@@ -92,6 +93,20 @@ void require_rows(const BlockedRows& rows, const std::string& preload) {
           preload, rows.rows->n_rows()));
 }
 
+/// A motor that stands still says nothing about stiffness.
+void require_motion(const ElasticJob& job) {
+  for (const LogSurvey& log : job.logs)
+    for (const PartSurvey& part : log.parts) {
+      const int theta = log.plan.find(Channel::theta);
+      if (theta < 0 || !job.wanted(part)) continue;
+      const ChannelSurvey& channel = part.channels[static_cast<std::size_t>(theta)];
+      if (channel.range() > kStillNoise * std::max(channel.noise, channel.quantum)) return;
+    }
+  throw input_error({job.logs.front().plan.path, 0, 0},
+                    "theta never moves while the link is blocked",
+                    "sweep the motor slowly up and down, and check which column theta is");
+}
+
 /// f_sm was asked for and could not be told: say so by name.
 void add_missing_friction(ElasticFit& fit, bool linear_motion) {
   Estimate e;
@@ -109,6 +124,7 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
   preload.rig_path = job.rig().path;
   preload.decisions = job.settings.decisions;
 
+  require_motion(job);
   Stage1 stage{std::move(job), {}, {}};
   stage.rows = collect_blocked(stage.job, 0, nullptr);
   require_rows(stage.rows, name);

@@ -23,7 +23,8 @@ struct ElasticOptions {
       0.01;            ///< of the peak torque: less difference on held-out blocks does not matter
   bool still = false;  ///< also use the parts of moving logs in which the link stands still
   ZeroMode zero = ZeroMode::automatic;
-  std::string preload;  ///< only this one; empty: all
+  bool honest_sd = true;  ///< --sd honest | white
+  std::string preload;    ///< only this one; empty: all
 };
 
 /// Fits every preload found in the blocked logs (with `still`: in all logs). Throws Error(input)

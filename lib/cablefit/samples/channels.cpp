@@ -61,8 +61,15 @@ std::optional<std::size_t> column_of(const LogHeader& header, const Rig& rig,
   throw input_error({header.path, header.columns.empty() ? 1 : header.columns[0].place.line, 0},
                     fmt::format("no column '{}', which the rig file names for {}",
                                 mapped->second.column, channel),
-                    fmt::format("columns are {}; {}", names_of(header),
-                                suggestion(mapped->second.column, known)));
+                    suggestion(mapped->second.column, known));
+}
+
+// The controller names the column of its reference itself; on a rig of several joints the joint's
+// number follows the name. A log need not have it.
+std::optional<std::size_t> reference_column(const LogHeader& header, const Rig& rig, int joint) {
+  if (!rig.controller) return std::nullopt;
+  const std::string& name = rig.controller->reference;
+  return find_column(header, rig.n_joints() == 1 ? name : fmt::format("{}{}", name, joint + 1));
 }
 
 Unit checked_unit(const std::string& text, const Place& place, const Dimension& expected,
@@ -71,8 +78,7 @@ Unit checked_unit(const std::string& text, const Place& place, const Dimension& 
   try {
     unit = parse_unit(text);
   } catch (const Error& error) {
-    throw input_error(place, fmt::format("unit '{}' of {}: {}", text, what, error.what()),
-                      "write units such as [deg], [N m], [mN m], [rad/s]");
+    throw Error(ErrorKind::input, fmt::format("{}: {}: {}", to_string(place), what, error.what()));
   }
   if (unit.dimension != expected)
     throw input_error(place, fmt::format("unit '{}' of {} is not {}'s", text, what, quantity),
@@ -139,6 +145,8 @@ LogPlan plan_log(const std::string& path, const Rig& rig) {
       std::string channel = plain_first ? std::string(info.name) : indexed;
       auto column = column_of(plan.header, rig, channel);
       if (!column && plain_first) column = column_of(plan.header, rig, channel = indexed);
+      if (!column && info.channel == Channel::theta_ref)
+        column = reference_column(plan.header, rig, joint);
       if (column) plan.slots.push_back(make_slot(plan.header, rig, info, joint, *column, channel));
     }
   plan.preload_column = column_of(plan.header, rig, "preload");
@@ -152,14 +160,13 @@ LogPlan plan_log(const std::string& path, const Rig& rig) {
   return plan;
 }
 
-void require_channel(const LogPlan& plan, Channel channel, std::string_view why) {
+void require_channel(const LogPlan& plan, Channel channel, std::string_view why,
+                     std::string_view hint) {
   if (plan.has(channel)) return;
-  std::vector<std::string_view> known;
-  for (const ColumnHeader& c : plan.header.columns) known.push_back(c.name);
   throw input_error(
       {plan.path, plan.header.columns.empty() ? 1 : plan.header.columns[0].place.line, 0},
       fmt::format("missing column '{}', needed for {}", channel_name(channel), why),
-      fmt::format("add it, or map it in a rig file; columns are {}", names_of(plan.header)));
+      fmt::format("{}; columns are {}", hint, names_of(plan.header)));
 }
 
 }  // namespace cablefit

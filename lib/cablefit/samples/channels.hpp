@@ -49,6 +49,7 @@ struct LogPlan {
 LogPlan plan_log(const std::string& path, const Rig& rig);
 
 /// Throws Error(input) "missing column 'q' ..." when the log lacks a channel the caller needs.
-void require_channel(const LogPlan& plan, Channel channel, std::string_view why);
+void require_channel(const LogPlan& plan, Channel channel, std::string_view why,
+                     std::string_view hint = "add it, or map it in a rig file");
 
 }  // namespace cablefit

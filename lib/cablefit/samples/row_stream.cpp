@@ -49,7 +49,7 @@ EquationBatch equation_rows(const Equation& equation, const Signals& signals, co
   const Decimation decimation(settings.decimate);
   const Eigen::Index edge = std::max(settings.drop_edge, kDifferenceEdge);
   // Rows that can be trusted, in window coordinates.
-  const Eigen::Index first = window.starts_segment ? edge : 0;
+  const Eigen::Index first = std::max<Eigen::Index>(0, edge - window.first);
   const Eigen::Index last = window.ends_segment ? n - edge : n;
   const Eigen::Index m = settings.decimate;
 
@@ -94,8 +94,12 @@ void RowCounts::operator+=(const RowCounts& other) {
 
 Eigen::Index row_halo(const RowSettings& settings, double rate) {
   const Eigen::Index averaging = 1;
-  return signal_halo(settings.signal, rate) + Decimation(settings.decimate).half_width() +
-         averaging + settings.rest_margin + settings.decimate;
+  const Eigen::Index needed = signal_halo(settings.signal, rate) +
+                              Decimation(settings.decimate).half_width() + averaging +
+                              settings.rest_margin + settings.decimate;
+  // A window is followed by more than its halo, or ends its segment: so the rows that the segment's
+  // end takes are all in its last window.
+  return std::max(needed, settings.drop_edge);
 }
 
 Eigen::Index expected_rows(std::span<const LogSurvey> logs, const PartFilter& wanted,

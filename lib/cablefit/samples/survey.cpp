@@ -195,6 +195,13 @@ std::vector<std::string> preload_names(std::span<const LogSurvey> logs,
   return names;
 }
 
+const LogSurvey& first_log_with(std::span<const LogSurvey> logs,
+                                const std::function<bool(const PartSurvey&)>& wanted) {
+  for (const LogSurvey& log : logs)
+    if (std::any_of(log.parts.begin(), log.parts.end(), wanted)) return log;
+  return logs.front();
+}
+
 PartTracker::PartTracker(const LogPlan& plan, std::string default_preload)
     : plan_(plan),
       default_preload_(default_preload.empty() ? "default" : std::move(default_preload)) {

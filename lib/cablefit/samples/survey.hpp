@@ -57,6 +57,10 @@ LogSurvey survey_log(const LogPlan& plan, const std::string& preload);
 std::vector<std::string> preload_names(std::span<const LogSurvey> logs,
                                        const std::function<bool(const PartSurvey&)>& wanted);
 
+/// The first log with a part for which `wanted` says true; the first one of all when there is none.
+const LogSurvey& first_log_with(std::span<const LogSurvey> logs,
+                                const std::function<bool(const PartSurvey&)>& wanted);
+
 /// Follows preload/phase/run from row to row; used by every pass alike.
 class PartTracker {
  public:

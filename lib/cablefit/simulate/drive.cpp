@@ -26,6 +26,10 @@ double first_difference(const Eigen::ArrayXXd& table, Eigen::Index joint) {
   return table.rows() > 1 ? table(1, joint) - table(0, joint) : 0.0;
 }
 
+double first_value(const Eigen::ArrayXXd& table, Eigen::Index joint) {
+  return table.rows() > 0 ? table(0, joint) : 0.0;
+}
+
 }  // namespace
 
 Clock make_clock(const Model& model, const SimulationInput& input,
@@ -46,12 +50,10 @@ double between_rows(const Eigen::ArrayXXd& table, Eigen::Index row, double fract
   return table(row, joint) + fraction * (table(next, joint) - table(row, joint));
 }
 
-ReplayDrive::ReplayDrive(const SimulationInput& input, const SimulationOptions& options,
-                         const Clock& clock)
-    : input_(input),
-      hold_(options.hold_torque),
+ReplayDrive::ReplayDrive(const Model& model, const SimulationOptions& options, const Clock& clock)
+    : hold_(options.hold_torque),
       steps_per_row_(static_cast<double>(clock.steps_per_row)),
-      tau_(static_cast<std::size_t>(input.tau.cols())) {}
+      tau_(model.joints.size()) {}
 
 const std::vector<double>& ReplayDrive::torque(Eigen::Index row, Eigen::Index step,
                                                const std::vector<double>& /*theta*/) {
@@ -65,25 +67,24 @@ const std::vector<double>& ReplayDrive::torque_at(Eigen::Index row,
 
 const std::vector<double>& ReplayDrive::interpolate(Eigen::Index row, double fraction) {
   for (std::size_t k = 0; k < tau_.size(); ++k) {
-    tau_[k] = between_rows(input_.tau, row, fraction, static_cast<Eigen::Index>(k));
+    tau_[k] = between_rows(block_->tau, row, fraction, static_cast<Eigen::Index>(k));
   }
   return tau_;
 }
 
-PdDrive::PdDrive(const Model& model, const SimulationInput& input, const Clock& clock)
-    : input_(input),
-      controller_(*model.rig.controller),
-      period_(controller_period(model, input)),
+PdDrive::PdDrive(const Model& model, const SimulationInput& start, const Clock& clock)
+    : controller_(*model.rig.controller),
+      period_(controller_period(model, start)),
       steps_per_row_(static_cast<double>(clock.steps_per_row)),
       steps_per_command_(period_ / clock.h),
       tau_(model.joints.size()) {
   for (std::size_t k = 0; k < tau_.size(); ++k) {
     const auto joint = static_cast<Eigen::Index>(k);
     quantum_.push_back(theta_quantum(model.rig, k));
-    const double position = input.theta0.size() ? input.theta0[joint] : 0.0;
-    const double velocity = input.thetad0.size() ? input.thetad0[joint] : 0.0;
-    const double reference_rate = first_difference(input.theta_ref, joint) / input.period;
-    const double reference = input.theta_ref(0, joint) - period_ * reference_rate;
+    const double position = start.theta0.size() ? start.theta0[joint] : 0.0;
+    const double velocity = start.thetad0.size() ? start.thetad0[joint] : 0.0;
+    const double reference_rate = first_difference(start.theta_ref, joint) / start.period;
+    const double reference = first_value(start.theta_ref, joint) - period_ * reference_rate;
     previous_error_.push_back(reference - measured(position - period_ * velocity, k));
   }
 }
@@ -95,9 +96,15 @@ double PdDrive::measured(double theta, std::size_t joint) const {
 
 const std::vector<double>& PdDrive::torque(Eigen::Index row, Eigen::Index step,
                                            const std::vector<double>& theta) {
-  const double now = static_cast<double>(row) * steps_per_row_ + static_cast<double>(step);
+  const double now =
+      (rows_before_ + static_cast<double>(row)) * steps_per_row_ + static_cast<double>(step);
   if (now >= std::round(n_commands_ * steps_per_command_)) command(row, step, theta);
   return tau_;
+}
+
+void PdDrive::end(Eigen::Index n_rows) {
+  block_ = nullptr;
+  rows_before_ += static_cast<double>(n_rows);
 }
 
 void PdDrive::command(Eigen::Index row, Eigen::Index step, const std::vector<double>& theta) {
@@ -106,7 +113,7 @@ void PdDrive::command(Eigen::Index row, Eigen::Index step, const std::vector<dou
   for (std::size_t k = 0; k < tau_.size(); ++k) {
     const auto joint = static_cast<Eigen::Index>(k);
     const double error =
-        between_rows(input_.theta_ref, row, fraction, joint) - measured(theta[k], k);
+        between_rows(block_->theta_ref, row, fraction, joint) - measured(theta[k], k);
     const double rate = (error - previous_error_[k]) / period_;
     previous_error_[k] = error;
     const double tau = controller_.kp * error + controller_.kd * rate;

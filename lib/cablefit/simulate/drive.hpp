@@ -26,6 +26,10 @@ double between_rows(const Eigen::ArrayXXd& table, Eigen::Index row, double fract
 class Drive {
  public:
   virtual ~Drive() = default;
+  /// The rows that follow are those of `block`, which must live until end().
+  virtual void begin(const SimulationInput& block) = 0;
+  /// The next block begins `n_rows` rows after this one.
+  virtual void end(Eigen::Index n_rows) = 0;
   /// Torque per joint (N m) over the step `step` of row `row`, given the motor positions before it.
   virtual const std::vector<double>& torque(Eigen::Index row, Eigen::Index step,
                                             const std::vector<double>& theta) = 0;
@@ -37,7 +41,9 @@ class Drive {
 /// The torque of the log, held over a row or linear between rows.
 class ReplayDrive final : public Drive {
  public:
-  ReplayDrive(const SimulationInput& input, const SimulationOptions& options, const Clock& clock);
+  ReplayDrive(const Model& model, const SimulationOptions& options, const Clock& clock);
+  void begin(const SimulationInput& block) override { block_ = &block; }
+  void end(Eigen::Index /*n_rows*/) override { block_ = nullptr; }
   const std::vector<double>& torque(Eigen::Index row, Eigen::Index step,
                                     const std::vector<double>& theta) override;
   const std::vector<double>& torque_at(Eigen::Index row, const std::vector<double>& theta) override;
@@ -45,7 +51,7 @@ class ReplayDrive final : public Drive {
  private:
   const std::vector<double>& interpolate(Eigen::Index row, double fraction);
 
-  const SimulationInput& input_;
+  const SimulationInput* block_ = nullptr;
   bool hold_;
   double steps_per_row_;
   std::vector<double> tau_;
@@ -55,7 +61,9 @@ class ReplayDrive final : public Drive {
 /// period. Its first difference is that of a start at the initial velocity.
 class PdDrive final : public Drive {
  public:
-  PdDrive(const Model& model, const SimulationInput& input, const Clock& clock);
+  PdDrive(const Model& model, const SimulationInput& start, const Clock& clock);
+  void begin(const SimulationInput& block) override { block_ = &block; }
+  void end(Eigen::Index n_rows) override;
   const std::vector<double>& torque(Eigen::Index row, Eigen::Index step,
                                     const std::vector<double>& theta) override;
   const std::vector<double>& torque_at(Eigen::Index row,
@@ -67,10 +75,11 @@ class PdDrive final : public Drive {
   void command(Eigen::Index row, Eigen::Index step, const std::vector<double>& theta);
   double measured(double theta, std::size_t joint) const;
 
-  const SimulationInput& input_;
+  const SimulationInput* block_ = nullptr;
   Controller controller_;
   double period_, steps_per_row_, steps_per_command_;
   double n_commands_ = 0;
+  double rows_before_ = 0;              ///< of the present block
   std::vector<double> quantum_;         ///< rad; 0: none
   std::vector<double> previous_error_;  ///< rad, at the last command
   std::vector<double> tau_;

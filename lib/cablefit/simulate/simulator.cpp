@@ -21,34 +21,31 @@ SimulationResult nothing_yet(Eigen::Index rows, Eigen::Index n_joints, Eigen::In
   return result;
 }
 
-std::unique_ptr<Drive> make_drive(const Model& model, const SimulationInput& input,
+std::unique_ptr<Drive> make_drive(const Model& model, const SimulationInput& start,
                                   const SimulationOptions& options, const Clock& clock) {
-  if (options.closed_loop) return std::make_unique<PdDrive>(model, input, clock);
-  return std::make_unique<ReplayDrive>(input, options, clock);
+  if (options.closed_loop) return std::make_unique<PdDrive>(model, start, clock);
+  return std::make_unique<ReplayDrive>(model, options, clock);
 }
 
 /// The log's load torque, linear between rows; 0 when the rig has a law of q or there is no column.
 class LoadColumn {
  public:
-  LoadColumn(const Model& model, const SimulationInput& input, const Clock& clock)
-      : table_(input.tau_load),
-        is_used_(input.tau_load.size() > 0 &&
-                 (!model.rig.load.law || model.rig.load.law->from_column)),
+  LoadColumn(const Model& model, const Clock& clock)
+      : from_log_(!model.rig.load.law || model.rig.load.law->from_column),
         steps_per_row_(static_cast<double>(clock.steps_per_row)),
         torque_(model.joints.size(), 0.0) {}
 
-  const std::vector<double>& at(Eigen::Index row, Eigen::Index step) {
-    if (!is_used_) return torque_;
+  const std::vector<double>& at(const Eigen::ArrayXXd& table, Eigen::Index row, Eigen::Index step) {
+    if (!from_log_ || table.size() == 0) return torque_;
     const double fraction = (static_cast<double>(step) + 0.5) / steps_per_row_;
     for (std::size_t k = 0; k < torque_.size(); ++k) {
-      torque_[k] = between_rows(table_, row, fraction, static_cast<Eigen::Index>(k));
+      torque_[k] = between_rows(table, row, fraction, static_cast<Eigen::Index>(k));
     }
     return torque_;
   }
 
  private:
-  const Eigen::ArrayXXd& table_;
-  bool is_used_;
+  bool from_log_;
   double steps_per_row_;
   std::vector<double> torque_;
 };
@@ -59,41 +56,78 @@ void record_torque(const std::vector<double>& tau, Eigen::Index row, SimulationR
   }
 }
 
+Eigen::Index n_rows_of(const SimulationInput& input, const SimulationOptions& options) {
+  return (options.closed_loop ? input.theta_ref : input.tau).rows();
+}
+
 }  // namespace
 
-SimulationResult simulate(const Model& model, const SimulationInput& input,
-                          const SimulationOptions& options) {
+class Simulation::State {
+ public:
+  State(const Model& model, const SimulationInput& start, const SimulationOptions& options)
+      : options_(options),
+        n_joints_(static_cast<Eigen::Index>(model.joints.size())),
+        n_cables_(static_cast<Eigen::Index>(model.rigid ? 0 : model.transmission.cables.size())),
+        clock_(make_clock(model, start, options)),
+        plant_(model, start, options.link_blocked),
+        load_(model, clock_),
+        drive_(make_drive(model, start, options, clock_)) {}
+
+  SimulationResult run(const SimulationInput& block, Eigen::Index n_rows) {
+    SimulationResult result = nothing_yet(n_rows, n_joints_, n_cables_);
+    const Eigen::Index last = n_rows_of(block, options_) - 1;
+    drive_->begin(block);
+    for (Eigen::Index row = 0; row < n_rows; ++row) {
+      if (!plant_.is_sane()) {
+        result.diverged_at = row;
+        return result;
+      }
+      plant_.record(row, &result);
+      record_torque(drive_->torque_at(row, plant_.theta()), row, &result);
+      if (row < last) step_on(block, row);
+    }
+    drive_->end(n_rows);
+    return result;
+  }
+
+ private:
+  void step_on(const SimulationInput& block, Eigen::Index row) {
+    for (Eigen::Index step = 0; step < clock_.steps_per_row; ++step) {
+      const std::vector<double>& tau = drive_->torque(row, step, plant_.theta());
+      plant_.step(tau.data(), load_.at(block.tau_load, row, step).data(), clock_.h);
+    }
+  }
+
+  SimulationOptions options_;
+  Eigen::Index n_joints_, n_cables_;
+  Clock clock_;
+  Plant plant_;
+  LoadColumn load_;
+  std::unique_ptr<Drive> drive_;
+};
+
+Simulation::Simulation(const Model& model, const SimulationInput& start,
+                       const SimulationOptions& options) {
   if (options.closed_loop && !model.rig.controller) {
     throw input_error({model.rig.path}, "no controller for a closed-loop simulation",
                       "add \"controller\" to the rig file, or replay the measured torque");
   }
-  assert(input.period > 0 && options.step > 0);
-  const Eigen::Index n_rows = (options.closed_loop ? input.theta_ref : input.tau).rows();
-  const auto n_joints = static_cast<Eigen::Index>(model.joints.size());
-  const auto n_cables =
-      static_cast<Eigen::Index>(model.rigid ? 0 : model.transmission.cables.size());
+  assert(start.period > 0 && options.step > 0);
+  state_ = std::make_unique<State>(model, start, options);
+}
 
-  const Clock clock = make_clock(model, input, options);
-  Plant plant(model, input, options.link_blocked);
-  LoadColumn load(model, input, clock);
-  SimulationResult result = nothing_yet(n_rows, n_joints, n_cables);
-  if (n_rows == 0) return result;
-  const std::unique_ptr<Drive> drive = make_drive(model, input, options, clock);
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
-  for (Eigen::Index row = 0; row < n_rows; ++row) {
-    if (!plant.is_sane()) {
-      result.diverged_at = row;
-      return result;
-    }
-    plant.record(row, &result);
-    record_torque(drive->torque_at(row, plant.theta()), row, &result);
-    if (row == n_rows - 1) break;
-    for (Eigen::Index step = 0; step < clock.steps_per_row; ++step) {
-      const std::vector<double>& tau = drive->torque(row, step, plant.theta());
-      plant.step(tau.data(), load.at(row, step).data(), clock.h);
-    }
-  }
-  return result;
+SimulationResult Simulation::run(const SimulationInput& block, Eigen::Index n_rows) {
+  return state_->run(block, n_rows);
+}
+
+SimulationResult simulate(const Model& model, const SimulationInput& input,
+                          const SimulationOptions& options) {
+  const Eigen::Index n_rows = n_rows_of(input, options);
+  return Simulation(model, input, options).run(input, n_rows);
 }
 
 Gap gap(const Eigen::Ref<const Eigen::ArrayXd>& measured,

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -51,6 +52,26 @@ struct SimulationResult {
 /// nearest to its time. Throws Error(input) for a closed loop without rig.controller.
 SimulationResult simulate(const Model& model, const SimulationInput& input,
                           const SimulationOptions& options);
+
+/// The same over a log of any length, block by block, with the same bits as in one go.
+class Simulation {
+ public:
+  /// Takes the initial state, the period and the first references from `start`. Throws as above.
+  Simulation(const Model& model, const SimulationInput& start, const SimulationOptions& options);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  /// Rows [0, n_rows) of `block`, whose row 0 comes right after the last row of the call before;
+  /// its initial state is not looked at. Where another block follows, this one must have its first
+  /// row as a row more than n_rows: the simulation steps on to there, and what is linear between
+  /// rows needs it. After a divergence nothing more may be simulated.
+  SimulationResult run(const SimulationInput& block, Eigen::Index n_rows);
+
+ private:
+  class State;
+  std::unique_ptr<State> state_;
+};
 
 /// Agreement of a simulated with a measured signal over the rows of a segment.
 struct Gap {

@@ -130,6 +130,13 @@ void take_transmission(FitParameters* parameters, Model* model) {
   take_other_results(*elastic, model);
 }
 
+/// What stage 2 found out about the torque column, unless the rig file knew.
+void take_torque_hold(const JsonNode& preload, Rig* rig) {
+  const JsonNode* delay = preload.find("torque_delay");
+  if (!delay || rig->torque_hold != TorqueHold::automatic) return;
+  rig->torque_hold = delay->at("held").boolean() ? TorqueHold::zoh : TorqueHold::none;
+}
+
 void take_joints(FitParameters* parameters, Model* model) {
   const int n = model->rig.n_joints();
   const std::string_view rigid_name = base_effects(Side::rigid).front().parameters.front().name;
@@ -153,6 +160,7 @@ Model read_result_file(const JsonNode& root, const Wanted& wanted, std::string* 
   model.name = fit.at("model").text();
   model.preload = preload.at("name").text();
   model.rig = read_rig_reference(preload.find("rig"));
+  take_torque_hold(preload, &model.rig);
   FitParameters parameters(fit);
   take_joints(&parameters, &model);
   if (!model.rigid) take_transmission(&parameters, &model);

@@ -1,0 +1,130 @@
+#include "cablefit/simulate/experiment.hpp"
+
+#include <fmt/format.h>
+
+#include "cablefit/base/error.hpp"
+
+namespace cablefit {
+namespace {
+
+std::string kind_of(const Rig& rig) {
+  return fmt::format("{} {} joint{}", rig.n_joints(), rig.linear_motion ? "linear" : "rotary",
+                     rig.n_joints() == 1 ? "" : "s");
+}
+
+bool in_every_joint(const LogPlan& plan, Channel channel) {
+  for (int joint = 0; joint < plan.rig.n_joints(); ++joint) {
+    if (!plan.has(channel, joint)) return false;
+  }
+  return true;
+}
+
+void require_in_every_joint(const LogPlan& plan, Channel channel, std::string_view why) {
+  if (!in_every_joint(plan, channel)) require_channel(plan, channel, why);
+}
+
+/// Why there can be no closed loop; empty: there can.
+std::string no_closed_loop(const LogPlan& plan) {
+  if (!plan.rig.controller) return "no controller in the rig file";
+  if (in_every_joint(plan, Channel::theta_ref)) return "";
+  return fmt::format("no reference '{}' in the log", plan.rig.controller->reference);
+}
+
+void choose_mode(const LogPlan& plan, const ReplayOptions& options, Experiment& experiment) {
+  const std::string obstacle = no_closed_loop(plan);
+  const bool given = options.mode != ReplayMode::automatic;
+  if (options.mode == ReplayMode::closed_loop && !obstacle.empty()) {
+    throw input_error({plan.path}, obstacle, "a closed loop needs both; or replay the torque");
+  }
+  experiment.simulation.closed_loop = options.mode != ReplayMode::torque && obstacle.empty();
+  if (experiment.simulation.closed_loop) {
+    experiment.decisions.push_back(
+        {"mode", "closed loop",
+         given ? "given" : "the rig's controller, its reference in the log"});
+  } else {
+    experiment.decisions.push_back({"mode", "torque replay", given ? "given" : obstacle});
+  }
+}
+
+void choose_hold(const Rig& rig, const ReplayOptions& options, Experiment& experiment) {
+  if (experiment.simulation.closed_loop) return;
+  const bool given = options.torque_hold && *options.torque_hold != TorqueHold::automatic;
+  const TorqueHold hold = given ? *options.torque_hold : rig.torque_hold;
+  experiment.simulation.hold_torque = hold != TorqueHold::none;
+  experiment.decisions.push_back({"torque hold", hold == TorqueHold::none ? "none" : "zoh",
+                                  given ? "given"
+                                  : hold == TorqueHold::automatic
+                                      ? "nothing says; --torque-hold none for a measured current"
+                                      : "by the rig file, or by the fit of the model"});
+}
+
+void choose_window(const ReplayOptions& options, Experiment& experiment) {
+  const bool closed_loop = experiment.simulation.closed_loop;
+  experiment.window_seconds = options.window.value_or(closed_loop ? 0.0 : kReplayWindowSeconds);
+  const bool restarts = experiment.window_seconds > 0;
+  experiment.decisions.push_back(
+      {"window", restarts ? fmt::format("{:g} s", experiment.window_seconds) : "whole stretches",
+       options.window ? "given"
+       : closed_loop  ? "the controller keeps the drive on its reference"
+                      : "started anew from the measured state: the noise of a replayed torque "
+                        "makes positions drift"});
+}
+
+void require_channels(const Model& model, const LogPlan& plan, const PartSurvey& part,
+                      Experiment& experiment) {
+  require_in_every_joint(plan, Channel::theta, "the initial state of a simulation");
+  if (!model.rigid) require_in_every_joint(plan, Channel::q, "the initial state of a simulation");
+  if (!experiment.simulation.closed_loop) {
+    require_in_every_joint(plan, Channel::tau, "replaying the torque");
+  }
+  if (experiment.simulation.link_blocked) return;
+  const LoadLaw* law = experiment.model.rig.load.law;
+  const bool by_column = law && law->from_column;
+  if (by_column) {
+    require_in_every_joint(plan, Channel::tau_load, "the load that the rig file says is a column");
+  } else if (!law && !model.rigid && !in_every_joint(plan, Channel::tau_load)) {
+    experiment.warnings.push_back(
+        "no tau_load column and no load law in the rig file: the load torque is taken as 0");
+  }
+  (void)part;
+}
+
+}  // namespace
+
+Rig rig_for_simulation(const std::string& log_path, const std::string& rig_option,
+                       const Model& model) {
+  Rig rig = rig_for_log(log_path, rig_option);
+  if (rig.path.empty()) return model.rig;
+  if (kind_of(rig) != kind_of(model.rig)) {
+    throw input_error({rig.path},
+                      fmt::format("{}, the model has {}", kind_of(rig), kind_of(model.rig)),
+                      "simulate logs of the bench that the model is of");
+  }
+  if (!rig.load.law) rig.load = model.rig.load;
+  if (!rig.controller) rig.controller = model.rig.controller;
+  if (rig.sensors.empty()) rig.sensors = model.rig.sensors;
+  if (rig.torque_hold == TorqueHold::automatic) rig.torque_hold = model.rig.torque_hold;
+  return rig;
+}
+
+LogSurvey survey_for_simulation(const std::string& log_path, const std::string& rig_option,
+                                const Model& model) {
+  const Rig rig = rig_for_simulation(log_path, rig_option, model);
+  return survey_log(plan_log(log_path, rig), rig.preload.empty() ? model.preload : rig.preload);
+}
+
+Experiment plan_experiment(const Model& model, const LogSurvey& log, const PartSurvey& part,
+                           const ReplayOptions& options) {
+  Experiment experiment;
+  experiment.model = model;
+  experiment.model.rig = log.plan.rig;
+  experiment.simulation.step = options.step;
+  experiment.simulation.link_blocked = part.phase == Phase::blocked;
+  choose_mode(log.plan, options, experiment);
+  choose_hold(log.plan.rig, options, experiment);
+  choose_window(options, experiment);
+  require_channels(model, log.plan, part, experiment);
+  return experiment;
+}
+
+}  // namespace cablefit

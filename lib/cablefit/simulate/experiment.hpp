@@ -1,0 +1,53 @@
+// How one part of a log is simulated: closed loop or torque replay, by which rig, in which windows;
+// every choice with its reason.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "cablefit/simulate/simulate_result.hpp"
+#include "cablefit/simulate/simulator.hpp"
+
+namespace cablefit {
+
+/// Closed loop when there is a controller and its reference is in the log, else torque replay.
+enum class ReplayMode { automatic, closed_loop, torque };
+
+/// Torque replay of a noisy torque drifts: nothing pulls a joint back that friction alone holds. On
+/// the paper's rig 0.3 N m at 1 kHz are 1.4 mrad after 1 s.
+inline constexpr double kReplayWindowSeconds = 1.0;
+
+struct ReplayOptions {
+  ReplayMode mode = ReplayMode::automatic;
+  std::optional<TorqueHold> torque_hold;  ///< the rig's when not given
+  /// s; a simulation starts anew from the measured state this often. 0: never. Not given: never in
+  /// closed loop, else kReplayWindowSeconds.
+  std::optional<double> window;
+  double step = SimulationOptions{}.step;  ///< s
+  std::string trajectories;                ///< CSV file of every row; empty: none
+};
+
+/// The rig of a log as the simulation of `model` wants it: --rig, else the one beside the log, else
+/// the model's; what a log's rig file leaves open (load, controller, sensors, torque hold) is the
+/// model's. Throws Error(input) when it is a bench of another kind.
+Rig rig_for_simulation(const std::string& log_path, const std::string& rig_option,
+                       const Model& model);
+
+/// Surveys a log with that rig. Parts without a preload of their own get the rig's, else the
+/// model's.
+LogSurvey survey_for_simulation(const std::string& log_path, const std::string& rig_option,
+                                const Model& model);
+
+struct Experiment {
+  Model model;  ///< with the log's rig
+  SimulationOptions simulation;
+  double window_seconds = 0;  ///< 0: the whole stretch
+  std::vector<Decision> decisions;
+  std::vector<std::string> warnings;
+};
+
+/// Throws Error(input) for a channel that is missing.
+Experiment plan_experiment(const Model& model, const LogSurvey& log, const PartSurvey& part,
+                           const ReplayOptions& options);
+
+}  // namespace cablefit

@@ -1,0 +1,197 @@
+#include "cablefit/simulate/part_replay.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace cablefit {
+namespace {
+
+Eigen::Index rows_in(double seconds, double period) {
+  if (seconds <= 0) return 0;
+  return std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::llround(seconds / period)));
+}
+
+/// The first rows only.
+void cut(Eigen::Index n_rows, ReplayedRows* rows) {
+  for (Eigen::ArrayXXd* table :
+       {&rows->q, &rows->theta, &rows->tau, &rows->simulated.q, &rows->simulated.theta,
+        &rows->simulated.qd, &rows->simulated.thetad, &rows->simulated.tau,
+        &rows->simulated.tension}) {
+    table->conservativeResize(n_rows, Eigen::NoChange);
+  }
+}
+
+std::string unit_of(Channel channel, bool linear_motion) {
+  const char* unit = channel == Channel::tau ? "N m" : "rad";
+  return linear_motion ? linear_unit(unit) : unit;
+}
+
+}  // namespace
+
+PartReplay::PartReplay(Experiment experiment, const LogSurvey& log, const PartSurvey& part)
+    : experiment_(std::move(experiment)),
+      log_(log),
+      part_(part),
+      window_rows_(rows_in(experiment_.window_seconds, part.period)) {
+  result_.log = log.plan.path;
+  result_.preload = part.preload;
+  result_.phase = to_string(part.phase);
+  result_.run = part.run;
+  result_.closed_loop = experiment_.simulation.closed_loop;
+  result_.held_torque = !result_.closed_loop && experiment_.simulation.hold_torque;
+  result_.window_seconds = experiment_.window_seconds;
+  result_.decisions = experiment_.decisions;
+  result_.warnings = experiment_.warnings;
+  choose_signals();
+}
+
+void PartReplay::choose_signals() {
+  const LogPlan& plan = log_.plan;
+  for (int joint = 0; joint < plan.rig.n_joints(); ++joint) {
+    const bool has_q = plan.has(Channel::q, joint);
+    if (has_q) signals_.push_back({Channel::q, joint});
+    signals_.push_back({Channel::theta, joint});
+    if (has_q) signals_.push_back({Channel::theta, joint, true});
+    if (result_.closed_loop && plan.has(Channel::tau, joint)) {
+      signals_.push_back({Channel::tau, joint});
+    }
+  }
+}
+
+void PartReplay::add(const Window& window, const RowSink& sink) {
+  Eigen::Index row = window.begin;
+  while (row < window.end && result_.diverged.empty()) {
+    const bool starts = window_rows_ > 0 ? row % window_rows_ == 0 : row == 0;
+    if (starts) start_anew(window, row);
+    const Eigen::Index next_start =
+        window_rows_ > 0 ? (row / window_rows_ + 1) * window_rows_ : window.end;
+    const Eigen::Index end = std::min(window.end, next_start);
+    simulate_rows(window, row, end, sink);
+    row = end;
+  }
+}
+
+Eigen::ArrayXXd PartReplay::measured(const Window& window, Channel channel, Eigen::Index begin,
+                                     Eigen::Index n_rows) const {
+  const int n_joints = log_.plan.rig.n_joints();
+  Eigen::ArrayXXd table(n_rows, n_joints);
+  for (int joint = 0; joint < n_joints; ++joint) {
+    const int slot = log_.plan.find(channel, joint);
+    if (slot < 0) return Eigen::ArrayXXd(n_rows, 0);
+    table.col(joint) = window.data.col(slot).segment(begin - window.first, n_rows);
+  }
+  return table;
+}
+
+SimulationInput PartReplay::input_rows(const Window& window, Eigen::Index begin,
+                                       Eigen::Index n_rows) const {
+  SimulationInput input;
+  input.period = window.period;
+  input.tau = measured(window, Channel::tau, begin, n_rows);
+  input.tau_load = measured(window, Channel::tau_load, begin, n_rows);
+  input.theta_ref = measured(window, Channel::theta_ref, begin, n_rows);
+  return input;
+}
+
+void PartReplay::start_anew(const Window& window, Eigen::Index row) {
+  const int n_joints = log_.plan.rig.n_joints();
+  const Eigen::Index rows_after = window.data.rows() - (row - window.first);
+  SimulationInput start = input_rows(window, row, std::min<Eigen::Index>(2, rows_after));
+  start.q0 = start.qd0 = start.theta0 = start.thetad0 = Eigen::VectorXd::Zero(n_joints);
+  const auto state_of = [&](Channel channel, int joint) -> StartState {
+    const int slot = log_.plan.find(channel, joint);
+    if (slot < 0) return {};
+    return start_state(window.data.col(slot).array(), row - window.first, window.period,
+                       position_noise(log_, part_, channel, joint));
+  };
+  for (int joint = 0; joint < n_joints; ++joint) {
+    const StartState q = state_of(Channel::q, joint);
+    const StartState theta = state_of(Channel::theta, joint);
+    start.q0[joint] = q.position;
+    start.qd0[joint] = q.velocity;
+    start.theta0[joint] = theta.position;
+    start.thetad0[joint] = theta.velocity;
+  }
+  simulation_.emplace(experiment_.model, start, experiment_.simulation);
+  ++result_.n_windows;
+  const double t = window.t0 + static_cast<double>(row) * window.period;
+  for (Signal& signal : signals_) signal.scan.start_window(t);
+}
+
+void PartReplay::simulate_rows(const Window& window, Eigen::Index begin, Eigen::Index end,
+                               const RowSink& sink) {
+  const Eigen::Index n_rows = end - begin;
+  const Eigen::Index rows_there = window.first + window.data.rows() - begin;
+  const SimulationInput block = input_rows(window, begin, std::min(n_rows + 1, rows_there));
+  ReplayedRows rows;
+  rows.start = result_.n_windows;
+  rows.t0 = window.t0 + static_cast<double>(begin) * window.period;
+  rows.period = window.period;
+  rows.q = measured(window, Channel::q, begin, n_rows);
+  rows.theta = measured(window, Channel::theta, begin, n_rows);
+  rows.tau = block.tau.topRows(n_rows);
+  rows.simulated = simulation_->run(block, n_rows);
+  if (const auto row = rows.simulated.diverged_at) diverge(rows, *row);
+  if (rows.simulated.diverged_at) cut(*rows.simulated.diverged_at, &rows);
+  compare(rows);
+  if (sink) sink(rows);
+}
+
+void PartReplay::diverge(const ReplayedRows& rows, Eigen::Index row) {
+  result_.diverged = fmt::format(
+      "{}: the simulation diverged at t = {:.6g} s (row {} of {} '{}'), a position or velocity is "
+      "beyond 1e6 or no number",
+      result_.log, rows.t0 + static_cast<double>(row) * rows.period,
+      result_.n_rows + static_cast<std::size_t>(row) + 1, result_.phase, result_.preload);
+}
+
+void PartReplay::compare(const ReplayedRows& rows) {
+  const SimulationResult& s = rows.simulated;
+  for (Signal& signal : signals_) {
+    const auto add = [&](const Eigen::ArrayXd& measured, const Eigen::ArrayXd& simulated) {
+      signal.scan.add(measured, simulated, rows.t0, rows.period);
+    };
+    const Eigen::Index k = signal.joint;
+    if (signal.is_deflection) {
+      add(rows.theta.col(k) - rows.q.col(k), s.theta.col(k) - s.q.col(k));
+    } else if (signal.channel == Channel::q) {
+      add(rows.q.col(k), s.q.col(k));
+    } else if (signal.channel == Channel::theta) {
+      add(rows.theta.col(k), s.theta.col(k));
+    } else {
+      add(rows.tau.col(k), s.tau.col(k));
+    }
+  }
+  tensions_.add(s.tension);
+  result_.n_rows += static_cast<std::size_t>(s.theta.rows());
+}
+
+SignalGap PartReplay::gap_of(const Signal& signal) const {
+  SignalGap gap;
+  gap.signal = signal.is_deflection ? "deflection" : channel_name(signal.channel);
+  if (log_.plan.rig.n_joints() > 1) gap.signal += std::to_string(signal.joint + 1);
+  gap.unit = unit_of(signal.channel, log_.plan.rig.linear_motion);
+  gap.noise = position_noise(log_, part_, signal.channel, signal.joint);
+  if (signal.is_deflection) {
+    gap.noise = std::hypot(gap.noise, position_noise(log_, part_, Channel::q, signal.joint));
+  }
+  signal.scan.fill(gap);
+  return gap;
+}
+
+SimulatedPart PartReplay::result() const {
+  SimulatedPart part = result_;
+  if (part.n_rows == 0) return part;
+  for (const Signal& signal : signals_) part.gaps.push_back(gap_of(signal));
+  const Model& model = experiment_.model;
+  if (model.rigid || model.transmission.cables.empty()) return part;
+  const std::string tension =
+      model.rig.cables_given ? "N" : unit_of(Channel::tau, model.rig.linear_motion);
+  part.cables = tensions_.cables(model.transmission, tension);
+  part.closure_share = tensions_.closure_share();
+  return part;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,71 @@
+// Simulation of one part of a log beside its measurement, window by window of the log in constant
+// memory. Internal to simulate/.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "cablefit/samples/windows.hpp"
+#include "cablefit/simulate/experiment.hpp"
+#include "cablefit/simulate/gap_scan.hpp"
+#include "cablefit/simulate/start_state.hpp"
+
+namespace cablefit {
+
+/// Rows measured and simulated, rows x joints. A channel that the log lacks has no columns.
+struct ReplayedRows {
+  std::size_t start = 0;      ///< running number of the start from a measured state, from 1
+  double t0 = 0, period = 0;  ///< s, of the first row
+  Eigen::ArrayXXd q, theta;   ///< measured, rad
+  Eigen::ArrayXXd tau;        ///< measured, N m
+  SimulationResult simulated;
+};
+using RowSink = std::function<void(const ReplayedRows&)>;
+
+/// Rows of a log's window that a start from the measured state may look at, on either side; one
+/// more for the row that a block steps on to.
+inline constexpr Eigen::Index kReplayHalo = kStartRows + 1;
+
+class PartReplay {
+ public:
+  /// `log` and `part` must outlive it.
+  PartReplay(Experiment experiment, const LogSurvey& log, const PartSurvey& part);
+
+  /// The next window of the part, which has kReplayHalo. `sink`: takes the rows. After a divergence
+  /// nothing is done.
+  void add(const Window& window, const RowSink& sink);
+
+  SimulatedPart result() const;
+
+ private:
+  /// A signal that is compared; its deflection when `is_deflection`.
+  struct Signal {
+    Channel channel;
+    int joint;
+    bool is_deflection = false;
+    GapScan scan = {};
+  };
+
+  void choose_signals();
+  SimulationInput input_rows(const Window& window, Eigen::Index begin, Eigen::Index n_rows) const;
+  Eigen::ArrayXXd measured(const Window& window, Channel channel, Eigen::Index begin,
+                           Eigen::Index n_rows) const;
+  void start_anew(const Window& window, Eigen::Index row);
+  void simulate_rows(const Window& window, Eigen::Index begin, Eigen::Index end,
+                     const RowSink& sink);
+  void diverge(const ReplayedRows& rows, Eigen::Index row);
+  void compare(const ReplayedRows& rows);
+  SignalGap gap_of(const Signal& signal) const;
+
+  Experiment experiment_;
+  const LogSurvey& log_;
+  const PartSurvey& part_;
+  Eigen::Index window_rows_;  ///< between starts from the measured state; 0: never
+  std::optional<Simulation> simulation_;
+  std::vector<Signal> signals_;
+  TensionScan tensions_;
+  SimulatedPart result_;
+};
+
+}  // namespace cablefit

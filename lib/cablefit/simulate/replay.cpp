@@ -1,0 +1,127 @@
+#include "cablefit/simulate/replay.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/base/quote.hpp"
+#include "cablefit/simulate/part_replay.hpp"
+#include "cablefit/simulate/trajectory_file.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr Eigen::Index kMinRows = 8;  // of a stretch, as of a part
+
+bool is_of_model(const Model& model, const PartSurvey& part) {
+  return model.preload.empty() || part.preload == model.preload;
+}
+
+bool has_part_of_model(const Model& model, const LogSurvey& log) {
+  return std::any_of(log.parts.begin(), log.parts.end(),
+                     [&](const PartSurvey& part) { return is_of_model(model, part); });
+}
+
+/// One replay per part of the log, empty for those left out.
+std::vector<std::unique_ptr<PartReplay>> plan_parts(const Model& model, const LogSurvey& log,
+                                                    const ReplayOptions& options,
+                                                    SimulateResult& result) {
+  const bool of_model = has_part_of_model(model, log);
+  std::vector<std::unique_ptr<PartReplay>> replays;
+  for (const PartSurvey& part : log.parts) {
+    std::unique_ptr<PartReplay>& replay = replays.emplace_back();
+    const std::string where =
+        fmt::format("{}: preload {}", log.plan.path, cablefit::quoted(part.preload));
+    if (of_model && !is_of_model(model, part)) {
+      result.warnings.push_back(fmt::format("{} is left out, the model is of {}", where,
+                                            cablefit::quoted(model.preload)));
+      continue;
+    }
+    if (model.rigid && part.phase == Phase::blocked) {
+      result.warnings.push_back(where + " is left out, a rigid drive cannot move a blocked link");
+      continue;
+    }
+    if (!of_model) {
+      result.warnings.push_back(fmt::format("{} is simulated by a model of preload {}", where,
+                                            cablefit::quoted(model.preload)));
+    }
+    replay = std::make_unique<PartReplay>(plan_experiment(model, log, part, options), log, part);
+  }
+  return replays;
+}
+
+class LogReplay {
+ public:
+  LogReplay(const Model& model, const LogSurvey& log, const ReplayOptions& options,
+            SimulateResult& result)
+      : log_(log), replays_(plan_parts(model, log, options, result)) {}
+
+  bool is_empty() const {
+    return std::none_of(replays_.begin(), replays_.end(), [](const auto& r) { return bool(r); });
+  }
+
+  void run(const RowSink& sink, SimulateResult& result) {
+    const auto wanted = [&](const PartSurvey& part) {
+      return bool(replays_[static_cast<std::size_t>(&part - log_.parts.data())]);
+    };
+    const WindowCounts counts =
+        for_each_window(log_, wanted, kReplayHalo, kMinRows, 0.0, [&](Window&& window) {
+          replays_[window.part]->add(window, sink);
+          return true;
+        });
+    for (const auto& replay : replays_) {
+      if (!replay) continue;
+      result.parts.push_back(replay->result());
+      result.parts.back().counts = counts;
+    }
+  }
+
+ private:
+  const LogSurvey& log_;
+  std::vector<std::unique_ptr<PartReplay>> replays_;
+};
+
+std::vector<LogReplay> plan_logs(const Model& model, std::span<const LogSurvey> logs,
+                                 const ReplayOptions& options, SimulateResult& result) {
+  std::vector<LogReplay> replays;
+  for (const LogSurvey& log : logs) {
+    result.inputs.push_back({log.plan.path, log.sha256, log.n_rows});
+    replays.emplace_back(model, log, options, result);
+  }
+  const bool nothing = std::all_of(replays.begin(), replays.end(),
+                                   [](const LogReplay& replay) { return replay.is_empty(); });
+  if (nothing && !logs.empty()) {
+    throw input_error({logs.front().plan.path}, "nothing to simulate",
+                      "a rigid drive needs a log in which the link is free");
+  }
+  return replays;
+}
+
+}  // namespace
+
+SimulateResult simulate_logs(const Model& model, std::span<const LogSurvey> logs,
+                             const ReplayOptions& options) {
+  SimulateResult result;
+  result.model_name = model.name;
+  result.preload = model.preload;
+  result.rig_path = model.rig.path;
+  result.linear_motion = model.rig.linear_motion;
+  result.trajectories = options.trajectories;
+  std::vector<LogReplay> replays = plan_logs(model, logs, options, result);
+  std::unique_ptr<TrajectoryFile> file;
+  if (!options.trajectories.empty()) {
+    file = std::make_unique<TrajectoryFile>(options.trajectories, model);
+  }
+  for (std::size_t k = 0; k < replays.size(); ++k) {
+    RowSink sink;
+    if (file) sink = [&](const ReplayedRows& rows) { file->add(k + 1, rows); };
+    replays[k].run(sink, result);
+  }
+  if (file) file->finish();
+  return result;
+}
+
+}  // namespace cablefit

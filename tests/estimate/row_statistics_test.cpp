@@ -1,0 +1,100 @@
+// The streamed QR and the Gram cells against everything at once.
+#include "cablefit/estimate/row_statistics.hpp"
+
+#include <Eigen/QR>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <vector>
+
+#include "tests/support/columns.hpp"
+
+namespace {
+
+using namespace cablefit;
+using cablefit::test::Normal;
+
+Eigen::MatrixXd random_rows(Eigen::Index n, Eigen::Index columns, std::uint64_t seed) {
+  Normal normal(seed);
+  Eigen::MatrixXd rows(n, columns);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index k = 0; k < columns; ++k)
+      rows(i, k) = std::pow(10.0, static_cast<double>(k) - 2) * (normal() + 0.3);
+  return rows;
+}
+
+/// R with a positive diagonal: unique.
+Eigen::MatrixXd unique(const Eigen::MatrixXd& r) {
+  return r.diagonal().cwiseSign().asDiagonal() * r;
+}
+
+TEST_CASE("the streamed R is that of one QR of 100000 rows", "[estimate]") {
+  const Eigen::MatrixXd rows = random_rows(100000, 7, 6000);
+  const Eigen::MatrixXd whole =
+      unique(Eigen::MatrixXd(rows.householderQr().matrixQR().topRows(7).triangularView<Eigen::Upper>()));
+  const Eigen::MatrixXd gram = rows.transpose() * rows;
+  for (const Eigen::Index block : {1L << 20, 8192L, 1000L, 37L}) {
+    StreamingQr qr(7);
+    for (Eigen::Index begin = 0; begin < rows.rows(); begin += block)
+      qr.add(rows.middleRows(begin, std::min(block, rows.rows() - begin)));
+    INFO("blocks of " << block);
+    for (Eigen::Index k = 0; k < 7; ++k) {
+      const double scale = whole.col(k).norm();
+      // Rounding of 1e5 rows in sums of squares: sqrt(n) eps = 7e-14.
+      CHECK((unique(qr.r()).col(k) - whole.col(k)).norm() < 1e-12 * scale);
+      const Eigen::VectorXd product = qr.r().transpose() * qr.r().col(k);
+      for (Eigen::Index j = 0; j < 7; ++j)
+        CHECK(std::abs(product(j) - gram(j, k)) < 1e-12 * scale * whole.col(j).norm());
+    }
+  }
+}
+
+TEST_CASE("accumulators of windows add up to one", "[estimate]") {
+  const Eigen::MatrixXd rows = random_rows(10000, 4, 6001);
+  std::vector<Eigen::Index> numbers;
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) numbers.push_back(i + i / 100);  // with holes
+  RowStatistics one(4, rows.rows());
+  one.add(rows, numbers);
+  RowStatistics total(4, rows.rows());
+  for (Eigen::Index begin = 0; begin < rows.rows(); begin += 777) {
+    const Eigen::Index n = std::min<Eigen::Index>(777, rows.rows() - begin);
+    RowStatistics part = total.empty_copy();
+    part.add(rows.middleRows(begin, n),
+             std::span(numbers).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(n)));
+    total.add(part);
+  }
+  CHECK(total.n_rows() == 10000);
+  REQUIRE(total.cells().size() == one.cells().size());
+  CHECK(one.cell_rows() == 5);  // 10000 rows in at most 2048 cells
+  CHECK(one.cells().size() <= RowStatistics::kMaxCells);
+  Eigen::Index counted = 0;
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(4, 4);
+  for (std::size_t k = 0; k < one.cells().size(); ++k) {
+    const GramCell& a = one.cells()[k];
+    const GramCell& b = total.cells()[k];
+    CHECK(a.id == b.id);
+    CHECK(a.n_rows == b.n_rows);
+    CHECK((a.gram - b.gram).norm() <= 1e-14 * a.gram.norm());
+    counted += a.n_rows;
+    sum += a.gram;
+  }
+  CHECK(counted == 10000);
+  CHECK((sum - one.r().transpose() * one.r()).norm() < 1e-12 * sum.norm());
+  // A cell is a stretch of time: the rows with these numbers and no others.
+  const GramCell& cell = one.cells().at(40);
+  Eigen::MatrixXd direct = Eigen::MatrixXd::Zero(4, 4);
+  for (Eigen::Index i = 0; i < rows.rows(); ++i)
+    if (numbers[static_cast<std::size_t>(i)] / one.cell_rows() == cell.id)
+      direct += rows.row(i).transpose() * rows.row(i);
+  CHECK((direct - cell.gram).norm() < 1e-13 * direct.norm());
+}
+
+TEST_CASE("without cells there are none", "[estimate]") {
+  RowStatistics rows(3, 100, false);
+  const std::vector<Eigen::Index> numbers = {0, 1, 2, 3, 4};
+  rows.add(random_rows(5, 3, 6002), numbers);
+  CHECK(rows.cells().empty());
+  CHECK(rows.n_rows() == 5);
+  CHECK(rows.empty_copy().n_rows() == 0);
+}
+
+}  // namespace

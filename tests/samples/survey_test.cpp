@@ -1,0 +1,166 @@
+// The first look at a log: clock, noise, quantum, phase and parts.
+#include "tests/samples/rows_of_logs.hpp"
+#include "tests/support/message.hpp"
+
+namespace {
+
+using namespace cablefit;
+using namespace cablefit::test;
+
+const ChannelSurvey& channel(const LogSurvey& log, Channel which, std::size_t part = 0) {
+  return log.parts.at(part).channels.at(static_cast<std::size_t>(log.plan.find(which)));
+}
+
+TEST_CASE("the clock of an even log", "[samples]") {
+  Bench bench;
+  const LogSurvey& log = bench.add_text(noisy_log(5000, 5200).csv());
+  REQUIRE(log.parts.size() == 1);
+  const PartSurvey& part = log.parts[0];
+  CHECK(log.n_rows == 5000);
+  CHECK(part.n_rows == 5000);
+  CHECK(part.preload == "default");
+  CHECK_THAT(part.period, Catch::WithinRel(1e-3, 1e-12));
+  CHECK(part.t_first == 0);
+  CHECK_THAT(part.t_last, Catch::WithinRel(4.999, 1e-12));
+  CHECK(part.n_gaps == 0);
+  CHECK_FALSE(part.uneven);
+  CHECK(part.jitter < 1e-6);  // rounding of t: eps * 5 / 1e-3, and sqrt(eps) of the difference
+}
+
+TEST_CASE("jitter is measured and decides about resampling", "[samples]") {
+  // Steps T (1 + a(u[i] - u[i-1])), u uniform in [-1, 1): sd a sqrt(2/3) of the period.
+  const auto jittered = [](double a, std::uint64_t seed) {
+    Normal random(seed);
+    Columns log = noisy_log(20000, seed);
+    for (double& t : log.columns[0].second) t += 1e-3 * a * random.uniform();
+    return log.csv();
+  };
+  Bench bench;
+  const PartSurvey little = bench.add_text(jittered(0.1, 5201)).parts.at(0);
+  CHECK_FALSE(little.uneven);
+  // 20000 steps know their sd to 0.5 %, a few sd of it.
+  CHECK_THAT(little.jitter, Catch::WithinRel(0.1 * std::sqrt(2.0 / 3), 0.02));
+  CHECK(little.worst_jitter > 0.18);
+  CHECK(little.worst_jitter < 0.2001);
+  const PartSurvey much = bench.add_text(jittered(0.4, 5202)).parts.at(0);
+  CHECK(much.uneven);
+  CHECK(much.n_gaps == 0);
+  CHECK_THAT(much.period, Catch::WithinRel(1e-3, 1e-4));
+}
+
+TEST_CASE("gaps are counted and do not stretch the period", "[samples]") {
+  Columns log = noisy_log(5000, 5203);
+  for (const std::size_t from : {1000UL, 2500UL, 4000UL})
+    for (std::size_t i = from; i < 5000; ++i) log.columns[0].second[i] += 0.25;
+  Bench bench;
+  const PartSurvey part = bench.add_text(log.csv()).parts.at(0);
+  CHECK(part.n_gaps == 3);
+  CHECK_FALSE(part.uneven);
+  CHECK_THAT(part.period, Catch::WithinRel(1e-3, 1e-9));
+}
+
+// Sixth differences of white noise: chi-square with about n/6 independent terms; 5 % is 3 sd at
+// 20000 rows.
+TEST_CASE("white noise is estimated beside smooth motion", "[samples]") {
+  Bench bench;
+  const LogSurvey& log = bench.add_text(noisy_log(20000, 5204).csv());
+  CHECK_THAT(channel(log, Channel::theta).noise, Catch::WithinRel(1e-5, 0.05));
+  CHECK_THAT(channel(log, Channel::tau).noise, Catch::WithinRel(1.0, 0.05));
+}
+
+// Nothing may be differenced across a gap; here a jump of 1 rad would pass for noise of 30 mrad.
+TEST_CASE("a jump across a gap is no noise", "[samples]") {
+  Columns log = noisy_log(20000, 5205);
+  for (std::size_t i = 9000; i < 20000; ++i) {
+    log.columns[0].second[i] += 0.5;
+    log.columns[1].second[i] += 1.0;
+  }
+  Bench bench;
+  const LogSurvey& survey = bench.add_text(log.csv());
+  CHECK(survey.parts.at(0).n_gaps == 1);
+  CHECK_THAT(channel(survey, Channel::theta).noise, Catch::WithinRel(1e-5, 0.05));
+}
+
+TEST_CASE("quantum, range and limits of a channel", "[samples]") {
+  Columns log{{{"t", {}}, {"theta", {}}, {"tau", {}}}};
+  for (int i = 0; i < 4000; ++i) {
+    log.columns[0].second.push_back(0.001 * i);
+    log.columns[1].second.push_back(2.5e-4 * std::round(0.7 * std::sin(0.01 * i) / 2.5e-4));
+    log.columns[2].second.push_back(std::clamp(8 * std::sin(0.01 * i), -4.0, 4.0));
+  }
+  Bench bench;
+  const LogSurvey& survey = bench.add_text(log.csv());
+  CHECK_THAT(channel(survey, Channel::theta).quantum, Catch::WithinRel(2.5e-4, 1e-9));
+  CHECK_THAT(channel(survey, Channel::theta).range(), Catch::WithinAbs(1.4, 2.5e-4));
+  CHECK(channel(survey, Channel::tau).min == -4);
+  CHECK(channel(survey, Channel::tau).max == 4);
+  // |sin| > 1/2 for two thirds of the time; the log is 6.4 periods long.
+  CHECK_THAT(channel(survey, Channel::tau).at_limits, Catch::WithinAbs(2.0 / 3, 0.05));
+}
+
+TEST_CASE("phase is seen from q unless a column says it", "[samples]") {
+  const auto text = [](double q_share, const char* phase) {
+    std::string log = "t,q,theta,phase\n";
+    for (int i = 0; i < 200; ++i)
+      log += fmt::format("{},{},{},{}\n", 0.01 * i, q_share * std::sin(0.1 * i),
+                         std::sin(0.1 * i), phase);
+    return log;
+  };
+  Bench bench;
+  CHECK(bench.add_text(text(0.01, "")).parts.at(0).phase == Phase::blocked);
+  CHECK(bench.add_text(text(0.03, "")).parts.at(0).phase == Phase::moving);
+  const LogSurvey& told = bench.add_text(text(0.5, "blocked"));
+  CHECK(told.parts.at(0).phase == Phase::blocked);
+  CHECK(told.parts.at(0).phase_given);
+  CHECK(bench.add_text(text(0.0, "moving")).parts.at(0).phase == Phase::moving);
+  CHECK(message_of([&] { bench.add_text(text(0.5, "blcked")); }, bench.folder().path().string()) ==
+        "log4.csv:2: unknown phase 'blcked'; did you mean 'blocked'?");
+}
+
+TEST_CASE("preload, run and phase columns split a log into parts", "[samples]") {
+  std::string log = "t,q,theta,preload,run,phase\n";
+  const auto rows = [&](const char* preload, const char* run, const char* phase, double t0) {
+    for (int i = 0; i < 20; ++i)
+      log += fmt::format("{},{},{},{},{},{}\n", t0 + 0.01 * i, 0.1 * i, 0.1 * i, preload, run, phase);
+  };
+  rows("low", "1", "moving", 0);
+  rows("low", "2", "moving", 0);  // time starts again: another run
+  rows("high", "1", "blocked", 5);
+  rows("", "1", "moving", 6);
+  rows("low", "1", "moving", 9);  // the first part again
+  Bench bench;
+  const std::string path = bench.folder().write("parts.csv", log);
+  const LogSurvey survey = survey_file(path, default_rig(), "rig's");
+  REQUIRE(survey.parts.size() == 4);
+  CHECK(survey.parts[0].preload == "low");
+  CHECK(survey.parts[0].run == "1");
+  CHECK(survey.parts[0].n_rows == 40);
+  CHECK(survey.parts[1].run == "2");
+  CHECK(survey.parts[2].preload == "high");
+  CHECK(survey.parts[2].phase == Phase::blocked);
+  CHECK(survey.parts[3].preload == "rig's");
+  for (const PartSurvey& part : survey.parts)
+    CHECK_THAT(part.period, Catch::WithinRel(0.01, 1e-9));
+  // Nothing is differenced from part to part either.
+  WindowCounts windows;
+  const EquationBatch all = all_rows(survey, {}, plain_equation(), 1, &windows);
+  CHECK(windows.segments == 5);
+  CHECK((all.rows.col(1).array() - 10).abs().maxCoeff() < 1e-9);
+}
+
+TEST_CASE("time must run forward, and a part be long enough to move", "[samples]") {
+  Bench bench;
+  const std::string folder = bench.folder().path().string();
+  const auto message = [&](const std::string& text) {
+    return message_of([&] { bench.add_text(text); }, folder);
+  };
+  CHECK(message("t,theta\n0,1\n1,2\n1,3\n") ==
+        "log0.csv:4: time stands still at t = 1 s; remove the duplicate row");
+  CHECK(message("t,theta\n0,1\n1,2\n0.5,3\n") ==
+        "log0.csv:4: time runs back to t = 0.5 s; sort the rows, or tell runs apart with a 'run' "
+        "column");
+  CHECK(message("t,theta\n0,1\n1,2\n2,3\n") ==
+        "log0.csv: 3 rows of preload 'default'; at least 8 rows are needed to see any motion");
+}
+
+}  // namespace

@@ -1,0 +1,163 @@
+// Windows and threads are bookkeeping: they must not show in the rows. Gaps and uneven clocks must.
+#include "tests/samples/rows_of_logs.hpp"
+
+namespace {
+
+using namespace cablefit;
+using namespace cablefit::test;
+
+RowSettings settings_of(double cutoff, int decimate, Eigen::Index edge) {
+  RowSettings settings;
+  settings.signal.cutoff = cutoff;
+  settings.decimate = decimate;
+  settings.drop_edge = edge;
+  return settings;
+}
+
+/// The whole log as one window, past the cutter.
+EquationBatch single_shot(const LogSurvey& log, const RowSettings& settings,
+                          const Equation& equation) {
+  Window whole;
+  for_each_window(log, kAllParts, 0, 1, 0, [&](Window&& part) {
+    const Eigen::Index old = whole.data.rows(), from = part.begin - part.first,
+                       more = part.end - part.begin;
+    whole.data.conservativeResize(old + more, part.data.cols());
+    whole.data.bottomRows(more) = part.data.middleRows(from, more);
+    whole.approach.conservativeResize(old + more, 1);
+    whole.approach.bottomRows(more) = part.approach.middleRows(from, more);
+    whole.end = part.end;
+    whole.period = part.period;
+    return true;
+  });
+  whole.starts_segment = whole.ends_segment = true;
+  return make_rows(whole, log, 0, settings, std::span(&equation, 1)).equations.at(0);
+}
+
+TEST_CASE("rows do not show where windows were cut", "[samples]") {
+  for (const Eigen::Index n : {3 * kWindowRows + 17, 2 * kWindowRows - 1, kWindowRows + 40}) {
+    Bench bench;
+    const LogSurvey& log = bench.add_text(noisy_log(n, 5000).csv());
+    for (const RowSettings& settings :
+         {settings_of(0, 1, 3), settings_of(100, 4, 20), settings_of(5, 50, 400)}) {
+      const Equation equation = plain_equation();
+      const EquationBatch cut = all_rows(log, settings, equation);
+      const EquationBatch whole = single_shot(log, settings, equation);
+      INFO(n << " rows, cut-off " << settings.signal.cutoff);
+      REQUIRE(cut.numbers == whole.numbers);
+      REQUIRE(cut.rows.rows() > 100);
+      CHECK(cut.counts.rows_at_edges == whole.counts.rows_at_edges);
+      CHECK(cut.counts.rows_at_edges == static_cast<std::size_t>(2 * settings.drop_edge));
+      for (std::size_t k = 0; k < cut.t.size(); ++k)
+        CHECK_THAT(cut.t[k], Catch::WithinAbs(whole.t[k], 1e-9));
+      for (Eigen::Index c = 0; c < whole.rows.cols(); ++c) {
+        const double scale = whole.rows.col(c).cwiseAbs().maxCoeff();
+        const double worst = (cut.rows.col(c) - whole.rows.col(c)).cwiseAbs().maxCoeff();
+        INFO("column " << c << " off by " << worst / scale);
+        // Signals see two settling times of halo, 1e-20, so only rounding is left: 1e-16 of a
+        // theta of 0.6, times 5.3/h^2 in a second difference: 4e-10 rad/s^2 of 20, 2e-11. The
+        // direction, filtered after them, sees one settling time, 1e-10 of a sign at worst.
+        const double tolerance = c == 2 ? 2e-11 : c == 3 ? 1e-9 : 1e-12;
+        CHECK(worst <= tolerance * scale);
+      }
+    }
+  }
+}
+
+TEST_CASE("rows have the same bits for any number of threads", "[samples]") {
+  Bench bench;
+  const LogSurvey& log = bench.add_text(noisy_log(3 * kWindowRows + 17, 5001).csv());
+  const RowSettings settings = settings_of(100, 4, 20);
+  const Equation equation = plain_equation();
+  const EquationBatch one = all_rows(log, settings, equation, 1);
+  for (const int threads : {2, 3}) {
+    const EquationBatch more = all_rows(log, settings, equation, threads);
+    CHECK(more.numbers == one.numbers);
+    CHECK((more.rows.array() == one.rows.array()).all());
+  }
+}
+
+// Edges longer than a window's halo: rows that the segment's end takes lie in the window before.
+TEST_CASE("edge rows are dropped whatever their number", "[samples]") {
+  for (const Eigen::Index n : {kWindowRows + 50, 2 * kWindowRows + 8}) {
+    Bench bench;
+    const LogSurvey& log = bench.add_text(noisy_log(n, 5002).csv());
+    const EquationBatch rows = all_rows(log, settings_of(0, 1, 100), plain_equation());
+    INFO(n << " rows");
+    CHECK(rows.counts.rows_at_edges == 200);
+    CHECK(rows.rows.rows() == n - 200);
+    CHECK_THAT(rows.t.back(), Catch::WithinAbs(1e-3 * static_cast<double>(n - 101), 1e-9));
+  }
+}
+
+// A hole in time with a jump in position: 1 rad within 0.5 s would be 1000 rad/s over one period.
+TEST_CASE("nothing is differenced across a gap", "[samples]") {
+  Columns log = noisy_log(4000, 5003);
+  for (std::size_t i = 1500; i < 4000; ++i) {
+    log.columns[0].second[i] += 0.5;
+    log.columns[1].second[i] += 1.0;
+    log.columns[2].second[i] += 50.0;
+  }
+  Bench bench;
+  const LogSurvey& survey = bench.add_text(log.csv());
+  CHECK(survey.parts.at(0).n_gaps == 1);
+  WindowCounts windows;
+  const EquationBatch rows =
+      all_rows(survey, settings_of(50, 4, 40), plain_equation(), 1, &windows);
+  CHECK(windows.segments == 2);
+  CHECK(windows.rows_read == 4000);
+  CHECK(rows.counts.rows_at_edges == 4 * 40);
+  // True motion: |thetad| <= 0.5 w1 + 0.08 w2 + 0.01 w3 = 4.4 rad/s, |thetadd| <= 82 rad/s^2.
+  CHECK(rows.rows.col(1).cwiseAbs().maxCoeff() < 4.5);
+  CHECK(rows.rows.col(2).cwiseAbs().maxCoeff() < 90);
+  // tau, 4 sd of noise beside at most 82: before the gap no row is drawn towards the 50 behind it.
+  for (std::size_t k = 0; k < rows.t.size(); ++k) {
+    CHECK_FALSE((rows.t[k] > 1.499 - 0.039 && rows.t[k] < 2.0 + 0.039));
+    const bool before = rows.t[k] < 1.75;
+    const double theta = rows.rows(static_cast<Eigen::Index>(k), 0);
+    if (before) CHECK(theta < 0.6);
+    if (!before) CHECK(theta > 0.4);
+  }
+}
+
+TEST_CASE("short segments are left out and counted", "[samples]") {
+  Columns log = noisy_log(3000, 5004);
+  for (std::size_t i = 1000; i < 3000; ++i) log.columns[0].second[i] += 1;
+  for (std::size_t i = 1010; i < 3000; ++i) log.columns[0].second[i] += 1;
+  Bench bench;
+  WindowCounts windows;
+  all_rows(bench.add_text(log.csv()), settings_of(0, 1, 20), plain_equation(), 1, &windows);
+  CHECK(windows.segments == 2);
+  CHECK(windows.rows_too_short == 10);
+}
+
+TEST_CASE("an uneven log is put on an even grid and counted", "[samples]") {
+  Normal random(5005);
+  Columns log{{{"t", {}}, {"theta", {}}, {"tau", {}}}};
+  const std::size_t n = 3000;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double t = 0.01 * (static_cast<double>(i) + 0.45 * random.uniform());
+    log.columns[0].second.push_back(t);
+    log.columns[1].second.push_back(2 * t - 1);  // linear interpolation is exact
+    log.columns[2].second.push_back(3 - t);
+  }
+  Bench bench;
+  const LogSurvey& survey = bench.add_text(log.csv());
+  REQUIRE(survey.parts.at(0).uneven);
+  WindowCounts windows;
+  const EquationBatch rows = all_rows(survey, settings_of(0, 1, 3), plain_equation(), 1, &windows);
+  // The grid runs from the first row to the last in steps of their mean distance; rounding may
+  // cost the last point.
+  CHECK(windows.rows_resampled >= n - 2);
+  CHECK(windows.rows_resampled <= n - 1);
+  CHECK(windows.segments == 1);
+  const double t0 = log.columns[0].second.front();
+  for (Eigen::Index i = 0; i < rows.rows.rows(); ++i) {
+    const double t = rows.t[static_cast<std::size_t>(i)];
+    CHECK(t >= t0);
+    CHECK_THAT(rows.rows(i, 0), Catch::WithinAbs(2 * t - 1, 1e-11));
+    CHECK_THAT(rows.rows(i, 1), Catch::WithinAbs(2, 1e-10));  // 60 eps / (12 h)
+    CHECK_THAT(rows.rows(i, 4), Catch::WithinAbs(3 - t, 1e-11));
+  }
+}
+
+}  // namespace
