@@ -9,7 +9,8 @@ using namespace cablefit;
 using namespace cablefit::test;
 
 void append(std::vector<double>& all, const std::vector<Estimate>& estimates) {
-  for (const Estimate& e : estimates) all.insert(all.end(), {e.value, e.sd, e.sd_white, e.ci_low, e.ci_high});
+  for (const Estimate& e : estimates)
+    all.insert(all.end(), {e.value, e.sd, e.sd_white, e.ci_low, e.ci_high});
 }
 
 std::vector<double> elastic_numbers(const ElasticResult& result) {

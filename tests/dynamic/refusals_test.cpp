@@ -86,8 +86,8 @@ TEST_CASE("stage 2 names what is missing", "[dynamic]") {
   bench.add_text(log.csv());
   const std::string folder = bench.folder().path().string();
   CHECK(message_of([&] { fit_dynamic(bench.logs(), {}, {}); }, folder) ==
-        "log0.csv:1: missing column 'q', needed for an elastic model; without it use --model "
-        "rigid; add it, or map it in a rig file; columns are t, theta, tau");
+        "log0.csv:1: missing column 'q', needed for an elastic model; add it, map it in a rig "
+        "file, or use --model rigid; columns are t, theta, tau");
   DynamicOptions options;
   options.estimator = "olss";
   CHECK(message_of([&] { fit_dynamic(bench.logs(), {}, options); }) ==

@@ -95,8 +95,8 @@ TEST_CASE("a torque that is the mean centred on t is not shifted", "[dynamic]") 
   std::printf("  centred log: delay %.4f +- %.4f ms\n", 1e3 * found.delay.seconds,
               1e3 * found.delay.sd);
   std::printf("    J_motor %+.2f %% as it is, %+.2f %% shifted; f_vm %+.2f %%, %+.2f %%\n",
-              100 * inertia_error(found), 100 * inertia_error(shifted),
-              100 * damping_error(found), 100 * damping_error(shifted));
+              100 * inertia_error(found), 100 * inertia_error(shifted), 100 * damping_error(found),
+              100 * damping_error(shifted));
   CHECK_FALSE(found.delay.held);
   CHECK(std::abs(found.delay.seconds) < 4 * found.delay.sd + 0.02e-3);
   CHECK(std::abs(inertia_error(found)) < 0.02);

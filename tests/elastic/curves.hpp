@@ -13,7 +13,8 @@ inline double fitted_torque(const ElasticFit& fit, double phi) {
   if (fit.transmission.cables.empty()) return fit.transmission.linear_stiffness(0) * phi;
   double sum = 0;
   for (const Cable& cable : fit.transmission.cables)
-    sum += cable.motor_radius(0) * cable.force(cable.motor_radius(0) * phi + cable.initial_elongation);
+    sum +=
+        cable.motor_radius(0) * cable.force(cable.motor_radius(0) * phi + cable.initial_elongation);
   return sum;
 }
 

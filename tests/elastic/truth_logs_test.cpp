@@ -25,11 +25,12 @@ TEST_CASE("the curve of the shipped high log is followed to 1 % of its peak", "[
       std::max(rig.tau_elas(chosen.deflection_high), -rig.tau_elas(chosen.deflection_low));
   const double off = largest_curve_error(poly, rig, chosen.deflection_low, chosen.deflection_high);
   const ElasticPreload second = shipped_fit("high", 2);
-  const double off_2 = largest_curve_error(*second.find("poly"), rig, second.deflection_low,
-                                           second.deflection_high);
-  std::printf("  high: order %d, curve off by %.3f N m at most, %.2f %% of %.1f N m;"
-              " order 2: %.3f N m, %.2f %%\n",
-              poly.order, off, 100 * off / peak, peak, off_2, 100 * off_2 / peak);
+  const double off_2 =
+      largest_curve_error(*second.find("poly"), rig, second.deflection_low, second.deflection_high);
+  std::printf(
+      "  high: order %d, curve off by %.3f N m at most, %.2f %% of %.1f N m;"
+      " order 2: %.3f N m, %.2f %%\n",
+      poly.order, off, 100 * off / peak, peak, off_2, 100 * off_2 / peak);
   CHECK(off < 0.01 * peak);
   CHECK(second.find("poly")->order == 2);
   CHECK(off_2 > off);
@@ -51,10 +52,10 @@ TEST_CASE("the linear stiffness is the least-squares slope of the true curve", "
     const Estimate& k = estimate(fit.find("linear")->parameters, "K");
     const double same_rows = slope_on_rows(logs, rig);
     const double uniform = slope_on_grid(rig, fit.deflection_low, fit.deflection_high);
-    std::printf("  %s: K %.2f, slope of the true curve %.2f on the rows, %.2f on a uniform grid;"
-                " range %.2f to %.2f mrad\n",
-                preload, k.value, same_rows, uniform, 1e3 * fit.deflection_low,
-                1e3 * fit.deflection_high);
+    std::printf(
+        "  %s: K %.2f, slope of the true curve %.2f on the rows, %.2f on a uniform grid;"
+        " range %.2f to %.2f mrad\n",
+        preload, k.value, same_rows, uniform, 1e3 * fit.deflection_low, 1e3 * fit.deflection_high);
     INFO(preload);
     CHECK_THAT(k.value, Catch::WithinRel(same_rows, 0.01));
     // The sweep of +-45 mrad as it was driven.

@@ -101,8 +101,7 @@ TEST_CASE("an arbitrary encoder zero is found", "[elastic]") {
 // 7). The data follow the printed coefficients, as the paper's fit did.
 TEST_CASE("the printed high-preload polynomial is flagged as not passive", "[elastic]") {
   const auto curve = [](double phi) {
-    return phi > 0 ? -3894.7 * phi + 3891.4 * phi * phi
-                   : -(11171.0 * -phi + 3094.9 * phi * phi);
+    return phi > 0 ? -3894.7 * phi + 3891.4 * phi * phi : -(11171.0 * -phi + 3094.9 * phi * phi);
   };
   ElasticOptions second;
   second.order = 2;

@@ -29,8 +29,8 @@ Eigen::MatrixXd unique(const Eigen::MatrixXd& r) {
 
 TEST_CASE("the streamed R is that of one QR of 100000 rows", "[estimate]") {
   const Eigen::MatrixXd rows = random_rows(100000, 7, 6000);
-  const Eigen::MatrixXd whole =
-      unique(Eigen::MatrixXd(rows.householderQr().matrixQR().topRows(7).triangularView<Eigen::Upper>()));
+  const Eigen::MatrixXd whole = unique(
+      Eigen::MatrixXd(rows.householderQr().matrixQR().topRows(7).triangularView<Eigen::Upper>()));
   const Eigen::MatrixXd gram = rows.transpose() * rows;
   for (const Eigen::Index block : {1L << 20, 8192L, 1000L, 37L}) {
     StreamingQr qr(7);
@@ -58,8 +58,8 @@ TEST_CASE("accumulators of windows add up to one", "[estimate]") {
   for (Eigen::Index begin = 0; begin < rows.rows(); begin += 777) {
     const Eigen::Index n = std::min<Eigen::Index>(777, rows.rows() - begin);
     RowStatistics part = total.empty_copy();
-    part.add(rows.middleRows(begin, n),
-             std::span(numbers).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(n)));
+    part.add(rows.middleRows(begin, n), std::span(numbers).subspan(static_cast<std::size_t>(begin),
+                                                                   static_cast<std::size_t>(n)));
     total.add(part);
   }
   CHECK(total.n_rows() == 10000);

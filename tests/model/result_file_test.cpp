@@ -157,4 +157,15 @@ TEST_CASE("a result that is no model says why") {
   }
 }
 
+TEST_CASE("a torque hold that the rig file leaves open is what stage 2 found") {
+  const auto hold = [](const std::string& rig, const std::string& held) {
+    std::string text = preload("low", kPolyFit, rig);
+    text.insert(1, R"("torque_delay": {"held": )" + held + "}, ");
+    return read(result(text), "", "").rig.torque_hold;
+  };
+  CHECK(hold("null", "true") == TorqueHold::zoh);
+  CHECK(hold("null", "false") == TorqueHold::none);
+  CHECK(hold(R"({"torque_hold": "none"})", "true") == TorqueHold::none);
+}
+
 }  // namespace

@@ -59,8 +59,8 @@ std::string csv(const std::vector<std::vector<std::string>>& c, const std::strin
     const auto scaled = [](const std::string& cell, const std::string& power) {
       if (power.empty()) return cell;
       const std::size_t e = cell.find_first_of("eE");
-      const int exponent = (e == std::string::npos ? 0 : std::stoi(cell.substr(e + 1))) +
-                           std::stoi(power);
+      const int exponent =
+          (e == std::string::npos ? 0 : std::stoi(cell.substr(e + 1))) + std::stoi(power);
       return cell.substr(0, e) + 'e' + std::to_string(exponent);
     };
     text += c[0][i] + ',' + scaled(c[1][i], theta_power) + ',' + scaled(c[2][i], tau_power) + '\n';
@@ -82,10 +82,11 @@ TEST_CASE("EMPS is the same log in every format and unit", "[reference]") {
   REQUIRE(columns[0].size() == columns[2].size());
   {
     INFO("mm and kN");
-    check_same(plain, fit(folder.write("units.csv", csv(columns, "t [s],theta [mm],tau (kN)", "3", "-3"))));
+    check_same(plain, fit(folder.write("units.csv",
+                                       csv(columns, "t [s],theta [mm],tau (kN)", "3", "-3"))));
   }
   {
-    INFO("ms, and unit in the rig file's place");
+    INFO("units spelt out");
     check_same(plain, fit(folder.write("m.csv", csv(columns, "t,theta [m],tau [N]", "", ""))));
   }
   {
@@ -95,9 +96,10 @@ TEST_CASE("EMPS is the same log in every format and unit", "[reference]") {
       for (const std::string& cell : cells) text += (text.empty() ? "" : ",") + cell;
       return '[' + text + ']';
     };
-    check_same(plain, fit(folder.write("emps.json", "{\"sample_rate\": 1000, \"channels\": {\"theta\": " +
-                                                        list(columns[1]) + ", \"tau\": " +
-                                                        list(columns[2]) + "}}")));
+    check_same(plain,
+               fit(folder.write("emps.json", "{\"sample_rate\": 1000, \"channels\": {\"theta\": " +
+                                                 list(columns[1]) +
+                                                 ", \"tau\": " + list(columns[2]) + "}}")));
   }
   for (const char* command : {"gzip -c", "zstd -qc"}) {
     INFO(command);
@@ -114,8 +116,9 @@ TEST_CASE("an angle on a linear axis is refused at its header cell", "[reference
   const TempFolder folder;
   const std::string path = folder.write("a.csv", "t,theta [deg],tau\n0,1,2\n");
   CHECK_THROWS_WITH(plan_log(path, linear_rig()),
-                    path + ":1:3: unit 'deg' of column 'theta' is not a position's; correct the "
-                           "unit in the header or in the rig file");
+                    path +
+                        ":1:3: unit 'deg' of column 'theta' is not a position's; correct the "
+                        "unit in the header or in the rig file");
 }
 
 }  // namespace

@@ -69,8 +69,7 @@ TEST_CASE("what does not fit is told at its place", "[samples]") {
   Rig rig = default_rig();
   rig.columns["tau"] = {"i_qq", 1, 0, ""};
   CHECK(logs.message("t,theta,i_q\n0,0,0\n", rig) ==
-        "log.csv:1: no column 'i_qq', which the rig file names for tau; columns are t, theta, i_q; "
-        "did you mean 'i_q'?");
+        "log.csv:1: no column 'i_qq', which the rig file names for tau; did you mean 'i_q'?");
 }
 
 }  // namespace

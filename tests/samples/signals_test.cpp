@@ -37,7 +37,9 @@ double time_at(Eigen::Index i) { return kPeriod * static_cast<double>(i); }
 // values of 20 with a rounding of 2e-15, over 12 h^2 = 1.2e-3 with weights of 64: 2e-10.
 TEST_CASE("differences are exact for quartic polynomials", "[samples]") {
   Fixture f({Channel::q, Channel::theta});
-  const auto quartic = [](double t) { return 3 - 2 * t + 5 * t * t - 7 * t * t * t + 4 * t * t * t * t; };
+  const auto quartic = [](double t) {
+    return 3 - 2 * t + 5 * t * t - 7 * t * t * t + 4 * t * t * t * t;
+  };
   const auto first = [](double t) { return -2 + 10 * t - 21 * t * t + 16 * t * t * t; };
   const auto second = [](double t) { return 10 - 42 * t + 48 * t * t; };
   for (Eigen::Index i = 0; i < kRows; ++i) {

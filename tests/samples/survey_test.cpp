@@ -102,8 +102,8 @@ TEST_CASE("phase is seen from q unless a column says it", "[samples]") {
   const auto text = [](double q_share, const char* phase) {
     std::string log = "t,q,theta,phase\n";
     for (int i = 0; i < 200; ++i)
-      log += fmt::format("{},{},{},{}\n", 0.01 * i, q_share * std::sin(0.1 * i),
-                         std::sin(0.1 * i), phase);
+      log += fmt::format("{},{},{},{}\n", 0.01 * i, q_share * std::sin(0.1 * i), std::sin(0.1 * i),
+                         phase);
     return log;
   };
   Bench bench;
@@ -121,7 +121,8 @@ TEST_CASE("preload, run and phase columns split a log into parts", "[samples]") 
   std::string log = "t,q,theta,preload,run,phase\n";
   const auto rows = [&](const char* preload, const char* run, const char* phase, double t0) {
     for (int i = 0; i < 20; ++i)
-      log += fmt::format("{},{},{},{},{},{}\n", t0 + 0.01 * i, 0.1 * i, 0.1 * i, preload, run, phase);
+      log +=
+          fmt::format("{},{},{},{},{},{}\n", t0 + 0.01 * i, 0.1 * i, 0.1 * i, preload, run, phase);
   };
   rows("low", "1", "moving", 0);
   rows("low", "2", "moving", 0);  // time starts again: another run
@@ -139,8 +140,7 @@ TEST_CASE("preload, run and phase columns split a log into parts", "[samples]") 
   CHECK(survey.parts[2].preload == "high");
   CHECK(survey.parts[2].phase == Phase::blocked);
   CHECK(survey.parts[3].preload == "rig's");
-  for (const PartSurvey& part : survey.parts)
-    CHECK_THAT(part.period, Catch::WithinRel(0.01, 1e-9));
+  for (const PartSurvey& part : survey.parts) CHECK_THAT(part.period, Catch::WithinRel(0.01, 1e-9));
   // Nothing is differenced from part to part either.
   WindowCounts windows;
   const EquationBatch all = all_rows(survey, {}, plain_equation(), 1, &windows);

@@ -1,6 +1,7 @@
 // The truth simulator's rigs as models, and shipped logs as a simulation wants them.
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,12 @@ inline Model true_model(const std::string& preload) {
 /// A shipped log, "low/blocked.csv", for the simulation by `model`.
 inline LogSurvey shipped_for(const Model& model, const std::string& name) {
   return survey_for_simulation(std::string(CABLEFIT_DATA) + '/' + name, "", model);
+}
+
+inline ReplayOptions in_mode(ReplayMode mode) {
+  ReplayOptions options;
+  options.mode = mode;
+  return options;
 }
 
 /// The simulation of one shipped log, which has one part.

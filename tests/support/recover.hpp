@@ -1,6 +1,8 @@
 // Simulate, fit, compare: logs of the truth simulator on their way through both stages.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
@@ -35,12 +37,12 @@ class Bench {
   Rig rig = default_rig();
 
   const LogSurvey& add(const truth::Log& log) {
-    const std::string path = folder_->file("log" + std::to_string(logs_.size()) + ".csv");
+    const std::string path = folder_->file(fmt::format("log{}.csv", logs_.size()));
     truth::write_csv(path, log);
     return add_file(path);
   }
   const LogSurvey& add_text(const std::string& text) {
-    return add_file(folder_->write("log" + std::to_string(logs_.size()) + ".csv", text));
+    return add_file(folder_->write(fmt::format("log{}.csv", logs_.size()), text));
   }
   const LogSurvey& add_file(const std::string& path) {
     logs_.push_back(survey_file(path, rig));
@@ -65,9 +67,8 @@ inline const Estimate& estimate(const std::vector<Estimate>& estimates, const st
 using NamedValues = std::vector<std::pair<std::string, double>>;
 
 inline NamedValues dynamic_truth(const truth::Rig& rig) {
-  return {{"J_link", rig.J_link}, {"J_motor", rig.J_motor}, {"f_v", rig.f_v},
-          {"f_s", rig.f_s},       {"f_vm", rig.f_vm},       {"f_sm", rig.f_sm},
-          {"offset", rig.offset}};
+  return {{"J_link", rig.J_link}, {"J_motor", rig.J_motor}, {"f_v", rig.f_v},      {"f_s", rig.f_s},
+          {"f_vm", rig.f_vm},     {"f_sm", rig.f_sm},       {"offset", rig.offset}};
 }
 
 /// K1_0, K1_1, ..., K2_0, ...: the paper's names.
@@ -76,8 +77,7 @@ inline NamedValues elastic_truth(const truth::Rig& rig) {
   const truth::Cable* cables[] = {&rig.cable_1, &rig.cable_2};
   for (int c = 0; c < 2; ++c)
     for (std::size_t k = 0; k < cables[c]->stiffness.size(); ++k)
-      values.emplace_back("K" + std::to_string(c + 1) + "_" + std::to_string(k),
-                          cables[c]->stiffness[k]);
+      values.emplace_back(fmt::format("K{}_{}", c + 1, k), cables[c]->stiffness[k]);
   return values;
 }
 

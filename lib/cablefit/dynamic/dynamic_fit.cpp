@@ -9,6 +9,7 @@
 #include "cablefit/dynamic/dynamic_job.hpp"
 #include "cablefit/dynamic/estimates.hpp"
 #include "cablefit/dynamic/ratios.hpp"
+#include "cablefit/samples/agreement.hpp"
 
 namespace cablefit {
 namespace {
@@ -143,6 +144,7 @@ void require_rows(const EquationRows& e, const std::string& preload) {
 }
 
 DynamicPreload fit_preload(DynamicJob job, const ElasticResult& elastic) {
+  require_agreement(job.logs, job.wanted, job.preload);
   DynamicPreload preload;
   preload.name = job.preload;
   preload.linear_motion = job.rig().linear_motion;
@@ -216,6 +218,7 @@ DynamicResult fit_dynamic(std::span<const LogSurvey> logs, const ElasticResult& 
   bool torque = true;
   for (const LogSurvey& log : logs) {
     result.inputs.push_back({log.plan.path, log.sha256, log.n_rows});
+    require_one_joint(log.plan);
     torque &= log.plan.has(Channel::tau);
   }
   const std::vector<std::string> names = preload_names(logs, [&](const PartSurvey& part) {

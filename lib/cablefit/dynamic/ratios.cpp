@@ -7,6 +7,7 @@
 
 #include "cablefit/estimate/least_squares.hpp"
 #include "cablefit/estimate/long_run.hpp"
+#include "cablefit/samples/agreement.hpp"
 
 namespace cablefit {
 namespace {
@@ -14,13 +15,13 @@ namespace {
 struct Ratio {
   const char* name;
   const char* unit;
-  double sign;
+  const char* linear_unit;
   double lower;
 };
-constexpr std::array<Ratio, 4> kRatios = {{{"K/J_link", "1/s^2", 1, 0},
-                                           {"f_v/J_link", "1/s", 1, 0},
-                                           {"f_s/J_link", "rad/s^2", 1, 0},
-                                           {"constant", "rad/s^2", 1, -kUnbounded}}};
+constexpr std::array<Ratio, 4> kRatios = {{{"K/J_link", "1/s^2", "1/s^2", 0},
+                                           {"f_v/J_link", "1/s", "1/s", 0},
+                                           {"f_s/J_link", "rad/s^2", "m/s^2", 0},
+                                           {"constant", "rad/s^2", "m/s^2", -kUnbounded}}};
 constexpr Eigen::Index kResponse = 4;
 
 Equation ratio_equation(double rest_speed) {
@@ -49,10 +50,12 @@ DynamicPreload fit_ratios(std::span<const LogSurvey> logs, const std::string& na
     require_channel(log.plan, Channel::q, "the ratios of a flexible joint");
     require_channel(log.plan, Channel::theta, "the ratios of a flexible joint");
   }
+  require_agreement(logs, wanted, name);
+  const Rig& rig = first_log_with(logs, wanted).plan.rig;
   DynamicPreload preload;
   preload.name = name;
-  preload.linear_motion = logs.front().plan.rig.linear_motion;
-  preload.rig_path = logs.front().plan.rig.path;
+  preload.linear_motion = rig.linear_motion;
+  preload.rig_path = rig.path;
   const ChosenSettings settings = moving_settings(logs, wanted, options.samples, 0);
   preload.decisions = settings.decisions;
   const std::array<Equation, 1> equations = {ratio_equation(settings.rest_speed_q)};
@@ -87,7 +90,7 @@ DynamicPreload fit_ratios(std::span<const LogSurvey> logs, const std::string& na
     const Ratio& ratio = kRatios[static_cast<std::size_t>(k)];
     Estimate e;
     e.name = e.symbol = ratio.name;
-    e.unit = ratio.unit;
+    e.unit = preload.linear_motion ? ratio.linear_unit : ratio.unit;
     e.not_identifiable = s.not_identifiable[static_cast<std::size_t>(k)];
     if (e.not_identifiable.empty()) e.value = s.x(k);
     const double t = t_quantile_975(s.degrees_of_freedom);

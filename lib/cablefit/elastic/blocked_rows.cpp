@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/samples/agreement.hpp"
+
 namespace cablefit {
 namespace {
 
@@ -28,6 +30,7 @@ ElasticJob make_job(std::span<const LogSurvey> logs, const ElasticOptions& optio
                  0,
                  {},
                  false};
+  require_agreement(logs, job.wanted, name);
   job.settings = blocked_settings(logs, job.wanted, options.samples);
   const Rig& rig = job.rig();
   job.orders_given = rig.cables_given && options.order == 0;
@@ -37,8 +40,13 @@ ElasticJob make_job(std::span<const LogSurvey> logs, const ElasticOptions& optio
   if (still) {
     job.still_speed = std::max(job.settings.rest_speed_q, 1e-12);
     // The link rests only for moments: keep more rows of them.
-    if (!options.samples.decimate)
+    if (!options.samples.decimate) {
       job.settings.rows.decimate = std::max(1, job.settings.rows.decimate / 8);
+      for (Decision& decision : job.settings.decisions)
+        if (decision.name == "decimation")
+          decision = {"decimation", std::to_string(job.settings.rows.decimate),
+                      "the link rests only for moments"};
+    }
   }
   return job;
 }

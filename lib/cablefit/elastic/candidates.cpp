@@ -10,11 +10,14 @@
 namespace cablefit {
 namespace {
 
+constexpr double kTautShare = 0.02;
+
 void add_nuisance(Candidate& candidate, const BlockedRows& rows, const Nuisance& nuisance) {
   const auto add = [&](Eigen::Index column, const char* name, double lower) {
     candidate.regressors.push_back(column);
     candidate.names.emplace_back(name);
     candidate.lower.push_back(lower);
+    candidate.held.emplace_back();
   };
   if (nuisance.theta_0 && candidate.model != "linear") {
     add(rows.columns.zero, "theta_0", -kUnbounded);
@@ -23,6 +26,13 @@ void add_nuisance(Candidate& candidate, const BlockedRows& rows, const Nuisance&
   }
   if (nuisance.branches) add(rows.columns.direction, "f_sm", 0);
   if (nuisance.speed) add(rows.columns.speed, "f_vm", -kUnbounded);
+}
+
+/// Pulled so little (first basis column against the deflection, as rms) that its coefficients would
+/// be fitted to noise about its slack point.
+bool hardly_taut(const BlockedRows& rows, Eigen::Index first_column) {
+  const auto& r = rows.rows->r();
+  return r.col(first_column).norm() < kTautShare * r.col(rows.columns.deflection).norm();
 }
 
 Estimate estimate_of(const std::string& name, const std::string& unit, Eigen::Index k,
@@ -142,6 +152,7 @@ Candidate linear_candidate(const BlockedRows& rows, const Nuisance& nuisance) {
   candidate.regressors = {rows.columns.deflection};
   candidate.names = {"K"};
   candidate.lower = {-kUnbounded};
+  candidate.held = {""};
   candidate.n_elastic = 1;
   add_nuisance(candidate, rows, nuisance);
   return candidate;
@@ -157,10 +168,15 @@ Candidate poly_candidate(const ElasticJob& job, const BlockedRows& rows, int ord
   for (std::size_t c = 0; c < rows.transmission.cables.size(); ++c) {
     const Cable& cable = candidate.transmission.cables[c];
     candidate.order = std::max(candidate.order, cable.order);
+    const std::string held =
+        hardly_taut(rows, first)
+            ? fmt::format("cable {} was hardly ever taut in these logs", cable.name)
+            : "";
     for (int k = 0; k < cable.n_coefficients(); ++k) {
       candidate.regressors.push_back(first + k);
       candidate.names.push_back(coefficient_name(cable, k, job.rig().cables_given));
       candidate.lower.push_back(-kUnbounded);
+      candidate.held.push_back(held);
     }
     first += rows.transmission.cables[c].n_coefficients();
   }
@@ -170,8 +186,8 @@ Candidate poly_candidate(const ElasticJob& job, const BlockedRows& rows, int ord
 }
 
 LinearSolution solve_candidate(const BlockedRows& rows, const Candidate& candidate) {
-  return solve(*rows.rows,
-               {candidate.regressors, candidate.names, candidate.lower, rows.torque_response()});
+  return solve(*rows.rows, {candidate.regressors, candidate.names, candidate.lower,
+                            rows.torque_response(), candidate.held});
 }
 
 Transmission fitted_transmission(const Candidate& candidate, const LinearSolution& s) {

@@ -24,7 +24,8 @@ struct Candidate {
   std::vector<Eigen::Index> regressors;
   std::vector<std::string> names;
   std::vector<double> lower;
-  std::size_t n_elastic = 0;  ///< elastic coefficients come first
+  std::vector<std::string> held;  ///< why a coefficient is not estimated; empty: it is
+  std::size_t n_elastic = 0;      ///< elastic coefficients come first
 };
 
 Candidate linear_candidate(const BlockedRows& rows, const Nuisance& nuisance);

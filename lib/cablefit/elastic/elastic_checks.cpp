@@ -68,7 +68,8 @@ void note_loop(ElasticPreload& preload, bool plateaus) {
   const char* unit = preload.linear_motion ? "N" : "N m";
   const ElasticFit& best = *preload.find(preload.selected);
   const Estimate* friction = find_estimate(best.parameters, "f_sm");
-  preload.loop_half_width = friction != nullptr ? friction->value : 0;
+  preload.loop_half_width =
+      friction != nullptr && friction->not_identifiable.empty() ? friction->value : 0;
   const double peak = preload.peak_torque;
   const double share = peak > 0 ? preload.loop_half_width / peak : 0;
   const double left = peak > 0 ? best.rms_error / peak : 0;

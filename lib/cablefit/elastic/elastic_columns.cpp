@@ -12,6 +12,13 @@ Eigen::ArrayXd deflection(const Transmission& transmission, const JointSignals& 
   return s.theta - zero - s.q;
 }
 
+// -1 or 1: the friction branch. In motion the velocity tells it at once; at rest, and where motion
+// does not stand out of the noise (rest_speed 0), the direction of the last motion does.
+Eigen::ArrayXd branch(const JointSignals& s, double rest_speed) {
+  if (!(rest_speed > 0)) return s.approach;
+  return (s.thetad.abs() > rest_speed).select(s.thetad.sign(), s.approach);
+}
+
 // d tau_elas_m / d theta of a fitted transmission, one joint.
 double motor_stiffness(const Transmission& transmission, double q, double theta) {
   if (transmission.cables.empty()) return transmission.linear_stiffness(0);
@@ -76,13 +83,13 @@ Equation blocked_equation(const Transmission& transmission, const Transmission* 
   equation.averaged.assign(static_cast<std::size_t>(c.count),
                            false);  // quasi-static: no difference
   const std::optional<Transmission> curve = pilot ? std::optional(*pilot) : std::nullopt;
-  equation.fill = [transmission, c, curve](const Signals& signals,
-                                           Eigen::Ref<Eigen::MatrixXd> out) {
+  equation.fill = [transmission, c, curve, rest_speed](const Signals& signals,
+                                                       Eigen::Ref<Eigen::MatrixXd> out) {
     const JointSignals& s = signals.joints[0];
     out.col(c.deflection) = deflection(transmission, s);
     elastic_basis(transmission, s, ElasticSide::motor, out.middleCols(c.basis, c.n_basis));
     out.col(c.offset).setOnes();
-    out.col(c.direction) = s.approach;
+    out.col(c.direction) = branch(s, rest_speed);
     out.col(c.speed) = s.thetad;
     if (!curve) {
       out.col(c.zero).setZero();

@@ -84,27 +84,55 @@ void look_at_branches(Stage1& stage, ElasticPreload& preload) {
 }
 
 void require_rows(const BlockedRows& rows, const std::string& preload) {
-  if (rows.rows->n_rows() >= kMinRows) return;
-  throw Error(
-      ErrorKind::not_identifiable,
-      fmt::format(
-          "preload '{}': {} usable rows of a blocked link are too few; sweep the motor slowly "
-          "up and down, several times",
-          preload, rows.rows->n_rows()));
+  if (rows.rows->n_rows() < kMinRows)
+    throw Error(
+        ErrorKind::not_identifiable,
+        fmt::format(
+            "preload '{:.40}': {} usable rows of a blocked link are too few ({} read; {} in "
+            "pieces too short between gaps or changes, {} at their edges; after decimation {} "
+            "at rest, {} not used); sweep the motor slowly up and down, several times",
+            preload, rows.rows->n_rows(), rows.windows.rows_read, rows.windows.rows_too_short,
+            rows.counts.rows_at_edges, rows.counts.rows_at_rest, rows.counts.rows_not_used));
+  if (!(rows.rows->r().col(rows.columns.deflection).norm() > 0))
+    throw Error(
+        ErrorKind::not_identifiable,
+        fmt::format(
+            "preload '{:.40}': theta and q are the same, so there is no deflection; check which "
+            "columns they are, or use 'cablefit dynamic --model rigid'",
+            preload));
 }
 
-/// A motor that stands still says nothing about stiffness.
-void require_motion(const ElasticJob& job) {
+/// Whether a channel varies by more than its noise in any wanted part.
+bool varies(const ElasticJob& job, Channel channel) {
   for (const LogSurvey& log : job.logs)
     for (const PartSurvey& part : log.parts) {
-      const int theta = log.plan.find(Channel::theta);
-      if (theta < 0 || !job.wanted(part)) continue;
-      const ChannelSurvey& channel = part.channels[static_cast<std::size_t>(theta)];
-      if (channel.range() > kStillNoise * std::max(channel.noise, channel.quantum)) return;
+      const int k = log.plan.find(channel);
+      if (k < 0 || !job.wanted(part)) continue;
+      const ChannelSurvey& c = part.channels[static_cast<std::size_t>(k)];
+      if (c.range() > kStillNoise * std::max(c.noise, c.quantum)) return true;
     }
-  throw input_error({job.logs.front().plan.path, 0, 0},
-                    "theta never moves while the link is blocked",
-                    "sweep the motor slowly up and down, and check which column theta is");
+  return false;
+}
+
+/// A motor that stands still, or a torque that never changes, says nothing about stiffness.
+void require_motion(const ElasticJob& job) {
+  const Place place{first_log_with(job.logs, job.wanted).plan.path, 0, 0};
+  if (!varies(job, Channel::theta))
+    throw input_error(place, "theta never moves while the link is blocked",
+                      "sweep the motor slowly up and down, and check which column theta is");
+  if (!varies(job, Channel::tau))
+    throw input_error(place, "tau never changes", "check which column the torque is");
+}
+
+/// Refused rather than silently taken as 0.
+void refuse_search(const Rig& rig) {
+  for (std::size_t c = 0; c < rig.search_elongation.size(); ++c)
+    if (rig.search_elongation[c])
+      throw input_error(
+          {rig.path, 0, 0},
+          fmt::format("initial_elongation \"search\" of cable '{}' is not available yet",
+                      rig.transmission.cables[c].name),
+          "give a number, 0 when unknown");
 }
 
 /// f_sm was asked for and could not be told: say so by name.
@@ -123,6 +151,7 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
   preload.unit = preload.linear_motion ? "m" : "rad";
   preload.rig_path = job.rig().path;
   preload.decisions = job.settings.decisions;
+  preload.warnings = job.settings.warnings;
 
   require_motion(job);
   Stage1 stage{std::move(job), {}, {}};
@@ -167,6 +196,8 @@ ElasticResult fit_elastic(std::span<const LogSurvey> logs, const ElasticOptions&
   ElasticResult result;
   for (const LogSurvey& log : logs) {
     result.inputs.push_back({log.plan.path, log.sha256, log.n_rows});
+    require_one_joint(log.plan);
+    refuse_search(log.plan.rig);
     require_channel(log.plan, Channel::q, "the deflection theta - q");
     require_channel(log.plan, Channel::theta, "the deflection theta - q");
     require_channel(log.plan, Channel::tau, "the elastic torque");

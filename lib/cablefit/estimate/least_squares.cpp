@@ -4,6 +4,7 @@
 
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -29,6 +30,10 @@ struct ScaledSolve {
 ScaledSolve solve_scaled(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
   const Eigen::Index p = a.cols();
   ScaledSolve s;
+  if (p == 0) {  // every parameter stands on its bound
+    s.inverse.resize(0, 0);
+    return s;
+  }
   Eigen::VectorXd norm = a.colwise().norm();
   for (Eigen::Index k = 0; k < p; ++k)
     if (!(norm(k) > 0)) norm(k) = 1;
@@ -68,15 +73,6 @@ std::string null_text(const Eigen::VectorXd& direction, Eigen::Index self,
   return fmt::format("cannot be told apart from {} in these logs", others);
 }
 
-void name_null_directions(const ScaledSolve& s, const LinearProblem& problem, LinearSolution& out) {
-  for (Eigen::Index d = 0; d < s.null_directions.cols(); ++d) {
-    const Eigen::VectorXd direction = s.null_directions.col(d);
-    for (Eigen::Index k = 0; k < direction.size(); ++k)
-      if (std::abs(direction(k)) >= kNullComponent)
-        out.not_identifiable[static_cast<std::size_t>(k)] = null_text(direction, k, problem.names);
-  }
-}
-
 struct FreeFit {
   std::vector<Eigen::Index> free;  // positions within problem.regressors
   ScaledSolve solve;
@@ -93,6 +89,18 @@ FreeFit fit_free(const RowStatistics& rows, const LinearProblem& problem,
         rows.r().col(problem.regressors[static_cast<std::size_t>(fit.free[k])]);
   fit.solve = solve_scaled(a, rows.r() * problem.response);
   return fit;
+}
+
+void name_null_directions(const FreeFit& fit, const LinearProblem& problem, LinearSolution& out) {
+  std::vector<std::string> names;
+  for (const Eigen::Index k : fit.free) names.push_back(problem.names[static_cast<std::size_t>(k)]);
+  for (Eigen::Index d = 0; d < fit.solve.null_directions.cols(); ++d) {
+    const Eigen::VectorXd direction = fit.solve.null_directions.col(d);
+    for (Eigen::Index k = 0; k < direction.size(); ++k)
+      if (std::abs(direction(k)) >= kNullComponent)
+        out.not_identifiable[static_cast<std::size_t>(fit.free[static_cast<std::size_t>(k)])] =
+            null_text(direction, k, names);
+  }
 }
 
 // Physical bounds by an active set: fix the worst offender on its bound and fit again. All bounds
@@ -162,7 +170,13 @@ void honest_covariance(const RowStatistics& rows, const LinearProblem& problem,
   // filter leaves of a bias does not shrink with it.
   for (Eigen::Index k = 0; k < p; ++k) {
     const double white = out.covariance_white(k, k);
-    if (!(out.covariance(k, k) > 0) || out.covariance(k, k) >= white) continue;
+    if (out.covariance(k, k) >= white) continue;
+    if (!(out.covariance(k, k) > 0)) {  // a kernel cut off is not quite positive
+      out.covariance.row(k).setZero();
+      out.covariance.col(k).setZero();
+      out.covariance(k, k) = white;
+      continue;
+    }
     const double grow = std::sqrt(white / out.covariance(k, k));
     out.covariance.row(k) *= grow;
     out.covariance.col(k) *= grow;
@@ -178,19 +192,33 @@ void honest_covariance(const RowStatistics& rows, const LinearProblem& problem,
   out.effective_rows = counted > 0 && inflation > 0 ? n * counted / inflation : n;
 }
 
-void note_correlations(const LinearProblem& problem, LinearSolution& out) {
+void note_correlations(const LinearProblem& problem, const Eigen::MatrixXd& inverse,
+                       LinearSolution& out) {
   const Eigen::Index p = out.x.size();
   out.correlation = Eigen::MatrixXd::Identity(p, p);
   for (Eigen::Index i = 0; i < p; ++i)
     for (Eigen::Index j = 0; j < i; ++j) {
-      const double scale = std::sqrt(out.solve_operator(i, i) * out.solve_operator(j, j));
-      const double c = scale > 0 ? out.solve_operator(i, j) / scale : 0;
+      const double scale = std::sqrt(inverse(i, i) * inverse(j, j));
+      const double c = scale > 0 ? inverse(i, j) / scale : 0;
       out.correlation(i, j) = out.correlation(j, i) = c;
       if (std::abs(c) > kCorrelationWarning)
         out.warnings.push_back(fmt::format("{} and {} can hardly be told apart: correlation {:.3f}",
                                            problem.names[static_cast<std::size_t>(j)],
                                            problem.names[static_cast<std::size_t>(i)], c));
     }
+}
+
+// With one parameter on its bound the others look better determined than they are: what they trade
+// with it is still unknown. Their variance is at least that of the fit without bounds.
+void widen_beside_bounds(LinearSolution& out) {
+  if (std::none_of(out.at_bound.begin(), out.at_bound.end(), [](bool b) { return b; })) return;
+  for (Eigen::Index k = 0; k < out.x.size(); ++k) {
+    const double variance = out.unbounded_sd(k) * out.unbounded_sd(k);
+    if (!(out.covariance(k, k) > 0) || variance <= out.covariance(k, k)) continue;
+    const double grow = std::sqrt(variance / out.covariance(k, k));
+    out.covariance.row(k) *= grow;
+    out.covariance.col(k) *= grow;
+  }
 }
 
 }  // namespace
@@ -207,10 +235,17 @@ LinearSolution solve(const RowStatistics& rows, const LinearProblem& problem) {
   out.at_bound.assign(problem.regressors.size(), false);
   out.n_rows = rows.n_rows();
 
-  const std::vector<bool> none(problem.regressors.size(), false);
-  const FreeFit unbounded = fit_free(rows, problem, none);
-  name_null_directions(unbounded.solve, problem, out);
+  std::vector<bool> held(problem.regressors.size(), false);
+  for (std::size_t k = 0; k < problem.held.size(); ++k) held[k] = !problem.held[k].empty();
+  const FreeFit unbounded = fit_free(rows, problem, held);
+  name_null_directions(unbounded, problem, out);
+  out.at_bound = held;
   const FreeFit fit = fit_bounded(rows, problem, out.at_bound, out.x);
+  for (std::size_t k = 0; k < problem.held.size(); ++k)
+    if (held[k]) {
+      out.at_bound[k] = false;
+      out.not_identifiable[k] = problem.held[k];
+    }
   out.condition_scaled = unbounded.solve.condition_scaled;
   out.condition = unbounded.solve.condition;
   out.solve_operator = expand(fit, p);
@@ -225,11 +260,14 @@ LinearSolution solve(const RowStatistics& rows, const LinearProblem& problem) {
   const double dof = static_cast<double>(std::max<Eigen::Index>(1, out.n_rows - out.n_params));
   out.covariance_white = out.rss / dof * out.solve_operator;
   honest_covariance(rows, problem, out);
-  out.unbounded_x = unbounded.solve.x;
+  out.unbounded_x = Eigen::VectorXd::Zero(p);
+  for (std::size_t k = 0; k < unbounded.free.size(); ++k)
+    out.unbounded_x(unbounded.free[k]) = unbounded.solve.x(static_cast<Eigen::Index>(k));
   // Same noise level and the same ratio of honest to white sd as the bounded fit.
   const double honesty = std::sqrt(static_cast<double>(out.n_rows) / out.effective_rows);
-  out.unbounded_sd = honesty * (out.rss / dof * unbounded.solve.inverse.diagonal()).cwiseSqrt();
-  note_correlations(problem, out);
+  out.unbounded_sd = honesty * (out.rss / dof * expand(unbounded, p).diagonal()).cwiseSqrt();
+  widen_beside_bounds(out);
+  note_correlations(problem, expand(unbounded, p), out);
   return out;
 }
 

@@ -1,6 +1,7 @@
 #include "cablefit/samples/butterworth.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <complex>
 
@@ -46,6 +47,7 @@ void pass(const std::vector<Biquad>& sections, std::vector<Lane>& x) {
 }  // namespace
 
 Butterworth::Butterworth(int order, double cutoff, double rate) {
+  assert(order >= 1 && cutoff > 0 && cutoff < rate / 2);
   const double warped = std::tan(kPi * cutoff / rate);
   double slowest = 0;
   for (int k = 0; k < (order + 1) / 2; ++k) {

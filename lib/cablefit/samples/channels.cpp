@@ -169,4 +169,12 @@ void require_channel(const LogPlan& plan, Channel channel, std::string_view why,
       fmt::format("{}; columns are {}", hint, names_of(plan.header)));
 }
 
+void require_one_joint(const LogPlan& plan) {
+  if (plan.rig.n_joints() == 1) return;
+  throw input_error(
+      {plan.rig.path, 0, 0},
+      fmt::format("the rig has {} joints, and fits are made for one", plan.rig.n_joints()),
+      "write one rig file per joint, with its own columns");
+}
+
 }  // namespace cablefit

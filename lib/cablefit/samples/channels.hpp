@@ -52,4 +52,8 @@ LogPlan plan_log(const std::string& path, const Rig& rig);
 void require_channel(const LogPlan& plan, Channel channel, std::string_view why,
                      std::string_view hint = "add it, or map it in a rig file");
 
+/// The fits handle one joint so far, although logs, rigs and models carry any number. Throws
+/// Error(input) for a rig with more.
+void require_one_joint(const LogPlan& plan);
+
 }  // namespace cablefit

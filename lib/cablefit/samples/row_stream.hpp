@@ -101,7 +101,7 @@ WindowCounts stream_rows(std::span<const LogSurvey> logs, const PartFilter& want
       total.rows_resampled += counts.rows_resampled;
       total.rows_too_short += counts.rows_too_short;
       total.segments += counts.segments;
-      offset += static_cast<Eigen::Index>(logs[k].n_rows) / settings.decimate + 1;
+      offset += static_cast<Eigen::Index>(counts.rows_out) / settings.decimate + 1;
     }
   };
   ordered_pipeline<Item>(

@@ -19,7 +19,7 @@ constexpr double kSamplesPerPeriod = 2.5;  // rows per period of the cut-off aft
 constexpr double kLowestCutoff = 1;
 constexpr int kPilotWindows = 4;
 constexpr double kSlowShare = 0.25;   // of the sweep speed that noise may reach, at four sd
-constexpr double kRestShare = 0.02;   // of the sweep speed: slower is a reversal
+constexpr double kRestShare = 0.05;   // of the sweep speed: slower is a reversal
 constexpr double kStillShare = 0.05;  // of the link's speed: slower is standing still
 constexpr double kSweepLag = 0.25;    // s over which a sweep's speed is measured
 
@@ -45,7 +45,25 @@ void decide(ChosenSettings& chosen, std::string name, std::string value, std::st
 
 const char* kByOption = "given";
 
-void check_cutoff(const SampleOptions& options, double rate) {
+/// Options that no log can meet.
+void check_options(std::span<const LogSurvey> logs, const PartFilter& wanted,
+                   const SampleOptions& options, double rate) {
+  double longest = 0;  // s
+  for (const LogSurvey& log : logs)
+    for (const PartSurvey& part : log.parts)
+      if (wanted(part)) longest = std::max(longest, part.period * static_cast<double>(part.n_rows));
+  if (options.cutoff && *options.cutoff > 0 && *options.cutoff * longest < 2)
+    throw usage_error(
+        fmt::format("--cutoff {:g} Hz has a period as long as the longest log ({:.3g} s)",
+                    *options.cutoff, longest),
+        "choose a higher cut-off, or 0 for no filter");
+  if (options.drop_edge && static_cast<double>(*options.drop_edge) > longest * rate / 2)
+    throw usage_error(fmt::format("--drop-edge {} leaves nothing of the longest log ({:.0f} rows)",
+                                  *options.drop_edge, longest * rate),
+                      "drop fewer rows");
+  if (options.decimate && *options.decimate > longest * rate / 10)
+    throw usage_error(fmt::format("--decimate {} leaves fewer than ten rows", *options.decimate),
+                      "decimate less");
   if (options.cutoff && *options.cutoff >= 0.45 * rate)
     throw usage_error(fmt::format("--cutoff {:g} is not below 0.45 of the sample rate of {:.4g} Hz",
                                   *options.cutoff, rate),
@@ -62,7 +80,9 @@ void choose_decimation(ChosenSettings& chosen, const SampleOptions& options, dou
   if (rows.signal.cutoff > 0)
     rows.decimate = std::max(1, static_cast<int>(rate / (kSamplesPerPeriod * rows.signal.cutoff)));
   decide(chosen, "decimation", std::to_string(rows.decimate),
-         fmt::format("{:g} rows a period of the cut-off", kSamplesPerPeriod));
+         rows.signal.cutoff > 0
+             ? fmt::format("{:g} rows a period of the cut-off", kSamplesPerPeriod)
+             : "no filter, no decimation");
 }
 
 void choose_edges(ChosenSettings& chosen, const SampleOptions& options, double rate) {
@@ -77,7 +97,8 @@ void choose_edges(ChosenSettings& chosen, const SampleOptions& options, double r
       cutoff > 0 ? std::max<Eigen::Index>(kDifferenceEdge,
                                           static_cast<Eigen::Index>(std::ceil(2 * rate / cutoff)))
                  : kDifferenceEdge;
-  decide(chosen, "edge rows", std::to_string(rows.drop_edge), "two periods of the cut-off");
+  decide(chosen, "edge rows", std::to_string(rows.drop_edge),
+         cutoff > 0 ? "two periods of the cut-off" : "what differences cannot reach");
 }
 
 void choose_filter_order(ChosenSettings& chosen, const SampleOptions& options) {
@@ -96,7 +117,11 @@ double pilot_acceleration(std::span<const LogSurvey> logs, std::span<const Pilot
     const JointSignals& s = signals.joints[0];
     const Eigen::ArrayXd& a = channel == Channel::q ? s.qdd : s.thetadd;
     if (a.size() < 3 * kDifferenceEdge) continue;
-    const auto inner = a.segment(kDifferenceEdge, a.size() - 2 * kDifferenceEdge);
+    const Window& w = p.window;  // its own rows: the halo is where the filter settles
+    const Eigen::Index from = std::max(w.begin - w.first, kDifferenceEdge);
+    const Eigen::Index to = std::min(w.end - w.first, a.size() - kDifferenceEdge);
+    if (to <= from) continue;
+    const auto inner = a.segment(from, to - from);
     sum += inner.square().sum();
     n += inner.size();
   }
@@ -239,11 +264,34 @@ std::vector<PilotWindow> pilot_windows(std::span<const LogSurvey> logs, const Pa
   return pilot;
 }
 
+namespace {
+
+/// A sweep that repeats faster than a tenth of the cut-off is not quasi-static.
+void warn_of_haste(std::span<const LogSurvey> logs, const PartFilter& wanted, double sweep,
+                   double cutoff, ChosenSettings& chosen) {
+  double range = 0;
+  for (const LogSurvey& log : logs)
+    for (const PartSurvey& part : log.parts) {
+      const int k = log.plan.find(Channel::theta);
+      if (k >= 0 && wanted(part))
+        range = std::max(range, part.channels[static_cast<std::size_t>(k)].range());
+    }
+  if (!(range > 0) || cutoff <= 0) return;
+  const double frequency = sweep / (2 * range);  // up and down once: twice the range
+  if (frequency > 0.1 * cutoff)
+    chosen.warnings.push_back(fmt::format(
+        "the motor sweeps about {:.2g} times a second: too fast for stage 1, inertia and the "
+        "filter falsify stiffness and friction; sweep slower",
+        frequency));
+}
+
+}  // namespace
+
 ChosenSettings blocked_settings(std::span<const LogSurvey> logs, const PartFilter& wanted,
                                 const SampleOptions& options) {
   ChosenSettings chosen;
   const double rate = highest_rate(logs, wanted);
-  check_cutoff(options, rate);
+  check_options(logs, wanted, options, rate);
   choose_filter_order(chosen, options);
   const double noise = worst_noise(logs, wanted, Channel::theta);
   const double sweep = sweep_speed(logs, wanted, Channel::theta, noise);
@@ -263,7 +311,7 @@ ChosenSettings blocked_settings(std::span<const LogSurvey> logs, const PartFilte
   chosen.rest_speed_q = std::max(4 * velocity_noise(noise_q, band, rate),
                                  kStillShare * sweep_speed(logs, wanted, Channel::q, noise_q));
   if (cutoff > 0)
-    chosen.rows.rest_margin = static_cast<Eigen::Index>(std::ceil(rate / (4 * cutoff)));
+    chosen.rows.rest_margin = static_cast<Eigen::Index>(std::ceil(rate / (2 * cutoff)));
   if (options.rest_speed) {
     chosen.rest_speed_theta = *options.rest_speed;
     decide(chosen, "rest speed", fmt::format("{:.3g}", chosen.rest_speed_theta), kByOption);
@@ -282,7 +330,11 @@ ChosenSettings blocked_settings(std::span<const LogSurvey> logs, const PartFilte
         chosen, "rest speed", fmt::format("{:.3g}", chosen.rest_speed_theta),
         fmt::format("{:g} of the sweep's speed, at least 4 sd of the speed's noise", kRestShare));
   }
-  chosen.rows.signal.torque_held = options.torque_hold == TorqueHold::zoh;
+  const Rig& rig = first_log_with(logs, wanted).plan.rig;
+  // A delay looks like viscous friction, which stage 1 estimates anyway: auto need not decide.
+  chosen.rows.signal.torque_held = options.torque_hold.value_or(rig.torque_hold) == TorqueHold::zoh;
+  chosen.rows.signal.torque_period = rig.torque_period;
+  warn_of_haste(logs, wanted, sweep, cutoff, chosen);
   return chosen;
 }
 
@@ -290,7 +342,7 @@ ChosenSettings moving_settings(std::span<const LogSurvey> logs, const PartFilter
                                const SampleOptions& options, double resonance) {
   ChosenSettings chosen;
   const double rate = highest_rate(logs, wanted);
-  check_cutoff(options, rate);
+  check_options(logs, wanted, options, rate);
   choose_filter_order(chosen, options);
   choose_moving_cutoff(chosen, logs, wanted, options, resonance, rate);
   choose_decimation(chosen, options, rate);

@@ -7,7 +7,7 @@
 namespace cablefit {
 namespace {
 
-// d/dt and d2/dt2 of fourth order; the three values at either end repeat their neighbour and are
+// d/dt and d2/dt2 of fourth order; the two values at either end repeat their neighbour and are
 // never used (kDifferenceEdge).
 void differentiate(const Eigen::ArrayXd& x, double h, Eigen::ArrayXd& first,
                    Eigen::ArrayXd& second) {
@@ -20,6 +20,10 @@ void differentiate(const Eigen::ArrayXd& x, double h, Eigen::ArrayXd& first,
              e = x.tail(m);
   first.segment(2, m) = (a - 8 * b + 8 * d - e) / (12 * h);
   second.segment(2, m) = (16 * (b + d) - a - e - 30 * c) / (12 * h * h);
+  for (Eigen::ArrayXd* x_dot : {&first, &second}) {
+    x_dot->head(2).setConstant((*x_dot)(2));
+    x_dot->tail(2).setConstant((*x_dot)(n - 3));
+  }
 }
 
 void differentiate_velocity(const Eigen::ArrayXd& v, double h, Eigen::ArrayXd& acceleration) {

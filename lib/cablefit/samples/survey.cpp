@@ -17,6 +17,7 @@ constexpr std::size_t kMinRows = 8;
 constexpr double kGapEven = 1.5;  // an even clock: a missing row is a gap
 constexpr double kGapUneven = 5;  // an uneven one: interpolate over a few missed rows, not more
 constexpr double kUnevenJitter = 0.3;  // of the period; less is rounding of the printed time
+constexpr double kAbsurd = 1e30;       // in SI; nothing a joint does comes near
 constexpr double kUnevenShare = 0.01;  // of the steps off by that much; fewer are dropped rows
 // A link whose position varies less than this share of the motor's is blocked.
 constexpr double kStillShare = 0.02;
@@ -92,15 +93,20 @@ struct StepSums {
 // only at the end, so both ways of counting are kept. The scale is the median of the first steps.
 class ClockScan {
  public:
-  void add(double t, bool continues, const Place& place) {
+  /// Whether the time has jumped since the row before: differences must not reach across.
+  bool add(double t, bool continues, const Place& place) {
+    bool jumped = !continues;
     if (n_rows_ == 0) first_ = t;
     if (continues) {
       const double step = t - last_;
       if (!(step > 0)) throw clock_error(t, step, place);
+      jumped = step > kGapEven * last_step_ && last_step_ > 0;
+      last_step_ = step;
       add_step(step);
     }
     last_ = t;
     ++n_rows_;
+    return jumped;
   }
   void fill(PartSurvey& part) {
     if (n_steps_ < early_.size()) calibrate();
@@ -146,7 +152,7 @@ class ClockScan {
 
   std::array<double, 64> early_{};
   StepSums even_, uneven_;
-  double first_ = 0, last_ = 0, median_ = 0;
+  double first_ = 0, last_ = 0, last_step_ = 0, median_ = 0;
   std::size_t n_rows_ = 0, n_steps_ = 0, n_off_ = 0;
 };
 
@@ -155,6 +161,13 @@ struct PartScan {
   ClockScan clock;
   std::vector<ChannelScan> channels;
 };
+
+Error absurd_value(const LogPlan& plan, const Slot& slot, double value, std::uint64_t line) {
+  return input_error({plan.path, line, 0},
+                     fmt::format("{:g} in column '{}' is no physical value", value,
+                                 plan.header.columns[slot.column].name),
+                     "correct it, or leave the row out");
+}
 
 Phase phase_of(const PartTracker::Key& key, const PartSurvey& part, const LogPlan& plan) {
   if (key.phase == "blocked") return Phase::blocked;
@@ -264,13 +277,15 @@ LogSurvey survey_log(const LogPlan& plan, const std::string& preload) {
                                      scans.begin());
         if (current == scans.size())
           scans.push_back({key, {}, std::vector<ChannelScan>(plan.slots.size())});
-        for (ChannelScan& channel : scans[current].channels) channel.restart();
       }
       PartScan& scan = scans[current];
-      scan.clock.add(time_of(plan, chunk, row), !changed, {plan.path, chunk.lines[row], 0});
+      if (scan.clock.add(time_of(plan, chunk, row), !changed, {plan.path, chunk.lines[row], 0}))
+        for (ChannelScan& channel : scan.channels) channel.restart();
       for (std::size_t k = 0; k < plan.slots.size(); ++k) {
         const Slot& slot = plan.slots[k];
-        scan.channels[k].add(chunk.numbers[first_slot + k][row] * slot.factor + slot.shift);
+        const double value = chunk.numbers[first_slot + k][row] * slot.factor + slot.shift;
+        if (!(std::abs(value) < kAbsurd)) throw absurd_value(plan, slot, value, chunk.lines[row]);
+        scan.channels[k].add(value);
       }
     }
     survey.n_rows += chunk.n_rows;
@@ -290,6 +305,12 @@ LogSurvey survey_log(const LogPlan& plan, const std::string& preload) {
                       part.preload,
                       part.run.empty() ? "" : fmt::format(", run '{:.40}'", part.run)),
           fmt::format("at least {} rows are needed to see any motion", kMinRows));
+    if (!(part.period > 0) || !std::isfinite(1 / part.period))
+      throw input_error(
+          {plan.path, 0, 0},
+          fmt::format("no two rows in a row belong to preload '{:.40}'{}", part.preload,
+                      part.run.empty() ? "" : fmt::format(", run '{:.40}'", part.run)),
+          "the preload, phase and run columns should change seldom");
     survey.parts.push_back(std::move(part));
   }
   return survey;

@@ -101,6 +101,7 @@ class SegmentCutter {
     }
     ++segment_;
     rows_before_ += end;
+    counts_.rows_out += static_cast<std::size_t>(end);
     filled_ = 0;
     return go_on;
   }

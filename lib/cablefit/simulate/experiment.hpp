@@ -25,6 +25,7 @@ struct ReplayOptions {
   std::optional<double> window;
   double step = SimulationOptions{}.step;  ///< s
   std::string trajectories;                ///< CSV file of every row; empty: none
+  int threads = 1;                         ///< logs at a time, unless trajectories are written
 };
 
 /// The rig of a log as the simulation of `model` wants it: --rig, else the one beside the log, else

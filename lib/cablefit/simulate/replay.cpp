@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <memory>
 #include <vector>
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/base/parallel.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/simulate/part_replay.hpp"
 #include "cablefit/simulate/trajectory_file.hpp"
@@ -15,6 +18,9 @@ namespace cablefit {
 namespace {
 
 constexpr Eigen::Index kMinRows = 8;  // of a stretch, as of a part
+
+/// Rows of the log of that number, from 1.
+using TrajectorySink = std::function<void(std::size_t, const ReplayedRows&)>;
 
 bool is_of_model(const Model& model, const PartSurvey& part) {
   return model.preload.empty() || part.preload == model.preload;
@@ -63,7 +69,7 @@ class LogReplay {
     return std::none_of(replays_.begin(), replays_.end(), [](const auto& r) { return bool(r); });
   }
 
-  void run(const RowSink& sink, SimulateResult& result) {
+  std::vector<SimulatedPart> run(const RowSink& sink) {
     const auto wanted = [&](const PartSurvey& part) {
       return bool(replays_[static_cast<std::size_t>(&part - log_.parts.data())]);
     };
@@ -72,11 +78,13 @@ class LogReplay {
           replays_[window.part]->add(window, sink);
           return true;
         });
+    std::vector<SimulatedPart> parts;
     for (const auto& replay : replays_) {
       if (!replay) continue;
-      result.parts.push_back(replay->result());
-      result.parts.back().counts = counts;
+      parts.push_back(replay->result());
+      parts.back().counts = counts;
     }
+    return parts;
   }
 
  private:
@@ -100,6 +108,23 @@ std::vector<LogReplay> plan_logs(const Model& model, std::span<const LogSurvey> 
   return replays;
 }
 
+/// The logs side by side on their own threads; their results in order.
+void run_logs(std::vector<LogReplay>& replays, int threads, const TrajectorySink& sink,
+              SimulateResult& result) {
+  ordered_pipeline<std::size_t>(
+      threads,
+      [&](auto emit) {
+        for (std::size_t k = 0; k < replays.size(); ++k) emit(std::size_t{k});
+      },
+      [&](std::size_t k) {
+        if (!sink) return replays[k].run(nullptr);
+        return replays[k].run([&](const ReplayedRows& rows) { sink(k + 1, rows); });
+      },
+      [&](std::vector<SimulatedPart> parts) {
+        std::move(parts.begin(), parts.end(), std::back_inserter(result.parts));
+      });
+}
+
 }  // namespace
 
 SimulateResult simulate_logs(const Model& model, std::span<const LogSurvey> logs,
@@ -111,16 +136,14 @@ SimulateResult simulate_logs(const Model& model, std::span<const LogSurvey> logs
   result.linear_motion = model.rig.linear_motion;
   result.trajectories = options.trajectories;
   std::vector<LogReplay> replays = plan_logs(model, logs, options, result);
-  std::unique_ptr<TrajectoryFile> file;
-  if (!options.trajectories.empty()) {
-    file = std::make_unique<TrajectoryFile>(options.trajectories, model);
+  if (options.trajectories.empty()) {
+    run_logs(replays, options.threads, nullptr, result);
+    return result;
   }
-  for (std::size_t k = 0; k < replays.size(); ++k) {
-    RowSink sink;
-    if (file) sink = [&](const ReplayedRows& rows) { file->add(k + 1, rows); };
-    replays[k].run(sink, result);
-  }
-  if (file) file->finish();
+  TrajectoryFile file(options.trajectories, model);
+  const auto write = [&](std::size_t log, const ReplayedRows& rows) { file.add(log, rows); };
+  run_logs(replays, 1, write, result);  // rows of the file in the order of the logs
+  file.finish();
   return result;
 }
 

@@ -1,0 +1,149 @@
+// cablefit simulate: a model on the input of logs.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "cablefit/base/digest.hpp"
+#include "cablefit/base/error.hpp"
+#include "cablefit/report/simulate_document.hpp"
+#include "cablefit/report/simulate_json.hpp"
+#include "cablefit/simulate/replay.hpp"
+#include "commands/command.hpp"
+#include "commands/command_line.hpp"
+#include "commands/delivery.hpp"
+#include "commands/problems.hpp"
+#include "commands/progress.hpp"
+
+namespace cablefit::apps {
+namespace {
+
+constexpr const char* kExample =
+    "Example, after 'cablefit elastic' and 'cablefit dynamic':\n"
+    "  cablefit simulate cablefit-out/dynamic.json data/low/moving_load30.csv --preload low\n"
+    "MODEL left out: OUT/dynamic.json. Exit code 4: a simulation diverged.\n";
+
+struct SimulateCommand {
+  CommonOptions common;  ///< its logs: MODEL and the logs
+  ReplayOptions replay;
+  std::string model;  ///< --model
+};
+
+void add_model_options(CLI::App& app, SimulateCommand& command) {
+  app.add_option("MODEL LOG", command.common.logs,
+                 "model file or result of 'cablefit dynamic', then logs: CSV or JSON, also .gz "
+                 "and .zst")
+      ->type_name("");
+  app.add_option("--model", command.model,
+                 "which fit of a result [the only one, else poly, else the first]")
+      ->type_name("NAME");
+  app.add_option("--preload", command.common.preload,
+                 "which preload of a result [the only one, else the first]")
+      ->type_name("NAME");
+  app.add_option("--rig", command.common.rig,
+                 "rig file; default: rig.json beside each log, else the model's")
+      ->type_name("FILE");
+}
+
+void add_replay_options(CLI::App& app, ReplayOptions& replay) {
+  add_choice(
+      app, "--mode", "mode", {"auto", "closed-loop", "torque"},
+      [&replay](const std::string& name) {
+        replay.mode = name == "auto"     ? ReplayMode::automatic
+                      : name == "torque" ? ReplayMode::torque
+                                         : ReplayMode::closed_loop;
+      },
+      "by the rig's controller, or by the torque of the log [auto: the controller if its "
+      "reference is in the log]");
+  add_number(
+      app, "--window", "S", {0}, [&replay](double seconds) { replay.window = seconds; },
+      "start anew from the measured state this often; 0: never [torque: 1, closed loop: 0]");
+  add_choice(
+      app, "--torque-hold", "torque hold", {"auto", "zoh", "none"},
+      [&replay](const std::string& name) {
+        replay.torque_hold = name == "zoh"    ? TorqueHold::zoh
+                             : name == "none" ? TorqueHold::none
+                                              : TorqueHold::automatic;
+      },
+      "is a replayed tau held until the next row (zoh), or linear between rows (none)");
+  add_number(
+      app, "--step", "S", {1e-9, 1}, [&replay](double seconds) { replay.step = seconds; },
+      "longest step of the integration [25e-6]");
+  app.add_option("--trajectories", replay.trajectories,
+                 "CSV of every row, measured and simulated, with cable tensions")
+      ->type_name("FILE");
+}
+
+bool is_json(const std::string& path) { return std::filesystem::path(path).extension() == ".json"; }
+
+/// MODEL, taken off the front of the arguments.
+std::string take_model(CommonOptions& options) {
+  std::vector<std::string>& given = options.logs;
+  const std::string usual = (std::filesystem::path(options.out) / "dynamic.json").string();
+  if (given.empty())
+    throw usage_error("no model and no log given", "see 'cablefit simulate --help'");
+  if (is_json(given.front())) {
+    const std::string model = given.front();
+    given.erase(given.begin());
+    return model;
+  }
+  std::error_code ignored;
+  if (std::filesystem::exists(usual, ignored)) return usual;
+  throw usage_error(fmt::format("no model given and no {}", usual),
+                    "name a model file or a result of 'cablefit dynamic' before the logs");
+}
+
+std::vector<LogSurvey> read_logs_for(const Model& model, const CommonOptions& options) {
+  if (options.logs.empty()) throw usage_error("no log given", "name one or more logs after MODEL");
+  const Progress progress(options.quiet, "reading logs");
+  std::vector<LogSurvey> logs;
+  Problems problems;
+  for (const std::string& path : options.logs) {
+    problems.collect([&] { logs.push_back(survey_for_simulation(path, options.rig, model)); });
+  }
+  problems.throw_if_any();
+  return logs;
+}
+
+SimulateResult run_simulation(SimulateCommand& command) {
+  const std::string path = take_model(command.common);
+  std::string choice;
+  const Model model = read_model(path, command.common.preload, command.model, choice);
+  const std::vector<LogSurvey> logs = read_logs_for(model, command.common);
+  const Progress progress(command.common.quiet, "simulating");
+  command.replay.threads = command.common.samples.threads;
+  SimulateResult result = simulate_logs(model, logs, command.replay);
+  result.model_path = path;
+  result.model_choice = choice;
+  result.inputs.insert(result.inputs.begin(), {path, sha256_of_file(path), 0});
+  return result;
+}
+
+/// Exit code 4, with every place where a simulation ended.
+void throw_if_diverged(const SimulateResult& result) {
+  Problems problems;
+  for (const SimulatedPart& part : result.parts) {
+    if (!part.diverged.empty()) problems.add(Error(ErrorKind::not_identifiable, part.diverged));
+  }
+  problems.throw_if_any();
+}
+
+}  // namespace
+
+int run_simulate(const Arguments& arguments) {
+  CLI::App app("A model on the input of logs: positions, torques, gap against what was measured.",
+               "simulate");
+  SimulateCommand command;
+  add_model_options(app, command);
+  add_replay_options(app, command.replay);
+  add_output_options(app, command.common);
+  app.footer(kExample);
+  if (!parse(app, arguments)) return 0;
+
+  const SimulateResult result = run_simulation(command);
+  deliver(command.common, simulate_document(result), {{"simulate.json", simulate_json(result)}});
+  throw_if_diverged(result);
+  return 0;
+}
+
+}  // namespace cablefit::apps

@@ -1,0 +1,108 @@
+// cablefit simulate from the outside: command, exit code, text and files.
+#include <catch2/catch.hpp>
+
+#include "tests/cli/case_file.hpp"
+
+namespace {
+
+using namespace cablefit::test;
+
+/// Table 1 and Table 2 of the paper, low preload: the parameters of the shipped low logs.
+constexpr const char* kModel = R"({
+  "schema": "cablefit/model/1", "preload": "low",
+  "joints": [{"link": {"inertia": {"J_link": 0.339}, "viscous": {"f_v": 5.601},
+                       "coulomb": {"f_s": 3.274}},
+              "motor": {"inertia": {"J_motor": 0.0133}, "viscous": {"f_vm": 1.0654},
+                        "coulomb": {"f_sm": 2.778}, "offset": {"offset": 0.0286}}}],
+  "transmission": {"cables": [{"name": "1", "coefficients": [1367.7, 37844.1]},
+                              {"name": "2", "coefficients": [1575.3, 29357.2]}]}})";
+
+Outcome run(const std::string& command, const std::string& model = kModel) {
+  Case wanted;
+  wanted.files = {{"model.json", model},
+                  {"short.csv", "t,q\n0,0\n1,0\n2,0\n3,0\n4,0\n5,0\n6,0\n7,0\n"}};
+  wanted.prepare = {"cp '" CABLEFIT_DATA "'/low/blocked.csv '" CABLEFIT_DATA
+                    "'/low/moving_load30.csv '" CABLEFIT_DATA "'/low/rig.json ."};
+  wanted.run = command;
+  return run_case(wanted);
+}
+
+using Files = std::vector<std::string>;
+
+TEST_CASE("simulate prints gaps and writes its result") {
+  const Outcome outcome =
+      run("cablefit simulate model.json moving_load30.csv blocked.csv --trajectories rows.csv "
+          "--report gaps.csv --json all.json");
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err == "");
+  CHECK_THAT(outcome.out, Catch::Matchers::Contains("Gap: simulated minus measured"));
+  CHECK_THAT(outcome.out,
+             Catch::Matchers::Contains("Model: model 'poly' of model.json, from model.json."));
+  CHECK(outcome.created == Files{"all.json", "cablefit-out/simulate.json", "gaps.csv", "rows.csv"});
+}
+
+TEST_CASE("simulate takes the result of stage 2 when no model is named") {
+  const Outcome outcome =
+      run("cablefit dynamic blocked.csv moving_load30.csv --quiet 2> warnings; "
+          "cablefit simulate moving_load30.csv --model linear");
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.out, Catch::Matchers::Contains("model 'linear', from "
+                                                    "cablefit-out/dynamic.json."));
+}
+
+void check_refused(const std::string& command, int exit_code, const std::string& message) {
+  const Outcome outcome = run(command);
+  INFO(command);
+  CHECK(outcome.exit_code == exit_code);
+  CHECK(outcome.out == "");
+  CHECK(outcome.err == message + "\n");
+  CHECK(outcome.created == Files{});
+}
+
+TEST_CASE("what simulate refuses") {
+  check_refused("cablefit simulate", 2,
+                "no model and no log given; see 'cablefit simulate --help'");
+  check_refused("cablefit simulate model.json", 2,
+                "no log given; name one or more logs after MODEL");
+  check_refused("cablefit simulate blocked.csv", 2,
+                "no model given and no cablefit-out/dynamic.json; name a model file or a result of "
+                "'cablefit dynamic' before the logs");
+  check_refused("cablefit simulate model.json blocked.csv --mode open", 2,
+                "unknown mode 'open'; known: auto, closed-loop, torque");
+  check_refused("cablefit simulate model.json short.csv --trajectories rows.csv", 3,
+                "short.csv:1: missing column 'theta', needed for the initial state of a "
+                "simulation; add it, or map it in a rig file; columns are t, q");
+  check_refused("cablefit simulate model.json blocked.csv --mode closed-loop", 3,
+                "blocked.csv: no reference 'theta_ref' in the log; a closed loop needs both; or "
+                "replay the torque");
+}
+
+TEST_CASE("a result of stage 1 alone is no model") {
+  const Outcome outcome =
+      run("cablefit elastic blocked.csv --quiet --order 2 && "
+          "cablefit simulate cablefit-out/elastic.json moving_load30.csv");
+  CHECK(outcome.exit_code == 3);
+  CHECK(outcome.err ==
+        "cablefit-out/elastic.json:2:13: schema 'cablefit/elastic/1' is no model; expected "
+        "'cablefit/model/1', or 'cablefit/dynamic/1' as `cablefit dynamic` writes it\n");
+}
+
+TEST_CASE("exit code 4 when a simulation diverges, its result is written all the same") {
+  std::string model = kModel;
+  model.replace(model.find("1367.7, 37844.1"), 15, "-1e5, 0");
+  const Outcome outcome = run("cablefit simulate model.json moving_load30.csv --quiet", model);
+  CHECK(outcome.exit_code == 4);
+  CHECK_THAT(outcome.err,
+             Catch::Matchers::Contains("moving_load30.csv: the simulation diverged at t = "));
+  CHECK(outcome.created == Files{"cablefit-out/simulate.json"});
+}
+
+TEST_CASE("trajectories that cannot be written") {
+  const Outcome outcome =
+      run("cablefit simulate model.json blocked.csv --trajectories model.json/rows.csv");
+  CHECK(outcome.exit_code == 5);
+  CHECK(outcome.err == "cannot write model.json/rows.csv: Not a directory\n");
+  CHECK(outcome.created == Files{});
+}
+
+}  // namespace
