@@ -5,7 +5,7 @@ cd "$root"
 jobs="$(nproc)"
 
 # What cablefit needs of Debian 12: to build and test it, and to check it as well.
-build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libceres-dev libcli11-dev
+build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libcli11-dev
                 nlohmann-json3-dev libfmt-dev libfast-float-dev zlib1g-dev libzstd-dev libssl-dev
                 catch2)
 check_packages=(clang-format-14 clang-tidy-14 python3)

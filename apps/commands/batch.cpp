@@ -26,12 +26,27 @@ constexpr int kGateFailed = 1;
 /// The gravest of what went wrong: 5, 3, 4, 1 in that order.
 int exit_code(const BatchResult& result) {
   int code = 0;
-  const auto rank = [](int c) { return c == 5 ? 4 : c == 3 ? 3 : c == 4 ? 2 : c == 1 ? 1 : 0; };
+  // A mistake in the campaign (2) that only shows when a cell is fitted counts as bad input does.
+  const auto rank = [](int c) {
+    return c == 5 ? 4 : c == 3 || c == 2 ? 3 : c == 4 ? 2 : c == 1 ? 1 : 0;
+  };
   for (const BatchCell& cell : result.cells)
     if (rank(cell.exit_code) > rank(code)) code = cell.exit_code;
   const bool failed = std::any_of(result.gates.begin(), result.gates.end(),
                                   [](const Gate& gate) { return !gate.passed; });
   return code == 0 && failed ? kGateFailed : code;
+}
+
+/// Everything a campaign reads.
+std::vector<std::string> files_of(const Campaign& campaign) {
+  std::vector<std::string> files = {campaign.path};
+  if (!campaign.limits.drift_baseline.empty()) files.push_back(campaign.limits.drift_baseline);
+  for (const CampaignCell& cell : campaign.cells) {
+    if (!cell.rig.empty()) files.push_back(cell.rig);
+    for (const auto* logs : {&cell.blocked, &cell.moving, &cell.validation})
+      files.insert(files.end(), logs->begin(), logs->end());
+  }
+  return files;
 }
 
 /// A failed gate is never silent.
@@ -58,7 +73,9 @@ int run_batch(const Arguments& arguments) {
   BatchOptions batch;
   batch.samples = options.samples;
   batch.honest_sd = batch.elastic.honest_sd = options.honest_sd;
-  const BatchResult result = cablefit::run_batch(read_campaign(path), batch);
+  const Campaign campaign = read_campaign(path);
+  options.more_inputs = files_of(campaign);
+  const BatchResult result = cablefit::run_batch(campaign, batch);
   deliver(options, batch_document(result),
           {{"batch.json", batch_json(result)},
            {"elastic.json", elastic_json(result.all_elastic())},

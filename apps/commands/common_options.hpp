@@ -13,6 +13,7 @@ namespace cablefit::apps {
 
 struct CommonOptions {
   std::vector<std::string> logs;
+  std::vector<std::string> more_inputs;  ///< other files read, which no result may replace
   std::string rig;
   std::string out = "cablefit-out";
   std::string json;  ///< "-": standard output, and nothing else there

@@ -4,8 +4,11 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <system_error>
 
+#include "cablefit/base/error.hpp"
 #include "cablefit/base/output_file.hpp"
+#include "cablefit/base/quote.hpp"
 #include "cablefit/report/escape.hpp"
 #include "cablefit/report/writers.hpp"
 #include "commands/problems.hpp"
@@ -13,7 +16,44 @@
 namespace cablefit::apps {
 namespace {
 
+std::string quoted_path(const std::string& path) { return cablefit::quoted(path); }
+
 bool is_stdout(const std::string& path) { return path == "-"; }
+
+/// Every file this run writes.
+std::vector<std::string> targets(const CommonOptions& options,
+                                 const std::vector<ResultFile>& results) {
+  std::vector<std::string> paths = options.reports;
+  for (const ResultFile& result : results)
+    if (!result.name.empty())
+      paths.push_back((std::filesystem::path(options.out) / result.name).string());
+  if (!options.json.empty() && !is_stdout(options.json)) paths.push_back(options.json);
+  return paths;
+}
+
+/// A result never replaces what it was made from, nor another result of the same run.
+void refuse_collisions(const CommonOptions& options, const std::vector<ResultFile>& results) {
+  const std::vector<std::string> paths = targets(options, results);
+  const auto same = [](const std::string& a, const std::string& b) {
+    std::error_code ignored;
+    return std::filesystem::weakly_canonical(a, ignored) ==
+           std::filesystem::weakly_canonical(b, ignored);
+  };
+  std::vector<std::string> inputs = options.logs;
+  inputs.insert(inputs.end(), options.more_inputs.begin(), options.more_inputs.end());
+  if (!options.rig.empty()) inputs.push_back(options.rig);
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    for (const std::string& input : inputs)
+      if (same(paths[k], input))
+        throw usage_error(
+            fmt::format("{} would be overwritten by the result made from it", quoted_path(input)),
+            "choose another --out, --json or --report");
+    for (std::size_t j = 0; j < k; ++j)
+      if (same(paths[k], paths[j]))
+        throw usage_error(fmt::format("{} would be written twice", quoted_path(paths[k])),
+                          "give each result a file of its own");
+  }
+}
 
 void print(const CommonOptions& options, const Document& document) {
   if (!options.quiet && !is_stdout(options.json)) {
@@ -29,6 +69,7 @@ void print(const CommonOptions& options, const Document& document) {
 
 void deliver(const CommonOptions& options, const Document& document,
              const std::vector<ResultFile>& results) {
+  refuse_collisions(options, results);
   Problems problems;
   const auto write = [&problems](const std::string& path, const std::string& content) {
     problems.collect([&] { write_whole(path, content); });

@@ -165,6 +165,8 @@ int run_dynamic(const Arguments& arguments) {
   Stage1 stage1;
   const bool is_elastic = !moving.empty() && needs_stage1(command, moving);
   if (is_elastic) stage1 = get_stage1(command, logs);
+  for (const InputFile& input : stage1.inputs)
+    if (!stage1.is_new) options.more_inputs.push_back(input.path);
   DynamicResult result = [&] {
     const Progress progress(options.quiet, "fitting stage 2");
     return fit_dynamic(moving.empty() ? logs : moving, stage1.result, command.fit);

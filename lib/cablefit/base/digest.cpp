@@ -46,7 +46,7 @@ class Sha256 {
 }  // namespace
 
 std::string sha256_of_file(const std::string& path) {
-  InputFile file(path);
+  FileReader file(path);
   Sha256 sha256;
   std::vector<char> block(kBlockBytes);
   while (const std::size_t n_read = file.read(block.data(), block.size())) {

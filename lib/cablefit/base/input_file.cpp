@@ -1,6 +1,7 @@
 #include "cablefit/base/input_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -26,14 +27,25 @@ ssize_t read_uninterrupted(int descriptor, char* to, std::size_t n_bytes) {
 
 }  // namespace
 
-InputFile::InputFile(std::string path)
-    : path_(std::move(path)), descriptor_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC)) {
+FileReader::FileReader(std::string path)
+    : path_(std::move(path)),
+      descriptor_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
   if (descriptor_ < 0) throw_cannot_read(path_);
+  struct stat status {};
+  if (::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode)) return;
+  const bool is_folder = S_ISDIR(status.st_mode);
+  ::close(descriptor_);
+  if (is_folder) {
+    errno = EISDIR;
+    throw_cannot_read(path_);
+  }
+  throw Error(ErrorKind::input,
+              "cannot read " + path_ + ": it is no regular file, and is read more than once");
 }
 
-InputFile::~InputFile() { ::close(descriptor_); }
+FileReader::~FileReader() { ::close(descriptor_); }
 
-std::size_t InputFile::read(char* to, std::size_t n_bytes) {
+std::size_t FileReader::read(char* to, std::size_t n_bytes) {
   std::size_t n_total = 0;
   while (n_total < n_bytes) {
     const ssize_t n_read = read_uninterrupted(descriptor_, to + n_total, n_bytes - n_total);

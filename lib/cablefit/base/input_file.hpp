@@ -6,12 +6,12 @@
 
 namespace cablefit {
 
-class InputFile {
+class FileReader {
  public:
-  explicit InputFile(std::string path);
-  ~InputFile();
-  InputFile(const InputFile&) = delete;
-  InputFile& operator=(const InputFile&) = delete;
+  explicit FileReader(std::string path);
+  ~FileReader();
+  FileReader(const FileReader&) = delete;
+  FileReader& operator=(const FileReader&) = delete;
 
   const std::string& path() const { return path_; }
   /// Up to `n_bytes` (> 0) bytes, fewer only near the end; 0 at the end.

@@ -178,7 +178,7 @@ Error JsonNode::error(const std::string& what, const std::string& hint) const {
 }
 
 JsonNode read_json_file(const std::string& path, std::size_t max_bytes) {
-  InputFile file(path);
+  FileReader file(path);
   std::vector<char> block(kBlockBytes);
   std::size_t n_total = 0;
   const NextBlock next_block = [&]() -> std::string_view {

@@ -8,7 +8,7 @@
 namespace cablefit {
 
 /// `produce(emit)` runs on the calling thread and hands items to emit(item) -> bool (false: stop).
-/// `map(item)` runs on up to `threads - 1` other threads (inline when threads <= 1) and must not
+/// `map(item)` runs on up to `threads` other threads (inline when threads <= 1) and must not
 /// touch shared state; `reduce(result)` runs on the calling thread in the order of production. An
 /// exception from any of them comes out here, after the running tasks have ended.
 template <class Item, class Produce, class Map, class Reduce>

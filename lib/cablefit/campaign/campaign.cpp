@@ -104,11 +104,11 @@ Campaign read_campaign(const std::string& path) {
   if (!cells.is_array() || cells.items.empty())
     throw cells.error("'cells' is empty",
                       "a cell is {\"rig\", \"preload\", \"blocked\", \"moving\"}");
-  std::set<std::pair<std::string, std::string>> seen;
+  std::set<std::string> seen;
   for (const JsonNode& node : cells.items) {
     campaign.cells.push_back(read_cell(node, path));
     const CampaignCell& cell = campaign.cells.back();
-    if (!seen.insert({cell.rig, cell.preload}).second)
+    if (!seen.insert(cell.preload).second)
       throw node.error(fmt::format("a second cell of preload {}", cablefit::quoted(cell.preload)),
                        "merge the two, or name the preloads differently");
   }

@@ -108,6 +108,12 @@ void judge_drift(const Campaign& campaign, const JsonNode& baseline, const Batch
               baseline_value(cells, "dynamic", preload.name, fit->model, e.name), limit));
 }
 
+/// What could not be fitted has not met its limits.
+Gate missing_gate(const BatchCell& cell) {
+  return {"fitted", cell.name, kNone,
+          kNone,    false,     fmt::format("FAILED: {}: could not be fitted", cell.name)};
+}
+
 JsonNode read_baseline(const std::string& path) {
   JsonNode root = read_json_file(path);
   const JsonNode& schema = root.at("schema");
@@ -126,7 +132,10 @@ std::vector<Gate> judge(const Campaign& campaign, const std::vector<BatchCell>& 
   JsonNode baseline;
   if (!limits.drift_baseline.empty()) baseline = read_baseline(limits.drift_baseline);
   for (const BatchCell& cell : cells) {
-    if (!cell.error.empty()) continue;
+    if (!cell.error.empty() || !cell.elastic) {
+      gates.push_back(missing_gate(cell));
+      continue;
+    }
     if (cell.dynamic)
       for (const DynamicPreload& preload : cell.dynamic->preloads) {
         const DynamicFit* fit = gated_fit(cell, preload);

@@ -122,15 +122,43 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
       note_extrapolation(stage1, found, job.elastic.front()->transmission.theta_0(0), preload);
 }
 
-void note_load(const LogSurvey& log, DynamicPreload& preload, bool rigid) {
-  const Load& load = log.plan.rig.load;
+void note_load(const DynamicJob& job, DynamicPreload& preload) {
+  const Load& load = job.rig().load;
   if (load.law != nullptr) {
     preload.load_inertia = load.law->inertia(load.parameters);
+    const bool by_position =
+        load.law->torque(load.parameters, 0.1) != load.law->torque(load.parameters, -0.2);
+    if (job.rigid && !load.law->from_column && by_position)
+      require_channel(job.first_log().plan, Channel::theta, "a load that depends on position");
     return;
   }
-  if (!rigid && !log.plan.has(Channel::tau_load))
-    preload.warnings.push_back(
-        "no tau_load column and no load law in the rig file: the load torque is taken as 0");
+  for (const LogSurvey& log : job.logs)
+    if (!job.rigid && std::any_of(log.parts.begin(), log.parts.end(), job.wanted) &&
+        !log.plan.has(Channel::tau_load))
+      preload.warnings.push_back(fmt::format(
+          "{}: no tau_load column and no load law in the rig file: the load torque is taken as 0",
+          log.plan.path));
+}
+
+/// The curve of stage 1 must hold the link, not push it.
+void require_restoring(const ElasticFit& fit, const std::string& preload) {
+  if (fit.transmission.cables.empty() && !(fit.transmission.linear_stiffness(0) > 0))
+    throw Error(ErrorKind::not_identifiable,
+                fmt::format("stage 1 of preload '{:.40}' has a negative stiffness: the sign of "
+                            "tau, theta or q is turned "
+                            "round; set it in the rig file and run 'cablefit elastic' again",
+                            preload));
+}
+
+void require_torque(const DynamicJob& job) {
+  for (const LogSurvey& log : job.logs) {
+    const int k = log.plan.find(Channel::tau);
+    for (const PartSurvey& part : log.parts)
+      if (k >= 0 && job.wanted(part) && part.channels[static_cast<std::size_t>(k)].range() > 0)
+        return;
+  }
+  throw input_error({job.first_log().plan.path, 0, 0}, "tau never changes",
+                    "check which column the torque is");
 }
 
 void require_rows(const EquationRows& e, const std::string& preload) {
@@ -149,7 +177,8 @@ DynamicPreload fit_preload(DynamicJob job, const ElasticResult& elastic) {
   preload.name = job.preload;
   preload.linear_motion = job.rig().linear_motion;
   preload.rig_path = job.rig().path;
-  note_load(job.first_log(), preload, job.rigid);
+  require_torque(job);
+  note_load(job, preload);
   choose_settings(job, preload, elastic);
   std::vector<EquationRows> equations = make_equations(job);
   preload.windows = collect_rows(job, equations);
@@ -193,6 +222,12 @@ const ElasticFit& stage1_fit(const ElasticResult& elastic, const std::string& pr
                   preload, names.empty() ? "none" : names));
 }
 
+bool any_torque(std::span<const LogSurvey> logs, const PartFilter& wanted) {
+  return std::any_of(logs.begin(), logs.end(), [&](const LogSurvey& log) {
+    return log.plan.has(Channel::tau) && std::any_of(log.parts.begin(), log.parts.end(), wanted);
+  });
+}
+
 void check_names(const DynamicOptions& options) {
   std::vector<std::string_view> known;
   for (const Estimator& row : kEstimators) known.push_back(row.name);
@@ -215,11 +250,9 @@ DynamicResult fit_dynamic(std::span<const LogSurvey> logs, const ElasticResult& 
                           const DynamicOptions& options) {
   check_names(options);
   DynamicResult result;
-  bool torque = true;
   for (const LogSurvey& log : logs) {
     result.inputs.push_back({log.plan.path, log.sha256, log.n_rows});
     require_one_joint(log.plan);
-    torque &= log.plan.has(Channel::tau);
   }
   const std::vector<std::string> names = preload_names(logs, [&](const PartSurvey& part) {
     return part.phase == Phase::moving &&
@@ -234,15 +267,19 @@ DynamicResult fit_dynamic(std::span<const LogSurvey> logs, const ElasticResult& 
     const PartFilter wanted = [name](const PartSurvey& part) {
       return part.phase == Phase::moving && part.preload == name;
     };
-    if (ratios || (!torque && !rigid)) {
+    if (ratios || (!rigid && !any_torque(logs, wanted))) {
       result.preloads.push_back(fit_ratios(logs, name, wanted, options));
       continue;
     }
     DynamicJob job{logs, options, name, wanted, {}, options.models, rigid, {}};
-    for (const LogSurvey& log : logs) require_channels(log.plan, rigid);
+    for (const LogSurvey& log : logs)
+      if (std::any_of(log.parts.begin(), log.parts.end(), wanted))
+        require_channels(log.plan, rigid);
     if (!rigid)
-      for (const std::string& model : options.models)
+      for (const std::string& model : options.models) {
         job.elastic.push_back(&stage1_fit(elastic, name, model));
+        require_restoring(*job.elastic.back(), name);
+      }
     result.preloads.push_back(fit_preload(std::move(job), elastic));
   }
   return result;

@@ -22,6 +22,7 @@ std::vector<EquationRows> make_equations(const DynamicJob& job) {
         side == Side::link ? job.settings.rest_speed_q : job.settings.rest_speed_theta;
     e.equation =
         dynamic_equation(e.columns, job.elastic, job.settings.rows.signal.torque_held, rest);
+    if (side == Side::link) e.equation.cutoff = job.settings.cutoff_q;
     equations.push_back(std::move(e));
   }
   return equations;

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "cablefit/dynamic/dynamic_job.hpp"
@@ -75,10 +77,15 @@ void choose_settings(DynamicJob& job, DynamicPreload& preload, const ElasticResu
   const TorqueHold hold = job.options.samples.torque_hold.value_or(job.rig().torque_hold);
   std::string reason = preload.delay.reason;
   if (hold != TorqueHold::automatic) {
-    preload.delay.held = hold == TorqueHold::zoh;
+    const bool held = hold == TorqueHold::zoh;
+    if (preload.delay.estimated && held != preload.delay.held && preload.delay.warning.empty())
+      preload.delay.warning = fmt::format("torque hold {} was given, but {}", held ? "zoh" : "none",
+                                          preload.delay.reason);
+    preload.delay.held = held;
     reason = "given; " + reason;
   }
   job.settings.decisions.push_back({"torque hold", preload.delay.held ? "zoh" : "none", reason});
+  if (!preload.delay.warning.empty()) preload.warnings.push_back(preload.delay.warning);
   job.settings.rows.signal.torque_held = preload.delay.held;
 }
 

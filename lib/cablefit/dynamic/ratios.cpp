@@ -58,7 +58,8 @@ DynamicPreload fit_ratios(std::span<const LogSurvey> logs, const std::string& na
   preload.rig_path = rig.path;
   const ChosenSettings settings = moving_settings(logs, wanted, options.samples, 0);
   preload.decisions = settings.decisions;
-  const std::array<Equation, 1> equations = {ratio_equation(settings.rest_speed_q)};
+  std::array<Equation, 1> equations = {ratio_equation(settings.rest_speed_q)};
+  equations[0].cutoff = settings.cutoff_q;
   const RowStatistics blank(kResponse + 1, expected_rows(logs, wanted, settings.rows),
                             options.honest_sd);
   RowStatistics rows = blank;

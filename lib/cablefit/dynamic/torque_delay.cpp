@@ -13,6 +13,7 @@ namespace cablefit {
 namespace {
 
 constexpr int kWindows = 8;
+constexpr double kDelayMisfit = 0.15;  // of the hold; less hardly moves any parameter
 
 Eigen::ArrayXd slope(const Eigen::ArrayXd& x, double h) {
   Eigen::ArrayXd d = Eigen::ArrayXd::Zero(x.size());
@@ -49,6 +50,33 @@ RowStatistics pilot_rows(std::span<const LogSurvey> logs, const std::vector<Pilo
     statistics.add(batch.equations[0].rows, batch.equations[0].numbers);
   }
   return statistics;
+}
+
+/// Which convention is nearer, and whether either is near enough.
+void judge_delay(double hold, TorqueDelay& delay) {
+  const double ms = 1e3;
+  const std::string found =
+      fmt::format("the torque acts {:.3g} +- {:.2g} ms after its time stamp (1 sd)",
+                  ms * delay.seconds, ms * delay.sd);
+  if (!(delay.sd < hold / 4)) {
+    delay.held = false;
+    delay.reason = found + ": the motion does not tell whether it is held";
+    delay.warning =
+        "whether the torque is held over a sample does not show in these logs, none is assumed; "
+        "say "
+        "which in the rig file (\"torque_hold\")";
+    return;
+  }
+  delay.held = std::abs(delay.seconds - hold / 2) < std::abs(delay.seconds);
+  delay.reason = fmt::format(
+      "{}: nearer to {}", found,
+      delay.held ? fmt::format("half a hold of {:.3g} ms (zoh)", ms * hold) : "0 (none)");
+  const double left = std::abs(delay.seconds - (delay.held ? hold / 2 : 0));
+  if (left > std::max(3 * delay.sd, kDelayMisfit * hold))
+    delay.warning = fmt::format(
+        "{}; neither a hold of {:.3g} ms nor none explains that: look for a delay in the drive or "
+        "the log, inertia and friction may be off",
+        found, ms * hold);
 }
 
 }  // namespace
@@ -127,13 +155,7 @@ TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFil
   delay.seconds = solution(p - 1);
   delay.sd = scale(p - 1) * std::sqrt(spread.covariance(0, 0));
   const double hold = rows.signal.torque_period > 0 ? rows.signal.torque_period : period;
-  delay.held = std::abs(delay.seconds - hold / 2) < std::abs(delay.seconds);
-  delay.reason = fmt::format(
-      "the torque acts {:.3g} +- {:.2g} ms after its time stamp (1 sd): nearer to {}",
-      1e3 * delay.seconds, 1e3 * delay.sd,
-      delay.held ? fmt::format("half a hold of {:.3g} ms (zoh)", 1e3 * hold) : "0 (none)");
-  if (std::abs(delay.seconds - (delay.held ? hold / 2 : 0)) > std::max(4 * delay.sd, 0.25 * hold))
-    delay.reason += "; neither fits well: look for a further delay in the drive or the log";
+  judge_delay(hold, delay);
   return delay;
 }
 

@@ -23,7 +23,7 @@ class FileSource final : public ByteSource {
   std::size_t read(char* to, std::size_t n_bytes) override { return file_.read(to, n_bytes); }
 
  private:
-  InputFile file_;
+  FileReader file_;
 };
 
 }  // namespace

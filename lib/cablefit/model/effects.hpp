@@ -17,7 +17,7 @@ enum class Side { link, motor, rigid };
 std::string_view to_string(Side side);
 
 /// Motion of one axis over n samples (rad, rad/s, rad/s^2; on a linear axis m, m/s, m/s^2), each
-/// array n long. `direction` is sgn(velocity) with the rest band already set to 0.
+/// array n long. `direction` is sgn(velocity), smoothed by the filter that smoothed the signals.
 struct Motion {
   Eigen::Ref<const Eigen::ArrayXd> position;
   Eigen::Ref<const Eigen::ArrayXd> velocity;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "cablefit/model/file/parts.hpp"
 
@@ -39,7 +40,10 @@ void take_cable(const ElasticFit& fit, const JsonNode& list, bool cable_space, C
   while (cable.order < cable.law->max_order && cable.n_coefficients() < count) ++cable.order;
   cable.coefficients.clear();
   for (int k = 0; k < cable.n_coefficients(); ++k) {
-    cable.coefficients.push_back(value_of(fit, name(k), list));
+    // A cable that stage 1 never pulled has no coefficients: it counts as slack, and a note says
+    // so.
+    const double value = value_of(fit, name(k), list);
+    cable.coefficients.push_back(std::isnan(value) ? 0 : value);
   }
   if (const Estimate* l_o = find_estimate(fit.parameters, elongation_name(cable))) {
     cable.initial_elongation = l_o->value;

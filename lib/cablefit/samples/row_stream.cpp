@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace cablefit {
 namespace {
@@ -115,9 +116,17 @@ RowBatch make_rows(const Window& window, const LogSurvey& log, Eigen::Index numb
                    const RowSettings& settings, std::span<const Equation> equations) {
   RowBatch batch;
   batch.part = window.part;
-  const Signals signals = make_signals(window, log.plan, settings.signal);
-  for (const Equation& equation : equations)
-    batch.equations.push_back(equation_rows(equation, signals, window, settings, number_offset));
+  // Equations of one cut-off share their signals.
+  std::map<double, Signals> signals;
+  for (const Equation& equation : equations) {
+    SignalSettings own = settings.signal;
+    if (equation.cutoff > 0) own.cutoff = equation.cutoff;
+    auto found = signals.find(own.cutoff);
+    if (found == signals.end())
+      found = signals.emplace(own.cutoff, make_signals(window, log.plan, own)).first;
+    batch.equations.push_back(
+        equation_rows(equation, found->second, window, settings, number_offset));
+  }
   return batch;
 }
 

@@ -19,6 +19,7 @@ namespace cablefit {
 /// Every number that decides which rows come out. SI, rows count raw samples.
 struct RowSettings {
   SignalSettings signal;
+  double lowest_cutoff = 0;  ///< Hz, of any equation with a cut-off of its own; 0: there is none
   int decimate = 1;
   Eigen::Index drop_edge = kDifferenceEdge;  ///< rows dropped at both ends of each segment
   Eigen::Index rest_margin = 0;              ///< rows around a slow one that go with it
@@ -31,6 +32,7 @@ struct Equation {
   std::vector<bool> averaged;  ///< per column: averaged over the triangle (not: a held torque)
   /// Writes rows x columns.
   std::function<void(const Signals&, Eigen::Ref<Eigen::MatrixXd>)> fill;
+  double cutoff = 0;      ///< Hz; its own low-pass; 0: that of the settings
   double rest_speed = 0;  ///< rad/s; rows slower than this are dropped; 0: keep all
   /// Speed by which rest is judged, n rows.
   std::function<Eigen::ArrayXd(const Signals&)> speed;

@@ -171,7 +171,9 @@ void choose_rest_speed(ChosenSettings& chosen, std::span<const LogSurvey> logs,
     const auto pilot =
         pilot_windows(logs, wanted, rows.signal, signal_halo(rows.signal, rate), kPilotWindows);
     chosen.rest_speed_theta = rest_speed(logs, wanted, rows, pilot, Channel::theta, rate);
-    chosen.rest_speed_q = rest_speed(logs, wanted, rows, pilot, Channel::q, rate);
+    RowSettings link = rows;
+    link.signal.cutoff = chosen.cutoff_q;
+    chosen.rest_speed_q = rest_speed(logs, wanted, link, pilot, Channel::q, rate);
     decide(chosen, "rest speed",
            fmt::format("motor {:.3g}, link {:.3g}", chosen.rest_speed_theta, chosen.rest_speed_q),
            "speed gained within the filter's blur, at least 4 sd of the speed's noise");
@@ -183,18 +185,31 @@ void choose_rest_speed(ChosenSettings& chosen, std::span<const LogSurvey> logs,
 // Lowers the cut-off until position noise is a negligible part of the acceleration: noise in a
 // regressor shrinks its coefficient by that share (errors in variables).
 double quiet_cutoff(std::span<const LogSurvey> logs, const PartFilter& wanted,
-                    const RowSettings& rows, double cutoff, double rate) {
-  const double noise = worst_noise(logs, wanted, Channel::theta);
+                    const RowSettings& rows, Channel channel, double cutoff, double rate) {
+  const double noise = worst_noise(logs, wanted, channel);
   RowSettings trial = rows;
   for (;; cutoff *= 0.8) {
     trial.signal.cutoff = cutoff;
     if (cutoff <= kLowestCutoff || noise == 0) return cutoff;
     const auto pilot =
         pilot_windows(logs, wanted, trial.signal, signal_halo(trial.signal, rate), kPilotWindows);
-    const double total = pilot_acceleration(logs, pilot, trial.signal, Channel::theta);
+    const double total = pilot_acceleration(logs, pilot, trial.signal, channel);
     const double noisy = acceleration_noise(noise, cutoff, rate);
     if (total == 0 || noisy * noisy <= kNoiseBias * total * total) return cutoff;
   }
+}
+
+// The link's encoder may be coarser than the motor's: its equation then gets a lower cut-off of its
+// own, all its columns alike.
+void choose_link_cutoff(ChosenSettings& chosen, std::span<const LogSurvey> logs,
+                        const PartFilter& wanted, const SampleOptions& options, double rate) {
+  chosen.cutoff_q = chosen.rows.signal.cutoff;
+  if (options.cutoff || !first_log_with(logs, wanted).plan.has(Channel::q)) return;
+  chosen.cutoff_q = quiet_cutoff(logs, wanted, chosen.rows, Channel::q, chosen.cutoff_q, rate);
+  chosen.rows.lowest_cutoff = chosen.cutoff_q;
+  if (chosen.cutoff_q < chosen.rows.signal.cutoff)
+    decide(chosen, "cut-off of the link equation", fmt::format("{:.4g} Hz", chosen.cutoff_q),
+           fmt::format("noise of q below {:g} % of the acceleration's variance", 100 * kNoiseBias));
 }
 
 void choose_moving_cutoff(ChosenSettings& chosen, std::span<const LogSurvey> logs,
@@ -208,7 +223,7 @@ void choose_moving_cutoff(ChosenSettings& chosen, std::span<const LogSurvey> log
     const double wish = resonance > 0
                             ? std::min(kResonanceFactor * resonance, kMaxShareOfRate * rate)
                             : kRigidShareOfRate * rate;
-    cutoff = quiet_cutoff(logs, wanted, chosen.rows, wish, rate);
+    cutoff = quiet_cutoff(logs, wanted, chosen.rows, Channel::theta, wish, rate);
     std::string reason =
         resonance > 0 && wish < kMaxShareOfRate * rate
             ? fmt::format("{:g} times the resonance f0 = {:.3g} Hz", kResonanceFactor, resonance)
@@ -218,10 +233,11 @@ void choose_moving_cutoff(ChosenSettings& chosen, std::span<const LogSurvey> log
                            100 * kNoiseBias);
     decide(chosen, "cut-off", fmt::format("{:.4g} Hz", cutoff), reason);
   }
+  choose_link_cutoff(chosen, logs, wanted, options, rate);
   if (resonance > 0 && cutoff > 0 && cutoff < 2 * resonance)
     chosen.warnings.push_back(fmt::format(
         "the cut-off of {:.4g} Hz is below twice the resonance f0 = {:.3g} Hz: J_motor will "
-        "come out too small; record at a higher rate or with a finer encoder",
+        "be wrong by percents; record at a higher rate or with a finer encoder",
         cutoff, resonance));
 }
 

@@ -29,6 +29,7 @@ struct Decision {
 
 struct ChosenSettings {
   RowSettings rows;
+  double cutoff_q = 0;          ///< Hz, for equations that differentiate q twice; 0: no filter
   double rest_speed_theta = 0;  ///< rad/s, for equations of the motor (or rigid) side
   double rest_speed_q = 0;      ///< rad/s, for equations of the link side
   std::vector<Decision> decisions;

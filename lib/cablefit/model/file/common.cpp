@@ -39,6 +39,7 @@ void read_interval(const JsonNode* node, double factor, Estimate* estimate) {
 double read_value(const JsonNode& object, const std::string& name) {
   const JsonNode& node = object.at("value");
   if (!node.is_null()) return node.number();
+  if (object.find("not_identifiable") != nullptr) return std::numeric_limits<double>::quiet_NaN();
   throw node.error(fmt::format("{} has no value", cablefit::quoted(name)),
                    text_or(object, "not_identifiable", "fit it from other data, or give a value"));
 }

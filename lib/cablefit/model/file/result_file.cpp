@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "cablefit/base/quote.hpp"
 #include "cablefit/model/file/fit_parameters.hpp"
@@ -66,9 +67,11 @@ void take_coefficients(FitParameters* parameters, Cable* cable, Model* model) {
   cable->coefficients.clear();
   for (int j = 0; j < cable->n_coefficients(); ++j) {
     const std::string name = coefficient_name(*cable, j, cable_space);
-    const std::string unit = coefficient_unit(j, cable_space);
+    std::string unit = coefficient_unit(j, cable_space);
+    if (model->rig.linear_motion && !cable_space) unit = linear_unit(unit);
     model->elastic.push_back(read_estimate(parameters->at_elastic(name), name, name, unit));
-    cable->coefficients.push_back(model->elastic.back().value);
+    const double value = model->elastic.back().value;
+    cable->coefficients.push_back(std::isnan(value) ? 0 : value);  // never pulled: slack
   }
 }
 
@@ -76,15 +79,26 @@ void take_elongation(FitParameters* parameters, Cable* cable, Model* model) {
   const std::string name = elongation_name(*cable);
   const JsonNode* node = parameters->find_elastic(name);
   if (!node) return;
-  const std::string unit(elongation_unit(model->rig.cables_given));
+  std::string unit(elongation_unit(model->rig.cables_given));
+  if (model->rig.linear_motion && !model->rig.cables_given) unit = linear_unit(unit);
   model->elastic.push_back(read_estimate(*node, name, name, unit));
   cable->initial_elongation = model->elastic.back().value;
 }
 
+/// As many coefficients as the file has for this cable; orders differ between cables.
+void take_order(FitParameters* parameters, bool cable_space, Cable* cable) {
+  int count = 0;
+  while (count < kMaxCableOrder &&
+         parameters->find_elastic(coefficient_name(*cable, count, cable_space)))
+    ++count;
+  if (count == 0) return;  // told by name when the first coefficient is read
+  cable->order = 1;
+  while (cable->order < cable->law->max_order && cable->n_coefficients() < count) ++cable->order;
+}
+
 void take_cables(FitParameters* parameters, Model* model) {
-  const JsonNode* order = parameters->elastic() ? parameters->elastic()->find("order") : nullptr;
   for (Cable& cable : model->transmission.cables) {
-    if (order) cable.order = std::min(static_cast<int>(order->positive()), cable.law->max_order);
+    take_order(parameters, model->rig.cables_given, &cable);
     take_coefficients(parameters, &cable, model);
   }
   for (Cable& cable : model->transmission.cables) take_elongation(parameters, &cable, model);
