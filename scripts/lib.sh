@@ -10,13 +10,6 @@ build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libcli11-dev
                 catch2)
 check_packages=(clang-format-14 clang-tidy-14 python3)
 
-# ccache is used when it is there. Without the second line it does not cache what is compiled with
-# a precompiled header.
-if command -v ccache >/dev/null; then
-  export CMAKE_CXX_COMPILER_LAUNCHER=ccache
-  export CCACHE_SLOPPINESS=pch_defines,time_macros
-fi
-
 # Says what it runs, and runs it.
 show() {
   printf '\n$'

@@ -23,6 +23,8 @@ constexpr const char* kExample =
     "  cablefit simulate cablefit-out/dynamic.json data/low/moving_load30.csv --preload low\n"
     "MODEL left out: OUT/dynamic.json. Exit code 4: a simulation diverged.\n";
 
+constexpr const char* kResultFile = "simulate.json";
+
 struct SimulateCommand {
   CommonOptions common;  ///< its logs: MODEL and the logs
   ReplayOptions replay;
@@ -105,8 +107,30 @@ std::vector<LogSurvey> read_logs_for(const Model& model, const CommonOptions& op
   return logs;
 }
 
+/// Trajectories never replace what they are made from, nor another result of the same run.
+void check_trajectories(const SimulateCommand& command, const std::string& model) {
+  const std::string& path = command.replay.trajectories;
+  if (path.empty()) return;
+  if (path == "-") throw usage_error("--trajectories cannot be '-'", "give the name of a file");
+  const CommonOptions& options = command.common;
+  std::vector<std::string> others = options.logs;
+  others.insert(others.end(), options.reports.begin(), options.reports.end());
+  others.insert(others.end(), {model, options.rig, options.json,
+                               (std::filesystem::path(options.out) / kResultFile).string()});
+  const auto whole = [](const std::string& file) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(file));
+  };
+  for (const std::string& other : others) {
+    if (other.empty() || whole(other) != whole(path)) continue;
+    throw usage_error(fmt::format("the trajectories would take the place of {}", other),
+                      "choose another --trajectories");
+  }
+}
+
 SimulateResult run_simulation(SimulateCommand& command) {
   const std::string path = take_model(command.common);
+  command.common.more_inputs.push_back(path);
+  check_trajectories(command, path);
   std::string choice;
   const Model model = read_model(path, command.common.preload, command.model, choice);
   const std::vector<LogSurvey> logs = read_logs_for(model, command.common);
@@ -141,7 +165,7 @@ int run_simulate(const Arguments& arguments) {
   if (!parse(app, arguments)) return 0;
 
   const SimulateResult result = run_simulation(command);
-  deliver(command.common, simulate_document(result), {{"simulate.json", simulate_json(result)}});
+  deliver(command.common, simulate_document(result), {{kResultFile, simulate_json(result)}});
   throw_if_diverged(result);
   return 0;
 }

@@ -77,6 +77,19 @@ TEST_CASE("what simulate refuses") {
                 "replay the torque");
 }
 
+TEST_CASE("no file of a simulation takes the place of another") {
+  for (const std::string other : {"blocked.csv", "model.json", "all.json"}) {
+    check_refused(
+        "cablefit simulate model.json blocked.csv --json all.json --trajectories ./" + other, 2,
+        "the trajectories would take the place of " + other + "; choose another --trajectories");
+  }
+  check_refused("cablefit simulate model.json blocked.csv --json model.json", 2,
+                "'model.json' would be overwritten by the result made from it; choose another "
+                "--out, --json or --report");
+  check_refused("cablefit simulate model.json blocked.csv --trajectories -", 2,
+                "--trajectories cannot be '-'; give the name of a file");
+}
+
 TEST_CASE("a result of stage 1 alone is no model") {
   const Outcome outcome =
       run("cablefit elastic blocked.csv --quiet --order 2 && "

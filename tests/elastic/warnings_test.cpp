@@ -126,7 +126,7 @@ TEST_CASE("without a blocked log there is one clear message", "[elastic]") {
 
 // --still: a log that moves with the phase "moving" for half of its time and rests for the other
 // half, motor swept.
-TEST_CASE("--still finds the parts in which the link rests", "[elastic]") {
+TEST_CASE("stage 1 finds the parts of a moving log in which the link rests", "[elastic]") {
   const truth::Rig rig = truth::Rig::low();
   const auto curve = [&](double phi) { return rig.tau_elas(phi); };
   truth::Log log = sweep_log(curve, 2.778, 0.3, 4, 4150);

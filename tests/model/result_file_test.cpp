@@ -132,8 +132,8 @@ const BadResult kBadResults[] = {
     {"", "", "{\"name\": \"J_link\", \"value\": 0.339}, ", "",
      "dynamic.json:1:110: the link of joint '1' has no positive inertia; give its \"inertia\" a "
      "value above 0"},
-    {"", "", "{\"name\": \"K2_1\", \"value\": 29357.2},", "",
-     "dynamic.json:1:110: parameter 'K2_1' is missing; the fit's \"elastic\" object needs it"},
+    {"", "", "{\"name\": \"K2_0\", \"value\": 1575.3},", "",
+     "dynamic.json:1:110: parameter 'K2_0' is missing; the fit's \"elastic\" object needs it"},
     {"", "", "\"rig\": null", "\"rig\": \"gone.json\"",
      "dynamic.json:1:95: no rig file 'gone.json'; paths are relative to this file, or to the "
      "current folder"},

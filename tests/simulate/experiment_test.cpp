@@ -29,7 +29,9 @@ class OneLog {
     text.insert(0, "t,");
     for (int row = 0; row < 10; ++row) {
       text += std::to_string(row);
-      for (std::size_t k = 0; k < n_columns(columns); ++k) text += "," + std::to_string(row % 3);
+      for (std::size_t k = 0; k < n_columns(columns); ++k) {
+        text.append(",").append(std::to_string(row % 3));
+      }
       text += "\n";
     }
     folder_.write("log.csv", text);

@@ -1,3 +1,4 @@
+// Texts without the blanks around them.
 #pragma once
 
 #include <string_view>

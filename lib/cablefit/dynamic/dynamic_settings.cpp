@@ -4,6 +4,7 @@
 
 #include "cablefit/dynamic/dynamic_job.hpp"
 #include "cablefit/dynamic/torque_delay.hpp"
+#include "cablefit/samples/agreement.hpp"
 
 namespace cablefit {
 namespace {
@@ -49,11 +50,12 @@ std::vector<EquationRows> pilot_equations(const DynamicJob& job, double rate) {
 
 /// f0 of the elastic drive, 0 when it lies beyond half the rate.
 double find_resonance(DynamicJob& job, const ElasticResult& elastic) {
-  const double rate = 1 / job.first_part().period;
+  const RateRange rates = sample_rates(job.logs, job.wanted);
+  const double rate = rates.lowest;
   SampleOptions wide = job.options.samples;
   if (!wide.cutoff) wide.cutoff = kWideBand * rate;
   job.settings = moving_settings(job.logs, job.wanted, wide, 0);
-  const std::vector<EquationRows> pilot = pilot_equations(job, rate);
+  const std::vector<EquationRows> pilot = pilot_equations(job, rates.highest);
   const std::size_t last = job.elastic.size() - 1;
   const double j_link = solve_equation(pilot[0], job.elastic, last).x(0);
   const double j_motor = solve_equation(pilot[1], job.elastic, last).x(0);

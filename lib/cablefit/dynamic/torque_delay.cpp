@@ -8,6 +8,7 @@
 
 #include "cablefit/estimate/least_squares.hpp"
 #include "cablefit/estimate/long_run.hpp"
+#include "cablefit/samples/agreement.hpp"
 
 namespace cablefit {
 namespace {
@@ -91,11 +92,8 @@ TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFil
   if (elastic != nullptr) fits.push_back(elastic);
   const DynamicColumns c = dynamic_columns(side, fits);
   const Equation base = dynamic_equation(c, fits, false, rest_speed);
-  double rate = 0, period = 0;
-  for (const LogSurvey& log : logs)
-    for (const PartSurvey& part : log.parts)
-      if (wanted(part)) rate = std::max(rate, 1 / part.period);
-  period = 1 / rate;
+  const double rate = sample_rates(logs, wanted).highest;
+  const double period = 1 / rate;
   const auto pilot = pilot_windows(logs, wanted, rows.signal, row_halo(rows, rate), kWindows);
 
   LinearProblem problem;

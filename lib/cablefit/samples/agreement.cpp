@@ -2,14 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 
 #include "cablefit/base/digest.hpp"
 
 namespace cablefit {
 namespace {
-
-constexpr double kRateTolerance = 0.01;
 
 std::string content(const Rig& rig) { return rig.path.empty() ? "" : sha256_of_file(rig.path); }
 
@@ -24,32 +22,26 @@ void require_same_rig(const LogSurvey& first, const LogSurvey& log, const std::s
       "fit them apart, or name their preloads differently in the rig files");
 }
 
-void require_same_rate(const LogSurvey& log, const PartSurvey& part, double rate) {
-  if (std::abs(1 / part.period - rate) <= kRateTolerance * rate) return;
-  throw input_error({log.plan.path, 0, 0},
-                    fmt::format("its rate of {:.4g} Hz differs from {:.4g} Hz of the logs before",
-                                1 / part.period, rate),
-                    "logs of different rates need different filters: fit them apart");
-}
-
 }  // namespace
 
-double sample_rate(std::span<const LogSurvey> logs, const PartFilter& wanted) {
+RateRange sample_rates(std::span<const LogSurvey> logs, const PartFilter& wanted) {
+  RateRange rates{kUnbounded, 0};
   for (const LogSurvey& log : logs)
-    for (const PartSurvey& part : log.parts)
-      if (wanted(part)) return 1 / part.period;
-  return 0;
+    for (const PartSurvey& part : log.parts) {
+      if (!wanted(part)) continue;
+      rates.lowest = std::min(rates.lowest, 1 / part.period);
+      rates.highest = std::max(rates.highest, 1 / part.period);
+    }
+  return rates;
 }
 
 void require_agreement(std::span<const LogSurvey> logs, const PartFilter& wanted,
                        const std::string& preload) {
-  const double rate = sample_rate(logs, wanted);
   const LogSurvey* first = nullptr;
   for (const LogSurvey& log : logs)
     for (const PartSurvey& part : log.parts) {
       if (!wanted(part)) continue;
       if (first == nullptr) first = &log;
-      require_same_rate(log, part, rate);
       require_same_rig(*first, log, preload);
       const Load& load = log.plan.rig.load;
       if (part.phase == Phase::moving && load.law != nullptr && load.law->from_column)

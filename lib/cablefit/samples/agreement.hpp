@@ -1,4 +1,4 @@
-// Logs that go into one fit must agree: one rate, one rig, one kind of load.
+// Logs that go into one fit must agree: one rig, one kind of load.
 #pragma once
 
 #include <span>
@@ -8,13 +8,16 @@
 
 namespace cablefit {
 
-/// For the wanted parts, which are all of `preload`: sample rates within 1 % of each other (a
-/// filter and a decimation mean the same in each), rig files of the same content, and a tau_load
+/// For the wanted parts, which are all of `preload`: rig files of the same content, and a tau_load
 /// column wherever the rig says that the load is one. Throws Error(input) naming the two logs.
 void require_agreement(std::span<const LogSurvey> logs, const PartFilter& wanted,
                        const std::string& preload);
 
-/// Samples per second, by the first wanted part.
-double sample_rate(std::span<const LogSurvey> logs, const PartFilter& wanted);
+/// Samples per second of the wanted parts. They may differ: the slowest log bounds the cut-off and
+/// the decimation for all, the fastest decides how many rows a filter needs to settle.
+struct RateRange {
+  double lowest = 0, highest = 0;
+};
+RateRange sample_rates(std::span<const LogSurvey> logs, const PartFilter& wanted);
 
 }  // namespace cablefit

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/samples/agreement.hpp"
+
 namespace cablefit {
 namespace {
 
@@ -17,19 +19,12 @@ constexpr double kResonanceFactor =
 constexpr double kNoiseBias = 0.0025;  // largest share of noise in the acceleration's variance
 constexpr double kSamplesPerPeriod = 2.5;  // rows per period of the cut-off after decimation
 constexpr double kLowestCutoff = 1;
+constexpr double kRateSpread = 1.01;  // rates closer than this are one
 constexpr int kPilotWindows = 4;
 constexpr double kSlowShare = 0.25;   // of the sweep speed that noise may reach, at four sd
 constexpr double kRestShare = 0.05;   // of the sweep speed: slower is a reversal
 constexpr double kStillShare = 0.05;  // of the link's speed: slower is standing still
 constexpr double kSweepLag = 0.25;    // s over which a sweep's speed is measured
-
-double highest_rate(std::span<const LogSurvey> logs, const PartFilter& wanted) {
-  double rate = 0;
-  for (const LogSurvey& log : logs)
-    for (const PartSurvey& part : log.parts)
-      if (wanted(part)) rate = std::max(rate, 1 / part.period);
-  return rate;
-}
 
 double worst_noise(std::span<const LogSurvey> logs, const PartFilter& wanted, Channel channel) {
   double worst = 0;
@@ -169,7 +164,8 @@ void choose_rest_speed(ChosenSettings& chosen, std::span<const LogSurvey> logs,
     decide(chosen, "rest speed", fmt::format("{:.3g}", *options.rest_speed), kByOption);
   } else {
     const auto pilot =
-        pilot_windows(logs, wanted, rows.signal, signal_halo(rows.signal, rate), kPilotWindows);
+        pilot_windows(logs, wanted, rows.signal,
+                      signal_halo(rows.signal, sample_rates(logs, wanted).highest), kPilotWindows);
     chosen.rest_speed_theta = rest_speed(logs, wanted, rows, pilot, Channel::theta, rate);
     RowSettings link = rows;
     link.signal.cutoff = chosen.cutoff_q;
@@ -192,7 +188,8 @@ double quiet_cutoff(std::span<const LogSurvey> logs, const PartFilter& wanted,
     trial.signal.cutoff = cutoff;
     if (cutoff <= kLowestCutoff || noise == 0) return cutoff;
     const auto pilot =
-        pilot_windows(logs, wanted, trial.signal, signal_halo(trial.signal, rate), kPilotWindows);
+        pilot_windows(logs, wanted, trial.signal,
+                      signal_halo(trial.signal, sample_rates(logs, wanted).highest), kPilotWindows);
     const double total = pilot_acceleration(logs, pilot, trial.signal, channel);
     const double noisy = acceleration_noise(noise, cutoff, rate);
     if (total == 0 || noisy * noisy <= kNoiseBias * total * total) return cutoff;
@@ -306,7 +303,12 @@ void warn_of_haste(std::span<const LogSurvey> logs, const PartFilter& wanted, do
 ChosenSettings blocked_settings(std::span<const LogSurvey> logs, const PartFilter& wanted,
                                 const SampleOptions& options) {
   ChosenSettings chosen;
-  const double rate = highest_rate(logs, wanted);
+  const RateRange rates = sample_rates(logs, wanted);
+  const double rate = rates.lowest;  // what the slowest log can carry, all others can
+  if (rates.highest > kRateSpread * rates.lowest)
+    chosen.warnings.push_back(fmt::format(
+        "the logs have rates of {:.4g} to {:.4g} Hz: the slowest bounds the filter for all",
+        rates.lowest, rates.highest));
   check_options(logs, wanted, options, rate);
   choose_filter_order(chosen, options);
   const double noise = worst_noise(logs, wanted, Channel::theta);
@@ -320,7 +322,7 @@ ChosenSettings blocked_settings(std::span<const LogSurvey> logs, const PartFilte
     decide(chosen, "cut-off", fmt::format("{:.4g} Hz", cutoff), "quasi-static");
   }
   choose_decimation(chosen, options, rate);
-  choose_edges(chosen, options, rate);
+  choose_edges(chosen, options, rates.highest);
   const double band = cutoff > 0 ? cutoff : rate / 2;
   const double unseen = 4 * velocity_noise(noise, band, rate);
   const double noise_q = worst_noise(logs, wanted, Channel::q);
@@ -357,12 +359,17 @@ ChosenSettings blocked_settings(std::span<const LogSurvey> logs, const PartFilte
 ChosenSettings moving_settings(std::span<const LogSurvey> logs, const PartFilter& wanted,
                                const SampleOptions& options, double resonance) {
   ChosenSettings chosen;
-  const double rate = highest_rate(logs, wanted);
+  const RateRange rates = sample_rates(logs, wanted);
+  const double rate = rates.lowest;  // what the slowest log can carry, all others can
+  if (rates.highest > kRateSpread * rates.lowest)
+    chosen.warnings.push_back(fmt::format(
+        "the logs have rates of {:.4g} to {:.4g} Hz: the slowest bounds the filter for all",
+        rates.lowest, rates.highest));
   check_options(logs, wanted, options, rate);
   choose_filter_order(chosen, options);
   choose_moving_cutoff(chosen, logs, wanted, options, resonance, rate);
   choose_decimation(chosen, options, rate);
-  choose_edges(chosen, options, rate);
+  choose_edges(chosen, options, rates.highest);
   choose_rest_speed(chosen, logs, wanted, options, rate);
   return chosen;
 }

@@ -30,10 +30,10 @@ struct Window {
 /// What had to be done to get an even grid; printed in reports.
 struct WindowCounts {
   std::size_t rows_read = 0;
-  std::size_t rows_out = 0;        ///< rows of the even grid, over all segments
   std::size_t rows_resampled = 0;  ///< rows made by linear interpolation (uneven clocks)
   std::size_t rows_too_short = 0;  ///< rows in segments shorter than `min_rows`
   std::size_t segments = 0;
+  std::size_t rows_out = 0;  ///< rows of the even grid, over all segments
 };
 
 inline constexpr Eigen::Index kWindowRows = 8192;
