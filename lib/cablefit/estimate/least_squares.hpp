@@ -19,7 +19,7 @@ struct LinearProblem {
   std::vector<double> lower;       ///< bound per regressor, -inf for none; empty: no bounds
   Eigen::VectorXd response;
   /// Per regressor why it is held at 0 instead of estimated ("never taut"); empty: it is estimated.
-  std::vector<std::string> held;
+  std::vector<std::string> held = {};
 };
 
 struct LinearSolution {
