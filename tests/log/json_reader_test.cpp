@@ -40,7 +40,7 @@ TEST_CASE("channels are columns") {
   CHECK(header.columns[1].unit == "mN m");
   CHECK(header.columns[2].unit == "rev");
   CHECK(to_string(header.columns[2].place) == folder.file("log.json") + ":4:3");
-  const auto log = read_all(*reader, {"theta", "q", "tau", "q"}, {"run", "q"}, 2);
+  const auto log = read_all(*reader, {"theta", "q", "tau", "q"}, {"run", "q"});
   CHECK(log.numbers[0] == Numbers{7, 8, 9});
   CHECK(log.numbers[1] == Numbers{1, 2.5, -3e-4});
   CHECK(log.numbers[2] == Numbers{4, 5, 6});
@@ -59,7 +59,7 @@ TEST_CASE("records are rows, with keys in any order") {
                                             " {\"t\": 2, \"q [deg]\": 3, \"run\": \"a\"}]"));
   CHECK_FALSE(reader->header().sample_rate);
   CHECK(reader->header().columns[1].unit == "deg");
-  const auto log = read_all(*reader, {"q", "t"}, {"run"}, 2);
+  const auto log = read_all(*reader, {"q", "t"}, {"run"});
   CHECK(log.numbers[0] == Numbers{1, 2, 3});
   CHECK(log.numbers[1] == Numbers{0, 1, 2});
   CHECK(log.texts[0] == Texts{"a", "b", "a"});
@@ -79,7 +79,7 @@ TEST_CASE("logs that outgrow memory's share come back from the temporary file") 
   const std::string channels = "{\"channels\": {\"p\": [" + q + "], \"q\": [" + q + "]}}";
   for (const std::string& text : {records + "]", channels}) {
     const auto reader = open_log(folder.write("log.json", text));
-    const auto log = read_all(*reader, {"q"}, {}, 100'000);
+    const auto log = read_all(*reader, {"q"});
     REQUIRE(log.numbers[0].size() == n_rows);
     bool all_equal = true;
     for (std::size_t i = 0; i < n_rows; ++i) {

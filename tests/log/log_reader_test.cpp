@@ -52,14 +52,13 @@ TEST_CASE("a log is the same in every format and compression") {
   const auto expected_reader = open_log(folder.write("log.csv", same.csv));
   const auto expected = read_all(*expected_reader, {"t", "q"}, {"run"});
   REQUIRE(expected.numbers[1].size() == 1000);
-  const std::size_t max_rows = GENERATE(1, 2, 7, 5000);
   for (const std::string& content :
        {same.csv, same.records, same.channels, gzipped(same.csv), zstd_packed(same.csv),
         gzipped(half) + gzipped(other_half), zstd_packed(half) + zstd_packed(other_half),
         gzipped(same.records), zstd_packed(same.channels)}) {
     const auto reader = open_log(folder.write("log", content));
     CHECK(reader->header().columns[0].unit == "ms");
-    const auto log = read_all(*reader, {"t", "q"}, {"run"}, max_rows);
+    const auto log = read_all(*reader, {"t", "q"}, {"run"});
     CHECK(log.numbers == expected.numbers);
     CHECK(log.texts == expected.texts);
   }

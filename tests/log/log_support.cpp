@@ -61,13 +61,13 @@ std::string zstd_packed(std::string_view text) {
 }
 
 WholeLog read_all(LogReader& reader, const std::vector<std::string>& numbers,
-                  const std::vector<std::string>& texts, std::size_t max_rows) {
+                  const std::vector<std::string>& texts) {
   reader.select(column_indices(reader.header(), numbers), column_indices(reader.header(), texts));
   WholeLog log;
   log.numbers.resize(numbers.size());
   log.texts.resize(texts.size());
   LogChunk chunk;
-  while (reader.next(chunk, max_rows)) {
+  while (reader.next(chunk)) {
     if (chunk.first_row != log.lines.size()) throw std::logic_error("first_row");
     append(chunk, reader, log);
   }

@@ -20,8 +20,8 @@ struct WholeLog {
   std::vector<std::uint64_t> lines;
 };
 
-/// Selects columns by name and reads to the end, `max_rows` rows at a time.
+/// Selects columns by name and reads to the end.
 WholeLog read_all(LogReader& reader, const std::vector<std::string>& numbers,
-                  const std::vector<std::string>& texts = {}, std::size_t max_rows = 1000);
+                  const std::vector<std::string>& texts = {});
 
 }  // namespace cablefit::test

@@ -16,34 +16,39 @@ namespace {
 
 constexpr std::size_t kBlockBytes = 1u << 18;
 
-class Sha256 {
- public:
-  Sha256() { require(EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr)); }
-
-  void add(std::string_view bytes) {
-    require(EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()));
-  }
-
-  std::string hex() {
-    std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
-    unsigned int n_bytes = 0;
-    require(EVP_DigestFinal_ex(context_.get(), digest.data(), &n_bytes));
-    std::string text;
-    for (unsigned int i = 0; i < n_bytes; ++i) text += fmt::format("{:02x}", digest[i]);
-    return text;
-  }
-
- private:
-  // No input can make these calls fail, only a broken library.
-  static void require(int status) {
-    if (status != 1) throw std::runtime_error("libcrypto offers no SHA-256");
-  }
-
-  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_{EVP_MD_CTX_new(),
-                                                                   &EVP_MD_CTX_free};
-};
+// No input can make these calls fail, only a broken library.
+void require(int status) {
+  if (status != 1) throw std::runtime_error("libcrypto offers no SHA-256");
+}
 
 }  // namespace
+
+struct Sha256::Context {
+  EVP_MD_CTX* state = EVP_MD_CTX_new();
+  Context() = default;
+  ~Context() { EVP_MD_CTX_free(state); }
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+};
+
+Sha256::Sha256() : context_(std::make_unique<Context>()) {
+  require(EVP_DigestInit_ex(context_->state, EVP_sha256(), nullptr));
+}
+
+Sha256::~Sha256() = default;
+
+void Sha256::add(std::string_view bytes) {
+  require(EVP_DigestUpdate(context_->state, bytes.data(), bytes.size()));
+}
+
+std::string Sha256::hex() {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int n_bytes = 0;
+  require(EVP_DigestFinal_ex(context_->state, digest.data(), &n_bytes));
+  std::string text;
+  for (unsigned int i = 0; i < n_bytes; ++i) text += fmt::format("{:02x}", digest[i]);
+  return text;
+}
 
 std::string sha256_of_file(const std::string& path) {
   FileReader file(path);

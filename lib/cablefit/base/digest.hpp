@@ -1,10 +1,27 @@
 // SHA-256 of input files, so that a result says exactly which bytes it came from.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 
 namespace cablefit {
+
+class Sha256 {
+ public:
+  Sha256();
+  ~Sha256();
+  Sha256(const Sha256&) = delete;
+  Sha256& operator=(const Sha256&) = delete;
+
+  void add(std::string_view bytes);
+  /// Of all bytes added; once, at the end.
+  std::string hex();
+
+ private:
+  struct Context;
+  std::unique_ptr<Context> context_;
+};
 
 /// Hex digest of the bytes of a file, read in blocks. Throws Error(input) when it cannot be read.
 std::string sha256_of_file(const std::string& path);

@@ -34,7 +34,7 @@ struct TorqueDelay {
   bool estimated = false;
   bool held = false;
   std::string reason;
-  std::string warning;  ///< when neither convention explains the delay; may be empty
+  std::string warning = {};  ///< when neither convention explains the delay; may be empty
 };
 
 struct DynamicPreload {

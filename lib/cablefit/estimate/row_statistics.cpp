@@ -3,29 +3,20 @@
 #include <Eigen/QR>
 #include <algorithm>
 
+#include "cablefit/estimate/tall_qr.hpp"
+
 namespace cablefit {
-namespace {
-
-constexpr Eigen::Index kQrBlock = 1024;  // rows that stay in the second-level cache with R
-
-}  // namespace
-
 StreamingQr::StreamingQr(Eigen::Index n_columns)
     : r_(Eigen::MatrixXd::Zero(n_columns, n_columns)) {}
 
-void StreamingQr::absorb(const Rows& rows) {
-  const Eigen::Index n = r_.cols();
-  work_.resize(n + rows.rows(), n);
-  work_.topRows(n) = r_;
-  work_.bottomRows(rows.rows()) = rows;
-  Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> qr(work_);
-  r_ = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
+void StreamingQr::absorb(const Eigen::MatrixXd& r) {
+  Eigen::MatrixXd stack(r_.rows() + r.rows(), r_.cols());
+  stack << r_, r;
+  Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> qr(stack);
+  r_ = qr.matrixQR().topRows(r_.rows()).triangularView<Eigen::Upper>();
 }
 
-void StreamingQr::add(const Rows& rows) {
-  for (Eigen::Index begin = 0; begin < rows.rows(); begin += kQrBlock)
-    absorb(rows.middleRows(begin, std::min(kQrBlock, rows.rows() - begin)));
-}
+void StreamingQr::add(const Rows& rows) { absorb(tall_qr(rows)); }
 
 void StreamingQr::add(const StreamingQr& other) { absorb(other.r_); }
 

@@ -24,9 +24,8 @@ class StreamingQr {
   const Eigen::MatrixXd& r() const { return r_; }
 
  private:
-  void absorb(const Rows& rows);
+  void absorb(const Eigen::MatrixXd& r);
   Eigen::MatrixXd r_;
-  Eigen::MatrixXd work_;
 };
 
 /// Gram matrix of the rows numbered [id * cell_rows, (id + 1) * cell_rows).

@@ -19,11 +19,16 @@ constexpr std::array kCompressions{
 
 class FileSource final : public ByteSource {
  public:
-  explicit FileSource(const std::string& path) : file_(path) {}
-  std::size_t read(char* to, std::size_t n_bytes) override { return file_.read(to, n_bytes); }
+  FileSource(const std::string& path, Sha256* digest) : file_(path), digest_(digest) {}
+  std::size_t read(char* to, std::size_t n_bytes) override {
+    const std::size_t n_read = file_.read(to, n_bytes);
+    if (digest_ != nullptr) digest_->add({to, n_read});
+    return n_read;
+  }
 
  private:
   FileReader file_;
+  Sha256* digest_;
 };
 
 }  // namespace
@@ -50,8 +55,8 @@ std::size_t PeekableSource::read(char* to, std::size_t n_bytes) {
 
 std::span<const Compression> compressions() { return kCompressions; }
 
-std::unique_ptr<PeekableSource> open_bytes(const std::string& path) {
-  auto file = std::make_unique<PeekableSource>(std::make_unique<FileSource>(path));
+std::unique_ptr<PeekableSource> open_bytes(const std::string& path, Sha256* digest) {
+  auto file = std::make_unique<PeekableSource>(std::make_unique<FileSource>(path, digest));
   const std::string_view magic = file->peek(kMagicBytes);
   for (const Compression& compression : kCompressions) {
     if (!compression.recognises(magic)) continue;

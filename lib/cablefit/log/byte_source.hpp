@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "cablefit/base/digest.hpp"
+
 namespace cablefit {
 
 class ByteSource {
@@ -42,7 +44,8 @@ struct Compression {
 };
 std::span<const Compression> compressions();
 
-/// Opens a file and unpacks it when a row of the table recognises it.
-std::unique_ptr<PeekableSource> open_bytes(const std::string& path);
+/// Opens a file and unpacks it when a row of the table recognises it. `digest`, which must outlive
+/// the source, sees every byte of the file as it is read; null: nobody wants it.
+std::unique_ptr<PeekableSource> open_bytes(const std::string& path, Sha256* digest = nullptr);
 
 }  // namespace cablefit

@@ -1,6 +1,7 @@
 #include "cablefit/log/csv_reader.hpp"
 
 #include <cassert>
+#include <optional>
 #include <utility>
 
 #include "cablefit/log/chunk_rows.hpp"
@@ -13,13 +14,131 @@
 namespace cablefit {
 namespace {
 
+/// Rows of a block of whole lines.
+template <Delimiter kDelimiter>
+class CsvPiece final : public LogPiece {
+ public:
+  explicit CsvPiece(const CsvSelection& selection)
+      : selection_(selection), words_(selection.texts().size()) {
+    rows_.numbers.resize(selection.numbers().size());
+    rows_.texts.resize(selection.texts().size());
+  }
+
+  std::string lines;  ///< each with its line feed
+
+  void parse() override {
+    const char* p = lines.data();
+    const char* const end = p + lines.size();
+    std::size_t row = 0;
+    for (; p != end; ++n_lines_) {
+      make_room(rows_, row, lines.size());
+      const char* next = read_plain_row(p, end, row);
+      LineKind kind = LineKind::row;
+      if (next == nullptr) {
+        const char* const line_end = Syntax::find_line_end(p, end);
+        kind = read_line(without_return(p, line_end), row);
+        next = line_end + 1;
+      }
+      if (kind == LineKind::bad) break;
+      if (kind == LineKind::row) rows_.lines[row++] = n_lines_;
+      p = next;
+    }
+    rows_.n_rows = row;
+    resize_rows(rows_, row);
+  }
+
+  LogChunk& rows() { return rows_; }
+  const std::vector<std::string>& words(std::size_t k) const { return words_[k].list(); }
+  std::uint64_t n_lines() const { return n_lines_; }
+  /// The line at which parse() had to stop; it is number n_lines() of this piece.
+  const std::optional<std::string_view>& bad_line() const { return bad_line_; }
+
+ private:
+  using Syntax = RowSyntax<kDelimiter>;
+
+  static std::string_view without_return(const char* begin, const char* end) {
+    if (end != begin && end[-1] == '\r') --end;
+    return {begin, static_cast<std::size_t>(end - begin)};
+  }
+
+  /// The usual row, digits and delimiters without blanks or quotes, read without looking for its
+  /// end first. Returns the begin of the next line, null for any other row.
+  const char* read_plain_row(const char* p, const char* end, std::size_t row) {
+    if constexpr (Syntax::kBlanksDelimit) return nullptr;
+    bool is_first = true;
+    for (const CsvSelection::Target& target : selection_.targets()) {
+      if (!is_first && *p++ != static_cast<char>(kDelimiter)) return nullptr;
+      is_first = false;
+      if (target.text != CsvSelection::kNowhere || target.number == CsvSelection::kNowhere)
+        return nullptr;
+      p = read_number(p, end, rows_.numbers[target.number][row]);
+      if (p == nullptr) return nullptr;
+    }
+    if (*p == '\r') ++p;
+    return *p == '\n' ? p + 1 : nullptr;
+  }
+
+  enum class LineKind { row, skipped, bad };
+
+  LineKind read_line(std::string_view line, std::size_t row) {
+    if (is_skipped(line)) return LineKind::skipped;
+    if (line.size() <= LineBuffer::kMaxLineBytes && read_row(line, row)) return LineKind::row;
+    bad_line_ = line;
+    return LineKind::bad;
+  }
+
+  static bool is_skipped(std::string_view line) {
+    // Digits, signs and letters come after '#', blanks before it: most lines need no second look.
+    const bool is_suspect = line.empty() || line.front() <= '#';
+    return is_suspect && is_skipped_line(line, kDelimiter);
+  }
+
+  bool read_row(std::string_view line, std::size_t row) {
+    const char* const end = line.data() + line.size();
+    const char* p = Syntax::skip_blanks(line.data(), end);
+    bool is_first = true;
+    for (const CsvSelection::Target& target : selection_.targets()) {
+      if (!is_first) p = Syntax::next_cell(p, end);
+      is_first = false;
+      if (p != nullptr) p = read_cell(p, end, target, row);
+      if (p == nullptr) return false;
+    }
+    return Syntax::is_row_end(p, end);
+  }
+
+  const char* read_cell(const char* p, const char* end, const CsvSelection::Target& target,
+                        std::size_t row) {
+    if (target.text != CsvSelection::kNowhere) {
+      const char* text_end = read_text(p, end, target.text, row);
+      if (target.number == CsvSelection::kNowhere) return text_end;
+    }
+    if (target.number == CsvSelection::kNowhere) return Syntax::skip_cell(p, end);
+    return Syntax::number_cell(p, end, rows_.numbers[target.number][row]);
+  }
+
+  const char* read_text(const char* p, const char* end, std::size_t k, std::size_t row) {
+    std::string_view text;
+    p = Syntax::text_cell(p, end, text, scratch_);
+    if (p != nullptr) rows_.texts[k][row] = words_[k].index_of(text);
+    return p;
+  }
+
+  const CsvSelection& selection_;
+  LogChunk rows_;             // texts are indices into words_
+  std::vector<Words> words_;  // of this piece, per selected text column
+  std::string scratch_;
+  std::uint64_t n_lines_ = 0;
+  std::optional<std::string_view> bad_line_;
+};
+
 template <Delimiter kDelimiter>
 class CsvReader final : public LogReader {
  public:
   CsvReader(LogHeader header, LineBuffer lines)
       : header_(std::move(header)),
         lines_(std::move(lines)),
-        selection_(header_.columns.size(), {}, {}) {}
+        selection_(header_.columns.size(), {}, {}),
+        n_lines_(lines_.line_number()) {}
 
   const LogHeader& header() const override { return header_; }
 
@@ -33,84 +152,53 @@ class CsvReader final : public LogReader {
     return words_[selection_.text_origin(k)].list();
   }
 
-  bool next(LogChunk& chunk, std::size_t max_rows) override {
-    assert(max_rows > 0);
-    chunk.numbers.resize(selection_.numbers().size());
-    chunk.texts.resize(selection_.texts().size());
+  /// An empty piece is the last one: finish() then knows how many rows there were.
+  std::unique_ptr<LogPiece> take() override {
+    if (is_at_end_) return nullptr;
+    auto piece = std::make_unique<Piece>(selection_);
+    lines_.take_lines(piece->lines);
+    is_at_end_ = piece->lines.empty();
+    return piece;
+  }
+
+  void finish(LogPiece& some_piece, LogChunk& chunk) override {
+    auto& piece = static_cast<Piece&>(some_piece);
+    if (piece.bad_line()) throw complaint(*piece.bad_line(), n_lines_ + piece.n_lines() + 1);
+    std::swap(chunk, piece.rows());
     chunk.first_row = n_rows_;
-    chunk.n_rows = fill(chunk, max_rows);
+    for (std::uint64_t& line : chunk.lines) line += n_lines_ + 1;
+    for (std::size_t k = 0; k < chunk.texts.size(); ++k) share_words(piece, k, chunk.texts[k]);
+    selection_.copy_repeats(chunk);
     n_rows_ += chunk.n_rows;
-    if (n_rows_ == 0) {
+    n_lines_ += piece.n_lines();
+    if (piece.lines.empty() && n_rows_ == 0) {
       throw input_error({header_.path}, "no rows behind the header", "a log needs samples");
     }
-    resize_rows(chunk, chunk.n_rows);
-    selection_.copy_repeats(chunk);
-    return chunk.n_rows > 0;
   }
 
  private:
-  using Syntax = RowSyntax<kDelimiter>;
+  using Piece = CsvPiece<kDelimiter>;
 
-  std::size_t fill(LogChunk& chunk, std::size_t max_rows) {
-    std::size_t row = 0;
-    std::string_view line;
-    while (row < max_rows && lines_.next(line)) {
-      if (is_skipped(line)) continue;
-      make_room(chunk, row, max_rows);
-      if (!read_row(line, chunk, row)) throw complaint(line);
-      chunk.lines[row++] = lines_.line_number();
-    }
-    return row;
-  }
-
-  static bool is_skipped(std::string_view line) {
-    // Digits, signs and letters come after '#', blanks before it: most lines need no second look.
-    const bool is_suspect = line.empty() || line.front() <= '#';
-    return is_suspect && is_skipped_line(line, kDelimiter);
-  }
-
-  bool read_row(std::string_view line, LogChunk& chunk, std::size_t row) {
-    const char* const end = line.data() + line.size();
-    const char* p = Syntax::skip_blanks(line.data(), end);
-    bool is_first = true;
-    for (const CsvSelection::Target& target : selection_.targets()) {
-      if (!is_first) p = Syntax::next_cell(p, end);
-      is_first = false;
-      if (p != nullptr) p = read_cell(p, end, target, chunk, row);
-      if (p == nullptr) return false;
-    }
-    return Syntax::is_row_end(p, end);
-  }
-
-  const char* read_cell(const char* p, const char* end, const CsvSelection::Target& target,
-                        LogChunk& chunk, std::size_t row) {
-    if (target.text != CsvSelection::kNowhere) {
-      const char* text_end = read_text(p, end, target.text, chunk.texts[target.text][row]);
-      if (target.number == CsvSelection::kNowhere) return text_end;
-    }
-    if (target.number == CsvSelection::kNowhere) return Syntax::skip_cell(p, end);
-    return Syntax::number_cell(p, end, chunk.numbers[target.number][row]);
-  }
-
-  const char* read_text(const char* p, const char* end, std::size_t k, std::uint32_t& index) {
-    std::string_view text;
-    p = Syntax::text_cell(p, end, text, scratch_);
-    if (p == nullptr) return nullptr;
-    index = words_[k].index_of(text);
+  /// From indices into the words of the piece to indices into those of the log.
+  void share_words(const Piece& piece, std::size_t k, std::vector<std::uint32_t>& indices) {
+    std::vector<std::uint32_t> shared;
+    for (const std::string& word : piece.words(k)) shared.push_back(words_[k].index_of(word));
     if (words_[k].is_full()) throw too_many_words(header_.columns[selection_.texts()[k]]);
-    return p;
+    for (std::uint32_t& index : indices) index = shared.empty() ? 0 : shared[index];
   }
 
-  Error complaint(std::string_view line) const {
-    return row_complaint({line, lines_.line_number()}, header_, kDelimiter, selection_.numbers());
+  Error complaint(std::string_view line, std::uint64_t number) const {
+    if (line.size() > LineBuffer::kMaxLineBytes) return too_long_line({header_.path, number});
+    return row_complaint({line, number}, header_, kDelimiter, selection_.numbers());
   }
 
   LogHeader header_;
   LineBuffer lines_;
   CsvSelection selection_;
   std::vector<Words> words_;  // per selected text column
-  std::string scratch_;
   std::size_t n_rows_ = 0;
+  std::uint64_t n_lines_;
+  bool is_at_end_ = false;
 };
 
 template <Delimiter kDelimiter>

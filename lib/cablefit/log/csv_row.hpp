@@ -38,6 +38,11 @@ struct RowSyntax {
     return p;
   }
 
+  /// The line feed at or after `p`; there must be one.
+  static const char* find_line_end(const char* p, const char* end) {
+    return static_cast<const char*>(std::memchr(p, '\n', static_cast<std::size_t>(end - p)));
+  }
+
   /// First delimiter at or after `p`, or the end.
   static const char* find_delimiter(const char* p, const char* end) {
     if constexpr (kBlanksDelimit) {

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kHeadBytes = 1u << 16;
 constexpr std::size_t kBlockBytes = 1u << 16;
+constexpr std::size_t kPieceRows = 8192;
 
 // The byte that says what a JSON text is, after blanks and a byte order mark.
 char first_byte(std::string_view head) {
@@ -35,7 +36,7 @@ class JsonReader final : public LogReader {
   const LogHeader& header() const override { return header_; }
 
   void select(std::vector<std::size_t> numbers, std::vector<std::size_t> texts) override {
-    assert(n_read_ == 0);
+    assert(n_taken_ == 0);
     for (const std::size_t k : numbers) require_numbers(table_->columns.at(k));
     words_.clear();
     for (const std::size_t k : texts) words_.push_back(table_->columns.at(k).words);
@@ -45,24 +46,37 @@ class JsonReader final : public LogReader {
 
   const std::vector<std::string>& words(std::size_t k) const override { return words_[k].list(); }
 
-  bool next(LogChunk& chunk, std::size_t max_rows) override {
-    assert(max_rows > 0);
-    chunk.first_row = n_read_;
-    chunk.n_rows = std::min(max_rows, table_->n_rows - n_read_);
+  std::unique_ptr<LogPiece> take() override {
+    if (n_taken_ >= table_->n_rows) return nullptr;
+    const std::size_t n_rows = std::min(kPieceRows, table_->n_rows - n_taken_);
+    auto piece = std::make_unique<Piece>(n_taken_, n_rows);
+    n_taken_ += n_rows;
+    return piece;
+  }
+
+  /// All numbers were parsed when the log was opened.
+  void finish(LogPiece& some_piece, LogChunk& chunk) override {
+    const auto& piece = static_cast<const Piece&>(some_piece);
+    chunk.first_row = piece.first_row;
+    chunk.n_rows = piece.n_rows;
     chunk.numbers.resize(numbers_.size());
     chunk.texts.resize(texts_.size());
     resize_rows(chunk, chunk.n_rows);
     for (std::size_t k = 0; k < numbers_.size(); ++k) {
-      read(table_->columns[numbers_[k]].first, chunk.n_rows, chunk.numbers[k],
+      read(table_->columns[numbers_[k]].first, chunk, chunk.numbers[k],
            [](double value) { return value; });
     }
     for (std::size_t k = 0; k < texts_.size(); ++k) read_texts(k, chunk);
     read_lines(chunk);
-    n_read_ += chunk.n_rows;
-    return chunk.n_rows > 0;
   }
 
  private:
+  struct Piece final : LogPiece {
+    Piece(std::size_t first, std::size_t n) : first_row(first), n_rows(n) {}
+    void parse() override {}
+    std::size_t first_row, n_rows;
+  };
+
   static void require_numbers(const JsonColumn& column) {
     if (column.kind == JsonColumn::Kind::number) return;
     throw input_error(column.header.place,
@@ -73,11 +87,11 @@ class JsonReader final : public LogReader {
   void read_texts(std::size_t k, LogChunk& chunk) {
     const JsonColumn& column = table_->columns[texts_[k]];
     if (column.kind == JsonColumn::Kind::text) {
-      return read(column.first, chunk.n_rows, chunk.texts[k],
+      return read(column.first, chunk, chunk.texts[k],
                   [](double value) { return static_cast<std::uint32_t>(value); });
     }
     // Numbers are labels too: "run": [1, 1, 2].
-    read(column.first, chunk.n_rows, chunk.texts[k], [&](double value) {
+    read(column.first, chunk, chunk.texts[k], [&](double value) {
       const std::uint32_t index = words_[k].index_of(fmt::format("{}", value));
       if (words_[k].is_full()) throw too_many_words(column.header);
       return index;
@@ -86,19 +100,19 @@ class JsonReader final : public LogReader {
 
   void read_lines(LogChunk& chunk) {
     if (!table_->first_line) return std::fill(chunk.lines.begin(), chunk.lines.end(), 0);
-    read(*table_->first_line, chunk.n_rows, chunk.lines,
+    read(*table_->first_line, chunk, chunk.lines,
          [](double value) { return static_cast<std::uint64_t>(value); });
   }
 
-  /// `n_rows` values of the column that begins at `first` in the spill file, from row n_read_ on.
+  /// The chunk's rows of the column that begins at `first` in the spill file.
   template <typename Value, typename Convert>
-  void read(std::size_t first, std::size_t n_rows, std::vector<Value>& to, Convert convert) {
+  void read(std::size_t first, const LogChunk& chunk, std::vector<Value>& to, Convert convert) {
     const std::size_t stride = table_->stride;
     const std::size_t n_rows_at_once = std::max<std::size_t>(1, kBlockBytes / stride);
-    for (std::size_t row = 0; row < n_rows; row += n_rows_at_once) {
-      const std::size_t n = std::min(n_rows_at_once, n_rows - row);
+    for (std::size_t row = 0; row < chunk.n_rows; row += n_rows_at_once) {
+      const std::size_t n = std::min(n_rows_at_once, chunk.n_rows - row);
       block_.resize((n - 1) * stride + 1);
-      table_->values.read(first + (n_read_ + row) * stride, block_);
+      table_->values.read(first + (chunk.first_row + row) * stride, block_);
       for (std::size_t i = 0; i < n; ++i) to[row + i] = convert(block_[i * stride]);
     }
   }
@@ -109,7 +123,7 @@ class JsonReader final : public LogReader {
   std::vector<std::size_t> texts_;
   std::vector<Words> words_;  // per selected text column
   std::vector<double> block_;
-  std::size_t n_read_ = 0;
+  std::size_t n_taken_ = 0;
 };
 
 void parse(ByteSource& source, JsonLayout& layout, const std::string& path) {

@@ -1,6 +1,7 @@
 #include "cablefit/log/line_buffer.hpp"
 
 #include <cstring>
+#include <string_view>
 #include <utility>
 
 #include "cablefit/base/error.hpp"
@@ -13,6 +14,10 @@ const char* find_line_end(const char* begin, const char* end) {
 }
 
 }  // namespace
+
+Error too_long_line(const Place& place) {
+  return input_error(place, "line is longer than 1 MiB", "a log has one line per sample");
+}
 
 LineBuffer::LineBuffer(std::unique_ptr<ByteSource> source, std::string path,
                        std::size_t block_bytes)
@@ -48,10 +53,27 @@ bool LineBuffer::next_across_blocks(std::string_view& line) {
   return true;
 }
 
+void LineBuffer::take_lines(std::string& lines) {
+  const auto last_line_end = [&](std::size_t n_searched) {
+    const std::string_view text(begin_, static_cast<std::size_t>(end_ - begin_));
+    const std::size_t at = text.substr(n_searched).rfind('\n');
+    return at == std::string_view::npos ? nullptr : begin_ + n_searched + at;
+  };
+  const char* line_end = last_line_end(0);
+  while (line_end == nullptr) {
+    const std::size_t n_searched = static_cast<std::size_t>(end_ - begin_);
+    if (n_searched > kMaxLineBytes || !refill()) break;
+    line_end = last_line_end(n_searched);
+  }
+  const char* const next_begin = line_end == nullptr ? end_ : line_end + 1;
+  lines.assign(begin_, next_begin);
+  if (line_end == nullptr && !lines.empty()) lines += '\n';
+  begin_ = next_begin;
+}
+
 void LineBuffer::require_length(std::size_t n_bytes) const {
   if (n_bytes <= kMaxLineBytes) return;
-  throw input_error({path_, line_number_ + 1}, "line is longer than 1 MiB",
-                    "a log has one line per sample");
+  throw too_long_line({path_, line_number_ + 1});
 }
 
 bool LineBuffer::refill() {

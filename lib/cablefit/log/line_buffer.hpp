@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cablefit/base/error.hpp"
 #include "cablefit/log/byte_source.hpp"
 
 namespace cablefit {
@@ -24,6 +25,10 @@ class LineBuffer {
   /// The next line without its end (LF or CRLF); false at the end of the text. The line is valid
   /// until the next call. Throws Error(input) for a line of more than 1 MiB.
   bool next(std::string_view& line);
+  /// Whole lines as they stand, about a block of them, at least one; a last line that lacks its
+  /// line feed gets one. Empty at the end of the text. A line of more than 1 MiB comes cut off
+  /// there: it is for the caller, who counts lines, to refuse it.
+  void take_lines(std::string& lines);
   /// Of the line that next() gave last; counted from 1.
   std::uint64_t line_number() const { return line_number_; }
 
@@ -41,5 +46,8 @@ class LineBuffer {
   const char* end_;
   std::uint64_t line_number_ = 0;
 };
+
+/// For a line of more than LineBuffer::kMaxLineBytes.
+Error too_long_line(const Place& place);
 
 }  // namespace cablefit

@@ -22,8 +22,17 @@ void check_is_text(std::string_view head, const std::string& path) {
 
 }  // namespace
 
-std::unique_ptr<LogReader> open_log(const std::string& path) {
-  auto source = open_bytes(path);
+bool LogReader::next(LogChunk& chunk) {
+  while (const std::unique_ptr<LogPiece> piece = take()) {
+    piece->parse();
+    finish(*piece, chunk);
+    if (chunk.n_rows > 0) return true;
+  }
+  return false;
+}
+
+std::unique_ptr<LogReader> open_log(const std::string& path, Sha256* digest) {
+  auto source = open_bytes(path, digest);
   const std::string_view head = source->peek(kHeadBytes);
   check_is_text(head, path);
   for (const LogFormatRow& row : log_format_rows()) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/base/digest.hpp"
 #include "cablefit/base/error.hpp"
 
 namespace cablefit {
@@ -38,26 +39,43 @@ struct LogChunk {
   std::vector<std::uint64_t> lines;  ///< line of each row in the file (JSON records too; 0 unknown)
 };
 
+/// What of a log lies between two places, not read yet. Each format has its own kind.
+class LogPiece {
+ public:
+  virtual ~LogPiece() = default;
+  /// Reads the numbers. Touches nothing but this piece, so that pieces can be read on any thread.
+  /// Throws nothing that concerns the log: that is left to LogReader::finish().
+  virtual void parse() = 0;
+};
+
 /// One pass over one log. Open it again for another pass.
 class LogReader {
  public:
   virtual ~LogReader() = default;
   virtual const LogHeader& header() const = 0;
-  /// Which columns to deliver, as indices into header().columns, before the first next(). Cells of
+  /// Which columns to deliver, as indices into header().columns, before the first take(). Cells of
   /// other columns are not looked at (they may hold text), but each row must have every cell.
   virtual void select(std::vector<std::size_t> numbers, std::vector<std::size_t> texts) = 0;
-  /// Fills `chunk` (buffers are reused) with up to `max_rows` rows; false at the end of the log.
-  /// Throws Error(input) at file:line:column for a cell that is no finite number, a ragged row, a
-  /// truncated or corrupt compressed stream, a read error.
-  virtual bool next(LogChunk& chunk, std::size_t max_rows) = 0;
+  /// The next piece, null at the end of the log. Throws Error(input) for a truncated or corrupt
+  /// compressed stream and a read error. Valid as long as the reader.
+  virtual std::unique_ptr<LogPiece> take() = 0;
+  /// The rows of a piece that was parsed, in the order in which the pieces were taken; `chunk` is
+  /// overwritten. Throws Error(input) at file:line:column for a cell that is no finite number or a
+  /// ragged row.
+  virtual void finish(LogPiece& piece, LogChunk& chunk) = 0;
   /// Distinct texts seen so far in selected text column `k`.
   virtual const std::vector<std::string>& words(std::size_t k) const = 0;
+
+  /// take(), parse() and finish() in one: the next rows (at least one); false at the end of the
+  /// log, which throws Error(input) when it had no rows.
+  bool next(LogChunk& chunk);
 };
 
 /// Opens by content, not by file name: gzip and zstd are unpacked, '{' or '[' is JSON, else CSV.
 /// Throws Error(input) for a missing, empty or binary file, a header without columns or with two
-/// columns of one name.
-std::unique_ptr<LogReader> open_log(const std::string& path);
+/// columns of one name. `digest`, which must outlive the reader, has seen every byte of the file
+/// when the reader is at its end.
+std::unique_ptr<LogReader> open_log(const std::string& path, Sha256* digest = nullptr);
 
 /// A row of the table of formats, for `cablefit list formats`.
 struct LogFormat {

@@ -61,6 +61,11 @@ SpillFile::~SpillFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
+void SpillFile::append(std::span<const double> values) {
+  if (tail_.size() >= kTailSize) flush();
+  tail_.insert(tail_.end(), values.begin(), values.end());
+}
+
 void SpillFile::flush() {
   if (descriptor_ < 0) descriptor_ = open_unlinked_file();
   const std::span<const double> tail = tail_;

@@ -17,12 +17,14 @@ class SpillFile {
 
   /// How many numbers were appended.
   std::size_t size() const { return n_written_ + tail_.size(); }
-  /// Throws Error(output) when the temporary folder has no room.
+  /// Both throw Error(output) when the temporary folder has no room.
   void append(double value) {
-    if (tail_.size() == kTailSize) flush();
+    if (tail_.size() >= kTailSize) flush();
     tail_.push_back(value);
   }
-  /// Copies the numbers from index `first` on; all of them must have been appended.
+  void append(std::span<const double> values);
+  /// Copies the numbers from index `first` on; all of them must have been appended. Any number of
+  /// threads may read at a time.
   void read(std::size_t first, std::span<double> to) const;
 
  private:

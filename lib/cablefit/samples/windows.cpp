@@ -6,8 +6,6 @@
 namespace cablefit {
 namespace {
 
-constexpr std::size_t kChunkRows = 8192;
-
 // Direction of the last motion of one joint: turns when theta retreats from its extreme by `band`.
 class ApproachTracker {
  public:
@@ -76,18 +74,18 @@ class SegmentCutter {
     first_ = begin_ = filled_ = 0;
   }
 
-  /// Takes the next row of the segment; false when the sink wants no more.
-  bool add(const Eigen::RowVectorXd& row) {
-    if (filled_ == buffer_.rows()) shift();
-    buffer_.row(filled_).head(n_slots_) = row;
-    for (std::size_t joint = 0; joint < trackers_.size(); ++joint) {
-      const int k = plan_.find(Channel::theta, static_cast<int>(joint));
-      buffer_(filled_, n_slots_ + static_cast<Eigen::Index>(joint)) =
-          k < 0 ? 0 : trackers_[joint].update(row(k));
+  /// Takes the next rows of the segment, n x slots; false when the sink wants no more.
+  bool add(const Eigen::Ref<const Eigen::MatrixXd>& rows) {
+    for (Eigen::Index from = 0; from < rows.rows();) {
+      const Eigen::Index full = begin_ + kWindowRows + halo_ + 1 - first_;
+      const Eigen::Index n = std::min(rows.rows() - from, full - filled_);
+      buffer_.block(filled_, 0, n, n_slots_) = rows.middleRows(from, n);
+      track_approach(n);
+      filled_ += n;
+      from += n;
+      if (filled_ == full && !emit(begin_ + kWindowRows, false)) return false;
     }
-    ++filled_;
-    if (first_ + filled_ < begin_ + kWindowRows + halo_ + 1) return true;
-    return emit(begin_ + kWindowRows, false);
+    return true;
   }
   bool finish() {
     if (filled_ == 0) return true;
@@ -107,6 +105,19 @@ class SegmentCutter {
   }
 
  private:
+  /// Of the `n` rows behind those that were there.
+  void track_approach(Eigen::Index n) {
+    for (std::size_t joint = 0; joint < trackers_.size(); ++joint) {
+      const int k = plan_.find(Channel::theta, static_cast<int>(joint));
+      auto to = buffer_.col(n_slots_ + static_cast<Eigen::Index>(joint)).segment(filled_, n);
+      if (k < 0) {
+        to.setZero();
+      } else {
+        for (Eigen::Index i = 0; i < n; ++i)
+          to(i) = trackers_[joint].update(buffer_(filled_ + i, k));
+      }
+    }
+  }
   bool emit(Eigen::Index end, bool last) {
     Window window;
     window.part = part_;
@@ -183,16 +194,64 @@ double longest_step(const PartSurvey& part, double bridge) {
   return part.uneven ? std::max(usual, bridge) : usual;
 }
 
-std::size_t part_of(const LogSurvey& log, const PartTracker::Key& key) {
-  for (std::size_t k = 0; k < log.parts.size(); ++k) {
-    const PartSurvey& part = log.parts[k];
-    if (part.preload == key.preload && part.run == key.run &&
-        (key.phase.empty() ? !part.phase_given
-                           : part.phase_given && to_string(part.phase) == key.phase))
-      return k;
+/// Cuts one log.
+class LogCutter {
+ public:
+  LogCutter(const LogSurvey& log, Eigen::Index halo, Eigen::Index min_rows, double bridge,
+            const std::function<bool(Window&&)>& sink)
+      : log_(log), bridge_(bridge), cutter_(log.plan, halo, min_rows, sink, counts_) {}
+
+  /// `rows` as SampleStore has them; false when the sink wants no more.
+  bool add(const SamplePiece& piece, const Eigen::MatrixXd& rows) {
+    const PartSurvey& part = log_.parts[piece.part];
+    const double longest = longest_step(part, bridge_);
+    counts_.rows_read += static_cast<std::size_t>(rows.rows());
+    bool starts = !piece.follows;
+    for (Eigen::Index begin = 0; begin < rows.rows();) {
+      const double before = starts || begin > 0 ? rows(begin, 0) : t_last_;
+      starts |= rows(begin, 0) - before > longest;
+      Eigen::Index end = begin + 1;
+      while (end < rows.rows() && !(rows(end, 0) - rows(end - 1, 0) > longest)) ++end;
+      if (!add_smooth(piece.part, starts, rows.middleRows(begin, end - begin))) return false;
+      starts = true;
+      begin = end;
+    }
+    t_last_ = rows(rows.rows() - 1, 0);
+    return true;
   }
-  return log.parts.size();  // cannot happen: the survey saw every row
-}
+  bool finish() { return cutter_.finish(); }
+  const WindowCounts& counts() const { return counts_; }
+
+ private:
+  /// Rows without a gap between them.
+  bool add_smooth(std::size_t part_index, bool starts,
+                  const Eigen::Ref<const Eigen::MatrixXd>& rows) {
+    const PartSurvey& part = log_.parts[part_index];
+    const Eigen::Index n_slots = rows.cols() - 1;
+    Eigen::Index next = 0;
+    if (starts) {
+      if (!cutter_.finish()) return false;
+      const Eigen::RowVectorXd first = rows.row(0).tail(n_slots);
+      cutter_.start(part_index, part, rows(0, 0), first);
+      resampler_.start(rows(0, 0), first);
+      if (!cutter_.add(first)) return false;
+      next = 1;
+    }
+    if (!part.uneven) return cutter_.add(rows.bottomRightCorner(rows.rows() - next, n_slots));
+    for (; next < rows.rows(); ++next)
+      if (!resampler_.add(rows(next, 0), rows.row(next).tail(n_slots), part.period, cutter_,
+                          counts_))
+        return false;
+    return true;
+  }
+
+  const LogSurvey& log_;
+  double bridge_;
+  WindowCounts counts_;
+  SegmentCutter cutter_;
+  Resampler resampler_;
+  double t_last_ = 0;
+};
 
 }  // namespace
 
@@ -200,53 +259,15 @@ WindowCounts for_each_window(const LogSurvey& log,
                              const std::function<bool(const PartSurvey&)>& wanted,
                              Eigen::Index halo, Eigen::Index min_rows, double bridge,
                              const std::function<bool(Window&&)>& sink) {
-  WindowCounts counts;
-  const LogPlan& plan = log.plan;
-  const auto n_slots = static_cast<Eigen::Index>(plan.slots.size());
-  const auto reader = open_log(plan.path);
-  PartTracker tracker(plan, log.default_preload);
-  reader->select(tracker.numeric_columns(), tracker.text_columns());
-  const std::size_t first_slot = plan.time_column ? 1 : 0;
-  SegmentCutter cutter(plan, halo, min_rows, sink, counts);
-  Resampler resampler;
-
-  std::size_t part_index = 0;
-  bool use = false;
-  double t_last = 0;
-  LogChunk chunk;
-  Eigen::RowVectorXd row(n_slots);
-  while (reader->next(chunk, kChunkRows)) {
-    for (std::size_t i = 0; i < chunk.n_rows; ++i) {
-      bool changed = false;
-      const PartTracker::Key& key = tracker.key(*reader, chunk, i, changed);
-      if (changed) {
-        if (!cutter.finish()) return counts;
-        part_index = part_of(log, key);
-        use = part_index < log.parts.size() && wanted(log.parts[part_index]);
-      }
-      if (!use) continue;
-      const PartSurvey& part = log.parts[part_index];
-      const double t = time_of(plan, chunk, i);
-      for (std::size_t k = 0; k < plan.slots.size(); ++k)
-        row(static_cast<Eigen::Index>(k)) =
-            chunk.numbers[first_slot + k][i] * plan.slots[k].factor + plan.slots[k].shift;
-      ++counts.rows_read;
-      const bool gap = !changed && t - t_last > longest_step(part, bridge);
-      t_last = t;
-      if (changed || gap) {
-        if (!cutter.finish()) return counts;
-        cutter.start(part_index, part, t, row);
-        resampler.start(t, row);
-        if (!cutter.add(row)) return counts;
-      } else if (part.uneven) {
-        if (!resampler.add(t, row, part.period, cutter, counts)) return counts;
-      } else {
-        if (!cutter.add(row)) return counts;
-      }
-    }
+  LogCutter cutter(log, halo, min_rows, bridge, sink);
+  Eigen::MatrixXd rows;
+  for (const SamplePiece& piece : log.samples->pieces()) {
+    if (!wanted(log.parts[piece.part])) continue;
+    log.samples->read(piece, rows);
+    if (!cutter.add(piece, rows)) return cutter.counts();
   }
   cutter.finish();
-  return counts;
+  return cutter.counts();
 }
 
 }  // namespace cablefit
