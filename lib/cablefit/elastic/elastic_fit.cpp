@@ -186,12 +186,6 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
 
 }  // namespace
 
-const ElasticFit* ElasticPreload::find(const std::string& model) const {
-  for (const ElasticFit& fit : fits)
-    if (fit.model == model) return &fit;
-  return nullptr;
-}
-
 ElasticResult fit_elastic(std::span<const LogSurvey> logs, const ElasticOptions& options) {
   ElasticResult result;
   for (const LogSurvey& log : logs) {

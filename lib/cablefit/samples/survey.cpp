@@ -290,6 +290,7 @@ LogSurvey survey_log(const LogPlan& plan, const std::string& preload) {
     }
     survey.n_rows += chunk.n_rows;
   }
+  require_unchanged(plan);
   for (PartScan& scan : scans) {
     PartSurvey part;
     part.preload = scan.key.preload;

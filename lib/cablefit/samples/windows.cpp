@@ -194,12 +194,9 @@ std::size_t part_of(const LogSurvey& log, const PartTracker::Key& key) {
   return log.parts.size();  // cannot happen: the survey saw every row
 }
 
-}  // namespace
-
-WindowCounts for_each_window(const LogSurvey& log,
-                             const std::function<bool(const PartSurvey&)>& wanted,
-                             Eigen::Index halo, Eigen::Index min_rows, double bridge,
-                             const std::function<bool(Window&&)>& sink) {
+WindowCounts one_pass(const LogSurvey& log, const std::function<bool(const PartSurvey&)>& wanted,
+                      Eigen::Index halo, Eigen::Index min_rows, double bridge,
+                      const std::function<bool(Window&&)>& sink) {
   WindowCounts counts;
   const LogPlan& plan = log.plan;
   const auto n_slots = static_cast<Eigen::Index>(plan.slots.size());
@@ -247,6 +244,23 @@ WindowCounts for_each_window(const LogSurvey& log,
   }
   cutter.finish();
   return counts;
+}
+
+}  // namespace
+
+WindowCounts for_each_window(const LogSurvey& log,
+                             const std::function<bool(const PartSurvey&)>& wanted,
+                             Eigen::Index halo, Eigen::Index min_rows, double bridge,
+                             const std::function<bool(Window&&)>& sink) {
+  require_unchanged(log.plan);
+  try {
+    const WindowCounts counts = one_pass(log, wanted, halo, min_rows, bridge, sink);
+    require_unchanged(log.plan);
+    return counts;
+  } catch (const Error&) {
+    require_unchanged(log.plan);  // else the log itself would be blamed
+    throw;
+  }
 }
 
 }  // namespace cablefit
