@@ -1,13 +1,14 @@
 // The program: picks a command, and is the one place that catches.
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <exception>
+#include <new>
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/output_file.hpp"
 #include "cablefit/version.hpp"
 #include "commands/command.hpp"
+#include "process.hpp"
 
 namespace {
 
@@ -33,14 +34,18 @@ int run(apps::Arguments arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  apps::prepare_process();
   try {
     return run(apps::Arguments(argv + 1, argv + argc));
   } catch (const Error& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    apps::complain(fmt::format("{}\n", error.what()));
     return static_cast<int>(error.kind());
+  } catch (const std::bad_alloc&) {
+    apps::complain("out of memory; close other programs, or raise the limit (ulimit -v)\n");
+    return kInternalError;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "internal error: {}; please report it with the command you ran\n",
-               error.what());
+    apps::complain(fmt::format("internal error: {}; please report it with the command you ran\n",
+                               error.what()));
     return kInternalError;
   }
 }

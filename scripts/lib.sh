@@ -8,6 +8,7 @@ jobs="$(nproc)"
 build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libcli11-dev
                 nlohmann-json3-dev libfmt-dev libfast-float-dev zlib1g-dev libzstd-dev libssl-dev
                 catch2)
+fuzz_packages=(clang-14 libclang-rt-14-dev)
 declare -A step_packages=([format]=clang-format-14 [readme]=python3 [tidy]=clang-tidy-14)
 
 # Says what it runs, and runs it.

@@ -4,14 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 
+#include "cablefit/base/quote.hpp"
 #include "cablefit/report/batch_document.hpp"
 #include "cablefit/report/dynamic_json.hpp"
 #include "cablefit/report/elastic_json.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
+#include "process.hpp"
 
 namespace cablefit::apps {
 namespace {
@@ -52,7 +53,7 @@ std::vector<std::string> files_of(const Campaign& campaign) {
 /// A failed gate is never silent.
 void print_failed_gates(const BatchResult& result) {
   for (const Gate& gate : result.gates)
-    if (!gate.passed) fmt::print(stderr, "{}\n", gate.text);
+    if (!gate.passed) complain(fmt::format("{}\n", printable(gate.text)));
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <system_error>
 
@@ -12,6 +11,7 @@
 #include "cablefit/report/escape.hpp"
 #include "cablefit/report/writers.hpp"
 #include "commands/problems.hpp"
+#include "process.hpp"
 
 namespace cablefit::apps {
 namespace {
@@ -61,7 +61,7 @@ void print(const CommonOptions& options, const Document& document) {
     return;
   }
   for (const std::string& warning : document.warnings) {
-    fmt::print(stderr, "warning: {}\n", printable(warning));
+    complain(fmt::format("warning: {}\n", printable(warning)));
   }
 }
 

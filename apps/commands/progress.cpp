@@ -1,21 +1,47 @@
 #include "commands/progress.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdio>
+#include <string_view>
+#include <system_error>
 #include <utility>
+
+#include "commands/progress_line.hpp"
 
 namespace cablefit::apps {
 namespace {
 
-constexpr const char* kClearLine = "\r\x1b[K";
+constexpr std::string_view kClearLine = "\r\x1b[K";
+constexpr std::chrono::milliseconds kFirst{1000}, kNext{200};
+
+volatile std::sig_atomic_t is_shown = 0;
+
+void say(std::string_view text) { (void)std::fwrite(text.data(), 1, text.size(), stderr); }
+
+/// A line that wraps could not be cleared.
+std::size_t terminal_width() {
+  winsize size{};
+  const bool is_known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return is_known ? size.ws_col - 1u : 79u;
+}
 
 }  // namespace
 
+void clear_progress_line() noexcept {
+  if (is_shown != 0 && ::write(STDERR_FILENO, kClearLine.data(), kClearLine.size()) < 0) return;
+}
+
 Progress::Progress(bool quiet, std::string what) : what_(std::move(what)) {
-  if (!quiet && ::isatty(STDERR_FILENO) != 0) thread_ = std::thread([this] { show(); });
+  if (quiet || ::isatty(STDERR_FILENO) == 0) return;
+  try {
+    thread_ = std::thread([this] { show(); });
+  } catch (const std::system_error&) {  // no more threads: the work goes on without a display
+  }
 }
 
 Progress::~Progress() {
@@ -29,13 +55,17 @@ Progress::~Progress() {
 }
 
 void Progress::show() {
+  ProgressLine line(what_, steady_seconds());
   std::unique_lock lock(mutex_);
-  int seconds = 0;
-  while (!done_.wait_for(lock, std::chrono::seconds(1), [this] { return is_done_; })) {
-    fmt::print(stderr, "{}{} ... {} s", kClearLine, what_, ++seconds);
-    std::fflush(stderr);
+  auto wait = kFirst;
+  while (!done_.wait_for(lock, wait, [this] { return is_done_; })) {
+    wait = kNext;
+    is_shown = 1;
+    say(fmt::format("{}{}", kClearLine,
+                    line.at(steady_seconds(), read_progress(), terminal_width())));
   }
-  if (seconds > 0) fmt::print(stderr, "{}", kClearLine);
+  if (is_shown != 0) say(kClearLine);
+  is_shown = 0;
 }
 
 }  // namespace cablefit::apps

@@ -1,4 +1,5 @@
-// A line on a terminal's stderr while something takes longer than a second: what, and for how long.
+// A line on a terminal's stderr while something takes longer than a second: what, how far the pass
+// over the present log is, at what rate, and how long the rest of it takes.
 #pragma once
 
 #include <condition_variable>
@@ -25,5 +26,8 @@ class Progress {
   bool is_done_ = false;
   std::thread thread_;
 };
+
+/// For a signal handler.
+void clear_progress_line() noexcept;
 
 }  // namespace cablefit::apps

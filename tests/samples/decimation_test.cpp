@@ -51,14 +51,17 @@ const std::vector<double> kTaps5 = {0.200294681688131,
                                     -0.01239417618782637,
                                     -0.006995317452059411};
 
+Eigen::RowVectorXd row_at(const Decimation& decimation, const Eigen::MatrixXd& columns,
+                          Eigen::Index centre, Eigen::Index first, Eigen::Index last) {
+  return decimation.apply(columns, {&centre, 1}, first, last, {});
+}
+
 /// Response of the centre row to an impulse `away` rows from it.
 double tap(const Decimation& decimation, Eigen::Index away) {
   const Eigen::Index n = 2 * decimation.half_width() + 11;
   Eigen::MatrixXd impulse = Eigen::MatrixXd::Zero(n, 1);
   impulse(n / 2 + away, 0) = 1;
-  Eigen::RowVectorXd out(1);
-  decimation.apply(impulse, n / 2, 0, n, out);
-  return out(0);
+  return row_at(decimation, impulse, n / 2, 0, n)(0);
 }
 
 void check_taps(int factor, const std::vector<double>& expected) {
@@ -83,8 +86,7 @@ TEST_CASE("decimation by one does nothing", "[samples]") {
   CHECK(decimation.half_width() == 0);
   Eigen::MatrixXd x(3, 2);
   x << 1, 2, 3, 4, 5, 6;
-  Eigen::RowVectorXd out(2);
-  decimation.apply(x, 1, 0, 3, out);
+  const Eigen::RowVectorXd out = row_at(decimation, x, 1, 0, 3);
   CHECK(out(0) == 3);
   CHECK(out(1) == 4);
 }
@@ -102,19 +104,42 @@ TEST_CASE("columns stay parallel and constants stay constant at the ends", "[sam
   for (const int factor : {2, 5, 10}) {
     const Decimation decimation(factor);
     for (const Eigen::Index centre : {0L, 1L, 7L, 100L, 195L, 199L}) {
-      Eigen::RowVectorXd out(4);
-      decimation.apply(columns, centre, 0, n, out);
+      const Eigen::RowVectorXd out = row_at(decimation, columns, centre, 0, n);
       INFO("factor " << factor << ", row " << centre);
       CHECK_THAT(out(3), Catch::WithinAbs(1, 1e-14));
       CHECK_THAT(3 * out(0) - 2 * out(1) + 0.5 * out(3), Catch::WithinAbs(out(2), 1e-13));
       // Rows outside [first, last) must not be looked at.
       Eigen::MatrixXd poisoned = columns;
       poisoned.topRows(centre >= 50 ? 40 : 0).setConstant(1e300);
-      Eigen::RowVectorXd clean(4);
-      decimation.apply(poisoned, centre, centre >= 50 ? 40 : 0, n, clean);
+      const Eigen::RowVectorXd clean =
+          row_at(decimation, poisoned, centre, centre >= 50 ? 40 : 0, n);
       CHECK(clean.cwiseAbs().maxCoeff() < 10);
     }
   }
+}
+
+TEST_CASE("averaged columns have weights (1, 10, 1)/12 on top of the taps", "[samples]") {
+  const std::vector<Eigen::Index> centres = {1, 2, 3, 4, 5};
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(7, 2);
+  x.row(3).setConstant(12);
+  const Eigen::MatrixXd out = Decimation(1).apply(x, centres, 0, 7, {true, false});
+  const auto near = [](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+    return (a - b).cwiseAbs().maxCoeff() < 1e-14;
+  };
+  CHECK(near(out.col(0), (Eigen::VectorXd(5) << 0, 1, 10, 1, 0).finished()));
+  CHECK(near(out.col(1), (Eigen::VectorXd(5) << 0, 0, 12, 0, 0).finished()));
+
+  // The average comes after the decimation's taps: both are means, so their order does not matter.
+  const Eigen::Index n = 101;
+  Eigen::MatrixXd wave(n, 1), averaged(n, 1);
+  for (Eigen::Index i = 0; i < n; ++i) wave(i) = std::sin(0.3 * static_cast<double>(i * i));
+  averaged = wave;
+  for (Eigen::Index i = 1; i + 1 < n; ++i)
+    averaged(i) = (wave(i - 1) + 10 * wave(i) + wave(i + 1)) / 12;
+  const std::vector<Eigen::Index> middle = {40, 45, 50, 55, 60};
+  const Decimation decimation(3);
+  CHECK(near(decimation.apply(wave, middle, 0, n, {true}),
+             decimation.apply(averaged, middle, 0, n, {})));
 }
 
 }  // namespace

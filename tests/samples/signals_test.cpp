@@ -1,5 +1,6 @@
 // Derivatives, averages, held torque and directions of a window made by hand.
 #include "cablefit/samples/signals.hpp"
+#include "cablefit/samples/decimation.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -85,17 +86,6 @@ TEST_CASE("a held torque is moved by half the hold", "[samples]") {
   }
 }
 
-TEST_CASE("the triangle average has weights (1, 10, 1)/12", "[samples]") {
-  Eigen::ArrayXd x = Eigen::ArrayXd::Zero(7);
-  x(3) = 12;
-  triangle_average(x);
-  const Eigen::ArrayXd expected = (Eigen::ArrayXd(7) << 0, 0, 1, 10, 1, 0, 0).finished();
-  CHECK((x == expected).all());
-  Eigen::ArrayXd line = Eigen::ArrayXd::LinSpaced(9, 1, 9);
-  triangle_average(line);
-  CHECK((line - Eigen::ArrayXd::LinSpaced(9, 1, 9)).abs().maxCoeff() < 1e-15);
-}
-
 // What the average is for (Numerov): the second difference of theta is the triangle average of the
 // true acceleration, so that cablefit's averaged five-point acceleration must equal it to h^4.
 TEST_CASE("an averaged acceleration is the three-point second difference", "[samples]") {
@@ -103,8 +93,10 @@ TEST_CASE("an averaged acceleration is the three-point second difference", "[sam
   const double omega = 40;  // omega h = 0.4
   for (Eigen::Index i = 0; i < kRows; ++i) f.window.data(i, 0) = std::sin(omega * time_at(i));
   const JointSignals s = f.signals();
-  Eigen::ArrayXd averaged = s.thetadd;
-  triangle_average(averaged);
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < kRows; ++i) rows.push_back(i);
+  const Eigen::ArrayXd averaged =
+      Decimation(1).apply(s.thetadd.matrix(), rows, 0, kRows, {true}).col(0).array();
   const auto x = f.window.data.col(0);
   double worst = 0, raw = 0;
   for (Eigen::Index i = 4; i < kRows - 4; ++i) {

@@ -1,5 +1,9 @@
 #include "cablefit/base/error.hpp"
 
+#include <string_view>
+
+#include "cablefit/base/quote.hpp"
+
 namespace cablefit {
 namespace {
 
@@ -7,7 +11,19 @@ std::string with_hint(const std::string& what, const std::string& hint) {
   return hint.empty() ? what : what + "; " + hint;
 }
 
+std::string printable_lines(std::string_view message) {
+  std::string text;
+  for (std::size_t end = 0; (end = message.find('\n')) != std::string_view::npos;) {
+    text += printable(message.substr(0, end)) + '\n';
+    message.remove_prefix(end + 1);
+  }
+  return text + printable(message);
+}
+
 }  // namespace
+
+Error::Error(ErrorKind kind, const std::string& message)
+    : std::runtime_error(printable_lines(message)), kind_(kind) {}
 
 std::string to_string(const Place& place) {
   std::string text = place.file;
@@ -20,11 +36,11 @@ std::string to_string(const Place& place) {
 Error input_error(const Place& place, const std::string& what, const std::string& hint) {
   const std::string where = to_string(place);
   const std::string prefix = where.empty() ? "" : where + ": ";
-  return {ErrorKind::input, prefix + with_hint(what, hint)};
+  return {ErrorKind::input, printable(prefix + with_hint(what, hint))};
 }
 
 Error usage_error(const std::string& what, const std::string& hint) {
-  return {ErrorKind::usage, with_hint(what, hint)};
+  return {ErrorKind::usage, printable(with_hint(what, hint))};
 }
 
 }  // namespace cablefit

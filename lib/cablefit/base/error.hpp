@@ -20,9 +20,11 @@ struct Place {
 /// "file:line:column", leaving out what is not known.
 std::string to_string(const Place& place);
 
+/// Its message is printable, whatever names from files it quotes; only line breaks stay, as several
+/// messages may stand below each other.
 class Error : public std::runtime_error {
  public:
-  Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+  Error(ErrorKind kind, const std::string& message);
   ErrorKind kind() const { return kind_; }
 
  private:

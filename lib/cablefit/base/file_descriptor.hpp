@@ -2,8 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "cablefit/base/temporary_name.hpp"
 
 namespace cablefit {
 
@@ -18,6 +21,7 @@ class Descriptor {
   void write_all(std::string_view content);
   void flush_to_disk();
   void close();
+  int number() const { return number_; }
 
  private:
   int number_;
@@ -28,12 +32,12 @@ bool is_special_file(const std::filesystem::path& path);
 /// Opens such a file for writing.
 int open_in_place(const std::filesystem::path& path);
 
-/// A new file beside its target, in a folder that is made if missing; removed again unless it was
-/// renamed to the target. A target that is a symbolic link stays one.
+/// A new file in the folder of its target, which is made if missing; gone again unless it was
+/// renamed to the target. It has no name until then where the file system allows for that, so that
+/// nothing is left of a process that is killed. A target that is a symbolic link stays one.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::filesystem::path& target);
-  ~TemporaryFile();
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
@@ -42,11 +46,13 @@ class TemporaryFile {
   void rename_to_target();
 
  private:
-  int create() const;
+  int create(const std::filesystem::path& folder);
+  /// False when a file of that name exists.
+  bool give_name(const char* path) const;
 
-  std::filesystem::path target_, path_;
+  std::filesystem::path target_;
+  std::optional<TemporaryName> name_;
   Descriptor file_;
-  bool renamed_ = false;
 };
 
 }  // namespace cablefit

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/base/read_progress.hpp"
 
 namespace cablefit {
 namespace {
@@ -27,12 +28,22 @@ ssize_t read_uninterrupted(int descriptor, char* to, std::size_t n_bytes) {
 
 }  // namespace
 
+FileStamp stamp_of(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) throw_cannot_read(path);
+  return {status.st_dev, status.st_ino, static_cast<std::uint64_t>(status.st_size),
+          status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
+}
+
 FileReader::FileReader(std::string path)
     : path_(std::move(path)),
       descriptor_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
   if (descriptor_ < 0) throw_cannot_read(path_);
   struct stat status {};
-  if (::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode)) return;
+  if (::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode)) {
+    begin_pass(path_, static_cast<std::uint64_t>(status.st_size));
+    return;
+  }
   const bool is_folder = S_ISDIR(status.st_mode);
   ::close(descriptor_);
   if (is_folder) {
@@ -53,6 +64,7 @@ std::size_t FileReader::read(char* to, std::size_t n_bytes) {
     if (n_read == 0) break;
     n_total += static_cast<std::size_t>(n_read);
   }
+  count_read(n_total);
   return n_total;
 }
 

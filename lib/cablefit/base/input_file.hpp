@@ -2,9 +2,20 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 namespace cablefit {
+
+/// What tells whether a file is still the one that was read before.
+struct FileStamp {
+  std::uint64_t device = 0, number = 0, size = 0;
+  std::int64_t seconds = 0, nanoseconds = 0;  ///< when it was last written to
+  bool operator==(const FileStamp&) const = default;
+};
+
+/// Throws Error(input) when there is no such file.
+FileStamp stamp_of(const std::string& path);
 
 class FileReader {
  public:

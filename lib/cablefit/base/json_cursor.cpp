@@ -2,6 +2,8 @@
 
 #include <cctype>
 
+#include "cablefit/base/error.hpp"
+
 namespace cablefit {
 namespace {
 
@@ -15,6 +17,16 @@ bool is_word_byte(char c) {
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
 }  // namespace
+
+void JsonCursor::refill() {
+  // The parser keeps all it has read since the token began, blanks and comments as well.
+  if (here_.offset - token_.offset > kMaxTokenBytes) {
+    throw input_error({name_, token_.position.line, token_.position.column},
+                      "more than 1 MiB from here to the next value", "is this the right file?");
+  }
+  block_ = next_block_();
+  at_ = 0;
+}
 
 TextPosition JsonCursor::last_before(std::size_t n_bytes) const {
   TokenStart last;
@@ -31,6 +43,7 @@ JsonCursor::State JsonCursor::begin_token(char c) {
   if (is_blank(c) || is_mark) return State::between;
   const Token token = c == '"' ? text : is_word_byte(c) ? word : punctuation;
   latest_[token] = here_;
+  token_ = here_;
   constexpr std::array next{State::in_word, State::in_text, State::between};
   return c == '/' ? State::slash : next[token];
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <iterator>
+#include <string>
 #include <string_view>
 
 #include "cablefit/base/json_events.hpp"
@@ -21,7 +22,11 @@ class JsonCursor {
  public:
   enum Token { word, text, punctuation };  // a word is a number or a literal
 
-  explicit JsonCursor(const NextBlock& next_block) : next_block_(next_block) {}
+  static constexpr std::size_t kMaxTokenBytes = std::size_t{1} << 20;
+
+  /// `name` stands for the file in messages.
+  JsonCursor(const NextBlock& next_block, const std::string& name)
+      : next_block_(next_block), name_(name) {}
 
   bool at_end() {
     if (at_ == block_.size()) refill();
@@ -54,20 +59,19 @@ class JsonCursor {
     star
   };
 
-  void refill() {
-    block_ = next_block_();
-    at_ = 0;
-  }
+  void refill();
   void track(char c);
   State state_after(char c);
   State begin_token(char c);
 
   const NextBlock& next_block_;
+  const std::string& name_;
   std::string_view block_;
   std::size_t at_ = 0;
   TokenStart here_;  // of the byte that advance() takes next
   std::array<TokenStart, 3> latest_{};
   std::size_t word_end_ = 0;
+  TokenStart token_;  // the latest one of any sort
   State state_ = State::between;
 };
 

@@ -15,6 +15,14 @@ namespace cablefit {
 namespace {
 
 constexpr std::size_t kBlockBytes = 1u << 16;
+constexpr std::size_t kMaxNodes = 400'000;
+constexpr std::size_t kMaxParentBytes = 60;
+
+// The path of a value below `parent`. Every value has one, so it stays short whatever the keys are.
+std::string path_below(const std::string& parent, const std::string& step) {
+  if (parent.size() <= kMaxParentBytes) return parent + step;
+  return fmt::format("...{}{}", parent.substr(parent.size() - kMaxParentBytes), step);
+}
 
 // Builds the tree from the parser's events.
 class TreeBuilder final : public JsonEvents {
@@ -46,7 +54,7 @@ class TreeBuilder final : public JsonEvents {
       throw input_error({name_, at.line, at.column}, "key " + quoted(name) + " appears twice",
                         "keep one of them");
     }
-    open_.back().node->members.emplace_back(std::move(name), JsonNode());
+    open_.back().node->members.push_back({std::move(name), {}});
   }
 
  private:
@@ -58,6 +66,10 @@ class TreeBuilder final : public JsonEvents {
   };
 
   JsonNode& add(JsonNode::Kind kind, TextPosition at) {
+    if (++n_nodes_ > kMaxNodes) {
+      throw input_error({name_, at.line, at.column}, fmt::format("more than {} values", kMaxNodes),
+                        "is this the right file?");
+    }
     JsonNode& node = next_node();
     node.kind = kind;
     node.place = {name_, at.line, at.column};
@@ -68,16 +80,18 @@ class TreeBuilder final : public JsonEvents {
     JsonNode& parent = *open_.back().node;
     if (parent.is_object()) {
       auto& [key, node] = parent.members.back();
-      node.path = parent.path.empty() ? key : parent.path + '.' + key;
+      node.path = path_below(parent.path,
+                             fmt::format("{}{}", parent.path.empty() ? "" : ".", shortened(key)));
       return node;
     }
     const std::size_t index = parent.items.size();
-    parent.items.emplace_back().path = fmt::format("{}[{}]", parent.path, index);
+    parent.items.emplace_back().path = path_below(parent.path, fmt::format("[{}]", index));
     return parent.items.back();
   }
 
   const std::string& name_;
   JsonNode root_;
+  std::size_t n_nodes_ = 0;
   std::vector<Open> open_;
 };
 

@@ -7,17 +7,18 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "cablefit/base/error.hpp"
 
 namespace cablefit {
 
+struct JsonMember;
+
 class JsonNode {
  public:
   enum class Kind { null, boolean, number, string, array, object };
-  using Member = std::pair<std::string, JsonNode>;
+  using Member = JsonMember;
 
   Kind kind = Kind::null;
   bool boolean_value = false;
@@ -26,7 +27,7 @@ class JsonNode {
   std::vector<JsonNode> items;  ///< of an array
   std::vector<Member> members;  ///< of an object, in the order of the file
   Place place;                  ///< of the value
-  std::string path;             ///< "joints[0].name", for messages
+  std::string path;             ///< "joints[0].name", for messages; its beginning may be cut off
 
   bool is_null() const { return kind == Kind::null; }
   bool is_object() const { return kind == Kind::object; }
@@ -51,9 +52,16 @@ class JsonNode {
   Error error(const std::string& what, const std::string& hint) const;
 };
 
+/// A key and its value. No std::pair, which clang 14 cannot make of a class that holds it.
+struct JsonMember {
+  std::string first;
+  JsonNode second;
+};
+
 /// Reads a file. Throws Error(input) for a missing file, bad JSON (line and column), duplicate
-/// keys, more than 64 levels or more than `max_bytes`.
-JsonNode read_json_file(const std::string& path, std::size_t max_bytes = 256u << 20);
+/// keys, more than 64 levels, more than 400000 values or more than `max_bytes`: what people and
+/// cablefit write is far from these, and memory stays bounded.
+JsonNode read_json_file(const std::string& path, std::size_t max_bytes = 16u << 20);
 /// Same from text; `name` stands for the file in messages.
 JsonNode parse_json(std::string_view text, const std::string& name);
 

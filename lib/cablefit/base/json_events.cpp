@@ -135,7 +135,7 @@ class Adapter final : public nlohmann::json::json_sax_t {
 void parse_json_events(const NextBlock& next_block, const std::string& name, JsonEvents& events) {
   constexpr bool kStrict = true;
   constexpr bool kIgnoreComments = true;
-  JsonCursor cursor(next_block);
+  JsonCursor cursor(next_block, name);
   Adapter adapter(cursor, name, events);
   nlohmann::json::sax_parse(JsonIterator(cursor), JsonIterator(), &adapter,
                             nlohmann::json::input_format_t::json, kStrict, kIgnoreComments);

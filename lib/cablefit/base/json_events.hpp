@@ -33,8 +33,9 @@ class JsonEvents {
 /// Delivers the next bytes of the text, nothing at its end. They stay valid until the next call.
 using NextBlock = std::function<std::string_view()>;
 
-/// Comments are skipped. Throws Error(input) for a syntax error and for more than 64 levels;
-/// `name` stands for the file in the messages.
+/// Comments are skipped. Throws Error(input) for a syntax error, for more than 64 levels and for a
+/// text, number, comment or run of blanks of more than 1 MiB, all of which the parser keeps; `name`
+/// stands for the file in the messages.
 void parse_json_events(const NextBlock& next_block, const std::string& name, JsonEvents& events);
 
 }  // namespace cablefit

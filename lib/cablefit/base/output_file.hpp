@@ -17,4 +17,8 @@ void write_whole(const std::string& path, std::string_view content);
 /// "cannot write PATH: the system's reason".
 Error output_error(const std::string& path, const std::system_error& failure);
 
+/// Removes what is written at this moment and not finished. For signal handlers; the process must
+/// end afterwards.
+void remove_temporaries() noexcept;
+
 }  // namespace cablefit

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 
 namespace cablefit {
@@ -19,6 +20,17 @@ std::size_t announced_length(unsigned char lead) {
   return 0;
 }
 
+// Whether the second byte makes this the shortest form of a character that exists: "\xe0\x80\x9b"
+// is an escape character to a careless decoder.
+bool is_sound_second(unsigned char lead, unsigned char second) {
+  if (lead == 0xE0) return second >= 0xA0;
+  if (lead == 0xED) return second < 0xA0;  // half of a UTF-16 pair
+  if (lead == 0xF0) return second >= 0x90;
+  if (lead == 0xF4) return second < 0x90;
+  // U+0080..U+009F are control characters, and terminals obey them.
+  return lead != 0xC2 || second >= 0xA0;
+}
+
 // Length of the printable character at the start of `text`, 0 when that byte has to be escaped.
 std::size_t printable_length(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text[0]);
@@ -28,27 +40,39 @@ std::size_t printable_length(std::string_view text) {
   for (std::size_t i = 1; i < length; ++i) {
     if (!is_continuation(text[i])) return 0;
   }
-  // U+0080..U+009F are control characters, and terminals obey them.
-  const bool is_control = lead == 0xC2 && static_cast<unsigned char>(text[1]) < 0xA0;
-  return is_control ? 0 : length;
+  return is_sound_second(lead, static_cast<unsigned char>(text[1])) ? length : 0;
+}
+
+// Takes the first character off `text` and appends it to `shown`.
+void move_character(std::string_view& text, std::string& shown) {
+  const std::size_t length = printable_length(text);
+  if (length == 0) {
+    shown += fmt::format("\\x{:02x}", static_cast<unsigned char>(text.front()));
+  } else {
+    shown += text.substr(0, length);
+  }
+  text.remove_prefix(length == 0 ? 1 : length);
 }
 
 }  // namespace
 
-std::string quoted(std::string_view text) {
-  std::string shown = "'";
-  std::size_t at = 0;
-  while (at < text.size()) {
-    const std::size_t length = printable_length(text.substr(at));
-    if (at + (length == 0 ? 1 : length) > kMaxBytes) return shown + "...'";
-    if (length == 0) {
-      shown += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[at++]));
-    } else {
-      shown += text.substr(at, length);
-      at += length;
-    }
-  }
-  return shown + "'";
+std::string printable(std::string_view text) {
+  std::string shown;
+  while (!text.empty()) move_character(text, shown);
+  return shown;
 }
+
+std::string shortened(std::string_view text) {
+  std::string shown;
+  const std::size_t n_bytes = text.size();
+  while (!text.empty()) {
+    const std::size_t length = std::max<std::size_t>(1, printable_length(text));
+    if (n_bytes - text.size() + length > kMaxBytes) return shown + "...";
+    move_character(text, shown);
+  }
+  return shown;
+}
+
+std::string quoted(std::string_view text) { return "'" + shortened(text) + "'"; }
 
 }  // namespace cablefit

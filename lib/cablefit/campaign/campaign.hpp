@@ -2,6 +2,7 @@
 // fit and what must hold.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,5 +35,11 @@ struct Campaign {
 /// Throws Error(input) at file:line:column: unknown keys, no cells, two cells of one preload and
 /// rig, a pattern without a match.
 Campaign read_campaign(const std::string& path);
+
+/// The files that match a pattern, sorted.
+using FindFiles = std::function<std::vector<std::string>(const std::string& pattern)>;
+class JsonNode;
+/// The same from a document that is read already.
+Campaign parse_campaign(const JsonNode& root, const FindFiles& find_files);
 
 }  // namespace cablefit

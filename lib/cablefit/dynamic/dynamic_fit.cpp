@@ -35,44 +35,30 @@ constexpr std::array<Estimator, 2> kEstimators = {{
 constexpr double kRangeSlack = 0.02;          // of stage 1's range: rounding, not extrapolation
 constexpr std::size_t kRowsPerParameter = 4;  // fewer say nothing
 
-/// What only a second look at the rows tells.
-struct Extremes {
-  std::vector<double> worst;                    ///< largest residual per fit and equation
-  double low = kUnbounded, high = -kUnbounded;  ///< deflection
-
-  void join(const Extremes& other) {
-    for (std::size_t i = 0; i < worst.size(); ++i) worst[i] = std::max(worst[i], other.worst[i]);
-    low = std::min(low, other.low);
-    high = std::max(high, other.high);
-  }
-};
-
-Extremes measure_extremes(const DynamicJob& job, const std::vector<EquationRows>& equations,
-                          const std::vector<std::vector<LinearSolution>>& solutions) {
-  std::vector<Equation> plain;
-  for (const EquationRows& e : equations) plain.push_back(e.equation);
-  Extremes total;
-  total.worst.assign(solutions.size() * plain.size(), 0);
-  const Extremes none = total;
+/// |rows * combination| at its largest, by a second look at all rows of one equation.
+double largest_residual(const DynamicJob& job, const EquationRows& e,
+                        const Eigen::VectorXd& combination) {
+  double largest = 0;
   stream_rows(
-      job.logs, job.wanted, job.settings.rows, plain, job.options.samples.threads,
+      job.logs, job.wanted, job.settings.rows, {&e.equation, 1}, job.options.samples.threads,
       [&](const RowBatch& batch) {
-        Extremes found = none;
-        for (std::size_t k = 0; k < plain.size(); ++k) {
-          const Eigen::MatrixXd& rows = batch.equations[k].rows;
-          if (rows.rows() == 0) continue;
-          for (std::size_t f = 0; f < solutions.size(); ++f)
-            found.worst[f * plain.size() + k] =
-                (rows * solutions[f][k].residual_combination).cwiseAbs().maxCoeff();
-          const Eigen::Index deflection = equations[k].columns.deflection;
-          if (deflection < 0) continue;
-          found.low = std::min(found.low, rows.col(deflection).minCoeff());
-          found.high = std::max(found.high, rows.col(deflection).maxCoeff());
-        }
-        return found;
+        const Eigen::MatrixXd& rows = batch.equations.front().rows;
+        return rows.rows() > 0 ? (rows * combination).cwiseAbs().maxCoeff() : 0.0;
       },
-      [&](const Extremes& found) { total.join(found); });
-  return total;
+      [&](double found) { largest = std::max(largest, found); });
+  return largest;
+}
+
+/// Largest residuals of model number `m`, from the pass that collected the rows if that is certain.
+void add_largest_errors(const DynamicJob& job, const std::vector<EquationRows>& equations,
+                        const std::vector<LinearSolution>& solutions, std::size_t m,
+                        DynamicFit& fit) {
+  for (std::size_t k = 0; k < equations.size(); ++k) {
+    const Eigen::VectorXd& combination = solutions[k].residual_combination;
+    const auto certain = equations[k].peaks->largest(static_cast<Eigen::Index>(m), combination);
+    fit.torque_error[equations[k].equation.name].max_abs =
+        certain ? *certain : largest_residual(job, equations[k], combination);
+  }
 }
 
 void add_cad(DynamicFit& fit, const Rig& rig) {
@@ -83,10 +69,14 @@ void add_cad(DynamicFit& fit, const Rig& rig) {
 }
 
 /// Stage 1's range is where its curve was fitted; beyond it the curve is a guess.
-void note_extrapolation(const ElasticPreload& stage1, const Extremes& found, double theta_0,
-                        DynamicPreload& preload) {
+void note_extrapolation(const ElasticPreload& stage1, const std::vector<EquationRows>& equations,
+                        double theta_0, DynamicPreload& preload) {
   const double slack = kRangeSlack * (stage1.deflection_high - stage1.deflection_low);
-  const double low = found.low - theta_0, high = found.high - theta_0;
+  double low = kUnbounded, high = -kUnbounded;
+  for (const EquationRows& e : equations) {
+    low = std::min(low, e.deflection_low - theta_0);
+    high = std::max(high, e.deflection_high - theta_0);
+  }
   if (low >= stage1.deflection_low - slack && high <= stage1.deflection_high + slack) return;
   preload.warnings.push_back(fmt::format(
       "deflections of {:.3g} to {:.3g} {} leave the range of stage 1 ({:.3g} to {:.3g}): the "
@@ -109,17 +99,13 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
       add_estimates(*e.rows, e.columns, solutions.back().back(), stage1, m, job.rig().linear_motion,
                     job.options.honest_sd, fit);
     }
+    add_largest_errors(job, equations, solutions.back(), m, fit);
     add_cad(fit, job.rig());
     preload.fits.push_back(std::move(fit));
   }
-  const Extremes found = measure_extremes(job, equations, solutions);
-  for (std::size_t f = 0; f < preload.fits.size(); ++f)
-    for (std::size_t k = 0; k < equations.size(); ++k)
-      preload.fits[f].torque_error[equations[k].equation.name].max_abs =
-          found.worst[f * equations.size() + k];
   for (const ElasticPreload& stage1 : elastic.preloads)
     if (!job.rigid && stage1.name == job.preload)
-      note_extrapolation(stage1, found, job.elastic.front()->transmission.theta_0(0), preload);
+      note_extrapolation(stage1, equations, job.elastic.front()->transmission.theta_0(0), preload);
 }
 
 void note_load(const DynamicJob& job, DynamicPreload& preload) {

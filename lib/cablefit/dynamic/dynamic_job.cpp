@@ -1,6 +1,15 @@
 #include "cablefit/dynamic/dynamic_job.hpp"
 
+#include <algorithm>
+
+#include "cablefit/samples/agreement.hpp"
+
 namespace cablefit {
+namespace {
+
+constexpr int kPilotWindows = 8;
+
+}  // namespace
 
 const LogSurvey& DynamicJob::first_log() const { return first_log_with(logs, wanted); }
 
@@ -28,35 +37,84 @@ std::vector<EquationRows> make_equations(const DynamicJob& job) {
   return equations;
 }
 
+std::vector<EquationRows> pilot_equations(const DynamicJob& job) {
+  std::vector<EquationRows> pilot = make_equations(job);
+  const RowSettings& settings = job.settings.rows;
+  const Eigen::Index expected = expected_rows(job.logs, job.wanted, settings);
+  for (EquationRows& e : pilot) e.rows.emplace(e.columns.count, expected);
+  const double rate = sample_rates(job.logs, job.wanted).highest;
+  for (const PilotWindow& p : pilot_windows(job.logs, job.wanted, settings.signal,
+                                            row_halo(settings, rate), kPilotWindows))
+    for (EquationRows& e : pilot) {
+      const RowBatch batch = make_rows(p.window, job.logs[p.log], 0, settings, {&e.equation, 1});
+      e.rows->add(batch.equations[0].rows, batch.equations[0].numbers);
+    }
+  return pilot;
+}
+
+namespace {
+
+/// Residual combinations of all models, one per column, as far as the first windows tell them.
+Eigen::MatrixXd guess(const EquationRows& pilot, const DynamicJob& job) {
+  Eigen::MatrixXd guesses(pilot.columns.count, static_cast<Eigen::Index>(job.models.size()));
+  for (std::size_t m = 0; m < job.models.size(); ++m)
+    guesses.col(static_cast<Eigen::Index>(m)) =
+        solve_equation(pilot, job.elastic, m).residual_combination;
+  return guesses;
+}
+
+/// What one window adds to one equation.
+struct Share {
+  RowStatistics rows;
+  ResidualPeaks peaks;
+  RowCounts counts;
+  double low = kUnbounded, high = -kUnbounded;
+};
+
+Share share_of(const EquationBatch& batch, const EquationRows& e, const RowStatistics& blank) {
+  Share share{blank.empty_copy(), e.peaks->empty_copy(), batch.counts};
+  if (batch.rows.rows() == 0) return share;
+  share.rows.add(batch.rows, batch.numbers);
+  share.peaks.add(batch.rows);
+  if (e.columns.deflection >= 0) {
+    share.low = batch.rows.col(e.columns.deflection).minCoeff();
+    share.high = batch.rows.col(e.columns.deflection).maxCoeff();
+  }
+  return share;
+}
+
+void take(EquationRows& e, Share&& share) {
+  e.rows->add(share.rows);
+  e.peaks->add(std::move(share.peaks));
+  e.counts += share.counts;
+  e.deflection_low = std::min(e.deflection_low, share.low);
+  e.deflection_high = std::max(e.deflection_high, share.high);
+}
+
+}  // namespace
+
 WindowCounts collect_rows(const DynamicJob& job, std::vector<EquationRows>& equations) {
+  const std::vector<EquationRows> pilot = pilot_equations(job);
   std::vector<Equation> plain;
   std::vector<RowStatistics> blank;
   const Eigen::Index expected = expected_rows(job.logs, job.wanted, job.settings.rows);
-  for (EquationRows& e : equations) {
+  for (std::size_t k = 0; k < equations.size(); ++k) {
+    EquationRows& e = equations[k];
     plain.push_back(e.equation);
     blank.emplace_back(e.columns.count, expected, job.options.honest_sd);
     e.rows = blank.back();
+    e.peaks.emplace(guess(pilot[k], job));
   }
-  struct Result {
-    std::vector<RowStatistics> rows;
-    std::vector<RowCounts> counts;
-  };
   return stream_rows(
       job.logs, job.wanted, job.settings.rows, plain, job.options.samples.threads,
       [&](const RowBatch& batch) {
-        Result result;
-        for (std::size_t k = 0; k < plain.size(); ++k) {
-          result.rows.push_back(blank[k].empty_copy());
-          result.rows.back().add(batch.equations[k].rows, batch.equations[k].numbers);
-          result.counts.push_back(batch.equations[k].counts);
-        }
-        return result;
+        std::vector<Share> shares;
+        for (std::size_t k = 0; k < plain.size(); ++k)
+          shares.push_back(share_of(batch.equations[k], equations[k], blank[k]));
+        return shares;
       },
-      [&](const Result& result) {
-        for (std::size_t k = 0; k < plain.size(); ++k) {
-          equations[k].rows->add(result.rows[k]);
-          equations[k].counts += result.counts[k];
-        }
+      [&](std::vector<Share> shares) {
+        for (std::size_t k = 0; k < plain.size(); ++k) take(equations[k], std::move(shares[k]));
       });
 }
 

@@ -9,6 +9,7 @@
 #include "cablefit/dynamic/dynamic_columns.hpp"
 #include "cablefit/dynamic/dynamic_fit.hpp"
 #include "cablefit/estimate/least_squares.hpp"
+#include "cablefit/estimate/residual_peaks.hpp"
 
 namespace cablefit {
 
@@ -34,10 +35,16 @@ struct EquationRows {
   Equation equation;
   std::optional<RowStatistics> rows;
   RowCounts counts;
+  /// Largest residuals, per model; guessed at by a fit to the first windows.
+  std::optional<ResidualPeaks> peaks;
+  double deflection_low = kUnbounded, deflection_high = -kUnbounded;
 };
 
 /// Link and motor, or the one equation of a rigid drive; no rows yet.
 std::vector<EquationRows> make_equations(const DynamicJob& job);
+
+/// The equations with the rows of the first windows of every log only.
+std::vector<EquationRows> pilot_equations(const DynamicJob& job);
 
 /// Streams all wanted rows into the equations.
 WindowCounts collect_rows(const DynamicJob& job, std::vector<EquationRows>& equations);

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kWideBand = 0.15;  // of the rate: the widest band the differences allow
-constexpr int kPilotWindows = 8;
 
 // f0 of the elastic drive needs inertias, which are what is looked for. A first fit with a generous
 // band gives them; the CAD values are never used.
@@ -33,21 +32,6 @@ double typical_stiffness(const ElasticFit& fit, const ElasticPreload& preload) {
   return sum;
 }
 
-/// Rows of the pilot windows alone.
-std::vector<EquationRows> pilot_equations(const DynamicJob& job, double rate) {
-  std::vector<EquationRows> pilot = make_equations(job);
-  const Eigen::Index expected = expected_rows(job.logs, job.wanted, job.settings.rows);
-  for (EquationRows& e : pilot) e.rows.emplace(e.columns.count, expected);
-  for (const PilotWindow& p : pilot_windows(job.logs, job.wanted, job.settings.rows.signal,
-                                            row_halo(job.settings.rows, rate), kPilotWindows))
-    for (EquationRows& e : pilot) {
-      const RowBatch batch =
-          make_rows(p.window, job.logs[p.log], 0, job.settings.rows, {&e.equation, 1});
-      e.rows->add(batch.equations[0].rows, batch.equations[0].numbers);
-    }
-  return pilot;
-}
-
 /// f0 of the elastic drive, 0 when it lies beyond half the rate.
 double find_resonance(DynamicJob& job, const ElasticResult& elastic) {
   const RateRange rates = sample_rates(job.logs, job.wanted);
@@ -55,7 +39,7 @@ double find_resonance(DynamicJob& job, const ElasticResult& elastic) {
   SampleOptions wide = job.options.samples;
   if (!wide.cutoff) wide.cutoff = kWideBand * rate;
   job.settings = moving_settings(job.logs, job.wanted, wide, 0);
-  const std::vector<EquationRows> pilot = pilot_equations(job, rates.highest);
+  const std::vector<EquationRows> pilot = pilot_equations(job);
   const std::size_t last = job.elastic.size() - 1;
   const double j_link = solve_equation(pilot[0], job.elastic, last).x(0);
   const double j_motor = solve_equation(pilot[1], job.elastic, last).x(0);

@@ -65,25 +65,28 @@ BlockedRows collect_blocked(const ElasticJob& job, double theta_0, const Transmi
   const RowStatistics blank(blocked.columns.count, expected);
   std::vector<RowStatistics> statistics(both.size(), blank);
   std::vector<RowCounts> counts(both.size());
+  std::vector<std::shared_ptr<RowArchive>> archives;
+  for (std::size_t k = 0; k < both.size(); ++k) archives.push_back(std::make_shared<RowArchive>());
   struct Result {
     std::vector<RowStatistics> statistics;
-    std::vector<RowCounts> counts;
+    RowBatch batch;
   };
   blocked.windows = stream_rows(
       job.logs, job.wanted, job.settings.rows, both, job.options.samples.threads,
-      [&](const RowBatch& batch) {
+      [&](RowBatch batch) {
         Result result;
         for (const EquationBatch& equation : batch.equations) {
           result.statistics.push_back(blank.empty_copy());
           result.statistics.back().add(equation.rows, equation.numbers);
-          result.counts.push_back(equation.counts);
         }
+        result.batch = std::move(batch);
         return result;
       },
       [&](const Result& result) {
         for (std::size_t k = 0; k < both.size(); ++k) {
           statistics[k].add(result.statistics[k]);
-          counts[k] += result.counts[k];
+          archives[k]->append(result.batch.equations[k]);
+          counts[k] += result.batch.equations[k].counts;
         }
       });
   const auto sliding = static_cast<double>(counts[0].rows_used);
@@ -94,6 +97,7 @@ BlockedRows collect_blocked(const ElasticJob& job, double theta_0, const Transmi
   const std::size_t chosen = blocked.plateaus ? 1 : 0;
   blocked.equations = {both[chosen]};
   blocked.rows = statistics[chosen];
+  blocked.archive = archives[chosen];
   blocked.counts = counts[chosen];
   if (!blocked.plateaus) blocked.counts.rows_at_rest = counts[0].rows_at_rest;
   return blocked;

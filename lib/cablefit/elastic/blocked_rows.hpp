@@ -1,6 +1,7 @@
 // Rows of one preload's blocked logs, collected once for all models fitted to them.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "cablefit/elastic/elastic_columns.hpp"
 #include "cablefit/elastic/elastic_fit.hpp"
 #include "cablefit/estimate/row_statistics.hpp"
+#include "cablefit/samples/row_archive.hpp"
 
 namespace cablefit {
 
@@ -33,8 +35,9 @@ ElasticJob make_job(std::span<const LogSurvey> logs, const ElasticOptions& optio
 struct BlockedRows {
   Transmission transmission;  ///< as ElasticJob::basis, theta_0 set
   BlockedColumns columns;
-  std::vector<Equation> equations;  ///< the one whose rows are used, for a second look at them
+  std::vector<Equation> equations;  ///< the one whose rows are used
   std::optional<RowStatistics> rows;
+  std::shared_ptr<const RowArchive> archive;  ///< the rows themselves, for a second look
   RowCounts counts;
   WindowCounts windows;
   bool plateaus = false;  ///< rows at rest were used, there are hardly others

@@ -175,7 +175,7 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
   }
   preload.counts = stage.rows.counts;
   preload.windows = stage.rows.windows;
-  measure_errors(stage.job, stage.rows, candidates, solutions, preload);
+  measure_errors(stage.rows, candidates, solutions, preload);
   for (ElasticFit& fit : preload.fits)
     check_passive(fit, preload.deflection_low, preload.deflection_high);
   select_model(preload, stage.job.options.materiality);
@@ -185,12 +185,6 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
 }
 
 }  // namespace
-
-const ElasticFit* ElasticPreload::find(const std::string& model) const {
-  for (const ElasticFit& fit : fits)
-    if (fit.model == model) return &fit;
-  return nullptr;
-}
 
 ElasticResult fit_elastic(std::span<const LogSurvey> logs, const ElasticOptions& options) {
   ElasticResult result;

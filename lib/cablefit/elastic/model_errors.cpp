@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "cablefit/elastic/held_out.hpp"
 
@@ -46,8 +47,7 @@ int choose_order(const ElasticJob& job, const BlockedRows& rows, const Nuisance&
   return job.options.max_order;
 }
 
-void measure_errors(const ElasticJob& job, const BlockedRows& rows,
-                    const std::vector<Candidate>& candidates,
+void measure_errors(const BlockedRows& rows, const std::vector<Candidate>& candidates,
                     const std::vector<LinearSolution>& solutions, ElasticPreload& preload) {
   const HeldOut held_out(*rows.rows);
   std::vector<std::vector<Eigen::VectorXd>> folds;
@@ -63,37 +63,25 @@ void measure_errors(const ElasticJob& job, const BlockedRows& rows,
   total.worst.assign(candidates.size(), 0);
   total.worst_held_out.assign(candidates.size(), 0);
   const double offset = preload.fits.front().offset;
-  stream_rows(
-      job.logs, job.wanted, job.settings.rows, rows.equations, job.options.samples.threads,
-      [&](const RowBatch& batch) {
-        const EquationBatch& e = batch.equations.front();
-        Extremes found;
-        found.worst.assign(candidates.size(), 0);
-        found.worst_held_out.assign(candidates.size(), 0);
-        if (e.rows.rows() == 0) return found;
-        found.low = e.rows.col(rows.columns.deflection).minCoeff();
-        found.high = e.rows.col(rows.columns.deflection).maxCoeff();
-        found.peak = (e.rows.col(rows.columns.tau).array() - offset).abs().maxCoeff();
-        for (std::size_t k = 0; k < candidates.size(); ++k) {
-          found.worst[k] = (e.rows * solutions[k].residual_combination).cwiseAbs().maxCoeff();
-          for (Eigen::Index i = 0; i < e.rows.rows(); ++i) {
-            const auto fold = static_cast<std::size_t>(
-                held_out.fold_of_row(e.numbers[static_cast<std::size_t>(i)]));
-            found.worst_held_out[k] =
-                std::max(found.worst_held_out[k], std::abs(e.rows.row(i).dot(folds[k][fold])));
-          }
-        }
-        return found;
-      },
-      [&](const Extremes& found) {
-        total.low = std::min(total.low, found.low);
-        total.high = std::max(total.high, found.high);
-        total.peak = std::max(total.peak, found.peak);
-        for (std::size_t k = 0; k < candidates.size(); ++k) {
-          total.worst[k] = std::max(total.worst[k], found.worst[k]);
-          total.worst_held_out[k] = std::max(total.worst_held_out[k], found.worst_held_out[k]);
-        }
-      });
+  const auto absolute = [](const Eigen::MatrixXd& r, const Eigen::VectorXd& combination) {
+    return (r * combination).cwiseAbs().eval();
+  };
+  rows.archive->for_each([&](const Eigen::MatrixXd& r, std::span<const Eigen::Index> numbers) {
+    total.low = std::min(total.low, r.col(rows.columns.deflection).minCoeff());
+    total.high = std::max(total.high, r.col(rows.columns.deflection).maxCoeff());
+    total.peak = std::max(total.peak, (r.col(rows.columns.tau).array() - offset).abs().maxCoeff());
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      total.worst[k] =
+          std::max(total.worst[k], absolute(r, solutions[k].residual_combination).maxCoeff());
+      for (std::size_t fold = 0; fold < folds[k].size(); ++fold) {
+        const Eigen::VectorXd errors = absolute(r, folds[k][fold]);
+        for (Eigen::Index i = 0; i < errors.size(); ++i)
+          if (held_out.fold_of_row(numbers[static_cast<std::size_t>(i)]) ==
+              static_cast<Eigen::Index>(fold))
+            total.worst_held_out[k] = std::max(total.worst_held_out[k], errors(i));
+      }
+    }
+  });
   preload.deflection_low = total.low;
   preload.deflection_high = total.high;
   preload.peak_torque = total.peak;

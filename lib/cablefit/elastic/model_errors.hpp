@@ -13,10 +13,9 @@ namespace cablefit {
 int choose_order(const ElasticJob& job, const BlockedRows& rows, const Nuisance& nuisance,
                  std::vector<std::string>& words);
 
-/// Streams the rows again: largest errors of every fit, in sample and on held-out blocks,
+/// Looks at the rows again: largest errors of every fit, in sample and on held-out blocks,
 /// deflection range and peak torque. candidates[k], solutions[k] belong to preload.fits[k].
-void measure_errors(const ElasticJob& job, const BlockedRows& rows,
-                    const std::vector<Candidate>& candidates,
+void measure_errors(const BlockedRows& rows, const std::vector<Candidate>& candidates,
                     const std::vector<LinearSolution>& solutions, ElasticPreload& preload);
 
 }  // namespace cablefit

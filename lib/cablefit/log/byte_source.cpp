@@ -33,6 +33,12 @@ class FileSource final : public ByteSource {
 
 }  // namespace
 
+std::size_t MemorySource::read(char* to, std::size_t n_bytes) {
+  const std::size_t n_copied = bytes_.copy(to, n_bytes);
+  bytes_.remove_prefix(n_copied);
+  return n_copied;
+}
+
 std::string_view PeekableSource::peek(std::size_t n_bytes) {
   std::size_t n_held = head_.size();
   head_.resize(std::max(n_bytes, n_held));
@@ -56,13 +62,18 @@ std::size_t PeekableSource::read(char* to, std::size_t n_bytes) {
 std::span<const Compression> compressions() { return kCompressions; }
 
 std::unique_ptr<PeekableSource> open_bytes(const std::string& path, Sha256* digest) {
-  auto file = std::make_unique<PeekableSource>(std::make_unique<FileSource>(path, digest));
-  const std::string_view magic = file->peek(kMagicBytes);
+  return unpacked(std::make_unique<FileSource>(path, digest), path);
+}
+
+std::unique_ptr<PeekableSource> unpacked(std::unique_ptr<ByteSource> bytes,
+                                         const std::string& path) {
+  auto packed = std::make_unique<PeekableSource>(std::move(bytes));
+  const std::string_view magic = packed->peek(kMagicBytes);
   for (const Compression& compression : kCompressions) {
     if (!compression.recognises(magic)) continue;
-    return std::make_unique<PeekableSource>(compression.unpack(std::move(file), path));
+    return std::make_unique<PeekableSource>(compression.unpack(std::move(packed), path));
   }
-  return file;
+  return packed;
 }
 
 }  // namespace cablefit

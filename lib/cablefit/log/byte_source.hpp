@@ -21,6 +21,16 @@ class ByteSource {
   virtual std::size_t read(char* to, std::size_t n_bytes) = 0;
 };
 
+/// Bytes that are in memory already and stay there as long as this.
+class MemorySource final : public ByteSource {
+ public:
+  explicit MemorySource(std::string_view bytes) : bytes_(bytes) {}
+  std::size_t read(char* to, std::size_t n_bytes) override;
+
+ private:
+  std::string_view bytes_;
+};
+
 /// Looks at the first bytes of another source without taking them.
 class PeekableSource final : public ByteSource {
  public:
@@ -47,5 +57,8 @@ std::span<const Compression> compressions();
 /// Opens a file and unpacks it when a row of the table recognises it. `digest`, which must outlive
 /// the source, sees every byte of the file as it is read; null: nobody wants it.
 std::unique_ptr<PeekableSource> open_bytes(const std::string& path, Sha256* digest = nullptr);
+/// The same from bytes that are open already; `path` is for messages.
+std::unique_ptr<PeekableSource> unpacked(std::unique_ptr<ByteSource> bytes,
+                                         const std::string& path);
 
 }  // namespace cablefit

@@ -10,6 +10,8 @@
 namespace cablefit {
 namespace {
 
+constexpr std::size_t kMaxNameBytes = 1000;
+
 // Offset of the bracket that the last byte of `text` closes, npos when there is none.
 std::size_t opening_bracket(std::string_view text) {
   if (text.empty()) return std::string_view::npos;
@@ -39,6 +41,11 @@ ColumnHeader to_column_header(std::string_view text, const Place& place) {
   const std::string_view unit = cell.substr(bracket + 1, cell.size() - bracket - 2);
   if (is_index(name, unit)) return {std::string(cell), {}, place};
   return {std::string(trimmed(name)), std::string(trimmed(unit)), place};
+}
+
+void check_name_length(std::string_view text, const Place& place) {
+  if (text.size() <= kMaxNameBytes) return;
+  throw input_error(place, quoted(text) + " is longer than 1000 bytes", "is this a log?");
 }
 
 void check_names(const std::vector<ColumnHeader>& columns, const Place& header_place) {

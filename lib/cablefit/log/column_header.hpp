@@ -12,6 +12,10 @@ namespace cablefit {
 /// name.
 ColumnHeader to_column_header(std::string_view text, const Place& place);
 
+/// Throws Error(input) for a text of a JSON log that is too long for the name or unit of a column,
+/// of which there may be many.
+void check_name_length(std::string_view text, const Place& place);
+
 /// Throws Error(input) when two columns have one name, or when no column has any. Columns without
 /// a name (pandas writes its row numbers so) may be many: nobody can ask for them.
 void check_names(const std::vector<ColumnHeader>& columns, const Place& header_place);

@@ -16,7 +16,7 @@ std::string label(const LogHeader& header, std::size_t column) {
 }
 
 bool is_number(std::string_view text) {
-  double value;
+  double value = 0;
   const char* end = text.data() + text.size();
   return read_number(text.data(), end, value) == end;
 }

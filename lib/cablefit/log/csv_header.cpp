@@ -23,7 +23,7 @@ bool next_content_line(LineBuffer& lines, std::string_view& line) {
 }
 
 bool is_number(const Cell& cell) {
-  double value;
+  double value = 0;
   const char* end = cell.text.data() + cell.text.size();
   return read_number(cell.text.data(), end, value) == end;
 }

@@ -8,7 +8,7 @@ namespace cablefit {
 
 struct CsvHeader {
   LogHeader log;
-  Delimiter delimiter;
+  Delimiter delimiter = Delimiter::comma;
 };
 
 /// Takes lines up to and including the header line. Throws Error(input) when there is none, or

@@ -20,6 +20,8 @@ class GzipSource final : public ByteSource {
     if (inflateInit2(&stream_, kGzipOnly) != Z_OK) throw std::bad_alloc();
   }
   ~GzipSource() override { inflateEnd(&stream_); }
+  GzipSource(const GzipSource&) = delete;
+  GzipSource& operator=(const GzipSource&) = delete;
 
   std::size_t read(char* to, std::size_t n_bytes) override {
     constexpr std::size_t kMaxBytes = std::numeric_limits<uInt>::max();

@@ -45,9 +45,9 @@ class ChannelsLayout final : public JsonLayout {
 
   void string(std::string& value, TextPosition at) override {
     if (where_ == Where::values) return append(table_.entry(column(), value, at));
-    if (where_ == Where::units) return units_.push_back({key_, std::move(value), at});
+    if (where_ == Where::units) return take_unit(key_, value, at);
     if (where_ != Where::channel || key_ != "unit") return scalar("a text", at);
-    units_.push_back({column().header.name, std::move(value), at});
+    take_unit(column().header.name, value, at);
   }
 
   void key(std::string& name, TextPosition at) override {
@@ -72,7 +72,7 @@ class ChannelsLayout final : public JsonLayout {
 
   void end_object(TextPosition) override {
     if (skipped_depth_ > 0) return end_skipped_bracket();
-    if (where_ == Where::channel && channel_keys_.count("values") == 0) {
+    if (where_ == Where::channel && !channel_keys_.contains("values")) {
       throw input_error(column().header.place,
                         "channel " + quoted(column().header.name) + " has no 'values'",
                         "add \"values\": [..]");
@@ -94,7 +94,7 @@ class ChannelsLayout final : public JsonLayout {
   }
 
   void finish() override {
-    if (document_keys_.count("channels") == 0) {
+    if (!document_keys_.contains("channels")) {
       throw error({1, 1}, "missing key 'channels'", "write {\"channels\": {\"q\": [..]}}");
     }
     for (const NamedUnit& unit : units_) give_unit(unit);
@@ -155,10 +155,19 @@ class ChannelsLayout final : public JsonLayout {
     }
   }
 
+  void take_unit(const std::string& name, const std::string& unit, TextPosition at) {
+    const Place place{table_.path, at.line, at.column};
+    check_name_length(name, place);
+    check_name_length(unit, place);
+    if (units_.size() == kMaxColumns) throw error(at, "more than 10000 units", "is this a log?");
+    units_.push_back({name, unit, at});
+  }
+
   void begin_column(TextPosition at) {
     if (table_.columns.size() == kMaxColumns) {
       throw error(at, "more than 10000 channels", "is this a log?");
     }
+    check_name_length(key_, {table_.path, at.line, at.column});
     JsonColumn& added = table_.columns.emplace_back();
     added.header = to_column_header(key_, {table_.path, at.line, at.column});
     added.first = table_.values.size();

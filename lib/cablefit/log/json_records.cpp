@@ -89,6 +89,7 @@ class RecordsLayout final : public JsonLayout {
     if (keys_.size() == kMaxColumns) {
       throw error(at, "more than 10000 columns", "is this a log with one record per sample?");
     }
+    check_name_length(name, {table_.path, at.line, at.column});
     table_.columns.emplace_back().header =
         to_column_header(name, {table_.path, at.line, at.column});
     table_.columns.back().first = keys_.size();

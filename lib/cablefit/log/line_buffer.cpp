@@ -24,7 +24,7 @@ LineBuffer::LineBuffer(std::unique_ptr<ByteSource> source, std::string path,
     : source_(std::move(source)),
       path_(std::move(path)),
       block_bytes_(block_bytes),
-      buffer_(kMaxLineBytes + block_bytes),
+      buffer_(2 * block_bytes),
       begin_(buffer_.data()),
       end_(begin_) {}
 
@@ -79,6 +79,8 @@ void LineBuffer::require_length(std::size_t n_bytes) const {
 bool LineBuffer::refill() {
   const std::size_t n_kept = static_cast<std::size_t>(end_ - begin_);
   std::memmove(buffer_.data(), begin_, n_kept);
+  // As long as no line is longer than a block, the buffer stays as it is.
+  if (buffer_.size() < n_kept + block_bytes_) buffer_.resize(2 * n_kept + block_bytes_);
   const std::size_t n_read = source_->read(buffer_.data() + n_kept, block_bytes_);
   begin_ = buffer_.data();
   end_ = begin_ + n_kept + n_read;

@@ -12,7 +12,8 @@ namespace cablefit {
 
 struct LogFormatRow {
   LogFormat format;
-  std::unique_ptr<LogReader> (*open)(std::unique_ptr<ByteSource> source, const std::string& path);
+  std::unique_ptr<LogReader> (*open)(std::unique_ptr<ByteSource> source,
+                                     const std::string& path) = nullptr;
 };
 
 /// In the order in which they are tried.

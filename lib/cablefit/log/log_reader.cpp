@@ -20,6 +20,16 @@ void check_is_text(std::string_view head, const std::string& path) {
   }
 }
 
+std::unique_ptr<LogReader> open_unpacked(std::unique_ptr<PeekableSource> source,
+                                         const std::string& path) {
+  const std::string_view head = source->peek(kHeadBytes);
+  check_is_text(head, path);
+  for (const LogFormatRow& row : log_format_rows()) {
+    if (row.format.recognises(head)) return row.open(std::move(source), path);
+  }
+  throw input_error({path}, "format is not known", "give CSV or JSON");
+}
+
 }  // namespace
 
 bool LogReader::next(LogChunk& chunk) {
@@ -32,13 +42,11 @@ bool LogReader::next(LogChunk& chunk) {
 }
 
 std::unique_ptr<LogReader> open_log(const std::string& path, Sha256* digest) {
-  auto source = open_bytes(path, digest);
-  const std::string_view head = source->peek(kHeadBytes);
-  check_is_text(head, path);
-  for (const LogFormatRow& row : log_format_rows()) {
-    if (row.format.recognises(head)) return row.open(std::move(source), path);
-  }
-  throw input_error({path}, "format is not known", "give CSV or JSON");
+  return open_unpacked(open_bytes(path, digest), path);
+}
+
+std::unique_ptr<LogReader> open_log(std::unique_ptr<ByteSource> bytes, const std::string& path) {
+  return open_unpacked(unpacked(std::move(bytes), path), path);
 }
 
 }  // namespace cablefit

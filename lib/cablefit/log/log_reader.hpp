@@ -77,6 +77,10 @@ class LogReader {
 /// when the reader is at its end.
 std::unique_ptr<LogReader> open_log(const std::string& path, Sha256* digest = nullptr);
 
+class ByteSource;
+/// The same from bytes that are open already; `path` is for messages.
+std::unique_ptr<LogReader> open_log(std::unique_ptr<ByteSource> bytes, const std::string& path);
+
 /// A row of the table of formats, for `cablefit list formats`.
 struct LogFormat {
   std::string_view name;

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -28,6 +29,10 @@ std::string temporary_folder() {
 }
 
 int open_unlinked_file() {
+  // Never has a name; where the file system knows no such files, it loses its name at once.
+  const int nameless = ::open(temporary_folder().c_str(), O_TMPFILE | O_EXCL | O_RDWR | O_CLOEXEC,
+                              S_IRUSR | S_IWUSR);
+  if (nameless >= 0) return nameless;
   std::string path = temporary_folder() + "/cablefit-XXXXXX";
   const int descriptor = ::mkostemp(path.data(), O_CLOEXEC);
   if (descriptor < 0) throw_failure("create");

@@ -20,7 +20,7 @@ const std::vector<CableLaw>& table() {
 /// sum_j coefficient_j values_j, with values from the law's basis or slope; 0 when slack.
 double combine(const Cable& cable, double l, void (*values_of)(int, double, double*)) {
   if (!(l > 0)) return 0.0;
-  std::array<double, kMaxCableOrder> values;
+  std::array<double, kMaxCableOrder> values{};
   assert(cable.coefficients.size() == static_cast<std::size_t>(cable.n_coefficients()));
   values_of(cable.order, l, values.data());
   double sum = 0.0;

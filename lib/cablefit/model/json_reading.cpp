@@ -16,7 +16,7 @@ void fail_unknown(const JsonNode& node, std::string_view kind, std::string_view 
 }
 
 std::vector<double> n_numbers(const JsonNode& node, int n) {
-  const std::vector<double> values =
+  std::vector<double> values =
       node.is_array() ? node.numbers() : std::vector<double>{node.number()};
   if (values.size() != static_cast<std::size_t>(n)) {
     throw node.error(fmt::format("{} number(s), expected {}", values.size(), n),

@@ -30,7 +30,11 @@ std::string_view default_model_name(const Model& model) {
 
 Model read_model(const std::string& path, const std::string& preload, const std::string& model,
                  std::string& choice) {
-  const JsonNode root = read_json_file(path);
+  return parse_model(read_json_file(path), preload, model, choice);
+}
+
+Model parse_model(const JsonNode& root, const std::string& preload, const std::string& model,
+                  std::string& choice) {
   const JsonNode& schema = root.at("schema");
   for (const auto& [name, reader] : kReaders) {
     if (schema.text() == name) return reader(root, {preload, model}, &choice);

@@ -47,6 +47,10 @@ std::string_view default_model_name(const Model& model);
 /// Error(input) with file:line:column.
 Model read_model(const std::string& path, const std::string& preload, const std::string& model,
                  std::string& choice);
+class JsonNode;
+/// The same from a document that is read already.
+Model parse_model(const JsonNode& root, const std::string& preload, const std::string& model,
+                  std::string& choice);
 /// The text of a cablefit/model/1 file.
 std::string model_json(const Model& model);
 

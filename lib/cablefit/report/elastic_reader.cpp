@@ -122,7 +122,10 @@ double number_or_nan(const JsonNode& object, std::string_view key) {
 }
 
 ElasticResult read_elastic_result(const std::string& path) {
-  const JsonNode root = read_json_file(path);
+  return parse_elastic_result(read_json_file(path));
+}
+
+ElasticResult parse_elastic_result(const JsonNode& root) {
   require_schema(root);
   ElasticResult result;
   result.inputs = read_inputs(root);

@@ -12,4 +12,8 @@ namespace cablefit {
 /// rig. Throws Error(input) at file:line:column for what is missing or does not fit together.
 ElasticResult read_elastic_result(const std::string& path);
 
+class JsonNode;
+/// The same from a document that is read already.
+ElasticResult parse_elastic_result(const JsonNode& root);
+
 }  // namespace cablefit

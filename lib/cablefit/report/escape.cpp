@@ -4,20 +4,10 @@
 
 #include <algorithm>
 
-#include "cablefit/base/quote.hpp"
-
 namespace cablefit {
 namespace {
 
-bool is_plain(char c) { return c >= 0x20 && c < 0x7F; }
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; }
-
-/// The first byte and the continuation bytes that may belong to it.
-std::string_view first_character(std::string_view text) {
-  std::size_t length = 1;
-  while (length < text.size() && length < 4 && is_continuation(text[length])) ++length;
-  return text.substr(0, length);
-}
 
 bool is_number(std::string_view text) {
   double ignored = 0;
@@ -55,22 +45,6 @@ std::string_view markdown_escape(char c) {
 }
 
 }  // namespace
-
-std::string printable(std::string_view text) {
-  std::string shown;
-  while (!text.empty()) {
-    if (is_plain(text.front())) {
-      shown += text.front();
-      text.remove_prefix(1);
-      continue;
-    }
-    const std::string_view character = first_character(text);
-    const std::string in_quotes = quoted(character);
-    shown += in_quotes.substr(1, in_quotes.size() - 2);
-    text.remove_prefix(character.size());
-  }
-  return shown;
-}
 
 std::size_t n_characters(std::string_view text) {
   return static_cast<std::size_t>(

@@ -4,10 +4,9 @@
 #include <string>
 #include <string_view>
 
-namespace cablefit {
+#include "cablefit/base/quote.hpp"  // printable()
 
-/// Control bytes and bytes that are not UTF-8 become \xNN: a log cannot steer the terminal.
-std::string printable(std::string_view text);
+namespace cablefit {
 
 /// Number of characters (code points) of a printable text.
 std::size_t n_characters(std::string_view text);

@@ -50,7 +50,7 @@ std::string on_one_line(const Json& json) {
 }
 
 std::string pretty(const Json& json, std::size_t indent, std::size_t used) {
-  const std::string line = on_one_line(json);
+  std::string line = on_one_line(json);
   if (!json.is_structured() || used + line.size() < kLineWidth) return line;
   const std::string margin(indent + 2, ' ');
   std::string lines;

@@ -136,6 +136,7 @@ LogPlan plan_log(const std::string& path, const Rig& rig) {
   LogPlan plan;
   plan.path = path;
   plan.rig = rig;
+  plan.stamp = stamp_of(path);
   plan.header = open_log(path)->header();
   resolve_time(plan);
   for (int joint = 0; joint < rig.n_joints(); ++joint)
@@ -158,6 +159,12 @@ LogPlan plan_log(const std::string& path, const Rig& rig) {
         fmt::format("rename columns or write a rig file that maps them; columns are {}",
                     names_of(plan.header)));
   return plan;
+}
+
+void require_unchanged(const LogPlan& plan) {
+  if (stamp_of(plan.path) == plan.stamp) return;
+  throw input_error({plan.path}, "changed while it was being read",
+                    "run again once nothing writes to it any more");
 }
 
 void require_channel(const LogPlan& plan, Channel channel, std::string_view why,

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cablefit/base/input_file.hpp"
 #include "cablefit/log/log_reader.hpp"
 #include "cablefit/model/rig.hpp"
 
@@ -31,6 +32,7 @@ struct Slot {
 /// How one log is read. `slots` are the columns of every sample block, in this order.
 struct LogPlan {
   std::string path;
+  FileStamp stamp;  ///< of the file that everything here was read from
   Rig rig;
   LogHeader header;
   std::vector<Slot> slots;
@@ -47,6 +49,10 @@ struct LogPlan {
 /// Error(input) at the header cell for a unit of the wrong kind, for a mapped column that is not
 /// there, when there is neither t nor a sample rate, and when no channel is found at all.
 LogPlan plan_log(const std::string& path, const Rig& rig);
+
+/// A log is read several times. Throws Error(input) when its file was written to or replaced since
+/// it was planned: later passes rest on what earlier ones found.
+void require_unchanged(const LogPlan& plan);
 
 /// Throws Error(input) "missing column 'q' ..." when the log lacks a channel the caller needs.
 void require_channel(const LogPlan& plan, Channel channel, std::string_view why,

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
+#include <vector>
 
 namespace cablefit {
 
@@ -13,17 +15,24 @@ class Decimation {
   explicit Decimation(int factor);
 
   int factor() const { return factor_; }
-  /// Rows on either side that an output row depends on: 10 M, 0 for M = 1.
+  /// Rows on either side that an output row depends on: 10 M, 0 for M = 1; one more when averaged.
   Eigen::Index half_width() const { return factor_ == 1 ? 0 : 10 * factor_; }
 
-  /// Output row for the input row `centre`. Taps that fall outside [first, last) are left out and
-  /// the others scaled up alike, so that the ends of a log keep parallel columns.
-  void apply(const Eigen::Ref<const Eigen::MatrixXd>& columns, Eigen::Index centre,
-             Eigen::Index first, Eigen::Index last, Eigen::Ref<Eigen::RowVectorXd> out) const;
+  /// One output row per input row in `centres`, centres x columns. Taps that fall outside [first,
+  /// last) are left out and the others scaled up alike, so that the ends of a log keep parallel
+  /// columns.
+  ///
+  /// Columns that are `averaged` are also averaged over the triangle (1, 10, 1)/12 of +-1 row. A
+  /// second difference IS the mean acceleration under that triangle (Numerov), so every other
+  /// column of an equation must be averaged alike: without it J_motor is 1.8 % too large at 1 kHz
+  /// on the paper's rig, through K T^2/(12 J). Empty: none is.
+  Eigen::MatrixXd apply(const Eigen::Ref<const Eigen::MatrixXd>& columns,
+                        std::span<const Eigen::Index> centres, Eigen::Index first,
+                        Eigen::Index last, const std::vector<bool>& averaged) const;
 
  private:
   int factor_;
-  Eigen::VectorXd taps_;
+  Eigen::VectorXd taps_, averaging_taps_;
 };
 
 }  // namespace cablefit

@@ -37,50 +37,77 @@ class RowMask {
   Eigen::ArrayXd use_;
 };
 
-EquationBatch equation_rows(const Equation& equation, const Signals& signals, const Window& window,
-                            const RowSettings& settings, Eigen::Index offset) {
-  const Eigen::Index n = signals.n_rows();
-  const auto n_columns = static_cast<Eigen::Index>(equation.columns.size());
-  Eigen::MatrixXd columns(n, n_columns);
-  equation.fill(signals, columns);
-  for (Eigen::Index k = 0; k < n_columns; ++k)
-    if (equation.averaged[static_cast<std::size_t>(k)]) triangle_average(columns.col(k).array());
+/// The rows of a window that answer to an equation, and what became of the others.
+struct ChosenRows {
+  std::vector<Eigen::Index> centres;  ///< in window coordinates
+  Eigen::Index first = 0, last = 0;   ///< those that can be trusted lie between these
+  RowCounts counts;
+};
 
+ChosenRows choose_rows(const Equation& equation, const Signals& signals, const Window& window,
+                       const RowSettings& settings) {
   const RowMask mask(equation, signals, settings);
-  const Decimation decimation(settings.decimate);
   const Eigen::Index edge = std::max(settings.drop_edge, kDifferenceEdge);
-  // Rows that can be trusted, in window coordinates.
-  const Eigen::Index first = std::max<Eigen::Index>(0, edge - window.first);
-  const Eigen::Index last = window.ends_segment ? n - edge : n;
-  const Eigen::Index m = settings.decimate;
-
-  EquationBatch batch;
-  std::vector<Eigen::Index> centres;
+  ChosenRows chosen;
+  chosen.first = std::max<Eigen::Index>(0, edge - window.first);
+  chosen.last = window.ends_segment ? signals.n_rows() - edge : signals.n_rows();
+  RowCounts& counts = chosen.counts;
   for (Eigen::Index i = window.begin; i < window.end; ++i) {
     const Eigen::Index at = i - window.first;
-    if (at < first || at >= last) {
-      ++batch.counts.rows_at_edges;
-      continue;
-    }
-    if ((i - edge) % m != 0) continue;
-    if (!mask.used(at)) {
-      ++batch.counts.rows_not_used;
-    } else if (mask.at_rest(at)) {
-      ++batch.counts.rows_at_rest;
-    } else {
-      centres.push_back(at);
+    if (at < chosen.first || at >= chosen.last) {
+      ++counts.rows_at_edges;
+    } else if ((i - edge) % settings.decimate == 0) {
+      if (!mask.used(at)) {
+        ++counts.rows_not_used;
+      } else if (mask.at_rest(at)) {
+        ++counts.rows_at_rest;
+      } else {
+        chosen.centres.push_back(at);
+      }
     }
   }
-  batch.rows.resize(static_cast<Eigen::Index>(centres.size()), n_columns);
-  Eigen::RowVectorXd row(n_columns);
-  for (std::size_t k = 0; k < centres.size(); ++k) {
-    const Eigen::Index at = centres[k];
-    decimation.apply(columns, at, first, last, row);
-    batch.rows.row(static_cast<Eigen::Index>(k)) = row;
-    batch.numbers.push_back(offset + (window.rows_before + window.first + at) / m);
+  counts.rows_used = chosen.centres.size();
+  return chosen;
+}
+
+/// Signals of the chosen rows only.
+Signals decimated(const Signals& signals, const ChosenRows& chosen, const Decimation& decimation) {
+  Signals slow = signals;
+  for (JointSignals& s : slow.joints) {
+    std::vector<Eigen::ArrayXd*> arrays;
+    for (Eigen::ArrayXd* array :
+         {&s.q, &s.qd, &s.theta, &s.thetad, &s.tau, &s.tau_load, &s.approach})
+      if (array->size() > 0) arrays.push_back(array);
+    Eigen::MatrixXd columns(signals.n_rows(), static_cast<Eigen::Index>(arrays.size()));
+    for (std::size_t k = 0; k < arrays.size(); ++k)
+      columns.col(static_cast<Eigen::Index>(k)) = *arrays[k];
+    columns = decimation.apply(columns, chosen.centres, chosen.first, chosen.last, {});
+    for (std::size_t k = 0; k < arrays.size(); ++k)
+      *arrays[k] = columns.col(static_cast<Eigen::Index>(k));
+  }
+  return slow;
+}
+
+Eigen::MatrixXd columns_of(const Equation& equation, const Signals& signals) {
+  Eigen::MatrixXd columns(signals.n_rows(), static_cast<Eigen::Index>(equation.columns.size()));
+  equation.fill(signals, columns);
+  return columns;
+}
+
+EquationBatch equation_rows(const Equation& equation, const Signals& signals, const Window& window,
+                            const RowSettings& settings, Eigen::Index offset) {
+  const ChosenRows chosen = choose_rows(equation, signals, window, settings);
+  const Decimation decimation(settings.decimate);
+  EquationBatch batch;
+  batch.counts = chosen.counts;
+  batch.rows = settings.signal.quasi_static
+                   ? columns_of(equation, decimated(signals, chosen, decimation))
+                   : decimation.apply(columns_of(equation, signals), chosen.centres, chosen.first,
+                                      chosen.last, equation.averaged);
+  for (const Eigen::Index at : chosen.centres) {
+    batch.numbers.push_back(offset + (window.rows_before + window.first + at) / settings.decimate);
     batch.t.push_back(window.t0 + static_cast<double>(window.first + at) * window.period);
   }
-  batch.counts.rows_used = centres.size();
   return batch;
 }
 

@@ -81,8 +81,8 @@ WindowCounts stream_rows(std::span<const LogSurvey> logs, const PartFilter& want
                          const RowSettings& settings, std::span<const Equation> equations,
                          int threads, Map map, Reduce reduce) {
   struct Item {
-    std::size_t log;
-    Eigen::Index offset;
+    std::size_t log = 0;
+    Eigen::Index offset = 0;
     Window window;
   };
   WindowCounts total;

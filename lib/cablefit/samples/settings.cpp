@@ -352,6 +352,7 @@ ChosenSettings blocked_settings(std::span<const LogSurvey> logs, const PartFilte
   // A delay looks like viscous friction, which stage 1 estimates anyway: auto need not decide.
   chosen.rows.signal.torque_held = options.torque_hold.value_or(rig.torque_hold) == TorqueHold::zoh;
   chosen.rows.signal.torque_period = rig.torque_period;
+  chosen.rows.signal.quasi_static = true;
   warn_of_haste(logs, wanted, sweep, cutoff, chosen);
   return chosen;
 }

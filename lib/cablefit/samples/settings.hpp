@@ -56,7 +56,7 @@ ChosenSettings moving_settings(std::span<const LogSurvey> logs, const PartFilter
 
 /// Up to the first `max_windows` wanted windows of every log, for choosing and for small tests.
 struct PilotWindow {
-  std::size_t log;
+  std::size_t log = 0;
   Window window;
 };
 std::vector<PilotWindow> pilot_windows(std::span<const LogSurvey> logs, const PartFilter& wanted,

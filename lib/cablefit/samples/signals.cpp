@@ -7,28 +7,32 @@
 namespace cablefit {
 namespace {
 
-// d/dt and d2/dt2 of fourth order; the two values at either end repeat their neighbour and are
-// never used (kDifferenceEdge).
-void differentiate(const Eigen::ArrayXd& x, double h, Eigen::ArrayXd& first,
-                   Eigen::ArrayXd& second) {
-  const Eigen::Index n = x.size();
-  first = Eigen::ArrayXd::Zero(n);
-  second = Eigen::ArrayXd::Zero(n);
-  if (n < 5) return;
-  const Eigen::Index m = n - 4;
-  const auto a = x.head(m), b = x.segment(1, m), c = x.segment(2, m), d = x.segment(3, m),
-             e = x.tail(m);
-  first.segment(2, m) = (a - 8 * b + 8 * d - e) / (12 * h);
-  second.segment(2, m) = (16 * (b + d) - a - e - 30 * c) / (12 * h * h);
-  for (Eigen::ArrayXd* x_dot : {&first, &second}) {
-    x_dot->head(2).setConstant((*x_dot)(2));
-    x_dot->tail(2).setConstant((*x_dot)(n - 3));
-  }
+// The two values at either end repeat their neighbour and are never used (kDifferenceEdge).
+void repeat_at_ends(Eigen::ArrayXd& x) {
+  x.head(2).setConstant(x(2));
+  x.tail(2).setConstant(x(x.size() - 3));
 }
 
-void differentiate_velocity(const Eigen::ArrayXd& v, double h, Eigen::ArrayXd& acceleration) {
-  Eigen::ArrayXd unused;
-  differentiate(v, h, acceleration, unused);
+// d/dt of fourth order.
+Eigen::ArrayXd first_derivative(const Eigen::ArrayXd& x, double h) {
+  const Eigen::Index n = x.size(), m = n - 4;
+  if (m < 1) return Eigen::ArrayXd::Zero(n);
+  Eigen::ArrayXd v(n);
+  v.segment(2, m) = (x.head(m) - x.tail(m) + 8 * (x.segment(3, m) - x.segment(1, m))) / (12 * h);
+  repeat_at_ends(v);
+  return v;
+}
+
+// d2/dt2 of fourth order.
+Eigen::ArrayXd second_derivative(const Eigen::ArrayXd& x, double h) {
+  const Eigen::Index n = x.size(), m = n - 4;
+  if (m < 1) return Eigen::ArrayXd::Zero(n);
+  Eigen::ArrayXd a(n);
+  a.segment(2, m) =
+      (16 * (x.segment(1, m) + x.segment(3, m)) - x.head(m) - x.tail(m) - 30 * x.segment(2, m)) /
+      (12 * h * h);
+  repeat_at_ends(a);
+  return a;
 }
 
 // tau(t - delay) by linear interpolation between rows; for the usual delay of half a row this is
@@ -58,12 +62,17 @@ JointSignals joint_signals(const Eigen::MatrixXd& data, const LogPlan& plan, int
   s.theta = column(data, plan, Channel::theta, joint);
   s.tau = column(data, plan, Channel::tau, joint);
   s.tau_load = column(data, plan, Channel::tau_load, joint);
-  if (s.q.size() > 0) differentiate(s.q, h, s.qd, s.qdd);
-  if (s.theta.size() > 0) differentiate(s.theta, h, s.thetad, s.thetadd);
-  if (s.theta.size() == 0 && plan.has(Channel::w, joint)) {
+  if (s.q.size() > 0) s.qd = first_derivative(s.q, h);
+  if (s.theta.size() > 0) s.thetad = first_derivative(s.theta, h);
+  const bool by_speed = s.theta.size() == 0 && plan.has(Channel::w, joint);
+  if (by_speed) {
     s.thetad = column(data, plan, Channel::w, joint);
-    differentiate_velocity(s.thetad, h, s.thetadd);
     s.theta = Eigen::ArrayXd::Zero(s.thetad.size());  // no position: nothing may depend on it
+  }
+  if (!settings.quasi_static) {
+    if (s.q.size() > 0) s.qdd = second_derivative(s.q, h);
+    if (s.theta.size() > 0)
+      s.thetadd = by_speed ? first_derivative(s.thetad, h) : second_derivative(s.theta, h);
   }
   if (s.tau.size() > 0 && settings.torque_held) {
     const double hold = settings.torque_period > 0 ? settings.torque_period : h;
@@ -104,7 +113,8 @@ Eigen::Index signal_halo(const SignalSettings& settings, double rate) {
   const Eigen::Index differences = kDifferenceEdge + 1;
   if (settings.cutoff <= 0) return differences;
   // Twice: the direction of motion is filtered after the signals it comes from.
-  return 2 * Butterworth(settings.filter_order, settings.cutoff, rate).settling_rows() +
+  const int filters = settings.quasi_static ? 1 : 2;
+  return filters * Butterworth(settings.filter_order, settings.cutoff, rate).settling_rows() +
          differences;
 }
 
@@ -124,19 +134,9 @@ Signals make_signals(const Window& window, const LogPlan& plan, const SignalSett
     signals.joints.push_back(joint_signals(data, plan, joint, window.period, settings));
     signals.joints.back().approach = window.approach.col(joint).array().sign();
   }
-  add_directions(signals.joints, low_pass ? &*low_pass : nullptr, window);
+  if (!settings.quasi_static)
+    add_directions(signals.joints, low_pass ? &*low_pass : nullptr, window);
   return signals;
-}
-
-void triangle_average(Eigen::Ref<Eigen::ArrayXd> column) {
-  const Eigen::Index n = column.size();
-  if (n < 3) return;
-  double before = column(0);
-  for (Eigen::Index i = 1; i + 1 < n; ++i) {
-    const double here = column(i);
-    column(i) = (before + 10 * here + column(i + 1)) / 12;
-    before = here;
-  }
 }
 
 }  // namespace cablefit

@@ -15,6 +15,9 @@ struct SignalSettings {
   int filter_order = 4;
   bool torque_held = false;  ///< tau[i] acts from t[i] until t[i] + torque_period
   double torque_period = 0;  ///< s; 0: the log's period
+  /// Motion so slow that only positions, velocities and torques matter: no accelerations, no
+  /// filtered directions; and rows are decimated before an equation forms its columns of them.
+  bool quasi_static = false;
 };
 
 /// Signals of one joint over the rows of a window; an empty array where the log has no such
@@ -45,11 +48,5 @@ double bridge_seconds(const SignalSettings& settings);
 inline constexpr Eigen::Index kDifferenceEdge = 3;
 
 Signals make_signals(const Window& window, const LogPlan& plan, const SignalSettings& settings);
-
-/// Average over the triangle (1, 10, 1)/12 of +-1 sample, in place. A second difference IS the mean
-/// acceleration under that triangle (Numerov), so every other column of an equation must be
-/// averaged alike: without it J_motor is 1.8 % too large at 1 kHz on the paper's rig, through K
-/// T^2/(12 J).
-void triangle_average(Eigen::Ref<Eigen::ArrayXd> column);
 
 }  // namespace cablefit

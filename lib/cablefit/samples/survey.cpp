@@ -220,6 +220,7 @@ LogSurvey survey_log(const LogPlan& plan, const std::string& preload, int thread
         reader->finish(*piece, chunk);
         scan.add(*reader, chunk);
       });
+  require_unchanged(plan);
   return scan.result(digest.hex());
 }
 

@@ -42,7 +42,7 @@ inline double Coupling::tension(std::size_t cable, const double* q, const double
   for (std::size_t k = 0; k < n_joints_; ++k)
     l += motor_radius[k] * theta[k] - link_radius[k] * q[k];
   if (!(l > 0)) return 0.0;
-  std::array<double, kMaxCableOrder> values;
+  std::array<double, kMaxCableOrder> values;  // NOLINT(*-member-init): filled by the next call
   strand.basis(strand.order, l, values.data());
   double force = 0;
   for (std::size_t j = 0; j < static_cast<std::size_t>(strand.n_coefficients); ++j) {

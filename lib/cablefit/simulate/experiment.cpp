@@ -83,7 +83,7 @@ void require_channels(const Model& model, const LogPlan& plan, const PartSurvey&
   if (by_column) {
     require_in_every_joint(plan, Channel::tau_load, "the load that the rig file says is a column");
   } else if (!law && !model.rigid && !in_every_joint(plan, Channel::tau_load)) {
-    experiment.warnings.push_back(
+    experiment.warnings.emplace_back(
         "no tau_load column and no load law in the rig file: the load torque is taken as 0");
   }
   (void)part;

@@ -41,8 +41,8 @@ class PartReplay {
  private:
   /// A signal that is compared; its deflection when `is_deflection`.
   struct Signal {
-    Channel channel;
-    int joint;
+    Channel channel = Channel::q;
+    int joint = 0;
     bool is_deflection = false;
     GapScan scan = {};
   };

@@ -59,6 +59,8 @@ class Simulation {
   /// Takes the initial state, the period and the first references from `start`. Throws as above.
   Simulation(const Model& model, const SimulationInput& start, const SimulationOptions& options);
   ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 

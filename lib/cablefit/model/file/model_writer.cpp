@@ -80,7 +80,7 @@ class TransmissionWriter {
   Json others() const {
     Json list = Json::array();
     for (const Estimate& estimate : model_.elastic) {
-      if (used_.count(estimate.name)) continue;
+      if (used_.contains(estimate.name)) continue;
       Json json{{"name", estimate.name}};
       json.update(estimate_object(estimate));
       list.push_back(json);
@@ -154,7 +154,7 @@ std::string one_line(const Json& json) {
 
 /// What fits on a line stays on one; everything else as nlohmann's dump(2).
 std::string pretty(const Json& json, std::size_t indent) {
-  const std::string flat = one_line(json);
+  std::string flat = one_line(json);
   if (!json.is_structured() || indent + flat.size() <= kLineWidth) return flat;
   const std::string margin = fmt::format("\n{:{}}", "", indent + 2);
   const auto print = [indent](const Json& value) { return pretty(value, indent + 2); };
