@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::size_t kChunkRows = 8192;
 constexpr std::size_t kMinRows = 8;
-constexpr double kGapEven = 1.5;  // an even clock: a missing row is a gap
+constexpr std::size_t kMaxParts = 1000;  // each costs memory here, and passes over the log later
+constexpr double kGapEven = 1.5;         // an even clock: a missing row is a gap
 constexpr double kGapUneven = 5;  // an uneven one: interpolate over a few missed rows, not more
 constexpr double kUnevenJitter = 0.3;  // of the period; less is rounding of the printed time
 constexpr double kAbsurd = 1e30;       // in SI; nothing a joint does comes near
@@ -180,6 +181,13 @@ Phase phase_of(const PartTracker::Key& key, const PartSurvey& part, const LogPla
   return moved <= kStillShare * reference ? Phase::blocked : Phase::moving;
 }
 
+Error too_many_parts(const LogPlan& plan, std::uint64_t line) {
+  return input_error(
+      {plan.path, line, 0},
+      fmt::format("more than {} parts, told apart by preload, phase and run", kMaxParts),
+      "use labels that change from recording to recording only, or split the log");
+}
+
 void check_phase(const std::string& phase, const LogPlan& plan, std::uint64_t line) {
   if (phase.empty() || phase == "blocked" || phase == "moving") return;
   constexpr std::array<std::string_view, 2> known = {"blocked", "moving"};
@@ -253,7 +261,9 @@ const PartTracker::Key& PartTracker::key(const LogReader& reader, const LogChunk
   return key_;
 }
 
-LogSurvey survey_log(const LogPlan& plan, const std::string& preload) {
+namespace {
+
+LogSurvey survey_once(const LogPlan& plan, const std::string& preload) {
   LogSurvey survey;
   survey.plan = plan;
   survey.default_preload = preload;
@@ -275,6 +285,7 @@ LogSurvey survey_log(const LogPlan& plan, const std::string& preload) {
             static_cast<std::size_t>(std::find_if(scans.begin(), scans.end(),
                                                   [&](const PartScan& s) { return s.key == key; }) -
                                      scans.begin());
+        if (current == kMaxParts) throw too_many_parts(plan, chunk.lines[row]);
         if (current == scans.size())
           scans.push_back({key, {}, std::vector<ChannelScan>(plan.slots.size())});
       }
@@ -290,7 +301,6 @@ LogSurvey survey_log(const LogPlan& plan, const std::string& preload) {
     }
     survey.n_rows += chunk.n_rows;
   }
-  require_unchanged(plan);
   for (PartScan& scan : scans) {
     PartSurvey part;
     part.preload = scan.key.preload;
@@ -315,6 +325,12 @@ LogSurvey survey_log(const LogPlan& plan, const std::string& preload) {
     survey.parts.push_back(std::move(part));
   }
   return survey;
+}
+
+}  // namespace
+
+LogSurvey survey_log(const LogPlan& plan, const std::string& preload) {
+  return undisturbed(plan, [&] { return survey_once(plan, preload); });
 }
 
 }  // namespace cablefit

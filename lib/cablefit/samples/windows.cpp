@@ -252,15 +252,7 @@ WindowCounts for_each_window(const LogSurvey& log,
                              const std::function<bool(const PartSurvey&)>& wanted,
                              Eigen::Index halo, Eigen::Index min_rows, double bridge,
                              const std::function<bool(Window&&)>& sink) {
-  require_unchanged(log.plan);
-  try {
-    const WindowCounts counts = one_pass(log, wanted, halo, min_rows, bridge, sink);
-    require_unchanged(log.plan);
-    return counts;
-  } catch (const Error&) {
-    require_unchanged(log.plan);  // else the log itself would be blamed
-    throw;
-  }
+  return undisturbed(log.plan, [&] { return one_pass(log, wanted, halo, min_rows, bridge, sink); });
 }
 
 }  // namespace cablefit
