@@ -1,6 +1,7 @@
 // Runs that are ended from outside while they write: CABLEFIT_KILLS=200 in the environment for the
 // full number of kills.
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -41,21 +42,23 @@ void take_stock(const FaultBench& bench, const std::map<std::string, std::string
   }
 }
 
-/// Each call that writes takes 2 ms, so that most signals come while files are written.
+/// Each call that writes takes 5 ms, so that most signals come while files are written.
 Tally strike(int signal, int n_times, Environment environment) {
   const FaultBench bench;
   const Writer writer = writers().at(0);
-  environment["FAULT_WRITE_MS"] = "2";
+  environment["FAULT_WRITE_MS"] = "5";
   bench.reset(writer, true);
-  const int n_calls = bench.count(writer.arguments, environment).writes;
+  const auto start = std::chrono::steady_clock::now();
+  REQUIRE(bench.run(writer.arguments, environment).exit_code == 0);
+  const auto usual = std::chrono::steady_clock::now() - start;
+  const long usual_us = std::chrono::duration_cast<std::chrono::microseconds>(usual).count();
   const auto whole = bench.files();
   std::mt19937 engine(7);
   Tally tally;
   for (int k = 0; k < n_times; ++k) {
     INFO("signal " << signal << ", run " << k);
     bench.reset(writer, true);
-    const long longest = 60'000 + 2500L * n_calls;
-    const long after = static_cast<long>(engine() % static_cast<unsigned long>(longest));
+    const long after = static_cast<long>(engine() % static_cast<unsigned long>(usual_us));
     const Ended ended = bench.run(writer.arguments, environment, {signal, after});
     INFO(ended.err);
     REQUIRE((ended.signal == signal || ended.exit_code == 0));
@@ -71,6 +74,7 @@ Tally strike(int signal, int n_times, Environment environment) {
 TEST_CASE("SIGKILL leaves whole files under every name") {
   const Tally tally = strike(SIGKILL, n_kills(), {});
   CHECK(tally.killed > n_kills() / 4);
+  CHECK(tally.fresh > n_kills() / 8);  // else they all came before anything was written
   // A file has a temporary name only between two system calls, when it replaces another.
   CHECK(tally.leftovers <= n_kills());
 }

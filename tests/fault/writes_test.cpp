@@ -58,6 +58,20 @@ void fail_all(const Writer& writer) {
   std::printf("    %s: %d runs, one call failing in each\n", writer.name.c_str(), n_runs);
 }
 
+TEST_CASE("values of a JSON log that find no room are told with what to do") {
+  const FaultBench bench;
+  std::string values = "0";
+  for (int k = 1; k < 200'000; ++k) values += "," + std::to_string(k % 100);
+  std::ofstream(bench.path("log.json")) << "{\"sample_rate\": 1000, \"channels\": {\"theta\": ["
+                                        << values << "], \"tau\": [" << values << "]}}";
+  // The first call opens the temporary file, the second writes to it.
+  const Ended ended =
+      bench.run({"check", "log.json"}, {{"FAULT_WRITE", "2:ENOSPC"}, {"TMPDIR", bench.path(".")}});
+  CHECK(ended.exit_code == 5);
+  CHECK(ended.err == "cannot write a temporary file in " + bench.path(".") +
+                         ": No space left on device; set TMPDIR to a folder with room\n");
+}
+
 TEST_CASE("elastic while a write fails") { fail_all(writers().at(0)); }
 TEST_CASE("dynamic while a write fails") { fail_all(writers().at(1)); }
 TEST_CASE("simulate while a write fails") { fail_all(writers().at(2)); }

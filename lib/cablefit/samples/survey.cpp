@@ -8,6 +8,7 @@
 
 #include "cablefit/base/catalog.hpp"
 #include "cablefit/base/digest.hpp"
+#include "cablefit/base/quote.hpp"
 
 namespace cablefit {
 namespace {
@@ -165,8 +166,8 @@ struct PartScan {
 
 Error absurd_value(const LogPlan& plan, const Slot& slot, double value, std::uint64_t line) {
   return input_error({plan.path, line, 0},
-                     fmt::format("{:g} in column '{}' is no physical value", value,
-                                 plan.header.columns[slot.column].name),
+                     fmt::format("{:g} in column {} is no physical value", value,
+                                 cablefit::quoted(plan.header.columns[slot.column].name)),
                      "correct it, or leave the row out");
 }
 
