@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <system_error>
 
 #include "cablefit/base/catalog.hpp"
 #include "cablefit/base/error.hpp"
@@ -40,6 +42,11 @@ std::vector<std::string> option_names(const CLI::App& app) {
 }
 
 Error unknown_option(const CLI::App& app, const std::string& argument) {
+  std::error_code ignored;
+  if (std::filesystem::exists(argument, ignored)) {
+    return usage_error("unknown option " + cablefit::quoted(argument),
+                       "for the file of that name write ./" + argument);
+  }
   const std::string name = argument.substr(0, argument.find('='));
   const std::vector<std::string> names = option_names(app);
   const std::vector<std::string_view> known(names.begin(), names.end());
@@ -115,9 +122,10 @@ bool parse(CLI::App& app, const Arguments& arguments) {
   } catch (const CLI::ParseError& error) {
     throw usage_error(error.what(), fmt::format("see '{} --help'", app.get_name()));
   }
-  const std::vector<std::string> extras = app.remaining();
+  std::vector<std::string> extras = app.remaining();
+  std::erase(extras, "--");  // ends the options, and is none itself
   for (const std::string& extra : extras) {
-    if (!extra.empty() && extra.front() == '-') throw unknown_option(app, extra);
+    if (extra.starts_with('-')) throw unknown_option(app, extra);
   }
   if (!extras.empty()) {
     throw usage_error("unexpected argument " + cablefit::quoted(extras.front()),

@@ -22,4 +22,13 @@ TEST_CASE("errors carry place, hint and exit code") {
   CHECK(static_cast<int>(bad_usage.kind()) == 2);
 }
 
+TEST_CASE("no message steers the terminal, and one message is one line") {
+  const std::string name = "low\x1b[2J\n";
+  CHECK(input_error({name, 3, 0}, name, name).what() ==
+        std::string("low\\x1b[2J\\x0a:3: low\\x1b[2J\\x0a; low\\x1b[2J\\x0a"));
+  CHECK(usage_error(name, "").what() == std::string("low\\x1b[2J\\x0a"));
+  // Several messages stand below each other.
+  CHECK(Error(ErrorKind::output, "a\x07\nb").what() == std::string("a\\x07\nb"));
+}
+
 }  // namespace cablefit

@@ -20,4 +20,13 @@ TEST_CASE("quoted text is cut at 60 bytes, never inside a character") {
   CHECK(quoted(std::string(59, 'x') + "θ") == "'" + std::string(59, 'x') + "...'");
 }
 
+TEST_CASE("what a careless decoder would take for a control character is no character") {
+  CHECK(printable("\xe0\x80\x9b[2J") == "\\xe0\\x80\\x9b[2J");     // an escape in three bytes
+  CHECK(printable("\xf0\x80\x80\x9b") == "\\xf0\\x80\\x80\\x9b");  // and in four
+  CHECK(printable("\xed\xa0\x80") == "\\xed\\xa0\\x80");           // half a pair of UTF-16
+  CHECK(printable("\xf4\x90\x80\x80") == "\\xf4\\x90\\x80\\x80");  // beyond U+10FFFF
+  CHECK(printable("\xe0\xa4\xb9 \xf0\x9f\x98\x80") == "\xe0\xa4\xb9 \xf0\x9f\x98\x80");
+  CHECK(printable(std::string(100, 'x') + '\n') == std::string(100, 'x') + "\\x0a");
+}
+
 }  // namespace cablefit

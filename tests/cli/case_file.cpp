@@ -119,10 +119,18 @@ std::set<std::string> files_below(const fs::path& folder) {
   return files;
 }
 
+// AddressSanitizer takes terabytes of address space for itself.
+#ifdef __SANITIZE_ADDRESS__
+constexpr const char* kLimit = ":";
+#else
+constexpr const char* kLimit = "ulimit -v 400000";
+#endif
+
 int run_shell(const fs::path& folder, const std::string& command, const std::string& redirection) {
   const std::string script = folder.string() + ".sh";
-  std::ofstream(script) << "cablefit() { '" << CABLEFIT_PROGRAM << "' \"$@\"; }\ncd '"
-                        << folder.string() << "' || exit 99\n"
+  std::ofstream(script) << "cablefit() { '" << CABLEFIT_PROGRAM << "' \"$@\"; }\nbounded() { ("
+                        << kLimit << "; cablefit \"$@\" --threads 1); }\ncd '" << folder.string()
+                        << "' || exit 99\n"
                         << command << "\n";
   const int status = std::system(("sh '" + script + "'" + redirection).c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;

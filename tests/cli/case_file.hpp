@@ -9,7 +9,8 @@
 //   says                    lines that stdout contains (then `stdout` is not looked at)
 //   creates                 files that appear, one per line; missing: none does
 //
-// {data} stands for the repository's data folder, in commands and in texts.
+// `bounded` in a command is cablefit on one thread within 400 MB of address space, {data} stands
+// for the repository's data folder, in commands and in texts.
 #pragma once
 
 #include <string>

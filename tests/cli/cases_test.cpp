@@ -28,6 +28,7 @@ void check_file(const std::string& name) {
 TEST_CASE("mistakes on the command line") { check_file("usage.txt"); }
 TEST_CASE("logs that cannot be used") { check_file("bad_logs.txt"); }
 TEST_CASE("rig files, results and targets that cannot be used") { check_file("bad_files.txt"); }
+TEST_CASE("logs and files made to do harm") { check_file("hostile.txt"); }
 TEST_CASE("what works") { check_file("works.txt"); }
 
 TEST_CASE("every case file is run") {
@@ -36,7 +37,8 @@ TEST_CASE("every case file is run") {
        std::filesystem::directory_iterator(CABLEFIT_SOURCE "/tests/cli/cases")) {
     names.insert(entry.path().filename().string());
   }
-  CHECK(names == std::set<std::string>{"bad_files.txt", "bad_logs.txt", "usage.txt", "works.txt"});
+  CHECK(names == std::set<std::string>{"bad_files.txt", "bad_logs.txt", "hostile.txt", "usage.txt",
+                                       "works.txt"});
 }
 
 }  // namespace

@@ -225,8 +225,8 @@ TEST_CASE("lines, columns and words are bounded") {
   std::string distinct = "t,stamp\n";
   for (int i = 0; i < 100'000; ++i) distinct += fmt::format("0,{}\n", i);
   CHECK(read_message(distinct, {"t"}, {"stamp"}) ==
-        "log.csv:1:3: column 'stamp' holds more than 99999 different texts; use a column of "
-        "labels, one per run");
+        "log.csv:1:3: column 'stamp' holds more than 99999 different texts, or 16 MiB of them; "
+        "use a column of labels, one per run");
 }
 
 TEST_CASE("a hostile header costs no more than its length") {

@@ -7,9 +7,12 @@
 #include <cctype>
 #include <vector>
 
+#include "cablefit/base/quote.hpp"
+
 namespace cablefit {
 namespace {
 
+constexpr std::size_t kMostListed = 20;
 constexpr std::size_t kMaxNameBytes = 200;  // the distance costs the product of both lengths
 
 std::string lower_case(std::string_view text) {
@@ -61,7 +64,14 @@ std::string suggestion(std::string_view name, std::span<const std::string_view> 
   if (const auto nearest = nearest_name(name, known)) {
     return fmt::format("did you mean '{}'?", *nearest);
   }
-  return fmt::format("known: {}", fmt::join(known, ", "));
+  std::vector<std::string> listed;
+  for (const std::string_view each : known.first(std::min(known.size(), kMostListed))) {
+    listed.push_back(shortened(each));
+  }
+  if (known.size() > kMostListed) {
+    listed.push_back(fmt::format("... ({} more)", known.size() - kMostListed));
+  }
+  return fmt::format("known: {}", fmt::join(listed, ", "));
 }
 
 }  // namespace cablefit

@@ -15,7 +15,7 @@ namespace cablefit {
 namespace {
 
 [[noreturn]] void throw_cannot_read(const std::string& path) {
-  throw Error(ErrorKind::input, "cannot read " + path + ": " + std::strerror(errno));
+  throw input_error({}, "cannot read " + path + ": " + std::strerror(errno), "");
 }
 
 ssize_t read_uninterrupted(int descriptor, char* to, std::size_t n_bytes) {
@@ -50,8 +50,8 @@ FileReader::FileReader(std::string path)
     errno = EISDIR;
     throw_cannot_read(path_);
   }
-  throw Error(ErrorKind::input,
-              "cannot read " + path_ + ": it is no regular file, and is read more than once");
+  throw input_error({}, "cannot read " + path_ + ": it is no regular file",
+                    "save it to a file first, since it is read more than once");
 }
 
 FileReader::~FileReader() { ::close(descriptor_); }

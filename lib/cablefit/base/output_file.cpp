@@ -8,6 +8,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/file_descriptor.hpp"
+#include "cablefit/base/quote.hpp"
 
 namespace cablefit {
 namespace {
@@ -41,7 +42,7 @@ void write_to(const std::string& path, std::string_view content) {
 
 Error output_error(const std::string& path, const std::system_error& failure) {
   return {ErrorKind::output,
-          fmt::format("cannot write {}: {}", path == "-" ? "standard output" : path,
+          fmt::format("cannot write {}: {}", path == "-" ? "standard output" : printable(path),
                       failure.code().message())};
 }
 

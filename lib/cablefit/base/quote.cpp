@@ -43,6 +43,8 @@ std::size_t printable_length(std::string_view text) {
   return is_sound_second(lead, static_cast<unsigned char>(text[1])) ? length : 0;
 }
 
+bool is_plain(char c) { return c >= 0x20 && c < 0x7F; }
+
 // Takes the first character off `text` and appends it to `shown`.
 void move_character(std::string_view& text, std::string& shown) {
   const std::size_t length = printable_length(text);
@@ -58,7 +60,13 @@ void move_character(std::string_view& text, std::string& shown) {
 
 std::string printable(std::string_view text) {
   std::string shown;
-  while (!text.empty()) move_character(text, shown);
+  while (!text.empty()) {
+    const auto special = std::find_if_not(text.begin(), text.end(), is_plain);
+    const auto n_plain = static_cast<std::size_t>(special - text.begin());
+    shown += text.substr(0, n_plain);
+    text.remove_prefix(n_plain);
+    if (!text.empty()) move_character(text, shown);
+  }
   return shown;
 }
 

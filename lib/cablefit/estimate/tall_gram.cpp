@@ -111,8 +111,7 @@ void divide_lanes(double* rows, Eigen::Index stride, const Eigen::MatrixXd& r,
 void divide_by_triangle(Eigen::MatrixXd& rows, const Eigen::MatrixXd& r) {
   const Eigen::VectorXd over = r.diagonal().cwiseInverse();
   const Eigen::Index n = rows.rows(), n_lanes = n - n % kLanes;
-  for (Eigen::Index i = 0; i < n_lanes; i += kLanes)
-    divide_lanes(rows.data() + i, n, r, over);
+  for (Eigen::Index i = 0; i < n_lanes; i += kLanes) divide_lanes(rows.data() + i, n, r, over);
   for (Eigen::Index i = n_lanes; i < n; ++i)
     for (Eigen::Index k = 0; k < rows.cols(); ++k)
       rows(i, k) = (rows(i, k) - rows.row(i).head(k).dot(r.col(k).head(k))) * over(k);

@@ -46,6 +46,9 @@ CsvHeader read_csv_header(LineBuffer& lines, const std::string& path) {
     throw input_error({path}, "no header line", "name the columns, as t,q,theta,tau");
   }
   const Place place{path, lines.line_number()};
+  if (line.find('\r') != std::string_view::npos) {
+    throw input_error(place, "lines end in CR alone", "save the file with LF or CRLF line ends");
+  }
   CsvHeader header{{path, {}, std::nullopt}, find_delimiter(line)};
   const auto cells = split_header(line, header.delimiter, kMaxColumns + 1);
   check_cells(cells, place);

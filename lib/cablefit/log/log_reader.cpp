@@ -14,6 +14,9 @@ void check_is_text(std::string_view head, const std::string& path) {
   if (head.empty()) {
     throw input_error({path}, "file is empty", "give a log with a header line and samples");
   }
+  if (head.starts_with("\xff\xfe") || head.starts_with("\xfe\xff")) {
+    throw input_error({path}, "is UTF-16", "save it as UTF-8");
+  }
   if (head.find('\0') != std::string_view::npos) {
     throw input_error({path}, "is not text",
                       "give CSV or JSON in UTF-8, plain or packed by gzip or zstd");

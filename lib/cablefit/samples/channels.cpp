@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "cablefit/base/catalog.hpp"
+#include "cablefit/base/quote.hpp"
 #include "cablefit/base/units.hpp"
 
 namespace cablefit {
@@ -44,9 +45,9 @@ std::optional<std::size_t> find_column(const LogHeader& header, std::string_view
 }
 
 std::string names_of(const LogHeader& header) {
-  std::vector<std::string_view> names;
+  std::vector<std::string> names;
   for (std::size_t k = 0; k < std::min<std::size_t>(header.columns.size(), 20); ++k)
-    names.push_back(header.columns[k].name);
+    names.push_back(shortened(header.columns[k].name));
   return fmt::format("{}{}", fmt::join(names, ", "), header.columns.size() > 20 ? ", ..." : "");
 }
 
@@ -96,7 +97,7 @@ Slot make_slot(const LogHeader& header, const Rig& rig, const ChannelInfo& info,
   double unit_scale = 1;
   if (!unit_text.empty())
     unit_scale = checked_unit(unit_text, cell.place, rig.linear_motion ? info.linear : info.rotary,
-                              fmt::format("column '{}'", cell.name), info.quantity)
+                              "column " + cablefit::quoted(cell.name), info.quantity)
                      .scale;
   slot.factor = mapping.scale * unit_scale;
   slot.shift = mapping.shift * unit_scale;

@@ -54,6 +54,21 @@ LogPlan plan_log(const std::string& path, const Rig& rig);
 /// it was planned: later passes rest on what earlier ones found.
 void require_unchanged(const LogPlan& plan);
 
+/// What `pass` over the log returns. A log that changed meanwhile is told as that, whatever the
+/// pass ran into.
+template <typename Pass>
+auto undisturbed(const LogPlan& plan, Pass pass) {
+  require_unchanged(plan);
+  try {
+    auto result = pass();
+    require_unchanged(plan);
+    return result;
+  } catch (const Error&) {
+    require_unchanged(plan);
+    throw;
+  }
+}
+
 /// Throws Error(input) "missing column 'q' ..." when the log lacks a channel the caller needs.
 void require_channel(const LogPlan& plan, Channel channel, std::string_view why,
                      std::string_view hint = "add it, or map it in a rig file");

@@ -7,20 +7,22 @@
 
 #include "cablefit/base/digest.hpp"
 #include "cablefit/base/parallel.hpp"
+#include "cablefit/base/quote.hpp"
 #include "cablefit/samples/part_tracker.hpp"
 
 namespace cablefit {
 namespace {
 
 constexpr std::size_t kMinRows = 8;
-constexpr double kAbsurd = 1e30;  // in SI; nothing a joint does comes near
+constexpr std::size_t kMaxParts = 1000;  // each costs memory here, and passes over the log later
+constexpr double kAbsurd = 1e30;         // in SI; nothing a joint does comes near
 // A link whose position varies less than this share of the motor's is blocked.
 constexpr double kStillShare = 0.02;
 
 Error absurd_value(const LogPlan& plan, const Slot& slot, double value, std::uint64_t line) {
   return input_error({plan.path, line, 0},
-                     fmt::format("{:g} in column '{}' is no physical value", value,
-                                 plan.header.columns[slot.column].name),
+                     fmt::format("{:g} in column {} is no physical value", value,
+                                 cablefit::quoted(plan.header.columns[slot.column].name)),
                      "correct it, or leave the row out");
 }
 
@@ -33,6 +35,13 @@ Phase phase_of(const PartTracker::Key& key, const PartSurvey& part, const LogPla
   const double moved = part.channels[static_cast<std::size_t>(q)].range();
   const double reference = part.channels[static_cast<std::size_t>(theta)].range();
   return moved <= kStillShare * reference ? Phase::blocked : Phase::moving;
+}
+
+Error too_many_parts(const LogPlan& plan, std::uint64_t line) {
+  return input_error(
+      {plan.path, line, 0},
+      fmt::format("more than {} parts, told apart by preload, phase and run", kMaxParts),
+      "use labels that change from recording to recording only, or split the log");
 }
 
 struct PartScan {
@@ -135,7 +144,7 @@ class LogScan {
                 std::size_t end) {
     const std::size_t before = current_;
     const bool is_same = !scans_.empty() && scans_[current_].key == key;
-    if (!is_same) current_ = find_or_add(key);
+    if (!is_same) current_ = find_or_add(key, chunk.lines[begin]);
     const bool continues = is_same && before == current_;
     PartScan& scan = scans_[current_];
     // Differences must not reach across a jump in time.
@@ -162,10 +171,11 @@ class LogScan {
               .array());
   }
 
-  std::size_t find_or_add(const PartTracker::Key& key) {
+  std::size_t find_or_add(const PartTracker::Key& key, std::uint64_t line) {
     const auto found = std::find_if(scans_.begin(), scans_.end(),
                                     [&](const PartScan& scan) { return scan.key == key; });
     const auto index = static_cast<std::size_t>(found - scans_.begin());
+    if (index == kMaxParts) throw too_many_parts(plan_, line);
     if (found == scans_.end())
       scans_.push_back({key, {}, std::vector<ChannelScan>(plan_.slots.size())});
     return index;
@@ -200,7 +210,9 @@ const LogSurvey& first_log_with(std::span<const LogSurvey> logs,
   return logs.front();
 }
 
-LogSurvey survey_log(const LogPlan& plan, const std::string& preload, int threads) {
+namespace {
+
+LogSurvey survey_once(const LogPlan& plan, const std::string& preload, int threads) {
   Sha256 digest;
   const auto reader = open_log(plan.path, &digest);
   LogScan scan(plan, preload);
@@ -220,8 +232,13 @@ LogSurvey survey_log(const LogPlan& plan, const std::string& preload, int thread
         reader->finish(*piece, chunk);
         scan.add(*reader, chunk);
       });
-  require_unchanged(plan);
   return scan.result(digest.hex());
+}
+
+}  // namespace
+
+LogSurvey survey_log(const LogPlan& plan, const std::string& preload, int threads) {
+  return undisturbed(plan, [&] { return survey_once(plan, preload, threads); });
 }
 
 }  // namespace cablefit
