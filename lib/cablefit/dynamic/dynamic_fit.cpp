@@ -6,6 +6,7 @@
 #include <array>
 
 #include "cablefit/base/catalog.hpp"
+#include "cablefit/dynamic/dynamic_figures.hpp"
 #include "cablefit/dynamic/dynamic_job.hpp"
 #include "cablefit/dynamic/estimates.hpp"
 #include "cablefit/dynamic/ratios.hpp"
@@ -117,6 +118,7 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
     for (std::size_t k = 0; k < equations.size(); ++k)
       preload.fits[f].torque_error[equations[k].equation.name].max_abs =
           found.worst[f * equations.size() + k];
+  if (job.options.figures) preload.figures = dynamic_figures(job, equations, solutions, preload);
   for (const ElasticPreload& stage1 : elastic.preloads)
     if (!job.rigid && stage1.name == job.preload)
       note_extrapolation(stage1, found, job.elastic.front()->transmission.theta_0(0), preload);
