@@ -72,7 +72,7 @@ void see_variables(SeenEquation& seen, const std::vector<Observed>& observed) {
 }
 
 const char* measured_text(Side side) {
-  return side == Side::link    ? "link torque tau_elas + tau_load"
+  return side == Side::link    ? "tau_elas + tau_load"
          : side == Side::motor ? "motor torque tau"
                                : "torque tau";
 }
@@ -87,6 +87,10 @@ SeenEquation see_equation(const DynamicJob& job, const EquationRows& rows, std::
   seen.plan.section = preload.name;
   seen.plan.group = rows.equation.name + " equation";
   seen.plan.measured = measured_text(side);
+  if (side == Side::link)
+    seen.plan.about =
+        "Measured: the torque that the cables (by this model of stage 1) and the load put on the "
+        "link. Predicted: what inertia and friction need.";
   seen.plan.unit = preload.linear_motion ? "N" : "N m";
   seen.plan.same_measured = side != Side::link;
   for (std::size_t m = 0; m < solutions.size(); ++m) {

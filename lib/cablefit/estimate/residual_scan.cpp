@@ -9,8 +9,6 @@ namespace {
 
 constexpr std::size_t kMeanBins = 64;
 constexpr std::size_t kFewRows = 5;  // a mean over fewer says nothing
-constexpr const char* kThinned =
-    "Thinned for drawing: least and greatest value of every stretch of time.";
 
 Trace trace_of(std::string name, TraceStyle style, int series) {
   Trace trace;
@@ -85,12 +83,12 @@ Trace ResidualScan::model_trace(std::size_t model, TraceStyle style) const {
 Figure ResidualScan::over_time(std::size_t first, std::size_t last) const {
   Figure figure = blank("Measured and predicted");
   if (!plan_.same_measured) figure.title += ", " + plan_.models[first].name;
-  figure.caption = kThinned;
+  figure.caption = plan_.about;
   figure.x = time_.axis();
   figure.y = {plan_.measured, plan_.unit};
   figure.marks = time_.marks();
   figure.wide = true;
-  figure.traces.push_back(trace_of("measured", TraceStyle::line, kMeasured));
+  figure.traces.push_back(trace_of("measured", TraceStyle::broad, kMeasured));
   scans_[first].measured.draw(figure.traces.back());
   for (std::size_t m = first; m < last; ++m) {
     figure.traces.push_back(model_trace(m, TraceStyle::line));
@@ -101,7 +99,7 @@ Figure ResidualScan::over_time(std::size_t first, std::size_t last) const {
 
 Figure ResidualScan::residual_over_time() const {
   Figure figure = blank(capital(plan_.error) + " over time");
-  figure.caption = std::string("Measured minus predicted. ") + kThinned;
+  figure.caption = "Measured minus predicted.";
   figure.x = time_.axis();
   figure.y = {plan_.error, plan_.unit};
   figure.marks = time_.marks();

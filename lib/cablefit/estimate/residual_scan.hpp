@@ -44,6 +44,7 @@ struct ScannedVariable {
 struct ScanPlan {
   std::string section, group;  ///< of the figures
   std::string measured;        ///< "motor torque tau"
+  std::string about;           ///< what that is, if it needs a word
   std::string error = "torque error";
   std::string unit;           ///< "N m"
   bool same_measured = true;  ///< for all models; else every model has a figure of its own

@@ -14,6 +14,7 @@ struct Axis {
 
 enum class TraceStyle {
   line,      ///< points joined in order; a NaN breaks the line
+  broad,     ///< the same, for what was measured: others that lie on it leave its edges
   dashed,    ///< the same, for what is a reference
   points,    ///< a cloud
   steps,     ///< a histogram's outline, x at the middle of the bins

@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// In the order of TraceStyle.
-constexpr const char* kStyles[] = {"line", "dashed", "points", "steps", "interval"};
+constexpr const char* kStyles[] = {"line", "broad", "dashed", "points", "steps", "interval"};
 
 Json texts(const std::vector<std::string>& all) {
   Json list = Json::array();

@@ -80,14 +80,15 @@ Figure ReplayFigures::blank(const Signal& signal) const {
 
 std::vector<Figure> ReplayFigures::figures() const {
   std::vector<Figure> figures;
-  const auto draw = [](Figure& figure, const ThinnedLine& line, const char* name, int series) {
-    figure.traces.push_back({name, TraceStyle::line, series, {}, {}, {}, {}, {}});
+  const auto draw = [](Figure& figure, const ThinnedLine& line, const char* name, int series,
+                       TraceStyle style = TraceStyle::line) {
+    figure.traces.push_back({name, style, series, {}, {}, {}, {}, {}});
     line.draw(figure.traces.back());
   };
   for (const Signal& signal : signals_) {
     Figure both = blank(signal);
     both.title = "Measured and simulated " + signal.name;
-    draw(both, signal.measured_line, "measured", kMeasured);
+    draw(both, signal.measured_line, "measured", kMeasured, TraceStyle::broad);
     draw(both, signal.simulated_line, "simulated", 2);
     Figure gap = blank(signal);
     gap.title = "Gap of " + signal.name;

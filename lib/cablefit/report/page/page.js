@@ -18,7 +18,7 @@
 
   function headerCell(column) {
     const cell = make("th", {class: column.text ? "text" : "", scope: "col"}, column.title);
-    if (column.unit) cell.append(make("small", {}, "[" + column.unit + "]"));
+    if (column.unit) cell.append(make("small", {}, "[" + prettyUnit(column.unit) + "]"));
     return cell;
   }
 
@@ -34,6 +34,7 @@
     return row;
   }
 
+  const printed = (cell) => prettyUnit(cell.replace(/\+- /g, "± "));
   const isLong = (text) => text.length > 60;
 
   function tableNode(table) {
@@ -44,7 +45,7 @@
     for (const row of table.rows) {
       body.append(make("tr", {}, ...row.map((cell, k) => make("td", {
         class: (table.columns[k].text ? "text" : "") + (isLong(cell) ? " long" : "")
-      }, cell))));
+      }, printed(cell)))));
     }
     const node = make("div", {}, make("div", {class: "scroll"}, make("table", {}, head, body)));
     for (const note of table.notes) node.append(make("p", {class: "note"}, note));
@@ -58,7 +59,7 @@
   }
 
   function detailTable(table) {
-    return make("details", {}, make("summary", {}, table.title || "Table"), tableNode(table));
+    return make("details", {open: ""}, make("summary", {}, table.title || "Table"), tableNode(table));
   }
 
   function decisionTable(decisions) {
@@ -85,7 +86,14 @@
 
   /** Plotly reads some HTML in its texts; what comes from a log has none. */
   const plain = (text) => text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;");
-  const withUnit = (axis) => plain(axis.title) + (axis.unit ? " [" + plain(axis.unit) + "]" : "");
+
+  /** "rad^2" as it is printed; symbols as the paper writes them. */
+  const powers = {0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹"};
+  const prettyUnit = (text) => text.replace(/\^(\d+)/g, (_, n) => [...n].map((d) => powers[d]).join(""));
+  const prettySymbols = (text) => text.replace(/theta/g, "θ").replace(/\btau/g, "τ").replace(/ - /g, " − ");
+  const withIndices = (html) => html.replace(/([A-Za-zθτ]\d*)_([A-Za-z0-9]+)/g, "$1<sub>$2</sub>");
+  const axisTitle = (axis) => withIndices(plain(prettySymbols(axis.title))) +
+      (axis.unit ? " [" + plain(prettyUnit(axis.unit)) + "]" : "");
 
   /** Colours of page.css, of the dark or the light scheme. */
   function palette(dark) {
@@ -96,7 +104,7 @@
     const colour = (name) => style.getPropertyValue("--" + name).trim();
     const colours = {
       ground: colour("ground"), ink: colour("ink"), grid: colour("grid"), rule: colour("rule"),
-      faint: colour("faint"), again: colour("again"), reference: colour("reference"),
+      faint: colour("faint"), again: colour("again"), below: colour("below"), reference: colour("reference"),
       series: [0, 1, 2, 3, 4, 5, 6].map((k) => colour("series-" + k))
     };
     root.classList.toggle("dark", was);
@@ -113,6 +121,8 @@
         return {mode: "lines", line: {color: colour, width: 1.5, dash: "dash"}};
       case "interval":
         return {mode: "markers", marker: {color: colour, size: 8}};
+      case "broad":
+        return {mode: "lines", line: {color: colour, width: 4}};
       default:
         return {mode: "lines", line: {color: colour, width: 1.4}};
     }
@@ -133,13 +143,14 @@
         (other) => other.series === trace.series && other.style === trace.style);
     let colour = trace.series < 0 ? colours.reference : colours.series[trace.series % 7];
     if (before && trace.style === "points") colour = colours.again;
+    if (trace.style === "broad") colour = colours.below;
     const y = numbers(trace.y);
     const drawn = {
       type: "scatter", name: plain(trace.name), y, connectgaps: false,
       x: trace.labels ? labelPlaces(figure, trace, k) : numbers(trace.x),
       showlegend: trace.name !== "",
-      hovertemplate: (trace.labels ? "" : "%{x:.6g} " + plain(figure.x.unit) + "<br>") + "%{y:.5g} " +
-          plain(figure.y.unit) + "<extra>%{fullData.name}</extra>",
+      hovertemplate: (trace.labels ? "" : "%{x:.6g} " + plain(prettyUnit(figure.x.unit)) + "<br>") + "%{y:.5g} " +
+          plain(prettyUnit(figure.y.unit)) + "<extra>%{fullData.name}</extra>",
       ...drawnLook(trace, colour, y.length > 400)
     };
     if (trace.style === "interval") {
@@ -161,7 +172,7 @@
   }
 
   function drawnAxis(axis, colours) {
-    return {title: {text: withUnit(axis), standoff: 8}, color: colours.ink, gridcolor: colours.grid,
+    return {title: {text: axisTitle(axis), standoff: 8}, color: colours.ink, gridcolor: colours.grid,
             zerolinecolor: colours.rule, linecolor: colours.rule, showline: true, mirror: true,
             ticks: "outside", ticklen: 4, tickcolor: colours.rule, automargin: true,
             exponentformat: "power", separatethousands: false};
@@ -172,8 +183,7 @@
       font: {family: "system-ui, 'Liberation Sans', Arial, sans-serif", size: 12, color: colours.ink},
       paper_bgcolor: colours.ground, plot_bgcolor: colours.ground, uirevision: "keep",
       margin: {l: 58, r: 14, t: 12, b: 46}, hovermode: "closest", dragmode: "zoom",
-      hoverlabel: {font: {size: 12}}, modebar: {color: colours.faint, activecolor: colours.ink,
-                                                bgcolor: "rgba(0,0,0,0)"},
+      hoverlabel: {font: {size: 12}},
       legend: {orientation: "h", x: 0, y: 1.02, yanchor: "bottom", xanchor: "left",
                itemsizing: "constant", font: {size: 11.5}},
       xaxis: drawnAxis(figure.x, colours), yaxis: drawnAxis(figure.y, colours),
@@ -196,11 +206,10 @@
   function drawn(figure, dark, width) {
     const colours = palette(dark);
     const layout = drawnLayout(figure, colours);
-    if (width) Object.assign(layout, {autosize: false, width, height: figure.wide ? 260 : 250});
+    if (width) Object.assign(layout, {autosize: false, width, height: figure.wide ? 260 : 290});
     else Object.assign(layout, {autosize: true, width: undefined, height: undefined});
     return {data: figure.traces.map((_, k) => drawnTrace(figure, k, colours)), layout,
-            config: {responsive: true, displaylogo: false, doubleClick: "reset",
-                     modeBarButtonsToRemove: ["toImage", "select2d", "lasso2d", "autoScale2d"]}};
+            config: {responsive: true, displayModeBar: false, doubleClick: "reset"}};
   }
 
   function draw(plot, dark, width) {
@@ -224,14 +233,23 @@
                                 {format: "svg", filename, width: plot.figure.wide ? 900 : 480, height: 320});
   }
 
+  function resetZoom(plot) {
+    const labels = labelsOf(plot.figure);
+    const x = labels.length ? {"xaxis.range": [-0.5, labels.length - 0.5]} : {"xaxis.autorange": true};
+    return Plotly.relayout(plot.place, {...x, "yaxis.autorange": true});
+  }
+
   function figureNode(figure) {
     const place = make("div", {class: "plot", role: "img", "aria-label": figure.title});
-    const button = make("button", {type: "button", title: "Save this plot as SVG"}, "SVG");
+    const save = make("button", {type: "button", title: "Save this plot as SVG"}, "SVG");
+    const reset = make("button", {type: "button", title: "Show everything again"}, "Reset");
     const node = make("figure", {class: figure.wide ? "wide" : ""},
-                      make("div", {class: "head"}, make("strong", {}, figure.title), button), place);
-    if (figure.caption) node.append(make("figcaption", {}, figure.caption));
+                      make("div", {class: "head"}, make("strong", {}, prettySymbols(figure.title)),
+                           make("span", {class: "buttons"}, reset, save)), place);
+    if (figure.caption) node.append(make("figcaption", {}, prettySymbols(figure.caption)));
     const plot = {figure, place, isDrawn: false};
-    button.addEventListener("click", () => saveSvg(plot));
+    save.addEventListener("click", () => saveSvg(plot));
+    reset.addEventListener("click", () => resetZoom(plot));
     plots.push(plot);
     return node;
   }
@@ -273,7 +291,7 @@
     const tables = report.tables.filter((table) => !table.detail);
     if (!tables.length && !report.paragraphs.length) return;
     main.append(chapter("Results", "h2", contents).heading, ...tables.map(titledTable),
-                ...report.paragraphs.map((text) => make("p", {}, text)));
+                make("ul", {}, ...report.paragraphs.map((text) => make("li", {}, text))));
   }
 
   function addRest(main) {
@@ -300,7 +318,8 @@
     document.body.append(make("div", {class: "frame"},
         make("header", {}, make("h1", {}, title),
              make("p", {}, "Drag to zoom, double-click to go back; click a name in a legend to hide it, " +
-                           "double-click to see it alone.")),
+                           "double-click to see it alone. Curves and clouds are thinned for drawing " +
+                           "so that no peak is lost; fits use every row.")),
         make("div", {class: "columns"}, make("nav", {"aria-label": "Contents"}, contents), main),
         make("footer", {}, "cablefit " + report.version + ". Plots by plotly.js (MIT licence).")));
   }
