@@ -4,10 +4,11 @@ root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 cd "$root"
 jobs="$(nproc)"
 
-# What cablefit needs of Debian 12 to be built and tested, and what steps of scripts/check need on top.
+# What cablefit needs of Debian 12 to be built and tested (npm for the plots of the HTML report, node and
+# chromium for its tests), and what steps of scripts/check need on top.
 build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libcli11-dev
                 nlohmann-json3-dev libfmt-dev libfast-float-dev zlib1g-dev libzstd-dev libssl-dev
-                catch2)
+                catch2 nodejs npm chromium)
 declare -A step_packages=([format]=clang-format-14 [readme]=python3 [tidy]=clang-tidy-14)
 
 # Says what it runs, and runs it.

@@ -111,7 +111,7 @@
     return colours;
   }
 
-  function drawnLook(trace, colour, many) {
+  function drawnLook(trace, colour, many, few) {
     switch (trace.style) {
       case "points":
         return {mode: "markers", marker: {color: colour, size: many ? 3 : 4, opacity: 0.65}};
@@ -123,8 +123,9 @@
         return {mode: "markers", marker: {color: colour, size: 8}};
       case "broad":
         return {mode: "lines", line: {color: colour, width: 4}};
-      default:
-        return {mode: "lines", line: {color: colour, width: 1.4}};
+      default:  // few points may have no neighbour to be joined with
+        return {mode: few ? "lines+markers" : "lines", line: {color: colour, width: 1.4},
+                marker: {color: colour, size: 6}};
     }
   }
 
@@ -151,7 +152,7 @@
       showlegend: trace.name !== "",
       hovertemplate: (trace.labels ? "" : "%{x:.6g} " + plain(prettyUnit(figure.x.unit)) + "<br>") + "%{y:.5g} " +
           plain(prettyUnit(figure.y.unit)) + "<extra>%{fullData.name}</extra>",
-      ...drawnLook(trace, colour, y.length > 400)
+      ...drawnLook(trace, colour, y.length > 400, y.length < 16)
     };
     if (trace.style === "interval") {
       const [low, high] = [numbers(trace.low), numbers(trace.high)];
