@@ -41,11 +41,12 @@ const kWanted = {
   elastic: {"Torque against deflection": 2, "Elastic error against deflection": 2, "Measured and predicted": 2,
             "Torque error against velocity of θ, linear": 2, "Torque error against position θ, linear": 2,
             "Torque error against deflection θ − q, linear": 2, ...counted(kResidualTitles, 2)},
-  dynamic: {"Measured and predicted": 2, "Measured and predicted, poly": 2, ...counted(kResidualTitles, 4),
+  dynamic: {"Measured and predicted": 2, "Measured and predicted, close-up": 2,
+            "Measured and predicted, poly": 2, "Measured and predicted, poly, close-up": 2, ...counted(kResidualTitles, 4),
             "Torque error against velocity of q, poly": 2, "Torque error against position θ, poly": 2,
             "Torque error against deflection θ − q, poly": 4, "Torque error against load τ_load, poly": 4},
   rigid: {"Measured and predicted": 1, ...counted(kResidualTitles, 1)},
-  simulate: {"Measured and simulated q": 2, "Measured and simulated θ": 2, "Gap of q": 2, "Gap of θ": 2},
+  simulate: {"Measured and simulated q": 2, "Measured and simulated q, close-up": 2, "Measured and simulated θ": 2, "Gap of q": 2, "Gap of θ": 2},
   batch: {K: 1, J_link: 1, "Torque against deflection": 2, "Torque error over time": 6}
 };
 

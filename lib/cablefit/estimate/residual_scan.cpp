@@ -36,6 +36,8 @@ ResidualScan::ResidualScan(const ScanPlan& plan, const TimeAxis& time) : plan_(p
     scans_.push_back({time.new_line(),
                       time.new_line(),
                       time.new_line(),
+                      time.new_close_up(),
+                      time.new_close_up(),
                       {},
                       {},
                       std::vector<PointCloud>(plan.variables.size()),
@@ -56,6 +58,10 @@ void ResidualScan::add(const SeenRows& rows) {
       scan.measured.add(x, measured(row));
       scan.predicted.add(x, measured(row) - residual(row));
       scan.residual.add(x, residual(row));
+      if (time_.in_close_up(x)) {
+        scan.near_measured.add(x, measured(row));
+        scan.near_predicted.add(x, measured(row) - residual(row));
+      }
       scan.histogram.add(residual(row) / (model.rms > 0 ? model.rms : 1));
     }
     for (std::size_t v = 0; v < plan_.variables.size(); ++v) {
@@ -80,19 +86,21 @@ Trace ResidualScan::model_trace(std::size_t model, TraceStyle style) const {
   return trace_of(plan_.models[model].name, style, plan_.models[model].series);
 }
 
-Figure ResidualScan::over_time(std::size_t first, std::size_t last) const {
+Figure ResidualScan::over_time(std::size_t first, std::size_t last, bool near) const {
   Figure figure = blank("Measured and predicted");
   if (!plan_.same_measured) figure.title += ", " + plan_.models[first].name;
-  figure.caption = plan_.about;
+  if (near) figure.title += ", close-up";
+  figure.caption = near ? "Row by row, in the middle of the longest log." : plan_.about;
   figure.x = time_.axis();
   figure.y = {plan_.measured, plan_.unit};
-  figure.marks = time_.marks();
+  if (!near) figure.marks = time_.marks();
   figure.wide = true;
   figure.traces.push_back(trace_of("measured", TraceStyle::broad, kMeasured));
-  scans_[first].measured.draw(figure.traces.back());
+  const ModelScan& any = scans_[first];
+  (near ? any.near_measured : any.measured).draw(figure.traces.back());
   for (std::size_t m = first; m < last; ++m) {
     figure.traces.push_back(model_trace(m, TraceStyle::line));
-    scans_[m].predicted.draw(figure.traces.back());
+    (near ? scans_[m].near_predicted : scans_[m].predicted).draw(figure.traces.back());
   }
   return figure;
 }
@@ -170,11 +178,13 @@ Figure ResidualScan::against(std::size_t variable, std::size_t model) const {
 
 std::vector<Figure> ResidualScan::figures() const {
   std::vector<Figure> figures;
-  if (plan_.same_measured) {
-    figures.push_back(over_time(0, scans_.size()));
-  } else {
-    for (std::size_t m = 0; m < scans_.size(); ++m) figures.push_back(over_time(m, m + 1));
-  }
+  const std::size_t step = plan_.same_measured ? scans_.size() : 1;
+  for (std::size_t m = 0; m < scans_.size(); m += step)
+    for (const bool near : {false, true}) {
+      if (near && !time_.has_close_up()) continue;
+      Figure figure = over_time(m, m + step, near);
+      if (!figure.traces.front().x.empty()) figures.push_back(std::move(figure));
+    }
   figures.push_back(residual_over_time());
   figures.push_back(distribution());
   figures.push_back(memory());

@@ -65,13 +65,14 @@ class ResidualScan {
  private:
   struct ModelScan {
     ThinnedLine measured, predicted, residual;
+    ThinnedLine near_measured, near_predicted;
     Histogram histogram;
     Autocorrelation autocorrelation;
     std::vector<PointCloud> clouds;  ///< by variable
     std::vector<BinnedMean> means;
   };
   Figure blank(const std::string& title) const;
-  Figure over_time(std::size_t first, std::size_t last) const;
+  Figure over_time(std::size_t first, std::size_t last, bool near) const;
   Figure residual_over_time() const;
   Figure distribution() const;
   Figure memory() const;

@@ -51,7 +51,8 @@ void ReplayFigures::add_signal(const LogSurvey& log, Channel channel, int joint)
       log.plan.rig.linear_motion ? linear_unit(one.unit) : std::string(one.unit);
   signals_.push_back({std::string(channel_name(channel)) + (many ? std::to_string(joint + 1) : ""),
                       one.kind, unit, one.measured, one.simulated, joint, time_.new_line(),
-                      time_.new_line(), time_.new_line()});
+                      time_.new_line(), time_.new_line(), time_.new_close_up(),
+                      time_.new_close_up()});
 }
 
 void ReplayFigures::add(const ReplayedRows& rows) {
@@ -63,6 +64,10 @@ void ReplayFigures::add(const ReplayedRows& rows) {
       const double t = rows.t0 + static_cast<double>(i) * rows.period;
       signal.measured_line.add(t, measured(i, signal.joint));
       signal.simulated_line.add(t, simulated(i, signal.joint));
+      if (time_.in_close_up(t)) {
+        signal.near_measured.add(t, measured(i, signal.joint));
+        signal.near_simulated.add(t, simulated(i, signal.joint));
+      }
       signal.gap_line.add(t, simulated(i, signal.joint) - measured(i, signal.joint));
     }
   }
@@ -90,12 +95,18 @@ std::vector<Figure> ReplayFigures::figures() const {
     both.title = "Measured and simulated " + signal.name;
     draw(both, signal.measured_line, "measured", kMeasured, TraceStyle::broad);
     draw(both, signal.simulated_line, "simulated", 2);
+    Figure near = blank(signal);
+    near.title = both.title + ", close-up";
+    near.caption = "Row by row, in the middle of the log.";
+    draw(near, signal.near_measured, "measured", kMeasured, TraceStyle::broad);
+    draw(near, signal.near_simulated, "simulated", 2);
     Figure gap = blank(signal);
     gap.title = "Gap of " + signal.name;
     gap.caption = "Simulated minus measured.";
     gap.y.title = "gap of " + signal.name;
     draw(gap, signal.gap_line, "simulated - measured", 2);
     figures.push_back(std::move(both));
+    if (!near.traces.front().x.empty()) figures.push_back(std::move(near));
     figures.push_back(std::move(gap));
   }
   return figures;

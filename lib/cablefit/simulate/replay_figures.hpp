@@ -28,6 +28,7 @@ class ReplayFigures {
     Eigen::ArrayXXd SimulationResult::*simulated;
     Eigen::Index joint;
     ThinnedLine measured_line, simulated_line, gap_line;
+    ThinnedLine near_measured, near_simulated;
   };
   void add_signal(const LogSurvey& log, Channel channel, int joint);
   Figure blank(const Signal& signal) const;
