@@ -43,7 +43,7 @@ TEST_CASE("nothing from a log can leave the JSON of the page") {
     CHECK(data.find_first_of("<>&") == std::string::npos);
     CHECK(data.find("\xE2\x80\xA8") == std::string::npos);
     CHECK(data.find("\xE2\x80\xA9") == std::string::npos);
-    CHECK_NOTHROW((void)nlohmann::json::parse(data));
+    CHECK(nlohmann::json::accept(data));
   }
 }
 
