@@ -90,7 +90,10 @@ Figure ResidualScan::over_time(std::size_t first, std::size_t last, bool near) c
   Figure figure = blank("Measured and predicted");
   if (!plan_.same_measured) figure.title += ", " + plan_.models[first].name;
   if (near) figure.title += ", close-up";
-  figure.caption = near ? "Row by row, in the middle of the longest log." : plan_.about;
+  figure.caption =
+      near ? "Row by row, in the middle of the longest log; the line breaks where the fit "
+             "leaves rows out."
+           : plan_.about;
   figure.x = time_.axis();
   figure.y = {plan_.measured, plan_.unit};
   if (!near) figure.marks = time_.marks();

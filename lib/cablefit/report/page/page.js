@@ -147,7 +147,7 @@
     if (trace.style === "broad") colour = colours.below;
     const y = numbers(trace.y);
     const drawn = {
-      type: "scatter", name: plain(trace.name), y, connectgaps: false,
+      type: "scatter", name: withIndices(plain(prettySymbols(trace.name))), y, connectgaps: false,
       x: trace.labels ? labelPlaces(figure, trace, k) : numbers(trace.x),
       showlegend: trace.name !== "",
       hovertemplate: (trace.labels ? "" : "%{x:.6g} " + plain(prettyUnit(figure.x.unit)) + "<br>") + "%{y:.5g} " +
