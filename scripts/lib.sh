@@ -4,12 +4,18 @@ root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 cd "$root"
 jobs="$(nproc)"
 
-# What cablefit needs of Debian 12 to be built and tested, and what steps of scripts/check need on top.
+# What cablefit needs of Debian 12 to be built, what its tests need on top (a browser for the HTML
+# reports), and what steps of scripts/check need.
 build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libcli11-dev
                 nlohmann-json3-dev libfmt-dev libfast-float-dev zlib1g-dev libzstd-dev libssl-dev
-                catch2)
+                catch2 npm)
+test_packages=(nodejs chromium)
 fuzz_packages=(clang-14 libclang-rt-14-dev)
-declare -A step_packages=([format]=clang-format-14 [readme]=python3 [tidy]=clang-tidy-14)
+declare -A step_packages=([format]=clang-format-14 [readme]=python3 [tidy]=clang-tidy-14
+                          [sanitize]=chromium)
+# Packages whose program may as well come from elsewhere, and are then not wanted: Debian's npm cannot
+# stand beside a node of nodesource.org.
+declare -A program_of=([npm]=npm [nodejs]=node [chromium]=chromium)
 
 # Says what it runs, and runs it.
 show() {
@@ -50,6 +56,7 @@ install_packages() {
     return
   fi
   for package in "$@"; do
+    [[ -v "program_of[$package]" ]] && command -v "${program_of[$package]}" >/dev/null && continue
     [[ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" == installed ]] ||
       missing+=("$package")
   done

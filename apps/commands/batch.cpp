@@ -73,6 +73,7 @@ int run_batch(const Arguments& arguments) {
 
   BatchOptions batch;
   batch.samples = options.samples;
+  batch.figures = wants_figures(options);
   batch.honest_sd = batch.elastic.honest_sd = options.honest_sd;
   const Campaign campaign = read_campaign(path);
   options.more_inputs = files_of(campaign);

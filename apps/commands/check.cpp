@@ -5,6 +5,7 @@
 #include "cablefit/dynamic/torque_delay.hpp"
 #include "cablefit/report/check_document.hpp"
 #include "cablefit/report/check_json.hpp"
+#include "cablefit/samples/check_figures.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
@@ -60,6 +61,7 @@ int run_check(const Arguments& arguments) {
   CheckResult result = check_logs(logs, options.samples);
   for (std::size_t k = 0; k < logs.size(); ++k) {
     for (CheckedPart& part : result.logs[k].parts) add_delay(logs[k], options.samples, part);
+    if (wants_figures(options)) result.logs[k].figures = check_figures(logs[k]);
   }
   deliver(options, check_document(result), {{"", check_json(result)}});
   throw_if_useless(result);

@@ -82,7 +82,8 @@ void add_output_options(CLI::App& app, CommonOptions& options) {
     options.reports = files;
   };
   app.add_option_function<std::vector<std::string>>(
-         "--report", add_report, "a report; the format goes by .md, .csv or .txt; repeatable")
+         "--report", add_report,
+         "a report; the format goes by .html (with plots), .md, .csv or .txt; repeatable")
       ->type_name("FILE")
       ->type_size(1)
       ->expected(1, 1000)
@@ -122,6 +123,11 @@ void add_sample_options(CLI::App& app, CommonOptions& options) {
   add_number(
       app, "--rest-speed", "RAD_S", {0}, [&samples](double v) { samples.rest_speed = v; },
       "rows slower than this are left out; 0: keep all");
+}
+
+bool wants_figures(const CommonOptions& options) {
+  return std::any_of(options.reports.begin(), options.reports.end(),
+                     [](const std::string& file) { return report_writer_for(file).figures; });
 }
 
 void add_sd_option(CLI::App& app, CommonOptions& options) {

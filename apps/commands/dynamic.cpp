@@ -162,6 +162,7 @@ int run_dynamic(const Arguments& arguments) {
   command.fit.samples = options.samples;
   command.fit.preload = options.preload;
   command.fit.honest_sd = options.honest_sd;
+  command.fit.figures = wants_figures(options);
   Stage1 stage1;
   const bool is_elastic = !moving.empty() && needs_stage1(command, moving);
   if (is_elastic) stage1 = get_stage1(command, logs);

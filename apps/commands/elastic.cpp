@@ -62,6 +62,7 @@ int run_elastic(const Arguments& arguments) {
   elastic.samples = options.samples;
   elastic.preload = options.preload;
   elastic.honest_sd = options.honest_sd;
+  elastic.figures = wants_figures(options);
   const std::vector<LogSurvey> blocked = logs_with(
       logs, [&](const PartSurvey& part) { return elastic.still || part.phase == Phase::blocked; });
   // Without any blocked log the fit says what to do, for the logs that were given.

@@ -135,6 +135,7 @@ SimulateResult run_simulation(SimulateCommand& command) {
   const Model model = read_model(path, command.common.preload, command.model, choice);
   const std::vector<LogSurvey> logs = read_logs_for(model, command.common);
   const Progress progress(command.common.quiet, "simulating");
+  command.replay.figures = wants_figures(command.common);
   command.replay.threads = command.common.samples.threads;
   SimulateResult result = simulate_logs(model, logs, command.replay);
   result.model_path = path;

@@ -17,6 +17,7 @@ void fit_cell(const Campaign& campaign, const CampaignCell& cell, const BatchOpt
   ElasticOptions elastic = options.elastic;
   elastic.samples = options.samples;
   elastic.preload = cell.preload;
+  elastic.figures = options.figures;
   result.elastic = fit_elastic(survey(cell.blocked, cell), elastic);
   if (cell.moving.empty()) return;
   DynamicOptions dynamic;
@@ -25,6 +26,7 @@ void fit_cell(const Campaign& campaign, const CampaignCell& cell, const BatchOpt
   dynamic.estimator = campaign.estimator;
   dynamic.honest_sd = options.honest_sd;
   dynamic.preload = cell.preload;
+  dynamic.figures = options.figures;
   result.dynamic = fit_dynamic(survey(cell.moving, cell), *result.elastic, dynamic);
 }
 

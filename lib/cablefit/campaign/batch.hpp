@@ -43,6 +43,7 @@ struct BatchOptions {
   SampleOptions samples;
   ElasticOptions elastic;  ///< its `samples` and `preload` are replaced
   bool honest_sd = true;
+  bool figures = false;  ///< of both stages, for reports with plots
 };
 
 /// A cell that fails is told in its `error`; the others go on.

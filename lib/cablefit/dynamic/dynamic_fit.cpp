@@ -6,6 +6,7 @@
 #include <array>
 
 #include "cablefit/base/catalog.hpp"
+#include "cablefit/dynamic/dynamic_figures.hpp"
 #include "cablefit/dynamic/dynamic_job.hpp"
 #include "cablefit/dynamic/estimates.hpp"
 #include "cablefit/dynamic/ratios.hpp"
@@ -103,6 +104,7 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
     add_cad(fit, job.rig());
     preload.fits.push_back(std::move(fit));
   }
+  if (job.options.figures) preload.figures = dynamic_figures(job, equations, solutions, preload);
   for (const ElasticPreload& stage1 : elastic.preloads)
     if (!job.rigid && stage1.name == job.preload)
       note_extrapolation(stage1, equations, job.elastic.front()->transmission.theta_0(0), preload);

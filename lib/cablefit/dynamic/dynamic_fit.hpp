@@ -36,6 +36,7 @@ struct DynamicOptions {
   std::string estimator = "wls";
   bool honest_sd = true;  ///< --sd honest | white
   std::string preload;    ///< only this one; empty: all
+  bool figures = false;   ///< one more pass, for reports with plots
 };
 
 /// Fits every preload of the moving logs. `elastic`: stage 1, may be empty for rigid drives. Throws

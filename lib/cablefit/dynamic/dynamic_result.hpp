@@ -49,6 +49,7 @@ struct DynamicPreload {
   std::vector<DynamicFit> fits;
   std::vector<std::string> warnings;
   std::string rig_path;
+  std::vector<Figure> figures;
 };
 
 struct DynamicResult {

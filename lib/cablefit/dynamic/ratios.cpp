@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "cablefit/dynamic/dynamic_figures.hpp"
 #include "cablefit/estimate/least_squares.hpp"
 #include "cablefit/estimate/long_run.hpp"
 #include "cablefit/samples/agreement.hpp"
@@ -119,6 +120,11 @@ DynamicPreload fit_ratios(std::span<const LogSurvey> logs, const std::string& na
   fit.condition["link"] = s.condition;
   fit.warnings = s.warnings;
   preload.fits.push_back(std::move(fit));
+  if (options.figures)
+    preload.figures =
+        ratio_figures({logs, wanted, settings.rows, options.samples.threads, equations[0],
+                       problem.response, s.residual_combination, s.rms()},
+                      preload);
   preload.warnings.push_back(
       "no torque in the log: ratios to J_link are all that can be identified");
   return preload;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cablefit/elastic/elastic_checks.hpp"
+#include "cablefit/elastic/elastic_figures.hpp"
 #include "cablefit/elastic/model_errors.hpp"
 
 namespace cablefit {
@@ -181,6 +182,8 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
   select_model(preload, stage.job.options.materiality);
   note_loop(preload, stage.rows.plateaus);
   note_closure(preload);
+  if (stage.job.options.figures)
+    preload.figures = elastic_figures(stage.job, stage.rows, candidates, solutions, preload);
   return preload;
 }
 

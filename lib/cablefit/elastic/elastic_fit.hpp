@@ -25,6 +25,7 @@ struct ElasticOptions {
   ZeroMode zero = ZeroMode::automatic;
   bool honest_sd = true;  ///< --sd honest | white
   std::string preload;    ///< only this one; empty: all
+  bool figures = false;   ///< one more pass, for reports with plots
 };
 
 /// Fits every preload found in the blocked logs (with `still`: in all logs). Throws Error(input)

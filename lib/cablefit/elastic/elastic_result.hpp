@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cablefit/base/parameter.hpp"
+#include "cablefit/figure/figure.hpp"
 #include "cablefit/model/cables.hpp"
 #include "cablefit/samples/settings.hpp"
 
@@ -50,6 +51,7 @@ struct ElasticPreload {
   std::vector<std::string> warnings;
   bool linear_motion = false;
   std::string rig_path;  ///< empty: the default rig
+  std::vector<Figure> figures;
 
   const ElasticFit* find(const std::string& model) const;
 };

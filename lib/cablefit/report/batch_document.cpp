@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "cablefit/report/batch_figures.hpp"
 #include "cablefit/report/document_parts.hpp"
 #include "cablefit/report/dynamic_document.hpp"
 #include "cablefit/report/dynamic_json.hpp"
@@ -20,6 +21,7 @@ void append(Document& all, const Document& part) {
   all.tables.insert(all.tables.end(), part.tables.begin(), part.tables.end());
   all.paragraphs.insert(all.paragraphs.end(), part.paragraphs.begin(), part.paragraphs.end());
   all.decisions.insert(all.decisions.end(), part.decisions.begin(), part.decisions.end());
+  add_figures(all, part.figures);
   all.warnings.insert(all.warnings.end(), part.warnings.begin(), part.warnings.end());
   if (all.tidy.columns.empty()) {
     all.tidy = part.tidy;
@@ -65,8 +67,11 @@ nlohmann::ordered_json gates_json(const BatchResult& result) {
 Document batch_document(const BatchResult& result) {
   Document document;
   document.title = result.campaign_name.empty() ? "Campaign" : result.campaign_name;
-  append(document, elastic_document(result.all_elastic()));
-  append(document, dynamic_document(result.all_dynamic()));
+  const ElasticResult elastic = result.all_elastic();
+  const DynamicResult dynamic = result.all_dynamic();
+  document.figures = parameter_figures(elastic, dynamic);
+  append(document, elastic_document(elastic));
+  append(document, dynamic_document(dynamic));
   for (const BatchCell& cell : result.cells)
     if (!cell.error.empty())
       document.warnings.push_back(fmt::format("{}: {}", cell.name, cell.error));

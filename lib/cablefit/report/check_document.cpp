@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "cablefit/report/document_parts.hpp"
 #include "cablefit/report/numbers.hpp"
 
 namespace cablefit {
@@ -75,7 +76,7 @@ Table channels_table(const CheckedLog& log) {
   return table;
 }
 
-Table tidy_table() {
+Table tidy_check_table() {
   Table table;
   for (const char* name : {"log", "preload", "run", "phase", "rows", "rate", "channel", "unit",
                            "min", "max", "quantum", "noise", "share_at_limits", "good_for"}) {
@@ -100,9 +101,10 @@ void add_tidy_rows(Table& table, const CheckedLog& log, const CheckedPart& part)
 
 Document check_document(const CheckResult& result) {
   Document document;
-  document.tidy = tidy_table();
+  document.tidy = tidy_check_table();
   document.warnings = result.warnings;
   for (const CheckedLog& log : result.logs) {
+    add_figures(document, log.figures);
     document.tables.push_back(parts_table(log));
     document.tables.push_back(channels_table(log));
     for (const CheckedPart& part : log.parts) {

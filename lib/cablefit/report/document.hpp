@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/figure/figure.hpp"
+
 namespace cablefit {
 
 struct Column {
@@ -34,6 +36,7 @@ struct Document {
   std::vector<std::string> paragraphs;  ///< after the tables
   std::vector<DecisionLine> decisions;
   std::vector<std::string> warnings;
+  std::vector<Figure> figures;  ///< in order of sections, then groups
   Table tidy;  ///< one row per preload, model and parameter at full precision, for CSV
 };
 

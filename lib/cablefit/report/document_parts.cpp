@@ -65,6 +65,10 @@ void add_warnings(Document& document, const std::string& where,
   }
 }
 
+void add_figures(Document& document, const std::vector<Figure>& figures) {
+  document.figures.insert(document.figures.end(), figures.begin(), figures.end());
+}
+
 Table counts_table() {
   Table table;
   table.title = "Rows";

@@ -30,6 +30,8 @@ void finish_decisions(Document& document, std::size_t n_preloads);
 void add_warnings(Document& document, const std::string& where,
                   const std::vector<std::string>& warnings);
 
+void add_figures(Document& document, const std::vector<Figure>& figures);
+
 /// Columns and one row of the table of rows used.
 Table counts_table();
 void add_counts(Table& table, const std::string& preload, const std::string& equation,

@@ -125,6 +125,7 @@ Document dynamic_document(const DynamicResult& result) {
     }
     add_decisions(document, preload.name, preload.decisions);
     add_warnings(document, preload.name, preload.warnings);
+    add_figures(document, preload.figures);
     for (const DynamicFit& fit : preload.fits) {
       add_warnings(document, preload.name + ", " + fit.model, fit.warnings);
       add_tidy_rows(document.tidy, preload, fit);

@@ -111,6 +111,7 @@ Document elastic_document(const ElasticResult& result) {
       document.paragraphs.push_back(preload.name + ": " + words);
     }
     add_warnings(document, preload.name, preload.warnings);
+    add_figures(document, preload.figures);
     for (const ElasticFit& fit : preload.fits) {
       add_warnings(document, preload.name + ", " + fit.model, fit.warnings);
       add_tidy_rows(document.tidy, preload, fit);

@@ -136,6 +136,7 @@ Document simulate_document(const SimulateResult& result) {
   for (const SimulatedPart& part : result.parts) {
     add_decisions(document, part_name(result, part), part.decisions);
     add_warnings(document, part_name(result, part), part.warnings);
+    add_figures(document, part.figures);
   }
   finish_decisions(document, result.parts.size());
   return document;

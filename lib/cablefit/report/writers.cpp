@@ -8,6 +8,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/quote.hpp"
+#include "cablefit/report/page_parts.hpp"
 
 namespace cablefit {
 namespace {
@@ -17,6 +18,8 @@ constexpr std::array kWriters{
     ReportWriter{"csv", ".csv", "one row per preload, model and parameter, at full precision",
                  write_csv},
     ReportWriter{"markdown", ".md", "tables, choices and warnings", write_markdown},
+    ReportWriter{"html", ".html", "one page with interactive plots, needs no network", write_html,
+                 true},
 };
 
 std::string known_extensions() {
@@ -43,8 +46,15 @@ std::span<const ReportWriter> report_writers() { return kWriters; }
 const ReportWriter& report_writer_for(const std::string& path) {
   const std::string extension = std::filesystem::path(path).extension().string();
   for (const ReportWriter& writer : kWriters) {
-    if (writer.extension == extension) return writer;
+    if (writer.extension != extension) continue;
+    if (writer.write == write_html && !page_parts::built_in())
+      throw usage_error(kNoHtml, kNoHtmlHint);
+    return writer;
   }
+  if (extension == ".svg")
+    throw usage_error("plots are not written as single files",
+                      "use --report FILE.html: each plot of the page has a button that saves it as "
+                      "SVG");
   throw usage_error(
       extension.empty()
           ? fmt::format("--report {} has no extension to tell the format", cablefit::quoted(path))

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/figure/figure.hpp"
 #include "cablefit/samples/settings.hpp"
 
 namespace cablefit {
@@ -48,6 +49,7 @@ struct CheckedLog {
   bool linear_motion = false;
   std::vector<std::string> unused_columns;
   std::vector<CheckedPart> parts;
+  std::vector<Figure> figures = {};  ///< check_figures(), when somebody asked for them
 
   /// Whether any part is good for anything.
   bool usable() const;

@@ -25,6 +25,7 @@ struct ReplayOptions {
   std::optional<double> window;
   double step = SimulationOptions{}.step;  ///< s
   std::string trajectories;                ///< CSV file of every row; empty: none
+  bool figures = false;                    ///< for reports with plots
   int threads = 1;                         ///< logs at a time, unless trajectories are written
 };
 

@@ -6,12 +6,14 @@
 #include <functional>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/parallel.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/simulate/part_replay.hpp"
+#include "cablefit/simulate/replay_figures.hpp"
 #include "cablefit/simulate/trajectory_file.hpp"
 
 namespace cablefit {
@@ -63,7 +65,10 @@ class LogReplay {
  public:
   LogReplay(const Model& model, const LogSurvey& log, const ReplayOptions& options,
             SimulateResult& result)
-      : log_(log), replays_(plan_parts(model, log, options, result)) {}
+      : log_(log), replays_(plan_parts(model, log, options, result)), figures_(log.parts.size()) {
+    for (std::size_t k = 0; options.figures && k < replays_.size(); ++k)
+      if (replays_[k]) figures_[k].emplace(log, log.parts[k], replays_[k]->result().closed_loop);
+  }
 
   bool is_empty() const {
     return std::none_of(replays_.begin(), replays_.end(), [](const auto& r) { return bool(r); });
@@ -75,14 +80,23 @@ class LogReplay {
     };
     const WindowCounts counts =
         for_each_window(log_, wanted, kReplayHalo, kMinRows, 0.0, [&](Window&& window) {
-          replays_[window.part]->add(window, sink);
+          std::optional<ReplayFigures>& figures = figures_[window.part];
+          if (!figures) {
+            replays_[window.part]->add(window, sink);
+            return true;
+          }
+          replays_[window.part]->add(window, [&](const ReplayedRows& rows) {
+            figures->add(rows);
+            if (sink) sink(rows);
+          });
           return true;
         });
     std::vector<SimulatedPart> parts;
-    for (const auto& replay : replays_) {
-      if (!replay) continue;
-      parts.push_back(replay->result());
+    for (std::size_t k = 0; k < replays_.size(); ++k) {
+      if (!replays_[k]) continue;
+      parts.push_back(replays_[k]->result());
       parts.back().counts = counts;
+      if (figures_[k]) parts.back().figures = figures_[k]->figures();
     }
     return parts;
   }
@@ -90,6 +104,7 @@ class LogReplay {
  private:
   const LogSurvey& log_;
   std::vector<std::unique_ptr<PartReplay>> replays_;
+  std::vector<std::optional<ReplayFigures>> figures_;  ///< by part, when asked for
 };
 
 std::vector<LogReplay> plan_logs(const Model& model, std::span<const LogSurvey> logs,

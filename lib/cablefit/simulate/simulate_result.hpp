@@ -43,6 +43,7 @@ struct SimulatedPart {
   std::string diverged;                 ///< where and when; empty: it did not
   std::vector<Decision> decisions;
   std::vector<std::string> warnings;
+  std::vector<Figure> figures;
 
   std::string_view mode() const { return closed_loop ? "closed loop" : "torque replay"; }
 };

@@ -1,0 +1,165 @@
+#include "cablefit/elastic/elastic_figures.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "cablefit/estimate/residual_scan.hpp"
+#include "cablefit/samples/observed.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr std::size_t kCurveBins = 200;
+constexpr std::size_t kFineX = 200, kFineY = 120;  // of the cloud that is a curve
+
+/// Quantities seen of every row; those of the models follow.
+enum Seen : Eigen::Index { kTau, kDeflection, kDirection, kSpeed, kPosition, kOfModels };
+constexpr Eigen::Index kPerModel = 2;  // residual, elastic torque with offset
+Eigen::Index residual_of(std::size_t model) {
+  return kOfModels + kPerModel * static_cast<Eigen::Index>(model);
+}
+Eigen::Index curve_of(std::size_t model) { return residual_of(model) + 1; }
+
+/// The model's torque without the motor's friction, as a combination of columns.
+Eigen::VectorXd curve_combination(const BlockedRows& rows, const Candidate& candidate,
+                                  const LinearSolution& solution, Eigen::Index n_columns) {
+  Eigen::VectorXd curve = Eigen::VectorXd::Zero(n_columns);
+  for (std::size_t k = 0; k < candidate.regressors.size(); ++k) {
+    const Eigen::Index column = candidate.regressors[k];
+    if (column == rows.columns.direction || column == rows.columns.speed) continue;
+    curve(column) = solution.x(static_cast<Eigen::Index>(k));
+  }
+  return curve;
+}
+
+Eigen::MatrixXd seen_combinations(const BlockedRows& rows, const std::vector<Candidate>& candidates,
+                                  const std::vector<LinearSolution>& solutions) {
+  const Eigen::Index n_columns = rows.columns.count + 1;  // and the position
+  const auto n_models = static_cast<Eigen::Index>(candidates.size());
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n_columns, kOfModels + kPerModel * n_models);
+  all(rows.columns.tau, kTau) = 1;
+  all(rows.columns.deflection, kDeflection) = 1;
+  all(rows.columns.direction, kDirection) = 1;
+  all(rows.columns.speed, kSpeed) = 1;
+  all(rows.columns.count, kPosition) = 1;
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    all.col(residual_of(k)).head(rows.columns.count) = solutions[k].residual_combination;
+    all.col(curve_of(k)) = curve_combination(rows, candidates[k], solutions[k], n_columns);
+  }
+  return all;
+}
+
+/// "linear", "poly, order 2".
+std::string model_name(const ElasticFit& fit) {
+  return fit.order > 1 ? fmt::format("{}, order {}", fit.model, fit.order) : fit.model;
+}
+
+/// Figs. 6a/7a and 6b/7b.
+class CurveScan {
+ public:
+  explicit CurveScan(const ElasticPreload& preload)
+      : preload_(preload),
+        branches_(2, PointCloud(kFineX, kFineY)),
+        errors_(preload.fits.size(), PointCloud(kFineX, kFineY)),
+        curves_(preload.fits.size(), BinnedMean(kCurveBins)) {}
+
+  void add(const SeenRows& rows) {
+    for (Eigen::Index i = 0; i < rows.values.rows(); ++i) {
+      const double deflection = rows.values(i, kDeflection);
+      branches_[rows.values(i, kDirection) > 0 ? 1 : 0].add(deflection, rows.values(i, kTau));
+      for (std::size_t k = 0; k < curves_.size(); ++k) {
+        errors_[k].add(deflection, rows.values(i, residual_of(k)));
+        curves_[k].add(deflection, rows.values(i, curve_of(k)));
+      }
+    }
+  }
+
+  Figure torque(Figure figure) const {
+    figure.title = "Torque against deflection";
+    figure.caption =
+        "The motor's torque on the way up and on the way down lies apart by twice its static "
+        "friction; the curves are the models without friction, with the offset.";
+    const std::array<const char*, 2> names = {"measured, theta falling", "measured, theta rising"};
+    for (std::size_t k = 0; k < branches_.size(); ++k) {
+      Trace trace{names[k], TraceStyle::points, kMeasured, {}, {}, {}, {}, {}};
+      branches_[k].draw(trace);
+      if (!trace.x.empty()) figure.traces.push_back(std::move(trace));
+    }
+    for (std::size_t k = 0; k < curves_.size(); ++k) {
+      Trace trace = model_trace(k, TraceStyle::line);
+      curves_[k].draw(trace, 1, false);
+      figure.traces.push_back(std::move(trace));
+    }
+    return figure;
+  }
+
+  Figure error(Figure figure) const {
+    figure.title = "Elastic error against deflection";
+    figure.caption = "Measured torque minus that of the model, the motor's friction included.";
+    figure.y.title = "elastic error";
+    for (std::size_t k = 0; k < errors_.size(); ++k) {
+      figure.traces.push_back(model_trace(k, TraceStyle::points));
+      errors_[k].draw(figure.traces.back());
+    }
+    return figure;
+  }
+
+ private:
+  Trace model_trace(std::size_t k, TraceStyle style) const {
+    return {model_name(preload_.fits[k]), style, static_cast<int>(k) + 1, {}, {}, {}, {}, {}};
+  }
+
+  const ElasticPreload& preload_;
+  std::vector<PointCloud> branches_;  ///< falling, rising
+  std::vector<PointCloud> errors_;    ///< by fit
+  std::vector<BinnedMean> curves_;
+};
+
+ScanPlan scan_plan(const ElasticPreload& preload, const std::vector<LinearSolution>& solutions) {
+  ScanPlan plan;
+  plan.section = preload.name;
+  plan.group = "Blocked link: residuals";
+  plan.measured = "motor torque tau";
+  plan.unit = preload.linear_motion ? "N" : "N m";
+  for (std::size_t k = 0; k < preload.fits.size(); ++k)
+    plan.models.push_back({model_name(preload.fits[k]), static_cast<int>(k) + 1, kTau,
+                           residual_of(k), solutions[k].rms()});
+  plan.variables = {{"velocity of theta", preload.unit + "/s", kSpeed},
+                    {"position theta", preload.unit, kPosition},
+                    {"deflection theta - q", preload.unit, kDeflection}};
+  return plan;
+}
+
+}  // namespace
+
+std::vector<Figure> elastic_figures(const ElasticJob& job, const BlockedRows& rows,
+                                    const std::vector<Candidate>& candidates,
+                                    const std::vector<LinearSolution>& solutions,
+                                    const ElasticPreload& preload) {
+  const Observed theta{"position theta", preload.unit,
+                       [](const Signals& signals) { return signals.joints[0].theta; }};
+  const std::array<Equation, 1> equation = {with_observed(rows.equations.front(), {theta})};
+  const Eigen::MatrixXd combinations = seen_combinations(rows, candidates, solutions);
+  const ScanPlan plan = scan_plan(preload, solutions);
+  const TimeAxis time(job.logs, job.wanted, job.settings.rows.decimate);
+  ResidualScan residuals(plan, time);
+  CurveScan curves(preload);
+  stream_rows(
+      job.logs, job.wanted, job.settings.rows, equation, job.options.samples.threads,
+      [&](const RowBatch& batch) { return see_rows(batch, 0, combinations); },
+      [&](const SeenRows& seen) {
+        residuals.add(seen);
+        curves.add(seen);
+      });
+  Figure blank;
+  blank.section = preload.name;
+  blank.group = "Blocked link: elastic torque";
+  blank.x = {"deflection theta - q", preload.unit};
+  blank.y = {"motor torque tau", plan.unit};
+  std::vector<Figure> figures = {curves.torque(blank), curves.error(blank)};
+  for (Figure& figure : residuals.figures()) figures.push_back(std::move(figure));
+  return figures;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,18 @@
+// Stage 1 as the paper draws it (Figs. 6 and 7): torque and elastic error against deflection, and
+// the residuals from all sides.
+#pragma once
+
+#include <vector>
+
+#include "cablefit/elastic/candidates.hpp"
+#include "cablefit/figure/figure.hpp"
+
+namespace cablefit {
+
+/// Streams the rows once more. candidates[k], solutions[k] belong to preload.fits[k].
+std::vector<Figure> elastic_figures(const ElasticJob& job, const BlockedRows& rows,
+                                    const std::vector<Candidate>& candidates,
+                                    const std::vector<LinearSolution>& solutions,
+                                    const ElasticPreload& preload);
+
+}  // namespace cablefit

@@ -1,0 +1,54 @@
+// A plot as plain data: what is shown, not how it looks. Fits make figures when they are asked to,
+// report/ renders them; whatever else draws (another library, a paper) can start from the same.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace cablefit {
+
+struct Axis {
+  std::string title;  ///< "deflection theta - q"
+  std::string unit;   ///< printed in brackets; may be empty
+};
+
+enum class TraceStyle {
+  line,      ///< points joined in order; a NaN breaks the line
+  broad,     ///< the same, for what was measured: others that lie on it leave its edges
+  dashed,    ///< the same, for what is a reference
+  points,    ///< a cloud
+  steps,     ///< a histogram's outline, x at the middle of the bins
+  interval,  ///< points with a bar from low to high
+};
+
+/// Whose colour a trace has. Models count from 1, the same number on every figure of a report.
+inline constexpr int kMeasured = 0;
+inline constexpr int kReference = -1;
+
+struct Trace {
+  std::string name;
+  TraceStyle style = TraceStyle::line;
+  int series = kMeasured;
+  std::vector<double> x, y;         ///< of one length, in the units of the axes
+  std::vector<double> low, high;    ///< only for TraceStyle::interval, as long as y
+  std::vector<std::string> labels;  ///< instead of x: names along the axis
+};
+
+/// A dotted line across the plot with a word, such as where a log begins.
+struct Mark {
+  double x = 0;
+  std::string text;
+};
+
+struct Figure {
+  std::string section;  ///< heading above its figures: the preload, or the log
+  std::string group;    ///< heading below that: "motor equation"; may be empty
+  std::string title;
+  std::string caption;  ///< what to look for, and what was thinned
+  Axis x, y;
+  std::vector<Trace> traces;
+  std::vector<Mark> marks;
+  bool wide = false;  ///< over the full width, as things over time are
+};
+
+}  // namespace cablefit

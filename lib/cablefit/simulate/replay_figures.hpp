@@ -1,0 +1,41 @@
+// A simulation beside its measurement, and the gap between the two over time.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cablefit/figure/figure.hpp"
+#include "cablefit/samples/time_axis.hpp"
+#include "cablefit/simulate/part_replay.hpp"
+
+namespace cablefit {
+
+class ReplayFigures {
+ public:
+  /// `closed_loop`: torques are compared as well, they are an input otherwise.
+  ReplayFigures(const LogSurvey& log, const PartSurvey& part, bool closed_loop);
+
+  void add(const ReplayedRows& rows);
+
+  /// Per signal and joint: measured and simulated, then simulated minus measured.
+  std::vector<Figure> figures() const;
+
+ private:
+  /// A signal of one joint; the deflection is theta - q.
+  struct Signal {
+    std::string name, kind, unit;
+    Eigen::ArrayXXd ReplayedRows::*measured;
+    Eigen::ArrayXXd SimulationResult::*simulated;
+    Eigen::Index joint;
+    ThinnedLine measured_line, simulated_line, gap_line;
+    ThinnedLine near_measured, near_simulated;
+  };
+  void add_signal(const LogSurvey& log, Channel channel, int joint);
+  Figure blank(const Signal& signal) const;
+
+  TimeAxis time_;
+  std::string section_, group_;
+  std::vector<Signal> signals_;
+};
+
+}  // namespace cablefit

@@ -1,0 +1,81 @@
+// What is drawn is what was fitted, and costs nothing unless it is asked for.
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/elastic/elastic_fit.hpp"
+#include "tests/support/recover.hpp"
+
+namespace {
+
+using namespace cablefit;
+using namespace cablefit::test;
+
+ElasticPreload fitted(bool figures, int threads) {
+  const std::vector<LogSurvey> logs = {shipped("low/blocked.csv")};
+  ElasticOptions options;
+  options.figures = figures;
+  options.samples.threads = threads;
+  return fit_elastic(logs, options).preloads.at(0);
+}
+
+const Figure& figure(const ElasticPreload& preload, const std::string& title) {
+  for (const Figure& one : preload.figures)
+    if (one.title == title) return one;
+  FAIL("no figure " << title);
+  return preload.figures.front();
+}
+
+double largest(const std::vector<double>& values) {
+  double most = 0;
+  for (const double value : values)
+    if (!std::isnan(value)) most = std::max(most, std::abs(value));
+  return most;
+}
+
+TEST_CASE("figures of stage 1 show the residuals of the fit") {
+  const ElasticPreload low = fitted(true, 2);
+  const Figure& error = figure(low, "Torque error over time");
+  REQUIRE(error.traces.size() == 2);
+  for (std::size_t k = 0; k < 2; ++k)
+    CHECK_THAT(largest(error.traces[k].y), Catch::WithinRel(low.fits[k].max_abs_error, 1e-9));
+  const Figure& curve = figure(low, "Torque against deflection");
+  REQUIRE(curve.traces.size() == 4);
+  CHECK_THAT(curve.traces[3].x.front(), Catch::WithinAbs(low.deflection_low, 1e-3));
+  CHECK_THAT(curve.traces[3].x.back(), Catch::WithinAbs(low.deflection_high, 1e-3));
+  for (const Figure& one : low.figures) {
+    INFO(one.title);
+    CHECK(one.section == "low");
+    CHECK(!one.traces.empty());
+    for (const Trace& trace : one.traces) {
+      CHECK(!trace.x.empty());
+      CHECK(trace.x.size() == trace.y.size());
+    }
+  }
+}
+
+TEST_CASE("the fitted line of the figure is the linear model") {
+  const ElasticPreload low = fitted(true, 1);
+  const ElasticFit& linear = low.fits.at(0);
+  const Trace& line = figure(low, "Torque against deflection").traces.at(2);
+  for (std::size_t i = 0; i < line.x.size(); ++i)
+    CHECK_THAT(line.y[i],
+               Catch::WithinAbs(linear.parameters[0].value * line.x[i] + linear.offset, 1e-6));
+}
+
+TEST_CASE("figures of stage 1 do not depend on the threads, and the fit not on figures") {
+  const ElasticPreload one = fitted(true, 1), many = fitted(true, 5), none = fitted(false, 1);
+  CHECK(none.figures.empty());
+  CHECK(none.fits[1].parameters[0].value == one.fits[1].parameters[0].value);
+  CHECK(none.fits[1].parameters[0].sd == one.fits[1].parameters[0].sd);
+  REQUIRE(one.figures.size() == many.figures.size());
+  for (std::size_t k = 0; k < one.figures.size(); ++k)
+    for (std::size_t j = 0; j < one.figures[k].traces.size(); ++j) {
+      const Trace &a = one.figures[k].traces[j], &b = many.figures[k].traces[j];
+      CHECK(a.x == b.x);
+      CHECK(std::equal(a.y.begin(), a.y.end(), b.y.begin(), b.y.end(), [](double u, double v) {
+        return u == v || (std::isnan(u) && std::isnan(v));
+      }));
+    }
+}
+
+}  // namespace

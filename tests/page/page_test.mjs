@@ -1,0 +1,266 @@
+// The HTML reports in a browser: they draw without an error and without a network, they answer to
+// mouse and legend, and nothing in a log gets to run.
+// usage: node page_test.mjs CABLEFIT DATA CHROMIUM
+import assert from "node:assert/strict";
+import {execFileSync} from "node:child_process";
+import {copyFileSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync} from "node:fs";
+import {tmpdir} from "node:os";
+import {join} from "node:path";
+import {after, before, test} from "node:test";
+import {pathToFileURL} from "node:url";
+import {Browser} from "./browser.mjs";
+
+const [program, data, chromium] = process.argv.slice(2);
+const kMostBytes = 5e6;
+const kDark = [21, 24, 28], kWhite = [255, 255, 255];  // --ground of page.css
+let browser, folder;
+
+const at = (...names) => names.map((name) => join(data, name));
+const inFolder = (name) => join(folder, name);
+
+function cablefit(...args) {
+  execFileSync(program, [...args, "--quiet"], {cwd: folder, stdio: ["ignore", "ignore", "pipe"]});
+}
+
+/** One report of every command, in the order in which they need each other. */
+const kCommands = {
+  check: () => ["check", ...at("low/blocked.csv", "low/moving_load30.csv")],
+  elastic: () => ["elastic", ...at("low/blocked.csv", "high/blocked.csv")],
+  dynamic: () => ["dynamic", ...at("low/moving_load30.csv", "low/moving_load-40.csv",
+                                   "high/moving_load30.csv", "high/moving_load-40.csv")],
+  rigid: () => ["dynamic", "--model", "rigid", "--out", "rigid-out", ...at("low/moving_load30.csv")],
+  simulate: () => ["simulate", "cablefit-out/dynamic.json", ...at("low/moving_load30.csv", "low/blocked.csv")],
+  batch: () => ["batch", ...at("campaign_strict.json")]
+};
+
+/** Titles (with how often they occur) that the reports must have. */
+const kResidualTitles = ["Torque error over time", "Distribution of the torque error",
+                         "Autocorrelation of the torque error"];
+const kWanted = {
+  check: {Positions: 2, Torques: 2},
+  elastic: {"Torque against deflection": 2, "Elastic error against deflection": 2, "Measured and predicted": 2,
+            "Torque error against velocity of θ, linear": 2, "Torque error against position θ, linear": 2,
+            "Torque error against deflection θ − q, linear": 2, ...counted(kResidualTitles, 2)},
+  dynamic: {"Measured and predicted": 2, "Measured and predicted, close-up": 2,
+            "Measured and predicted, poly": 2, "Measured and predicted, poly, close-up": 2, ...counted(kResidualTitles, 4),
+            "Torque error against velocity of q, poly": 2, "Torque error against position θ, poly": 2,
+            "Torque error against deflection θ − q, poly": 4, "Torque error against load τ_load, poly": 4},
+  rigid: {"Measured and predicted": 1, ...counted(kResidualTitles, 1)},
+  simulate: {"Measured and simulated q": 2, "Measured and simulated q, close-up": 2, "Measured and simulated θ": 2, "Gap of q": 2, "Gap of θ": 2},
+  batch: {K: 1, J_link: 1, "Torque against deflection": 2, "Torque error over time": 6}
+};
+
+function counted(titles, times) {
+  return Object.fromEntries(titles.map((title) => [title, times]));
+}
+
+async function open(name, options) {
+  return browser.open(pathToFileURL(inFolder(name)).href, options);
+}
+
+function assertQuiet(page) {
+  assert.deepEqual(page.errors, []);
+  assert.deepEqual(page.requests.slice(1).filter((url) => !/^(data|blob):/.test(url)), []);
+}
+
+/** Everything that is wrong with the plots as they are drawn, in words. */
+const kComplaints = `(() => {
+  const bad = [];
+  const within = (inner, outer) => inner.left >= outer.left - 1 && inner.right <= outer.right + 1 &&
+      inner.top >= outer.top - 1 && inner.bottom <= outer.bottom + 1;
+  for (const {figure, place} of cablefitReport.plots) {
+    const complain = (text) => bad.push(figure.group + ": " + figure.title + ": " + text);
+    const box = place.getBoundingClientRect();
+    const area = place.querySelector(".nsewdrag")?.getBoundingClientRect();
+    if (!area) { complain("is not drawn"); continue; }
+    if (area.height < 90 || area.width < 150) complain("has hardly any room");
+    const traces = [...place.querySelectorAll(".scatterlayer .trace")];
+    if (traces.length < figure.traces.length) complain("lacks a trace");
+    for (const trace of traces) {
+      const line = trace.querySelector("path.js-line");
+      const hasLine = line && line.getAttribute("d").length > 10;
+      if (!hasLine && !trace.querySelector("path.point")) complain("has an empty trace");
+    }
+    for (const axis of ["xtitle", "ytitle"]) {
+      const title = place.querySelector("." + axis);
+      if (!title || !title.textContent.trim()) complain("has no " + axis);
+      else if (!within(title.getBoundingClientRect(), box)) complain("cuts its " + axis);
+    }
+    const legend = place.querySelector(".legend")?.getBoundingClientRect();
+    if (figure.traces.length > 1 && !legend) complain("has no legend");
+    if (legend && legend.bottom > area.top + 1) complain("has its legend over the curves");
+    if (legend && !within(legend, box)) complain("cuts its legend");
+    for (const note of place.querySelectorAll(".annotation")) {
+      if (legend && note.getBoundingClientRect().top < legend.bottom - 1) complain("writes over its legend");
+    }
+  }
+  return bad;
+})()`;
+
+before(() => {
+  folder = mkdtempSync(join(tmpdir(), "cablefit-pages-"));
+  browser = new Browser(chromium);
+  for (const [name, words] of Object.entries(kCommands)) {
+    try {
+      cablefit(...words(), "--report", `${name}.html`);
+    } catch (error) {
+      if (name !== "batch" || error.status !== 1) throw error;  // its gates fail, on purpose
+    }
+  }
+});
+
+after(async () => {
+  await browser?.close();
+  if (folder) rmSync(folder, {recursive: true, force: true});
+});
+
+for (const name of Object.keys(kCommands)) {
+  test(`${name}: every plot is drawn`, async () => {
+    assert.ok(statSync(inFolder(`${name}.html`)).size < kMostBytes);
+    const page = await open(`${name}.html`);
+    await page.evaluate("cablefitReport.drawAll().then(() => true)");
+    const titles = await page.evaluate('[...document.querySelectorAll("figure strong")].map((s) => s.textContent)');
+    for (const [title, times] of Object.entries(kWanted[name])) {
+      assert.equal(titles.filter((one) => one === title).length, times, title);
+    }
+    assert.deepEqual(await page.evaluate(kComplaints), []);
+    assertQuiet(page);
+  });
+}
+
+test("plots appear as the reader comes to them, and links of the contents lead there", async () => {
+  const page = await open("dynamic.html");
+  const nDrawn = "cablefitReport.plots.filter((plot) => plot.isDrawn).length";
+  const nAll = await page.evaluate("cablefitReport.plots.length");
+  assert.ok(await page.evaluate(nDrawn) < nAll);
+  await page.evaluate('document.documentElement.style.scrollBehavior = "auto"; ' +
+                      '[...document.querySelectorAll("nav a")].at(-3).click(); ' +
+                      "new Promise((done) => setTimeout(done, 1500))");
+  const seen = await page.evaluate("cablefitReport.plots.filter(({place}) => { " +
+      "const box = place.getBoundingClientRect(); return box.bottom > 0 && box.top < innerHeight; })" +
+      ".every((plot) => plot.isDrawn)");
+  assert.ok(seen);
+  assertQuiet(page);
+});
+
+/** The first plot on the screen, and the middle of some of its parts. */
+async function firstPlot(page) {
+  await page.evaluate("document.documentElement.style.scrollBehavior = 'auto'; " +
+                      "cablefitReport.plots[0].place.scrollIntoView({block: 'center'}); " +
+                      "cablefitReport.drawAll().then(() => new Promise((done) => setTimeout(done, 300)))");
+  return page.evaluate(`(() => {
+    const place = cablefitReport.plots[0].place;
+    const box = (node) => { const b = node.getBoundingClientRect(); return {x: b.x, y: b.y, w: b.width, h: b.height}; };
+    return {area: box(place.querySelector(".nsewdrag")),
+            legend: [...place.querySelectorAll(".legendtoggle")].map(box)};
+  })()`);
+}
+
+const range = (page) => page.evaluate("[...cablefitReport.plots[0].place.layout.xaxis.range]");
+
+test("dragging zooms, Reset shows everything again", async () => {
+  const page = await open("elastic.html");
+  const {area} = await firstPlot(page);
+  const whole = await range(page);
+  await page.drag([area.x + 0.3 * area.w, area.y + 0.3 * area.h], [area.x + 0.6 * area.w, area.y + 0.7 * area.h]);
+  await page.evaluate("new Promise((done) => setTimeout(done, 400))");
+  const zoomed = await range(page);
+  const share = (zoomed[1] - zoomed[0]) / (whole[1] - whole[0]);
+  assert.ok(Math.abs(share - 0.3) < 0.02, `${share} of the range is left`);
+  await page.evaluate('document.querySelector("figure button").click()');
+  await page.evaluate("new Promise((done) => setTimeout(done, 400))");
+  assert.deepEqual(await range(page), whole);
+  assertQuiet(page);
+});
+
+test("a click in the legend hides a trace, another shows it", async () => {
+  const page = await open("elastic.html");
+  const {legend} = await firstPlot(page);
+  const visible = () => page.evaluate("cablefitReport.plots[0].place.data[2].visible ?? true");
+  for (const wanted of ["legendonly", true]) {
+    await page.click(legend[2].x + legend[2].w / 2, legend[2].y + legend[2].h / 2);
+    await page.evaluate("new Promise((done) => setTimeout(done, 900))");  // it might be a double click
+    assert.equal(await visible(), wanted);
+  }
+  assertQuiet(page);
+});
+
+test("the mouse over a curve tells its numbers", async () => {
+  const page = await open("simulate.html");
+  const {area} = await firstPlot(page);
+  const text = () => page.evaluate('cablefitReport.plots[0].place.querySelector(".hoverlayer").textContent');
+  for (let share = 0.1; share < 1 && !(await text()); share += 0.05) {
+    await page.mouse("mouseMoved", area.x + area.w / 2, area.y + share * area.h, {button: "none"});
+    await page.evaluate("new Promise((done) => setTimeout(done, 150))");
+  }
+  assert.match(await text(), /\d s.*rad/);
+});
+
+test("a plot is saved as SVG, on white", async () => {
+  const page = await open("elastic.html", {dark: true});
+  const downloads = mkdtempSync(inFolder("downloads-"));
+  await browser.send("Browser.setDownloadBehavior", {behavior: "allow", downloadPath: downloads});
+  await firstPlot(page);
+  await page.evaluate('document.querySelectorAll("figure button")[1].click()');
+  const saved = () => readdirSync(downloads).filter((name) => name.endsWith(".svg"));
+  for (let tries = 0; tries < 50 && !saved().length; ++tries) await new Promise((done) => setTimeout(done, 100));
+  assert.deepEqual(saved(), ["low_Blocked_link_elastic_torque_Torque_against_deflection.svg"]);
+  const svg = readFileSync(join(downloads, saved()[0]), "utf8");
+  assert.ok(svg.startsWith("<svg "));
+  assert.ok(svg.includes("fill: rgb(255, 255, 255)"), "the ground is not white");
+  assertQuiet(page);
+});
+
+const colour = (text) => text.match(/\d+/g).slice(0, 3).map(Number);
+const ground = async (page) => colour(await page.evaluate("getComputedStyle(document.body).backgroundColor"));
+const plotGround = async (page) =>
+    colour(await page.evaluate('cablefitReport.plots[0].place.querySelector(".main-svg").style.background'));
+
+test("dark for readers who like it dark, light on paper", async () => {
+  const page = await open("elastic.html", {dark: true});
+  await firstPlot(page);
+  assert.deepEqual(await ground(page), kDark);
+  assert.deepEqual(await plotGround(page), kDark);
+  await page.evaluate('dispatchEvent(new Event("beforeprint"))');
+  assert.deepEqual(await ground(page), kWhite);
+  assert.deepEqual(await plotGround(page), kWhite);
+  await page.evaluate('dispatchEvent(new Event("afterprint"))');
+  assert.deepEqual(await plotGround(page), kDark);
+  await page.send("Emulation.setEmulatedMedia", {features: [{name: "prefers-color-scheme", value: "light"}]});
+  await page.evaluate("new Promise((done) => setTimeout(done, 300))");
+  assert.deepEqual(await plotGround(page), kWhite);
+  const pdf = await page.pdf();
+  assert.equal(pdf.subarray(0, 5).toString(), "%PDF-");
+  assertQuiet(page);
+});
+
+/** A shipped log with a column, a preload and a name that would like to run. */
+const kScript = "<script>alert(1)</script>";
+const kImage = "</script><img src=x onerror=alert(2)>";
+
+test("nothing in a log gets to run", async () => {
+  const name = "a<img src=x onerror=alert(3)>'\".csv";
+  const lines = readFileSync(at("low/blocked.csv")[0], "utf8").trimEnd().split("\n");
+  const hostile = lines.map((line, k) => line + (k ? `,7,"${kImage}"` : `,${kScript},preload`));
+  writeFileSync(inFolder(name), hostile.join("\n") + "\n");
+  copyFileSync(at("low/rig.json")[0], inFolder("rig-of-it.json"));
+  const rig = JSON.parse(readFileSync(inFolder("rig-of-it.json"), "utf8"));
+  delete rig.preload;
+  rig.cables = ["1", "2"].map((k) => ({
+    name: `<b onclick=alert(4)>${k}</b>`, motor_radius: [k === "1" ? 1 : -1], link_radius: [k === "1" ? 1 : -1],
+    law: "polynomial", order: 2, initial_elongation: 0
+  }));
+  writeFileSync(inFolder("rig-of-it.json"), JSON.stringify(rig));
+  for (const command of ["check", "elastic"]) {
+    cablefit(command, name, "--rig", "rig-of-it.json", "--out", "hostile-out", "--report", `hostile-${command}.html`);
+    const page = await open(`hostile-${command}.html`);
+    await page.evaluate("cablefitReport.drawAll().then(() => new Promise((done) => setTimeout(done, 500)))");
+    assert.deepEqual(await page.evaluate(kComplaints), []);
+    assertQuiet(page);
+    assert.equal(await page.evaluate('document.querySelectorAll("img, b, [onclick], [onerror]").length'), 0);
+    assert.equal(await page.evaluate("document.scripts.length"), 3);
+    const text = await page.evaluate("document.body.innerText");
+    assert.ok(text.includes(kImage), "the preload is not told as it is");
+    if (command === "check") assert.ok(text.includes(kScript), "the column is not told as it is");
+  }
+});
