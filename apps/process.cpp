@@ -1,6 +1,7 @@
 #include "process.hpp"
 
 #include <fcntl.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -36,9 +37,20 @@ void handle(int signal) {
   ::sigaction(signal, &ours, nullptr);
 }
 
+// Windows of samples come and go by the megabyte. The C library would hand each of them back to the
+// kernel and ask for fresh, zeroed pages again: a fifth of the run time.
+void keep_memory() {
+#ifdef __GLIBC__
+  constexpr int kKeep = 64 << 20;
+  ::mallopt(M_MMAP_THRESHOLD, kKeep);
+  ::mallopt(M_TRIM_THRESHOLD, kKeep);
+#endif
+}
+
 }  // namespace
 
 void prepare_process() {
+  keep_memory();
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) open_if_closed(stream);
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);

@@ -1,42 +1,13 @@
 #include "cablefit/estimate/tall_gram.hpp"
 
 #include <algorithm>
-#include <cstring>
+
+#include "cablefit/base/lanes.hpp"
 
 namespace cablefit {
 namespace {
 
-constexpr Eigen::Index kLanes = 4;
 constexpr Eigen::Index kChunk = 256;  // rows whose columns stay in the first-level cache together
-// Two doubles side by side, which every 64-bit machine has registers for. (Four, left to the
-// compiler to split in two, go through memory with GCC 12.)
-using Pair = double __attribute__((vector_size(16)));
-
-struct Lanes {
-  Pair low{}, high{};
-
-  void add_product(const Lanes& a, const Lanes& b) {
-    low += a.low * b.low;
-    high += a.high * b.high;
-  }
-  double sum() const { return (low[0] + low[1]) + (high[0] + high[1]); }
-};
-
-Lanes load(const double* p) {
-  Lanes lanes;
-  std::memcpy(&lanes.low, p, sizeof lanes.low);
-  std::memcpy(&lanes.high, p + 2, sizeof lanes.high);
-  return lanes;
-}
-
-double dot(const double* a, const double* b, Eigen::Index n) {
-  Lanes lanes;
-  Eigen::Index i = 0;
-  for (; i + kLanes <= n; i += kLanes) lanes.add_product(load(a + i), load(b + i));
-  double rest = 0;
-  for (; i < n; ++i) rest += a[i] * b[i];
-  return lanes.sum() + rest;
-}
 
 /// Products of two columns with two others: each value loaded serves two of them.
 struct Tile {
@@ -101,8 +72,7 @@ void divide_lanes(double* rows, Eigen::Index stride, const Eigen::MatrixXd& r,
     const Pair factor = {over(k), over(k)};
     y.low *= factor;
     y.high *= factor;
-    std::memcpy(to, &y.low, sizeof y.low);
-    std::memcpy(to + 2, &y.high, sizeof y.high);
+    store(y, to);
   }
 }
 

@@ -3,19 +3,48 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/base/lanes.hpp"
+
 namespace cablefit {
 namespace {
 
-/// Column by column the weighted mean about each centre.
-template <class Columns>
-void weigh(const Columns& columns, const Eigen::VectorXd& taps, Eigen::Index centre,
-           Eigen::Index first, Eigen::Index last, Eigen::Ref<Eigen::RowVectorXd> out) {
-  const Eigen::Index half = taps.size() / 2;
-  const Eigen::Index from = std::max(first, centre - half);
-  const Eigen::Index to = std::min(last, centre + half + 1);
-  const auto inside = taps.segment(from - (centre - half), to - from);
-  out.noalias() = inside.transpose() * columns.middleRows(from, to - from);
-  if (to - from != taps.size()) out /= inside.sum();
+using Columns = Eigen::Ref<const Eigen::MatrixXd>;
+
+/// taps * triangle (1, 10, 1)/12, one longer at either end.
+Eigen::VectorXd averaging(const Eigen::Ref<const Eigen::VectorXd>& taps) {
+  const Eigen::Index n = taps.size();
+  Eigen::VectorXd longer = Eigen::VectorXd::Zero(n + 2);
+  longer.head(n) += taps / 12;
+  longer.segment(1, n) += taps * (10.0 / 12);
+  longer.tail(n) += taps / 12;
+  return longer;
+}
+
+/// Weighted sums of four columns: each tap loaded serves all four.
+void weigh_four(const double* x, Eigen::Index stride, const Eigen::VectorXd& taps, double* to,
+                Eigen::Index to_stride) {
+  Lanes sums[4];
+  const Eigen::Index n = taps.size();
+  Eigen::Index i = 0;
+  for (; i + kLanes <= n; i += kLanes) {
+    const Lanes tap = load(taps.data() + i);
+    for (Eigen::Index k = 0; k < 4; ++k) sums[k].add_product(tap, load(x + k * stride + i));
+  }
+  for (Eigen::Index k = 0; k < 4; ++k) {
+    double rest = 0;
+    for (Eigen::Index j = i; j < n; ++j) rest += taps(j) * x[k * stride + j];
+    to[k * to_stride] = sums[k].sum() + rest;
+  }
+}
+
+/// Row `row` of `out`: weighted sums of the columns over the rows from `from` on.
+void weigh(const Columns& columns, Eigen::Index from, const Eigen::VectorXd& taps, Eigen::Index row,
+           Eigen::MatrixXd& out) {
+  const double* const x = columns.data() + from;
+  const Eigen::Index stride = columns.outerStride(), n = columns.cols();
+  Eigen::Index k = 0;
+  for (; k + 4 <= n; k += 4) weigh_four(x + k * stride, stride, taps, &out(row, k), out.rows());
+  for (; k < n; ++k) out(row, k) = dot(x + k * stride, taps.data(), taps.size());
 }
 
 }  // namespace
@@ -33,32 +62,40 @@ Decimation::Decimation(int factor) : factor_(factor) {
     taps_(half + k) = sinc * window;
   }
   taps_ /= taps_.sum();
-  const Eigen::Index n = taps_.size();
-  averaging_taps_ = Eigen::VectorXd::Zero(n + 2);
-  averaging_taps_.head(n) += taps_ / 12;
-  averaging_taps_.segment(1, n) += taps_ * (10.0 / 12);
-  averaging_taps_.tail(n) += taps_ / 12;
+  averaging_taps_ = averaging(taps_);
 }
 
-Eigen::MatrixXd Decimation::apply(const Eigen::Ref<const Eigen::MatrixXd>& columns,
-                                  std::span<const Eigen::Index> centres, Eigen::Index first,
-                                  Eigen::Index last, const std::vector<bool>& averaged) const {
+void Decimation::apply_to(const Columns& columns, std::span<const Eigen::Index> centres,
+                          Eigen::Index first, Eigen::Index last, bool averaged,
+                          Eigen::MatrixXd& out) const {
+  const Eigen::Index half = half_width(), reach = averaged ? 1 : 0;
+  const Eigen::VectorXd& usual = averaged ? averaging_taps_ : taps_;
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    const Eigen::Index from = std::max(first, centres[i] - half);
+    const Eigen::Index to = std::min(last, centres[i] + half + 1);
+    if (to - from == taps_.size()) {
+      weigh(columns, from - reach, usual, row, out);
+      continue;
+    }
+    const auto inside = taps_.segment(from - (centres[i] - half), to - from);
+    const Eigen::VectorXd scaled = inside / inside.sum();
+    weigh(columns, from - reach, averaged ? averaging(scaled) : scaled, row, out);
+  }
+}
+
+Eigen::MatrixXd Decimation::apply(const Columns& columns, std::span<const Eigen::Index> centres,
+                                  Eigen::Index first, Eigen::Index last,
+                                  const std::vector<bool>& averaged) const {
   const auto n = static_cast<Eigen::Index>(centres.size());
   const bool any = std::find(averaged.begin(), averaged.end(), true) != averaged.end();
-  // Row-major while it is filled row by row.
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> out(n, columns.cols());
-  Eigen::RowVectorXd row(columns.cols());
-  for (Eigen::Index i = 0; i < n; ++i) {
-    weigh(columns, any ? averaging_taps_ : taps_, centres[static_cast<std::size_t>(i)], first, last,
-          row);
-    out.row(i) = row;
-  }
+  Eigen::MatrixXd out(n, columns.cols());
+  apply_to(columns, centres, first, last, any, out);
+  Eigen::MatrixXd plain(n, 1);
   for (std::size_t k = 0; any && k < averaged.size(); ++k) {
     if (averaged[k]) continue;
-    const auto column = static_cast<Eigen::Index>(k);
-    for (Eigen::Index i = 0; i < n; ++i)
-      weigh(columns.col(column), taps_, centres[static_cast<std::size_t>(i)], first, last,
-            out.block(i, column, 1, 1));
+    apply_to(columns.col(static_cast<Eigen::Index>(k)), centres, first, last, false, plain);
+    out.col(static_cast<Eigen::Index>(k)) = plain;
   }
   return out;
 }

@@ -25,12 +25,17 @@ class Decimation {
   /// Columns that are `averaged` are also averaged over the triangle (1, 10, 1)/12 of +-1 row. A
   /// second difference IS the mean acceleration under that triangle (Numerov), so every other
   /// column of an equation must be averaged alike: without it J_motor is 1.8 % too large at 1 kHz
-  /// on the paper's rig, through K T^2/(12 J). Empty: none is.
+  /// on the paper's rig, through K T^2/(12 J). Empty: none is. Averages reach one row beyond
+  /// [first, last).
   Eigen::MatrixXd apply(const Eigen::Ref<const Eigen::MatrixXd>& columns,
                         std::span<const Eigen::Index> centres, Eigen::Index first,
                         Eigen::Index last, const std::vector<bool>& averaged) const;
 
  private:
+  void apply_to(const Eigen::Ref<const Eigen::MatrixXd>& columns,
+                std::span<const Eigen::Index> centres, Eigen::Index first, Eigen::Index last,
+                bool averaged, Eigen::MatrixXd& out) const;
+
   int factor_;
   Eigen::VectorXd taps_, averaging_taps_;
 };
