@@ -20,7 +20,7 @@ void require(bool success) {
 fs::path resolved(const fs::path& path) { return fs::exists(path) ? fs::canonical(path) : path; }
 
 fs::path made_folder_of(const fs::path& target) {
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   fs::create_directories(folder);
   remove_leftovers(folder);
   return folder;

@@ -38,6 +38,7 @@ int open_in_place(const std::filesystem::path& path);
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::filesystem::path& target);
+  ~TemporaryFile() = default;
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 

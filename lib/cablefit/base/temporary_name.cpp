@@ -26,13 +26,14 @@ namespace fs = std::filesystem;
 constexpr std::string_view kPrefix = ".cablefit-", kSuffix = ".tmp";
 constexpr std::time_t kLeftoverSeconds = 60;  // between creating a file and locking it
 
+constexpr int kFree = 0, kFilling = 1, kInUse = 2;
+
 // Where a signal handler finds the names: it can take no lock and follow no pointer that may move.
 // More files at once than slots are written all the same, they just outlive a signal.
 struct Slot {
-  std::atomic<int> state;  // free, being filled, in use
-  std::array<char, PATH_MAX> path;
+  std::atomic<int> state{kFree};  // free, being filled, in use
+  std::array<char, PATH_MAX> path{};
 };
-constexpr int kFree = 0, kFilling = 1, kInUse = 2;
 constexpr std::size_t kNoSlot = static_cast<std::size_t>(-1);
 std::array<Slot, 8> slots;
 
