@@ -51,7 +51,8 @@ void require_file(const std::string& path) {
 LogSurvey read_log(const std::string& path, const CommonOptions& options) {
   require_file(path);
   const Rig rig = rig_for_log(path, options.rig);
-  return survey_log(plan_log(path, rig), rig.preload.empty() ? options.preload : rig.preload);
+  return survey_log(plan_log(path, rig), rig.preload.empty() ? options.preload : rig.preload,
+                    options.samples.threads);
 }
 
 void require_preload(const std::vector<LogSurvey>& logs, const std::string& wanted) {

@@ -134,7 +134,8 @@ std::vector<LogSurvey> campaign_logs(const CommonOptions& options) {
     if (!options.preload.empty() && options.preload != cell.preload) continue;
     for (const auto* paths : {&cell.blocked, &cell.moving})
       for (const std::string& path : *paths)
-        logs.push_back(survey_log(plan_log(path, rig_for_log(path, cell.rig)), cell.preload));
+        logs.push_back(survey_log(plan_log(path, rig_for_log(path, cell.rig)), cell.preload,
+                                  options.samples.threads));
   }
   if (logs.empty())
     throw usage_error(fmt::format("{} has no preload '{}'", kCampaignHere, options.preload),

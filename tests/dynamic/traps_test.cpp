@@ -65,7 +65,8 @@ TEST_CASE("white sd is asked for by option and is the paper's (25)", "[dynamic]"
   const DynamicFit a = stage2(elastic, {});
   const DynamicFit b = stage2(elastic, white);
   for (std::size_t k = 0; k < a.parameters.size(); ++k) {
-    CHECK(a.parameters[k].value == b.parameters[k].value);
+    // One column with the elastic torque instead of one per coefficient: rounding, no more.
+    CHECK_THAT(a.parameters[k].value, Catch::WithinRel(b.parameters[k].value, 1e-12));
     CHECK(b.parameters[k].sd == b.parameters[k].sd_white);
     CHECK(a.parameters[k].sd > a.parameters[k].sd_white);
   }

@@ -31,13 +31,14 @@ TEST_CASE("a read that fails is told with the path, one that is interrupted goes
   std::printf("    %d reads, each failing once and interrupted once\n", n_reads);
 }
 
-TEST_CASE("a log that changes between two passes is refused") {
+// The header is read first, then all of it, once: later passes take the samples kept from then.
+TEST_CASE("a log that changes while it is read is refused") {
   const FaultBench bench;
   const int n_opens = bench.count(kElastic).opens;
-  REQUIRE(n_opens >= 3);
+  REQUIRE(n_opens == 2);
   for (const std::string how : {"truncate", "append", "replace"}) {
     for (int k = 2; k <= n_opens; ++k) {
-      INFO(how << " before pass " << k << " of " << n_opens);
+      INFO(how << " before opening " << k << " of " << n_opens);
       bench.restore_log();
       bench.reset({}, false);
       const Ended ended = bench.run(kElastic, {{"FAULT_OPEN", std::to_string(k) + ":" + how}});

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <random>
 
 #include "tests/log/log_support.hpp"
 #include "tests/support/message.hpp"
@@ -134,6 +137,43 @@ TEST_CASE("blocks may end at any byte of the text") {
       REQUIRE(log.texts[0][i] == "x, y");
       REQUIRE(log.lines[i] == 2 * i + 2);
     }
+  }
+}
+
+TEST_CASE("numbers are the nearest doubles, however they are written") {
+  // strtod of the C library is the judge: it rounds correctly.
+  std::mt19937_64 random(4711);
+  std::vector<std::string> numbers = {"0",
+                                      "-0",
+                                      "7.",
+                                      ".5",
+                                      "-.25",
+                                      "1e5",
+                                      "1E-3",
+                                      "+12",
+                                      "1.e2",
+                                      "00012.50",
+                                      "123456789012345",
+                                      "1234567890.12345",
+                                      "0.00000000000001",
+                                      "9007199254740993",
+                                      "0.1",
+                                      "-3e-310",
+                                      "179769313486231570000000000000000000"};
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int i = 0; i < 20'000; ++i) {
+    const double value = uniform(random) * std::pow(10.0, static_cast<double>(i % 12) - 4);
+    numbers.push_back(fmt::format("{:.{}f}", value, i % 17));
+    numbers.push_back(fmt::format("{:.{}g}", value, 1 + i % 17));
+  }
+  std::string text = "x,t\n";
+  for (const std::string& number : numbers) text += number + ",0\n";
+  const auto log = read_all(*open_text(text), {"x"});
+  REQUIRE(log.numbers[0].size() == numbers.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    INFO(numbers[i]);
+    const double expected = std::strtod(numbers[i].c_str(), nullptr);
+    REQUIRE(std::memcmp(&log.numbers[0][i], &expected, sizeof expected) == 0);
   }
 }
 

@@ -10,7 +10,8 @@ namespace cablefit {
 /// `produce(emit)` runs on the calling thread and hands items to emit(item) -> bool (false: stop).
 /// `map(item)` runs on up to `threads` other threads (inline when threads <= 1) and must not
 /// touch shared state; `reduce(result)` runs on the calling thread in the order of production. An
-/// exception from any of them comes out here, after the running tasks have ended.
+/// exception from any of them comes out here, after the running tasks have ended; of several the
+/// one that a single thread would have met first.
 template <class Item, class Produce, class Map, class Reduce>
 void ordered_pipeline(int threads, Produce produce, Map map, Reduce reduce) {
   using Result = decltype(map(std::declval<Item>()));
@@ -23,18 +24,28 @@ void ordered_pipeline(int threads, Produce produce, Map map, Reduce reduce) {
   }
   std::deque<std::future<Result>> running;
   const auto depth = static_cast<std::size_t>(threads);
+  bool in_reduce = false;
   const auto reduce_first = [&] {
+    in_reduce = true;
     Result result = running.front().get();
     running.pop_front();
     reduce(std::move(result));
+    in_reduce = false;
   };
-  produce([&](Item&& item) {
-    while (running.size() >= depth) reduce_first();
-    running.push_back(std::async(std::launch::async, [&map, item = std::move(item)]() mutable {
-      return map(std::move(item));
-    }));
-    return true;
-  });
+  // Where the system has no thread left, get() does the work.
+  constexpr auto kPolicy = std::launch::async | std::launch::deferred;
+  try {
+    produce([&](Item&& item) {
+      while (running.size() >= depth) reduce_first();
+      running.push_back(std::async(
+          kPolicy, [&map, item = std::move(item)]() mutable { return map(std::move(item)); }));
+      return true;
+    });
+  } catch (...) {
+    // What was produced before comes first, and may have a complaint of its own.
+    while (!in_reduce && !running.empty()) reduce_first();
+    throw;
+  }
   while (!running.empty()) reduce_first();
 }
 

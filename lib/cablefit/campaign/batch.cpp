@@ -5,10 +5,11 @@
 namespace cablefit {
 namespace {
 
-std::vector<LogSurvey> survey(const std::vector<std::string>& paths, const CampaignCell& cell) {
+std::vector<LogSurvey> survey(const std::vector<std::string>& paths, const CampaignCell& cell,
+                              int threads) {
   std::vector<LogSurvey> logs;
   for (const std::string& path : paths)
-    logs.push_back(survey_log(plan_log(path, rig_for_log(path, cell.rig)), cell.preload));
+    logs.push_back(survey_log(plan_log(path, rig_for_log(path, cell.rig)), cell.preload, threads));
   return logs;
 }
 
@@ -18,7 +19,7 @@ void fit_cell(const Campaign& campaign, const CampaignCell& cell, const BatchOpt
   elastic.samples = options.samples;
   elastic.preload = cell.preload;
   elastic.figures = options.figures;
-  result.elastic = fit_elastic(survey(cell.blocked, cell), elastic);
+  result.elastic = fit_elastic(survey(cell.blocked, cell, options.samples.threads), elastic);
   if (cell.moving.empty()) return;
   DynamicOptions dynamic;
   dynamic.samples = options.samples;
@@ -27,7 +28,8 @@ void fit_cell(const Campaign& campaign, const CampaignCell& cell, const BatchOpt
   dynamic.honest_sd = options.honest_sd;
   dynamic.preload = cell.preload;
   dynamic.figures = options.figures;
-  result.dynamic = fit_dynamic(survey(cell.moving, cell), *result.elastic, dynamic);
+  result.dynamic =
+      fit_dynamic(survey(cell.moving, cell, options.samples.threads), *result.elastic, dynamic);
 }
 
 template <class Result>

@@ -15,14 +15,24 @@ const Eigen::ArrayXd& acceleration(Side side, const JointSignals& s) {
 
 bool is_linear(const ElasticFit& fit) { return fit.transmission.cables.empty(); }
 
-void fill_elastic(const ElasticFit& fit, Side side, const JointSignals& s,
-                  Eigen::Ref<Eigen::MatrixXd> out) {
+/// Basis columns of a fit, n x coefficients.
+void fill_basis(const ElasticFit& fit, Side side, const JointSignals& s,
+                Eigen::Ref<Eigen::MatrixXd> out) {
   if (is_linear(fit)) {
     out.col(0) = s.theta - fit.transmission.theta_0(0) - s.q;
   } else {
     elastic_basis(fit.transmission, s, side == Side::link ? ElasticSide::link : ElasticSide::motor,
                   out);
   }
+}
+
+void fill_elastic(const ElasticFit& fit, Side side, const JointSignals& s, ElasticDetail detail,
+                  Eigen::Ref<Eigen::MatrixXd> out) {
+  if (detail == ElasticDetail::coefficients) return fill_basis(fit, side, s, out);
+  const Eigen::VectorXd coefficients = elastic_coefficients(fit);
+  Eigen::MatrixXd basis(out.rows(), coefficients.size());
+  fill_basis(fit, side, s, basis);
+  out.noalias() = basis * coefficients;
 }
 
 }  // namespace
@@ -36,8 +46,10 @@ Eigen::VectorXd elastic_coefficients(const ElasticFit& fit) {
   return all;
 }
 
-DynamicColumns dynamic_columns(Side side, const std::vector<const ElasticFit*>& fits) {
+DynamicColumns dynamic_columns(Side side, const std::vector<const ElasticFit*>& fits,
+                               ElasticDetail detail) {
   DynamicColumns c;
+  c.detail = detail;
   c.side = side;
   for (const Effect& effect : base_effects(side)) {
     c.effects.push_back(&effect);
@@ -46,7 +58,7 @@ DynamicColumns dynamic_columns(Side side, const std::vector<const ElasticFit*>& 
   c.count = c.n_effects;
   for (const ElasticFit* fit : fits) {
     c.elastic.push_back(c.count);
-    c.n_elastic.push_back(is_linear(*fit) ? 1 : n_elastic_columns(fit->transmission));
+    c.n_elastic.push_back(detail == ElasticDetail::torque ? 1 : elastic_coefficients(*fit).size());
     c.count += c.n_elastic.back();
   }
   if (!fits.empty()) c.deflection = c.count++;
@@ -85,7 +97,7 @@ Equation dynamic_equation(const DynamicColumns& c, const std::vector<const Elast
     const JointSignals& s = signals.joints[0];
     effect_columns(c.effects, c.side, s, out.leftCols(c.n_effects));
     for (std::size_t k = 0; k < fits.size(); ++k)
-      fill_elastic(*fits[k], c.side, s, out.middleCols(c.elastic[k], c.n_elastic[k]));
+      fill_elastic(*fits[k], c.side, s, c.detail, out.middleCols(c.elastic[k], c.n_elastic[k]));
     if (c.deflection >= 0) out.col(c.deflection) = s.theta - s.q;
     out.col(c.position) = position(c.side, s);
     out.col(c.torque).setZero();
@@ -102,8 +114,12 @@ Eigen::VectorXd dynamic_response(const DynamicColumns& c,
   Eigen::VectorXd response = Eigen::VectorXd::Unit(c.count, c.torque);
   if (fits.empty()) return response;
   const double sign = c.side == Side::link ? 1.0 : -1.0;
-  response.segment(c.elastic[which], c.n_elastic[which]) =
-      sign * elastic_coefficients(*fits[which]);
+  if (c.detail == ElasticDetail::torque) {
+    response(c.elastic[which]) = sign;
+  } else {
+    response.segment(c.elastic[which], c.n_elastic[which]) =
+        sign * elastic_coefficients(*fits[which]);
+  }
   return response;
 }
 

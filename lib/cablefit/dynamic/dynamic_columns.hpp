@@ -10,11 +10,16 @@
 
 namespace cablefit {
 
+/// A column per coefficient of stage 1, which its error needs to be carried on; or one column with
+/// the elastic torque.
+enum class ElasticDetail { coefficients, torque };
+
 struct DynamicColumns {
   Side side = Side::motor;
   std::vector<const Effect*> effects;
-  Eigen::Index n_effects = 0;         ///< effect columns come first
-  std::vector<Eigen::Index> elastic;  ///< first column of each elastic fit's basis
+  Eigen::Index n_effects = 0;  ///< effect columns come first
+  ElasticDetail detail = ElasticDetail::coefficients;
+  std::vector<Eigen::Index> elastic;  ///< first column of each elastic fit's basis, or its torque
   std::vector<Eigen::Index> n_elastic;
   Eigen::Index deflection = -1;  ///< theta - q, for its range; -1 on a rigid drive
   Eigen::Index position = 0;     ///< q or theta
@@ -23,7 +28,8 @@ struct DynamicColumns {
 };
 
 /// Columns of one side for the given stage-1 fits (none on a rigid drive).
-DynamicColumns dynamic_columns(Side side, const std::vector<const ElasticFit*>& fits);
+DynamicColumns dynamic_columns(Side side, const std::vector<const ElasticFit*>& fits,
+                               ElasticDetail detail = ElasticDetail::coefficients);
 
 /// `torque_held`: tau is then not averaged over the triangle. `has_load`: a tau_load signal exists.
 Equation dynamic_equation(const DynamicColumns& columns, const std::vector<const ElasticFit*>& fits,

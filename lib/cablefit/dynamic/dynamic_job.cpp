@@ -26,7 +26,9 @@ std::vector<EquationRows> make_equations(const DynamicJob& job) {
       job.rigid ? std::vector<Side>{Side::rigid} : std::vector<Side>{Side::link, Side::motor};
   for (const Side side : sides) {
     EquationRows e;
-    e.columns = dynamic_columns(side, job.elastic);
+    e.columns = dynamic_columns(
+        side, job.elastic,
+        job.options.honest_sd ? ElasticDetail::coefficients : ElasticDetail::torque);
     const double rest =
         side == Side::link ? job.settings.rest_speed_q : job.settings.rest_speed_theta;
     e.equation =

@@ -136,7 +136,7 @@ void add_estimates(const RowStatistics& rows, const DynamicColumns& c, const Lin
                    DynamicFit& fit) {
   const std::string equation(to_string(c.side));
   Eigen::MatrixXd extra = Eigen::MatrixXd::Zero(s.x.size(), s.x.size());
-  if (stage1 != nullptr) extra = stage1_covariance(rows, c, s, *stage1, which);
+  if (stage1 != nullptr && honest) extra = stage1_covariance(rows, c, s, *stage1, which);
   Eigen::Index k = 0;
   for (const Effect* effect : c.effects)
     for (const ParameterInfo& info : effect->parameters) {

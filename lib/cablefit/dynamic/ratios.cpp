@@ -125,7 +125,7 @@ DynamicPreload fit_ratios(std::span<const LogSurvey> logs, const std::string& na
         ratio_figures({logs, wanted, settings.rows, options.samples.threads, equations[0],
                        problem.response, s.residual_combination, s.rms()},
                       preload);
-  preload.warnings.push_back(
+  preload.warnings.emplace_back(
       "no torque in the log: ratios to J_link are all that can be identified");
   return preload;
 }

@@ -90,7 +90,7 @@ TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFil
   rows.signal.torque_held = false;
   std::vector<const ElasticFit*> fits;
   if (elastic != nullptr) fits.push_back(elastic);
-  const DynamicColumns c = dynamic_columns(side, fits);
+  const DynamicColumns c = dynamic_columns(side, fits, ElasticDetail::torque);
   const Equation base = dynamic_equation(c, fits, false, rest_speed);
   const double rate = sample_rates(logs, wanted).highest;
   const double period = 1 / rate;

@@ -38,6 +38,7 @@ ElasticJob make_job(std::span<const LogSurvey> logs, const ElasticOptions& optio
   if (!job.orders_given)
     job.basis = with_order(job.basis, options.order > 0 ? options.order : options.max_order);
   if (still) {
+    job.settings.rows.signal.quasi_static = false;  // the motor need not be slow
     job.still_speed = std::max(job.settings.rest_speed_q, 1e-12);
     // The link rests only for moments: keep more rows of them.
     if (!options.samples.decimate) {

@@ -16,7 +16,7 @@ void check_passive(ElasticFit& fit, double low, double high) {
   if (fit.model == "linear") {
     fit.passive = fit.transmission.linear_stiffness(0) >= 0;
     if (!fit.passive)
-      fit.warnings.push_back(
+      fit.warnings.emplace_back(
           "the stiffness is negative: the sign of tau or of theta is turned round");
     return;
   }
@@ -82,7 +82,7 @@ void note_loop(ElasticPreload& preload, bool plateaus) {
         "with load",
         2 * preload.loop_half_width, unit, 200 * share, peak, unit, best.rms_error, unit));
   if (plateaus)
-    preload.warnings.push_back(
+    preload.warnings.emplace_back(
         "the motor hardly moves between plateaus: torques at rest lie within the friction band, so "
         "f_sm is a lower "
         "estimate; sweep slowly up and down instead");
@@ -101,7 +101,7 @@ void note_closure(ElasticPreload& preload) {
   for (const Cable& cable : poly.transmission.cables)
     falling += cable.stiffness(0.2 * reach) < 0.9 * cable.stiffness(1e-6 * reach);
   if (falling == 2)
-    preload.warnings.push_back(
+    preload.warnings.emplace_back(
         "the stiffness falls on both sides of zero, as with cables that are both taut there "
         "(preload): with l_o = 0 "
         "the coefficients describe the curve, not the cables");

@@ -83,13 +83,18 @@ Equation blocked_equation(const Transmission& transmission, const Transmission* 
   equation.averaged.assign(static_cast<std::size_t>(c.count),
                            false);  // quasi-static: no difference
   const std::optional<Transmission> curve = pilot ? std::optional(*pilot) : std::nullopt;
-  equation.fill = [transmission, c, curve, rest_speed](const Signals& signals,
-                                                       Eigen::Ref<Eigen::MatrixXd> out) {
+  // The direction is decimated as the torque is: beside a reversal both pass through zero.
+  equation.prepare = [rest_speed](Signals& signals) {
+    JointSignals& s = signals.joints[0];
+    s.theta_direction = branch(s, rest_speed);
+  };
+  equation.fill = [transmission, c, curve](const Signals& signals,
+                                           Eigen::Ref<Eigen::MatrixXd> out) {
     const JointSignals& s = signals.joints[0];
     out.col(c.deflection) = deflection(transmission, s);
     elastic_basis(transmission, s, ElasticSide::motor, out.middleCols(c.basis, c.n_basis));
     out.col(c.offset).setOnes();
-    out.col(c.direction) = branch(s, rest_speed);
+    out.col(c.direction) = s.theta_direction;
     out.col(c.speed) = s.thetad;
     if (!curve) {
       out.col(c.zero).setZero();

@@ -78,7 +78,7 @@ void look_at_branches(Stage1& stage, ElasticPreload& preload) {
   stage.nuisance.branches = preload.both_branches;
   stage.nuisance.speed = preload.both_branches && speed_tells_more(stage.rows);
   if (!preload.both_branches)
-    preload.warnings.push_back(
+    preload.warnings.emplace_back(
         "theta moves in one direction only: the motor's static friction cannot be told from the "
         "elastic "
         "torque; stiffness and offset may be off by it, f_sm is not estimated; sweep up and down");

@@ -71,7 +71,9 @@ class CsvPiece final : public LogPiece {
       is_first = false;
       if (target.text != CsvSelection::kNowhere || target.number == CsvSelection::kNowhere)
         return nullptr;
-      p = read_number(p, end, rows_.numbers[target.number][row]);
+      double& value = rows_.numbers[target.number][row];
+      const char* next = read_plain_number(p, value);
+      p = next != nullptr ? next : read_number(p, end, value);
       if (p == nullptr) return nullptr;
     }
     if (*p == '\r') ++p;

@@ -6,6 +6,8 @@
 #include <fast_float/fast_float.h>
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <string>
 #include <string_view>
@@ -14,6 +16,33 @@
 #include "cablefit/log/csv_dialect.hpp"
 
 namespace cablefit {
+
+/// Reads a number that is written as digits, point, digits with at most 15 digits in all, followed
+/// by something else than 'e'; nullptr for any other. The text must go on behind it. Both the
+/// digits as an integer and the power of ten are exact doubles then, so their quotient is the
+/// nearest one to the decimal number (Clinger 1990).
+inline const char* read_plain_number(const char* p, double& value) {
+  constexpr double kPowers[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+  const auto digit = [](char c) { return static_cast<unsigned>(c) - '0'; };
+  const bool is_negative = *p == '-';
+  p += is_negative ? 1 : 0;
+  const char* const begin = p;
+  std::uint64_t digits = 0;
+  for (; digit(*p) < 10; ++p) digits = 10 * digits + digit(*p);
+  std::ptrdiff_t n_digits = p - begin, n_decimals = 0;
+  if (*p == '.') {
+    const char* const point = p++;
+    for (; digit(*p) < 10; ++p) digits = 10 * digits + digit(*p);
+    n_decimals = p - point - 1;
+  }
+  n_digits += n_decimals;
+  if (n_digits == 0 || n_digits > 15 || n_decimals == n_digits || (*p | 0x20) == 'e')
+    return nullptr;
+  const double magnitude = static_cast<double>(digits) / kPowers[n_decimals];
+  value = is_negative ? -magnitude : magnitude;
+  return p;
+}
 
 /// Reads a finite number with an optional sign at the very start of [p, end); returns its end.
 inline const char* read_number(const char* p, const char* end, double& value) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 namespace cablefit {
 namespace {
@@ -76,7 +77,7 @@ Signals decimated(const Signals& signals, const ChosenRows& chosen, const Decima
   for (JointSignals& s : slow.joints) {
     std::vector<Eigen::ArrayXd*> arrays;
     for (Eigen::ArrayXd* array :
-         {&s.q, &s.qd, &s.theta, &s.thetad, &s.tau, &s.tau_load, &s.approach})
+         {&s.q, &s.qd, &s.theta, &s.thetad, &s.tau, &s.tau_load, &s.approach, &s.theta_direction})
       if (array->size() > 0) arrays.push_back(array);
     Eigen::MatrixXd columns(signals.n_rows(), static_cast<Eigen::Index>(arrays.size()));
     for (std::size_t k = 0; k < arrays.size(); ++k)
@@ -151,8 +152,10 @@ RowBatch make_rows(const Window& window, const LogSurvey& log, Eigen::Index numb
     auto found = signals.find(own.cutoff);
     if (found == signals.end())
       found = signals.emplace(own.cutoff, make_signals(window, log.plan, own)).first;
-    batch.equations.push_back(
-        equation_rows(equation, found->second, window, settings, number_offset));
+    std::optional<Signals> prepared;
+    if (equation.prepare) equation.prepare(prepared.emplace(found->second));
+    batch.equations.push_back(equation_rows(equation, prepared ? *prepared : found->second, window,
+                                            settings, number_offset));
   }
   return batch;
 }

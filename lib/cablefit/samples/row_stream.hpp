@@ -30,6 +30,8 @@ struct Equation {
   std::string name;  ///< "link", "motor", "blocked"
   std::vector<std::string> columns;
   std::vector<bool> averaged;  ///< per column: averaged over the triangle (not: a held torque)
+  /// Changes signals of the full rate to what `fill` wants; empty: they are right as they are.
+  std::function<void(Signals&)> prepare;
   /// Writes rows x columns.
   std::function<void(const Signals&, Eigen::Ref<Eigen::MatrixXd>)> fill;
   double cutoff = 0;      ///< Hz; its own low-pass; 0: that of the settings
