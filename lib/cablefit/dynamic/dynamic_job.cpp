@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cablefit/samples/agreement.hpp"
+#include "cablefit/samples/pilot.hpp"
 
 namespace cablefit {
 namespace {

@@ -9,6 +9,7 @@
 #include "cablefit/estimate/least_squares.hpp"
 #include "cablefit/estimate/long_run.hpp"
 #include "cablefit/samples/agreement.hpp"
+#include "cablefit/samples/pilot.hpp"
 
 namespace cablefit {
 namespace {

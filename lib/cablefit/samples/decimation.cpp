@@ -20,21 +20,29 @@ Eigen::VectorXd averaging(const Eigen::Ref<const Eigen::VectorXd>& taps) {
   return longer;
 }
 
-/// Weighted sums of four columns: each tap loaded serves all four.
+/// Zeros behind the taps, up to a whole number of lanes.
+Eigen::VectorXd padded(const Eigen::VectorXd& taps) {
+  Eigen::VectorXd longer = Eigen::VectorXd::Zero((taps.size() + kLanes - 1) / kLanes * kLanes);
+  longer.head(taps.size()) = taps;
+  return longer;
+}
+
+/// Weighted sums of four columns: each tap loaded serves all four. The taps are whole lanes.
 void weigh_four(const double* x, Eigen::Index stride, const Eigen::VectorXd& taps, double* to,
                 Eigen::Index to_stride) {
-  Lanes sums[4];
-  const Eigen::Index n = taps.size();
-  Eigen::Index i = 0;
-  for (; i + kLanes <= n; i += kLanes) {
+  Lanes s0, s1, s2, s3;  // by name: an array of them would be zeroed in memory
+  const double *x1 = x + stride, *x2 = x1 + stride, *x3 = x2 + stride;
+  for (Eigen::Index i = 0; i < taps.size(); i += kLanes) {
     const Lanes tap = load(taps.data() + i);
-    for (Eigen::Index k = 0; k < 4; ++k) sums[k].add_product(tap, load(x + k * stride + i));
+    s0.add_product(tap, load(x + i));
+    s1.add_product(tap, load(x1 + i));
+    s2.add_product(tap, load(x2 + i));
+    s3.add_product(tap, load(x3 + i));
   }
-  for (Eigen::Index k = 0; k < 4; ++k) {
-    double rest = 0;
-    for (Eigen::Index j = i; j < n; ++j) rest += taps(j) * x[k * stride + j];
-    to[k * to_stride] = sums[k].sum() + rest;
-  }
+  to[0] = s0.sum();
+  to[to_stride] = s1.sum();
+  to[2 * to_stride] = s2.sum();
+  to[3 * to_stride] = s3.sum();
 }
 
 /// Row `row` of `out`: weighted sums of the columns over the rows from `from` on.
@@ -42,9 +50,15 @@ void weigh(const Columns& columns, Eigen::Index from, const Eigen::VectorXd& tap
            Eigen::MatrixXd& out) {
   const double* const x = columns.data() + from;
   const Eigen::Index stride = columns.outerStride(), n = columns.cols();
-  Eigen::Index k = 0;
-  for (; k + 4 <= n; k += 4) weigh_four(x + k * stride, stride, taps, &out(row, k), out.rows());
-  for (; k < n; ++k) out(row, k) = dot(x + k * stride, taps.data(), taps.size());
+  if (taps.size() % kLanes != 0 || n < 4) {
+    for (Eigen::Index k = 0; k < n; ++k)
+      out(row, k) = dot(x + k * stride, taps.data(), taps.size());
+    return;
+  }
+  for (Eigen::Index k = 0; k < n; k += 4) {
+    const Eigen::Index first = std::min(k, n - 4);  // the last four may overlap those before
+    weigh_four(x + first * stride, stride, taps, &out(row, first), out.rows());
+  }
 }
 
 }  // namespace
@@ -62,19 +76,20 @@ Decimation::Decimation(int factor) : factor_(factor) {
     taps_(half + k) = sinc * window;
   }
   taps_ /= taps_.sum();
-  averaging_taps_ = averaging(taps_);
+  padded_taps_ = padded(taps_);
+  padded_averaging_taps_ = padded(averaging(taps_));
 }
 
 void Decimation::apply_to(const Columns& columns, std::span<const Eigen::Index> centres,
                           Eigen::Index first, Eigen::Index last, bool averaged,
                           Eigen::MatrixXd& out) const {
   const Eigen::Index half = half_width(), reach = averaged ? 1 : 0;
-  const Eigen::VectorXd& usual = averaged ? averaging_taps_ : taps_;
+  const Eigen::VectorXd& usual = averaged ? padded_averaging_taps_ : padded_taps_;
   for (std::size_t i = 0; i < centres.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     const Eigen::Index from = std::max(first, centres[i] - half);
     const Eigen::Index to = std::min(last, centres[i] + half + 1);
-    if (to - from == taps_.size()) {
+    if (to - from == taps_.size() && from - reach + usual.size() <= columns.rows()) {
       weigh(columns, from - reach, usual, row, out);
       continue;
     }

@@ -37,7 +37,7 @@ class Decimation {
                 bool averaged, Eigen::MatrixXd& out) const;
 
   int factor_;
-  Eigen::VectorXd taps_, averaging_taps_;
+  Eigen::VectorXd taps_, padded_taps_, padded_averaging_taps_;
 };
 
 }  // namespace cablefit

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cablefit/samples/agreement.hpp"
+#include "cablefit/samples/pilot.hpp"
 
 namespace cablefit {
 namespace {
@@ -20,7 +21,6 @@ constexpr double kNoiseBias = 0.0025;  // largest share of noise in the accelera
 constexpr double kSamplesPerPeriod = 2.5;  // rows per period of the cut-off after decimation
 constexpr double kLowestCutoff = 1;
 constexpr double kRateSpread = 1.01;  // rates closer than this are one
-constexpr int kPilotWindows = 4;
 constexpr double kSlowShare = 0.25;   // of the sweep speed that noise may reach, at four sd
 constexpr double kRestShare = 0.05;   // of the sweep speed: slower is a reversal
 constexpr double kStillShare = 0.05;  // of the link's speed: slower is standing still
@@ -102,33 +102,12 @@ void choose_filter_order(ChosenSettings& chosen, const SampleOptions& options) {
          options.filter_order ? kByOption : "Butterworth, forward and backward");
 }
 
-// Root mean square of the largest acceleration column (link or motor) over the pilot rows.
-double pilot_acceleration(std::span<const LogSurvey> logs, std::span<const PilotWindow> pilot,
-                          const SignalSettings& settings, Channel channel) {
-  double sum = 0;
-  Eigen::Index n = 0;
-  for (const PilotWindow& p : pilot) {
-    const Signals signals = make_signals(p.window, logs[p.log].plan, settings);
-    const JointSignals& s = signals.joints[0];
-    const Eigen::ArrayXd& a = channel == Channel::q ? s.qdd : s.thetadd;
-    if (a.size() < 3 * kDifferenceEdge) continue;
-    const Window& w = p.window;  // its own rows: the halo is where the filter settles
-    const Eigen::Index from = std::max(w.begin - w.first, kDifferenceEdge);
-    const Eigen::Index to = std::min(w.end - w.first, a.size() - kDifferenceEdge);
-    if (to <= from) continue;
-    const auto inner = a.segment(from, to - from);
-    sum += inner.square().sum();
-    n += inner.size();
-  }
-  return n > 0 ? std::sqrt(sum / static_cast<double>(n)) : 0;
-}
-
 // Speed of a slow sweep: the upper quartile of |theta(t + lag) - theta(t)| / lag, so that holds and
 // plateaus do not hide it, above what noise alone would show.
 double sweep_speed(std::span<const LogSurvey> logs, const PartFilter& wanted, Channel channel,
                    double noise) {
   std::vector<double> speeds;
-  for (const PilotWindow& p : pilot_windows(logs, wanted, {}, 0, kPilotWindows)) {
+  for (const PilotWindow& p : pilot_windows(logs, wanted, {}, 0, kSettingsWindows)) {
     const int k = logs[p.log].plan.find(channel);
     if (k < 0) continue;
     const auto theta = p.window.data.col(k);
@@ -148,28 +127,25 @@ double sweep_speed(std::span<const LogSurvey> logs, const PartFilter& wanted, Ch
 // The filter blurs a reversal over about 1/(2 pi cut-off): slower than the speed gained in that
 // time the sign of the velocity is not known, however good the encoder.
 double rest_speed(std::span<const LogSurvey> logs, const PartFilter& wanted,
-                  const RowSettings& rows, std::span<const PilotWindow> pilot, Channel channel,
-                  double rate) {
+                  const RowSettings& rows, PilotMotion& motion, Channel channel, double rate) {
   const double band = rows.signal.cutoff > 0 ? rows.signal.cutoff : rate / 2;
   const double noise = velocity_noise(worst_noise(logs, wanted, channel), band, rate);
-  const double blur = pilot_acceleration(logs, pilot, rows.signal, channel) / (2 * kPi * band);
+  const double blur = motion.acceleration(rows.signal, channel) / (2 * kPi * band);
   return std::max(4 * noise, blur);
 }
 
 void choose_rest_speed(ChosenSettings& chosen, std::span<const LogSurvey> logs,
-                       const PartFilter& wanted, const SampleOptions& options, double rate) {
+                       const PartFilter& wanted, const SampleOptions& options, PilotMotion& motion,
+                       double rate) {
   RowSettings& rows = chosen.rows;
   if (options.rest_speed) {
     chosen.rest_speed_theta = chosen.rest_speed_q = *options.rest_speed;
     decide(chosen, "rest speed", fmt::format("{:.3g}", *options.rest_speed), kByOption);
   } else {
-    const auto pilot =
-        pilot_windows(logs, wanted, rows.signal,
-                      signal_halo(rows.signal, sample_rates(logs, wanted).highest), kPilotWindows);
-    chosen.rest_speed_theta = rest_speed(logs, wanted, rows, pilot, Channel::theta, rate);
+    chosen.rest_speed_theta = rest_speed(logs, wanted, rows, motion, Channel::theta, rate);
     RowSettings link = rows;
     link.signal.cutoff = chosen.cutoff_q;
-    chosen.rest_speed_q = rest_speed(logs, wanted, link, pilot, Channel::q, rate);
+    chosen.rest_speed_q = rest_speed(logs, wanted, link, motion, Channel::q, rate);
     decide(chosen, "rest speed",
            fmt::format("motor {:.3g}, link {:.3g}", chosen.rest_speed_theta, chosen.rest_speed_q),
            "speed gained within the filter's blur, at least 4 sd of the speed's noise");
@@ -181,16 +157,14 @@ void choose_rest_speed(ChosenSettings& chosen, std::span<const LogSurvey> logs,
 // Lowers the cut-off until position noise is a negligible part of the acceleration: noise in a
 // regressor shrinks its coefficient by that share (errors in variables).
 double quiet_cutoff(std::span<const LogSurvey> logs, const PartFilter& wanted,
-                    const RowSettings& rows, Channel channel, double cutoff, double rate) {
+                    const RowSettings& rows, PilotMotion& motion, Channel channel, double cutoff,
+                    double rate) {
   const double noise = worst_noise(logs, wanted, channel);
   RowSettings trial = rows;
   for (;; cutoff *= 0.8) {
     trial.signal.cutoff = cutoff;
     if (cutoff <= kLowestCutoff || noise == 0) return cutoff;
-    const auto pilot =
-        pilot_windows(logs, wanted, trial.signal,
-                      signal_halo(trial.signal, sample_rates(logs, wanted).highest), kPilotWindows);
-    const double total = pilot_acceleration(logs, pilot, trial.signal, channel);
+    const double total = motion.acceleration(trial.signal, channel);
     const double noisy = acceleration_noise(noise, cutoff, rate);
     if (total == 0 || noisy * noisy <= kNoiseBias * total * total) return cutoff;
   }
@@ -199,10 +173,12 @@ double quiet_cutoff(std::span<const LogSurvey> logs, const PartFilter& wanted,
 // The link's encoder may be coarser than the motor's: its equation then gets a lower cut-off of its
 // own, all its columns alike.
 void choose_link_cutoff(ChosenSettings& chosen, std::span<const LogSurvey> logs,
-                        const PartFilter& wanted, const SampleOptions& options, double rate) {
+                        const PartFilter& wanted, const SampleOptions& options, PilotMotion& motion,
+                        double rate) {
   chosen.cutoff_q = chosen.rows.signal.cutoff;
   if (options.cutoff || !first_log_with(logs, wanted).plan.has(Channel::q)) return;
-  chosen.cutoff_q = quiet_cutoff(logs, wanted, chosen.rows, Channel::q, chosen.cutoff_q, rate);
+  chosen.cutoff_q =
+      quiet_cutoff(logs, wanted, chosen.rows, motion, Channel::q, chosen.cutoff_q, rate);
   chosen.rows.lowest_cutoff = chosen.cutoff_q;
   if (chosen.cutoff_q < chosen.rows.signal.cutoff)
     decide(chosen, "cut-off of the link equation", fmt::format("{:.4g} Hz", chosen.cutoff_q),
@@ -210,8 +186,8 @@ void choose_link_cutoff(ChosenSettings& chosen, std::span<const LogSurvey> logs,
 }
 
 void choose_moving_cutoff(ChosenSettings& chosen, std::span<const LogSurvey> logs,
-                          const PartFilter& wanted, const SampleOptions& options, double resonance,
-                          double rate) {
+                          const PartFilter& wanted, const SampleOptions& options,
+                          PilotMotion& motion, double resonance, double rate) {
   double& cutoff = chosen.rows.signal.cutoff;
   if (options.cutoff) {
     cutoff = *options.cutoff;
@@ -220,7 +196,7 @@ void choose_moving_cutoff(ChosenSettings& chosen, std::span<const LogSurvey> log
     const double wish = resonance > 0
                             ? std::min(kResonanceFactor * resonance, kMaxShareOfRate * rate)
                             : kRigidShareOfRate * rate;
-    cutoff = quiet_cutoff(logs, wanted, chosen.rows, Channel::theta, wish, rate);
+    cutoff = quiet_cutoff(logs, wanted, chosen.rows, motion, Channel::theta, wish, rate);
     std::string reason =
         resonance > 0 && wish < kMaxShareOfRate * rate
             ? fmt::format("{:g} times the resonance f0 = {:.3g} Hz", kResonanceFactor, resonance)
@@ -230,7 +206,7 @@ void choose_moving_cutoff(ChosenSettings& chosen, std::span<const LogSurvey> log
                            100 * kNoiseBias);
     decide(chosen, "cut-off", fmt::format("{:.4g} Hz", cutoff), reason);
   }
-  choose_link_cutoff(chosen, logs, wanted, options, rate);
+  choose_link_cutoff(chosen, logs, wanted, options, motion, rate);
   if (resonance > 0 && cutoff > 0 && cutoff < 2 * resonance)
     chosen.warnings.push_back(fmt::format(
         "the cut-off of {:.4g} Hz is below twice the resonance f0 = {:.3g} Hz: J_motor will "
@@ -260,21 +236,6 @@ double velocity_noise(double noise, double cutoff, double rate) {
 
 double acceleration_noise(double noise, double cutoff, double rate) {
   return noise * 4 * kPi * kPi * std::sqrt(std::pow(cutoff, 5) / 5 * 2 / rate);
-}
-
-std::vector<PilotWindow> pilot_windows(std::span<const LogSurvey> logs, const PartFilter& wanted,
-                                       const SignalSettings& settings, Eigen::Index halo,
-                                       int max_windows) {
-  std::vector<PilotWindow> pilot;
-  for (std::size_t k = 0; k < logs.size(); ++k) {
-    int taken = 0;
-    for_each_window(logs[k], wanted, halo, 2 * kDifferenceEdge + 2, bridge_seconds(settings),
-                    [&](Window&& window) {
-                      pilot.push_back({k, std::move(window)});
-                      return ++taken < max_windows;
-                    });
-  }
-  return pilot;
 }
 
 namespace {
@@ -368,10 +329,11 @@ ChosenSettings moving_settings(std::span<const LogSurvey> logs, const PartFilter
         rates.lowest, rates.highest));
   check_options(logs, wanted, options, rate);
   choose_filter_order(chosen, options);
-  choose_moving_cutoff(chosen, logs, wanted, options, resonance, rate);
+  PilotMotion motion(logs, wanted);
+  choose_moving_cutoff(chosen, logs, wanted, options, motion, resonance, rate);
   choose_decimation(chosen, options, rate);
   choose_edges(chosen, options, rates.highest);
-  choose_rest_speed(chosen, logs, wanted, options, rate);
+  choose_rest_speed(chosen, logs, wanted, options, motion, rate);
   return chosen;
 }
 

@@ -54,13 +54,4 @@ ChosenSettings blocked_settings(std::span<const LogSurvey> logs, const PartFilte
 ChosenSettings moving_settings(std::span<const LogSurvey> logs, const PartFilter& wanted,
                                const SampleOptions& options, double resonance);
 
-/// Up to the first `max_windows` wanted windows of every log, for choosing and for small tests.
-struct PilotWindow {
-  std::size_t log = 0;
-  Window window;
-};
-std::vector<PilotWindow> pilot_windows(std::span<const LogSurvey> logs, const PartFilter& wanted,
-                                       const SignalSettings& settings, Eigen::Index halo,
-                                       int max_windows);
-
 }  // namespace cablefit
