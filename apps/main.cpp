@@ -12,12 +12,14 @@
 
 namespace {
 
-using namespace cablefit;
+using cablefit::Error;
+using cablefit::write_whole;
+namespace apps = cablefit::apps;
 
 constexpr int kInternalError = 70;  // EX_SOFTWARE of sysexits.h: a mistake of ours, not the user's
 
 int run(apps::Arguments arguments) {
-  if (arguments.empty()) throw usage_error("no command given", "see 'cablefit --help'");
+  if (arguments.empty()) throw cablefit::usage_error("no command given", "see 'cablefit --help'");
   const std::string name = arguments.front();
   arguments.erase(arguments.begin());
   if (name == "--help" || name == "-h" || name == "help") {
@@ -25,7 +27,7 @@ int run(apps::Arguments arguments) {
     return 0;
   }
   if (name == "--version") {
-    write_whole("-", fmt::format("cablefit {}\n", kVersion));
+    write_whole("-", fmt::format("cablefit {}\n", cablefit::kVersion));
     return 0;
   }
   return apps::find_command(name).run(arguments);

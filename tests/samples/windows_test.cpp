@@ -1,4 +1,6 @@
 // Windows and threads are bookkeeping: they must not show in the rows. Gaps and uneven clocks must.
+#include <numbers>
+
 #include "tests/samples/rows_of_logs.hpp"
 
 namespace {
@@ -157,6 +159,42 @@ TEST_CASE("an uneven log is put on an even grid and counted", "[samples]") {
     CHECK_THAT(rows.rows(i, 0), Catch::WithinAbs(2 * t - 1, 1e-11));
     CHECK_THAT(rows.rows(i, 1), Catch::WithinAbs(2, 1e-10));  // 60 eps / (12 h)
     CHECK_THAT(rows.rows(i, 4), Catch::WithinAbs(3 - t, 1e-11));
+  }
+}
+
+// A quasi-static equation forms its columns at a lower rate than that of the log. The torque of a
+// cable goes with powers of theta, so it must still be the same power of theta in every row. The
+// sweep's cube reaches to 3 Hz, where the low-pass of 10 Hz leaves (3/10)^8 = 7e-5 less, and the
+// taps of the first decimation are 1e-4 off at most (their ripple of 2e-3 stands at their edge, 100
+// Hz): three times that in a cube.
+TEST_CASE("powers formed between two decimations are those of the torque", "[samples]") {
+  Columns text{{{"t", {}}, {"theta", {}}, {"tau", {}}}};
+  for (int i = 0; i < 60000; ++i) {
+    const double t = 1e-3 * i, theta = std::sin(2 * std::numbers::pi * t);
+    text.columns[0].second.push_back(t);
+    text.columns[1].second.push_back(theta);
+    text.columns[2].second.push_back(theta * theta * theta);
+  }
+  Bench bench;
+  const LogSurvey& log = bench.add_text(text.csv());
+  Equation equation;
+  equation.name = "cube";
+  equation.columns = {"theta^3", "tau"};
+  equation.averaged = {false, false};
+  equation.fill = [](const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
+    out.col(0) = signals.joints[0].theta.cube();
+    out.col(1) = signals.joints[0].tau;
+  };
+  for (const int decimate : {8, 20, 37, 40}) {
+    RowSettings settings = settings_of(10, decimate, 2000);
+    const EquationBatch once = all_rows(log, settings, equation);
+    settings.signal.quasi_static = true;
+    const EquationBatch twice = all_rows(log, settings, equation);
+    INFO("decimation by " << decimate);
+    REQUIRE(twice.numbers == once.numbers);
+    REQUIRE(twice.rows.rows() > 1000);
+    CHECK((once.rows.col(0) - once.rows.col(1)).cwiseAbs().maxCoeff() < 1e-4);
+    CHECK((twice.rows.col(0) - twice.rows.col(1)).cwiseAbs().maxCoeff() < 3e-4);
   }
 }
 

@@ -50,7 +50,7 @@ Descriptor::~Descriptor() {
   if (number_ >= 0) ::close(number_);
 }
 
-void Descriptor::write_all(std::string_view content) {
+void Descriptor::write_all(std::string_view content) const {
   while (!content.empty()) {
     const ssize_t n_written = ::write(number_, content.data(), content.size());
     if (n_written < 0 && errno == EINTR) continue;
@@ -59,7 +59,7 @@ void Descriptor::write_all(std::string_view content) {
   }
 }
 
-void Descriptor::flush_to_disk() { require(::fsync(number_) == 0); }
+void Descriptor::flush_to_disk() const { require(::fsync(number_) == 0); }
 
 void Descriptor::close() {
   const int number = number_;

@@ -18,8 +18,8 @@ class Descriptor {
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
 
-  void write_all(std::string_view content);
-  void flush_to_disk();
+  void write_all(std::string_view content) const;
+  void flush_to_disk() const;
   void close();
   int number() const { return number_; }
 

@@ -19,7 +19,7 @@ namespace {
 }
 
 ssize_t read_uninterrupted(int descriptor, char* to, std::size_t n_bytes) {
-  ssize_t n_read;
+  ssize_t n_read = 0;
   do {
     n_read = ::read(descriptor, to, n_bytes);
   } while (n_read < 0 && errno == EINTR);

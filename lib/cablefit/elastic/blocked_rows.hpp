@@ -27,9 +27,9 @@ struct ElasticJob {
   const Rig& rig() const { return first_log_with(logs, wanted).plan.rig; }
 };
 
-/// Chooses the settings. The job refers to `logs` and `options`.
+/// The job of the preload `name`, its settings chosen. It refers to `logs` and `options`.
 ElasticJob make_job(std::span<const LogSurvey> logs, const ElasticOptions& options,
-                    const std::string& preload);
+                    const std::string& name);
 
 /// Rows under one choice of theta_0.
 struct BlockedRows {

@@ -108,7 +108,7 @@ void name_null_directions(const FreeFit& fit, const LinearProblem& problem, Line
 FreeFit fit_bounded(const RowStatistics& rows, const LinearProblem& problem,
                     std::vector<bool>& at_bound, Eigen::VectorXd& x) {
   for (;;) {
-    const FreeFit fit = fit_free(rows, problem, at_bound);
+    FreeFit fit = fit_free(rows, problem, at_bound);
     x.setZero();
     for (std::size_t k = 0; k < fit.free.size(); ++k)
       x(fit.free[k]) = fit.solve.x(static_cast<Eigen::Index>(k));

@@ -18,6 +18,6 @@ struct LongRunCovariance {
 LongRunCovariance long_run_covariance(const Eigen::Ref<const Eigen::MatrixXd>& series);
 
 /// Quantile of Student's t at probability 0.975, for 95 % intervals. dof >= 1; large dof -> 1.96.
-double t_quantile_975(double degrees_of_freedom);
+double t_quantile_975(double dof);
 
 }  // namespace cablefit

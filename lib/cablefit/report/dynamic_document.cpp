@@ -101,9 +101,9 @@ void add_tidy_rows(Table& table, const DynamicPreload& preload, const DynamicFit
   }
   const std::string torque = torque_unit(preload.linear_motion);
   for (const auto& [equation, error] : fit.torque_error) {
-    const auto add = [&](const char* what, const std::string& unit, double value) {
+    const auto add = [&, name = equation](const char* what, const std::string& unit, double value) {
       add_tidy_number(table, preload.name, fit.model, fit.estimator,
-                      fmt::format("torque_error_{}_{}", equation, what), unit, value);
+                      fmt::format("torque_error_{}_{}", name, what), unit, value);
     };
     add("rms", torque, error.rms);
     add("max_abs", torque, error.max_abs);

@@ -26,7 +26,7 @@ PartTracker::PartTracker(const LogPlan& plan, std::string default_preload)
     if (column) texts_.push_back(*column);
 }
 
-std::size_t PartTracker::end_of_part(const LogChunk& chunk, std::size_t begin) const {
+std::size_t PartTracker::end_of_part(const LogChunk& chunk, std::size_t begin) {
   std::size_t end = chunk.n_rows;
   for (const std::vector<std::uint32_t>& text : chunk.texts) {
     const auto first = text.begin() + static_cast<std::ptrdiff_t>(begin);

@@ -23,7 +23,7 @@ class PartTracker {
     bool operator==(const Key&) const = default;
   };
   /// First row from `begin` on that belongs elsewhere than row `begin` does.
-  std::size_t end_of_part(const LogChunk& chunk, std::size_t begin) const;
+  static std::size_t end_of_part(const LogChunk& chunk, std::size_t begin);
   /// Of one row of a chunk. Throws Error(input) for an unknown phase.
   Key key(const LogReader& reader, const LogChunk& chunk, std::size_t row) const;
 

@@ -38,6 +38,20 @@ class RowMask {
   Eigen::ArrayXd use_;
 };
 
+/// Quasi-static rows are decimated in two steps, the last of them by this at least. In between, at
+/// that many times the final rate, columns are formed: powers of a deflection reach to higher
+/// frequencies than the deflection does, and the torque's part up there must not be filtered away
+/// alone (4 would move stiffnesses by 5e-5, 1 by 1e-3).
+constexpr int kLastStep = 8;
+
+/// Factor of the first of two decimations; 1 when there is one only.
+int first_step(const RowSettings& settings) {
+  if (!settings.signal.quasi_static) return 1;
+  int step = std::max(1, settings.decimate / kLastStep);
+  while (settings.decimate % step != 0) --step;
+  return step;
+}
+
 /// The rows of a window that answer to an equation, and what became of the others.
 struct ChosenRows {
   std::vector<Eigen::Index> centres;  ///< in window coordinates
@@ -71,8 +85,9 @@ ChosenRows choose_rows(const Equation& equation, const Signals& signals, const W
   return chosen;
 }
 
-/// Signals of the chosen rows only.
-Signals decimated(const Signals& signals, const ChosenRows& chosen, const Decimation& decimation) {
+/// Signals at the given rows of the window, from rows [first, last) of it.
+Signals decimated(const Signals& signals, std::span<const Eigen::Index> centres, Eigen::Index first,
+                  Eigen::Index last, const Decimation& decimation) {
   Signals slow = signals;
   for (JointSignals& s : slow.joints) {
     std::vector<Eigen::ArrayXd*> arrays;
@@ -82,7 +97,7 @@ Signals decimated(const Signals& signals, const ChosenRows& chosen, const Decima
     Eigen::MatrixXd columns(signals.n_rows(), static_cast<Eigen::Index>(arrays.size()));
     for (std::size_t k = 0; k < arrays.size(); ++k)
       columns.col(static_cast<Eigen::Index>(k)) = *arrays[k];
-    columns = decimation.apply(columns, chosen.centres, chosen.first, chosen.last, {});
+    columns = decimation.apply(columns, centres, first, last, {});
     for (std::size_t k = 0; k < arrays.size(); ++k)
       *arrays[k] = columns.col(static_cast<Eigen::Index>(k));
   }
@@ -95,16 +110,40 @@ Eigen::MatrixXd columns_of(const Equation& equation, const Signals& signals) {
   return columns;
 }
 
+/// In one go: columns at the full rate, then every column decimated.
+Eigen::MatrixXd rows_at_once(const Equation& equation, const Signals& signals,
+                             const ChosenRows& chosen, const RowSettings& settings) {
+  return Decimation(settings.decimate)
+      .apply(columns_of(equation, signals), chosen.centres, chosen.first, chosen.last,
+             equation.averaged);
+}
+
+/// In two: signals that the low-pass has made slow are decimated to some times the final rate,
+/// where they still are what they were; then columns are formed and decimated for the rest, all
+/// alike.
+Eigen::MatrixXd rows_in_two_steps(const Equation& equation, const Signals& signals,
+                                  const ChosenRows& chosen, const RowSettings& settings) {
+  if (chosen.centres.empty()) return rows_at_once(equation, signals, chosen, settings);
+  const int step = first_step(settings);
+  // A grid that the centres are on.
+  const Eigen::Index begin =
+      chosen.centres.front() - (chosen.centres.front() - chosen.first) / step * step;
+  std::vector<Eigen::Index> grid, centres;
+  for (Eigen::Index at = begin; at < chosen.last; at += step) grid.push_back(at);
+  for (const Eigen::Index at : chosen.centres) centres.push_back((at - begin) / step);
+  const Signals slow = decimated(signals, grid, chosen.first, chosen.last, Decimation(step));
+  return Decimation(settings.decimate / step)
+      .apply(columns_of(equation, slow), centres, 0, static_cast<Eigen::Index>(grid.size()),
+             equation.averaged);
+}
+
 EquationBatch equation_rows(const Equation& equation, const Signals& signals, const Window& window,
                             const RowSettings& settings, Eigen::Index offset) {
   const ChosenRows chosen = choose_rows(equation, signals, window, settings);
-  const Decimation decimation(settings.decimate);
   EquationBatch batch;
   batch.counts = chosen.counts;
-  batch.rows = settings.signal.quasi_static
-                   ? columns_of(equation, decimated(signals, chosen, decimation))
-                   : decimation.apply(columns_of(equation, signals), chosen.centres, chosen.first,
-                                      chosen.last, equation.averaged);
+  batch.rows = first_step(settings) > 1 ? rows_in_two_steps(equation, signals, chosen, settings)
+                                        : rows_at_once(equation, signals, chosen, settings);
   for (const Eigen::Index at : chosen.centres) {
     batch.numbers.push_back(offset + (window.rows_before + window.first + at) / settings.decimate);
     batch.t.push_back(window.t0 + static_cast<double>(window.first + at) * window.period);
@@ -123,9 +162,9 @@ void RowCounts::operator+=(const RowCounts& other) {
 
 Eigen::Index row_halo(const RowSettings& settings, double rate) {
   const Eigen::Index averaging = 1;
-  const Eigen::Index needed = signal_halo(settings.signal, rate) +
-                              Decimation(settings.decimate).half_width() + averaging +
-                              settings.rest_margin + settings.decimate;
+  const Eigen::Index needed =
+      signal_halo(settings.signal, rate) + Decimation(settings.decimate).half_width() + averaging +
+      Decimation(first_step(settings)).half_width() + settings.rest_margin + settings.decimate;
   // A window is followed by more than its halo, or ends its segment: so the rows that the segment's
   // end takes are all in its last window.
   return std::max(needed, settings.drop_edge);

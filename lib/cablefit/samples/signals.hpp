@@ -15,8 +15,8 @@ struct SignalSettings {
   int filter_order = 4;
   bool torque_held = false;  ///< tau[i] acts from t[i] until t[i] + torque_period
   double torque_period = 0;  ///< s; 0: the log's period
-  /// Motion so slow that only positions, velocities and torques matter: no accelerations, no
-  /// filtered directions; and rows are decimated before an equation forms its columns of them.
+  /// Motion so slow against the rate that only positions, velocities and torques matter: no
+  /// accelerations, no filtered directions.
   bool quasi_static = false;
 };
 

@@ -94,7 +94,7 @@ class LogScan {
     convert(chunk);
     n_rows_ += chunk.n_rows;
     for (std::size_t begin = 0; begin < chunk.n_rows;) {
-      const std::size_t end = tracker_.end_of_part(chunk, begin);
+      const std::size_t end = PartTracker::end_of_part(chunk, begin);
       add_part(tracker_.key(reader, chunk, begin), chunk, begin, end);
       begin = end;
     }
