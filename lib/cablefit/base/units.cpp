@@ -101,7 +101,7 @@ class UnitParser {
     const std::size_t n_sign = !rest_.empty() && (rest_[0] == '-' || rest_[0] == '+') ? 1 : 0;
     const std::size_t end = std::min(rest_.find_first_not_of("0123456789", n_sign), rest_.size());
     if (end == n_sign) return {};
-    const std::string digits(rest_.substr(0, end));
+    std::string digits(rest_.substr(0, end));
     rest_.remove_prefix(end);
     return digits;
   }
