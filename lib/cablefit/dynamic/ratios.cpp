@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "cablefit/dynamic/dynamic_figures.hpp"
 #include "cablefit/estimate/least_squares.hpp"
@@ -43,6 +45,87 @@ Equation ratio_equation(double rest_speed) {
   return equation;
 }
 
+/// Streams all wanted rows; fills the counts of `preload`.
+RowStatistics collect(std::span<const LogSurvey> logs, const PartFilter& wanted,
+                      const DynamicOptions& options, const RowSettings& settings,
+                      const Equation& equation, DynamicPreload& preload) {
+  const RowStatistics blank(kResponse + 1, expected_rows(logs, wanted, settings),
+                            options.honest_sd);
+  RowStatistics rows = blank;
+  RowCounts& counts = preload.counts[equation.name];
+  preload.windows = stream_rows(
+      logs, wanted, settings, {&equation, 1}, options.samples.threads,
+      [&](const RowBatch& batch) {
+        RowStatistics part = blank.empty_copy();
+        part.add(batch.equations[0].rows, batch.equations[0].numbers);
+        return std::pair(std::move(part), batch.equations[0].counts);
+      },
+      [&](const std::pair<RowStatistics, RowCounts>& result) {
+        rows.add(result.first);
+        counts += result.second;
+      });
+  return rows;
+}
+
+LinearProblem ratio_problem() {
+  LinearProblem problem;
+  for (std::size_t k = 0; k < kRatios.size(); ++k) {
+    problem.regressors.push_back(static_cast<Eigen::Index>(k));
+    problem.names.emplace_back(kRatios[k].name);
+    problem.lower.push_back(kRatios[k].lower);
+  }
+  problem.response = Eigen::VectorXd::Unit(kResponse + 1, kResponse);
+  return problem;
+}
+
+Estimate ratio_estimate(const LinearSolution& s, std::size_t which, bool linear_motion,
+                        bool honest_sd) {
+  const Ratio& ratio = kRatios[which];
+  const auto k = static_cast<Eigen::Index>(which);
+  Estimate e;
+  e.name = e.symbol = ratio.name;
+  e.unit = linear_motion ? ratio.linear_unit : ratio.unit;
+  e.not_identifiable = s.not_identifiable[which];
+  if (e.not_identifiable.empty()) e.value = s.x(k);
+  const double t = t_quantile_975(s.degrees_of_freedom);
+  if (s.at_bound[which]) {
+    e.active_bound = fmt::format("{} >= 0", e.name);
+    e.sd = s.unbounded_sd(k);
+    e.ci_low = 0;
+    e.ci_high = std::max(0.0, s.unbounded_x(k) + t * e.sd);
+  } else if (e.not_identifiable.empty()) {
+    e.sd_white = std::sqrt(s.covariance_white(k, k));
+    e.sd = honest_sd ? std::sqrt(s.covariance(k, k)) : e.sd_white;
+    e.ci_low = e.value - t * e.sd;
+    e.ci_high = e.value + t * e.sd;
+  }
+  return e;
+}
+
+/// What only a measured torque would tell: said by name.
+void refuse_absolute(DynamicFit& fit) {
+  for (const char* absolute : {"J_link", "J_motor", "f_v", "f_s", "f_vm", "f_sm", "offset"}) {
+    Estimate e;
+    e.name = e.symbol = absolute;
+    e.not_identifiable = "no torque is measured: only ratios to J_link show";
+    fit.verdicts[absolute] = "not identifiable";
+    fit.parameters.push_back(e);
+  }
+}
+
+DynamicFit make_fit(const LinearSolution& s, const DynamicOptions& options, bool linear_motion) {
+  DynamicFit fit;
+  fit.model = "ratios";
+  fit.estimator = options.estimator;
+  for (std::size_t k = 0; k < 3; ++k)
+    fit.parameters.push_back(ratio_estimate(s, k, linear_motion, options.honest_sd));
+  refuse_absolute(fit);
+  fit.effective_rows["link"] = s.effective_rows;
+  fit.condition["link"] = s.condition;
+  fit.warnings = s.warnings;
+  return fit;
+}
+
 }  // namespace
 
 DynamicPreload fit_ratios(std::span<const LogSurvey> logs, const std::string& name,
@@ -59,72 +142,16 @@ DynamicPreload fit_ratios(std::span<const LogSurvey> logs, const std::string& na
   preload.rig_path = rig.path;
   const ChosenSettings settings = moving_settings(logs, wanted, options.samples, 0);
   preload.decisions = settings.decisions;
-  std::array<Equation, 1> equations = {ratio_equation(settings.rest_speed_q)};
-  equations[0].cutoff = settings.cutoff_q;
-  const RowStatistics blank(kResponse + 1, expected_rows(logs, wanted, settings.rows),
-                            options.honest_sd);
-  RowStatistics rows = blank;
-  RowCounts& counts = preload.counts["link"];
-  preload.windows = stream_rows(
-      logs, wanted, settings.rows, equations, options.samples.threads,
-      [&](RowBatch batch) {
-        RowStatistics part = blank.empty_copy();
-        part.add(batch.equations[0].rows, batch.equations[0].numbers);
-        return std::pair(std::move(part), batch.equations[0].counts);
-      },
-      [&](const std::pair<RowStatistics, RowCounts>& result) {
-        rows.add(result.first);
-        counts += result.second;
-      });
-
-  LinearProblem problem;
-  for (std::size_t k = 0; k < kRatios.size(); ++k) {
-    problem.regressors.push_back(static_cast<Eigen::Index>(k));
-    problem.names.emplace_back(kRatios[k].name);
-    problem.lower.push_back(kRatios[k].lower);
-  }
-  problem.response = Eigen::VectorXd::Unit(kResponse + 1, kResponse);
+  Equation equation = ratio_equation(settings.rest_speed_q);
+  equation.cutoff = settings.cutoff_q;
+  const RowStatistics rows = collect(logs, wanted, options, settings.rows, equation, preload);
+  const LinearProblem problem = ratio_problem();
   const LinearSolution s = solve(rows, problem);
-  DynamicFit fit;
-  fit.model = "ratios";
-  fit.estimator = options.estimator;
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    const Ratio& ratio = kRatios[static_cast<std::size_t>(k)];
-    Estimate e;
-    e.name = e.symbol = ratio.name;
-    e.unit = preload.linear_motion ? ratio.linear_unit : ratio.unit;
-    e.not_identifiable = s.not_identifiable[static_cast<std::size_t>(k)];
-    if (e.not_identifiable.empty()) e.value = s.x(k);
-    const double t = t_quantile_975(s.degrees_of_freedom);
-    if (s.at_bound[static_cast<std::size_t>(k)]) {
-      e.active_bound = fmt::format("{} >= 0", e.name);
-      e.sd = s.unbounded_sd(k);
-      e.ci_low = 0;
-      e.ci_high = std::max(0.0, s.unbounded_x(k) + t * e.sd);
-    } else if (e.not_identifiable.empty()) {
-      e.sd_white = std::sqrt(s.covariance_white(k, k));
-      e.sd = options.honest_sd ? std::sqrt(s.covariance(k, k)) : e.sd_white;
-      e.ci_low = e.value - t * e.sd;
-      e.ci_high = e.value + t * e.sd;
-    }
-    fit.parameters.push_back(e);
-  }
-  for (const char* absolute : {"J_link", "J_motor", "f_v", "f_s", "f_vm", "f_sm", "offset"}) {
-    Estimate e;
-    e.name = e.symbol = absolute;
-    e.not_identifiable = "no torque is measured: only ratios to J_link show";
-    fit.verdicts[absolute] = "not identifiable";
-    fit.parameters.push_back(e);
-  }
-  fit.effective_rows["link"] = s.effective_rows;
-  fit.condition["link"] = s.condition;
-  fit.warnings = s.warnings;
-  preload.fits.push_back(std::move(fit));
+  preload.fits.push_back(make_fit(s, options, preload.linear_motion));
   if (options.figures)
-    preload.figures =
-        ratio_figures({logs, wanted, settings.rows, options.samples.threads, equations[0],
-                       problem.response, s.residual_combination, s.rms()},
-                      preload);
+    preload.figures = ratio_figures({logs, wanted, settings.rows, options.samples.threads, equation,
+                                     problem.response, s.residual_combination, s.rms()},
+                                    preload);
   preload.warnings.emplace_back(
       "no torque in the log: ratios to J_link are all that can be identified");
   return preload;

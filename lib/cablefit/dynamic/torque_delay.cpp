@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "cablefit/estimate/least_squares.hpp"
 #include "cablefit/estimate/long_run.hpp"
@@ -81,6 +82,53 @@ void judge_delay(double hold, TorqueDelay& delay) {
         found, ms * hold);
 }
 
+struct DelayFit {
+  double seconds = 0, sd = 0;
+};
+
+/// Instrumental variables: instruments [W, model slope] for regressors [W, measured slope]; the
+/// last coefficient is the delay. `rows`: columns of the equation, then the measured and the model
+/// slope.
+std::optional<DelayFit> fit_delay(const RowStatistics& rows, const DynamicColumns& c,
+                                  const Eigen::VectorXd& plain_response) {
+  const Eigen::Index p = c.n_effects + 1;
+  const Eigen::MatrixXd gram = rows.r().transpose() * rows.r();
+  std::vector<Eigen::Index> z, x;
+  for (Eigen::Index k = 0; k < c.n_effects; ++k) z.push_back(k), x.push_back(k);
+  x.push_back(c.count);
+  z.push_back(c.count + 1);
+  Eigen::VectorXd response = Eigen::VectorXd::Zero(c.count + 2);
+  response.head(c.count) = plain_response;
+  Eigen::VectorXd scale(p);
+  for (Eigen::Index k = 0; k < p; ++k)
+    scale(k) =
+        1 / std::sqrt(std::max(gram(z[static_cast<std::size_t>(k)], z[static_cast<std::size_t>(k)]),
+                               1e-300));
+  Eigen::MatrixXd zx(p, p);
+  Eigen::VectorXd zy(p);
+  for (Eigen::Index i = 0; i < p; ++i) {
+    const auto zi = z[static_cast<std::size_t>(i)];
+    for (Eigen::Index j = 0; j < p; ++j)
+      zx(i, j) = scale(i) * gram(zi, x[static_cast<std::size_t>(j)]) * scale(j);
+    zy(i) = scale(i) * gram.row(zi).dot(response);
+  }
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(zx);
+  if (!lu.isInvertible()) return std::nullopt;
+  const Eigen::VectorXd solution = scale.cwiseProduct(lu.solve(zy));
+  Eigen::VectorXd residual = response;
+  for (Eigen::Index k = 0; k < p; ++k) residual(x[static_cast<std::size_t>(k)]) -= solution(k);
+  Eigen::MatrixXd scores(static_cast<Eigen::Index>(rows.cells().size()), p);
+  for (std::size_t cell = 0; cell < rows.cells().size(); ++cell) {
+    const Eigen::VectorXd all = rows.cells()[cell].gram * residual;
+    for (Eigen::Index k = 0; k < p; ++k)
+      scores(static_cast<Eigen::Index>(cell), k) = scale(k) * all(z[static_cast<std::size_t>(k)]);
+  }
+  // Influence of each cell on the delay alone: the last row of (Z'X)^-1 times its scores.
+  const Eigen::RowVectorXd last = lu.inverse().row(p - 1);
+  const LongRunCovariance spread = long_run_covariance(scores * last.transpose());
+  return DelayFit{solution(p - 1), scale(p - 1) * std::sqrt(spread.covariance(0, 0))};
+}
+
 }  // namespace
 
 TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFilter& wanted,
@@ -109,50 +157,16 @@ TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFil
   const LinearSolution start = solve(plain, problem);
   // The model's torque: effects plus elastic torque, i.e. the torque column less the residual.
   Eigen::VectorXd model = Eigen::VectorXd::Unit(c.count, c.torque) - start.residual_combination;
-  const RowStatistics rowsx = pilot_rows(logs, pilot, rows, with_slopes(base, c, model));
+  const RowStatistics with_slope_rows = pilot_rows(logs, pilot, rows, with_slopes(base, c, model));
 
-  // Instruments [W, model slope], regressors [W, measured slope].
-  const Eigen::Index p = c.n_effects + 1;
-  const Eigen::MatrixXd gram = rowsx.r().transpose() * rowsx.r();
-  std::vector<Eigen::Index> z, x;
-  for (Eigen::Index k = 0; k < c.n_effects; ++k) z.push_back(k), x.push_back(k);
-  x.push_back(c.count);
-  z.push_back(c.count + 1);
-  Eigen::VectorXd response = Eigen::VectorXd::Zero(c.count + 2);
-  response.head(c.count) = problem.response;
-  Eigen::VectorXd scale(p);
-  for (Eigen::Index k = 0; k < p; ++k)
-    scale(k) =
-        1 / std::sqrt(std::max(gram(z[static_cast<std::size_t>(k)], z[static_cast<std::size_t>(k)]),
-                               1e-300));
-  Eigen::MatrixXd zx(p, p);
-  Eigen::VectorXd zy(p);
-  for (Eigen::Index i = 0; i < p; ++i) {
-    const auto zi = z[static_cast<std::size_t>(i)];
-    for (Eigen::Index j = 0; j < p; ++j)
-      zx(i, j) = scale(i) * gram(zi, x[static_cast<std::size_t>(j)]) * scale(j);
-    zy(i) = scale(i) * gram.row(zi).dot(response);
-  }
-  const Eigen::FullPivLU<Eigen::MatrixXd> lu(zx);
-  if (!lu.isInvertible()) {
+  const auto fitted = fit_delay(with_slope_rows, c, problem.response);
+  if (!fitted) {
     delay.reason = "the motion does not determine a torque delay";
     return delay;
   }
-  const Eigen::VectorXd solution = scale.cwiseProduct(lu.solve(zy));
-  Eigen::VectorXd residual = response;
-  for (Eigen::Index k = 0; k < p; ++k) residual(x[static_cast<std::size_t>(k)]) -= solution(k);
-  Eigen::MatrixXd scores(static_cast<Eigen::Index>(rowsx.cells().size()), p);
-  for (std::size_t cell = 0; cell < rowsx.cells().size(); ++cell) {
-    const Eigen::VectorXd all = rowsx.cells()[cell].gram * residual;
-    for (Eigen::Index k = 0; k < p; ++k)
-      scores(static_cast<Eigen::Index>(cell), k) = scale(k) * all(z[static_cast<std::size_t>(k)]);
-  }
-  // Influence of each cell on the delay alone: the last row of (Z'X)^-1 times its scores.
-  const Eigen::RowVectorXd last = lu.inverse().row(p - 1);
-  const LongRunCovariance spread = long_run_covariance(scores * last.transpose());
   delay.estimated = true;
-  delay.seconds = solution(p - 1);
-  delay.sd = scale(p - 1) * std::sqrt(spread.covariance(0, 0));
+  delay.seconds = fitted->seconds;
+  delay.sd = fitted->sd;
   const double hold = rows.signal.torque_period > 0 ? rows.signal.torque_period : period;
   judge_delay(hold, delay);
   return delay;
