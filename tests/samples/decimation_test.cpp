@@ -142,4 +142,14 @@ TEST_CASE("averaged columns have weights (1, 10, 1)/12 on top of the taps", "[sa
              decimation.apply(averaged, middle, 0, n, {})));
 }
 
+TEST_CASE("averages take the rows there are at both ends", "[samples]") {
+  const Eigen::MatrixXd constant = Eigen::MatrixXd::Constant(7, 5, 2);
+  const std::vector<Eigen::Index> centres = {0, 1, 2, 3, 4, 5, 6};
+  for (const int factor : {1, 2, 5}) {
+    const Eigen::MatrixXd out =
+        Decimation(factor).apply(constant, centres, 0, 7, {true, true, true, true, false});
+    CHECK((out - constant).cwiseAbs().maxCoeff() < 1e-14);
+  }
+}
+
 }  // namespace

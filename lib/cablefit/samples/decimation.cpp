@@ -61,6 +61,23 @@ void weigh(const Columns& columns, Eigen::Index from, const Eigen::VectorXd& tap
   }
 }
 
+/// Taps that do not all fit, for the rows from `from` on.
+struct Stencil {
+  Eigen::Index from = 0;
+  Eigen::VectorXd taps;
+};
+
+/// Averaged as far as there are rows, the sum of the taps 1.
+Stencil cut_stencil(const Eigen::VectorXd& inside, Eigen::Index from, bool averaged,
+                    Eigen::Index n_rows) {
+  if (!averaged) return {from, inside};
+  const Eigen::VectorXd longer = averaging(inside);
+  const Eigen::Index first = std::max<Eigen::Index>(0, from - 1);
+  const Eigen::Index last = std::min(n_rows, from + inside.size() + 1);
+  const Eigen::VectorXd taps = longer.segment(first - (from - 1), last - first);
+  return {first, taps / taps.sum()};
+}
+
 }  // namespace
 
 Decimation::Decimation(int factor) : factor_(factor) {
@@ -89,13 +106,15 @@ void Decimation::apply_to(const Columns& columns, std::span<const Eigen::Index> 
     const auto row = static_cast<Eigen::Index>(i);
     const Eigen::Index from = std::max(first, centres[i] - half);
     const Eigen::Index to = std::min(last, centres[i] + half + 1);
-    if (to - from == taps_.size() && from - reach + usual.size() <= columns.rows()) {
+    const bool is_whole =
+        to - from == taps_.size() && from >= reach && from - reach + usual.size() <= columns.rows();
+    if (is_whole) {
       weigh(columns, from - reach, usual, row, out);
-      continue;
+    } else {
+      const auto inside = taps_.segment(from - (centres[i] - half), to - from);
+      const Stencil cut = cut_stencil(inside / inside.sum(), from, averaged, columns.rows());
+      weigh(columns, cut.from, cut.taps, row, out);
     }
-    const auto inside = taps_.segment(from - (centres[i] - half), to - from);
-    const Eigen::VectorXd scaled = inside / inside.sum();
-    weigh(columns, from - reach, averaged ? averaging(scaled) : scaled, row, out);
   }
 }
 
