@@ -83,22 +83,22 @@ void require_known(const std::string& what, const std::string& text,
 }
 
 void add_number(CLI::App& app, const std::string& name, const std::string& unit, Range range,
-                std::function<void(double)> use, const std::string& help) {
+                const std::function<void(double)>& use, const std::string& help) {
   app.add_option_function<std::string>(
          name, [=](const std::string& text) { use(parse_number(name, text, range)); }, help)
       ->type_name(unit);
 }
 
 void add_whole(CLI::App& app, const std::string& name, const std::string& unit, Range range,
-               std::function<void(long)> use, const std::string& help) {
+               const std::function<void(long)>& use, const std::string& help) {
   app.add_option_function<std::string>(
          name, [=](const std::string& text) { use(parse_whole(name, text, range)); }, help)
       ->type_name(unit);
 }
 
 void add_choice(CLI::App& app, const std::string& name, const std::string& what,
-                const std::vector<std::string>& known, std::function<void(const std::string&)> use,
-                const std::string& help) {
+                const std::vector<std::string>& known,
+                const std::function<void(const std::string&)>& use, const std::string& help) {
   const auto take = [=](const std::string& text) {
     require_known(what, text, known);
     use(text);

@@ -21,14 +21,14 @@ struct Range {
 
 /// A number or whole number within a range, "--cutoff HZ".
 void add_number(CLI::App& app, const std::string& name, const std::string& unit, Range range,
-                std::function<void(double)> use, const std::string& help);
+                const std::function<void(double)>& use, const std::string& help);
 void add_whole(CLI::App& app, const std::string& name, const std::string& unit, Range range,
-               std::function<void(long)> use, const std::string& help);
+               const std::function<void(long)>& use, const std::string& help);
 
 /// One of some words; anything else gets a near match. `what` names them: "model".
 void add_choice(CLI::App& app, const std::string& name, const std::string& what,
-                const std::vector<std::string>& known, std::function<void(const std::string&)> use,
-                const std::string& help);
+                const std::vector<std::string>& known,
+                const std::function<void(const std::string&)>& use, const std::string& help);
 
 /// What the converters above do with a value.
 double parse_number(const std::string& option, const std::string& text, Range range);
