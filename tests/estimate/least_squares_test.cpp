@@ -111,7 +111,7 @@ TEST_CASE("bounds are met and the others fitted again", "[estimate]") {
   CHECK(s.n_params == 2);
   // Bounds that do not bind do nothing.
   const LinearSolution free = fit(data, {"a", "b", "c"});
-  const LinearSolution loose = fit(data, {"a", "b", "c"}, {-5, kNone, kNone});
+  const LinearSolution loose = fit(data, {"a", "b", "c"}, {kNone, 0, kNone});
   CHECK((free.x - loose.x).norm() == 0);
 }
 

@@ -2,65 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "cablefit/estimate/long_run.hpp"
+#include "cablefit/estimate/active_set.hpp"
+#include "cablefit/estimate/scaled_solve.hpp"
+#include "cablefit/estimate/solution_covariance.hpp"
 
 namespace cablefit {
 namespace {
 
-// Columns whose scaled singular value is below this cannot be told apart in double precision data
-// that carries at best nine digits ("%.9g").
-constexpr double kRankTolerance = 1e-9;
 constexpr double kNullComponent = 0.05;  // share in a null direction that counts as taking part
 constexpr double kCorrelationWarning = 0.95;  // estimation-rules: warn above
-
-struct ScaledSolve {
-  Eigen::VectorXd x;
-  Eigen::MatrixXd inverse;          // (W'W)^-1 over the free columns, 0 elsewhere
-  Eigen::MatrixXd null_directions;  // p x (p - rank), columns of unit norm, in scaled parameters
-  double condition_scaled = 0;
-  double condition = 0;
-};
-
-ScaledSolve solve_scaled(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
-  const Eigen::Index p = a.cols();
-  ScaledSolve s;
-  if (p == 0) {  // every parameter stands on its bound
-    s.inverse.resize(0, 0);
-    return s;
-  }
-  Eigen::VectorXd norm = a.colwise().norm();
-  for (Eigen::Index k = 0; k < p; ++k)
-    if (!(norm(k) > 0)) norm(k) = 1;
-  const Eigen::MatrixXd scaled = a * norm.cwiseInverse().asDiagonal();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd& sv = svd.singularValues();
-  Eigen::Index rank = 0;
-  while (rank < sv.size() && sv(rank) > kRankTolerance * sv(0)) ++rank;
-  s.condition_scaled =
-      sv(sv.size() - 1) > 0 ? sv(0) / sv(sv.size() - 1) : std::numeric_limits<double>::infinity();
-  const Eigen::VectorXd plain = Eigen::JacobiSVD<Eigen::MatrixXd>(a).singularValues();
-  s.condition =
-      plain(p - 1) > 0 ? plain(0) / plain(p - 1) : std::numeric_limits<double>::infinity();
-  s.null_directions = svd.matrixV().rightCols(p - rank);
-  if (rank == p) {
-    // Full rank: backward stable QR; the SVD above only answers how well determined it is.
-    s.x = scaled.householderQr().solve(b).cwiseQuotient(norm);
-  } else {
-    const auto v = svd.matrixV().leftCols(rank);
-    const Eigen::VectorXd c = svd.matrixU().leftCols(rank).transpose() * b;
-    s.x = (v * c.cwiseQuotient(sv.head(rank))).cwiseQuotient(norm);
-  }
-  const Eigen::MatrixXd half = norm.cwiseInverse().asDiagonal() * svd.matrixV().leftCols(rank) *
-                               sv.head(rank).cwiseInverse().asDiagonal();
-  s.inverse = half * half.transpose();
-  return s;
-}
 
 std::string null_text(const Eigen::VectorXd& direction, Eigen::Index self,
                       const std::vector<std::string>& names) {
@@ -74,20 +27,31 @@ std::string null_text(const Eigen::VectorXd& direction, Eigen::Index self,
 }
 
 struct FreeFit {
-  std::vector<Eigen::Index> free;  // positions within problem.regressors
-  ScaledSolve solve;
+  std::vector<Eigen::Index> free;
+  ScaledSolve solve;  ///< of x(free), also where a basis ties them
 };
 
-FreeFit fit_free(const RowStatistics& rows, const LinearProblem& problem,
-                 const std::vector<bool>& fixed) {
-  FreeFit fit;
-  for (std::size_t k = 0; k < problem.regressors.size(); ++k)
-    if (!fixed[k]) fit.free.push_back(static_cast<Eigen::Index>(k));
-  Eigen::MatrixXd a(rows.n_columns(), static_cast<Eigen::Index>(fit.free.size()));
-  for (std::size_t k = 0; k < fit.free.size(); ++k)
+Eigen::MatrixXd columns_of(const RowStatistics& rows, const LinearProblem& problem,
+                           const std::vector<Eigen::Index>& which) {
+  Eigen::MatrixXd a(rows.n_columns(), static_cast<Eigen::Index>(which.size()));
+  for (std::size_t k = 0; k < which.size(); ++k)
     a.col(static_cast<Eigen::Index>(k)) =
-        rows.r().col(problem.regressors[static_cast<std::size_t>(fit.free[k])]);
-  fit.solve = solve_scaled(a, rows.r() * problem.response);
+        rows.r().col(problem.regressors[static_cast<std::size_t>(which[k])]);
+  return a;
+}
+
+FreeFit fit_free(const RowStatistics& rows, const LinearProblem& problem, const Freedom& freedom) {
+  FreeFit fit{freedom.free, {}};
+  const Eigen::MatrixXd a = columns_of(rows, problem, freedom.free);
+  const Eigen::VectorXd b = rows.r() * problem.response;
+  if (!freedom.basis) {
+    fit.solve = solve_scaled(a, b);
+    return fit;
+  }
+  const Eigen::MatrixXd& basis = *freedom.basis;
+  fit.solve = solve_scaled(a * basis, b);
+  fit.solve.x = basis * fit.solve.x;
+  fit.solve.inverse = basis * fit.solve.inverse * basis.transpose();
   return fit;
 }
 
@@ -103,32 +67,19 @@ void name_null_directions(const FreeFit& fit, const LinearProblem& problem, Line
   }
 }
 
-// Physical bounds by an active set: fix the worst offender on its bound and fit again. All bounds
-// are 0 here in practice (inertia, friction), and columns are few.
-FreeFit fit_bounded(const RowStatistics& rows, const LinearProblem& problem,
-                    std::vector<bool>& at_bound, Eigen::VectorXd& x) {
-  for (;;) {
-    FreeFit fit = fit_free(rows, problem, at_bound);
-    x.setZero();
-    for (std::size_t k = 0; k < fit.free.size(); ++k)
-      x(fit.free[k]) = fit.solve.x(static_cast<Eigen::Index>(k));
-    if (problem.lower.empty()) return fit;
-    Eigen::Index worst = -1;
-    double worst_ratio = 0;
-    for (std::size_t k = 0; k < fit.free.size(); ++k) {
-      const Eigen::Index j = fit.free[k];
-      if (x(j) >= problem.lower[static_cast<std::size_t>(j)]) continue;
-      const double scale =
-          std::sqrt(fit.solve.inverse(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)));
-      const double ratio = (problem.lower[static_cast<std::size_t>(j)] - x(j)) / scale;
-      if (ratio > worst_ratio) {
-        worst_ratio = ratio;
-        worst = j;
-      }
-    }
-    if (worst < 0) return fit;
-    at_bound[static_cast<std::size_t>(worst)] = true;
-  }
+/// The fit under all inequalities; `unbounded` itself when it satisfies them.
+FreeFit fit_constrained(const RowStatistics& rows, const LinearProblem& problem,
+                        const FreeFit& unbounded, LinearSolution& out) {
+  const ActiveSet active =
+      find_active_set(columns_of(rows, problem, unbounded.free), rows.r() * problem.response,
+                      unbounded.solve.x, problem, unbounded.free);
+  if (active.empty) return unbounded;
+  out.active_constraints = active.constraints;
+  for (const Eigen::Index k : unbounded.free) out.at_bound[static_cast<std::size_t>(k)] = true;
+  for (const Eigen::Index k : active.freedom.free)
+    out.at_bound[static_cast<std::size_t>(k)] = false;
+  out.n_tied = active.freedom.n_tied();
+  return fit_free(rows, problem, active.freedom);
 }
 
 Eigen::MatrixXd expand(const FreeFit& fit, Eigen::Index p) {
@@ -138,58 +89,6 @@ Eigen::MatrixXd expand(const FreeFit& fit, Eigen::Index p) {
       full(fit.free[i], fit.free[j]) =
           fit.solve.inverse(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   return full;
-}
-
-// Sandwich (W'W)^-1 S (W'W)^-1 with S the long-run covariance of the cells' scores W' rho.
-void honest_covariance(const RowStatistics& rows, const LinearProblem& problem,
-                       LinearSolution& out) {
-  const Eigen::Index p = out.x.size();
-  const auto n_cells = static_cast<Eigen::Index>(rows.cells().size());
-  if (n_cells < 8) {
-    out.covariance = out.covariance_white;
-    out.degrees_of_freedom =
-        static_cast<double>(std::max<Eigen::Index>(1, out.n_rows - out.n_params));
-    out.effective_rows = static_cast<double>(out.n_rows);
-    return;
-  }
-  Eigen::MatrixXd scores(n_cells, p);
-  for (Eigen::Index c = 0; c < n_cells; ++c) {
-    const Eigen::VectorXd all =
-        rows.cells()[static_cast<std::size_t>(c)].gram * out.residual_combination;
-    for (Eigen::Index k = 0; k < p; ++k)
-      scores(c, k) = all(problem.regressors[static_cast<std::size_t>(k)]);
-  }
-  // Rotate into the parameters before choosing a bandwidth: what counts is the correlation of each
-  // estimate's own influence, not of the raw columns.
-  const Eigen::MatrixXd influence = scores * out.solve_operator;
-  const LongRunCovariance hac = long_run_covariance(influence);
-  const double n = static_cast<double>(out.n_rows);
-  const double small_sample = n / std::max(1.0, n - out.n_params);
-  out.covariance = small_sample * hac.covariance;
-  // No credit for anti-correlated residuals: encoder quantisation looks like that, and what the
-  // filter leaves of a bias does not shrink with it.
-  for (Eigen::Index k = 0; k < p; ++k) {
-    const double white = out.covariance_white(k, k);
-    if (out.covariance(k, k) >= white) continue;
-    if (!(out.covariance(k, k) > 0)) {  // a kernel cut off is not quite positive
-      out.covariance.row(k).setZero();
-      out.covariance.col(k).setZero();
-      out.covariance(k, k) = white;
-      continue;
-    }
-    const double grow = std::sqrt(white / out.covariance(k, k));
-    out.covariance.row(k) *= grow;
-    out.covariance.col(k) *= grow;
-  }
-  out.degrees_of_freedom = hac.degrees_of_freedom;
-  double inflation = 0;
-  int counted = 0;
-  for (Eigen::Index k = 0; k < p; ++k) {
-    if (!(out.covariance_white(k, k) > 0)) continue;
-    inflation += out.covariance(k, k) / out.covariance_white(k, k);
-    ++counted;
-  }
-  out.effective_rows = counted > 0 && inflation > 0 ? n * counted / inflation : n;
 }
 
 void note_correlations(const LinearProblem& problem, const Eigen::MatrixXd& inverse,
@@ -208,19 +107,6 @@ void note_correlations(const LinearProblem& problem, const Eigen::MatrixXd& inve
     }
 }
 
-// With one parameter on its bound the others look better determined than they are: what they trade
-// with it is still unknown. Their variance is at least that of the fit without bounds.
-void widen_beside_bounds(LinearSolution& out) {
-  if (std::none_of(out.at_bound.begin(), out.at_bound.end(), [](bool b) { return b; })) return;
-  for (Eigen::Index k = 0; k < out.x.size(); ++k) {
-    const double variance = out.unbounded_sd(k) * out.unbounded_sd(k);
-    if (!(out.covariance(k, k) > 0) || variance <= out.covariance(k, k)) continue;
-    const double grow = std::sqrt(variance / out.covariance(k, k));
-    out.covariance.row(k) *= grow;
-    out.covariance.col(k) *= grow;
-  }
-}
-
 }  // namespace
 
 double LinearSolution::rms() const {
@@ -235,17 +121,17 @@ LinearSolution solve(const RowStatistics& rows, const LinearProblem& problem) {
   out.at_bound.assign(problem.regressors.size(), false);
   out.n_rows = rows.n_rows();
 
-  std::vector<bool> held(problem.regressors.size(), false);
-  for (std::size_t k = 0; k < problem.held.size(); ++k) held[k] = !problem.held[k].empty();
-  const FreeFit unbounded = fit_free(rows, problem, held);
+  Freedom all;
+  for (std::size_t k = 0; k < problem.regressors.size(); ++k) {
+    const bool held = k < problem.held.size() && !problem.held[k].empty();
+    if (!held) all.free.push_back(static_cast<Eigen::Index>(k));
+    if (held) out.not_identifiable[k] = problem.held[k];
+  }
+  const FreeFit unbounded = fit_free(rows, problem, all);
   name_null_directions(unbounded, problem, out);
-  out.at_bound = held;
-  const FreeFit fit = fit_bounded(rows, problem, out.at_bound, out.x);
-  for (std::size_t k = 0; k < problem.held.size(); ++k)
-    if (held[k]) {
-      out.at_bound[k] = false;
-      out.not_identifiable[k] = problem.held[k];
-    }
+  const FreeFit fit = fit_constrained(rows, problem, unbounded, out);
+  for (std::size_t k = 0; k < fit.free.size(); ++k)
+    out.x(fit.free[k]) = fit.solve.x(static_cast<Eigen::Index>(k));
   out.condition_scaled = unbounded.solve.condition_scaled;
   out.condition = unbounded.solve.condition;
   out.solve_operator = expand(fit, p);
@@ -256,6 +142,7 @@ LinearSolution solve(const RowStatistics& rows, const LinearProblem& problem) {
         !out.at_bound[static_cast<std::size_t>(k)])
       ++out.n_params;
   }
+  out.n_params -= out.n_tied;
   out.rss = (rows.r() * out.residual_combination).squaredNorm();
   const double dof = static_cast<double>(std::max<Eigen::Index>(1, out.n_rows - out.n_params));
   out.covariance_white = out.rss / dof * out.solve_operator;
@@ -266,7 +153,7 @@ LinearSolution solve(const RowStatistics& rows, const LinearProblem& problem) {
   // Same noise level and the same ratio of honest to white sd as the bounded fit.
   const double honesty = std::sqrt(static_cast<double>(out.n_rows) / out.effective_rows);
   out.unbounded_sd = honesty * (out.rss / dof * expand(unbounded, p).diagonal()).cwiseSqrt();
-  widen_beside_bounds(out);
+  if (out.active_constraints.empty()) widen_beside_bounds(out);
   note_correlations(problem, expand(unbounded, p), out);
   return out;
 }

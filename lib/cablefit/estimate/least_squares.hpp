@@ -16,10 +16,12 @@ namespace cablefit {
 struct LinearProblem {
   std::vector<Eigen::Index> regressors;
   std::vector<std::string> names;  ///< one per regressor, for messages
-  std::vector<double> lower;       ///< bound per regressor, -inf for none; empty: no bounds
+  std::vector<double> lower;       ///< bound per regressor, 0 or -inf; empty: no bounds
   Eigen::VectorXd response;
   /// Per regressor why it is held at 0 instead of estimated ("never taut"); empty: it is estimated.
   std::vector<std::string> held = {};
+  /// constraints * x >= 0, a column per regressor; no rows: none.
+  Eigen::MatrixXd constraints = {};
 };
 
 struct LinearSolution {
@@ -29,13 +31,17 @@ struct LinearSolution {
   Eigen::MatrixXd covariance;
   Eigen::MatrixXd solve_operator;             ///< (W'W)^-1, p x p; 0 rows for fixed or undetermined
   std::vector<std::string> not_identifiable;  ///< per parameter, empty text when it is determined
-  std::vector<bool> at_bound;
+  std::vector<bool> at_bound;  ///< at 0, by a bound or by constraints that leave no way out
+  /// Rows of problem.constraints that hold the solution. Then covariances are conditional on them:
+  /// as if constraints * x = 0 were known for these rows, with n_tied directions fewer.
+  std::vector<Eigen::Index> active_constraints;
   Eigen::VectorXd unbounded_x,
       unbounded_sd;                      ///< of the fit without bounds, for the interval at one
   Eigen::VectorXd residual_combination;  ///< n_columns: rows * this = residual
   double rss = 0;                        ///< sum of squared residuals
   Eigen::Index n_rows = 0;
-  int n_params = 0;                   ///< determined and not at a bound
+  int n_tied = 0;                     ///< active constraints between parameters not at a bound
+  int n_params = 0;                   ///< determined, not at a bound, not tied
   double condition_scaled = 0;        ///< of the columns scaled to unit norm
   double condition = 0;               ///< of the columns as they are, cond(W)
   double degrees_of_freedom = 0;      ///< for t quantiles

@@ -1,0 +1,20 @@
+// Dense least squares of a small matrix with scaled columns: QR for the numbers, singular values
+// for how well they are determined.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace cablefit {
+
+struct ScaledSolve {
+  Eigen::VectorXd x;                ///< of least norm (columns scaled) where it is not unique
+  Eigen::MatrixXd inverse;          ///< (A'A)^-1 of what is determined
+  Eigen::MatrixXd null_directions;  ///< p x (p - rank), columns of unit norm, in scaled parameters
+  double condition_scaled = 0;      ///< of the columns scaled to unit norm
+  double condition = 0;             ///< of the columns as they are
+};
+
+/// Minimises |a x - b|. a: m x p with m >= p, b: m. p = 0 is allowed.
+ScaledSolve solve_scaled(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+
+}  // namespace cablefit
