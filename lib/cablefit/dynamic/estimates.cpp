@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "cablefit/estimate/long_run.hpp"
+#include "cablefit/estimate/parameter_estimate.hpp"
 
 namespace cablefit {
 namespace {
@@ -53,33 +53,6 @@ Eigen::MatrixXd stage1_covariance(const RowStatistics& rows, const DynamicColumn
       rows.r().leftCols(c.n_effects).transpose() * rows.r().middleCols(c.elastic[which], n);
   const Eigen::MatrixXd sensitivity = s.solve_operator * cross;
   return sensitivity * stage1.covariance * sensitivity.transpose();
-}
-
-Estimate bounded_estimate(Estimate e, const LinearSolution& s, Eigen::Index k, double t) {
-  e.active_bound = fmt::format("{} >= 0", e.name);
-  e.sd = s.unbounded_sd(k);
-  e.ci_low = 0;
-  e.ci_high = std::max(0.0, s.unbounded_x(k) + t * e.sd);
-  return e;
-}
-
-Estimate make_estimate(const ParameterInfo& info, const LinearSolution& s,
-                       const Eigen::MatrixXd& extra, Eigen::Index k, bool linear_motion,
-                       bool honest) {
-  Estimate e;
-  e.name = info.name;
-  e.symbol = info.symbol;
-  e.unit = linear_motion ? linear_unit(info.unit) : std::string(info.unit);
-  e.not_identifiable = s.not_identifiable[static_cast<std::size_t>(k)];
-  if (!e.not_identifiable.empty()) return e;
-  e.value = s.x(k);
-  const double t = t_quantile_975(s.degrees_of_freedom);
-  if (s.at_bound[static_cast<std::size_t>(k)]) return bounded_estimate(e, s, k, t);
-  e.sd_white = std::sqrt(s.covariance_white(k, k));
-  e.sd = honest ? std::sqrt(s.covariance(k, k) + extra(k, k)) : e.sd_white;
-  e.ci_low = std::max(info.lower, e.value - t * e.sd);
-  e.ci_high = e.value + t * e.sd;
-  return e;
 }
 
 void refuse(Estimate& e, const std::string& why) {
@@ -140,7 +113,7 @@ void add_estimates(const RowStatistics& rows, const DynamicColumns& c, const Lin
   Eigen::Index k = 0;
   for (const Effect* effect : c.effects)
     for (const ParameterInfo& info : effect->parameters) {
-      Estimate e = make_estimate(info, s, extra, k, linear_motion, honest);
+      Estimate e = estimate_of(info, linear_motion, s, k, {honest, extra(k, k)});
       if (effect->inertia != nullptr) judge_inertia(rows, c, s, k, which, e, fit.warnings);
       fit.verdicts[e.name] = e.not_identifiable.empty() ? "identified" : "not identifiable";
       fit.parameters.push_back(std::move(e));

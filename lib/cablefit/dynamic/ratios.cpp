@@ -8,23 +8,17 @@
 #include <utility>
 
 #include "cablefit/dynamic/dynamic_figures.hpp"
-#include "cablefit/estimate/least_squares.hpp"
-#include "cablefit/estimate/long_run.hpp"
+#include "cablefit/estimate/parameter_estimate.hpp"
 #include "cablefit/samples/agreement.hpp"
 
 namespace cablefit {
 namespace {
 
-struct Ratio {
-  const char* name;
-  const char* unit;
-  const char* linear_unit;
-  double lower;
-};
-constexpr std::array<Ratio, 4> kRatios = {{{"K/J_link", "1/s^2", "1/s^2", 0},
-                                           {"f_v/J_link", "1/s", "1/s", 0},
-                                           {"f_s/J_link", "rad/s^2", "m/s^2", 0},
-                                           {"constant", "rad/s^2", "m/s^2", -kUnbounded}}};
+constexpr std::array<ParameterInfo, 4> kRatios = {
+    {{"K/J_link", "K/J_link", "1/s^2", "stiffness over inertia", 0},
+     {"f_v/J_link", "f_v/J_link", "1/s", "viscous friction over inertia", 0},
+     {"f_s/J_link", "f_s/J_link", "rad/s^2", "Coulomb friction over inertia", 0},
+     {"constant", "constant", "rad/s^2", "a constant torque over inertia"}}};
 constexpr Eigen::Index kResponse = 4;
 
 Equation ratio_equation(double rest_speed) {
@@ -78,30 +72,6 @@ LinearProblem ratio_problem() {
   return problem;
 }
 
-Estimate ratio_estimate(const LinearSolution& s, std::size_t which, bool linear_motion,
-                        bool honest_sd) {
-  const Ratio& ratio = kRatios[which];
-  const auto k = static_cast<Eigen::Index>(which);
-  Estimate e;
-  e.name = e.symbol = ratio.name;
-  e.unit = linear_motion ? ratio.linear_unit : ratio.unit;
-  e.not_identifiable = s.not_identifiable[which];
-  if (e.not_identifiable.empty()) e.value = s.x(k);
-  const double t = t_quantile_975(s.degrees_of_freedom);
-  if (s.at_bound[which]) {
-    e.active_bound = fmt::format("{} >= 0", e.name);
-    e.sd = s.unbounded_sd(k);
-    e.ci_low = 0;
-    e.ci_high = std::max(0.0, s.unbounded_x(k) + t * e.sd);
-  } else if (e.not_identifiable.empty()) {
-    e.sd_white = std::sqrt(s.covariance_white(k, k));
-    e.sd = honest_sd ? std::sqrt(s.covariance(k, k)) : e.sd_white;
-    e.ci_low = e.value - t * e.sd;
-    e.ci_high = e.value + t * e.sd;
-  }
-  return e;
-}
-
 /// What only a measured torque would tell: said by name.
 void refuse_absolute(DynamicFit& fit) {
   for (const char* absolute : {"J_link", "J_motor", "f_v", "f_s", "f_vm", "f_sm", "offset"}) {
@@ -118,7 +88,8 @@ DynamicFit make_fit(const LinearSolution& s, const DynamicOptions& options, bool
   fit.model = "ratios";
   fit.estimator = options.estimator;
   for (std::size_t k = 0; k < 3; ++k)
-    fit.parameters.push_back(ratio_estimate(s, k, linear_motion, options.honest_sd));
+    fit.parameters.push_back(estimate_of(kRatios[k], linear_motion, s, static_cast<Eigen::Index>(k),
+                                         {options.honest_sd}));
   refuse_absolute(fit);
   fit.effective_rows["link"] = s.effective_rows;
   fit.condition["link"] = s.condition;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/estimate/long_run.hpp"
+#include "cablefit/estimate/parameter_estimate.hpp"
 
 namespace cablefit {
 namespace {
@@ -35,68 +35,25 @@ bool hardly_taut(const BlockedRows& rows, Eigen::Index first_column) {
   return r.col(first_column).norm() < kTautShare * r.col(rows.columns.deflection).norm();
 }
 
-Estimate estimate_of(const std::string& name, const std::string& unit, Eigen::Index k,
-                     const LinearSolution& s) {
-  Estimate e;
-  e.name = name;
-  e.symbol = name;
-  e.unit = unit;
-  e.not_identifiable = s.not_identifiable[static_cast<std::size_t>(k)];
-  if (!e.not_identifiable.empty()) return e;
-  e.value = s.x(k);
-  if (s.at_bound[static_cast<std::size_t>(k)]) {
-    e.active_bound = fmt::format("{} >= 0", name);
-    e.sd = s.unbounded_sd(k);
-    e.ci_low = 0;
-    e.ci_high = std::max(0.0, s.unbounded_x(k) + t_quantile_975(s.degrees_of_freedom) * e.sd);
-    return e;
-  }
-  e.sd = std::sqrt(s.covariance(k, k));
-  e.sd_white = std::sqrt(s.covariance_white(k, k));
-  const double t = t_quantile_975(s.degrees_of_freedom);
-  e.ci_low = e.value - t * e.sd;
-  e.ci_high = e.value + t * e.sd;
-  return e;
-}
-
-std::string unit_of(const Candidate& candidate, std::size_t k, bool linear_motion,
-                    bool cable_space) {
-  std::string unit;
-  if (k < candidate.n_elastic) {
-    if (candidate.model == "linear") {
-      unit = "N m/rad";
-    } else {
-      std::size_t first = 0;
-      for (const Cable& cable : candidate.transmission.cables) {
-        const auto n = static_cast<std::size_t>(cable.n_coefficients());
-        if (k < first + n) {
-          unit = coefficient_unit(static_cast<int>(k - first), cable_space);
-          break;
-        }
-        first += n;
-      }
-      if (cable_space) return unit;
-    }
-  } else {
-    unit = candidate.names[k] == "theta_0" ? "rad"
+/// On a rotary axis, or in cable space.
+std::string unit_of(const Candidate& candidate, std::size_t k, bool cable_space) {
+  if (k >= candidate.n_elastic)
+    return candidate.names[k] == "theta_0" ? "rad"
            : candidate.names[k] == "f_vm"  ? "N m s/rad"
                                            : "N m";
+  std::size_t first = 0;
+  for (const Cable& cable : candidate.transmission.cables) {
+    const auto n = static_cast<std::size_t>(cable.n_coefficients());
+    if (k < first + n) return coefficient_unit(static_cast<int>(k - first), cable_space);
+    first += n;
   }
-  return linear_motion ? linear_unit(unit) : unit;
-}
-
-void use_white_sd(Estimate& e) {
-  if (!(e.sd > 0) || !(e.sd_white > 0)) return;
-  const double shrink = e.sd_white / e.sd;
-  e.ci_low = e.value - shrink * (e.value - e.ci_low);
-  e.ci_high = e.value + shrink * (e.ci_high - e.value);
-  e.sd = e.sd_white;
+  return "N m/rad";  // no cables: the linear spring
 }
 
 /// Linear spring with an arbitrary encoder zero: K phi + c = K (phi - theta_0), theta_0 = -c/K, by
 /// the delta method.
 Estimate zero_of_line(const LinearSolution& s, Eigen::Index constant, double zero,
-                      bool linear_motion) {
+                      bool linear_motion, bool honest) {
   const double stiffness = s.x(0);
   const double by_stiffness = s.x(constant) / (stiffness * stiffness);
   const double by_constant = -1 / stiffness;
@@ -109,11 +66,9 @@ Estimate zero_of_line(const LinearSolution& s, Eigen::Index constant, double zer
   e.name = e.symbol = "theta_0";
   e.unit = linear_motion ? "m" : "rad";
   e.value = zero - s.x(constant) / stiffness;
-  e.sd = sd(s.covariance);
   e.sd_white = sd(s.covariance_white);
-  const double t = t_quantile_975(s.degrees_of_freedom);
-  e.ci_low = e.value - t * e.sd;
-  e.ci_high = e.value + t * e.sd;
+  e.sd = honest ? sd(s.covariance) : e.sd_white;
+  set_interval(e, s.degrees_of_freedom);
   return e;
 }
 
@@ -222,16 +177,16 @@ ElasticFit make_fit(const ElasticJob& job, const Candidate& candidate, const Lin
     const std::string& name = candidate.names[k];
     if (name == "f_vm") continue;  // a sweep this slow only keeps it out of f_sm
     const auto index = static_cast<Eigen::Index>(k);
-    const std::string unit = unit_of(candidate, k, rig.linear_motion, rig.cables_given);
-    Estimate e = estimate_of(name, unit, index, s);
+    const std::string unit = unit_of(candidate, k, rig.cables_given);
+    Estimate e = estimate_of({name, name, unit, "", candidate.lower[k]}, rig.linear_motion, s,
+                             index, {job.options.honest_sd});
     if (name == "offset" && nuisance.theta_0) {
-      e = zero_of_line(s, index, zero, rig.linear_motion);
+      e = zero_of_line(s, index, zero, rig.linear_motion, job.options.honest_sd);
     } else if (name == "theta_0") {
       e.value += zero;
       e.ci_low += zero;
       e.ci_high += zero;
     }
-    if (!job.options.honest_sd) use_white_sd(e);
     if (e.name == "theta_0") fit.transmission.theta_0(0) = e.value;
     if (e.name == "offset") fit.offset = e.value;
     fit.parameters.push_back(std::move(e));

@@ -1,0 +1,25 @@
+// One parameter of a solution as an estimate one can stand behind: value, sd, 95 % interval, bound.
+#pragma once
+
+#include "cablefit/base/parameter.hpp"
+#include "cablefit/estimate/least_squares.hpp"
+
+namespace cablefit {
+
+/// Which sd to report, and what else is uncertain.
+struct SdChoice {
+  bool honest = true;         ///< else the white one, the paper's (25)
+  double extra_variance = 0;  ///< from an earlier stage, added to the honest one
+};
+
+/// ci_low, ci_high: value -+ t sd with Student's t of so many degrees of freedom, never below
+/// `lower`.
+void set_interval(Estimate& e, double degrees_of_freedom, double lower = -kUnbounded);
+
+/// Parameter `k` of the solution. On its bound, 0, the sd is that of the fit without bounds and the
+/// interval reaches from the bound to where that fit's does. Held at 0 by constraints instead, it
+/// has neither.
+Estimate estimate_of(const ParameterInfo& info, bool linear_motion, const LinearSolution& solution,
+                     Eigen::Index k, const SdChoice& choice);
+
+}  // namespace cablefit
