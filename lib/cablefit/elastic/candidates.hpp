@@ -1,4 +1,4 @@
-// Models of the blocked rows: which columns, under which names, and the fit of one.
+// Models of the blocked rows: which columns, under which names, and the solution of one.
 #pragma once
 
 #include <string>
@@ -34,9 +34,5 @@ Candidate poly_candidate(const ElasticJob& job, const BlockedRows& rows, int ord
 LinearSolution solve_candidate(const BlockedRows& rows, const Candidate& candidate);
 /// The candidate's transmission with the solution's coefficients.
 Transmission fitted_transmission(const Candidate& candidate, const LinearSolution& solution);
-/// Everything reports need, except the errors that take a second look at the rows.
-ElasticFit make_fit(const ElasticJob& job, const Candidate& candidate,
-                    const LinearSolution& solution, const BlockedRows& rows,
-                    const Nuisance& nuisance);
 
 }  // namespace cablefit

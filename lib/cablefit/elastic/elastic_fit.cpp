@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cablefit/elastic/elastic_checks.hpp"
+#include "cablefit/elastic/elastic_estimates.hpp"
 #include "cablefit/elastic/elastic_figures.hpp"
 #include "cablefit/elastic/model_errors.hpp"
 
