@@ -1,4 +1,5 @@
 // Every row of the table of cable laws keeps the promises of cables.hpp.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
@@ -8,10 +9,12 @@
 #include "cablefit/base/parameter.hpp"
 #include "cablefit/base/units.hpp"
 #include "cablefit/model/cables.hpp"
+#include "tests/support/columns.hpp"
 
 namespace {
 
 using namespace cablefit;
+using cablefit::test::Normal;
 
 /// Runs `check(cable)` for every law and order, with coefficients of the paper's size.
 template <typename Check>
@@ -78,6 +81,58 @@ TEST_CASE("stretching and releasing a cable costs no energy", "[conformance]") {
     }
     CHECK(std::abs(work) <= 1e-12 * largest);
   });
+}
+
+/// Least k(l) of many elongations; `share`: of the size of its terms, by which rounding is judged.
+double least_secant(Cable cable, const Eigen::VectorXd& coefficients, double longest, bool share) {
+  cable.coefficients.assign(coefficients.begin(), coefficients.end());
+  Cable sizes = cable;
+  for (double& c : sizes.coefficients) c = std::abs(c);
+  double least = kUnbounded;
+  for (int i = 1; i <= 500; ++i) {
+    const double l = longest * i / 500;
+    least = std::min(least, cable.secant(l) / (share ? sizes.secant(l) : 1));
+  }
+  return least;
+}
+
+TEST_CASE("coefficients that meet the pull conditions make a cable that only pulls",
+          "[conformance]") {
+  Normal normal(900);
+  for_every_cable([&](const Cable& cable) {
+    const double longest = 0.04;
+    const PullConditions pull = cable.law->pull_conditions(cable.order, longest);
+    const Eigen::Index n = cable.n_coefficients();
+    REQUIRE(pull.rows.cols() == n);
+    REQUIRE(pull.at.size() == pull.rows.rows());
+    CHECK(pull.at.minCoeff() >= 0);
+    CHECK(pull.at.maxCoeff() <= longest * (1 + 1e-15));
+    Eigen::VectorXd stiff(n);  // certainly pulls
+    for (Eigen::Index j = 0; j < n; ++j) stiff(j) = std::pow(longest, -static_cast<double>(j));
+    const Eigen::ArrayXd lift = (pull.rows * stiff).array();
+    REQUIRE(lift.minCoeff() > 0);
+    double least = kUnbounded, most_beyond = -kUnbounded;
+    for (int run = 0; run < 200; ++run) {
+      // On the edge of what the conditions allow: any direction, lifted until the worst just holds.
+      Eigen::VectorXd c = stiff;
+      for (double& value : c) value *= 1000 * normal();
+      c -= ((pull.rows * c).array() / lift).minCoeff() * stiff;
+      least = std::min(least, least_secant(cable, c, longest, true));
+      most_beyond = std::max(most_beyond, least_secant(cable, c - 100 * stiff, longest, false));
+    }
+    CHECK(least >= -1e-13);  // a hundred roundings
+    // Hardly more than needed: a tenth of the coefficients' size beyond, each of them pushes.
+    CHECK(most_beyond < 0);
+  });
+}
+
+// k(l) of order 2 is a line: conditions at its ends, and nothing but them.
+TEST_CASE("a second-order cable pulls when it does at both ends", "[conformance]") {
+  const PullConditions pull = find_cable_law("polynomial").pull_conditions(2, 0.0138);
+  Eigen::Matrix2d expected;
+  expected << 1, 0, 1, 0.0138;
+  CHECK(pull.rows == expected);
+  CHECK(pull.at == Eigen::Vector2d(0, 0.0138));
 }
 
 TEST_CASE("a law says what it is", "[conformance]") {

@@ -13,6 +13,13 @@ namespace cablefit {
 /// Largest order of any law: a bound for small fixed arrays, far above what data can tell apart.
 inline constexpr int kMaxCableOrder = 9;
 
+/// Linear conditions under which a cable only pulls up to some elongation: rows * coefficients >= 0
+/// imply k(l) = f(l)/l >= 0 there, (5) and (16).
+struct PullConditions {
+  Eigen::MatrixXd rows;  ///< conditions x coefficients
+  Eigen::VectorXd at;    ///< elongation that each one speaks of, or is closest to
+};
+
 /// A law that is linear in its coefficients: f(l) = sum_j coefficient_j * basis_j(l) for l > 0.
 struct CableLaw {
   std::string_view name;
@@ -26,6 +33,8 @@ struct CableLaw {
   void (*basis)(int order, double l, double* values);
   /// d basis_j / dl.
   void (*slope)(int order, double l, double* values);
+  /// Conditions for 0 <= l <= longest.
+  PullConditions (*pull_conditions)(int order, double longest);
 };
 
 std::span<const CableLaw> cable_laws();

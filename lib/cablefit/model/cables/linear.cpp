@@ -9,6 +9,11 @@ void basis(int /*order*/, double l, double* values) { values[0] = l; }
 
 void slope(int /*order*/, double /*l*/, double* values) { values[0] = 1.0; }
 
+// k(l) = K_0 everywhere.
+PullConditions pull_conditions(int /*order*/, double /*longest*/) {
+  return {Eigen::MatrixXd::Ones(1, 1), Eigen::VectorXd::Zero(1)};
+}
+
 }  // namespace
 
 CableLaw linear() {
@@ -18,7 +23,8 @@ CableLaw linear() {
           .max_order = 1,
           .n_coefficients = n_coefficients,
           .basis = basis,
-          .slope = slope};
+          .slope = slope,
+          .pull_conditions = pull_conditions};
 }
 
 }  // namespace cablefit::laws
