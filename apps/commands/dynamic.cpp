@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
+#include <utility>
 
 #include "cablefit/base/digest.hpp"
 #include "cablefit/base/error.hpp"
@@ -71,15 +73,21 @@ void add_dynamic_options(CLI::App& app, DynamicCommand& command) {
       "see 'cablefit list estimators' [wls]");
 }
 
-bool needs_stage1(const DynamicCommand& command, const std::vector<LogSurvey>& moving) {
-  const bool has_torque = std::all_of(moving.begin(), moving.end(), [](const LogSurvey& log) {
-    return log.plan.has(Channel::tau);
-  });
+bool is_elastic(const DynamicCommand& command) {
   const auto models = dynamic_models();
-  const auto row = std::find_if(models.begin(), models.end(), [&](const DynamicModel& model) {
-    return model.name == command.fit.models.front();
-  });
-  return has_torque && row->elastic;
+  return std::find_if(
+             models.begin(), models.end(),
+             [&](const DynamicModel& model) { return model.name == command.fit.models.front(); })
+      ->elastic;
+}
+
+bool have_torque(const std::vector<LogSurvey>& moving) {
+  return std::all_of(moving.begin(), moving.end(),
+                     [](const LogSurvey& log) { return log.plan.has(Channel::tau); });
+}
+
+std::string default_elastic_file(const CommonOptions& options) {
+  return (std::filesystem::path(options.out) / "elastic.json").string();
 }
 
 Stage1 read_stage1(const std::string& path) {
@@ -103,15 +111,22 @@ Stage1 fit_stage1(const DynamicCommand& command, const std::vector<LogSurvey>& b
   return stage1;
 }
 
-Stage1 get_stage1(const DynamicCommand& command, const std::vector<LogSurvey>& logs) {
+/// A result of stage 1 that is there already: a small file, read before any log, so that a mistake
+/// in it does not wait for them. None: the logs have to tell.
+std::optional<Stage1> earlier_stage1(const DynamicCommand& command) {
+  if (!is_elastic(command)) return std::nullopt;
   if (!command.elastic_file.empty()) return read_stage1(command.elastic_file);
-  const auto path = (std::filesystem::path(command.common.out) / "elastic.json").string();
+  const std::string path = default_elastic_file(command.common);
   std::error_code ignored;
-  if (std::filesystem::exists(path, ignored)) return read_stage1(path);
+  if (!std::filesystem::exists(path, ignored)) return std::nullopt;
+  return read_stage1(path);
+}
+
+Stage1 stage1_from_logs(const DynamicCommand& command, const std::vector<LogSurvey>& logs) {
   const std::vector<LogSurvey> blocked =
       logs_with(logs, [](const PartSurvey& part) { return part.phase == Phase::blocked; });
   if (!blocked.empty()) return fit_stage1(command, blocked);
-  throw input_error({path, 0, 0}, "no result of stage 1",
+  throw input_error({default_elastic_file(command.common), 0, 0}, "no result of stage 1",
                     "run 'cablefit elastic' on blocked logs first, add them here, name a result "
                     "with --elastic FILE, or use --model rigid");
 }
@@ -156,6 +171,7 @@ int run_dynamic(const Arguments& arguments) {
   add_output_options(app, options);
   app.footer(kExample);
   if (!parse(app, arguments)) return 0;
+  std::optional<Stage1> earlier = earlier_stage1(command);
   const std::vector<LogSurvey> logs =
       options.logs.empty() ? campaign_logs(options) : read_logs(options);
   const std::vector<LogSurvey> moving =
@@ -165,15 +181,15 @@ int run_dynamic(const Arguments& arguments) {
   command.fit.honest_sd = options.honest_sd;
   command.fit.figures = wants_figures(options);
   Stage1 stage1;
-  const bool is_elastic = !moving.empty() && needs_stage1(command, moving);
-  if (is_elastic) stage1 = get_stage1(command, logs);
+  const bool takes_stage1 = is_elastic(command) && !moving.empty() && have_torque(moving);
+  if (takes_stage1) stage1 = earlier ? *std::move(earlier) : stage1_from_logs(command, logs);
   for (const InputFile& input : stage1.inputs)
     if (!stage1.is_new) options.more_inputs.push_back(input.path);
   DynamicResult result = [&] {
     const Progress progress(options.quiet, "fitting stage 2");
     return fit_dynamic(moving.empty() ? logs : moving, stage1.result, command.fit);
   }();
-  if (is_elastic) add_stage1(stage1, result);
+  if (takes_stage1) add_stage1(stage1, result);
 
   std::vector<ResultFile> files = {{"dynamic.json", dynamic_json(result)}};
   if (stage1.is_new) files.push_back({"elastic.json", elastic_json(stage1.result)});

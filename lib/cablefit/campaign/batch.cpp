@@ -56,6 +56,7 @@ DynamicResult BatchResult::all_dynamic() const {
 }
 
 BatchResult run_batch(const Campaign& campaign, const BatchOptions& options) {
+  check_baseline(campaign);
   BatchResult result;
   result.campaign_path = campaign.path;
   result.campaign_name = campaign.name;

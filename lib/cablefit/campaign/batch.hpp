@@ -49,6 +49,10 @@ struct BatchOptions {
 /// A cell that fails is told in its `error`; the others go on.
 BatchResult run_batch(const Campaign& campaign, const BatchOptions& options);
 
+/// The baseline of a drift limit is there and a batch result. Throws Error(input); before any log
+/// is read, so that a mistake in it does not wait for them.
+void check_baseline(const Campaign& campaign);
+
 /// The gates of a campaign, on the model selected by stage 1's materiality rule (the richest one of
 /// the campaign otherwise). Relative limits apply to parameters with a physical lower bound: for an
 /// offset zero is the ideal value, and a percentage of it says nothing. Throws Error(input) for a

@@ -126,6 +126,11 @@ JsonNode read_baseline(const std::string& path) {
 
 }  // namespace
 
+void check_baseline(const Campaign& campaign) {
+  const std::string& path = campaign.limits.drift_baseline;
+  if (!path.empty()) read_baseline(path);
+}
+
 std::vector<Gate> judge(const Campaign& campaign, const std::vector<BatchCell>& cells) {
   std::vector<Gate> gates;
   const CampaignLimits& limits = campaign.limits;
