@@ -61,17 +61,19 @@ void print_failed_gates(const BatchResult& result) {
 int run_batch(const Arguments& arguments) {
   CLI::App app("Fit every preload of a campaign and judge its limits.", "batch");
   CommonOptions options;
+  BatchOptions batch;
   std::string path;
   app.add_option("campaign", path, "campaign file (cablefit/campaign/1)")
       ->required()
       ->type_name("CAMPAIGN");
+  app.add_flag("--unconstrained", batch.elastic.unconstrained,
+               "stage 1 by plain least squares: let cables push, with a warning");
   add_sd_option(app, options);
   add_sample_options(app, options);
   add_output_options(app, options);
   app.footer(kExample);
   if (!parse(app, arguments)) return 0;
 
-  BatchOptions batch;
   batch.samples = options.samples;
   batch.figures = wants_figures(options);
   batch.honest_sd = batch.elastic.honest_sd = options.honest_sd;

@@ -38,6 +38,8 @@ void add_elastic_options(CLI::App& app, ElasticOptions& elastic) {
                                            : ZeroMode::automatic;
       },
       "what is unknown: the drive's offset, or the encoder's zero");
+  app.add_flag("--unconstrained", elastic.unconstrained,
+               "plain least squares: let cables push, with a warning");
   add_number(
       app, "--materiality", "PERCENT", {0, 100},
       [&elastic](double percent) { elastic.materiality = percent / 100; },

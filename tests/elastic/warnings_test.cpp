@@ -97,22 +97,6 @@ TEST_CASE("an arbitrary encoder zero is found", "[elastic]") {
   CHECK(found.find("poly")->transmission.theta_0(0) == zero.value);
 }
 
-// Table 1, high preload, polynomial: K_10 = -3894.7 N m/rad, a cable that pushes (paper/notes.md,
-// 7). The data follow the printed coefficients, as the paper's fit did.
-TEST_CASE("the printed high-preload polynomial is flagged as not passive", "[elastic]") {
-  const auto curve = [](double phi) {
-    return phi > 0 ? -3894.7 * phi + 3891.4 * phi * phi : -(11171.0 * -phi + 3094.9 * phi * phi);
-  };
-  ElasticOptions second;
-  second.order = 2;
-  const ElasticPreload found = fit(sweep_log(curve, 1, 0.3, 4, 4130), second);
-  const ElasticFit& poly = *found.find("poly");
-  CHECK_FALSE(poly.passive);
-  CHECK(warns(poly.warnings, "cable 1 would push"));
-  CHECK_FALSE(warns(poly.warnings, "cable 2 would push"));
-  check_recovered(poly.parameters, {{"K1_0", -3894.7}, {"K2_0", 11171.0}}, 3);
-}
-
 TEST_CASE("without a blocked log there is one clear message", "[elastic]") {
   truth::MovingOptions options;
   options.seed = 4140;

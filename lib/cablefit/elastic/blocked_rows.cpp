@@ -101,6 +101,11 @@ BlockedRows collect_blocked(const ElasticJob& job, double theta_0, const Transmi
   blocked.archive = archives[chosen];
   blocked.counts = counts[chosen];
   if (!blocked.plateaus) blocked.counts.rows_at_rest = counts[0].rows_at_rest;
+  blocked.archive->for_each([&](const Eigen::MatrixXd& rows, std::span<const Eigen::Index>) {
+    const auto deflection = rows.col(blocked.columns.deflection);
+    blocked.deflection_low = std::min(blocked.deflection_low, deflection.minCoeff());
+    blocked.deflection_high = std::max(blocked.deflection_high, deflection.maxCoeff());
+  });
   return blocked;
 }
 

@@ -40,6 +40,7 @@ struct BlockedRows {
   std::shared_ptr<const RowArchive> archive;  ///< the rows themselves, for a second look
   RowCounts counts;
   WindowCounts windows;
+  double deflection_low = kUnbounded, deflection_high = -kUnbounded;  ///< of the rows
   bool plateaus = false;  ///< rows at rest were used, there are hardly others
 
   Eigen::VectorXd torque_response() const {

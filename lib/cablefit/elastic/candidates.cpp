@@ -56,6 +56,7 @@ Candidate poly_candidate(const ElasticJob& job, const BlockedRows& rows, int ord
   candidate.transmission =
       job.orders_given ? rows.transmission : with_order(rows.transmission, order);
   Eigen::Index first = rows.columns.basis;
+  std::vector<bool> fitted;
   for (std::size_t c = 0; c < rows.transmission.cables.size(); ++c) {
     const Cable& cable = candidate.transmission.cables[c];
     candidate.order = std::max(candidate.order, cable.order);
@@ -63,6 +64,7 @@ Candidate poly_candidate(const ElasticJob& job, const BlockedRows& rows, int ord
         hardly_taut(rows, first)
             ? fmt::format("cable {} was hardly ever taut in these logs", cable.name)
             : "";
+    fitted.push_back(held.empty());
     for (int k = 0; k < cable.n_coefficients(); ++k) {
       candidate.regressors.push_back(first + k);
       candidate.names.push_back(coefficient_name(cable, k, job.rig().cables_given));
@@ -73,24 +75,51 @@ Candidate poly_candidate(const ElasticJob& job, const BlockedRows& rows, int ord
   }
   candidate.n_elastic = candidate.regressors.size();
   add_nuisance(candidate, rows, nuisance);
+  if (!job.options.unconstrained)
+    candidate.pull =
+        pull_constraints(candidate.transmission, fitted, rows.deflection_low, rows.deflection_high);
   return candidate;
 }
 
-LinearSolution solve_candidate(const BlockedRows& rows, const Candidate& candidate) {
+Eigen::MatrixXd constraint_rows(const Candidate& candidate) {
+  const Eigen::MatrixXd& pull = candidate.pull.rows;
+  Eigen::MatrixXd rows =
+      Eigen::MatrixXd::Zero(pull.rows(), static_cast<Eigen::Index>(candidate.regressors.size()));
+  rows.leftCols(pull.cols()) = pull;
+  return rows;
+}
+
+bool breaks_constraints(const Candidate& candidate, const Eigen::VectorXd& x) {
+  if (candidate.pull.ranges.empty()) return false;
+  const Transmission fitted = fitted_transmission(candidate, x);
+  return std::any_of(candidate.pull.ranges.begin(), candidate.pull.ranges.end(),
+                     [&](const PullRange& range) {
+                       return find_push(fitted.cables[range.cable], range.longest).has_value();
+                     });
+}
+
+LinearSolution solve_plain(const BlockedRows& rows, const Candidate& candidate) {
   return solve(*rows.rows, {candidate.regressors, candidate.names, candidate.lower,
                             rows.torque_response(), candidate.held});
 }
 
-Transmission fitted_transmission(const Candidate& candidate, const LinearSolution& s) {
+LinearSolution solve_candidate(const BlockedRows& rows, const Candidate& candidate) {
+  LinearSolution plain = solve_plain(rows, candidate);
+  if (!breaks_constraints(candidate, plain.x)) return plain;
+  return solve(*rows.rows, {candidate.regressors, candidate.names, candidate.lower,
+                            rows.torque_response(), candidate.held, constraint_rows(candidate)});
+}
+
+Transmission fitted_transmission(const Candidate& candidate, const Eigen::VectorXd& x) {
   Transmission transmission = candidate.transmission;
   if (candidate.model == "linear") {
-    transmission.linear_stiffness(0) = s.x(0);
+    transmission.linear_stiffness(0) = x(0);
     return transmission;
   }
   Eigen::Index next = 0;
   for (Cable& cable : transmission.cables) {
     cable.coefficients.assign(static_cast<std::size_t>(cable.n_coefficients()), 0.0);
-    for (double& coefficient : cable.coefficients) coefficient = s.x(next++);
+    for (double& coefficient : cable.coefficients) coefficient = x(next++);
   }
   return transmission;
 }

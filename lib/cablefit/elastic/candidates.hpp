@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cablefit/elastic/blocked_rows.hpp"
-#include "cablefit/elastic/elastic_result.hpp"
+#include "cablefit/elastic/passivity.hpp"
 #include "cablefit/estimate/least_squares.hpp"
 
 namespace cablefit {
@@ -26,13 +26,23 @@ struct Candidate {
   std::vector<double> lower;
   std::vector<std::string> held;  ///< why a coefficient is not estimated; empty: it is
   std::size_t n_elastic = 0;      ///< elastic coefficients come first
+  PullConstraints pull;           ///< on the elastic coefficients; empty: cables may push
 };
 
 Candidate linear_candidate(const BlockedRows& rows, const Nuisance& nuisance);
 Candidate poly_candidate(const ElasticJob& job, const BlockedRows& rows, int order,
                          const Nuisance& nuisance);
+
+/// candidate.pull with a column per regressor.
+Eigen::MatrixXd constraint_rows(const Candidate& candidate);
+/// A cable that may only pull pushes. The constraints are a little more than that asks for, so a
+/// fit that does not push stands as it is.
+bool breaks_constraints(const Candidate& candidate, const Eigen::VectorXd& x);
+/// Plain least squares where every cable only pulls by itself, constrained where one would push.
 LinearSolution solve_candidate(const BlockedRows& rows, const Candidate& candidate);
-/// The candidate's transmission with the solution's coefficients.
-Transmission fitted_transmission(const Candidate& candidate, const LinearSolution& solution);
+/// Whether cables push or not.
+LinearSolution solve_plain(const BlockedRows& rows, const Candidate& candidate);
+/// The candidate's transmission with the coefficients that `x` starts with.
+Transmission fitted_transmission(const Candidate& candidate, const Eigen::VectorXd& x);
 
 }  // namespace cablefit

@@ -12,7 +12,7 @@ constexpr double kLoopShare = 0.05;  // of the peak torque: a loop this wide is 
 
 }  // namespace
 
-void check_passive(ElasticFit& fit, double low, double high) {
+void check_passive(ElasticFit& fit, const ElasticPreload& preload, const ElongationUnit& unit) {
   if (fit.model == "linear") {
     fit.passive = fit.transmission.linear_stiffness(0) >= 0;
     if (!fit.passive)
@@ -21,26 +21,19 @@ void check_passive(ElasticFit& fit, double low, double high) {
     return;
   }
   for (const Cable& cable : fit.transmission.cables) {
-    const double at_low = cable.motor_radius(0) * low + cable.initial_elongation;
-    const double at_high = cable.motor_radius(0) * high + cable.initial_elongation;
-    const double longest = std::max(at_low, at_high);
+    const double longest =
+        longest_elongation(cable, preload.deflection_low, preload.deflection_high);
     if (longest <= 0) {
       fit.warnings.push_back(fmt::format("cable {} was never taut in these logs", cable.name));
       continue;
     }
-    double worst = 0, where = 0;
-    for (int i = 1; i <= 200; ++i) {
-      const double l = longest * i / 200;
-      if (cable.secant(l) < worst) worst = cable.secant(l), where = l;
-    }
-    if (worst < 0) {
-      fit.passive = false;
-      fit.warnings.push_back(fmt::format(
-          "cable {} would push: its stiffness k(l) is {:.4g} at an elongation of {:.4g}, which "
-          "breaks (5) and "
-          "(16) of the paper; do not use this fit, lower --order or record both sides of zero",
-          cable.name, worst, where));
-    }
+    const std::optional<Push> push = find_push(cable, longest);
+    if (!push) continue;
+    fit.passive = false;
+    fit.warnings.push_back(fmt::format(
+        "{}, which breaks (5) and (16) of the paper: do not use this fit; without --unconstrained "
+        "cables only pull",
+        push_text(cable, *push, unit)));
   }
 }
 

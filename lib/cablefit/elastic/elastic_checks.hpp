@@ -3,12 +3,13 @@
 #pragma once
 
 #include "cablefit/elastic/elastic_result.hpp"
+#include "cablefit/elastic/passivity.hpp"
 
 namespace cablefit {
 
-/// Sets `passive` and warns where a cable pushes over the elongations it really saw (deflection
-/// range low..high): the paper's (5) and (16).
-void check_passive(ElasticFit& fit, double low, double high);
+/// Sets `passive` and warns where a cable pushes over the elongations that the rows reached: the
+/// paper's (5) and (16).
+void check_passive(ElasticFit& fit, const ElasticPreload& preload, const ElongationUnit& unit);
 
 /// Fills `selected` and `selection`: the simplest model whose largest error on held-out blocks is
 /// within `materiality` (share of the peak torque) of the best one's; significance is told beside

@@ -3,25 +3,36 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
 #include "cablefit/estimate/parameter_estimate.hpp"
 
 namespace cablefit {
 namespace {
 
-/// On a rotary axis, or in cable space.
-std::string unit_of(const Candidate& candidate, std::size_t k, bool cable_space) {
-  if (k >= candidate.n_elastic)
-    return candidate.names[k] == "theta_0" ? "rad"
-           : candidate.names[k] == "f_vm"  ? "N m s/rad"
-                                           : "N m";
+/// A coefficient of a cable.
+struct Coefficient {
+  std::size_t cable = 0;
+  int index = 0;
+};
+
+/// Of candidate.names[k]; none for K and for what is estimated beside the elastic coefficients.
+std::optional<Coefficient> coefficient_at(const Candidate& candidate, std::size_t k) {
   std::size_t first = 0;
-  for (const Cable& cable : candidate.transmission.cables) {
-    const auto n = static_cast<std::size_t>(cable.n_coefficients());
-    if (k < first + n) return coefficient_unit(static_cast<int>(k - first), cable_space);
+  for (std::size_t c = 0; c < candidate.transmission.cables.size(); ++c) {
+    const auto n = static_cast<std::size_t>(candidate.transmission.cables[c].n_coefficients());
+    if (k < first + n) return Coefficient{c, static_cast<int>(k - first)};
     first += n;
   }
-  return "N m/rad";  // no cables: the linear spring
+  return std::nullopt;
+}
+
+/// On a rotary axis, or in cable space.
+std::string unit_of(const Candidate& candidate, std::size_t k, bool cable_space) {
+  if (const auto coefficient = coefficient_at(candidate, k))
+    return coefficient_unit(coefficient->index, cable_space);
+  const std::string& name = candidate.names[k];
+  return name == "K" ? "N m/rad" : name == "theta_0" ? "rad" : name == "f_vm" ? "N m s/rad" : "N m";
 }
 
 /// Linear spring with an arbitrary encoder zero: K phi + c = K (phi - theta_0), theta_0 = -c/K, by
@@ -70,6 +81,51 @@ std::vector<std::string> worth_saying(const std::vector<std::string>& warnings,
   return kept;
 }
 
+/// "cable 1 only pulls", for a coefficient that this holds at 0.
+std::string hold_text(const Candidate& candidate, std::size_t k) {
+  const auto coefficient = coefficient_at(candidate, k);
+  return fmt::format("cable {} only pulls",
+                     candidate.transmission.cables.at(coefficient.value().cable).name);
+}
+
+/// "K1_0 = -3894.7 N m/rad, K1_1 = 3891.4 N m/rad^2".
+std::string coefficients_text(const ElasticFit& fit, const Cable& cable, bool cable_space) {
+  std::string text;
+  for (std::size_t k = 0; k < cable.coefficients.size(); ++k) {
+    const std::string name = coefficient_name(cable, static_cast<int>(k), cable_space);
+    const Estimate* e = find_estimate(fit.parameters, name);
+    text += fmt::format("{}{} = {:.5g} {}", k > 0 ? ", " : "", name, cable.coefficients[k],
+                        e == nullptr ? "" : e->unit);
+  }
+  return text;
+}
+
+/// What was refused, why, and what it costs.
+void note_active_bounds(const ElasticJob& job, const Candidate& candidate, const LinearSolution& s,
+                        const BlockedRows& rows, ElasticFit& fit) {
+  const Rig& rig = job.rig();
+  const ElongationUnit unit{rig.cables_given, rig.linear_motion};
+  for (const Eigen::Index i : s.active_constraints) {
+    const PullBound& bound = candidate.pull.bounds[static_cast<std::size_t>(i)];
+    fit.active_bounds.push_back(fmt::format("cable {}: k(l) >= 0 at l = {}",
+                                            candidate.transmission.cables[bound.cable].name,
+                                            unit.text(bound.at)));
+  }
+  const LinearSolution plain = solve_plain(rows, candidate);
+  const Transmission pushing = fitted_transmission(candidate, plain.x);
+  for (const PullRange& range : candidate.pull.ranges) {
+    const Cable& cable = pushing.cables[range.cable];
+    const std::optional<Push> push = find_push(cable, range.longest);
+    if (!push) continue;
+    fit.warnings.push_back(fmt::format(
+        "refused: {}, with which {}; a cable only pulls, (5) and (16) of the paper, so k(l) >= 0 "
+        "is imposed: rms error {:.3g} instead of {:.3g} {}, sd given the active bounds; "
+        "--unconstrained gives the plain fit",
+        coefficients_text(fit, cable, rig.cables_given), push_text(cable, *push, unit), s.rms(),
+        plain.rms(), rig.linear_motion ? "N" : "N m"));
+  }
+}
+
 }  // namespace
 
 ElasticFit make_fit(const ElasticJob& job, const Candidate& candidate, const LinearSolution& s,
@@ -83,7 +139,7 @@ ElasticFit make_fit(const ElasticJob& job, const Candidate& candidate, const Lin
   fit.condition = s.condition_scaled;
   fit.effective_rows = s.effective_rows;
   fit.rms_error = s.rms();
-  fit.transmission = fitted_transmission(candidate, s);
+  fit.transmission = fitted_transmission(candidate, s.x);
   fit.covariance = (job.options.honest_sd ? s.covariance : s.covariance_white).topLeftCorner(n, n);
   fit.warnings = worth_saying(s.warnings, candidate);
   for (std::size_t k = 0; k < candidate.names.size(); ++k) {
@@ -100,10 +156,13 @@ ElasticFit make_fit(const ElasticJob& job, const Candidate& candidate, const Lin
       e.ci_low += zero;
       e.ci_high += zero;
     }
+    if (s.at_bound[k] && candidate.lower[k] == -kUnbounded)
+      e.active_bound = hold_text(candidate, k);
     if (e.name == "theta_0") fit.transmission.theta_0(0) = e.value;
     if (e.name == "offset") fit.offset = e.value;
     fit.parameters.push_back(std::move(e));
   }
+  if (!s.active_constraints.empty()) note_active_bounds(job, candidate, s, rows, fit);
   return fit;
 }
 

@@ -18,21 +18,35 @@ constexpr double kStillNoise = 4;        // counts or sd of noise that are no mo
 constexpr int kZeroIterations = 6;
 constexpr Eigen::Index kMinRows = 10;
 
-bool zero_is_arbitrary(const ElasticJob& job, const BlockedRows& rows, const LinearSolution& s) {
-  if (job.options.zero != ZeroMode::automatic) return job.options.zero == ZeroMode::theta_0;
-  const auto& r = rows.rows->r();
-  const double n = static_cast<double>(rows.rows->n_rows());
-  const double spread =
-      (r.col(rows.columns.tau) - s.x(1) * r.col(rows.columns.offset)).norm() / std::sqrt(n);
-  return std::abs(s.x(1)) > kArbitraryZero * std::sqrt(2.0) * spread;
-}
-
 /// The data of one preload on the way to a result.
 struct Stage1 {
   ElasticJob job;
   BlockedRows rows;
   Nuisance nuisance;
 };
+
+int pilot_order(const Stage1& stage) {
+  return stage.job.options.order > 0 ? stage.job.options.order : 2;
+}
+
+/// The torque at zero deflection, by the constant of the straight line, is an encoder's zero rather
+/// than a drive's offset. A curve with a kink at zero is far from its straight line there, so the
+/// cables have to say the same. `line`: solution of the linear candidate.
+bool zero_is_arbitrary(const Stage1& stage, const LinearSolution& line) {
+  if (stage.job.options.zero != ZeroMode::automatic)
+    return stage.job.options.zero == ZeroMode::theta_0;
+  const auto& r = stage.rows.rows->r();
+  const double n = static_cast<double>(stage.rows.rows->n_rows());
+  const auto is_large = [&](double offset) {
+    const double spread =
+        (r.col(stage.rows.columns.tau) - offset * r.col(stage.rows.columns.offset)).norm() /
+        std::sqrt(n);
+    return std::abs(offset) > kArbitraryZero * std::sqrt(2.0) * spread;
+  };
+  if (!is_large(line.x(1))) return false;
+  const Candidate curve = poly_candidate(stage.job, stage.rows, pilot_order(stage), stage.nuisance);
+  return is_large(solve_plain(stage.rows, curve).x(static_cast<Eigen::Index>(curve.n_elastic)));
+}
 
 /// Gauss-Newton on theta_0: start where the straight line crosses zero, then let its own column
 /// correct it together with everything else. Leaves `stage` with the rows about the last zero.
@@ -43,14 +57,14 @@ void find_zero(Stage1& stage, const LinearSolution& line) {
   Transmission pilot;
   pilot.n_joints = stage.job.basis.n_joints;
   pilot.linear_stiffness = Eigen::VectorXd::Constant(pilot.n_joints, stiffness);
-  const int order = stage.job.options.order > 0 ? stage.job.options.order : 2;
   for (int iteration = 0; iteration < kZeroIterations; ++iteration) {
     pilot.theta_0 = Eigen::VectorXd::Constant(pilot.n_joints, zero);
     stage.rows = collect_blocked(stage.job, zero, &pilot);
-    const Candidate curve = poly_candidate(stage.job, stage.rows, order, stage.nuisance);
-    const LinearSolution s = solve_candidate(stage.rows, curve);
+    const Candidate curve =
+        poly_candidate(stage.job, stage.rows, pilot_order(stage), stage.nuisance);
+    const LinearSolution s = solve_plain(stage.rows, curve);
     const double step = s.x(static_cast<Eigen::Index>(curve.n_elastic));
-    pilot = fitted_transmission(curve, s);
+    pilot = fitted_transmission(curve, s.x);
     if (!std::isfinite(step) || std::abs(step) < 1e-3 * width) return;
     zero += std::clamp(step, -5 * width, 5 * width);
   }
@@ -59,8 +73,7 @@ void find_zero(Stage1& stage, const LinearSolution& line) {
 void choose_zero(Stage1& stage, ElasticPreload& preload) {
   const LinearSolution line =
       solve_candidate(stage.rows, linear_candidate(stage.rows, stage.nuisance));
-  stage.nuisance.theta_0 =
-      std::abs(line.x(0)) > 0 && zero_is_arbitrary(stage.job, stage.rows, line);
+  stage.nuisance.theta_0 = std::abs(line.x(0)) > 0 && zero_is_arbitrary(stage, line);
   if (!stage.nuisance.theta_0) {
     preload.decisions.push_back(
         {"zero", "offset", "the deflection's zero is known, the drive may have an offset"});
@@ -154,6 +167,8 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
   preload.rig_path = job.rig().path;
   preload.decisions = job.settings.decisions;
   preload.warnings = job.settings.warnings;
+  if (job.options.unconstrained)
+    preload.decisions.push_back({"stiffness", "unconstrained", "given; cables may push"});
 
   require_motion(job);
   Stage1 stage{std::move(job), {}, {}};
@@ -179,7 +194,7 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
   preload.windows = stage.rows.windows;
   measure_errors(stage.rows, candidates, solutions, preload);
   for (ElasticFit& fit : preload.fits)
-    check_passive(fit, preload.deflection_low, preload.deflection_high);
+    check_passive(fit, preload, {stage.job.rig().cables_given, preload.linear_motion});
   select_model(preload, stage.job.options.materiality);
   note_loop(preload, stage.rows.plateaus);
   note_closure(preload);

@@ -23,9 +23,10 @@ struct ElasticOptions {
       0.01;            ///< of the peak torque: less difference on held-out blocks does not matter
   bool still = false;  ///< also use the parts of moving logs in which the link stands still
   ZeroMode zero = ZeroMode::automatic;
-  bool honest_sd = true;  ///< --sd honest | white
-  std::string preload;    ///< only this one; empty: all
-  bool figures = false;   ///< one more pass, for reports with plots
+  bool unconstrained = false;  ///< cables may push, as in the paper's plain fit; warned about
+  bool honest_sd = true;       ///< --sd honest | white
+  std::string preload;         ///< only this one; empty: all
+  bool figures = false;        ///< one more pass, for reports with plots
 };
 
 /// Fits every preload found in the blocked logs (with `still`: in all logs). Throws Error(input)

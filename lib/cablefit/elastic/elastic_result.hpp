@@ -29,7 +29,9 @@ struct ElasticFit {
   Eigen::MatrixXd covariance;
   double rms_error = 0, max_abs_error = 0;    ///< N m, over all rows used
   double held_out_rms = 0, held_out_max = 0;  ///< N m, over blocks the fit had not seen
-  bool passive = true;   ///< every cable only pulls over the range it was used in
+  bool passive = true;  ///< every cable only pulls over the range it was used in
+  /// Where a cable would push but for a bound: "cable 1: k(l) >= 0 at l = 0 mrad".
+  std::vector<std::string> active_bounds;
   double condition = 0;  ///< scaled condition number
   double effective_rows = 0;
   std::vector<std::string> warnings;

@@ -1,31 +1,67 @@
 #include "cablefit/elastic/held_out.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
+
+#include "cablefit/estimate/constrained_least_squares.hpp"
 
 namespace cablefit {
 namespace {
 
-// Least squares from a Gram matrix with scaled columns. Its precision (condition squared) is plenty
-// for comparing models; estimates that are reported come from the QR.
-Eigen::VectorXd solve_gram(const Eigen::MatrixXd& gram, const std::vector<Eigen::Index>& regressors,
-                           const Eigen::VectorXd& response) {
+constexpr double kRounding = 1e-14;  // of the largest eigenvalue of a Gram matrix
+
+// Least squares from a Gram matrix with scaled columns: scaled * y = b, x = scale * y. Its
+// precision (condition squared) is plenty for comparing models; estimates that are reported come
+// from the QR.
+struct NormalEquations {
+  Eigen::MatrixXd scaled;
+  Eigen::VectorXd b, scale;
+};
+
+NormalEquations normal_equations(const Eigen::MatrixXd& gram,
+                                 const std::vector<Eigen::Index>& regressors,
+                                 const Eigen::VectorXd& response) {
   const auto p = static_cast<Eigen::Index>(regressors.size());
-  Eigen::MatrixXd a(p, p);
-  Eigen::VectorXd b(p), scale(p);
+  NormalEquations n{Eigen::MatrixXd(p, p), Eigen::VectorXd(p), Eigen::VectorXd(p)};
   for (Eigen::Index i = 0; i < p; ++i) {
     const double norm = std::sqrt(
         gram(regressors[static_cast<std::size_t>(i)], regressors[static_cast<std::size_t>(i)]));
-    scale(i) = norm > 0 ? 1 / norm : 1;
+    n.scale(i) = norm > 0 ? 1 / norm : 1;
   }
   for (Eigen::Index i = 0; i < p; ++i) {
     const Eigen::Index ri = regressors[static_cast<std::size_t>(i)];
-    b(i) = scale(i) * gram.row(ri).dot(response);
+    n.b(i) = n.scale(i) * gram.row(ri).dot(response);
     for (Eigen::Index j = 0; j < p; ++j)
-      a(i, j) = scale(i) * scale(j) * gram(ri, regressors[static_cast<std::size_t>(j)]);
+      n.scaled(i, j) = n.scale(i) * n.scale(j) * gram(ri, regressors[static_cast<std::size_t>(j)]);
   }
-  return scale.cwiseProduct(a.completeOrthogonalDecomposition().solve(b));
+  return n;
+}
+
+/// |root y - c| differs from the residual by a constant, so constraints can be put on it.
+Eigen::VectorXd solve_constrained(const NormalEquations& n, const Eigen::MatrixXd& constraints) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(n.scaled);
+  const double smallest = kRounding * eigen.eigenvalues().maxCoeff();
+  Eigen::VectorXd root = eigen.eigenvalues(), inverse = root;
+  for (Eigen::Index k = 0; k < root.size(); ++k) {
+    const bool told = root(k) > smallest;
+    root(k) = told ? std::sqrt(root(k)) : 0;
+    inverse(k) = told ? 1 / root(k) : 0;
+  }
+  const Eigen::MatrixXd v = eigen.eigenvectors().transpose();
+  return n.scale.cwiseProduct(constrained_least_squares(root.asDiagonal() * v,
+                                                        inverse.asDiagonal() * v * n.b,
+                                                        constraints * n.scale.asDiagonal())
+                                  .x);
+}
+
+Eigen::VectorXd solve_gram(const Eigen::MatrixXd& gram, const Candidate& candidate,
+                           const Eigen::VectorXd& response) {
+  const NormalEquations n = normal_equations(gram, candidate.regressors, response);
+  const Eigen::VectorXd x =
+      n.scale.cwiseProduct(n.scaled.completeOrthogonalDecomposition().solve(n.b));
+  return breaks_constraints(candidate, x) ? solve_constrained(n, constraint_rows(candidate)) : x;
 }
 
 }  // namespace
@@ -50,17 +86,17 @@ Eigen::Index HeldOut::block_of(Eigen::Index cell_id) const {
                                   kHeldOutBlocks - 1);
 }
 
-std::vector<Eigen::VectorXd> HeldOut::fits(const std::vector<Eigen::Index>& regressors,
+std::vector<Eigen::VectorXd> HeldOut::fits(const Candidate& candidate,
                                            const Eigen::VectorXd& response) const {
   std::vector<Eigen::VectorXd> result;
   for (Eigen::Index fold = 0; fold < kHeldOutFolds; ++fold) {
     Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(response.size(), response.size());
     for (Eigen::Index block = 0; block < kHeldOutBlocks; ++block)
       if (block % kHeldOutFolds != fold) gram += block_grams_[static_cast<std::size_t>(block)];
-    const Eigen::VectorXd x = solve_gram(gram, regressors, response);
+    const Eigen::VectorXd x = solve_gram(gram, candidate, response);
     Eigen::VectorXd residual = response;
-    for (std::size_t k = 0; k < regressors.size(); ++k)
-      residual(regressors[k]) -= x(static_cast<Eigen::Index>(k));
+    for (std::size_t k = 0; k < candidate.regressors.size(); ++k)
+      residual(candidate.regressors[k]) -= x(static_cast<Eigen::Index>(k));
     result.push_back(residual);
   }
   return result;

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "cablefit/elastic/candidates.hpp"
 #include "cablefit/estimate/row_statistics.hpp"
 
 namespace cablefit {
@@ -21,7 +22,8 @@ class HeldOut {
     return block_of(row_number / cell_rows_) % kHeldOutFolds;
   }
   /// For each fold the residual combination (rows * it = residual) of the fit to the other folds.
-  std::vector<Eigen::VectorXd> fits(const std::vector<Eigen::Index>& regressors,
+  /// They are as passive as the candidate's own fit.
+  std::vector<Eigen::VectorXd> fits(const Candidate& candidate,
                                     const Eigen::VectorXd& response) const;
   /// Mean squared held-out residual of every block that has rows, given fits().
   Eigen::VectorXd block_errors(const std::vector<Eigen::VectorXd>& fits) const;

@@ -23,8 +23,7 @@ int choose_order(const ElasticJob& job, const BlockedRows& rows, const Nuisance&
   std::vector<Eigen::VectorXd> errors;
   for (int order = 1; order <= job.options.max_order; ++order) {
     const Candidate candidate = poly_candidate(job, rows, order, nuisance);
-    errors.push_back(
-        held_out.block_errors(held_out.fits(candidate.regressors, rows.torque_response())));
+    errors.push_back(held_out.block_errors(held_out.fits(candidate, rows.torque_response())));
   }
   const auto beats = [&](std::size_t high, std::size_t low) {
     const Eigen::ArrayXd gain = (errors[low] - errors[high]).array();
@@ -52,11 +51,11 @@ void measure_errors(const BlockedRows& rows, const std::vector<Candidate>& candi
   const HeldOut held_out(*rows.rows);
   std::vector<std::vector<Eigen::VectorXd>> folds;
   for (std::size_t k = 0; k < candidates.size(); ++k) {
-    folds.push_back(held_out.fits(candidates[k].regressors, rows.torque_response()));
+    folds.push_back(held_out.fits(candidates[k], rows.torque_response()));
     preload.fits[k].held_out_rms = std::sqrt(held_out.block_errors(folds[k]).mean());
   }
   struct Extremes {
-    double low = kUnbounded, high = -kUnbounded, peak = 0;
+    double peak = 0;
     std::vector<double> worst, worst_held_out;
   };
   Extremes total;
@@ -67,8 +66,6 @@ void measure_errors(const BlockedRows& rows, const std::vector<Candidate>& candi
     return (r * combination).cwiseAbs().eval();
   };
   rows.archive->for_each([&](const Eigen::MatrixXd& r, std::span<const Eigen::Index> numbers) {
-    total.low = std::min(total.low, r.col(rows.columns.deflection).minCoeff());
-    total.high = std::max(total.high, r.col(rows.columns.deflection).maxCoeff());
     total.peak = std::max(total.peak, (r.col(rows.columns.tau).array() - offset).abs().maxCoeff());
     for (std::size_t k = 0; k < candidates.size(); ++k) {
       total.worst[k] =
@@ -82,8 +79,8 @@ void measure_errors(const BlockedRows& rows, const std::vector<Candidate>& candi
       }
     }
   });
-  preload.deflection_low = total.low;
-  preload.deflection_high = total.high;
+  preload.deflection_low = rows.deflection_low;
+  preload.deflection_high = rows.deflection_high;
   preload.peak_torque = total.peak;
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     preload.fits[k].max_abs_error = total.worst[k];

@@ -47,7 +47,11 @@ Table fits_table(const ElasticResult& result) {
   for (const ElasticPreload& preload : result.preloads) {
     for (const ElasticFit& fit : preload.fits) {
       std::string remark = fit.model == preload.selected ? "selected" : "";
-      if (!fit.passive) remark += remark.empty() ? "pushes" : ", pushes";
+      const auto add = [&remark](const char* more) {
+        remark += (remark.empty() ? "" : ", ") + std::string(more);
+      };
+      if (!fit.passive) add("pushes");
+      if (!fit.active_bounds.empty()) add("at bounds");
       const std::string order = fit.model == "linear" ? "" : fmt::format(", order {}", fit.order);
       table.rows.push_back({preload.name, fit.model + order, estimate_text(fit, "offset", 1, notes),
                             estimate_text(fit, "theta_0", 1e3, notes),

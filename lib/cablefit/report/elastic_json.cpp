@@ -28,6 +28,7 @@ Json fit_json(const ElasticFit& fit) {
               {"held_out_rms", fit.held_out_rms},
               {"held_out_max", fit.held_out_max},
               {"passive", fit.passive},
+              {"active_bounds", fit.active_bounds},
               {"theta_0", report_json::per_joint(fit.transmission.encoder_zero())},
               {"offset", fit.offset},
               {"covariance", matrix_json(fit.covariance)},

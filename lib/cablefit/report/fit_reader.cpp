@@ -121,6 +121,7 @@ ElasticFit read_elastic_fit(const JsonNode& node, const Rig& rig) {
   fit.covariance = read_covariance(node.at("covariance"), n_coefficients(fit.transmission));
   if (const JsonNode* offset = node.find("offset")) fit.offset = offset->number();
   if (const JsonNode* passive = node.find("passive")) fit.passive = passive->boolean();
+  if (const JsonNode* bounds = node.find("active_bounds")) fit.active_bounds = bounds->texts();
   if (const JsonNode* warnings = node.find("warnings")) fit.warnings = warnings->texts();
   fit.rms_error = number_or_nan(node, "rms_error");
   fit.max_abs_error = number_or_nan(node, "max_abs_error");

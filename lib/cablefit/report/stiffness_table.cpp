@@ -64,6 +64,8 @@ Cell cell_of(const ElasticPreload& preload, const Coefficient& wanted, Footnotes
     if (!e->not_identifiable.empty()) {
       return {"not identifiable", notes.mark(e->not_identifiable)};
     }
+    if (!e->active_bound.empty())
+      return {value_text(e->value, e->sd), notes.mark("at its bound: " + e->active_bound)};
     return {value_text(e->value, e->sd), "+- " + sd_text(e->value, e->sd)};
   }
   return {kNoNumber, ""};
