@@ -10,6 +10,7 @@ namespace cablefit {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr int kPilotWindows = 8;
 constexpr double kWideBand = 0.15;  // of the rate: the widest band the differences allow
 
 // f0 of the elastic drive needs inertias, which are what is looked for. A first fit with a generous
@@ -39,7 +40,7 @@ double find_resonance(DynamicJob& job, const ElasticResult& elastic) {
   SampleOptions wide = job.options.samples;
   if (!wide.cutoff) wide.cutoff = kWideBand * rate;
   job.settings = moving_settings(job.logs, job.wanted, wide, 0);
-  const std::vector<EquationRows> pilot = pilot_equations(job);
+  const std::vector<EquationRows> pilot = pilot_equations(job, kPilotWindows);
   const std::size_t last = job.elastic.size() - 1;
   const double j_link = solve_equation(pilot[0], job.elastic, last).x(0);
   const double j_motor = solve_equation(pilot[1], job.elastic, last).x(0);
