@@ -202,4 +202,39 @@ TEST_CASE("regressor columns times coefficients are the same torques", "[conform
   });
 }
 
+TEST_CASE("the column of the encoder zero is the torque's derivative", "[conformance]") {
+  for_every_transmission([](Transmission transmission) {
+    if (transmission.n_joints > 1) return;
+    transmission.theta_0 = VectorXd::Constant(1, 0.03);
+    const Equation equation = blocked_equation(transmission, &transmission, true, 0, 0);
+    const BlockedColumns c = blocked_columns(transmission);
+    std::mt19937 engine(17);
+    constexpr double kStep = 1e-6;
+    for (int trial = 0; trial < 20; ++trial) {
+      const Pose at = random_pose(transmission, engine);
+      // A step moves l by less than 1e-7: no cable goes slack within it.
+      if (transmission.elongations(at.q, at.theta).cwiseAbs().minCoeff() < 1e-6) continue;
+      Signals signals;
+      JointSignals& s = signals.joints.emplace_back();
+      s.q = at.q;
+      s.theta = at.theta;
+      s.thetad = s.tau = s.theta_direction = Eigen::ArrayXd::Zero(1);
+      Eigen::MatrixXd row(1, c.count);
+      equation.fill(signals, row);
+      const auto motor_at = [&](double step) {
+        Transmission moved = transmission;
+        moved.theta_0[0] += step;
+        VectorXd link, motor;
+        moved.torques(at.q, at.theta, link, motor);
+        return motor[0];
+      };
+      const double slope = (motor_at(kStep) - motor_at(-kStep)) / (2 * kStep);
+      // Truncation: (h r/l)^2 of it. Rounding: 1e-15 tau/h, 1e-9 per N m. Within a step of a kink
+      // of a strand's slope: h r^3 sum K_j / (toe/4) = 1e-6 * 3e-5 * 1e6 / 1e-3 = 3e-2 at most,
+      // against what the maps' own slopes add, 4e-3 m/rad times 100 N and more.
+      CHECK(std::abs(row(0, c.zero) - slope) <= 3e-2 + 1e-6 * std::abs(slope));
+    }
+  });
+}
+
 }  // namespace

@@ -53,6 +53,23 @@ TEST_CASE("slack points count from the encoder zero and the reference pose") {
   CHECK(points[0].link == Approx(2 * points[0].motor).epsilon(1e-12));
 }
 
+TEST_CASE("slack points are found where pulleys are not round") {
+  // Radius 1 + 20 x: l = x + 10 x^2 + l_o, slack between its two roots.
+  const Rig rig = parse_rig(parse_json(
+      R"({"cables": [{"name": "a", "link_radius": 1, "initial_elongation": 0.02,
+          "motor_radius": {"type": "polynomial", "coefficients": [1, 20]}}]})",
+      "rig.json"));
+  Transmission transmission = rig.transmission;
+  transmission.cables[0].coefficients = {1000, 0};
+  const std::vector<SlackPoint> points = slack_points(transmission, -0.2, 0.2);
+  REQUIRE(points.size() == 2);
+  const double root = std::sqrt(1 - 4 * 10 * 0.02);
+  CHECK(std::abs(points[0].deflection - (-1 - root) / 20) < 4e-13);  // 1e-12 of the range
+  CHECK(points[0].slack_above);
+  CHECK(std::abs(points[1].deflection - (-1 + root) / 20) < 4e-13);
+  CHECK_FALSE(points[1].slack_above);
+}
+
 TEST_CASE("samples are labelled cable by cable") {
   const Transmission pair = high_preload();
   const VectorXd q = VectorXd::Constant(4, 0.1);
