@@ -62,6 +62,17 @@ Table fits_table(const ElasticResult& result) {
   return table;
 }
 
+/// (8c): what the preload alone does in the reference pose.
+std::string balance_text(const ElasticPreload& preload, const ElasticFit& fit) {
+  const PreloadTorques alone = preload_torques(fit.transmission);
+  return fmt::format(
+      "{}, {}: in the reference pose the preload alone makes {} {} on the link and {} on the "
+      "motor; "
+      "0 in equilibrium (8c)",
+      preload.name, fit.model, significant(alone.link[0], 2), torque_unit(preload.linear_motion),
+      significant(alone.motor[0], 2));
+}
+
 /// Where cables of a preloaded fit go slack, within the deflections of the logs; no rows otherwise:
 /// with every l_o = 0 each cable ends at zero deflection by definition.
 Table slack_table(const ElasticResult& result) {
@@ -77,6 +88,7 @@ Table slack_table(const ElasticResult& result) {
   for (const ElasticPreload& preload : result.preloads) {
     for (const ElasticFit& fit : preload.fits) {
       if (!is_preloaded(fit.transmission)) continue;
+      table.notes.push_back(balance_text(preload, fit));
       for (const SlackPoint& point :
            slack_points(fit.transmission, preload.deflection_low, preload.deflection_high)) {
         table.rows.push_back({preload.name, fit.model, fit.transmission.cables[point.cable].name,
