@@ -4,6 +4,7 @@
 
 #include "cablefit/dynamic/dynamic_job.hpp"
 #include "cablefit/dynamic/torque_delay.hpp"
+#include "cablefit/model/modes.hpp"
 #include "cablefit/samples/agreement.hpp"
 
 namespace cablefit {
@@ -26,9 +27,10 @@ double typical_stiffness(const ElasticFit& fit, const ElasticPreload& preload) {
   double sum = 0;
   const double deflection = 0.5 * std::max(-preload.deflection_low, preload.deflection_high);
   for (const Cable& cable : fit.transmission.cables) {
-    const double r = cable.motor_radius(0);
-    for (const double phi : {-deflection, deflection})
-      sum += 0.5 * r * r * cable.stiffness(r * phi + cable.initial_elongation);
+    for (const double phi : {-deflection, deflection}) {
+      const double r = cable.motor_map.front().radius(phi);
+      sum += 0.5 * r * r * cable.stiffness(elongation_at(fit.transmission, cable, phi));
+    }
   }
   return sum;
 }
