@@ -47,23 +47,33 @@ std::vector<Table> effect_tables() {
   return {table};
 }
 
+std::string orders_of(const CableLaw& law) {
+  return law.max_order == 1 ? "1" : fmt::format("1 to {}", law.max_order);
+}
+
 std::vector<Table> model_tables() {
   Table models = text_table_of("Models of stage 2", {"name", "equation", "source"});
   for (const DynamicModel& model : dynamic_models()) {
     models.rows.push_back(
         {std::string(model.name), std::string(model.equation), std::string(model.source)});
   }
-  Table cables =
-      text_table_of("Cable laws (rig file: cables, law)", {"name", "equation", "source"});
+  Table cables = text_table_of("Cable laws (rig file: cables, law)",
+                               {"name", "order", "equation", "coefficients", "source"});
   for (const CableLaw& law : cable_laws()) {
-    cables.rows.push_back(
-        {std::string(law.name), std::string(law.equation), std::string(law.source)});
+    cables.rows.push_back({std::string(law.name), orders_of(law), std::string(law.equation),
+                           std::string(law.coefficients), std::string(law.source)});
+  }
+  Table maps = text_table_of("Displacement maps (rig file: cables, motor_radius and link_radius)",
+                             {"name", "displacement at angle x", "source"});
+  for (const MapKind& kind : map_kinds()) {
+    maps.rows.push_back(
+        {std::string(kind.name), std::string(kind.equation), std::string(kind.source)});
   }
   Table loads = text_table_of("Load laws (rig file: load, type)", {"name", "equation"});
   for (const LoadLaw& law : load_laws()) {
     loads.rows.push_back({std::string(law.name), std::string(law.equation)});
   }
-  return {models, cables, loads};
+  return {models, cables, maps, loads};
 }
 
 std::vector<Table> estimator_tables() {

@@ -11,11 +11,11 @@ namespace cablefit::test {
 /// tau_elas of a fit at a deflection from its zero, link at 0.
 inline double fitted_torque(const ElasticFit& fit, double phi) {
   if (fit.transmission.cables.empty()) return fit.transmission.linear_stiffness(0) * phi;
-  double sum = 0;
-  for (const Cable& cable : fit.transmission.cables)
-    sum +=
-        cable.motor_radius(0) * cable.force(cable.motor_radius(0) * phi + cable.initial_elongation);
-  return sum;
+  Eigen::VectorXd link, motor;
+  fit.transmission.torques(Eigen::VectorXd::Zero(1),
+                           fit.transmission.encoder_zero() + Eigen::VectorXd::Constant(1, phi),
+                           link, motor);
+  return motor[0];
 }
 
 inline double largest_curve_error(const ElasticFit& fit, const truth::Rig& rig, double low,

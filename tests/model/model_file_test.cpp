@@ -60,6 +60,17 @@ void check_equal(const std::vector<EffectInstance>& a, const std::vector<EffectI
   }
 }
 
+void check_equal(const std::vector<DisplacementMap>& a, const std::vector<DisplacementMap>& b) {
+  REQUIRE(a.size() == b.size());
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    CHECK(a[k].kind == b[k].kind);
+    CHECK(a[k].parameters.coefficients == b[k].parameters.coefficients);
+    CHECK(a[k].parameters.angle == b[k].parameters.angle);
+    CHECK(a[k].parameters.displacement == b[k].parameters.displacement);
+    CHECK(a[k].parameters.curvature == b[k].parameters.curvature);
+  }
+}
+
 void check_equal(const Transmission& a, const Transmission& b) {
   CHECK(a.n_joints == b.n_joints);
   CHECK(a.encoder_zero() == b.encoder_zero());
@@ -71,8 +82,10 @@ void check_equal(const Transmission& a, const Transmission& b) {
     CHECK(a.cables[i].order == b.cables[i].order);
     CHECK(a.cables[i].coefficients == b.cables[i].coefficients);
     CHECK(a.cables[i].initial_elongation == b.cables[i].initial_elongation);
-    CHECK(a.cables[i].motor_radius == b.cables[i].motor_radius);
-    CHECK(a.cables[i].link_radius == b.cables[i].link_radius);
+    CHECK(a.cables[i].toe == b.cables[i].toe);
+    CHECK(a.cables[i].reference_displacement == b.cables[i].reference_displacement);
+    check_equal(a.cables[i].motor_map, b.cables[i].motor_map);
+    check_equal(a.cables[i].link_map, b.cables[i].link_map);
   }
 }
 
@@ -181,13 +194,21 @@ TEST_CASE("a rig with every part survives the model file") {
     "controller": {"kp": 300, "kd": 8, "period": 0.002, "limit": 20},
     "sensors": {"q1": {"quantum": 1e-6}, "tau": {"noise": 0.2}}, "cad": {"J_link[1]": 0.3},
     "joints": [{"name": "a"}, {"name": "b"}],
-    "cables": [{"name": "x", "motor_radius": [0.1, 0.2], "link_radius": [0.3, 0.4], "order": 3},
+    "cables": [{"name": "x", "motor_radius": [0.1, {"type": "polynomial", "coefficients": [0.2, 1]}],
+                "link_radius": [{"type": "table", "angle": [0, 1, 3], "displacement": [0, 2, 1]}, 0.4],
+                "order": 3},
                {"name": "y", "motor_radius": [0, 0.2], "link_radius": [0, 0.4], "law": "linear",
-                "initial_elongation": "search"}]},
+                "initial_elongation": "search"},
+               {"name": "z", "motor_radius": [0, 1], "link_radius": [0, 1], "law": "strand",
+                "toe": 0.003, "order": 1}],
+    "reference_pose": {"q": [0.1, 0.2], "theta": [0.3, 0.4]}},
     "joints": [{"name": "a", "link": {"inertia": {"J_link": 1}}, "motor": {"inertia": {"J_motor": 2}}},
                {"name": "b", "link": {"inertia": {"J_link": 3}}, "motor": {"inertia": {"J_motor": 4}}}],
     "transmission": {"cables": [{"name": "x", "coefficients": [1, 2, 3]},
-                                {"name": "y", "coefficients": [7]}]}})");
+                                {"name": "y", "law": "strand", "toe": 0.002, "coefficients": [7]},
+                                {"name": "z", "coefficients": [8, 9]}]}})");
+  CHECK(model.transmission.cables[1].toe == 0.002);
+  CHECK(model.transmission.cables[2].toe == 0.003);
   CHECK(model.joints[1].motor[0].parameters[0].name == "J_motor[2]");
   CHECK(model.elastic[2].name == "k[x]_2");
   const Model back = read_back(model);
@@ -201,7 +222,7 @@ TEST_CASE("a rig with every part survives the model file") {
   CHECK(back.rig.sensors.at("q1").quantum == 1e-6);
   CHECK(back.rig.cad == model.rig.cad);
   CHECK(back.rig.joints == model.rig.joints);
-  CHECK(back.rig.search_elongation == std::vector<bool>{false, true});
+  CHECK(back.rig.search_elongation == std::vector<bool>{false, true, false});
   CHECK(model_json(back) == model_json(model));
 }
 

@@ -91,8 +91,8 @@ TEST_CASE("a rig file's cables") {
   CHECK(cables[0].name == "left");
   CHECK(cables[0].law == &find_cable_law("polynomial"));
   CHECK(cables[0].order == 2);
-  CHECK(cables[0].motor_radius == Eigen::Vector2d(0.02, 0));
-  CHECK(cables[0].link_radius == Eigen::Vector2d(0.05, 0.01));
+  CHECK(cables[0].motor_radii(Eigen::Vector2d::Zero()) == Eigen::Vector2d(0.02, 0));
+  CHECK(cables[0].link_radii(Eigen::Vector2d::Zero()) == Eigen::Vector2d(0.05, 0.01));
   CHECK(cables[1].order == 3);
   CHECK(cables[1].initial_elongation == 0);
   CHECK(cables[2].law == &find_cable_law("linear"));
@@ -122,7 +122,7 @@ TEST_CASE("a single joint may be numbered, and radii be scalars") {
                                        "rig.json"));
   CHECK(rig.columns.at("q1").column == "link");
   CHECK(rig.linear_motion);
-  CHECK(rig.transmission.cables[0].link_radius[0] == 0.05);
+  CHECK(rig.transmission.cables[0].link_map[0].radius(0) == 0.05);
 }
 
 TEST_CASE("the rig of a log: named, beside it, or the default") {
@@ -135,6 +135,25 @@ TEST_CASE("the rig of a log: named, beside it, or the default") {
   CHECK(rig_for_log(log, "").path == beside);
   CHECK(rig_for_log(log, other).name == "named");
   CHECK_THROWS_WITH(rig_for_log(log, folder.file("gone.json")), Catch::Contains("gone.json"));
+}
+
+TEST_CASE("pulleys may be of any shape, and cables strands") {
+  const Rig rig = parse_rig(parse_json(R"({
+    "joints": [{"name": "a"}, {"name": "b"}],
+    "cables": [{"name": "x", "law": "strand", "toe": 0.002, "link_radius": [0.03, 0],
+                "motor_radius": [{"type": "polynomial", "coefficients": [0.02, 0.004]},
+                                 {"type": "table", "angle": [-1, 0, 2], "displacement": [1, 0, 4]}]}],
+    "reference_pose": {"q": [0.1, 0], "theta": [0.2, 2]}})",
+                                       "rig.json"));
+  const Cable& cable = rig.transmission.cables.at(0);
+  CHECK(cable.toe == 0.002);
+  CHECK(cable.order == 2);
+  // Radius 0.02 + 0.004 x, and the parabola x^2 through the three points.
+  const Eigen::VectorXd radii = cable.motor_radii(Eigen::Vector2d(0.5, 1.5));
+  CHECK(radii[0] == Approx(0.022).epsilon(1e-12));
+  CHECK(radii[1] == Approx(3).epsilon(1e-12));
+  CHECK(cable.reference_displacement ==
+        Approx(0.02 * 0.2 + 0.002 * 0.04 + 4 - 0.03 * 0.1).epsilon(1e-12));
 }
 
 }  // namespace

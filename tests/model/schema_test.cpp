@@ -81,6 +81,19 @@ TEST_CASE("the rig schema has every load law and cable law") {
   for (const CableLaw& law : cable_laws()) CHECK(laws.count(std::string(law.name)) == 1);
 }
 
+TEST_CASE("the rig schema has every displacement map") {
+  const JsonNode root = schema("rig");
+  const std::string start = R"({"cables": [{"name": "a", "motor_radius": {"type": ")";
+  Names maps;
+  for (const JsonNode& map : root.at("$defs").at("map").at("oneOf").items) {
+    if (!map.find("properties")) continue;  // a bare number
+    const std::string type = map.at("properties").at("type").at("const").text();
+    maps.insert(type);
+    CHECK(properties(map) == known_to_rig_reader(start + type + R"(", "?": 0}}]})"));
+  }
+  CHECK(maps == known_to_rig_reader(start + R"(?"}}]})"));
+}
+
 TEST_CASE("the model schema has every effect with its parameters") {
   const JsonNode root = schema("model");
   const JsonNode& joint = root.at("properties").at("joints").at("items").at("properties");

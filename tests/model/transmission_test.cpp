@@ -9,28 +9,6 @@ namespace {
 using namespace cablefit;
 using Eigen::VectorXd;
 
-/// Elastic energy: the integral of every cable's force, by the trapezoidal rule on a fine grid.
-double cable_energy(const Cable& cable, double l) {
-  if (l <= 0) return 0;
-  constexpr int kSteps = 4000;
-  double sum = 0.5 * cable.force(l);
-  for (int i = 1; i < kSteps; ++i) sum += cable.force(l * i / kSteps);
-  return sum * l / kSteps;
-}
-
-double energy(const Transmission& transmission, const VectorXd& q, const VectorXd& theta) {
-  if (transmission.cables.empty()) {
-    const VectorXd phi = theta - transmission.theta_0 - q;
-    return 0.5 * phi.dot(transmission.linear_stiffness.cwiseProduct(phi));
-  }
-  const VectorXd l = transmission.elongations(q, theta);
-  double sum = 0;
-  for (Eigen::Index i = 0; i < l.size(); ++i) {
-    sum += cable_energy(transmission.cables[static_cast<std::size_t>(i)], l[i]);
-  }
-  return sum;
-}
-
 /// Two joints and three cables, the third coupling both.
 Transmission coupled_arm() {
   Transmission arm;
@@ -45,8 +23,8 @@ Transmission coupled_arm() {
     cable.order = 3;
     cable.coefficients = {4e4, 2e5, 1e6};
     cable.initial_elongation = 0.004;
-    cable.motor_radius = Eigen::Vector2d(r[0], r[1]);
-    cable.link_radius = Eigen::Vector2d(r[2], r[3]);
+    cable.motor_map = round_pulleys(Eigen::Vector2d(r[0], r[1]));
+    cable.link_map = round_pulleys(Eigen::Vector2d(r[2], r[3]));
     arm.cables.push_back(cable);
   }
   return arm;
@@ -73,15 +51,15 @@ TEST_CASE("the elastic torques are the gradient of the elastic energy, (1)") {
     for (Eigen::Index k = 0; k < 2; ++k) {
       const VectorXd step = kStep * VectorXd::Unit(2, k);
       const double by_q =
-          (energy(transmission, q + step, theta) - energy(transmission, q - step, theta)) /
+          (transmission.energy(q + step, theta) - transmission.energy(q - step, theta)) /
           (2 * kStep);
       const double by_theta =
-          (energy(transmission, q, theta + step) - energy(transmission, q, theta - step)) /
+          (transmission.energy(q, theta + step) - transmission.energy(q, theta - step)) /
           (2 * kStep);
-      // Torques reach 100 N m. Central difference: h^2/6 U''' ~ 1e-8; quadrature: 1/(12 4000^2)
-      // of the nonlinear part ~ 1e-6; rounding of U (10 J): 1e-15 * 10 / 1e-5 = 1e-9.
-      CHECK(std::abs(link[k] + by_q) < 5e-6);
-      CHECK(std::abs(motor[k] - by_theta) < 5e-6);
+      // Torques reach 100 N m. Central difference: h^2/6 U''' ~ 1e-8 (no cable of these poses goes
+      // slack within a step); rounding of U (10 J): 1e-15 * 10 / 1e-5 = 1e-9.
+      CHECK(std::abs(link[k] + by_q) < 1e-7);
+      CHECK(std::abs(motor[k] - by_theta) < 1e-7);
     }
   }
 }
@@ -108,8 +86,9 @@ TEST_CASE("several joints have a pair each, numbered on") {
   const Transmission arm = antagonist_pairs(2, 1);
   REQUIRE(arm.cables.size() == 4);
   CHECK(arm.cables[2].name == "3");
-  CHECK(arm.cables[2].motor_radius == Eigen::Vector2d(0, 1));
-  CHECK(arm.cables[3].link_radius == Eigen::Vector2d(0, -1));
+  const Eigen::Vector2d anywhere(0.3, -0.2);
+  CHECK(arm.cables[2].motor_radii(anywhere) == Eigen::Vector2d(0, 1));
+  CHECK(arm.cables[3].link_radii(anywhere) == Eigen::Vector2d(0, -1));
 }
 
 TEST_CASE("an empty encoder zero is 0") {
@@ -118,17 +97,30 @@ TEST_CASE("an empty encoder zero is 0") {
   CHECK(pair.elongations(VectorXd::Zero(1), VectorXd::Ones(1)) == Eigen::Vector2d(1, -1));
 }
 
+TEST_CASE("elongations count from the reference pose") {
+  Transmission arm = coupled_arm();
+  const Eigen::Vector2d q_o(0.3, -0.2), theta_o(0.5, 0.1);
+  set_reference(arm, {q_o, theta_o});
+  const VectorXd there = theta_o + arm.theta_0;
+  // Sums of a few products of about 0.01: rounding 1e-17.
+  CHECK((arm.elongations(q_o, there).array() - 0.004).abs().maxCoeff() < 1e-16);
+  const Eigen::Vector2d step(0.01, -0.02);
+  const VectorXd l = arm.elongations(q_o, there + step);
+  CHECK(l[2] - 0.004 == Approx(0.02 * 0.01 + 0.04 * 0.02).epsilon(1e-12));
+}
+
 TEST_CASE("elastic parameters are named as in results") {
   Cable cable;
   cable.name = "left";
   CHECK(coefficient_name(cable, 1, true) == "k[left]_1");
   CHECK(elongation_name(cable) == "l_o[left]");
-  cable.name = "2";
-  CHECK(coefficient_name(cable, 0, false) == "K2_0");
-  CHECK(coefficient_unit(0, false) == "N m/rad");
-  CHECK(coefficient_unit(1, false) == "N m/rad^2");
-  CHECK(coefficient_unit(0, true) == "N/m");
-  CHECK(coefficient_unit(1, true) == "N/m^2");
+  CHECK(coefficient_name(antagonist_pair(1).cables[1], 0, false) == "K2_0");
+  const CableLaw& polynomial = find_cable_law("polynomial");
+  CHECK(coefficient_unit(polynomial, 0, false) == "N m/rad");
+  CHECK(coefficient_unit(polynomial, 1, false) == "N m/rad^2");
+  CHECK(coefficient_unit(polynomial, 0, true) == "N/m");
+  CHECK(coefficient_unit(polynomial, 1, true) == "N/m^2");
+  CHECK(coefficient_unit(find_cable_law("strand"), 3, true) == "N/m");
 }
 
 }  // namespace

@@ -33,8 +33,8 @@ ElasticFit poly_fit(int order_1, int order_2) {
     double value = 1367.7 + 1.0 / 3;  // needs all 17 digits
     for (int k = 0; k < cable.n_coefficients(); ++k, value *= 27.7) {
       cable.coefficients.push_back(value);
-      fit.parameters.push_back(
-          estimate(coefficient_name(cable, k, false), coefficient_unit(k, false), value, 1.1));
+      fit.parameters.push_back(estimate(coefficient_name(cable, k, false),
+                                        coefficient_unit(*cable.law, k, false), value, 1.1));
     }
   }
   const auto n = static_cast<Eigen::Index>(fit.parameters.size());

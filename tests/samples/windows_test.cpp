@@ -1,6 +1,7 @@
 // Windows and threads are bookkeeping: they must not show in the rows. Gaps and uneven clocks must.
 #include <numbers>
 
+#include "cablefit/samples/thinning.hpp"
 #include "tests/samples/rows_of_logs.hpp"
 
 namespace {
@@ -162,21 +163,19 @@ TEST_CASE("an uneven log is put on an even grid and counted", "[samples]") {
   }
 }
 
-// A quasi-static equation forms its columns at a lower rate than that of the log. The torque of a
-// cable goes with powers of theta, so it must still be the same power of theta in every row. The
-// sweep's cube reaches to 3 Hz, where the low-pass of 10 Hz leaves (3/10)^8 = 7e-5 less, and the
-// taps of the first decimation are 1e-4 off at most (their ripple of 2e-3 stands at their edge, 100
-// Hz): three times that in a cube.
-TEST_CASE("powers formed between two decimations are those of the torque", "[samples]") {
+/// theta = sin, tau = its cube, 60 s at 1 kHz.
+std::string cubic_log(double frequency) {
   Columns text{{{"t", {}}, {"theta", {}}, {"tau", {}}}};
   for (int i = 0; i < 60000; ++i) {
-    const double t = 1e-3 * i, theta = std::sin(2 * std::numbers::pi * t);
+    const double t = 1e-3 * i, theta = std::sin(2 * std::numbers::pi * frequency * t);
     text.columns[0].second.push_back(t);
     text.columns[1].second.push_back(theta);
     text.columns[2].second.push_back(theta * theta * theta);
   }
-  Bench bench;
-  const LogSurvey& log = bench.add_text(text.csv());
+  return text.csv();
+}
+
+Equation cubic_equation() {
   Equation equation;
   equation.name = "cube";
   equation.columns = {"theta^3", "tau"};
@@ -185,6 +184,17 @@ TEST_CASE("powers formed between two decimations are those of the torque", "[sam
     out.col(0) = signals.joints[0].theta.cube();
     out.col(1) = signals.joints[0].tau;
   };
+  return equation;
+}
+
+// A quasi-static equation forms its columns at a lower rate than that of the log. The torque of a
+// cable goes with powers of theta, so it must still be the same power of theta in every row. The
+// sweep's cube reaches to 3 Hz, where the low-pass of 10 Hz leaves (3/10)^8 = 7e-5 less, and the
+// taps of the thinning are 1e-4 off at most: three times that in a cube.
+TEST_CASE("powers formed after thinning are those of the torque", "[samples]") {
+  Bench bench;
+  const LogSurvey& log = bench.add_text(cubic_log(1));
+  const Equation equation = cubic_equation();
   for (const int decimate : {8, 20, 37, 40}) {
     RowSettings settings = settings_of(10, decimate, 2000);
     const EquationBatch once = all_rows(log, settings, equation);
@@ -196,6 +206,62 @@ TEST_CASE("powers formed between two decimations are those of the torque", "[sam
     CHECK((once.rows.col(0) - once.rows.col(1)).cwiseAbs().maxCoeff() < 1e-4);
     CHECK((twice.rows.col(0) - twice.rows.col(1)).cwiseAbs().maxCoeff() < 3e-4);
   }
+}
+
+// Thinned windows begin and end anywhere on the thinned grid; what is left of the cuts is one
+// settling time of the low-pass, 1e-10 of the signal.
+TEST_CASE("thinned rows do not show where windows were cut", "[samples]") {
+  Bench bench;
+  const LogSurvey& log = bench.add_text(cubic_log(0.3));
+  const Equation equation = cubic_equation();
+  for (const Eigen::Index edge : {3, 77, 400}) {
+    RowSettings settings = settings_of(10, 40, edge);
+    settings.signal.quasi_static = true;
+    const EquationBatch cut = all_rows(log, settings, equation);
+    const EquationBatch whole = single_shot(log, settings, equation);
+    REQUIRE(cut.numbers == whole.numbers);
+    REQUIRE(cut.rows.rows() > 1000);
+    CHECK(cut.counts.rows_at_edges == whole.counts.rows_at_edges);
+    CHECK((cut.rows - whole.rows).cwiseAbs().maxCoeff() < 1e-9);
+  }
+}
+
+// A torque held over the log's period acts half of it later, however few rows are kept.
+TEST_CASE("thinning keeps the hold of the log", "[samples]") {
+  Columns text{{{"t", {}}, {"theta", {}}, {"tau", {}}}};
+  for (int i = 0; i < 20000; ++i)
+    for (std::size_t k = 0; k < 3; ++k) text.columns[k].second.push_back(1e-3 * i);
+  Bench bench;
+  const LogSurvey& log = bench.add_text(text.csv());
+  RowSettings settings = settings_of(10, 40, 2000);
+  settings.signal.quasi_static = settings.signal.torque_held = true;
+  Equation equation = cubic_equation();
+  equation.fill = [](const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
+    out.col(0) = signals.joints[0].theta;
+    out.col(1) = signals.joints[0].tau;
+  };
+  const EquationBatch rows = all_rows(log, settings, equation);
+  REQUIRE(rows.rows.rows() > 300);
+  // tau = t goes through filters of unit gain at zero frequency: off by rounding only.
+  CHECK((rows.rows.col(0) - rows.rows.col(1) - Eigen::VectorXd::Constant(rows.rows.rows(), 5e-4))
+            .cwiseAbs()
+            .maxCoeff() < 1e-9);
+}
+
+TEST_CASE("thinning leaves the low-pass and the last decimation their room", "[samples]") {
+  SignalSettings slow;
+  slow.quasi_static = true;
+  slow.cutoff = 10;
+  CHECK(thinning_step(slow, 40, 1000) == 5);   // 8 left for the last step
+  CHECK(thinning_step(slow, 400, 1000) == 5);  // 16 cut-offs are 160 Hz: 6, and 5 divides 400
+  CHECK(thinning_step(slow, 37, 1000) == 1);   // a prime
+  CHECK(thinning_step(slow, 7, 1000) == 1);    // less than the last step
+  CHECK(thinning_step(slow, 40, 100) == 1);    // 16 cut-offs are beyond the rate
+  slow.cutoff = 0;
+  CHECK(thinning_step(slow, 40, 1000) == 1);  // no low-pass to remove what folds down
+  slow.cutoff = 10;
+  slow.quasi_static = false;
+  CHECK(thinning_step(slow, 40, 1000) == 1);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ constexpr std::array<DynamicModel, 4> kModels = {{
 }};
 
 constexpr std::array<Estimator, 2> kEstimators = {{
-    {"ols", "ordinary least squares by streamed Householder QR, all equations of weight one",
+    {"ols", "ordinary least squares by streamed QR, all equations of weight one",
      "Golub & Van Loan 2013, ch. 5", false},
     {"wls", "each equation weighted by 1/variance of its own residual", "Gautier 1997", true},
 }};

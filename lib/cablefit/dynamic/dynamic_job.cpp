@@ -8,7 +8,7 @@
 namespace cablefit {
 namespace {
 
-constexpr int kPilotWindows = 8;
+constexpr int kGuessWindows = 3;  // a bad guess costs a second pass, a long one costs always
 
 }  // namespace
 
@@ -40,18 +40,20 @@ std::vector<EquationRows> make_equations(const DynamicJob& job) {
   return equations;
 }
 
-std::vector<EquationRows> pilot_equations(const DynamicJob& job) {
+std::vector<EquationRows> pilot_equations(const DynamicJob& job, int n_windows) {
   std::vector<EquationRows> pilot = make_equations(job);
   const RowSettings& settings = job.settings.rows;
   const Eigen::Index expected = expected_rows(job.logs, job.wanted, settings);
   for (EquationRows& e : pilot) e.rows.emplace(e.columns.count, expected);
   const double rate = sample_rates(job.logs, job.wanted).highest;
-  for (const PilotWindow& p : pilot_windows(job.logs, job.wanted, settings.signal,
-                                            row_halo(settings, rate), kPilotWindows))
-    for (EquationRows& e : pilot) {
-      const RowBatch batch = make_rows(p.window, job.logs[p.log], 0, settings, {&e.equation, 1});
-      e.rows->add(batch.equations[0].rows, batch.equations[0].numbers);
-    }
+  std::vector<Equation> plain;
+  for (const EquationRows& e : pilot) plain.push_back(e.equation);
+  for (const PilotWindow& p :
+       pilot_windows(job.logs, job.wanted, settings.signal, row_halo(settings, rate), n_windows)) {
+    const RowBatch batch = make_rows(p.window, job.logs[p.log], 0, settings, plain);
+    for (std::size_t k = 0; k < pilot.size(); ++k)
+      pilot[k].rows->add(batch.equations[k].rows, batch.equations[k].numbers);
+  }
   return pilot;
 }
 
@@ -97,7 +99,7 @@ void take(EquationRows& e, Share&& share) {
 }  // namespace
 
 WindowCounts collect_rows(const DynamicJob& job, std::vector<EquationRows>& equations) {
-  const std::vector<EquationRows> pilot = pilot_equations(job);
+  const std::vector<EquationRows> pilot = pilot_equations(job, kGuessWindows);
   std::vector<Equation> plain;
   std::vector<RowStatistics> blank;
   const Eigen::Index expected = expected_rows(job.logs, job.wanted, job.settings.rows);

@@ -43,8 +43,8 @@ struct EquationRows {
 /// Link and motor, or the one equation of a rigid drive; no rows yet.
 std::vector<EquationRows> make_equations(const DynamicJob& job);
 
-/// The equations with the rows of the first windows of every log only.
-std::vector<EquationRows> pilot_equations(const DynamicJob& job);
+/// The equations with the rows of the first `n_windows` windows of every log only.
+std::vector<EquationRows> pilot_equations(const DynamicJob& job, int n_windows);
 
 /// Streams all wanted rows into the equations.
 WindowCounts collect_rows(const DynamicJob& job, std::vector<EquationRows>& equations);

@@ -4,12 +4,14 @@
 
 #include "cablefit/dynamic/dynamic_job.hpp"
 #include "cablefit/dynamic/torque_delay.hpp"
+#include "cablefit/model/modes.hpp"
 #include "cablefit/samples/agreement.hpp"
 
 namespace cablefit {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr int kPilotWindows = 8;
 constexpr double kWideBand = 0.15;  // of the rate: the widest band the differences allow
 
 // f0 of the elastic drive needs inertias, which are what is looked for. A first fit with a generous
@@ -25,9 +27,10 @@ double typical_stiffness(const ElasticFit& fit, const ElasticPreload& preload) {
   double sum = 0;
   const double deflection = 0.5 * std::max(-preload.deflection_low, preload.deflection_high);
   for (const Cable& cable : fit.transmission.cables) {
-    const double r = cable.motor_radius(0);
-    for (const double phi : {-deflection, deflection})
-      sum += 0.5 * r * r * cable.stiffness(r * phi + cable.initial_elongation);
+    for (const double phi : {-deflection, deflection}) {
+      const double r = cable.motor_map.front().radius(phi);
+      sum += 0.5 * r * r * cable.stiffness(elongation_at(fit.transmission, cable, phi));
+    }
   }
   return sum;
 }
@@ -39,7 +42,7 @@ double find_resonance(DynamicJob& job, const ElasticResult& elastic) {
   SampleOptions wide = job.options.samples;
   if (!wide.cutoff) wide.cutoff = kWideBand * rate;
   job.settings = moving_settings(job.logs, job.wanted, wide, 0);
-  const std::vector<EquationRows> pilot = pilot_equations(job);
+  const std::vector<EquationRows> pilot = pilot_equations(job, kPilotWindows);
   const std::size_t last = job.elastic.size() - 1;
   const double j_link = solve_equation(pilot[0], job.elastic, last).x(0);
   const double j_motor = solve_equation(pilot[1], job.elastic, last).x(0);

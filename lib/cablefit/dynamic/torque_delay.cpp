@@ -132,10 +132,10 @@ std::optional<DelayFit> fit_delay(const RowStatistics& rows, const DynamicColumn
 }  // namespace
 
 TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFilter& wanted,
-                                  const RowSettings& row_settings, double rest_speed, Side side,
+                                  const RowSettings& settings, double rest_speed, Side side,
                                   const ElasticFit* elastic) {
   TorqueDelay delay;
-  RowSettings rows = row_settings;
+  RowSettings rows = settings;
   rows.signal.torque_held = false;
   std::vector<const ElasticFit*> fits;
   if (elastic != nullptr) fits.push_back(elastic);

@@ -12,7 +12,7 @@ namespace cablefit {
 /// variables: the derivative of the MODEL's torque is the instrument for that of the measured one,
 /// whose noise would otherwise pull d towards 0. Uses the first windows of every log (pilot).
 TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFilter& wanted,
-                                  const RowSettings& row_settings, double rest_speed, Side side,
+                                  const RowSettings& settings, double rest_speed, Side side,
                                   const ElasticFit* elastic);
 
 }  // namespace cablefit

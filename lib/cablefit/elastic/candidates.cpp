@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace cablefit {
 namespace {
@@ -25,11 +27,16 @@ void add_nuisance(Candidate& candidate, const BlockedRows& rows, const Nuisance&
   if (nuisance.speed) add(rows.columns.speed, "f_vm", -kUnbounded);
 }
 
-/// Pulled so little (first basis column against the deflection, as rms) that its coefficients would
-/// be fitted to noise about its slack point.
-bool hardly_taut(const BlockedRows& rows, Eigen::Index first_column) {
+/// Pulled so little (first basis column, as rms, against what the rms deflection would give) that
+/// its coefficients would be fitted to noise about its slack point.
+bool hardly_taut(const BlockedRows& rows, const Cable& cable, Eigen::Index first_column) {
   const auto& r = rows.rows->r();
-  return r.col(first_column).norm() < kTautShare * r.col(rows.columns.deflection).norm();
+  const double n = std::sqrt(static_cast<double>(rows.rows->n_rows()));
+  const double radius = std::abs(cable.motor_map.front().radius(0));
+  const double stretch = radius * r.col(rows.columns.deflection).norm() / n;
+  std::array<double, kMaxCableOrder> basis{};
+  if (stretch > 0) cable.law->basis(cable.shape(), stretch, basis.data());
+  return r.col(first_column).norm() / n < kTautShare * radius * basis[0];
 }
 
 }  // namespace
@@ -61,7 +68,7 @@ Candidate poly_candidate(const ElasticJob& job, const BlockedRows& rows, int ord
     const Cable& cable = candidate.transmission.cables[c];
     candidate.order = std::max(candidate.order, cable.order);
     const std::string held =
-        hardly_taut(rows, first)
+        hardly_taut(rows, cable, first)
             ? fmt::format("cable {} was hardly ever taut in these logs", cable.name)
             : "";
     fitted.push_back(held.empty());

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+
+#include "cablefit/model/modes.hpp"
 
 namespace cablefit {
 namespace {
@@ -21,8 +24,8 @@ void check_passive(ElasticFit& fit, const ElasticPreload& preload, const Elongat
     return;
   }
   for (const Cable& cable : fit.transmission.cables) {
-    const double longest =
-        longest_elongation(cable, preload.deflection_low, preload.deflection_high);
+    const double longest = longest_elongation(fit.transmission, cable, preload.deflection_low,
+                                              preload.deflection_high);
     if (longest <= 0) {
       fit.warnings.push_back(fmt::format("cable {} was never taut in these logs", cable.name));
       continue;
@@ -91,8 +94,10 @@ void note_closure(ElasticPreload& preload) {
   const double reach = std::min(-preload.deflection_low, preload.deflection_high);
   if (!(reach > 0)) return;
   int falling = 0;
-  for (const Cable& cable : poly.transmission.cables)
-    falling += cable.stiffness(0.2 * reach) < 0.9 * cable.stiffness(1e-6 * reach);
+  for (const Cable& cable : poly.transmission.cables) {
+    const double stretch = std::abs(cable.motor_map.front().radius(0)) * reach;
+    falling += cable.stiffness(0.2 * stretch) < 0.9 * cable.stiffness(1e-6 * stretch);
+  }
   if (falling == 2)
     preload.warnings.emplace_back(
         "the stiffness falls on both sides of zero, as with cables that are both taut there "

@@ -19,17 +19,26 @@ Eigen::ArrayXd branch(const JointSignals& s, double rest_speed) {
   return (s.thetad.abs() > rest_speed).select(s.thetad.sign(), s.approach);
 }
 
-// d tau_elas_m / d theta of a fitted transmission, one joint.
+// d tau_elas_m / d theta of a fitted transmission, one joint: S df/dl S + dS/dtheta f.
 double motor_stiffness(const Transmission& transmission, double q, double theta) {
   if (transmission.cables.empty()) return transmission.linear_stiffness(0);
+  const double turned = theta - (transmission.theta_0.size() > 0 ? transmission.theta_0(0) : 0.0);
   double sum = 0;
   for (const Cable& cable : transmission.cables) {
-    const double zero = transmission.theta_0.size() > 0 ? transmission.theta_0(0) : 0.0;
-    const double l = cable.motor_radius(0) * (theta - zero) - cable.link_radius(0) * q +
-                     cable.initial_elongation;
-    sum += cable.motor_radius(0) * cable.motor_radius(0) * cable.stiffness(l);
+    const DisplacementMap& motor = cable.motor_map.front();
+    const double l =
+        motor.displacement(turned) - cable.link_map.front().displacement(q) + cable.shift();
+    const double radius = motor.radius(turned);
+    sum += radius * radius * cable.stiffness(l) + motor.radius_slope(turned) * cable.force(l);
   }
   return sum;
+}
+
+// Elongation of one cable of one joint, row by row.
+Eigen::ArrayXd elongation(const Cable& cable, const Eigen::ArrayXd& q,
+                          const Eigen::ArrayXd& turned) {
+  return cable.motor_map.front().displacements(turned) - cable.link_map.front().displacements(q) +
+         cable.shift();
 }
 
 }  // namespace
@@ -43,20 +52,22 @@ Eigen::Index n_elastic_columns(const Transmission& transmission) {
 void elastic_basis(const Transmission& transmission, const JointSignals& s, ElasticSide side,
                    Eigen::Ref<Eigen::MatrixXd> out) {
   const double zero = transmission.theta_0.size() > 0 ? transmission.theta_0(0) : 0.0;
+  const Eigen::ArrayXd turned = s.theta - zero;
   std::array<double, kMaxCableOrder> values{};
   Eigen::Index first = 0;
   for (const Cable& cable : transmission.cables) {
-    const int n = cable.law->n_coefficients(cable.order);
-    const double gain = side == ElasticSide::motor ? cable.motor_radius(0) : cable.link_radius(0);
+    const int n = cable.n_coefficients();
+    const LawShape shape = cable.shape();
+    const Eigen::ArrayXd l = elongation(cable, s.q, turned);
+    const Eigen::ArrayXd gain = side == ElasticSide::motor ? cable.motor_map.front().radii(turned)
+                                                           : cable.link_map.front().radii(s.q);
     for (Eigen::Index i = 0; i < out.rows(); ++i) {
-      const double l = cable.motor_radius(0) * (s.theta(i) - zero) - cable.link_radius(0) * s.q(i) +
-                       cable.initial_elongation;
-      if (l > 0) {
-        cable.law->basis(cable.order, l, values.data());
+      if (l(i) > 0) {
+        cable.law->basis(shape, l(i), values.data());
       } else {
         values.fill(0);
       }
-      for (int k = 0; k < n; ++k) out(i, first + k) = gain * values[static_cast<std::size_t>(k)];
+      for (int k = 0; k < n; ++k) out(i, first + k) = gain(i) * values[static_cast<std::size_t>(k)];
     }
     first += n;
   }

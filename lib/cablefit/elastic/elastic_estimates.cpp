@@ -30,7 +30,8 @@ std::optional<Coefficient> coefficient_at(const Candidate& candidate, std::size_
 /// On a rotary axis, or in cable space.
 std::string unit_of(const Candidate& candidate, std::size_t k, bool cable_space) {
   if (const auto coefficient = coefficient_at(candidate, k))
-    return coefficient_unit(coefficient->index, cable_space);
+    return coefficient_unit(*candidate.transmission.cables[coefficient->cable].law,
+                            coefficient->index, cable_space);
   const std::string& name = candidate.names[k];
   return name == "K" ? "N m/rad" : name == "theta_0" ? "rad" : name == "f_vm" ? "N m s/rad" : "N m";
 }

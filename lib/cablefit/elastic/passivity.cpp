@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cablefit/base/parameter.hpp"
+#include "cablefit/model/modes.hpp"
 
 namespace cablefit {
 namespace {
@@ -45,9 +46,10 @@ double elongation_scanned(double longest, int i) {
 
 }  // namespace
 
-double longest_elongation(const Cable& cable, double low, double high) {
-  return std::max(cable.motor_radius(0) * low, cable.motor_radius(0) * high) +
-         cable.initial_elongation;
+double longest_elongation(const Transmission& transmission, const Cable& cable, double low,
+                          double high) {
+  return std::max(elongation_at(transmission, cable, low),
+                  elongation_at(transmission, cable, high));
 }
 
 PullConstraints pull_constraints(const Transmission& transmission, const std::vector<bool>& fitted,
@@ -59,9 +61,9 @@ PullConstraints pull_constraints(const Transmission& transmission, const std::ve
   for (std::size_t c = 0; c < transmission.cables.size(); ++c) {
     const Cable& cable = transmission.cables[c];
     const Eigen::Index n = cable.n_coefficients();
-    const double longest = longest_elongation(cable, low, high);
+    const double longest = longest_elongation(transmission, cable, low, high);
     if (fitted[c] && longest > 0) {
-      const PullConditions pull = cable.law->pull_conditions(cable.order, longest);
+      const PullConditions pull = cable.law->pull_conditions(cable.shape(), longest);
       const Eigen::Index n_before = all.rows.rows();
       all.rows.conservativeResize(n_before + pull.rows.rows(), n_coefficients);
       all.rows.bottomRows(pull.rows.rows()).setZero();
@@ -105,7 +107,7 @@ std::string ElongationUnit::text(double from, double to) const {
 }
 
 std::string ElongationUnit::stiffness() const {
-  const std::string unit = coefficient_unit(0, cable_space);
+  const std::string unit = cable_space ? "N/m" : "N m/rad";
   return linear_motion ? linear_unit(unit) : unit;
 }
 

@@ -10,9 +10,10 @@
 
 namespace cablefit {
 
-/// Elongation of the cable at the end of the deflection range low..high where it is longest; <= 0:
-/// it is never taut.
-double longest_elongation(const Cable& cable, double low, double high);
+/// Elongation of the cable at the end of the deflection range low..high where it is longest
+/// (elongation_at() of modes.hpp); <= 0: it is never taut.
+double longest_elongation(const Transmission& transmission, const Cable& cable, double low,
+                          double high);
 
 /// One row of the conditions, in words.
 struct PullBound {

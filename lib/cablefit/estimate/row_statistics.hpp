@@ -1,5 +1,5 @@
 // Everything the estimators need of millions of rows, in constant memory: the triangular factor of
-// a streamed Householder QR (for the estimates: it does not square the condition number) and the
+// a streamed QR (for the estimates: it does not square the condition number) and the
 // Gram matrix of each of at most kMaxCells stretches of rows (for honest standard deviations and
 // for held-out blocks, where its precision is plenty).
 #pragma once

@@ -13,16 +13,16 @@ namespace cablefit {
 namespace {
 
 const std::vector<CableLaw>& table() {
-  static const std::vector<CableLaw> kRows{laws::linear(), laws::polynomial()};
+  static const std::vector<CableLaw> kRows{laws::linear(), laws::polynomial(), laws::strand()};
   return kRows;
 }
 
-/// sum_j coefficient_j values_j, with values from the law's basis or slope; 0 when slack.
-double combine(const Cable& cable, double l, void (*values_of)(int, double, double*)) {
+/// sum_j coefficient_j values_j, with values from the law's basis, slope or energy; 0 when slack.
+double combine(const Cable& cable, double l, void (*values_of)(const LawShape&, double, double*)) {
   if (!(l > 0)) return 0.0;
   std::array<double, kMaxCableOrder> values{};
   assert(cable.coefficients.size() == static_cast<std::size_t>(cable.n_coefficients()));
-  values_of(cable.order, l, values.data());
+  values_of(cable.shape(), l, values.data());
   double sum = 0.0;
   for (std::size_t j = 0; j < cable.coefficients.size(); ++j) {
     sum += cable.coefficients[j] * values[j];
@@ -35,10 +35,51 @@ Cable joint_space_cable(int number, int order, int joint, int n_joints) {
   cable.name = std::to_string(number);
   cable.law = &find_cable_law("polynomial");
   cable.order = order;
-  cable.motor_radius = Eigen::VectorXd::Zero(n_joints);
-  cable.motor_radius[joint] = number % 2 == 1 ? 1.0 : -1.0;
-  cable.link_radius = cable.motor_radius;
+  Eigen::VectorXd radius = Eigen::VectorXd::Zero(n_joints);
+  radius[joint] = number % 2 == 1 ? 1.0 : -1.0;
+  cable.motor_map = cable.link_map = round_pulleys(radius);
   return cable;
+}
+
+/// Sum over joints of the maps' displacements.
+double total(const std::vector<DisplacementMap>& maps, const Eigen::VectorXd& angle) {
+  double sum = 0;
+  for (Eigen::Index k = 0; k < angle.size(); ++k) {
+    sum += maps[static_cast<std::size_t>(k)].displacement(angle[k]);
+  }
+  return sum;
+}
+
+Eigen::VectorXd radii(const std::vector<DisplacementMap>& maps, const Eigen::VectorXd& angle) {
+  assert(maps.size() == static_cast<std::size_t>(angle.size()));
+  return Eigen::VectorXd::NullaryExpr(angle.size(), [&](Eigen::Index k) {
+    return maps[static_cast<std::size_t>(k)].radius(angle[k]);
+  });
+}
+
+/// `value(cable)` of every cable.
+template <typename Value>
+Eigen::VectorXd per_cable(const std::vector<Cable>& cables, Value value) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(cables.size()));
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    values[i] = value(cables[static_cast<std::size_t>(i)]);
+  }
+  return values;
+}
+
+/// Column i: `column(cable i)`.
+template <typename Column>
+Eigen::MatrixXd columns_of(const Transmission& transmission, Column column) {
+  const auto n_cables = static_cast<Eigen::Index>(transmission.cables.size());
+  Eigen::MatrixXd matrix(transmission.n_joints, n_cables);
+  for (Eigen::Index i = 0; i < n_cables; ++i) {
+    matrix.col(i) = column(transmission.cables[static_cast<std::size_t>(i)]);
+  }
+  return matrix;
+}
+
+Eigen::VectorXd or_zero(const Eigen::VectorXd& values, int n) {
+  return values.size() > 0 ? values : Eigen::VectorXd::Zero(n);
 }
 
 }  // namespace
@@ -54,9 +95,22 @@ const CableLaw& find_cable_law(std::string_view name) {
   throw input_error({}, fmt::format("unknown cable law '{}'", name), suggestion(name, known));
 }
 
+double Cable::elongation(const Eigen::VectorXd& q, const Eigen::VectorXd& theta) const {
+  assert(motor_map.size() == static_cast<std::size_t>(theta.size()) && q.size() == theta.size());
+  return total(motor_map, theta) - total(link_map, q) + shift();
+}
+
+Eigen::VectorXd Cable::motor_radii(const Eigen::VectorXd& theta) const {
+  return radii(motor_map, theta);
+}
+
+Eigen::VectorXd Cable::link_radii(const Eigen::VectorXd& q) const { return radii(link_map, q); }
+
 double Cable::force(double l) const { return combine(*this, l, law->basis); }
 
 double Cable::stiffness(double l) const { return combine(*this, l, law->slope); }
+
+double Cable::energy(double l) const { return combine(*this, l, law->energy); }
 
 double Cable::secant(double l) const { return l > 0 ? force(l) / l : 0.0; }
 
@@ -65,28 +119,42 @@ std::string coefficient_name(const Cable& cable, int index, bool cable_space) {
                      : fmt::format("K{}_{}", cable.name, index);
 }
 
-std::string coefficient_unit(int index, bool cable_space) {
+std::string coefficient_unit(const CableLaw& law, int index, bool cable_space) {
   const std::string unit = cable_space ? "N/m" : "N m/rad";
-  return index == 0 ? unit : fmt::format("{}^{}", unit, index + 1);
+  const int power = law.length_power(index);
+  return power == 1 ? unit : fmt::format("{}^{}", unit, power);
 }
 
 std::string elongation_name(const Cable& cable) { return fmt::format("l_o[{}]", cable.name); }
 
 std::string_view elongation_unit(bool cable_space) { return cable_space ? "m" : "rad"; }
 
-Eigen::VectorXd Transmission::encoder_zero() const {
-  return theta_0.size() > 0 ? theta_0 : Eigen::VectorXd::Zero(n_joints);
-}
+Eigen::VectorXd Transmission::encoder_zero() const { return or_zero(theta_0, n_joints); }
+
+Eigen::VectorXd Transmission::reference_q() const { return or_zero(reference.q, n_joints); }
+
+Eigen::VectorXd Transmission::reference_theta() const { return or_zero(reference.theta, n_joints); }
 
 Eigen::VectorXd Transmission::elongations(const Eigen::VectorXd& q,
                                           const Eigen::VectorXd& theta) const {
-  Eigen::VectorXd l(static_cast<Eigen::Index>(cables.size()));
-  for (Eigen::Index i = 0; i < l.size(); ++i) {
-    const Cable& cable = cables[static_cast<std::size_t>(i)];
-    l[i] = cable.motor_radius.dot(theta - encoder_zero()) - cable.link_radius.dot(q) +
-           cable.initial_elongation;
-  }
-  return l;
+  const Eigen::VectorXd turned = theta - encoder_zero();
+  return per_cable(cables, [&](const Cable& cable) { return cable.elongation(q, turned); });
+}
+
+Eigen::VectorXd Transmission::tensions(const Eigen::VectorXd& q,
+                                       const Eigen::VectorXd& theta) const {
+  const Eigen::VectorXd turned = theta - encoder_zero();
+  return per_cable(cables,
+                   [&](const Cable& cable) { return cable.force(cable.elongation(q, turned)); });
+}
+
+Eigen::MatrixXd Transmission::link_coupling(const Eigen::VectorXd& q) const {
+  return columns_of(*this, [&](const Cable& cable) { return cable.link_radii(q); });
+}
+
+Eigen::MatrixXd Transmission::motor_coupling(const Eigen::VectorXd& theta) const {
+  const Eigen::VectorXd turned = theta - encoder_zero();
+  return columns_of(*this, [&](const Cable& cable) { return cable.motor_radii(turned); });
 }
 
 void Transmission::torques(const Eigen::VectorXd& q, const Eigen::VectorXd& theta,
@@ -96,14 +164,26 @@ void Transmission::torques(const Eigen::VectorXd& q, const Eigen::VectorXd& thet
     motor = link;
     return;
   }
-  const Eigen::VectorXd l = elongations(q, theta);
-  link.setZero(n_joints);
-  motor.setZero(n_joints);
-  for (Eigen::Index i = 0; i < l.size(); ++i) {
-    const Cable& cable = cables[static_cast<std::size_t>(i)];
-    const double f = cable.force(l[i]);
-    link += f * cable.link_radius;
-    motor += f * cable.motor_radius;
+  const Eigen::VectorXd f = tensions(q, theta);
+  link = link_coupling(q) * f;
+  motor = motor_coupling(theta) * f;
+}
+
+double Transmission::energy(const Eigen::VectorXd& q, const Eigen::VectorXd& theta) const {
+  const Eigen::VectorXd turned = theta - encoder_zero();
+  if (cables.empty()) {
+    return 0.5 * linear_stiffness.dot((turned - q).cwiseAbs2());
+  }
+  return per_cable(cables,
+                   [&](const Cable& cable) { return cable.energy(cable.elongation(q, turned)); })
+      .sum();
+}
+
+void set_reference(Transmission& transmission, const ReferencePose& pose) {
+  transmission.reference = pose;
+  for (Cable& cable : transmission.cables) {
+    cable.reference_displacement = total(cable.motor_map, transmission.reference_theta()) -
+                                   total(cable.link_map, transmission.reference_q());
   }
 }
 

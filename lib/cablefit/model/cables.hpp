@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "cablefit/model/routing.hpp"
+
 namespace cablefit {
 
 /// Largest order of any law: a bound for small fixed arrays, far above what data can tell apart.
@@ -20,37 +22,63 @@ struct PullConditions {
   Eigen::VectorXd at;    ///< elongation that each one speaks of, or is closest to
 };
 
+/// What a law needs to know besides the elongation, and what is never fitted linearly.
+struct LawShape {
+  int order = 2;
+  double toe = 0;  ///< m (rad in joint space), > 0 for laws with a toe
+};
+
 /// A law that is linear in its coefficients: f(l) = sum_j coefficient_j * basis_j(l) for l > 0.
+/// Each basis_j is 0 at l = 0, not negative and never falls; it does not depend on the order, so
+/// that a law of a lower order is the same with its last coefficients 0.
 struct CableLaw {
   std::string_view name;
   std::string_view equation;
   std::string_view source;
-  /// Largest order this law has, at most kMaxCableOrder.
+  std::string_view coefficients;  ///< what they are and which sign is safe
+  /// Largest order this law has, at most kMaxCableOrder. The order of a polynomial is that of its
+  /// force; of any law, what more data can raise.
   int max_order;
+  bool has_toe;  ///< needs LawShape::toe (rig file "toe")
   /// Number of coefficients of a law of this order (order >= 1), at most kMaxCableOrder.
   int (*n_coefficients)(int order);
+  /// Coefficient j is in force per length to this power.
+  int (*length_power)(int index);
   /// basis_j(l) for one elongation, l > 0; writes n_coefficients(order) values.
-  void (*basis)(int order, double l, double* values);
+  void (*basis)(const LawShape& shape, double l, double* values);
   /// d basis_j / dl.
-  void (*slope)(int order, double l, double* values);
+  void (*slope)(const LawShape& shape, double l, double* values);
+  /// Integral of basis_j from 0 to l: energy per unit coefficient, (6).
+  void (*energy)(const LawShape& shape, double l, double* values);
   /// Conditions for 0 <= l <= longest.
-  PullConditions (*pull_conditions)(int order, double longest);
+  PullConditions (*pull_conditions)(const LawShape& shape, double longest);
 };
 
 std::span<const CableLaw> cable_laws();
 const CableLaw& find_cable_law(std::string_view name);
 
 /// One cable: its law, coefficients and initial elongation, and how its elongation follows from the
-/// joints: l = sum_k motor_radius_k theta_k - link_radius_k q_k + l_o. In joint space (the paper's
-/// (30)) radii are +1 for cable 1 and -1 for cable 2 and the coefficients are N m/rad^j.
+/// joints: l = sum_k g_k(theta_k) - h_k(q_k) + l_o, counted from the reference pose. In joint space
+/// (the paper's (30)) the maps are +1 for cable 1 and -1 for cable 2 and the coefficients are
+/// N m/rad^j.
 struct Cable {
   std::string name;
   const CableLaw* law = nullptr;
   int order = 2;
-  std::vector<double> coefficients;  ///< N/m^j, or N m/rad^j in joint space
-  double initial_elongation = 0;     ///< l_o, m or rad
-  Eigen::VectorXd motor_radius;      ///< one per joint, signed, m (joint space: +-1)
-  Eigen::VectorXd link_radius;       ///< one per joint, signed, m (joint space: +-1)
+  double toe = 0;                          ///< see LawShape
+  std::vector<double> coefficients;        ///< N/m^j, or N m/rad^j in joint space
+  double initial_elongation = 0;           ///< l_o, m or rad
+  std::vector<DisplacementMap> motor_map;  ///< g_k, one per joint, of theta_k - theta_0,k
+  std::vector<DisplacementMap> link_map;   ///< h_k, one per joint, of q_k
+  double reference_displacement = 0;       ///< g - h in the reference pose, where l = l_o
+
+  /// l at these positions; `theta` without the encoder zero. n_joints each.
+  double elongation(const Eigen::VectorXd& q, const Eigen::VectorXd& theta) const;
+  /// Column of S: dg/dtheta, m. Column of P: dh/dq, m.
+  Eigen::VectorXd motor_radii(const Eigen::VectorXd& theta) const;
+  Eigen::VectorXd link_radii(const Eigen::VectorXd& q) const;
+  /// l with every map at 0: what is added to g - h as the maps give them.
+  double shift() const { return initial_elongation - reference_displacement; }
 
   /// Tension (N; joint space N m) at this elongation; 0 when slack.
   double force(double l) const;
@@ -58,14 +86,17 @@ struct Cable {
   double stiffness(double l) const;
   /// The paper's k(l) = f(l)/l, what (5) and (16) want non-negative.
   double secant(double l) const;
+  /// Elastic energy (6), J; 0 when slack.
+  double energy(double l) const;
 
   int n_coefficients() const { return law->n_coefficients(order); }
+  LawShape shape() const { return {order, toe}; }
 };
 
 /// Names and units of a cable's parameters in results. Joint space: "K1_0" in N m/rad, "K1_1" in
 /// N m/rad^2; cable space: "k[left]_0" in N/m, "k[left]_1" in N/m^2. Elongation: "l_o[left]".
 std::string coefficient_name(const Cable& cable, int index, bool cable_space);
-std::string coefficient_unit(int index, bool cable_space);
+std::string coefficient_unit(const CableLaw& law, int index, bool cable_space);
 std::string elongation_name(const Cable& cable);
 std::string_view elongation_unit(bool cable_space);
 
@@ -78,16 +109,32 @@ struct Transmission {
   /// Encoder zero of the deflection per joint: l uses theta - theta_0 (rad). Stage 1 estimates it.
   /// Empty: 0.
   Eigen::VectorXd theta_0;
+  /// Where l = l_o; set it by set_reference.
+  ReferencePose reference;
 
   /// theta_0, n_joints long.
   Eigen::VectorXd encoder_zero() const;
+  /// q_o and theta_o, n_joints long; theta_o counts from the encoder zero.
+  Eigen::VectorXd reference_q() const;
+  Eigen::VectorXd reference_theta() const;
 
   /// Elongation of each cable, l = g - h + l_o (4c). Sizes: q, theta n_joints; result n_cables.
   Eigen::VectorXd elongations(const Eigen::VectorXd& q, const Eigen::VectorXd& theta) const;
+  /// Tension of each cable (4), N, n_cables.
+  Eigen::VectorXd tensions(const Eigen::VectorXd& q, const Eigen::VectorXd& theta) const;
+  /// P = -(d(g-h)/dq)^T and S = (d(g-h)/dtheta)^T, n_joints x n_cables, m. As g depends on theta
+  /// alone and h on q alone, P depends on q and S on theta.
+  Eigen::MatrixXd link_coupling(const Eigen::VectorXd& q) const;
+  Eigen::MatrixXd motor_coupling(const Eigen::VectorXd& theta) const;
   /// tau_elas_l = P f and tau_elas_m = S f (8a)-(8b), n_joints each, N m.
   void torques(const Eigen::VectorXd& q, const Eigen::VectorXd& theta, Eigen::VectorXd& link,
                Eigen::VectorXd& motor) const;
+  /// Elastic energy U(q, theta) (6), (9), J: dU/dq = -tau_elas_l, dU/dtheta = tau_elas_m.
+  double energy(const Eigen::VectorXd& q, const Eigen::VectorXd& theta) const;
 };
+
+/// Makes the pose the one where every l = l_o.
+void set_reference(Transmission& transmission, const ReferencePose& pose);
 
 /// The paper's rig: one joint, two antagonist cables named "1" and "2" in joint space, same order.
 Transmission antagonist_pair(int order);

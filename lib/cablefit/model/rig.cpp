@@ -41,7 +41,7 @@ Rig default_rig() {
 
 Rig parse_rig(const JsonNode& node) {
   node.allow_only({"schema", "name", "preload", "columns", "motion", "torque_hold", "torque_period",
-                   "load", "controller", "sensors", "cad", "joints", "cables"});
+                   "load", "controller", "sensors", "cad", "joints", "cables", "reference_pose"});
   check_schema(node, "cablefit/rig/1");
   Rig rig;
   rig.path = node.place.file;
@@ -55,6 +55,9 @@ Rig parse_rig(const JsonNode& node) {
   if (const JsonNode* cables = node.find("cables")) rig_parts::read_cables(*cables, &rig);
 
   const int n = rig.n_joints();
+  if (const JsonNode* pose = node.find("reference_pose")) {
+    set_reference(rig.transmission, rig_parts::read_reference(*pose, n));
+  }
   if (const JsonNode* columns = node.find("columns")) {
     rig.columns = rig_parts::read_columns(*columns, n);
   }

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
+#include "cablefit/model/modes.hpp"
 #include "cablefit/report/document_parts.hpp"
 #include "cablefit/report/numbers.hpp"
 
@@ -61,6 +63,45 @@ Table fits_table(const ElasticResult& result) {
     }
   }
   table.notes = notes.lines();
+  return table;
+}
+
+/// (8c): what the preload alone does in the reference pose.
+std::string balance_text(const ElasticPreload& preload, const ElasticFit& fit) {
+  const PreloadTorques alone = preload_torques(fit.transmission);
+  return fmt::format(
+      "{}, {}: in the reference pose the preload alone makes {} {} on the link and {} on the "
+      "motor; "
+      "0 in equilibrium (8c)",
+      preload.name, fit.model, significant(alone.link[0], 2), torque_unit(preload.linear_motion),
+      significant(alone.motor[0], 2));
+}
+
+/// Where cables of a preloaded fit go slack, within the deflections of the logs; no rows otherwise:
+/// with every l_o = 0 each cable ends at zero deflection by definition.
+Table slack_table(const ElasticResult& result) {
+  const bool linear_motion = !result.preloads.empty() && result.preloads.front().linear_motion;
+  Table table;
+  table.title = "Cables go slack (force disclosure) at";
+  table.columns = {{"", "preload", "", true},
+                   {"", "model", "", true},
+                   {"", "cable", "", true},
+                   {"", "deflection", linear_motion ? "mm" : "mrad"},
+                   {"", "elastic torque", torque_unit(linear_motion)},
+                   {"", "slack", "", true}};
+  for (const ElasticPreload& preload : result.preloads) {
+    for (const ElasticFit& fit : preload.fits) {
+      if (!is_preloaded(fit.transmission)) continue;
+      table.notes.push_back(balance_text(preload, fit));
+      for (const SlackPoint& point :
+           slack_points(fit.transmission, preload.deflection_low, preload.deflection_high)) {
+        table.rows.push_back({preload.name, fit.model, fit.transmission.cables[point.cable].name,
+                              significant(1e3 * point.deflection, kErrorDigits),
+                              significant(point.motor, kErrorDigits),
+                              point.slack_above ? "above" : "below"});
+      }
+    }
+  }
   return table;
 }
 
@@ -123,6 +164,9 @@ Document elastic_document(const ElasticResult& result) {
   }
   finish_decisions(document, result.preloads.size());
   document.tables = {stiffness_table(result), fits_table(result), sd_table(result), counts};
+  if (Table slack = slack_table(result); !slack.rows.empty()) {
+    document.tables.insert(document.tables.begin() + 2, std::move(slack));
+  }
   return document;
 }
 

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cablefit/model/modes.hpp"
 #include "cablefit/report/json_parts.hpp"
 
 namespace cablefit {
@@ -19,7 +20,20 @@ Json matrix_json(const Eigen::MatrixXd& matrix) {
   return rows;
 }
 
-Json fit_json(const ElasticFit& fit) {
+Json slack_json(const ElasticPreload& preload, const ElasticFit& fit) {
+  Json list = Json::array();
+  if (!is_preloaded(fit.transmission)) return list;
+  for (const SlackPoint& point :
+       slack_points(fit.transmission, preload.deflection_low, preload.deflection_high)) {
+    list.push_back({{"cable", fit.transmission.cables[point.cable].name},
+                    {"deflection", point.deflection},
+                    {"torque", point.motor},
+                    {"side", point.slack_above ? "above" : "below"}});
+  }
+  return list;
+}
+
+Json fit_json(const ElasticPreload& preload, const ElasticFit& fit) {
   return Json{{"model", fit.model},
               {"order", fit.order},
               {"parameters", report_json::parameters(fit.parameters)},
@@ -29,6 +43,7 @@ Json fit_json(const ElasticFit& fit) {
               {"held_out_max", fit.held_out_max},
               {"passive", fit.passive},
               {"active_bounds", fit.active_bounds},
+              {"slack", slack_json(preload, fit)},
               {"theta_0", report_json::per_joint(fit.transmission.encoder_zero())},
               {"offset", fit.offset},
               {"covariance", matrix_json(fit.covariance)},
@@ -39,7 +54,7 @@ Json fit_json(const ElasticFit& fit) {
 
 Json preload_json(const ElasticPreload& preload) {
   Json fits = Json::array();
-  for (const ElasticFit& fit : preload.fits) fits.push_back(fit_json(fit));
+  for (const ElasticFit& fit : preload.fits) fits.push_back(fit_json(preload, fit));
   Json counts = report_json::window_counts(preload.windows);
   counts["equations"]["blocked"] = report_json::row_counts(preload.counts);
   return Json{{"name", preload.name},

@@ -1,6 +1,7 @@
 #include "cablefit/samples/butterworth.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <complex>
@@ -26,22 +27,32 @@ State steady(const Biquad& section, const Lane& x) {
   return state;
 }
 
-void pass(const std::vector<Biquad>& sections, std::vector<Lane>& x) {
+/// N sections in a row over n values from `x` on, `step` (1 or -1) apart. N is known to the
+/// compiler so that all states stay in registers.
+template <std::size_t N>
+void sweep(const Biquad* sections, Lane* x, std::size_t n, std::ptrdiff_t step) {
+  std::array<Biquad, N> c;
+  std::array<State, N> states;
+  std::copy_n(sections, N, c.begin());
   // All sections have DC gain 1, so the first value is every section's steady input.
-  std::vector<State> states;
-  for (const Biquad& section : sections) states.push_back(steady(section, x.front()));
-  for (Lane& value : x) {
-    Lane v = value;
-    for (std::size_t k = 0; k < sections.size(); ++k) {
-      const Biquad& c = sections[k];
+  for (std::size_t k = 0; k < N; ++k) states[k] = steady(c[k], *x);
+  for (std::size_t i = 0; i < n; ++i, x += step) {
+    Lane v = *x;
+    for (std::size_t k = 0; k < N; ++k) {
       State& s = states[k];
-      const Lane y = c.b0 * v + s.s1;
-      s.s1 = c.b1 * v - c.a1 * y + s.s2;
-      s.s2 = c.b2 * v - c.a2 * y;
+      const Lane y = c[k].b0 * v + s.s1;
+      s.s1 = c[k].b1 * v - c[k].a1 * y + s.s2;
+      s.s2 = c[k].b2 * v - c[k].a2 * y;
       v = y;
     }
-    value = v;
+    *x = v;
   }
+}
+
+void pass(const std::vector<Biquad>& sections, Lane* x, std::size_t n, std::ptrdiff_t step) {
+  std::size_t k = 0;
+  for (; k + 2 <= sections.size(); k += 2) sweep<2>(&sections[k], x, n, step);
+  for (; k < sections.size(); ++k) sweep<1>(&sections[k], x, n, step);
 }
 
 }  // namespace
@@ -88,10 +99,8 @@ void Butterworth::apply(Eigen::Ref<Eigen::MatrixXd> columns, bool odd_start, boo
       for (Eigen::Index i = 0; i < after; ++i)
         x[static_cast<std::size_t>(before + n + i)](lane) = 2 * column(n - 1) - column(n - 2 - i);
     }
-    pass(sections_, x);
-    std::reverse(x.begin(), x.end());
-    pass(sections_, x);
-    std::reverse(x.begin(), x.end());
+    pass(sections_, x.data(), x.size(), 1);
+    pass(sections_, x.data() + x.size() - 1, x.size(), -1);
     for (int lane = 0; lane < lanes; ++lane)
       for (Eigen::Index i = 0; i < n; ++i)
         columns(i, first + lane) = x[static_cast<std::size_t>(before + i)](lane);

@@ -56,6 +56,29 @@ bool ClockScan::add(double t, bool continues, const std::string& path, std::uint
   return jumped;
 }
 
+std::size_t ClockScan::add_usual(std::span<const double> t) {
+  if (median_ == 0) return 0;
+  StepSums even = even_, uneven = uneven_;  // copies stay in registers
+  const double off = kUnevenJitter * median_;
+  std::size_t n = 0, n_off = 0;
+  double last = last_;
+  for (; n < t.size(); ++n) {
+    const double step = t[n] - last;
+    if (!(step > 0 && step <= even.longest)) break;
+    even.add(step);
+    uneven.add(step);
+    n_off += std::abs(step - median_) > off;
+    last = t[n];
+  }
+  even_ = even;
+  uneven_ = uneven;
+  last_ = last;
+  n_off_ += n_off;
+  n_steps_ += n;
+  n_rows_ += n;
+  return n;
+}
+
 ClockSurvey ClockScan::result() {
   if (n_steps_ < early_.size()) calibrate();
   ClockSurvey survey;

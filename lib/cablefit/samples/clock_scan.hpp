@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 
 namespace cablefit {
@@ -37,6 +38,9 @@ class ClockScan {
   /// `continues`: the row before belongs to the same part. Throws Error(input) at the line for time
   /// that stands still or runs back.
   bool add(double t, bool continues, const std::string& path, std::uint64_t line);
+  /// add() for as many of the times as follow on the row before without a jump, an error or an
+  /// uncalibrated step: all of an ordinary log but its first rows. Returns how many.
+  std::size_t add_usual(std::span<const double> t);
   ClockSurvey result();
 
  private:

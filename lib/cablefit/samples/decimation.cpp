@@ -80,7 +80,7 @@ Stencil cut_stencil(const Eigen::VectorXd& inside, Eigen::Index from, bool avera
 
 }  // namespace
 
-Decimation::Decimation(int factor) : factor_(factor) {
+Decimation::Decimation(int factor, int lobes) : factor_(factor), lobes_(lobes) {
   constexpr double pi = 3.14159265358979323846;
   const Eigen::Index half = half_width();
   taps_.resize(2 * half + 1);

@@ -10,13 +10,14 @@ namespace cablefit {
 
 class Decimation {
  public:
-  /// Hamming-windowed sinc of 20 M + 1 taps, -6 dB at the new Nyquist frequency, sum of taps 1 (the
-  /// design of SciPy's decimate(ftype="fir")). M = 1 does nothing.
-  explicit Decimation(int factor);
+  /// Hamming-windowed sinc of 2 lobes M + 1 taps, -6 dB at the new Nyquist frequency, sum of taps 1
+  /// (10 lobes: the design of SciPy's decimate(ftype="fir")). M = 1 does nothing.
+  explicit Decimation(int factor, int lobes = 10);
 
   int factor() const { return factor_; }
-  /// Rows on either side that an output row depends on: 10 M, 0 for M = 1; one more when averaged.
-  Eigen::Index half_width() const { return factor_ == 1 ? 0 : 10 * factor_; }
+  /// Rows on either side that an output row depends on: lobes M, 0 for M = 1; one more when
+  /// averaged.
+  Eigen::Index half_width() const { return factor_ == 1 ? 0 : lobes_ * factor_; }
 
   /// One output row per input row in `centres`, centres x columns. Taps that fall outside [first,
   /// last) are left out and the others scaled up alike, so that the ends of a log keep parallel
@@ -36,7 +37,7 @@ class Decimation {
                 std::span<const Eigen::Index> centres, Eigen::Index first, Eigen::Index last,
                 bool averaged, Eigen::MatrixXd& out) const;
 
-  int factor_;
+  int factor_, lobes_;
   Eigen::VectorXd taps_, padded_taps_, padded_averaging_taps_;
 };
 

@@ -5,6 +5,9 @@
 #include <map>
 #include <optional>
 
+#include "cablefit/base/divided_up.hpp"
+#include "cablefit/samples/thinning.hpp"
+
 namespace cablefit {
 namespace {
 
@@ -38,18 +41,9 @@ class RowMask {
   Eigen::ArrayXd use_;
 };
 
-/// Quasi-static rows are decimated in two steps, the last of them by this at least. In between, at
-/// that many times the final rate, columns are formed: powers of a deflection reach to higher
-/// frequencies than the deflection does, and the torque's part up there must not be filtered away
-/// alone (4 would move stiffnesses by 5e-5, 1 by 1e-3).
-constexpr int kLastStep = 8;
-
-/// Factor of the first of two decimations; 1 when there is one only.
-int first_step(const RowSettings& settings) {
-  if (!settings.signal.quasi_static) return 1;
-  int step = std::max(1, settings.decimate / kLastStep);
-  while (settings.decimate % step != 0) --step;
-  return step;
+/// Rows from either end of a segment that cannot be trusted.
+Eigen::Index edge_rows(const RowSettings& settings) {
+  return std::max(settings.drop_edge, kDifferenceEdge);
 }
 
 /// The rows of a window that answer to an equation, and what became of the others.
@@ -59,49 +53,30 @@ struct ChosenRows {
   RowCounts counts;
 };
 
-ChosenRows choose_rows(const Equation& equation, const Signals& signals, const Window& window,
+ChosenRows choose_rows(const Equation& equation, const Signals& signals, const WindowPlace& window,
                        const RowSettings& settings) {
   const RowMask mask(equation, signals, settings);
-  const Eigen::Index edge = std::max(settings.drop_edge, kDifferenceEdge);
+  const Eigen::Index edge = edge_rows(settings);
   ChosenRows chosen;
   chosen.first = std::max<Eigen::Index>(0, edge - window.first);
   chosen.last = window.ends_segment ? signals.n_rows() - edge : signals.n_rows();
   RowCounts& counts = chosen.counts;
-  for (Eigen::Index i = window.begin; i < window.end; ++i) {
+  // Of the rows edge, edge + decimate, ... of the segment.
+  const Eigen::Index from = std::max(window.begin, window.first + chosen.first);
+  const Eigen::Index to = std::min(window.end, window.first + chosen.last);
+  for (Eigen::Index i = edge + divided_up(from - edge, settings.decimate) * settings.decimate;
+       i < to; i += settings.decimate) {
     const Eigen::Index at = i - window.first;
-    if (at < chosen.first || at >= chosen.last) {
-      ++counts.rows_at_edges;
-    } else if ((i - edge) % settings.decimate == 0) {
-      if (!mask.used(at)) {
-        ++counts.rows_not_used;
-      } else if (mask.at_rest(at)) {
-        ++counts.rows_at_rest;
-      } else {
-        chosen.centres.push_back(at);
-      }
+    if (!mask.used(at)) {
+      ++counts.rows_not_used;
+    } else if (mask.at_rest(at)) {
+      ++counts.rows_at_rest;
+    } else {
+      chosen.centres.push_back(at);
     }
   }
   counts.rows_used = chosen.centres.size();
   return chosen;
-}
-
-/// Signals at the given rows of the window, from rows [first, last) of it.
-Signals decimated(const Signals& signals, std::span<const Eigen::Index> centres, Eigen::Index first,
-                  Eigen::Index last, const Decimation& decimation) {
-  Signals slow = signals;
-  for (JointSignals& s : slow.joints) {
-    std::vector<Eigen::ArrayXd*> arrays;
-    for (Eigen::ArrayXd* array :
-         {&s.q, &s.qd, &s.theta, &s.thetad, &s.tau, &s.tau_load, &s.approach, &s.theta_direction})
-      if (array->size() > 0) arrays.push_back(array);
-    Eigen::MatrixXd columns(signals.n_rows(), static_cast<Eigen::Index>(arrays.size()));
-    for (std::size_t k = 0; k < arrays.size(); ++k)
-      columns.col(static_cast<Eigen::Index>(k)) = *arrays[k];
-    columns = decimation.apply(columns, centres, first, last, {});
-    for (std::size_t k = 0; k < arrays.size(); ++k)
-      *arrays[k] = columns.col(static_cast<Eigen::Index>(k));
-  }
-  return slow;
 }
 
 Eigen::MatrixXd columns_of(const Equation& equation, const Signals& signals) {
@@ -110,43 +85,59 @@ Eigen::MatrixXd columns_of(const Equation& equation, const Signals& signals) {
   return columns;
 }
 
-/// In one go: columns at the full rate, then every column decimated.
-Eigen::MatrixXd rows_at_once(const Equation& equation, const Signals& signals,
-                             const ChosenRows& chosen, const RowSettings& settings) {
-  return Decimation(settings.decimate)
-      .apply(columns_of(equation, signals), chosen.centres, chosen.first, chosen.last,
-             equation.averaged);
-}
-
-/// In two: signals that the low-pass has made slow are decimated to some times the final rate,
-/// where they still are what they were; then columns are formed and decimated for the rest, all
-/// alike.
-Eigen::MatrixXd rows_in_two_steps(const Equation& equation, const Signals& signals,
-                                  const ChosenRows& chosen, const RowSettings& settings) {
-  if (chosen.centres.empty()) return rows_at_once(equation, signals, chosen, settings);
-  const int step = first_step(settings);
-  // A grid that the centres are on.
-  const Eigen::Index begin =
-      chosen.centres.front() - (chosen.centres.front() - chosen.first) / step * step;
-  std::vector<Eigen::Index> grid, centres;
-  for (Eigen::Index at = begin; at < chosen.last; at += step) grid.push_back(at);
-  for (const Eigen::Index at : chosen.centres) centres.push_back((at - begin) / step);
-  const Signals slow = decimated(signals, grid, chosen.first, chosen.last, Decimation(step));
-  return Decimation(settings.decimate / step)
-      .apply(columns_of(equation, slow), centres, 0, static_cast<Eigen::Index>(grid.size()),
-             equation.averaged);
-}
-
-EquationBatch equation_rows(const Equation& equation, const Signals& signals, const Window& window,
-                            const RowSettings& settings, Eigen::Index offset) {
+EquationBatch equation_rows(const Equation& equation, const Signals& signals,
+                            const WindowPlace& window, Eigen::Index number_offset,
+                            const RowSettings& settings) {
   const ChosenRows chosen = choose_rows(equation, signals, window, settings);
   EquationBatch batch;
   batch.counts = chosen.counts;
-  batch.rows = first_step(settings) > 1 ? rows_in_two_steps(equation, signals, chosen, settings)
-                                        : rows_at_once(equation, signals, chosen, settings);
+  batch.rows = Decimation(settings.decimate)
+                   .apply(columns_of(equation, signals), chosen.centres, chosen.first, chosen.last,
+                          equation.averaged);
   for (const Eigen::Index at : chosen.centres) {
-    batch.numbers.push_back(offset + (window.rows_before + window.first + at) / settings.decimate);
+    batch.numbers.push_back(number_offset +
+                            (window.rows_before + window.first + at) / settings.decimate);
     batch.t.push_back(window.t0 + static_cast<double>(window.first + at) * window.period);
+  }
+  return batch;
+}
+
+/// The settings for windows thinned by `step` from `period`.
+RowSettings thinned(RowSettings settings, int step, double period) {
+  SignalSettings& signal = settings.signal;
+  if (signal.torque_period == 0) signal.torque_period = period;  // not that of the rows kept
+  settings.decimate /= step;
+  settings.drop_edge = divided_up(settings.drop_edge, step);
+  settings.rest_margin = divided_up(settings.rest_margin, step);
+  return settings;
+}
+
+/// Rows [begin, end) of a window that are within `edge` rows of either end of their segment.
+std::size_t rows_at_edges(const Window& window, Eigen::Index edge) {
+  const Eigen::Index inner_begin = std::max(window.begin, edge);
+  Eigen::Index inner_end = window.end;
+  if (window.ends_segment)
+    inner_end = std::min(inner_end, window.first + window.data.rows() - edge);
+  const Eigen::Index inner = std::max<Eigen::Index>(0, inner_end - inner_begin);
+  return static_cast<std::size_t>(window.end - window.begin - inner);
+}
+
+RowBatch rows_of(const Window& window, const LogPlan& plan, Eigen::Index number_offset,
+                 const RowSettings& settings, std::span<const Equation> equations) {
+  RowBatch batch;
+  batch.part = window.part;
+  // Equations of one cut-off share their signals.
+  std::map<double, Signals> signals;
+  for (const Equation& equation : equations) {
+    SignalSettings own = settings.signal;
+    if (equation.cutoff > 0) own.cutoff = equation.cutoff;
+    auto found = signals.find(own.cutoff);
+    if (found == signals.end())
+      found = signals.emplace(own.cutoff, make_signals(window, plan, own)).first;
+    std::optional<Signals> prepared;
+    if (equation.prepare) equation.prepare(prepared.emplace(found->second));
+    batch.equations.push_back(equation_rows(equation, prepared ? *prepared : found->second, window,
+                                            number_offset, settings));
   }
   return batch;
 }
@@ -162,9 +153,12 @@ void RowCounts::operator+=(const RowCounts& other) {
 
 Eigen::Index row_halo(const RowSettings& settings, double rate) {
   const Eigen::Index averaging = 1;
+  const int step = thinning_step(settings.signal, settings.decimate, rate);
+  const RowSettings thin = thinned(settings, step, 1 / rate);
   const Eigen::Index needed =
-      signal_halo(settings.signal, rate) + Decimation(settings.decimate).half_width() + averaging +
-      Decimation(first_step(settings)).half_width() + settings.rest_margin + settings.decimate;
+      thinning_reach(step) + step * (signal_halo(thin.signal, rate / step) + averaging +
+                                     Decimation(thin.decimate).half_width() + thin.rest_margin +
+                                     thin.decimate + kDifferenceEdge);
   // A window is followed by more than its halo, or ends its segment: so the rows that the segment's
   // end takes are all in its last window.
   return std::max(needed, settings.drop_edge);
@@ -181,21 +175,13 @@ Eigen::Index expected_rows(std::span<const LogSurvey> logs, const PartFilter& wa
 
 RowBatch make_rows(const Window& window, const LogSurvey& log, Eigen::Index number_offset,
                    const RowSettings& settings, std::span<const Equation> equations) {
-  RowBatch batch;
-  batch.part = window.part;
-  // Equations of one cut-off share their signals.
-  std::map<double, Signals> signals;
-  for (const Equation& equation : equations) {
-    SignalSettings own = settings.signal;
-    if (equation.cutoff > 0) own.cutoff = equation.cutoff;
-    auto found = signals.find(own.cutoff);
-    if (found == signals.end())
-      found = signals.emplace(own.cutoff, make_signals(window, log.plan, own)).first;
-    std::optional<Signals> prepared;
-    if (equation.prepare) equation.prepare(prepared.emplace(found->second));
-    batch.equations.push_back(equation_rows(equation, prepared ? *prepared : found->second, window,
-                                            settings, number_offset));
-  }
+  const int step = thinning_step(settings.signal, settings.decimate, 1 / window.period);
+  const RowSettings thin = thinned(settings, step, window.period);
+  std::optional<Window> slow;
+  if (step > 1) slow = thinned(window, step);
+  RowBatch batch = rows_of(slow ? *slow : window, log.plan, number_offset, thin, equations);
+  for (EquationBatch& equation : batch.equations)
+    equation.counts.rows_at_edges = rows_at_edges(window, step * edge_rows(thin));
   return batch;
 }
 

@@ -36,15 +36,6 @@ struct ChosenSettings {
   std::vector<std::string> warnings;
 };
 
-/// sd of the white noise on a position channel (rad): the rig's quantum / sqrt(12) when given, else
-/// the larger of what sixth differences show and the log's own quantum / sqrt(12).
-double position_noise(const LogSurvey& log, const PartSurvey& part, Channel channel, int joint = 0);
-
-/// sd of velocity and acceleration that white position noise leaves below a cut-off (one-sided band
-/// 0..cutoff of rate/2).
-double velocity_noise(double position_noise, double cutoff, double rate);
-double acceleration_noise(double position_noise, double cutoff, double rate);
-
 /// Quasi-static stage 1: a low cut-off, rest dropped. `rest_speed_q` is the speed below which a
 /// link counts as standing still: 5 % of its upper quartile, at least 4 sd of its noise.
 ChosenSettings blocked_settings(std::span<const LogSurvey> logs, const PartFilter& wanted,

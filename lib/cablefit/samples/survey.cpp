@@ -149,9 +149,11 @@ class LogScan {
     PartScan& scan = scans_[current_];
     // Differences must not reach across a jump in time.
     std::size_t smooth = begin;
+    const double* const t = rows_.col(0).data();
     for (std::size_t i = begin; i < end; ++i) {
-      const bool jumped = scan.clock.add(rows_(static_cast<Eigen::Index>(i), 0),
-                                         continues || i > begin, plan_.path, chunk.lines[i]);
+      if (continues || i > begin) i += scan.clock.add_usual({t + i, t + end});
+      if (i == end) break;
+      const bool jumped = scan.clock.add(t[i], continues || i > begin, plan_.path, chunk.lines[i]);
       if (!jumped) continue;
       look_at(scan, smooth, i);
       for (ChannelScan& channel : scan.channels) channel.restart();

@@ -10,18 +10,22 @@
 
 namespace cablefit {
 
-/// A segment is a stretch of evenly spaced rows without a gap, within one part. This window answers
-/// for rows [begin, end) of its segment; `data` holds rows [first, first + data.rows()).
-struct Window {
+/// A segment is a stretch of evenly spaced rows without a gap, within one part. A window answers
+/// for rows [begin, end) of its segment.
+struct WindowPlace {
   std::size_t part = 0;     ///< index into LogSurvey::parts
   std::size_t segment = 0;  ///< running number within the log
-  Eigen::Index begin = 0, end = 0, first = 0;
+  Eigen::Index begin = 0, end = 0;
+  Eigen::Index first = 0;        ///< the row that its data begin with
   Eigen::Index rows_before = 0;  ///< rows of the log in earlier segments, whether used or not
-  bool starts_segment = false;   ///< data.row(0) is the segment's first row
-  bool ends_segment = false;     ///< data's last row is the segment's last
+  bool starts_segment = false;   ///< its data begin with the segment's first row
+  bool ends_segment = false;     ///< and end with its last
   double t0 = 0;                 ///< time of the segment's row 0, s
   double period = 0;             ///< s
-  Eigen::MatrixXd data;          ///< rows x LogPlan::slots, SI
+};
+
+struct Window : WindowPlace {
+  Eigen::MatrixXd data;  ///< rows [first, first + data.rows()) x LogPlan::slots, SI
   /// rows x joints: the direction (-1, 1; 0 before any motion) in which theta last moved by more
   /// than its noise. At rest this tells from which side the place was approached.
   Eigen::MatrixXd approach;

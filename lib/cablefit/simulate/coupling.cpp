@@ -3,23 +3,59 @@
 #include <algorithm>
 
 namespace cablefit {
+namespace {
+
+bool all_round(const std::vector<DisplacementMap>& maps) {
+  return std::all_of(maps.begin(), maps.end(),
+                     [](const DisplacementMap& map) { return map.kind->constant_radius; });
+}
+
+void append(std::vector<DisplacementMap>& all, const std::vector<DisplacementMap>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+void append_radii(std::vector<double>& all, const std::vector<DisplacementMap>& more) {
+  for (const DisplacementMap& map : more) all.push_back(map.radius(0));
+}
+
+}  // namespace
 
 Coupling::Coupling(const Transmission& transmission)
     : n_joints_(static_cast<std::size_t>(transmission.n_joints)) {
   const Eigen::VectorXd theta_0 = transmission.encoder_zero();
-  const Eigen::VectorXd& stiffness = transmission.linear_stiffness;
+  theta_0_.assign(theta_0.begin(), theta_0.end());
   for (const Cable& cable : transmission.cables) {
-    Strand strand{cable.law->basis,    cable.order, cable.n_coefficients(), {}, 0,
-                  motor_radius_.size()};
+    const bool round = all_round(cable.motor_map) && all_round(cable.link_map);
+    Strand strand{cable.law->basis,  cable.shape(), cable.n_coefficients(), {}, cable.shift(),
+                  motor_map_.size(), round};
     std::copy(cable.coefficients.begin(), cable.coefficients.end(), strand.coefficients.begin());
-    strand.slack = cable.initial_elongation - cable.motor_radius.dot(theta_0);
+    if (round) strand.slack -= cable.motor_radii(theta_0).dot(theta_0);
     cables_.push_back(strand);
-    motor_radius_.insert(motor_radius_.end(), cable.motor_radius.begin(), cable.motor_radius.end());
-    link_radius_.insert(link_radius_.end(), cable.link_radius.begin(), cable.link_radius.end());
+    append(motor_map_, cable.motor_map);
+    append(link_map_, cable.link_map);
+    append_radii(motor_radius_, cable.motor_map);
+    append_radii(link_radius_, cable.link_map);
   }
   if (!cables_.empty()) return;
+  const Eigen::VectorXd& stiffness = transmission.linear_stiffness;
   stiffness_.assign(stiffness.begin(), stiffness.end());
-  theta_0_.assign(theta_0.begin(), theta_0.end());
+}
+
+double Coupling::elongation(const Strand& strand, const double* q, const double* theta) const {
+  double l = strand.slack;
+  for (std::size_t k = 0; k < n_joints_; ++k) {
+    l += motor_map_[strand.first_joint + k].displacement(theta[k] - theta_0_[k]) -
+         link_map_[strand.first_joint + k].displacement(q[k]);
+  }
+  return l;
+}
+
+void Coupling::add_by_maps(const Strand& strand, double force, const double* q, const double* theta,
+                           double* link, double* motor) const {
+  for (std::size_t k = 0; k < n_joints_; ++k) {
+    link[k] += force * link_map_[strand.first_joint + k].radius(q[k]);
+    motor[k] += force * motor_map_[strand.first_joint + k].radius(theta[k] - theta_0_[k]);
+  }
 }
 
 }  // namespace cablefit

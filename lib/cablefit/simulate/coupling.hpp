@@ -21,29 +21,41 @@ class Coupling {
 
  private:
   struct Strand {
-    void (*basis)(int order, double l, double* values);
-    int order, n_coefficients;
+    void (*basis)(const LawShape& shape, double l, double* values);
+    LawShape shape;
+    int n_coefficients;
     std::array<double, kMaxCableOrder> coefficients;
-    double slack;              ///< l at q = theta = 0
-    std::size_t first_radius;  ///< into the radii below
+    double slack;             ///< l where every map is 0
+    std::size_t first_joint;  ///< into the radii and maps below
+    bool round;               ///< all its pulleys are round
   };
+
+  double elongation(const Strand& strand, const double* q, const double* theta) const;
+  /// Adds one cable's torques with its radii at these positions.
+  void add_by_maps(const Strand& strand, double force, const double* q, const double* theta,
+                   double* link, double* motor) const;
 
   std::size_t n_joints_;
   std::vector<Strand> cables_;
-  std::vector<double> motor_radius_, link_radius_;  ///< [cable][joint]
-  std::vector<double> stiffness_, theta_0_;         ///< linear model, per joint
+  std::vector<double> motor_radius_, link_radius_;     ///< [cable][joint], of round pulleys
+  std::vector<DisplacementMap> motor_map_, link_map_;  ///< [cable][joint]
+  std::vector<double> stiffness_, theta_0_;            ///< linear model, per joint
 };
 
 inline double Coupling::tension(std::size_t cable, const double* q, const double* theta) const {
   const Strand& strand = cables_[cable];
-  const double* motor_radius = motor_radius_.data() + strand.first_radius;
-  const double* link_radius = link_radius_.data() + strand.first_radius;
   double l = strand.slack;
-  for (std::size_t k = 0; k < n_joints_; ++k)
-    l += motor_radius[k] * theta[k] - link_radius[k] * q[k];
+  if (strand.round) {
+    const double* motor_radius = motor_radius_.data() + strand.first_joint;
+    const double* link_radius = link_radius_.data() + strand.first_joint;
+    for (std::size_t k = 0; k < n_joints_; ++k)
+      l += motor_radius[k] * theta[k] - link_radius[k] * q[k];
+  } else {
+    l = elongation(strand, q, theta);
+  }
   if (!(l > 0)) return 0.0;
   std::array<double, kMaxCableOrder> values;  // NOLINT(*-member-init): filled by the next call
-  strand.basis(strand.order, l, values.data());
+  strand.basis(strand.shape, l, values.data());
   double force = 0;
   for (std::size_t j = 0; j < static_cast<std::size_t>(strand.n_coefficients); ++j) {
     force += strand.coefficients[j] * values[j];
@@ -60,9 +72,13 @@ inline void Coupling::torques(const double* q, const double* theta, double* link
   for (std::size_t k = 0; k < n_joints_; ++k) link[k] = motor[k] = 0.0;
   for (std::size_t i = 0; i < cables_.size(); ++i) {
     const double f = tension(i, q, theta);
+    if (!cables_[i].round) {
+      add_by_maps(cables_[i], f, q, theta, link, motor);
+      continue;
+    }
     for (std::size_t k = 0; k < n_joints_; ++k) {
-      link[k] += f * link_radius_[cables_[i].first_radius + k];
-      motor[k] += f * motor_radius_[cables_[i].first_radius + k];
+      link[k] += f * link_radius_[cables_[i].first_joint + k];
+      motor[k] += f * motor_radius_[cables_[i].first_joint + k];
     }
   }
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/samples/noise.hpp"
+
 namespace cablefit {
 namespace {
 

@@ -10,5 +10,7 @@ namespace cablefit::laws {
 CableLaw linear();
 /// f = K_0 l + K_1 l^2 + ... up to the order.
 CableLaw polynomial();
+/// Soft toe, then linear.
+CableLaw strand();
 
 }  // namespace cablefit::laws

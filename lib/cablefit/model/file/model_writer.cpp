@@ -113,6 +113,7 @@ class TransmissionWriter {
     Json list = Json::array();
     for (const Cable& cable : model_.transmission.cables) {
       Json json{{"name", cable.name}, {"law", cable.law->name}};
+      if (cable.law->has_toe) json["toe"] = cable.toe;
       Json& coefficients = json["coefficients"] = Json::array();
       for (std::size_t j = 0; j < cable.coefficients.size(); ++j) {
         const std::string name =

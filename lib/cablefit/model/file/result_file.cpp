@@ -67,7 +67,7 @@ void take_coefficients(FitParameters* parameters, Cable* cable, Model* model) {
   cable->coefficients.clear();
   for (int j = 0; j < cable->n_coefficients(); ++j) {
     const std::string name = coefficient_name(*cable, j, cable_space);
-    std::string unit = coefficient_unit(j, cable_space);
+    std::string unit = coefficient_unit(*cable->law, j, cable_space);
     if (model->rig.linear_motion && !cable_space) unit = linear_unit(unit);
     model->elastic.push_back(read_estimate(parameters->at_elastic(name), name, name, unit));
     const double value = model->elastic.back().value;

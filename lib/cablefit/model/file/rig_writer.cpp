@@ -43,14 +43,30 @@ Json vector_json(const Eigen::VectorXd& values) {
   return std::vector<double>(values.begin(), values.end());
 }
 
+Json map_json(const DisplacementMap& map) {
+  if (map.kind->constant_radius) return map.radius(0);
+  Json json{{"type", map.kind->name}};
+  for (const auto& [key, value] : map.kind->entries(map.parameters)) {
+    std::visit([&, name = std::string(key)](const auto& v) { json[name] = v; }, value);
+  }
+  return json;
+}
+
+Json maps_json(const std::vector<DisplacementMap>& maps) {
+  Json list = Json::array();
+  for (const DisplacementMap& map : maps) list.push_back(map_json(map));
+  return list;
+}
+
 Json cables_json(const Rig& rig) {
   Json list = Json::array();
   for (const Cable& cable : rig.transmission.cables) {
     Json json{{"name", cable.name},
-              {"motor_radius", vector_json(cable.motor_radius)},
-              {"link_radius", vector_json(cable.link_radius)},
+              {"motor_radius", maps_json(cable.motor_map)},
+              {"link_radius", maps_json(cable.link_map)},
               {"law", cable.law->name},
               {"order", cable.order}};
+    if (cable.law->has_toe) json["toe"] = cable.toe;
     if (rig.search_elongation[list.size()]) {
       json["initial_elongation"] = "search";
     } else {
@@ -88,6 +104,10 @@ Json rig_json(const Rig& rig) {
     for (const std::string& name : rig.joints) json["joints"].push_back({{"name", name}});
   }
   if (rig.cables_given) json["cables"] = cables_json(rig);
+  const ReferencePose& pose = rig.transmission.reference;
+  if (pose.q.size() > 0) {
+    json["reference_pose"] = {{"q", vector_json(pose.q)}, {"theta", vector_json(pose.theta)}};
+  }
   return json;
 }
 

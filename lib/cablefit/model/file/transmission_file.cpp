@@ -44,17 +44,32 @@ void read_coefficients(const JsonNode& node, Cable* cable, Model* model) {
   for (const JsonNode& value : node.items) {
     const int j = static_cast<int>(cable->coefficients.size());
     const std::string name = coefficient_name(*cable, j, model->rig.cables_given);
-    model->elastic.push_back(
-        read_strict_estimate(value, name, name, coefficient_unit(j, model->rig.cables_given)));
+    model->elastic.push_back(read_strict_estimate(
+        value, name, name, coefficient_unit(*cable->law, j, model->rig.cables_given)));
     cable->coefficients.push_back(model->elastic.back().value);
   }
 }
 
+/// The rig's toe stands unless the file gives its own.
+void read_toe(const JsonNode& node, Cable* cable) {
+  const JsonNode* toe = node.find("toe");
+  if (toe && !cable->law->has_toe) {
+    throw toe->error(fmt::format("a {} cable has no toe", cable->law->name), "drop it");
+  }
+  if (toe) cable->toe = toe->positive();
+  if (cable->law->has_toe && !(cable->toe > 0)) {
+    throw node.error(fmt::format("a {} cable needs a toe", cable->law->name),
+                     "give \"toe\", the elongation in m from which it is linear");
+  }
+  if (!cable->law->has_toe) cable->toe = 0;
+}
+
 void read_cable(const JsonNode& node, Cable* cable, Model* model) {
-  node.allow_only({"name", "law", "coefficients", "l_o"});
+  node.allow_only({"name", "law", "toe", "coefficients", "l_o"});
   if (const JsonNode* law = node.find("law")) {
     cable->law = at_place_of(*law, [&] { return &find_cable_law(law->text()); });
   }
+  read_toe(node, cable);
   read_coefficients(node.at("coefficients"), cable, model);
 }
 

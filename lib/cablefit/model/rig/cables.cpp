@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "cablefit/model/json_reading.hpp"
 #include "cablefit/model/rig/parts.hpp"
@@ -10,12 +11,45 @@
 namespace cablefit::rig_parts {
 namespace {
 
-Eigen::VectorXd read_radius(const JsonNode& node, int n_joints) {
-  const std::vector<double> radius = n_numbers(node, n_joints);
-  if (std::all_of(radius.begin(), radius.end(), [](double r) { return r == 0; })) {
+/// A number is the radius of a round pulley, an object any kind of map.
+DisplacementMap read_map(const JsonNode& node) {
+  if (node.is_number()) return round_pulley(node.number());
+  if (!node.is_object()) {
+    throw node.error("neither a radius nor a displacement map",
+                     "give the signed radius in m, or {\"type\": \"polynomial\", ...}");
+  }
+  const JsonNode& type = node.at("type");
+  const MapKind* kind = at_place_of(type, [&] { return &find_map_kind(type.text()); });
+  return {kind, kind->read(node)};
+}
+
+/// One map per joint; a single one counts as a list of one.
+std::vector<DisplacementMap> read_maps(const JsonNode& node, int n_joints) {
+  std::vector<DisplacementMap> maps;
+  if (node.is_array()) {
+    for (const JsonNode& item : node.items) maps.push_back(read_map(item));
+  } else {
+    maps.push_back(read_map(node));
+  }
+  if (maps.size() != static_cast<std::size_t>(n_joints)) {
+    throw node.error(fmt::format("{} number(s), expected {}", maps.size(), n_joints),
+                     "give one per joint");
+  }
+  if (std::all_of(maps.begin(), maps.end(), std::mem_fn(&DisplacementMap::is_zero))) {
     throw node.error("radius is 0", "give the signed radius in m, - where the motion slackens it");
   }
-  return Eigen::Map<const Eigen::VectorXd>(radius.data(), n_joints);
+  return maps;
+}
+
+/// "toe", which only laws with a toe have.
+double read_toe(const JsonNode& cable, const CableLaw& law) {
+  const JsonNode* toe = cable.find("toe");
+  if (toe && !law.has_toe) {
+    throw toe->error(fmt::format("a {} cable has no toe", law.name),
+                     "use \"law\": \"strand\" or drop it");
+  }
+  if (!law.has_toe) return 0;
+  return cable.at("toe").positive();
 }
 
 int read_order(const JsonNode& cable, const CableLaw& law) {
@@ -24,9 +58,8 @@ int read_order(const JsonNode& cable, const CableLaw& law) {
   const double order = node->number();
   if (order != std::floor(order) || order < 1 || order > law.max_order) {
     throw node->error(fmt::format("order {} of a {} cable", order, law.name),
-                      fmt::format("the order of the force is a whole number from 1 to {}; 1 is "
-                                  "linear, 2 is K_0 l + K_1 l^2",
-                                  law.max_order));
+                      fmt::format("the order of a {} cable is a whole number from 1 to {}",
+                                  law.name, law.max_order));
   }
   return static_cast<int>(order);
 }
@@ -51,12 +84,14 @@ bool read_elongation(const JsonNode& cable, double* elongation) {
 }
 
 Cable read_cable(const JsonNode& node, int n_joints, bool* search) {
-  node.allow_only({"name", "motor_radius", "link_radius", "law", "order", "initial_elongation"});
+  node.allow_only(
+      {"name", "motor_radius", "link_radius", "law", "order", "toe", "initial_elongation"});
   Cable cable;
-  cable.motor_radius = read_radius(node.at("motor_radius"), n_joints);
-  cable.link_radius = read_radius(node.at("link_radius"), n_joints);
+  cable.motor_map = read_maps(node.at("motor_radius"), n_joints);
+  cable.link_map = read_maps(node.at("link_radius"), n_joints);
   cable.law = &read_law(node);
   cable.order = read_order(node, *cable.law);
+  cable.toe = read_toe(node, *cable.law);
   *search = read_elongation(node, &cable.initial_elongation);
   return cable;
 }
@@ -84,6 +119,15 @@ void read_cables(const JsonNode& node, Rig* rig) {
     rig->transmission.cables.push_back(std::move(cable));
     rig->search_elongation.push_back(search);
   }
+}
+
+ReferencePose read_reference(const JsonNode& node, int n_joints) {
+  node.allow_only({"q", "theta"});
+  const auto read = [&](const char* key) -> Eigen::VectorXd {
+    const std::vector<double> values = n_numbers(node.at(key), n_joints);
+    return Eigen::Map<const Eigen::VectorXd>(values.data(), n_joints);
+  };
+  return {read("q"), read("theta")};
 }
 
 }  // namespace cablefit::rig_parts

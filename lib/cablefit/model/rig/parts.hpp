@@ -12,6 +12,8 @@ std::vector<std::string> read_joints(const JsonNode& node);
 std::map<std::string, ColumnMapping> read_columns(const JsonNode& node, int n_joints);
 /// "cables": sets the transmission, `cables_given` and `search_elongation`; needs the joints.
 void read_cables(const JsonNode& node, Rig* rig);
+/// "reference_pose": where every l = l_o.
+ReferencePose read_reference(const JsonNode& node, int n_joints);
 /// "load": a law of q (one joint) or a column.
 Load read_load(const JsonNode& node, int n_joints);
 /// "controller".

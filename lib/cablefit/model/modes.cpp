@@ -1,0 +1,128 @@
+#include "cablefit/model/modes.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace cablefit {
+namespace {
+
+constexpr int kScanSteps = 400;
+constexpr int kMaxIterations = 200;
+
+/// Where f changes sign between a and b: regula falsi with Illinois weights (Dowell & Jarratt
+/// 1971), which ends after one step when f is a line.
+template <typename Function>
+double root_between(Function f, double a, double b, double tolerance) {
+  double fa = f(a), fb = f(b);
+  if (fa == 0) return a;
+  for (int i = 0; i < kMaxIterations && fb != 0 && std::abs(b - a) > tolerance; ++i) {
+    const double c = (a * fb - b * fa) / (fb - fa);
+    const double fc = f(c);
+    if ((fc > 0) != (fb > 0)) {
+      a = b;
+      fa = fb;
+    } else {
+      fa /= 2;
+    }
+    b = c;
+    fb = fc;
+  }
+  return b;
+}
+
+SlackPoint slack_point(const Transmission& transmission, std::size_t cable, double deflection,
+                       bool slack_above) {
+  const Eigen::VectorXd q = transmission.reference_q();
+  const Eigen::VectorXd phi = Eigen::VectorXd::Constant(1, deflection);
+  Eigen::VectorXd link, motor;
+  transmission.torques(q, q + phi + transmission.encoder_zero(), link, motor);
+  return {cable, deflection, link[0], motor[0], slack_above};
+}
+
+}  // namespace
+
+std::string_view to_string(Mode mode) { return mode == Mode::closure ? "closure" : "disclosure"; }
+
+TautTable taut_cables(const Transmission& transmission, const Eigen::MatrixXd& q,
+                      const Eigen::MatrixXd& theta) {
+  assert(q.rows() == theta.rows() && q.cols() == transmission.n_joints);
+  TautTable taut(q.rows(), static_cast<Eigen::Index>(transmission.cables.size()));
+  for (Eigen::Index i = 0; i < q.rows(); ++i) {
+    taut.row(i) = (transmission.elongations(q.row(i), theta.row(i)).array() > 0).transpose();
+  }
+  return taut;
+}
+
+std::vector<Mode> modes(const TautTable& taut) {
+  std::vector<Mode> labels;
+  for (Eigen::Index i = 0; i < taut.rows(); ++i) {
+    labels.push_back(taut.row(i).all() ? Mode::closure : Mode::disclosure);
+  }
+  return labels;
+}
+
+double elongation_at(const Transmission& transmission, const Cable& cable, double phi) {
+  assert(transmission.n_joints == 1);
+  const Eigen::VectorXd q = transmission.reference_q();
+  return cable.elongation(q, q + Eigen::VectorXd::Constant(1, phi));
+}
+
+bool is_preloaded(const Transmission& transmission) {
+  return std::any_of(transmission.cables.begin(), transmission.cables.end(),
+                     [](const Cable& cable) { return cable.initial_elongation != 0; });
+}
+
+std::vector<SlackPoint> slack_points(const Transmission& transmission, double low, double high) {
+  std::vector<SlackPoint> points;
+  for (std::size_t c = 0; c < transmission.cables.size(); ++c) {
+    const auto l = [&](double phi) {
+      return elongation_at(transmission, transmission.cables[c], phi);
+    };
+    for (int i = 0; i < kScanSteps; ++i) {
+      const double from = low + (high - low) * i / kScanSteps;
+      const double to = low + (high - low) * (i + 1) / kScanSteps;
+      const bool taut_before = l(from) > 0;
+      if (taut_before == (l(to) > 0)) continue;
+      const double at = root_between(l, from, to, 1e-13 * (high - low));
+      points.push_back(slack_point(transmission, c, at, taut_before));
+    }
+  }
+  return points;
+}
+
+Mode ModeMap::mode(Eigen::Index q_index, Eigen::Index theta_index) const {
+  for (const TautTable& cable : taut) {
+    if (!cable(q_index, theta_index)) return Mode::disclosure;
+  }
+  return Mode::closure;
+}
+
+ModeMap mode_map(const Transmission& transmission, int joint, const Eigen::VectorXd& q,
+                 const Eigen::VectorXd& theta, const ReferencePose& pose) {
+  assert(joint >= 0 && joint < transmission.n_joints);
+  ModeMap map{q, theta, {}};
+  map.taut.assign(transmission.cables.size(), TautTable(q.size(), theta.size()));
+  ReferencePose at = pose;
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    for (Eigen::Index j = 0; j < theta.size(); ++j) {
+      at.q[joint] = q[i];
+      at.theta[joint] = theta[j];
+      const Eigen::VectorXd l = transmission.elongations(at.q, at.theta);
+      for (Eigen::Index c = 0; c < l.size(); ++c) {
+        map.taut[static_cast<std::size_t>(c)](i, j) = l[c] > 0;
+      }
+    }
+  }
+  return map;
+}
+
+PreloadTorques preload_torques(const Transmission& transmission) {
+  PreloadTorques preload;
+  transmission.torques(transmission.reference_q(),
+                       transmission.reference_theta() + transmission.encoder_zero(), preload.link,
+                       preload.motor);
+  return preload;
+}
+
+}  // namespace cablefit
