@@ -81,6 +81,6 @@ std::string shortened(std::string_view text) {
   return shown;
 }
 
-std::string quoted(std::string_view text) { return "'" + shortened(text) + "'"; }
+std::string quoted(std::string_view text) { return fmt::format("'{}'", shortened(text)); }
 
 }  // namespace cablefit

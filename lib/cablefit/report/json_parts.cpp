@@ -1,5 +1,7 @@
 #include "cablefit/report/json_parts.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -46,7 +48,7 @@ std::string on_one_line(const Json& json) {
     if (json.is_object()) line += compact(key) + ": ";
     line += on_one_line(value);
   }
-  return json.is_object() ? "{" + line + "}" : "[" + line + "]";
+  return json.is_object() ? fmt::format("{{{}}}", line) : fmt::format("[{}]", line);
 }
 
 std::string pretty(const Json& json, std::size_t indent, std::size_t used) {
@@ -59,7 +61,7 @@ std::string pretty(const Json& json, std::size_t indent, std::size_t used) {
     const std::string label = json.is_object() ? compact(key) + ": " : "";
     lines += margin + label + pretty(value, indent + 2, indent + 2 + label.size());
   }
-  const std::string end = "\n" + std::string(indent, ' ');
+  const std::string end = fmt::format("\n{}", std::string(indent, ' '));
   return json.is_object() ? "{\n" + lines + end + "}" : "[\n" + lines + end + "]";
 }
 
