@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string_view>
 
 #include "cablefit/model/json_reading.hpp"
 #include "cablefit/model/rig/parts.hpp"
@@ -11,16 +12,26 @@
 namespace cablefit::rig_parts {
 namespace {
 
+constexpr double kLongest = 1000;  // m (or rad); no pulley or cable of a robot comes near
+
+/// `length` as it was read at `node`.
+double sane(const JsonNode& node, std::string_view what, double length) {
+  if (std::abs(length) < kLongest) return length;
+  throw node.error(fmt::format("{} of {:g} m", what, length), "give it in m");
+}
+
 /// A number is the radius of a round pulley, an object any kind of map.
 DisplacementMap read_map(const JsonNode& node) {
-  if (node.is_number()) return round_pulley(node.number());
+  if (node.is_number()) return round_pulley(sane(node, "a radius", node.number()));
   if (!node.is_object()) {
     throw node.error("neither a radius nor a displacement map",
                      "give the signed radius in m, or {\"type\": \"polynomial\", ...}");
   }
   const JsonNode& type = node.at("type");
   const MapKind* kind = at_place_of(type, [&] { return &find_map_kind(type.text()); });
-  return {kind, kind->read(node)};
+  const DisplacementMap map{kind, kind->read(node)};
+  for (const double angle : {-1.0, 0.0, 1.0}) sane(node, "a radius", map.radius(angle));
+  return map;
 }
 
 /// One map per joint; a single one counts as a list of one.
@@ -79,7 +90,7 @@ bool read_elongation(const JsonNode& cable, double* elongation) {
     throw node->error(fmt::format("unknown initial_elongation '{}'", node->text()),
                       "give a number in m, or \"search\" to estimate it");
   }
-  *elongation = node->number();
+  *elongation = sane(*node, "an initial elongation", node->number());
   return false;
 }
 
