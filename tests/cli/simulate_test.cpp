@@ -2,22 +2,13 @@
 #include <catch2/catch.hpp>
 
 #include "tests/cli/case_file.hpp"
+#include "tests/support/low_model.hpp"
 
 namespace {
 
 using namespace cablefit::test;
 
-/// Table 1 and Table 2 of the paper, low preload: the parameters of the shipped low logs.
-constexpr const char* kModel = R"({
-  "schema": "cablefit/model/1", "preload": "low",
-  "joints": [{"link": {"inertia": {"J_link": 0.339}, "viscous": {"f_v": 5.601},
-                       "coulomb": {"f_s": 3.274}},
-              "motor": {"inertia": {"J_motor": 0.0133}, "viscous": {"f_vm": 1.0654},
-                        "coulomb": {"f_sm": 2.778}, "offset": {"offset": 0.0286}}}],
-  "transmission": {"cables": [{"name": "1", "coefficients": [1367.7, 37844.1]},
-                              {"name": "2", "coefficients": [1575.3, 29357.2]}]}})";
-
-Outcome run(const std::string& command, const std::string& model = kModel) {
+Outcome run(const std::string& command, const std::string& model = kLowModel) {
   Case wanted;
   wanted.files = {{"model.json", model},
                   {"short.csv", "t,q\n0,0\n1,0\n2,0\n3,0\n4,0\n5,0\n6,0\n7,0\n"}};
@@ -101,7 +92,7 @@ TEST_CASE("a result of stage 1 alone is no model") {
 }
 
 TEST_CASE("exit code 4 when a simulation diverges, its result is written all the same") {
-  std::string model = kModel;
+  std::string model = kLowModel;
   model.replace(model.find("1367.7, 37844.1"), 15, "-1e5, 0");
   const Outcome outcome = run("cablefit simulate model.json moving_load30.csv --quiet", model);
   CHECK(outcome.exit_code == 4);

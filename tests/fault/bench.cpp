@@ -10,19 +10,12 @@
 #include <sstream>
 #include <thread>
 
+#include "tests/support/low_model.hpp"
+
 namespace cablefit::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kModel = R"({
-  "schema": "cablefit/model/1", "preload": "low",
-  "joints": [{"link": {"inertia": {"J_link": 0.339}, "viscous": {"f_v": 5.601},
-                       "coulomb": {"f_s": 3.274}},
-              "motor": {"inertia": {"J_motor": 0.0133}, "viscous": {"f_vm": 1.0654},
-                        "coulomb": {"f_sm": 2.778}, "offset": {"offset": 0.0286}}}],
-  "transmission": {"cables": [{"name": "1", "coefficients": [1367.7, 37844.1]},
-                              {"name": "2", "coefficients": [1575.3, 29357.2]}]}})";
 
 constexpr const char* kCampaign = R"({"schema": "cablefit/campaign/1", "name": "bench",
   "cells": [{"rig": "rig.json", "preload": "low", "blocked": ["log.csv"],
@@ -67,7 +60,7 @@ FaultBench::FaultBench() {
   folder_.write("moving.csv",
                 first_lines(content_of(CABLEFIT_DATA "/low/moving_load30.csv"), 4000));
   fs::copy_file(CABLEFIT_DATA "/low/rig.json", path("rig.json"));
-  folder_.write("model.json", kModel);
+  folder_.write("model.json", kLowModel);
   folder_.write("campaign.json", kCampaign);
 }
 
