@@ -57,6 +57,12 @@ const BadRig kBadRigs[] = {
      "rig.json:1:29: -0.1 is negative; expected 0 or more"},
     {R"({"sensors": {"phase": {}}})",
      "rig.json:1:23: channel 'phase' has no sensor; it holds text"},
+    {R"({"motion": "linear", "load": {"type": "pendulum", "mass": 1, "length": 0.3}})",
+     "rig.json:1:39: load 'pendulum' on a linear axis; its weight is a force: use {\"type\": "
+     "\"constant\", \"torque\": N}"},
+    {R"({"load": {"type": "hanging_mass", "mass": 1, "radius": 0.3}, "motion": "linear"})",
+     "rig.json:1:19: load 'hanging_mass' on a linear axis; its weight is a force: use {\"type\": "
+     "\"constant\", \"torque\": N}"},
     {R"({"cad": {"J_lnk": 0.3}})",
      "rig.json:1:19: unknown parameter 'J_lnk'; did you mean 'J_link'?"},
     {R"({"joints": [{"name": "a"}, {"name": "a"}]})",

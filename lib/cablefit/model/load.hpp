@@ -36,6 +36,8 @@ struct LoadLaw {
   double (*inertia)(const LoadParameters& parameters);
   /// Makes sense on a rig of several joints, where one law of one q does not.
   bool any_joints = false;
+  /// Its torque needs a link that turns.
+  bool rotary_only = false;
 };
 
 std::span<const LoadLaw> load_laws();

@@ -61,7 +61,9 @@ Rig parse_rig(const JsonNode& node) {
   if (const JsonNode* columns = node.find("columns")) {
     rig.columns = rig_parts::read_columns(*columns, n);
   }
-  if (const JsonNode* load = node.find("load")) rig.load = rig_parts::read_load(*load, n);
+  if (const JsonNode* load = node.find("load")) {
+    rig.load = rig_parts::read_load(*load, n, rig.linear_motion);
+  }
   if (const JsonNode* controller = node.find("controller")) {
     rig.controller = rig_parts::read_controller(*controller);
   }

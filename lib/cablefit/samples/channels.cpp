@@ -87,6 +87,15 @@ Unit checked_unit(const std::string& text, const Place& place, const Dimension& 
   return unit;
 }
 
+/// Hertz count turns to some and radians to others.
+void require_clear_speed(const std::string& unit, const Place& place, const std::string& column) {
+  if (!unit.ends_with("Hz")) return;
+  throw input_error(place,
+                    fmt::format("unit '{}' of column {} may be turns or radians a second",
+                                shortened(unit), cablefit::quoted(column)),
+                    "write rev/s, rpm or rad/s in the header or in the rig file");
+}
+
 Slot make_slot(const LogHeader& header, const Rig& rig, const ChannelInfo& info, int joint,
                std::size_t column, const std::string& channel) {
   Slot slot{info.channel, joint, column, 1, 0};
@@ -95,6 +104,7 @@ Slot make_slot(const LogHeader& header, const Rig& rig, const ChannelInfo& info,
   const ColumnMapping mapping = mapped == rig.columns.end() ? ColumnMapping{} : mapped->second;
   const std::string& unit_text = mapping.unit.empty() ? cell.unit : mapping.unit;
   double unit_scale = 1;
+  if (info.channel == Channel::w) require_clear_speed(unit_text, cell.place, cell.name);
   if (!unit_text.empty())
     unit_scale = checked_unit(unit_text, cell.place, rig.linear_motion ? info.linear : info.rotary,
                               "column " + cablefit::quoted(cell.name), info.quantity)

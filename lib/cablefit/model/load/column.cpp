@@ -24,7 +24,8 @@ LoadLaw column() {
           .entries = entries,
           .torque = torque,
           .inertia = inertia,
-          .any_joints = true};
+          .any_joints = true,
+          .rotary_only = false};
 }
 
 }  // namespace cablefit::laws

@@ -28,7 +28,8 @@ LoadLaw constant() {
           .entries = entries,
           .torque = torque,
           .inertia = inertia,
-          .any_joints = false};
+          .any_joints = false,
+          .rotary_only = false};
 }
 
 }  // namespace cablefit::laws

@@ -40,7 +40,8 @@ LoadLaw hanging_mass() {
           .entries = entries,
           .torque = torque,
           .inertia = inertia,
-          .any_joints = false};
+          .any_joints = false,
+          .rotary_only = true};
 }
 
 }  // namespace cablefit::laws

@@ -34,7 +34,8 @@ LoadLaw pendulum() {
           .entries = entries,
           .torque = torque,
           .inertia = inertia,
-          .any_joints = false};
+          .any_joints = false,
+          .rotary_only = true};
 }
 
 }  // namespace cablefit::laws

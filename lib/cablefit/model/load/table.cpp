@@ -50,7 +50,8 @@ LoadLaw table() {
           .entries = entries,
           .torque = torque,
           .inertia = inertia,
-          .any_joints = false};
+          .any_joints = false,
+          .rotary_only = false};
 }
 
 }  // namespace cablefit::laws

@@ -37,7 +37,7 @@ std::string without_joint_index(const std::string& name, int n_joints) {
 
 }  // namespace
 
-Load read_load(const JsonNode& node, int n_joints) {
+Load read_load(const JsonNode& node, int n_joints, bool linear_motion) {
   const JsonNode& type = node.at("type");
   Load load;
   load.law = at_place_of(type, [&] { return &find_load_law(type.text()); });
@@ -45,6 +45,10 @@ Load read_load(const JsonNode& node, int n_joints) {
   if (n_joints > 1 && !load.law->any_joints) {
     throw type.error(fmt::format("load '{}' on a rig of {} joints", load.law->name, n_joints),
                      "log tau_load1, tau_load2, ... and use {\"type\": \"column\"}");
+  }
+  if (linear_motion && load.law->rotary_only) {
+    throw type.error(fmt::format("load '{}' on a linear axis", load.law->name),
+                     "its weight is a force: use {\"type\": \"constant\", \"torque\": N}");
   }
   return load;
 }

@@ -15,7 +15,7 @@ void read_cables(const JsonNode& node, Rig* rig);
 /// "reference_pose": where every l = l_o.
 ReferencePose read_reference(const JsonNode& node, int n_joints);
 /// "load": a law of q (one joint) or a column.
-Load read_load(const JsonNode& node, int n_joints);
+Load read_load(const JsonNode& node, int n_joints, bool linear_motion);
 /// "controller".
 Controller read_controller(const JsonNode& node);
 /// "sensors": resolution and noise per numeric channel.
