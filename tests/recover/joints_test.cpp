@@ -1,6 +1,7 @@
 // Rigs of issue 4's acceptance: stage 1 on a blocked log, stage 2 on a moving one, all parameters
 // within 3 sd of the truth of an independent simulation.
-#include "tests/support/plain_joints.hpp"
+#include "tests/recover/joints_truth.hpp"
+#include "tests/support/plain_rigs.hpp"
 #include "tests/support/recover.hpp"
 
 namespace cablefit::test {
@@ -10,38 +11,6 @@ namespace {
 // positions) is 0.1 % of an inertia; the logs are short and noisy enough for the sd to be about
 // that.
 constexpr double kLimit = 3;
-
-/// "J_link[2]" on a rig of two joints.
-std::string name_of(const PlainRig& rig, const char* name, std::size_t joint) {
-  return rig.n() > 1 ? fmt::format("{}[{}]", name, joint + 1) : name;
-}
-
-NamedValues stage1_truth(const PlainRig& rig) {
-  NamedValues values;
-  for (const PlainCable& cable : rig.cables)
-    for (std::size_t j = 0; j < cable.k.size(); ++j)
-      values.emplace_back(fmt::format("k[{}]_{}", cable.name, j), cable.k[j]);
-  for (std::size_t j = 0; j < rig.n(); ++j) {
-    values.emplace_back(name_of(rig, "offset", j), rig.joints[j].offset);
-    values.emplace_back(name_of(rig, "f_sm", j), rig.joints[j].f_sm);
-  }
-  return values;
-}
-
-NamedValues stage2_truth(const PlainRig& rig) {
-  NamedValues values;
-  for (std::size_t j = 0; j < rig.n(); ++j) {
-    const PlainJoint& joint = rig.joints[j];
-    if (!rig.link_dynamics) values.emplace_back(name_of(rig, "J_link", j), joint.J_link);
-    values.emplace_back(name_of(rig, "f_v", j), joint.f_v);
-    values.emplace_back(name_of(rig, "f_s", j), joint.f_s);
-    values.emplace_back(name_of(rig, "J_motor", j), joint.J_motor);
-    values.emplace_back(name_of(rig, "f_vm", j), joint.f_vm);
-    values.emplace_back(name_of(rig, "f_sm", j), joint.f_sm);
-    values.emplace_back(name_of(rig, "offset", j), joint.offset);
-  }
-  return values;
-}
 
 struct Fitted {
   ElasticResult elastic;
@@ -115,24 +84,7 @@ TEST_CASE("a pulley that is not round", "[recover]") {
 }
 
 TEST_CASE("a tendon finger of two joints, orders by cable", "[recover]") {
-  PlainRig rig;
-  rig.joints = {PlainJoint{}, PlainJoint{}};
-  rig.joints[0] = {4e-3, 8e-4, 4e-3, 6e-3, 2e-3, 5e-3, 4e-3, 0.35, 0.05, 0.5, 6, 0.06, 0.1};
-  rig.joints[1] = {1.5e-3, 5e-4, 3e-3, 4e-3, 1e-3, 4e-3, -3e-3, 0.4, 0.037, 0.5, 4, 0.04, 0.05};
-  rig.torque_noise = 4e-3;
-  rig.cables = {
-      {"flexor", {round_map(0.01), round_map(0)}, {round_map(0.01), round_map(0.007)}, {1e5}, 2e-3},
-      {"extensor",
-       {round_map(-0.01), round_map(0)},
-       {round_map(-0.01), round_map(-0.009)},
-       {7e4, 1.5e7},
-       2e-3},
-      {"pip",
-       {round_map(0), round_map(0.006)},
-       {round_map(0), {{0.006, 0.001}}},
-       {5e4, 1e7, 1e9},
-       1.5e-3}};
-  check_both(rig);
+  check_both(tendon_finger());
 }
 
 /// Two links in a vertical plane as Spong, Hutchinson & Vidyasagar (2006, 7.3.2) write them, with

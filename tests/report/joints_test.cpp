@@ -11,7 +11,7 @@
 #include "cablefit/report/elastic_reader.hpp"
 #include "tests/report/schema.hpp"
 #include "tests/support/message.hpp"
-#include "tests/support/plain_joints.hpp"
+#include "tests/support/plain_rigs.hpp"
 #include "tests/support/recover.hpp"
 
 namespace cablefit::test {

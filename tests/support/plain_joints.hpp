@@ -126,11 +126,10 @@ class PlainLog {
 
 /// All motors sweep at once, at rates without a common period, links held at `q`.
 inline std::string blocked_log(const PlainRig& rig, const std::vector<double>& q, double seconds,
-                               unsigned seed) {
-  constexpr double kRate = 200;
+                               unsigned seed, double rate = 200) {
   PlainLog log(rig, seed);
-  for (int i = 0; i < static_cast<int>(seconds * kRate); ++i) {
-    const double t = i / kRate;
+  for (int i = 0; i < static_cast<int>(seconds * rate); ++i) {
+    const double t = i / rate;
     std::vector<double> theta, speed;
     for (std::size_t j = 0; j < rig.n(); ++j) {
       const double w = 2 * M_PI * rig.joints[j].sweep_rate;
@@ -234,47 +233,6 @@ inline std::string moving_log(const PlainRig& rig, double seconds, unsigned seed
     for (int step = 0; step < kSteps; ++step) x = runge_kutta(rig, x, t + step * kStep, kStep, tau);
   }
   return log.text();
-}
-
-/// The rig file; `more`: further keys, each with a comma behind it.
-inline std::string rig_text(const PlainRig& rig, const std::string& more) {
-  const auto numbers = [](const std::vector<PlainMap>& maps) {
-    std::string list;
-    for (const PlainMap& map : maps) {
-      std::string one = fmt::format("{}", map.radius.front());
-      if (map.radius.size() > 1)
-        one = fmt::format(R"({{"type": "polynomial", "coefficients": [{}]}})",
-                          fmt::join(map.radius, ", "));
-      list += (list.empty() ? "" : ", ") + one;
-    }
-    return list;
-  };
-  std::string joints, cables;
-  for (std::size_t j = 0; j < rig.n(); ++j)
-    joints += fmt::format(R"({}{{"name": "{}"}})", j > 0 ? ", " : "", j + 1);
-  for (const PlainCable& cable : rig.cables)
-    cables += fmt::format(
-        R"({}{{"name": "{}", "motor_radius": [{}], "link_radius": [{}], "order": {}, "initial_elongation": {}}})",
-        cables.empty() ? "" : ",\n  ", cable.name, numbers(cable.motor), numbers(cable.link),
-        cable.k.size(), cable.l_o);
-  return fmt::format(R"({{"schema": "cablefit/rig/1", "joints": [{}],{} "cables": [{}]}})", joints,
-                     more, cables);
-}
-
-inline PlainMap round_map(double radius) { return {{radius}}; }
-
-/// n + 1 cables: two joints that share all of their three cables.
-inline PlainRig three_coupled_cables() {
-  PlainRig rig;
-  rig.joints = {PlainJoint{}, PlainJoint{}};
-  rig.joints[1] = {0.03, 0.004, 0.03, 0.06, 0.01, 0.03, -0.02, 0.25, 0.037, 0.25, 50, 0.5, 1};
-  const auto pulleys = [](double first, double second) {
-    return std::vector<PlainMap>{round_map(first), round_map(second)};
-  };
-  rig.cables = {{"1", pulleys(0.03, 0.02), pulleys(0.03, 0.02), {2e5, 1e7}, 2e-3},
-                {"2", pulleys(-0.03, 0.02), pulleys(-0.03, 0.02), {2e5, 1e7}, 2e-3},
-                {"3", pulleys(0, -0.04), pulleys(0, -0.04), {2.4e5, 0.8e7}, 2e-3}};
-  return rig;
 }
 
 }  // namespace cablefit::test

@@ -29,21 +29,27 @@ bool has(const std::vector<Decision>& decisions, const Decision& one) {
   });
 }
 
-/// Decisions that all joints share, then those that differ, by joint.
-std::vector<Decision> told_by_joint(const std::vector<ChosenSettings>& joints) {
+/// The value that was taken of a choice that all equations share; empty: each has its own.
+std::string value_taken(const std::string& choice, const RowSettings& all) {
+  if (choice == "decimation") return std::to_string(all.decimate);
+  if (choice == "edge rows") return std::to_string(all.drop_edge);
+  return "";
+}
+
+/// Choices that all joints share, then those that differ, by joint.
+std::vector<Decision> told_by_joint(const std::vector<ChosenSettings>& joints,
+                                    const RowSettings& all) {
   std::vector<Decision> told;
-  const auto is_common = [&](const Decision& one) {
-    return std::all_of(joints.begin(), joints.end(),
-                       [&](const ChosenSettings& joint) { return has(joint.decisions, one); });
-  };
-  for (const Decision& one : joints.front().decisions)
-    if (is_common(one)) told.push_back(one);
   const int n = static_cast<int>(joints.size());
   for (int joint = 0; joint < n; ++joint)
     for (Decision one : joints[static_cast<std::size_t>(joint)].decisions) {
-      if (is_common(one)) continue;
-      one.name = joint_parameter_name(one.name, joint + 1, n);
-      told.push_back(std::move(one));
+      const bool is_common =
+          std::all_of(joints.begin(), joints.end(),
+                      [&](const ChosenSettings& other) { return has(other.decisions, one); });
+      const std::string taken = value_taken(one.name, all);
+      if (!taken.empty() && one.value != taken) continue;
+      if (!is_common && taken.empty()) one.name = joint_parameter_name(one.name, joint + 1, n);
+      if (!has(told, one)) told.push_back(std::move(one));
     }
   return told;
 }
@@ -51,7 +57,7 @@ std::vector<Decision> told_by_joint(const std::vector<ChosenSettings>& joints) {
 ChosenSettings merged(const std::vector<ChosenSettings>& joints) {
   ChosenSettings all = joints.front();
   for (const ChosenSettings& joint : joints) take_most(all.rows, joint);
-  all.decisions = told_by_joint(joints);
+  all.decisions = told_by_joint(joints, all.rows);
   all.warnings.clear();
   for (std::size_t k = 0; k < joints.size(); ++k)
     for (const std::string& warning : joints[k].warnings)

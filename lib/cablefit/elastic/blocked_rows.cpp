@@ -12,16 +12,18 @@ namespace {
 constexpr double kSlidingShare = 0.1;     // fewer rows in motion: the log is made of plateaus
 constexpr double kSpeedCollinear = 0.98;  // speed and direction tell the same
 
-/// What the settings of another joint (from 0) say beyond those of the first.
-void add_other_joint(ChosenSettings& first, const ChosenSettings& other, int joint, int n_joints) {
-  for (Decision decision : other.decisions) {
-    if (decision.name != "rest speed") continue;
-    decision.name = joint_parameter_name(decision.name, joint + 1, n_joints);
-    first.decisions.push_back(std::move(decision));
+/// The rest speed and the warnings of one of several joints (from 0) among those of all.
+void add_joint_rest(ChosenSettings& all, const ChosenSettings& own, int joint, int n_joints) {
+  constexpr const char* kRest = "rest speed";  // the only choice that depends on the joint
+  std::erase_if(all.decisions, [&](const Decision& decision) { return decision.name == kRest; });
+  for (Decision decision : own.decisions) {
+    if (decision.name != kRest) continue;
+    decision.name = joint_parameter_name(kRest, joint + 1, n_joints);
+    all.decisions.push_back(std::move(decision));
   }
-  for (const std::string& warning : other.warnings)
-    if (std::find(first.warnings.begin(), first.warnings.end(), warning) == first.warnings.end())
-      first.warnings.push_back(warning);
+  for (const std::string& warning : own.warnings)
+    if (std::find(all.warnings.begin(), all.warnings.end(), warning) == all.warnings.end())
+      all.warnings.push_back(warning);
 }
 
 }  // namespace
@@ -42,7 +44,7 @@ void add_joint_speeds(ElasticJob& job) {
                    : blocked_settings(job.logs, job.wanted, job.options.samples, joint);
     job.rest_speeds.push_back(own.rest_speed_theta);
     job.still_speeds.push_back(job.options.still ? std::max(own.rest_speed_q, 1e-12) : 0);
-    if (joint > 0) add_other_joint(job.settings, own, joint, n);
+    if (n > 1) add_joint_rest(job.settings, own, joint, n);
   }
 }
 
