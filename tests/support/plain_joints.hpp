@@ -52,7 +52,8 @@ struct PlainJoint {
   double sweep = 0.2, sweep_rate = 0.05;  ///< blocked: amplitude rad, Hz
   double swing = 0.3;                     ///< moving: amplitude of the reference, rad
   double kp = 60, kd = 0.6;
-  double load = 2;  ///< amplitude of a torque on the link, N m
+  double load = 2;   ///< amplitude of a torque on the link, N m
+  double noise = 1;  ///< of tau, times that of the rig
 };
 
 /// Link accelerations from link torques; empty: torque / J_link.
@@ -108,8 +109,9 @@ class PlainLog {
     text_ += fmt::format("{:.4f}", t);
     for (const double x : q) text_ += fmt::format(",{:.9f}", stepped(x));
     for (const double x : theta) text_ += fmt::format(",{:.9f}", stepped(x));
-    for (const double x : tau)
-      text_ += fmt::format(",{:.6f}", x + rig_.torque_noise * normal_(random_));
+    for (std::size_t j = 0; j < tau.size(); ++j)
+      text_ += fmt::format(",{:.6f}",
+                           tau[j] + rig_.torque_noise * rig_.joints[j].noise * normal_(random_));
     for (const double x : load) text_ += fmt::format(",{:.6f}", x);
     text_ += '\n';
   }

@@ -135,8 +135,8 @@ Table slack_table(const ElasticResult& result) {
   for (const ElasticPreload& preload : result.preloads) {
     for (const ElasticFit& fit : preload.fits) {
       if (!is_preloaded(fit.transmission)) continue;
-      table.notes.push_back(balance_text(preload, fit));
       if (fit.transmission.n_joints > 1) continue;  // a pose, not one deflection, makes them slack
+      table.notes.push_back(balance_text(preload, fit));
       for (const SlackPoint& point :
            slack_points(fit.transmission, preload.deflection_low, preload.deflection_high)) {
         table.rows.push_back({preload.name, fit.model, fit.transmission.cables[point.cable].name,
@@ -202,6 +202,8 @@ Document elastic_document(const ElasticResult& result) {
     add_warnings(document, preload.name, preload.warnings);
     add_figures(document, preload.figures);
     for (const ElasticFit& fit : preload.fits) {
+      if (fit.transmission.n_joints > 1 && is_preloaded(fit.transmission))
+        document.paragraphs.push_back(balance_text(preload, fit));
       add_warnings(document, preload.name + ", " + fit.model, fit.warnings);
       add_tidy_rows(document.tidy, preload, fit);
     }
