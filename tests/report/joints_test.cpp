@@ -114,6 +114,9 @@ TEST_CASE("given link inertias are taken, not estimated") {
   CHECK(estimate(fit.parameters, "J_link[2]").value == 0.03);
   CHECK(estimate(fit.parameters, "J_link[2]").sd == 0);
   CHECK(fit.verdicts.at("J_link[2]") == "given");
+  // What is given stands on the right side: its torque, 0.1 N m and more, is not left over.
+  CHECK(fit.torque_error.at("link[1]").rms < 0.02);
+  CHECK(fit.torque_error.at("link[2]").rms < 0.02);
   check_recovered(fit.parameters, {{"f_s[1]", 0.1}, {"f_s[2]", 0.06}, {"J_motor[2]", 0.004}}, 3);
 }
 
