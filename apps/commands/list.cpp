@@ -5,6 +5,7 @@
 
 #include "cablefit/dynamic/dynamic_fit.hpp"
 #include "cablefit/log/log_reader.hpp"
+#include "cablefit/model/arm.hpp"
 #include "cablefit/model/cables.hpp"
 #include "cablefit/model/effects.hpp"
 #include "cablefit/model/load.hpp"
@@ -73,7 +74,12 @@ std::vector<Table> model_tables() {
   for (const LoadLaw& law : load_laws()) {
     loads.rows.push_back({std::string(law.name), std::string(law.equation)});
   }
-  return {models, cables, maps, loads};
+  Table arms = text_table_of("Arms (rig file: arm, type)", {"name", "link side", "source"});
+  for (const ArmKind& kind : arm_kinds()) {
+    arms.rows.push_back(
+        {std::string(kind.name), std::string(kind.equation), std::string(kind.source)});
+  }
+  return {models, cables, maps, loads, arms};
 }
 
 std::vector<Table> estimator_tables() {

@@ -172,33 +172,40 @@ TEST_CASE("the simulator has the same torques and tensions", "[conformance]") {
 
 TEST_CASE("regressor columns times coefficients are the same torques", "[conformance]") {
   for_every_transmission([](Transmission transmission) {
-    if (transmission.n_joints > 1) return;  // the fits take one joint
-    transmission.theta_0 = VectorXd::Constant(1, 0.03);
+    const auto n = static_cast<Eigen::Index>(transmission.n_joints);
+    transmission.theta_0 = VectorXd::Constant(n, 0.03);
     std::mt19937 engine(16);
-    JointSignals signals;
     constexpr Eigen::Index kRows = 20;
-    signals.q.resize(kRows);
-    signals.theta.resize(kRows);
-    VectorXd coefficients(n_elastic_columns(transmission)), link(kRows), motor(kRows);
+    std::vector<JointSignals> signals(static_cast<std::size_t>(n));
+    for (JointSignals& s : signals) {
+      s.q.resize(kRows);
+      s.theta.resize(kRows);
+    }
+    VectorXd coefficients(n_elastic_columns(transmission));
+    Eigen::MatrixXd link(kRows, n), motor(kRows, n);
     for (Eigen::Index i = 0; i < kRows; ++i) {
       const Pose at = random_pose(transmission, engine);
-      signals.q(i) = at.q[0];
-      signals.theta(i) = at.theta[0];
+      for (Eigen::Index j = 0; j < n; ++j) {
+        signals[static_cast<std::size_t>(j)].q(i) = at.q[j];
+        signals[static_cast<std::size_t>(j)].theta(i) = at.theta[j];
+      }
       VectorXd by_link, by_motor;
       transmission.torques(at.q, at.theta, by_link, by_motor);
-      link[i] = by_link[0];
-      motor[i] = by_motor[0];
+      link.row(i) = by_link;
+      motor.row(i) = by_motor;
     }
     Eigen::Index next = 0;
     for (const Cable& cable : transmission.cables) {
       for (const double coefficient : cable.coefficients) coefficients[next++] = coefficient;
     }
     Eigen::MatrixXd columns(kRows, coefficients.size());
-    // Rounding as above.
-    elastic_basis(transmission, signals, ElasticSide::link, columns);
-    CHECK((columns * coefficients - link).cwiseAbs().maxCoeff() < 1e-10);
-    elastic_basis(transmission, signals, ElasticSide::motor, columns);
-    CHECK((columns * coefficients - motor).cwiseAbs().maxCoeff() < 1e-10);
+    for (int j = 0; j < transmission.n_joints; ++j) {
+      // Rounding as above.
+      elastic_basis(transmission, signals, ElasticSide::link, j, columns);
+      CHECK((columns * coefficients - link.col(j)).cwiseAbs().maxCoeff() < 1e-10);
+      elastic_basis(transmission, signals, ElasticSide::motor, j, columns);
+      CHECK((columns * coefficients - motor.col(j)).cwiseAbs().maxCoeff() < 1e-10);
+    }
   });
 }
 

@@ -97,4 +97,34 @@ TEST_CASE("without cells there are none", "[estimate]") {
   CHECK(rows.empty_copy().n_rows() == 0);
 }
 
+TEST_CASE("weighted rows of two equations are their scaled rows under each other", "[estimate]") {
+  const Eigen::MatrixXd first = random_rows(600, 4, 6010), second = random_rows(500, 4, 6011);
+  std::vector<Eigen::Index> every, some;
+  for (Eigen::Index i = 0; i < 600; ++i) every.push_back(i);
+  for (Eigen::Index i = 0; i < 500; ++i) some.push_back(i + 80);
+  RowStatistics a(4, 20000), b = a.empty_copy();
+  a.add(first, every);
+  b.add(second, some);
+  const std::vector<const RowStatistics*> equations = {&a, &b};
+  const std::vector<double> weights = {0.25, 9};
+  const RowStatistics both = RowStatistics::weighted(equations, weights);
+  Eigen::MatrixXd stacked(1100, 4);
+  stacked << 0.5 * first, 3 * second;
+  CHECK(both.n_rows() == 1100);
+  const Eigen::MatrixXd gram = stacked.transpose() * stacked;
+  // Rounding of 1e3 products: sqrt(n) eps = 7e-15.
+  CHECK((both.r().transpose() * both.r() - gram).norm() < 1e-13 * gram.norm());
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(4, 4);
+  Eigen::Index rows = 0, last = -1;
+  for (const GramCell& cell : both.cells()) {
+    CHECK(cell.id > last);  // one cell per stretch of time
+    last = cell.id;
+    sum += cell.gram;
+    rows += cell.n_rows;
+  }
+  CHECK(rows == 1100);
+  CHECK((sum - gram).norm() < 1e-13 * gram.norm());
+  CHECK(both.cells().front().n_rows == a.cell_rows());  // before the second begins
+}
+
 }  // namespace

@@ -81,6 +81,19 @@ TEST_CASE("the rig schema has every load law and cable law") {
   for (const CableLaw& law : cable_laws()) CHECK(laws.count(std::string(law.name)) == 1);
 }
 
+TEST_CASE("the rig schema has every arm") {
+  const JsonNode root = schema("rig");
+  Names arms;
+  for (const JsonNode& arm : root.at("properties").at("arm").at("oneOf").items) {
+    const std::string type = arm.at("properties").at("type").at("const").text();
+    arms.insert(type);
+    INFO(type);
+    CHECK(properties(arm) ==
+          known_to_rig_reader(R"({"arm": {"type": ")" + type + R"(", "?": 0}})"));
+  }
+  CHECK(arms == known_to_rig_reader(R"({"arm": {"type": "?"}})"));
+}
+
 TEST_CASE("the rig schema has every displacement map") {
   const JsonNode root = schema("rig");
   const std::string start = R"({"cables": [{"name": "a", "motor_radius": {"type": ")";

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "rig.hpp"
+#include "tests/support/plain_rigs.hpp"
 
 namespace {
 
@@ -146,6 +147,16 @@ void make_moving(const Cell& cell, const fs::path& folder, double load, std::uin
   print_row(cell.name + "/" + name, cell.rig, options, exact);
 }
 
+/// Two joints: short logs at low rates, for size.
+void make_finger(const fs::path& folder, std::uint64_t seed) {
+  const cablefit::test::PlainRig rig = cablefit::test::tendon_finger();
+  const auto next = static_cast<unsigned>(seed);
+  fs::create_directories(folder);
+  write_text(folder / "blocked.csv", cablefit::test::blocked_log(rig, {0.1, 0.1}, 50, next, 100));
+  write_text(folder / "moving.csv", cablefit::test::moving_log(rig, 8, next + 1));
+  write_text(folder / "rig.json", cablefit::test::rig_text(rig, "") + '\n');
+}
+
 void make_data(const fs::path& out, std::uint64_t seed) {
   const std::vector<Cell> cells{{"low", truth::Rig::low()}, {"high", truth::Rig::high()}};
   print_header();
@@ -157,6 +168,7 @@ void make_data(const fs::path& out, std::uint64_t seed) {
     write_text(folder / "rig.json", rig_json(cell, truth::MovingOptions{}));
   }
   write_text(out / "campaign.json", campaign_json(cells));
+  make_finger(out / "two_joints" / "finger", seed);
 }
 
 std::uint64_t parse_seed(std::string_view text) {

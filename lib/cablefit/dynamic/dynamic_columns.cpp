@@ -1,5 +1,7 @@
 #include "cablefit/dynamic/dynamic_columns.hpp"
 
+#include "cablefit/model/model.hpp"
+
 namespace cablefit {
 namespace {
 
@@ -16,29 +18,84 @@ const Eigen::ArrayXd& acceleration(Side side, const JointSignals& s) {
 bool is_linear(const ElasticFit& fit) { return fit.transmission.cables.empty(); }
 
 /// Basis columns of a fit, n x coefficients.
-void fill_basis(const ElasticFit& fit, Side side, const JointSignals& s,
+void fill_basis(const ElasticFit& fit, const DynamicColumns& c, const Signals& signals,
                 Eigen::Ref<Eigen::MatrixXd> out) {
   if (is_linear(fit)) {
-    out.col(0) = s.theta - fit.transmission.theta_0(0) - s.q;
+    const JointSignals& s = signals.joints[static_cast<std::size_t>(c.place.joint)];
+    if (out.cols() > 1) out.setZero();
+    out.col(c.place.joint) = s.theta - fit.transmission.theta_0(c.place.joint) - s.q;
   } else {
-    elastic_basis(fit.transmission, s, side == Side::link ? ElasticSide::link : ElasticSide::motor,
+    elastic_basis(fit.transmission, signals.joints,
+                  c.side == Side::link ? ElasticSide::link : ElasticSide::motor, c.place.joint,
                   out);
   }
 }
 
-void fill_elastic(const ElasticFit& fit, Side side, const JointSignals& s, ElasticDetail detail,
+void fill_elastic(const ElasticFit& fit, const DynamicColumns& c, const Signals& signals,
                   Eigen::Ref<Eigen::MatrixXd> out) {
-  if (detail == ElasticDetail::coefficients) return fill_basis(fit, side, s, out);
+  if (c.detail == ElasticDetail::coefficients) return fill_basis(fit, c, signals, out);
   const Eigen::VectorXd coefficients = elastic_coefficients(fit);
   Eigen::MatrixXd basis(out.rows(), coefficients.size());
-  fill_basis(fit, side, s, basis);
+  fill_basis(fit, c, signals, basis);
   out.noalias() = basis * coefficients;
+}
+
+Eigen::Index n_columns(const std::vector<const Effect*>& effects) {
+  std::size_t n = 0;
+  for (const Effect* effect : effects) n += effect->parameters.size();
+  return static_cast<Eigen::Index>(n);
+}
+
+bool is_coupled_link(const DynamicColumns& c) {
+  return c.side == Side::link && c.place.arm != nullptr && c.place.arm->is_coupled();
+}
+
+std::optional<double> given_inertia(const DynamicColumns& c, const Effect& effect, int joint) {
+  if (c.side != Side::link || effect.inertia == nullptr || c.place.arm == nullptr) return {};
+  const std::vector<double>& given = c.place.arm->parameters.J_link;
+  if (given.empty()) return {};
+  return given[static_cast<std::size_t>(joint)];
+}
+
+/// Names the columns of the effects of one joint.
+void add_effects(DynamicColumns& c, int joint) {
+  if (joint == c.place.joint) c.first_effect = static_cast<Eigen::Index>(c.parameters.size());
+  for (const Effect& effect : base_effects(c.side)) {
+    const bool is_inertia = effect.inertia != nullptr;
+    if (is_inertia && is_coupled_link(c)) continue;  // the arm's base parameters stand for it
+    if (joint == c.place.joint) c.effects.push_back(&effect);
+    for (const ParameterInfo& info : effect.parameters)
+      c.parameters.push_back({info, joint_parameter_name(info.name, joint + 1, c.place.n_joints),
+                              is_inertia, given_inertia(c, effect, joint)});
+  }
+}
+
+void add_parameters(DynamicColumns& c) {
+  if (!is_coupled_link(c)) return add_effects(c, c.place.joint);
+  for (const ParameterInfo& info : c.place.arm->base_parameters())
+    c.parameters.push_back({info, std::string(info.name), false, {}});
+  c.n_arm = static_cast<Eigen::Index>(c.parameters.size());
+  for (int joint = 0; joint < c.place.n_joints; ++joint) add_effects(c, joint);
+}
+
+Motion motion_of(Side side, const JointSignals& s) {
+  return {position(side, s), velocity(side, s), acceleration(side, s),
+          side == Side::link ? s.q_direction : s.theta_direction};
+}
+
+/// The columns of an arm's links, those of other joints' effects 0.
+void fill_arm(const DynamicColumns& c, const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
+  std::vector<Motion> links;
+  for (const JointSignals& s : signals.joints) links.push_back(motion_of(Side::link, s));
+  out.setZero();
+  c.place.arm->kind->regressor(c.place.arm->parameters, links, c.place.joint,
+                               out.leftCols(c.n_arm));
 }
 
 }  // namespace
 
 Eigen::VectorXd elastic_coefficients(const ElasticFit& fit) {
-  if (is_linear(fit)) return fit.transmission.linear_stiffness.head(1);
+  if (is_linear(fit)) return fit.transmission.linear_stiffness;
   Eigen::VectorXd all(n_elastic_columns(fit.transmission));
   Eigen::Index next = 0;
   for (const Cable& cable : fit.transmission.cables)
@@ -47,14 +104,13 @@ Eigen::VectorXd elastic_coefficients(const ElasticFit& fit) {
 }
 
 DynamicColumns dynamic_columns(Side side, const std::vector<const ElasticFit*>& fits,
-                               ElasticDetail detail) {
+                               ElasticDetail detail, const JointPlace& place) {
   DynamicColumns c;
   c.detail = detail;
   c.side = side;
-  for (const Effect& effect : base_effects(side)) {
-    c.effects.push_back(&effect);
-    c.n_effects += static_cast<Eigen::Index>(effect.parameters.size());
-  }
+  c.place = place;
+  add_parameters(c);
+  c.n_effects = static_cast<Eigen::Index>(c.parameters.size());
   c.count = c.n_effects;
   for (const ElasticFit* fit : fits) {
     c.elastic.push_back(c.count);
@@ -69,8 +125,7 @@ DynamicColumns dynamic_columns(Side side, const std::vector<const ElasticFit*>& 
 
 void effect_columns(const std::vector<const Effect*>& effects, Side side, const JointSignals& s,
                     Eigen::Ref<Eigen::MatrixXd> out) {
-  const Eigen::ArrayXd& direction = side == Side::link ? s.q_direction : s.theta_direction;
-  const Motion motion{position(side, s), velocity(side, s), acceleration(side, s), direction};
+  const Motion motion = motion_of(side, s);
   Eigen::Index first = 0;
   for (const Effect* effect : effects) {
     const auto n = static_cast<Eigen::Index>(effect->parameters.size());
@@ -82,7 +137,8 @@ void effect_columns(const std::vector<const Effect*>& effects, Side side, const 
 Equation dynamic_equation(const DynamicColumns& c, const std::vector<const ElasticFit*>& fits,
                           bool torque_held, double rest_speed) {
   Equation equation;
-  equation.name = to_string(c.side);
+  equation.name = joint_parameter_name(to_string(c.side), c.place.joint + 1, c.place.n_joints);
+  const auto own = static_cast<std::size_t>(c.place.joint);
   equation.columns.assign(static_cast<std::size_t>(c.count), "");
   equation.averaged.assign(static_cast<std::size_t>(c.count), true);
   // A held torque is exact as the mean of two samples; a measured one is averaged like everything
@@ -90,14 +146,15 @@ Equation dynamic_equation(const DynamicColumns& c, const std::vector<const Elast
   if (torque_held && c.side != Side::link)
     equation.averaged[static_cast<std::size_t>(c.torque)] = false;
   equation.rest_speed = rest_speed;
-  equation.speed = [side = c.side](const Signals& signals) {
-    return velocity(side, signals.joints[0]);
+  equation.speed = [side = c.side, own](const Signals& signals) {
+    return velocity(side, signals.joints[own]);
   };
-  equation.fill = [c, fits](const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
-    const JointSignals& s = signals.joints[0];
-    effect_columns(c.effects, c.side, s, out.leftCols(c.n_effects));
+  equation.fill = [c, fits, own](const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
+    const JointSignals& s = signals.joints[own];
+    if (c.n_arm > 0) fill_arm(c, signals, out.leftCols(c.n_effects));
+    effect_columns(c.effects, c.side, s, out.middleCols(c.first_effect, n_columns(c.effects)));
     for (std::size_t k = 0; k < fits.size(); ++k)
-      fill_elastic(*fits[k], c.side, s, c.detail, out.middleCols(c.elastic[k], c.n_elastic[k]));
+      fill_elastic(*fits[k], c, signals, out.middleCols(c.elastic[k], c.n_elastic[k]));
     if (c.deflection >= 0) out.col(c.deflection) = s.theta - s.q;
     out.col(c.position) = position(c.side, s);
     out.col(c.torque).setZero();

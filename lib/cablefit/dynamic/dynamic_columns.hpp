@@ -2,10 +2,13 @@
 // question, position (to see what an inertia could be confused with) and torque.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "cablefit/elastic/elastic_columns.hpp"
 #include "cablefit/elastic/elastic_result.hpp"
+#include "cablefit/model/arm.hpp"
 #include "cablefit/model/effects.hpp"
 
 namespace cablefit {
@@ -14,10 +17,31 @@ namespace cablefit {
 /// the elastic torque.
 enum class ElasticDetail { coefficients, torque };
 
+/// Whose equation: of a joint (from 0) of an arm; no arm: the links do not move each other.
+struct JointPlace {
+  int joint = 0, n_joints = 1;
+  const Arm* arm = nullptr;
+};
+
+/// What one of the first columns is the torque per unit of.
+struct DynamicParameter {
+  ParameterInfo info;
+  std::string name;             ///< with the joint's index when there are several
+  bool is_inertia = false;      ///< of one axis
+  std::optional<double> given;  ///< by the rig file, and not estimated
+};
+
+/// The link equations of joints that move each other have the same columns, so that their rows can
+/// stand under each other: base parameters of the arm, then each joint's effects, 0 in the rows of
+/// the other joints.
 struct DynamicColumns {
   Side side = Side::motor;
-  std::vector<const Effect*> effects;
-  Eigen::Index n_effects = 0;  ///< effect columns come first
+  JointPlace place;
+  std::vector<DynamicParameter> parameters;  ///< of the first n_effects columns
+  std::vector<const Effect*> effects;        ///< of this joint
+  Eigen::Index n_arm = 0;                    ///< base parameters of the arm, the first columns
+  Eigen::Index first_effect = 0;             ///< of this joint
+  Eigen::Index n_effects = 0;                ///< all these columns, which come first
   ElasticDetail detail = ElasticDetail::coefficients;
   std::vector<Eigen::Index> elastic;  ///< first column of each elastic fit's basis, or its torque
   std::vector<Eigen::Index> n_elastic;
@@ -29,7 +53,8 @@ struct DynamicColumns {
 
 /// Columns of one side for the given stage-1 fits (none on a rigid drive).
 DynamicColumns dynamic_columns(Side side, const std::vector<const ElasticFit*>& fits,
-                               ElasticDetail detail = ElasticDetail::coefficients);
+                               ElasticDetail detail = ElasticDetail::coefficients,
+                               const JointPlace& place = {});
 
 /// `torque_held`: tau is then not averaged over the triangle. `has_load`: a tau_load signal exists.
 Equation dynamic_equation(const DynamicColumns& columns, const std::vector<const ElasticFit*>& fits,

@@ -11,25 +11,28 @@ namespace cablefit {
 namespace {
 
 /// What residuals are plotted against on one side; without a load when no log has one.
-std::vector<Observed> variables_of(Side side, bool has_deflection, bool has_load,
+std::vector<Observed> variables_of(Side side, std::size_t joint, bool has_deflection, bool has_load,
                                    bool linear_motion) {
   const std::string length = linear_motion ? "m" : "rad";
   const std::string torque = linear_motion ? "N" : "N m";
   std::vector<Observed> all;
   if (side == Side::link) {
-    all.push_back({"velocity of q", length + "/s", [](const auto& s) { return s.joints[0].qd; }});
-    all.push_back({"position q", length, [](const auto& s) { return s.joints[0].q; }});
-  } else {
     all.push_back(
-        {"velocity of theta", length + "/s", [](const auto& s) { return s.joints[0].thetad; }});
-    all.push_back({"position theta", length, [](const auto& s) { return s.joints[0].theta; }});
+        {"velocity of q", length + "/s", [joint](const auto& s) { return s.joints[joint].qd; }});
+    all.push_back({"position q", length, [joint](const auto& s) { return s.joints[joint].q; }});
+  } else {
+    all.push_back({"velocity of theta", length + "/s",
+                   [joint](const auto& s) { return s.joints[joint].thetad; }});
+    all.push_back(
+        {"position theta", length, [joint](const auto& s) { return s.joints[joint].theta; }});
   }
   if (has_deflection)
-    all.push_back({"deflection theta - q", length, [](const Signals& s) -> Eigen::ArrayXd {
-                     return s.joints[0].theta - s.joints[0].q;
+    all.push_back({"deflection theta - q", length, [joint](const Signals& s) -> Eigen::ArrayXd {
+                     return s.joints[joint].theta - s.joints[joint].q;
                    }});
   if (has_load)
-    all.push_back({"load tau_load", torque, [](const auto& s) { return s.joints[0].tau_load; }});
+    all.push_back(
+        {"load tau_load", torque, [joint](const auto& s) { return s.joints[joint].tau_load; }});
   return all;
 }
 
@@ -82,7 +85,8 @@ SeenEquation see_equation(const DynamicJob& job, const EquationRows& rows, std::
                           const DynamicPreload& preload) {
   const Side side = rows.columns.side;
   const std::vector<Observed> observed = variables_of(
-      side, rows.columns.deflection >= 0, has_load(job.logs, job.wanted), preload.linear_motion);
+      side, static_cast<std::size_t>(rows.columns.place.joint), rows.columns.deflection >= 0,
+      has_load(job.logs, job.wanted), preload.linear_motion);
   SeenEquation seen{with_observed(rows.equation, observed), {}, {}};
   seen.plan.section = preload.name;
   seen.plan.group = rows.equation.name + " equation";
@@ -148,7 +152,7 @@ std::vector<Figure> dynamic_figures(const DynamicJob& job,
 
 std::vector<Figure> ratio_figures(const RatioRows& rows, const DynamicPreload& preload) {
   const std::vector<Observed> observed =
-      variables_of(Side::link, true, has_load(rows.logs, rows.wanted), preload.linear_motion);
+      variables_of(Side::link, 0, true, has_load(rows.logs, rows.wanted), preload.linear_motion);
   SeenEquation seen{with_observed(rows.equation, observed), {}, {}};
   seen.plan.section = preload.name;
   seen.plan.group = "link equation, divided by J_link";

@@ -70,19 +70,32 @@ void add_cad(DynamicFit& fit, const Rig& rig) {
 }
 
 /// Stage 1's range is where its curve was fitted; beyond it the curve is a guess.
+struct Range {
+  double low = kUnbounded, high = -kUnbounded;
+};
+
+Range deflections_of(const ElasticPreload& stage1, int joint) {
+  if (stage1.joints.empty()) return {stage1.deflection_low, stage1.deflection_high};
+  const ElasticJoint& own = stage1.joints[static_cast<std::size_t>(joint)];
+  return {own.deflection_low, own.deflection_high};
+}
+
 void note_extrapolation(const ElasticPreload& stage1, const std::vector<EquationRows>& equations,
-                        double theta_0, DynamicPreload& preload) {
-  const double slack = kRangeSlack * (stage1.deflection_high - stage1.deflection_low);
+                        int joint, double theta_0, DynamicPreload& preload) {
+  const Range known = deflections_of(stage1, joint);
+  const double slack = kRangeSlack * (known.high - known.low);
   double low = kUnbounded, high = -kUnbounded;
   for (const EquationRows& e : equations) {
+    if (e.columns.place.joint != joint) continue;
     low = std::min(low, e.deflection_low - theta_0);
     high = std::max(high, e.deflection_high - theta_0);
   }
-  if (low >= stage1.deflection_low - slack && high <= stage1.deflection_high + slack) return;
+  if (low >= known.low - slack && high <= known.high + slack) return;
   preload.warnings.push_back(fmt::format(
-      "deflections of {:.3g} to {:.3g} {} leave the range of stage 1 ({:.3g} to {:.3g}): the "
+      "{}deflections of {:.3g} to {:.3g} {} leave the range of stage 1 ({:.3g} to {:.3g}): the "
       "elastic torque is extrapolated there",
-      low, high, stage1.unit, stage1.deflection_low, stage1.deflection_high));
+      stage1.joints.empty() ? "" : fmt::format("joint {}: ", joint + 1), low, high, stage1.unit,
+      known.low, known.high));
 }
 
 void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equations,
@@ -95,10 +108,19 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
     const ElasticFit* stage1 = job.rigid ? nullptr : job.elastic[m];
     if (stage1 != nullptr) fit.elastic = *stage1;
     solutions.emplace_back();
-    for (const EquationRows& e : equations) {
-      solutions.back().push_back(solve_equation(e, job.elastic, m));
-      add_estimates(*e.rows, e.columns, solutions.back().back(), stage1, m, job.rig().linear_motion,
+    solutions.back().resize(equations.size());
+    for (const std::vector<std::size_t>& system : systems_of(equations)) {
+      const EquationRows& first = equations[system.front()];
+      std::optional<RowStatistics> stacked;
+      if (system.size() > 1) stacked = stacked_rows(equations, system, job.elastic, m);
+      const RowStatistics& rows = stacked ? *stacked : *first.rows;
+      const LinearSolution solution = solve_rows(rows, first.columns, job.elastic, m);
+      add_estimates(rows, first.columns, solution, stage1, m, job.rig().linear_motion,
                     job.options.honest_sd, fit);
+      for (const std::size_t k : system) {
+        add_errors(*equations[k].rows, equations[k].equation.name, solution, fit);
+        solutions.back()[k] = solution;
+      }
     }
     add_largest_errors(job, equations, solutions.back(), m, fit);
     add_cad(fit, job.rig());
@@ -106,8 +128,10 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
   }
   if (job.options.figures) preload.figures = dynamic_figures(job, equations, solutions, preload);
   for (const ElasticPreload& stage1 : elastic.preloads)
-    if (!job.rigid && stage1.name == job.preload)
-      note_extrapolation(stage1, equations, job.elastic.front()->transmission.theta_0(0), preload);
+    for (int joint = 0; joint < job.n_joints(); ++joint)
+      if (!job.rigid && stage1.name == job.preload)
+        note_extrapolation(stage1, equations, joint,
+                           job.elastic.front()->transmission.theta_0(joint), preload);
 }
 
 void note_load(const DynamicJob& job, DynamicPreload& preload) {
@@ -120,17 +144,21 @@ void note_load(const DynamicJob& job, DynamicPreload& preload) {
       require_channel(job.first_log().plan, Channel::theta, "a load that depends on position");
     return;
   }
-  for (const LogSurvey& log : job.logs)
-    if (!job.rigid && std::any_of(log.parts.begin(), log.parts.end(), job.wanted) &&
-        !log.plan.has(Channel::tau_load))
-      preload.warnings.push_back(fmt::format(
-          "{}: no tau_load column and no load law in the rig file: the load torque is taken as 0",
-          log.plan.path));
+  for (const LogSurvey& log : job.logs) {
+    if (job.rigid || std::none_of(log.parts.begin(), log.parts.end(), job.wanted)) continue;
+    const int n = job.n_joints();
+    for (int joint = 0; joint < n; ++joint)
+      if (!log.plan.has(Channel::tau_load, joint))
+        preload.warnings.push_back(fmt::format(
+            "{}: no tau_load{} column and no load law in the rig file: the load torque is taken as "
+            "0",
+            log.plan.path, n > 1 ? std::to_string(joint + 1) : ""));
+  }
 }
 
 /// The curve of stage 1 must hold the link, not push it.
 void require_restoring(const ElasticFit& fit, const std::string& preload) {
-  if (fit.transmission.cables.empty() && !(fit.transmission.linear_stiffness(0) > 0))
+  if (fit.transmission.cables.empty() && !(fit.transmission.linear_stiffness.minCoeff() > 0))
     throw Error(ErrorKind::not_identifiable,
                 fmt::format("stage 1 of preload '{:.40}' has a negative stiffness: the sign of "
                             "tau, theta or q is turned "
@@ -138,15 +166,23 @@ void require_restoring(const ElasticFit& fit, const std::string& preload) {
                             preload));
 }
 
-void require_torque(const DynamicJob& job) {
+bool torque_changes(const DynamicJob& job, int joint) {
   for (const LogSurvey& log : job.logs) {
-    const int k = log.plan.find(Channel::tau);
+    const int k = log.plan.find(Channel::tau, joint);
     for (const PartSurvey& part : log.parts)
       if (k >= 0 && job.wanted(part) && part.channels[static_cast<std::size_t>(k)].range() > 0)
-        return;
+        return true;
   }
-  throw input_error({job.first_log().plan.path, 0, 0}, "tau never changes",
-                    "check which column the torque is");
+  return false;
+}
+
+void require_torque(const DynamicJob& job) {
+  const int n = job.n_joints();
+  for (int joint = 0; joint < n; ++joint)
+    if (!torque_changes(job, joint))
+      throw input_error({job.first_log().plan.path, 0, 0},
+                        fmt::format("tau{} never changes", n > 1 ? std::to_string(joint + 1) : ""),
+                        "check which column the torque is");
 }
 
 void require_rows(const EquationRows& e, const std::string& preload) {
@@ -162,6 +198,7 @@ void require_rows(const EquationRows& e, const std::string& preload) {
 DynamicPreload fit_preload(DynamicJob job, const ElasticResult& elastic) {
   require_agreement(job.logs, job.wanted, job.preload);
   DynamicPreload preload;
+  if (job.rig().arm.kind != nullptr) job.arm = &job.rig().arm;
   preload.name = job.preload;
   preload.linear_motion = job.rig().linear_motion;
   preload.rig_path = job.rig().path;
@@ -240,7 +277,6 @@ DynamicResult fit_dynamic(std::span<const LogSurvey> logs, const ElasticResult& 
   DynamicResult result;
   for (const LogSurvey& log : logs) {
     result.inputs.push_back({log.plan.path, log.sha256, log.n_rows});
-    require_one_joint(log.plan);
   }
   const std::vector<std::string> names = preload_names(logs, [&](const PartSurvey& part) {
     return part.phase == Phase::moving &&
@@ -251,6 +287,10 @@ DynamicResult fit_dynamic(std::span<const LogSurvey> logs, const ElasticResult& 
                       "give a log in which the link moves, or a 'phase' column that says so");
   const bool rigid = options.models.size() == 1 && options.models.front() == "rigid";
   const bool ratios = options.models.size() == 1 && options.models.front() == "ratios";
+  if (rigid || ratios)
+    for (const LogSurvey& log : logs)
+      require_one_joint(log.plan,
+                        fmt::format("--model {} is made for one", options.models.front()));
   for (const std::string& name : names) {
     const PartFilter wanted = [name](const PartSurvey& part) {
       return part.phase == Phase::moving && part.preload == name;
@@ -259,7 +299,7 @@ DynamicResult fit_dynamic(std::span<const LogSurvey> logs, const ElasticResult& 
       result.preloads.push_back(fit_ratios(logs, name, wanted, options));
       continue;
     }
-    DynamicJob job{logs, options, name, wanted, {}, options.models, rigid, {}};
+    DynamicJob job{logs, options, name, wanted, {}, options.models, rigid, {}, {}, nullptr};
     for (const LogSurvey& log : logs)
       if (std::any_of(log.parts.begin(), log.parts.end(), wanted))
         require_channels(log.plan, rigid);

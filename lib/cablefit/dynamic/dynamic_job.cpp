@@ -21,23 +21,53 @@ const PartSurvey& DynamicJob::first_part() const {
   return log.parts.front();
 }
 
+const ChosenSettings& DynamicJob::settings_of(int joint) const {
+  return joint_settings.empty() ? settings : joint_settings[static_cast<std::size_t>(joint)];
+}
+
+namespace {
+
+EquationRows make_equation(const DynamicJob& job, Side side, int joint) {
+  const ChosenSettings& settings = job.settings_of(joint);
+  EquationRows e;
+  e.columns =
+      dynamic_columns(side, job.elastic,
+                      job.options.honest_sd ? ElasticDetail::coefficients : ElasticDetail::torque,
+                      {joint, job.n_joints(), job.arm});
+  const double rest = side == Side::link ? settings.rest_speed_q : settings.rest_speed_theta;
+  e.equation = dynamic_equation(e.columns, job.elastic, job.settings.rows.signal.torque_held, rest);
+  if (side == Side::link) {
+    e.equation.cutoff = settings.cutoff_q;
+  } else if (job.n_joints() > 1) {
+    e.equation.cutoff = settings.rows.signal.cutoff;
+  }
+  return e;
+}
+
+}  // namespace
+
 std::vector<EquationRows> make_equations(const DynamicJob& job) {
   std::vector<EquationRows> equations;
   const std::vector<Side> sides =
       job.rigid ? std::vector<Side>{Side::rigid} : std::vector<Side>{Side::link, Side::motor};
-  for (const Side side : sides) {
-    EquationRows e;
-    e.columns = dynamic_columns(
-        side, job.elastic,
-        job.options.honest_sd ? ElasticDetail::coefficients : ElasticDetail::torque);
-    const double rest =
-        side == Side::link ? job.settings.rest_speed_q : job.settings.rest_speed_theta;
-    e.equation =
-        dynamic_equation(e.columns, job.elastic, job.settings.rows.signal.torque_held, rest);
-    if (side == Side::link) e.equation.cutoff = job.settings.cutoff_q;
-    equations.push_back(std::move(e));
-  }
+  for (int joint = 0; joint < job.n_joints(); ++joint)
+    for (const Side side : sides) equations.push_back(make_equation(job, side, joint));
   return equations;
+}
+
+std::vector<std::vector<std::size_t>> systems_of(const std::vector<EquationRows>& equations) {
+  std::vector<std::vector<std::size_t>> systems;
+  std::optional<std::size_t> arm;
+  for (std::size_t k = 0; k < equations.size(); ++k) {
+    const bool shared = equations[k].columns.n_arm > 0;
+    if (shared && arm) {
+      systems[*arm].push_back(k);
+      continue;
+    }
+    if (shared) arm = systems.size();
+    systems.push_back({k});
+  }
+  return systems;
 }
 
 std::vector<EquationRows> pilot_equations(const DynamicJob& job, int n_windows) {
@@ -123,17 +153,38 @@ WindowCounts collect_rows(const DynamicJob& job, std::vector<EquationRows>& equa
       });
 }
 
+LinearSolution solve_rows(const RowStatistics& rows, const DynamicColumns& columns,
+                          const std::vector<const ElasticFit*>& elastic, std::size_t which) {
+  LinearProblem problem;
+  problem.response = dynamic_response(columns, elastic, which);
+  for (const DynamicParameter& parameter : columns.parameters) {
+    const auto k = static_cast<Eigen::Index>(problem.regressors.size());
+    problem.regressors.push_back(k);
+    problem.names.push_back(parameter.name);
+    problem.lower.push_back(parameter.info.lower);
+    problem.held.emplace_back(parameter.given ? "given by the rig file" : "");
+    if (parameter.given) problem.response(k) = -*parameter.given;
+  }
+  return solve(rows, problem);
+}
+
 LinearSolution solve_equation(const EquationRows& e, const std::vector<const ElasticFit*>& elastic,
                               std::size_t which) {
-  LinearProblem problem;
-  for (const Effect* effect : e.columns.effects)
-    for (const ParameterInfo& info : effect->parameters) {
-      problem.regressors.push_back(static_cast<Eigen::Index>(problem.regressors.size()));
-      problem.names.emplace_back(info.name);
-      problem.lower.push_back(info.lower);
-    }
-  problem.response = dynamic_response(e.columns, elastic, which);
-  return solve(*e.rows, problem);
+  return solve_rows(*e.rows, e.columns, elastic, which);
+}
+
+RowStatistics stacked_rows(const std::vector<EquationRows>& equations,
+                           const std::vector<std::size_t>& system,
+                           const std::vector<const ElasticFit*>& elastic, std::size_t which) {
+  std::vector<const RowStatistics*> rows;
+  std::vector<double> weights;
+  for (const std::size_t k : system) {
+    const EquationRows& e = equations[k];
+    rows.push_back(&*e.rows);
+    const LinearSolution own = solve_equation(e, elastic, which);
+    weights.push_back(own.rss > 0 ? static_cast<double>(own.n_rows) / own.rss : 1);
+  }
+  return RowStatistics::weighted(rows, weights);
 }
 
 }  // namespace cablefit

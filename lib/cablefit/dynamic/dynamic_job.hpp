@@ -22,7 +22,11 @@ struct DynamicJob {
   std::vector<std::string> models;
   bool rigid = false;
   ChosenSettings settings;
+  std::vector<ChosenSettings> joint_settings;  ///< of several joints, what each would choose
+  const Arm* arm = nullptr;                    ///< nullptr: the links do not move each other
 
+  int n_joints() const { return rig().n_joints(); }
+  const ChosenSettings& settings_of(int joint) const;
   /// The first log with a wanted part, and that part.
   const LogSurvey& first_log() const;
   const PartSurvey& first_part() const;
@@ -40,14 +44,28 @@ struct EquationRows {
   double deflection_low = kUnbounded, deflection_high = -kUnbounded;
 };
 
-/// Link and motor, or the one equation of a rigid drive; no rows yet.
+/// Per joint link and motor, or the one equation of a rigid drive; no rows yet.
 std::vector<EquationRows> make_equations(const DynamicJob& job);
+
+/// Places of the equations that share parameters and are solved together: the links of an arm;
+/// else each alone.
+std::vector<std::vector<std::size_t>> systems_of(const std::vector<EquationRows>& equations);
 
 /// The equations with the rows of the first `n_windows` windows of every log only.
 std::vector<EquationRows> pilot_equations(const DynamicJob& job, int n_windows);
 
 /// Streams all wanted rows into the equations.
 WindowCounts collect_rows(const DynamicJob& job, std::vector<EquationRows>& equations);
+
+/// Rows of the equations of a system as one, each equation's weighted with 1/variance of its own
+/// residual.
+RowStatistics stacked_rows(const std::vector<EquationRows>& equations,
+                           const std::vector<std::size_t>& system,
+                           const std::vector<const ElasticFit*>& elastic, std::size_t which);
+
+/// The fit of model number `which` to rows of these columns.
+LinearSolution solve_rows(const RowStatistics& rows, const DynamicColumns& columns,
+                          const std::vector<const ElasticFit*>& elastic, std::size_t which);
 
 /// The fit of model number `which` to one equation.
 LinearSolution solve_equation(const EquationRows& equation,

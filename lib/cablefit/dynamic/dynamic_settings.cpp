@@ -1,8 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "cablefit/dynamic/dynamic_job.hpp"
+#include "cablefit/dynamic/joint_settings.hpp"
 #include "cablefit/dynamic/torque_delay.hpp"
 #include "cablefit/model/modes.hpp"
 #include "cablefit/samples/agreement.hpp"
@@ -21,6 +25,20 @@ double resonance(double stiffness, double j_link, double j_motor) {
   return std::sqrt(stiffness * (1 / j_motor + 1 / j_link)) / (2 * kPi);
 }
 
+/// S df/dl S of one joint at the pose in which it alone is turned by phi.
+double stiffness_at(const Transmission& transmission, int joint, double phi) {
+  Eigen::VectorXd theta = transmission.encoder_zero();
+  theta(joint) += phi;
+  const Eigen::VectorXd q = transmission.reference_q();
+  const Eigen::VectorXd l = transmission.elongations(q, theta);
+  const Eigen::MatrixXd s = transmission.motor_coupling(theta);
+  double sum = 0;
+  for (Eigen::Index c = 0; c < l.size(); ++c)
+    sum += s(joint, c) * s(joint, c) *
+           transmission.cables[static_cast<std::size_t>(c)].stiffness(l(c));
+  return sum;
+}
+
 /// The stiffness at the middle of the torque range used, for f0.
 double typical_stiffness(const ElasticFit& fit, const ElasticPreload& preload) {
   if (fit.transmission.cables.empty()) return fit.transmission.linear_stiffness(0);
@@ -35,34 +53,80 @@ double typical_stiffness(const ElasticFit& fit, const ElasticPreload& preload) {
   return sum;
 }
 
-/// f0 of the elastic drive, 0 when it lies beyond half the rate.
-double find_resonance(DynamicJob& job, const ElasticResult& elastic) {
-  const RateRange rates = sample_rates(job.logs, job.wanted);
-  const double rate = rates.lowest;
+/// The same of one of several joints, the others at rest in the reference pose.
+double typical_stiffness(const ElasticFit& fit, const ElasticPreload& preload, int joint) {
+  if (fit.transmission.cables.empty()) return fit.transmission.linear_stiffness(joint);
+  const ElasticJoint& own = preload.joints[static_cast<std::size_t>(joint)];
+  const double deflection = 0.5 * std::max(-own.deflection_low, own.deflection_high);
+  return 0.5 * (stiffness_at(fit.transmission, joint, -deflection) +
+                stiffness_at(fit.transmission, joint, deflection));
+}
+
+const ElasticPreload* stage1_of(const ElasticResult& elastic, const std::string& preload) {
+  for (const ElasticPreload& stage1 : elastic.preloads)
+    if (stage1.name == preload) return &stage1;
+  return nullptr;
+}
+
+SampleOptions wide_band(const DynamicJob& job, double rate) {
   SampleOptions wide = job.options.samples;
   if (!wide.cutoff) wide.cutoff = kWideBand * rate;
-  job.settings = moving_settings(job.logs, job.wanted, wide, 0);
+  return wide;
+}
+
+/// f0 of every joint, 0 when it lies beyond half the rate.
+std::vector<double> find_resonances(DynamicJob& job, const ElasticResult& elastic) {
+  const double rate = sample_rates(job.logs, job.wanted).lowest;
+  const int n = job.n_joints();
+  choose_joint_settings(job, wide_band(job, rate),
+                        std::vector<double>(static_cast<std::size_t>(n)));
+  const Arm* arm = std::exchange(job.arm, nullptr);  // each link for itself: near enough
   const std::vector<EquationRows> pilot = pilot_equations(job, kPilotWindows);
+  job.arm = arm;
   const std::size_t last = job.elastic.size() - 1;
-  const double j_link = solve_equation(pilot[0], job.elastic, last).x(0);
-  const double j_motor = solve_equation(pilot[1], job.elastic, last).x(0);
-  for (const ElasticPreload& stage1 : elastic.preloads) {
-    if (stage1.name != job.preload) continue;
-    const double f0 = resonance(typical_stiffness(*job.elastic[last], stage1), j_link, j_motor);
-    return f0 < rate / 2 ? f0 : 0;
+  const ElasticPreload* stage1 = stage1_of(elastic, job.preload);
+  std::vector<double> resonances;
+  for (int joint = 0; joint < n; ++joint) {
+    const std::size_t link = 2 * static_cast<std::size_t>(joint);
+    const double j_link = solve_equation(pilot[link], job.elastic, last).x(0);
+    const double j_motor = solve_equation(pilot[link + 1], job.elastic, last).x(0);
+    const ElasticFit& fit = *job.elastic[last];
+    const double stiffness = stage1 == nullptr ? 0
+                             : n == 1          ? typical_stiffness(fit, *stage1)
+                                               : typical_stiffness(fit, *stage1, joint);
+    const double f0 = resonance(stiffness, j_link, j_motor);
+    resonances.push_back(f0 < rate / 2 ? f0 : 0);
   }
-  return 0;
+  return resonances;
+}
+
+/// Of the joint that tells it best: all drives are taken to be of one kind.
+TorqueDelay find_delay(const DynamicJob& job) {
+  std::optional<TorqueDelay> best;
+  const int n = job.n_joints();
+  for (int joint = 0; joint < n; ++joint) {
+    RowSettings rows = job.settings.rows;
+    const ChosenSettings& own = job.settings_of(joint);
+    rows.signal.cutoff = own.rows.signal.cutoff;
+    TorqueDelay delay = estimate_torque_delay(
+        job.logs, job.wanted, rows, own.rest_speed_theta, job.rigid ? Side::rigid : Side::motor,
+        job.rigid ? nullptr : job.elastic.back(), {joint, n, nullptr});
+    if (n > 1) delay.reason = fmt::format("joint {}: {}", joint + 1, delay.reason);
+    if (!best || (delay.estimated && (!best->estimated || delay.sd < best->sd)))
+      best = std::move(delay);
+  }
+  return *best;
 }
 
 }  // namespace
 
 void choose_settings(DynamicJob& job, DynamicPreload& preload, const ElasticResult& elastic) {
-  preload.resonance = job.rigid ? 0 : find_resonance(job, elastic);
-  job.settings = moving_settings(job.logs, job.wanted, job.options.samples, preload.resonance);
+  std::vector<double> resonances = {0};
+  if (!job.rigid) resonances = find_resonances(job, elastic);
+  preload.resonance = *std::max_element(resonances.begin(), resonances.end());
+  choose_joint_settings(job, job.options.samples, resonances);
   job.settings.rows.signal.torque_period = job.rig().torque_period;
-  preload.delay = estimate_torque_delay(
-      job.logs, job.wanted, job.settings.rows, job.settings.rest_speed_theta,
-      job.rigid ? Side::rigid : Side::motor, job.rigid ? nullptr : job.elastic.back());
+  preload.delay = find_delay(job);
   const TorqueHold hold = job.options.samples.torque_hold.value_or(job.rig().torque_hold);
   std::string reason = preload.delay.reason;
   if (hold != TorqueHold::automatic) {

@@ -102,33 +102,54 @@ void judge_inertia(const RowStatistics& rows, const DynamicColumns& c, const Lin
         e.name, e.value, alternative));
 }
 
+/// An inertia that the rig file gives: exact.
+Estimate given_estimate(const DynamicParameter& parameter, bool linear_motion) {
+  Estimate e;
+  e.symbol = parameter.info.symbol;
+  e.unit = linear_motion ? linear_unit(parameter.info.unit) : std::string(parameter.info.unit);
+  e.value = e.ci_low = e.ci_high = *parameter.given;
+  e.sd = e.sd_white = 0;
+  return e;
+}
+
 }  // namespace
 
 void add_estimates(const RowStatistics& rows, const DynamicColumns& c, const LinearSolution& s,
                    const ElasticFit* stage1, std::size_t which, bool linear_motion, bool honest,
                    DynamicFit& fit) {
-  const std::string equation(to_string(c.side));
   Eigen::MatrixXd extra = Eigen::MatrixXd::Zero(s.x.size(), s.x.size());
   if (stage1 != nullptr && honest) extra = stage1_covariance(rows, c, s, *stage1, which);
-  Eigen::Index k = 0;
-  for (const Effect* effect : c.effects)
-    for (const ParameterInfo& info : effect->parameters) {
-      Estimate e = estimate_of(info, linear_motion, s, k, {honest, extra(k, k)});
-      if (effect->inertia != nullptr) judge_inertia(rows, c, s, k, which, e, fit.warnings);
-      fit.verdicts[e.name] = e.not_identifiable.empty() ? "identified" : "not identifiable";
-      fit.parameters.push_back(std::move(e));
-      ++k;
-    }
+  for (Eigen::Index k = 0; k < c.n_effects; ++k) {
+    const DynamicParameter& parameter = c.parameters[static_cast<std::size_t>(k)];
+    Estimate e = parameter.given
+                     ? given_estimate(parameter, linear_motion)
+                     : estimate_of(parameter.info, linear_motion, s, k, {honest, extra(k, k)});
+    e.name = parameter.name;
+    if (!e.active_bound.empty() && parameter.info.lower == 0)
+      e.active_bound = fmt::format("{} >= 0", e.name);
+    if (parameter.is_inertia && !parameter.given)
+      judge_inertia(rows, c, s, k, which, e, fit.warnings);
+    fit.verdicts[e.name] = parameter.given              ? "given"
+                           : e.not_identifiable.empty() ? "identified"
+                                                        : "not identifiable";
+    fit.parameters.push_back(std::move(e));
+  }
+  fit.warnings.insert(fit.warnings.end(), s.warnings.begin(), s.warnings.end());
+}
+
+void add_errors(const RowStatistics& rows, const std::string& equation, const LinearSolution& s,
+                DynamicFit& fit) {
   TorqueError& error = fit.torque_error[equation];
-  error.rms = s.rms();
+  const double rss = (rows.r() * s.residual_combination).squaredNorm();
+  const auto n_rows = static_cast<double>(rows.n_rows());
+  error.rms = n_rows > 0 ? std::sqrt(rss / n_rows) : 0;
   Eigen::VectorXd y = s.residual_combination;
   for (Eigen::Index j = 0; j < s.x.size(); ++j) y(j) += s.x(j);
   const double total = (rows.r() * y).norm();
-  error.relative = total > 0 ? std::sqrt(s.rss) / total : 0;
-  fit.weight[equation] = s.rss > 0 ? static_cast<double>(s.n_rows) / s.rss : 0;
+  error.relative = total > 0 ? std::sqrt(rss) / total : 0;
+  fit.weight[equation] = rss > 0 ? n_rows / rss : 0;
   fit.condition[equation] = s.condition;
   fit.effective_rows[equation] = s.effective_rows;
-  fit.warnings.insert(fit.warnings.end(), s.warnings.begin(), s.warnings.end());
 }
 
 }  // namespace cablefit

@@ -133,13 +133,13 @@ std::optional<DelayFit> fit_delay(const RowStatistics& rows, const DynamicColumn
 
 TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFilter& wanted,
                                   const RowSettings& settings, double rest_speed, Side side,
-                                  const ElasticFit* elastic) {
+                                  const ElasticFit* elastic, const JointPlace& place) {
   TorqueDelay delay;
   RowSettings rows = settings;
   rows.signal.torque_held = false;
   std::vector<const ElasticFit*> fits;
   if (elastic != nullptr) fits.push_back(elastic);
-  const DynamicColumns c = dynamic_columns(side, fits, ElasticDetail::torque);
+  const DynamicColumns c = dynamic_columns(side, fits, ElasticDetail::torque, place);
   const Equation base = dynamic_equation(c, fits, false, rest_speed);
   const double rate = sample_rates(logs, wanted).highest;
   const double period = 1 / rate;

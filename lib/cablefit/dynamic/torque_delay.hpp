@@ -13,6 +13,6 @@ namespace cablefit {
 /// whose noise would otherwise pull d towards 0. Uses the first windows of every log (pilot).
 TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFilter& wanted,
                                   const RowSettings& settings, double rest_speed, Side side,
-                                  const ElasticFit* elastic);
+                                  const ElasticFit* elastic, const JointPlace& place = {});
 
 }  // namespace cablefit

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/model/model.hpp"
 #include "cablefit/samples/agreement.hpp"
 
 namespace cablefit {
@@ -11,12 +12,43 @@ namespace {
 constexpr double kSlidingShare = 0.1;     // fewer rows in motion: the log is made of plateaus
 constexpr double kSpeedCollinear = 0.98;  // speed and direction tell the same
 
+/// The rest speed and the warnings of one of several joints (from 0) among those of all.
+void add_joint_rest(ChosenSettings& all, const ChosenSettings& own, int joint, int n_joints) {
+  constexpr const char* kRest = "rest speed";  // the only choice that depends on the joint
+  std::erase_if(all.decisions, [&](const Decision& decision) { return decision.name == kRest; });
+  for (Decision decision : own.decisions) {
+    if (decision.name != kRest) continue;
+    decision.name = joint_parameter_name(kRest, joint + 1, n_joints);
+    all.decisions.push_back(std::move(decision));
+  }
+  for (const std::string& warning : own.warnings)
+    if (std::find(all.warnings.begin(), all.warnings.end(), warning) == all.warnings.end())
+      all.warnings.push_back(warning);
+}
+
 }  // namespace
 
 Transmission with_order(Transmission transmission, int order) {
   for (Cable& cable : transmission.cables) cable.order = std::min(order, cable.law->max_order);
   return transmission;
 }
+
+namespace {
+
+/// Rest speeds of every joint; decisions and warnings of the others beside those of the first.
+void add_joint_speeds(ElasticJob& job) {
+  const int n = job.basis.n_joints;
+  for (int joint = 0; joint < n; ++joint) {
+    const ChosenSettings own =
+        joint == 0 ? job.settings
+                   : blocked_settings(job.logs, job.wanted, job.options.samples, joint);
+    job.rest_speeds.push_back(own.rest_speed_theta);
+    job.still_speeds.push_back(job.options.still ? std::max(own.rest_speed_q, 1e-12) : 0);
+    if (n > 1) add_joint_rest(job.settings, own, joint, n);
+  }
+}
+
+}  // namespace
 
 ElasticJob make_job(std::span<const LogSurvey> logs, const ElasticOptions& options,
                     const std::string& name) {
@@ -27,9 +59,10 @@ ElasticJob make_job(std::span<const LogSurvey> logs, const ElasticOptions& optio
                  },
                  options,
                  {},
-                 0,
                  {},
-                 false};
+                 false,
+                 {},
+                 {}};
   require_agreement(logs, job.wanted, name);
   job.settings = blocked_settings(logs, job.wanted, options.samples);
   const Rig& rig = job.rig();
@@ -37,9 +70,9 @@ ElasticJob make_job(std::span<const LogSurvey> logs, const ElasticOptions& optio
   job.basis = rig.transmission;
   if (!job.orders_given)
     job.basis = with_order(job.basis, options.order > 0 ? options.order : options.max_order);
+  add_joint_speeds(job);
   if (still) {
     job.settings.rows.signal.quasi_static = false;  // the motor need not be slow
-    job.still_speed = std::max(job.settings.rest_speed_q, 1e-12);
     // The link rests only for moments: keep more rows of them.
     if (!options.samples.decimate) {
       job.settings.rows.decimate = std::max(1, job.settings.rows.decimate / 8);
@@ -52,28 +85,37 @@ ElasticJob make_job(std::span<const LogSurvey> logs, const ElasticOptions& optio
   return job;
 }
 
-BlockedRows collect_blocked(const ElasticJob& job, double theta_0, const Transmission* pilot) {
-  BlockedRows blocked;
-  blocked.transmission = job.basis;
-  blocked.transmission.theta_0 = Eigen::VectorXd::Constant(job.basis.n_joints, theta_0);
-  blocked.columns = blocked_columns(blocked.transmission);
-  const std::vector<Equation> both = {
-      blocked_equation(blocked.transmission, pilot, true, job.settings.rest_speed_theta,
-                       job.still_speed),
-      blocked_equation(blocked.transmission, pilot, false, job.settings.rest_speed_theta,
-                       job.still_speed)};
-  const Eigen::Index expected = expected_rows(job.logs, job.wanted, job.settings.rows);
-  const RowStatistics blank(blocked.columns.count, expected);
-  std::vector<RowStatistics> statistics(both.size(), blank);
-  std::vector<RowCounts> counts(both.size());
+namespace {
+
+/// One pass over the logs; rows in motion (even) and at rest (odd) of every joint.
+struct Collected {
+  std::vector<Equation> equations;
+  std::vector<RowStatistics> statistics;
+  std::vector<RowCounts> counts;
   std::vector<std::shared_ptr<RowArchive>> archives;
-  for (std::size_t k = 0; k < both.size(); ++k) archives.push_back(std::make_shared<RowArchive>());
+  WindowCounts windows;
+};
+
+Collected collect(const ElasticJob& job, const Transmission& transmission,
+                  const Transmission* pilot) {
+  Collected all;
+  for (int joint = 0; joint < transmission.n_joints; ++joint)
+    for (const bool sliding : {true, false})
+      all.equations.push_back(blocked_equation(
+          transmission, pilot, sliding, job.rest_speeds[static_cast<std::size_t>(joint)],
+          job.still_speeds[static_cast<std::size_t>(joint)], joint));
+  const Eigen::Index expected = expected_rows(job.logs, job.wanted, job.settings.rows);
+  const RowStatistics blank(blocked_columns(transmission).count, expected);
+  all.statistics.assign(all.equations.size(), blank);
+  all.counts.resize(all.equations.size());
+  for (std::size_t k = 0; k < all.equations.size(); ++k)
+    all.archives.push_back(std::make_shared<RowArchive>());
   struct Result {
     std::vector<RowStatistics> statistics;
     RowBatch batch;
   };
-  blocked.windows = stream_rows(
-      job.logs, job.wanted, job.settings.rows, both, job.options.samples.threads,
+  all.windows = stream_rows(
+      job.logs, job.wanted, job.settings.rows, all.equations, job.options.samples.threads,
       [&](RowBatch batch) {
         Result result;
         for (const EquationBatch& equation : batch.equations) {
@@ -84,42 +126,105 @@ BlockedRows collect_blocked(const ElasticJob& job, double theta_0, const Transmi
         return result;
       },
       [&](const Result& result) {
-        for (std::size_t k = 0; k < both.size(); ++k) {
-          statistics[k].add(result.statistics[k]);
-          archives[k]->append(result.batch.equations[k]);
-          counts[k] += result.batch.equations[k].counts;
+        for (std::size_t k = 0; k < all.equations.size(); ++k) {
+          all.statistics[k].add(result.statistics[k]);
+          all.archives[k]->append(result.batch.equations[k]);
+          all.counts[k] += result.batch.equations[k].counts;
         }
       });
-  const auto sliding = static_cast<double>(counts[0].rows_used);
-  const auto holding = static_cast<double>(counts[1].rows_used);
+  return all;
+}
+
+/// Deflections and, of several joints, elongations of the rows.
+void measure_ranges(BlockedRows& blocked, Eigen::Index deflection_column) {
+  const BlockedColumns& c = blocked.columns;
+  if (c.elongation >= 0) blocked.elongations.resize(blocked.transmission.cables.size());
+  blocked.archive->for_each([&](const Eigen::MatrixXd& rows, std::span<const Eigen::Index>) {
+    const auto deflection = rows.col(deflection_column);
+    blocked.deflection_low = std::min(blocked.deflection_low, deflection.minCoeff());
+    blocked.deflection_high = std::max(blocked.deflection_high, deflection.maxCoeff());
+    for (std::size_t k = 0; k < blocked.elongations.size(); ++k) {
+      const auto l = rows.col(c.elongation + static_cast<Eigen::Index>(k));
+      ElongationRange& range = blocked.elongations[k];
+      range = {std::min(range.low, l.minCoeff()), std::max(range.high, l.maxCoeff())};
+    }
+  });
+}
+
+/// Of one joint, in motion or, where there is hardly any, at rest.
+BlockedRows rows_of_joint(const Collected& all, const Transmission& transmission, int joint) {
+  const std::size_t first = 2 * static_cast<std::size_t>(joint);
+  BlockedRows blocked;
+  blocked.transmission = transmission;
+  blocked.columns = blocked_columns(transmission);
+  blocked.windows = all.windows;
+  const auto sliding = static_cast<double>(all.counts[first].rows_used);
+  const auto holding = static_cast<double>(all.counts[first + 1].rows_used);
   // Plateaus: the torque at rest lies anywhere within the friction band, but the side from which a
   // place was approached decides on which half; better than nothing, and said so.
   blocked.plateaus = sliding < kSlidingShare * (sliding + holding);
-  const std::size_t chosen = blocked.plateaus ? 1 : 0;
-  blocked.equations = {both[chosen]};
-  blocked.rows = statistics[chosen];
-  blocked.archive = archives[chosen];
-  blocked.counts = counts[chosen];
-  if (!blocked.plateaus) blocked.counts.rows_at_rest = counts[0].rows_at_rest;
-  blocked.archive->for_each([&](const Eigen::MatrixXd& rows, std::span<const Eigen::Index>) {
-    const auto deflection = rows.col(blocked.columns.deflection);
-    blocked.deflection_low = std::min(blocked.deflection_low, deflection.minCoeff());
-    blocked.deflection_high = std::max(blocked.deflection_high, deflection.maxCoeff());
-  });
+  const std::size_t chosen = first + (blocked.plateaus ? 1 : 0);
+  blocked.equations = {all.equations[chosen]};
+  blocked.rows = all.statistics[chosen];
+  blocked.archive = all.archives[chosen];
+  blocked.counts = all.counts[chosen];
+  if (!blocked.plateaus) blocked.counts.rows_at_rest = all.counts[first].rows_at_rest;
+  measure_ranges(blocked, blocked.columns.of_joint(joint).deflection);
   return blocked;
 }
 
-bool has_both_branches(const BlockedRows& rows) {
+}  // namespace
+
+std::vector<BlockedRows> collect_joints(const ElasticJob& job, double theta_0,
+                                        const Transmission* pilot) {
+  Transmission transmission = job.basis;
+  transmission.theta_0 = Eigen::VectorXd::Constant(job.basis.n_joints, theta_0);
+  const Collected all = collect(job, transmission, pilot);
+  std::vector<BlockedRows> joints;
+  for (int joint = 0; joint < transmission.n_joints; ++joint)
+    joints.push_back(rows_of_joint(all, transmission, joint));
+  return joints;
+}
+
+BlockedRows collect_blocked(const ElasticJob& job, double theta_0, const Transmission* pilot) {
+  return collect_joints(job, theta_0, pilot).front();
+}
+
+BlockedRows stack(const std::vector<BlockedRows>& joints, const std::vector<double>& weights) {
+  BlockedRows all;
+  all.transmission = joints.front().transmission;
+  all.columns = joints.front().columns;
+  all.windows = joints.front().windows;
+  all.elongations.resize(all.transmission.cables.size());
+  std::vector<const RowStatistics*> rows;
+  for (const BlockedRows& joint : joints) {
+    rows.push_back(&*joint.rows);
+    all.counts += joint.counts;
+    all.deflection_low = std::min(all.deflection_low, joint.deflection_low);
+    all.deflection_high = std::max(all.deflection_high, joint.deflection_high);
+    for (std::size_t k = 0; k < all.elongations.size(); ++k) {
+      ElongationRange& range = all.elongations[k];
+      range = {std::min(range.low, joint.elongations[k].low),
+               std::max(range.high, joint.elongations[k].high)};
+    }
+  }
+  all.rows = RowStatistics::weighted(rows, weights);
+  return all;
+}
+
+bool has_both_branches(const BlockedRows& rows, int joint) {
   const auto& r = rows.rows->r();
-  const double sum = r.col(rows.columns.direction).dot(r.col(rows.columns.offset));
-  const double n = r.col(rows.columns.offset).squaredNorm();
+  const BlockedColumns c = rows.columns.of_joint(joint);
+  const double sum = r.col(c.direction).dot(r.col(c.offset));
+  const double n = r.col(c.offset).squaredNorm();
   return n > 0 && std::abs(sum) < 0.95 * n;
 }
 
-bool speed_tells_more(const BlockedRows& rows) {
+bool speed_tells_more(const BlockedRows& rows, int joint) {
   const auto& r = rows.rows->r();
-  const auto direction = r.col(rows.columns.direction);
-  const auto speed = r.col(rows.columns.speed);
+  const BlockedColumns c = rows.columns.of_joint(joint);
+  const auto direction = r.col(c.direction);
+  const auto speed = r.col(c.speed);
   const double norms = direction.norm() * speed.norm();
   return norms > 0 && std::abs(direction.dot(speed)) < kSpeedCollinear * norms;
 }

@@ -19,9 +19,10 @@ struct ElasticJob {
   PartFilter wanted;
   const ElasticOptions& options;
   ChosenSettings settings;
-  double still_speed = 0;     ///< rad/s; > 0: only rows in which the link is slower
   Transmission basis;         ///< cables of the highest order in question, theta_0 = 0
   bool orders_given = false;  ///< by the rig file, per cable
+  /// Per joint, rad/s: motor in motion; link still (0: moving links count, too).
+  std::vector<double> rest_speeds, still_speeds;
 
   /// Of the first log with rows of this preload.
   const Rig& rig() const { return first_log_with(logs, wanted).plan.rig; }
@@ -31,7 +32,12 @@ struct ElasticJob {
 ElasticJob make_job(std::span<const LogSurvey> logs, const ElasticOptions& options,
                     const std::string& name);
 
-/// Rows under one choice of theta_0.
+/// Elongations that a cable reached, m or rad.
+struct ElongationRange {
+  double low = kUnbounded, high = -kUnbounded;
+};
+
+/// Rows of one joint's equation under one choice of theta_0, or of all joints' together.
 struct BlockedRows {
   Transmission transmission;  ///< as ElasticJob::basis, theta_0 set
   BlockedColumns columns;
@@ -41,7 +47,8 @@ struct BlockedRows {
   RowCounts counts;
   WindowCounts windows;
   double deflection_low = kUnbounded, deflection_high = -kUnbounded;  ///< of the rows
-  bool plateaus = false;  ///< rows at rest were used, there are hardly others
+  std::vector<ElongationRange> elongations;  ///< per cable; several joints only
+  bool plateaus = false;                     ///< rows at rest were used, there are hardly others
 
   Eigen::VectorXd torque_response() const {
     return Eigen::VectorXd::Unit(columns.count, columns.tau);
@@ -50,11 +57,18 @@ struct BlockedRows {
 
 /// `pilot`: a first curve, whose slope gives the column of theta_0; may be null.
 BlockedRows collect_blocked(const ElasticJob& job, double theta_0, const Transmission* pilot);
+/// The same for every joint of the rig, in one pass.
+std::vector<BlockedRows> collect_joints(const ElasticJob& job, double theta_0,
+                                        const Transmission* pilot);
+/// The rows of all joints under each other, each joint's with its weight. Neither equations nor an
+/// archive.
+BlockedRows stack(const std::vector<BlockedRows>& joints, const std::vector<double>& weights);
 
-/// Motion in both directions: the direction column is not (nearly) a constant.
-bool has_both_branches(const BlockedRows& rows);
+/// Motion of the joint (from 0) in both directions: the direction column is not (nearly) a
+/// constant.
+bool has_both_branches(const BlockedRows& rows, int joint = 0);
 /// Speeds vary enough to tell viscous from static friction of the motor.
-bool speed_tells_more(const BlockedRows& rows);
+bool speed_tells_more(const BlockedRows& rows, int joint = 0);
 
 /// The same cables with the order (as far as their laws go).
 Transmission with_order(Transmission transmission, int order);

@@ -6,30 +6,46 @@
 #include <array>
 #include <cmath>
 
+#include "cablefit/model/model.hpp"
+
 namespace cablefit {
 namespace {
 
 constexpr double kTautShare = 0.02;
 
-void add_nuisance(Candidate& candidate, const BlockedRows& rows, const Nuisance& nuisance) {
+void add_nuisance(Candidate& candidate, const BlockedColumns& c, const Nuisance& nuisance,
+                  int joint) {
   const auto add = [&](Eigen::Index column, const char* name, double lower) {
     candidate.regressors.push_back(column);
-    candidate.names.emplace_back(name);
+    candidate.names.push_back(joint_parameter_name(name, joint + 1, c.n_joints));
     candidate.lower.push_back(lower);
     candidate.held.emplace_back();
   };
   if (nuisance.theta_0 && candidate.model != "linear") {
-    add(rows.columns.zero, "theta_0", -kUnbounded);
+    add(c.zero, "theta_0", -kUnbounded);
   } else {
-    add(rows.columns.offset, "offset", -kUnbounded);
+    add(c.offset, "offset", -kUnbounded);
   }
-  if (nuisance.branches) add(rows.columns.direction, "f_sm", 0);
-  if (nuisance.speed) add(rows.columns.speed, "f_vm", -kUnbounded);
+  if (nuisance.branches) add(c.direction, "f_sm", 0);
+  if (nuisance.speed) add(c.speed, "f_vm", -kUnbounded);
+}
+
+void add_nuisances(Candidate& candidate, const BlockedRows& rows,
+                   std::span<const Nuisance> nuisance) {
+  for (int joint = 0; joint < rows.columns.n_joints; ++joint)
+    add_nuisance(candidate, rows.columns.of_joint(joint), nuisance[static_cast<std::size_t>(joint)],
+                 joint);
 }
 
 /// Pulled so little (first basis column, as rms, against what the rms deflection would give) that
 /// its coefficients would be fitted to noise about its slack point.
-bool hardly_taut(const BlockedRows& rows, const Cable& cable, Eigen::Index first_column) {
+bool hardly_taut(const BlockedRows& rows, std::size_t index, Eigen::Index first_column) {
+  const Cable& cable = rows.transmission.cables[index];
+  if (!rows.elongations.empty()) {
+    // Of several joints: the longest elongation against the largest way on either side of slack.
+    const ElongationRange& range = rows.elongations[index];
+    return range.high < kTautShare * std::max(range.high, -range.low);
+  }
   const auto& r = rows.rows->r();
   const double n = std::sqrt(static_cast<double>(rows.rows->n_rows()));
   const double radius = std::abs(cable.motor_map.front().radius(0));
@@ -41,23 +57,34 @@ bool hardly_taut(const BlockedRows& rows, const Cable& cable, Eigen::Index first
 
 }  // namespace
 
-Candidate linear_candidate(const BlockedRows& rows, const Nuisance& nuisance) {
+std::vector<double> longest_elongations(const BlockedRows& rows, const Transmission& transmission) {
+  if (rows.elongations.empty())
+    return longest_elongations(transmission, rows.deflection_low, rows.deflection_high);
+  std::vector<double> longest;
+  for (const ElongationRange& range : rows.elongations) longest.push_back(range.high);
+  return longest;
+}
+
+Candidate linear_candidate(const BlockedRows& rows, std::span<const Nuisance> nuisance) {
   Candidate candidate;
   candidate.model = "linear";
   candidate.transmission.n_joints = rows.transmission.n_joints;
   candidate.transmission.linear_stiffness = Eigen::VectorXd::Zero(rows.transmission.n_joints);
   candidate.transmission.theta_0 = rows.transmission.theta_0;
-  candidate.regressors = {rows.columns.deflection};
-  candidate.names = {"K"};
-  candidate.lower = {-kUnbounded};
-  candidate.held = {""};
-  candidate.n_elastic = 1;
-  add_nuisance(candidate, rows, nuisance);
+  const int n = rows.columns.n_joints;
+  for (int joint = 0; joint < n; ++joint) {
+    candidate.regressors.push_back(rows.columns.of_joint(joint).deflection);
+    candidate.names.push_back(joint_parameter_name("K", joint + 1, n));
+  }
+  candidate.n_elastic = candidate.regressors.size();
+  candidate.lower.assign(candidate.n_elastic, -kUnbounded);
+  candidate.held.assign(candidate.n_elastic, "");
+  add_nuisances(candidate, rows, nuisance);
   return candidate;
 }
 
 Candidate poly_candidate(const ElasticJob& job, const BlockedRows& rows, int order,
-                         const Nuisance& nuisance) {
+                         std::span<const Nuisance> nuisance) {
   Candidate candidate;
   candidate.model = "poly";
   candidate.transmission =
@@ -68,7 +95,7 @@ Candidate poly_candidate(const ElasticJob& job, const BlockedRows& rows, int ord
     const Cable& cable = candidate.transmission.cables[c];
     candidate.order = std::max(candidate.order, cable.order);
     const std::string held =
-        hardly_taut(rows, cable, first)
+        hardly_taut(rows, c, first)
             ? fmt::format("cable {} was hardly ever taut in these logs", cable.name)
             : "";
     fitted.push_back(held.empty());
@@ -81,10 +108,10 @@ Candidate poly_candidate(const ElasticJob& job, const BlockedRows& rows, int ord
     first += rows.transmission.cables[c].n_coefficients();
   }
   candidate.n_elastic = candidate.regressors.size();
-  add_nuisance(candidate, rows, nuisance);
+  add_nuisances(candidate, rows, nuisance);
   if (!job.options.unconstrained)
-    candidate.pull =
-        pull_constraints(candidate.transmission, fitted, rows.deflection_low, rows.deflection_high);
+    candidate.pull = pull_constraints(candidate.transmission, fitted,
+                                      longest_elongations(rows, candidate.transmission));
   return candidate;
 }
 
@@ -120,7 +147,7 @@ LinearSolution solve_candidate(const BlockedRows& rows, const Candidate& candida
 Transmission fitted_transmission(const Candidate& candidate, const Eigen::VectorXd& x) {
   Transmission transmission = candidate.transmission;
   if (candidate.model == "linear") {
-    transmission.linear_stiffness(0) = x(0);
+    transmission.linear_stiffness = x.head(transmission.n_joints);
     return transmission;
   }
   Eigen::Index next = 0;

@@ -10,7 +10,7 @@
 
 namespace cablefit {
 
-/// What is estimated beside the elastic coefficients.
+/// What is estimated beside the elastic coefficients, of one joint.
 struct Nuisance {
   bool theta_0 = false;   ///< the encoder zero instead of the drive's offset
   bool branches = false;  ///< f_sm
@@ -29,9 +29,13 @@ struct Candidate {
   PullConstraints pull;           ///< on the elastic coefficients; empty: cables may push
 };
 
-Candidate linear_candidate(const BlockedRows& rows, const Nuisance& nuisance);
+/// `nuisance`: one per joint.
+Candidate linear_candidate(const BlockedRows& rows, std::span<const Nuisance> nuisance);
 Candidate poly_candidate(const ElasticJob& job, const BlockedRows& rows, int order,
-                         const Nuisance& nuisance);
+                         std::span<const Nuisance> nuisance);
+
+/// Elongation that each cable of the transmission reached in the rows.
+std::vector<double> longest_elongations(const BlockedRows& rows, const Transmission& transmission);
 
 /// candidate.pull with a column per regressor.
 Eigen::MatrixXd constraint_rows(const Candidate& candidate);

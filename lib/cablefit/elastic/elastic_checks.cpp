@@ -15,17 +15,18 @@ constexpr double kLoopShare = 0.05;  // of the peak torque: a loop this wide is 
 
 }  // namespace
 
-void check_passive(ElasticFit& fit, const ElasticPreload& preload, const ElongationUnit& unit) {
+void check_passive(ElasticFit& fit, std::span<const double> all_longest,
+                   const ElongationUnit& unit) {
   if (fit.model == "linear") {
-    fit.passive = fit.transmission.linear_stiffness(0) >= 0;
+    fit.passive = fit.transmission.linear_stiffness.minCoeff() >= 0;
     if (!fit.passive)
       fit.warnings.emplace_back(
           "the stiffness is negative: the sign of tau or of theta is turned round");
     return;
   }
-  for (const Cable& cable : fit.transmission.cables) {
-    const double longest = longest_elongation(fit.transmission, cable, preload.deflection_low,
-                                              preload.deflection_high);
+  for (std::size_t c = 0; c < fit.transmission.cables.size(); ++c) {
+    const Cable& cable = fit.transmission.cables[c];
+    const double longest = all_longest[c];
     if (longest <= 0) {
       fit.warnings.push_back(fmt::format("cable {} was never taut in these logs", cable.name));
       continue;
@@ -60,33 +61,63 @@ void select_model(ElasticPreload& preload, double materiality) {
                   poly.held_out_rms < linear.held_out_rms ? "poly" : "linear"));
 }
 
-void note_loop(ElasticPreload& preload, bool plateaus) {
+void select_joint_model(ElasticPreload& preload, double materiality) {
+  const ElasticFit& linear = preload.fits.front();
+  const ElasticFit& poly = preload.fits.back();
   const char* unit = preload.linear_motion ? "N" : "N m";
-  const ElasticFit& best = *preload.find(preload.selected);
-  const Estimate* friction = find_estimate(best.parameters, "f_sm");
-  preload.loop_half_width =
-      friction != nullptr && friction->not_identifiable.empty() ? friction->value : 0;
-  const double peak = preload.peak_torque;
-  const double share = peak > 0 ? preload.loop_half_width / peak : 0;
-  const double left = peak > 0 ? best.rms_error / peak : 0;
+  bool linear_will_do = true;
+  for (std::size_t k = 0; k < preload.joints.size(); ++k) {
+    const double allowed = materiality * preload.joints[k].peak_torque;
+    const double best = std::min(linear.joints[k].held_out_max, poly.joints[k].held_out_max);
+    const bool will_do = linear.joints[k].held_out_max <= best + allowed;
+    linear_will_do = linear_will_do && will_do;
+    preload.selection.push_back(fmt::format(
+        "joint {}: largest error on held-out blocks {:.3g} {} linear, {:.3g} {} poly; {:.3g} {} "
+        "({:g} % of its peak torque) may separate them: {}; rms {:.3g} linear, {:.3g} poly",
+        k + 1, linear.joints[k].held_out_max, unit, poly.joints[k].held_out_max, unit, allowed,
+        unit, 100 * materiality, will_do ? "linear" : "poly", linear.joints[k].held_out_rms,
+        poly.joints[k].held_out_rms));
+  }
+  preload.selected = linear_will_do ? "linear" : "poly";
+}
+
+std::vector<std::string> loop_warnings(const LoopSeen& loop, bool linear_motion) {
+  const char* unit = linear_motion ? "N" : "N m";
+  std::vector<std::string> warnings;
+  const double share = loop.peak > 0 ? loop.half_width / loop.peak : 0;
+  const double left = loop.peak > 0 ? loop.rms / loop.peak : 0;
   // A friction band is as wide everywhere; what is left beyond it depends on the path.
   if (left > kPathShare && (share > kLoopShare || left > kLoopShare))
-    preload.warnings.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "no static law explains this loop: it is {:.3g} {} wide ({:.0f} % of the peak torque of "
         "{:.3g} {}) and {:.3g} "
         "{} rms remain beyond a constant friction band; suspect hysteresis or friction that grows "
         "with load",
-        2 * preload.loop_half_width, unit, 200 * share, peak, unit, best.rms_error, unit));
-  if (plateaus)
-    preload.warnings.emplace_back(
+        2 * loop.half_width, unit, 200 * share, loop.peak, unit, loop.rms, unit));
+  if (loop.plateaus)
+    warnings.emplace_back(
         "the motor hardly moves between plateaus: torques at rest lie within the friction band, so "
         "f_sm is a lower "
         "estimate; sweep slowly up and down instead");
+  return warnings;
+}
+
+void note_loop(ElasticPreload& preload, bool plateaus) {
+  const ElasticFit& best = *preload.find(preload.selected);
+  const Estimate* friction = find_estimate(best.parameters, "f_sm");
+  preload.loop_half_width =
+      friction != nullptr && friction->not_identifiable.empty() ? friction->value : 0;
+  for (std::string& warning :
+       loop_warnings({preload.loop_half_width, preload.peak_torque, best.rms_error, plateaus},
+                     preload.linear_motion))
+    preload.warnings.push_back(std::move(warning));
 }
 
 void note_closure(ElasticPreload& preload) {
   const ElasticFit& poly = preload.fits.back();
-  if (poly.model != "poly" || poly.transmission.cables.size() != 2) return;
+  if (poly.model != "poly" || poly.transmission.n_joints > 1 ||
+      poly.transmission.cables.size() != 2)
+    return;
   for (const Cable& cable : poly.transmission.cables)
     if (cable.initial_elongation != 0 || cable.coefficients.empty()) return;
   // With l_o = 0 each cable acts on its own side. A preloaded pair is about twice as stiff at zero

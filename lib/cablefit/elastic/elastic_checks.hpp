@@ -2,19 +2,32 @@
 // do.
 #pragma once
 
+#include <span>
+
 #include "cablefit/elastic/elastic_result.hpp"
 #include "cablefit/elastic/passivity.hpp"
 
 namespace cablefit {
 
 /// Sets `passive` and warns where a cable pushes over the elongations that the rows reached: the
-/// paper's (5) and (16).
-void check_passive(ElasticFit& fit, const ElasticPreload& preload, const ElongationUnit& unit);
+/// paper's (5) and (16). `longest`: elongation that each cable reached.
+void check_passive(ElasticFit& fit, std::span<const double> longest, const ElongationUnit& unit);
 
 /// Fills `selected` and `selection`: the simplest model whose largest error on held-out blocks is
 /// within `materiality` (share of the peak torque) of the best one's; significance is told beside
 /// it.
 void select_model(ElasticPreload& preload, double materiality);
+
+/// The same with several joints: the simplest model that will do for each of them.
+void select_joint_model(ElasticPreload& preload, double materiality);
+
+/// What a sweep up and down shows of one joint; N m.
+struct LoopSeen {
+  double half_width = 0, peak = 0, rms = 0;  ///< friction band, peak torque, what the fit leaves
+  bool plateaus = false;
+};
+/// Warnings of a torque that depends on the path, and of plateaus.
+std::vector<std::string> loop_warnings(const LoopSeen& loop, bool linear_motion);
 
 /// Fills loop_half_width; warns when the torque depends on the path.
 void note_loop(ElasticPreload& preload, bool plateaus);

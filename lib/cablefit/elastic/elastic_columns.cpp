@@ -1,15 +1,21 @@
 #include "cablefit/elastic/elastic_columns.hpp"
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <optional>
 
 namespace cablefit {
 namespace {
 
-Eigen::ArrayXd deflection(const Transmission& transmission, const JointSignals& s) {
-  const double zero = transmission.theta_0.size() > 0 ? transmission.theta_0(0) : 0.0;
-  return s.theta - zero - s.q;
+double encoder_zero(const Transmission& transmission, std::size_t joint) {
+  return transmission.theta_0.size() > 0 ? transmission.theta_0(static_cast<Eigen::Index>(joint))
+                                         : 0.0;
+}
+
+Eigen::ArrayXd deflection(const Transmission& transmission, const JointSignals& s,
+                          std::size_t joint) {
+  return s.theta - encoder_zero(transmission, joint) - s.q;
 }
 
 // -1 or 1: the friction branch. In motion the velocity tells it at once; at rest, and where motion
@@ -34,11 +40,19 @@ double motor_stiffness(const Transmission& transmission, double q, double theta)
   return sum;
 }
 
-// Elongation of one cable of one joint, row by row.
-Eigen::ArrayXd elongation(const Cable& cable, const Eigen::ArrayXd& q,
-                          const Eigen::ArrayXd& turned) {
-  return cable.motor_map.front().displacements(turned) - cable.link_map.front().displacements(q) +
-         cable.shift();
+// Elongation of one cable, row by row.
+Eigen::ArrayXd elongation(const Transmission& transmission, const Cable& cable,
+                          std::span<const JointSignals> joints) {
+  std::optional<Eigen::ArrayXd> sum;
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    if (joints.size() > 1 && cable.motor_map[k].is_zero() && cable.link_map[k].is_zero()) continue;
+    const Eigen::ArrayXd turned = joints[k].theta - encoder_zero(transmission, k);
+    Eigen::ArrayXd share =
+        cable.motor_map[k].displacements(turned) - cable.link_map[k].displacements(joints[k].q);
+    sum = sum ? Eigen::ArrayXd(*sum + share) : std::move(share);
+  }
+  assert(sum && "a cable that no joint moves");
+  return *sum + cable.shift();
 }
 
 }  // namespace
@@ -51,16 +65,28 @@ Eigen::Index n_elastic_columns(const Transmission& transmission) {
 
 void elastic_basis(const Transmission& transmission, const JointSignals& s, ElasticSide side,
                    Eigen::Ref<Eigen::MatrixXd> out) {
-  const double zero = transmission.theta_0.size() > 0 ? transmission.theta_0(0) : 0.0;
-  const Eigen::ArrayXd turned = s.theta - zero;
+  elastic_basis(transmission, std::span(&s, 1), side, 0, out);
+}
+
+void elastic_basis(const Transmission& transmission, std::span<const JointSignals> joints,
+                   ElasticSide side, int joint, Eigen::Ref<Eigen::MatrixXd> out) {
+  const auto own = static_cast<std::size_t>(joint);
+  const JointSignals& s = joints[own];
+  const Eigen::ArrayXd turned = s.theta - encoder_zero(transmission, own);
   std::array<double, kMaxCableOrder> values{};
   Eigen::Index first = 0;
   for (const Cable& cable : transmission.cables) {
     const int n = cable.n_coefficients();
+    const DisplacementMap& map =
+        side == ElasticSide::motor ? cable.motor_map[own] : cable.link_map[own];
+    if (map.is_zero()) {
+      out.middleCols(first, n).setZero();
+      first += n;
+      continue;
+    }
     const LawShape shape = cable.shape();
-    const Eigen::ArrayXd l = elongation(cable, s.q, turned);
-    const Eigen::ArrayXd gain = side == ElasticSide::motor ? cable.motor_map.front().radii(turned)
-                                                           : cable.link_map.front().radii(s.q);
+    const Eigen::ArrayXd l = elongation(transmission, cable, joints);
+    const Eigen::ArrayXd gain = map.radii(side == ElasticSide::motor ? turned : s.q);
     for (Eigen::Index i = 0; i < out.rows(); ++i) {
       if (l(i) > 0) {
         cable.law->basis(shape, l(i), values.data());
@@ -75,19 +101,49 @@ void elastic_basis(const Transmission& transmission, const JointSignals& s, Elas
 
 BlockedColumns blocked_columns(const Transmission& transmission) {
   BlockedColumns c;
+  const Eigen::Index n = c.n_joints = transmission.n_joints;
+  c.basis = c.deflection + n;
   c.n_basis = n_elastic_columns(transmission);
   c.offset = c.basis + c.n_basis;
-  c.direction = c.offset + 1;
-  c.speed = c.direction + 1;
-  c.zero = c.speed + 1;
-  c.tau = c.zero + 1;
+  c.direction = c.offset + n;
+  c.speed = c.direction + n;
+  c.zero = c.speed + n;
+  c.tau = c.zero + n;
   c.count = c.tau + 1;
+  if (n > 1) {
+    c.elongation = c.count;
+    c.count += static_cast<Eigen::Index>(transmission.cables.size());
+  }
   return c;
 }
 
+BlockedColumns BlockedColumns::of_joint(int joint) const {
+  BlockedColumns own = *this;
+  for (Eigen::Index BlockedColumns::*column :
+       {&BlockedColumns::deflection, &BlockedColumns::offset, &BlockedColumns::direction,
+        &BlockedColumns::speed, &BlockedColumns::zero})
+    own.*column += joint;
+  return own;
+}
+
+namespace {
+
+// What the rows of one of several joints have in the others' columns, and the elongations.
+void fill_others(const Transmission& transmission, const BlockedColumns& c,
+                 std::span<const JointSignals> joints, Eigen::Ref<Eigen::MatrixXd> out) {
+  out.leftCols(c.basis).setZero();
+  out.middleCols(c.basis + c.n_basis, c.tau - c.basis - c.n_basis).setZero();
+  for (std::size_t k = 0; k < transmission.cables.size(); ++k)
+    out.col(c.elongation + static_cast<Eigen::Index>(k)) =
+        elongation(transmission, transmission.cables[k], joints);
+}
+
+}  // namespace
+
 Equation blocked_equation(const Transmission& transmission, const Transmission* pilot, bool sliding,
-                          double rest_speed, double still_speed) {
-  const BlockedColumns c = blocked_columns(transmission);
+                          double rest_speed, double still_speed, int joint) {
+  const BlockedColumns c = blocked_columns(transmission).of_joint(joint);
+  const auto own = static_cast<std::size_t>(joint);
   Equation equation;
   equation.name = "blocked";
   equation.columns.assign(static_cast<std::size_t>(c.count), "");
@@ -95,15 +151,17 @@ Equation blocked_equation(const Transmission& transmission, const Transmission* 
                            false);  // quasi-static: no difference
   const std::optional<Transmission> curve = pilot ? std::optional(*pilot) : std::nullopt;
   // The direction is decimated as the torque is: beside a reversal both pass through zero.
-  equation.prepare = [rest_speed](Signals& signals) {
-    JointSignals& s = signals.joints[0];
+  equation.prepare = [rest_speed, own](Signals& signals) {
+    JointSignals& s = signals.joints[own];
     s.theta_direction = branch(s, rest_speed);
   };
-  equation.fill = [transmission, c, curve](const Signals& signals,
-                                           Eigen::Ref<Eigen::MatrixXd> out) {
-    const JointSignals& s = signals.joints[0];
-    out.col(c.deflection) = deflection(transmission, s);
-    elastic_basis(transmission, s, ElasticSide::motor, out.middleCols(c.basis, c.n_basis));
+  equation.fill = [transmission, c, curve, joint, own](const Signals& signals,
+                                                       Eigen::Ref<Eigen::MatrixXd> out) {
+    const JointSignals& s = signals.joints[own];
+    if (c.n_joints > 1) fill_others(transmission, c, signals.joints, out);
+    out.col(c.deflection) = deflection(transmission, s, own);
+    elastic_basis(transmission, signals.joints, ElasticSide::motor, joint,
+                  out.middleCols(c.basis, c.n_basis));
     out.col(c.offset).setOnes();
     out.col(c.direction) = s.theta_direction;
     out.col(c.speed) = s.thetad;
@@ -120,10 +178,10 @@ Equation blocked_equation(const Transmission& transmission, const Transmission* 
   };
   if (sliding) {
     equation.rest_speed = rest_speed;
-    equation.speed = [](const Signals& signals) { return signals.joints[0].thetad; };
+    equation.speed = [own](const Signals& signals) { return signals.joints[own].thetad; };
   }
-  equation.use = [sliding, slow, still_speed](const Signals& signals) -> Eigen::ArrayXd {
-    const JointSignals& s = signals.joints[0];
+  equation.use = [sliding, slow, still_speed, own](const Signals& signals) -> Eigen::ArrayXd {
+    const JointSignals& s = signals.joints[own];
     Eigen::ArrayXd use = (s.approach != 0.0).cast<double>();  // before the first motion: no branch
     if (!sliding) use *= slow(s);  // no row is slower than 0: then all count as sliding
     if (still_speed > 0) use *= (s.qd.abs() < still_speed).cast<double>();

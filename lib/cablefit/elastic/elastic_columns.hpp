@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 
 #include "cablefit/model/cables.hpp"
 #include "cablefit/samples/row_stream.hpp"
@@ -12,27 +13,40 @@ namespace cablefit {
 /// Elastic torque per unit coefficient, motor side S_jc basis(l_c) or link side P_jc basis(l_c),
 /// for every coefficient of every cable of order `order`, side by side. `out`: rows x coefficients.
 enum class ElasticSide { motor, link };
+/// Of joint `joint` (from 0) of several, whose motion all cables that pass it depend on.
+void elastic_basis(const Transmission& transmission, std::span<const JointSignals> joints,
+                   ElasticSide side, int joint, Eigen::Ref<Eigen::MatrixXd> out);
+/// Of a rig of one joint.
 void elastic_basis(const Transmission& transmission, const JointSignals& signals, ElasticSide side,
                    Eigen::Ref<Eigen::MatrixXd> out);
 
 /// Number of columns elastic_basis writes.
 Eigen::Index n_elastic_columns(const Transmission& transmission);
 
-/// Position of every column of the blocked equation.
+/// Position of every column of the blocked equation. With n joints, the equations of all have the
+/// same columns, so that their rows can stand under each other: of deflection, offset, direction,
+/// speed and zero there is one per joint, side by side, and 0 in the rows of the other joints; each
+/// cable's coefficients are shared, and its elongation follows tau.
 struct BlockedColumns {
+  int n_joints = 1;
   Eigen::Index deflection = 0;  ///< phi = theta - theta_0 - q
   Eigen::Index basis = 1;       ///< first of n_basis columns
   Eigen::Index n_basis = 0;
   Eigen::Index offset = 0, direction = 0, speed = 0, zero = 0, tau = 0;
+  Eigen::Index elongation = -1;  ///< first of one per cable; -1: one joint, needs none
   Eigen::Index count = 0;
+
+  /// The same with deflection, offset, direction, speed and zero those of one joint (from 0).
+  BlockedColumns of_joint(int joint) const;
 };
 BlockedColumns blocked_columns(const Transmission& transmission);
 
 /// tau = tau_elas_m(theta - theta_0 - q) + offset + f_sm * direction + f_vm * thetad, with
 /// direction -1 or 1 of the last motion. `pilot` (may be null): a first curve, whose -d tau/d
 /// theta_0 is column `zero`. `sliding`: rows in motion only, else rows at rest only (plateaus).
-/// `still_speed` > 0: only rows in which the link is slower than this (--still).
+/// `still_speed` > 0: only rows in which the link is slower than this (--still). `joint`: whose
+/// equation, from 0; the encoder zeros of several joints have no column (it stays 0).
 Equation blocked_equation(const Transmission& transmission, const Transmission* pilot, bool sliding,
-                          double rest_speed, double still_speed);
+                          double rest_speed, double still_speed, int joint = 0);
 
 }  // namespace cablefit

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "cablefit/estimate/parameter_estimate.hpp"
+#include "cablefit/model/model.hpp"
 
 namespace cablefit {
 namespace {
@@ -27,12 +28,15 @@ std::optional<Coefficient> coefficient_at(const Candidate& candidate, std::size_
   return std::nullopt;
 }
 
+/// "f_sm" of "f_sm[2]".
+std::string without_index(const std::string& name) { return name.substr(0, name.find('[')); }
+
 /// On a rotary axis, or in cable space.
 std::string unit_of(const Candidate& candidate, std::size_t k, bool cable_space) {
   if (const auto coefficient = coefficient_at(candidate, k))
     return coefficient_unit(*candidate.transmission.cables[coefficient->cable].law,
                             coefficient->index, cable_space);
-  const std::string& name = candidate.names[k];
+  const std::string name = without_index(candidate.names[k]);
   return name == "K" ? "N m/rad" : name == "theta_0" ? "rad" : name == "f_vm" ? "N m s/rad" : "N m";
 }
 
@@ -127,10 +131,25 @@ void note_active_bounds(const ElasticJob& job, const Candidate& candidate, const
   }
 }
 
+/// The motor's viscous friction, of whichever joint.
+bool is_speed(const Candidate& candidate, std::size_t k) {
+  return k >= candidate.n_elastic && without_index(candidate.names[k]) == "f_vm";
+}
+
 }  // namespace
 
+Estimate missing_friction(const ElasticJob& job, int joint) {
+  Estimate e;
+  e.name = e.symbol = joint_parameter_name("f_sm", joint + 1, job.basis.n_joints);
+  e.unit = job.rig().linear_motion ? "N" : "N m";
+  e.not_identifiable = job.basis.n_joints > 1
+                           ? fmt::format("theta{} moves in one direction only", joint + 1)
+                           : "theta moves in one direction only";
+  return e;
+}
+
 ElasticFit make_fit(const ElasticJob& job, const Candidate& candidate, const LinearSolution& s,
-                    const BlockedRows& rows, const Nuisance& nuisance) {
+                    const BlockedRows& rows, std::span<const Nuisance> nuisance) {
   const Rig& rig = job.rig();
   const double zero = rows.transmission.theta_0(0);
   const auto n = static_cast<Eigen::Index>(candidate.n_elastic);
@@ -145,12 +164,12 @@ ElasticFit make_fit(const ElasticJob& job, const Candidate& candidate, const Lin
   fit.warnings = worth_saying(s.warnings, candidate);
   for (std::size_t k = 0; k < candidate.names.size(); ++k) {
     const std::string& name = candidate.names[k];
-    if (name == "f_vm") continue;  // a sweep this slow only keeps it out of f_sm
+    if (is_speed(candidate, k)) continue;  // a sweep this slow only keeps it out of f_sm
     const auto index = static_cast<Eigen::Index>(k);
     const std::string unit = unit_of(candidate, k, rig.cables_given);
     Estimate e = estimate_of({name, name, unit, "", candidate.lower[k]}, rig.linear_motion, s,
                              index, {job.options.honest_sd});
-    if (name == "offset" && nuisance.theta_0) {
+    if (name == "offset" && nuisance.front().theta_0) {
       e = zero_of_line(s, index, zero, rig.linear_motion, job.options.honest_sd);
     } else if (name == "theta_0") {
       e.value += zero;

@@ -9,6 +9,8 @@ namespace cablefit {
 /// Everything reports need, except the errors that take a second look at the rows.
 ElasticFit make_fit(const ElasticJob& job, const Candidate& candidate,
                     const LinearSolution& solution, const BlockedRows& rows,
-                    const Nuisance& nuisance);
+                    std::span<const Nuisance> nuisance);
+/// Of the motor's static friction that could not be told, by name. `joint`: from 0.
+Estimate missing_friction(const ElasticJob& job, int joint);
 
 }  // namespace cablefit

@@ -22,30 +22,31 @@ Eigen::Index residual_of(std::size_t model) {
 Eigen::Index curve_of(std::size_t model) { return residual_of(model) + 1; }
 
 /// The model's torque without the motor's friction, as a combination of columns.
-Eigen::VectorXd curve_combination(const BlockedRows& rows, const Candidate& candidate,
+Eigen::VectorXd curve_combination(const BlockedColumns& own, const Candidate& candidate,
                                   const LinearSolution& solution, Eigen::Index n_columns) {
   Eigen::VectorXd curve = Eigen::VectorXd::Zero(n_columns);
   for (std::size_t k = 0; k < candidate.regressors.size(); ++k) {
     const Eigen::Index column = candidate.regressors[k];
-    if (column == rows.columns.direction || column == rows.columns.speed) continue;
+    if (column == own.direction || column == own.speed) continue;
     curve(column) = solution.x(static_cast<Eigen::Index>(k));
   }
   return curve;
 }
 
-Eigen::MatrixXd seen_combinations(const BlockedRows& rows, const std::vector<Candidate>& candidates,
+Eigen::MatrixXd seen_combinations(const BlockedColumns& own,
+                                  const std::vector<Candidate>& candidates,
                                   const std::vector<LinearSolution>& solutions) {
-  const Eigen::Index n_columns = rows.columns.count + 1;  // and the position
+  const Eigen::Index n_columns = own.count + 1;  // and the position
   const auto n_models = static_cast<Eigen::Index>(candidates.size());
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n_columns, kOfModels + kPerModel * n_models);
-  all(rows.columns.tau, kTau) = 1;
-  all(rows.columns.deflection, kDeflection) = 1;
-  all(rows.columns.direction, kDirection) = 1;
-  all(rows.columns.speed, kSpeed) = 1;
-  all(rows.columns.count, kPosition) = 1;
+  all(own.tau, kTau) = 1;
+  all(own.deflection, kDeflection) = 1;
+  all(own.direction, kDirection) = 1;
+  all(own.speed, kSpeed) = 1;
+  all(own.count, kPosition) = 1;
   for (std::size_t k = 0; k < candidates.size(); ++k) {
-    all.col(residual_of(k)).head(rows.columns.count) = solutions[k].residual_combination;
-    all.col(curve_of(k)) = curve_combination(rows, candidates[k], solutions[k], n_columns);
+    all.col(residual_of(k)).head(own.count) = solutions[k].residual_combination;
+    all.col(curve_of(k)) = curve_combination(own, candidates[k], solutions[k], n_columns);
   }
   return all;
 }
@@ -116,9 +117,10 @@ class CurveScan {
   std::vector<BinnedMean> curves_;
 };
 
-ScanPlan scan_plan(const ElasticPreload& preload, const std::vector<LinearSolution>& solutions) {
+ScanPlan scan_plan(const ElasticPreload& preload, const std::string& section,
+                   const std::vector<LinearSolution>& solutions) {
   ScanPlan plan;
-  plan.section = preload.name;
+  plan.section = section;
   plan.group = "Blocked link: residuals";
   plan.measured = "motor torque tau";
   plan.unit = preload.linear_motion ? "N" : "N m";
@@ -133,15 +135,21 @@ ScanPlan scan_plan(const ElasticPreload& preload, const std::vector<LinearSoluti
 
 }  // namespace
 
-std::vector<Figure> elastic_figures(const ElasticJob& job, const BlockedRows& rows,
+std::vector<Figure> elastic_figures(const ElasticJob& job, const BlockedRows& rows, int joint,
                                     const std::vector<Candidate>& candidates,
                                     const std::vector<LinearSolution>& solutions,
                                     const ElasticPreload& preload) {
+  const std::string section = rows.columns.n_joints > 1
+                                  ? fmt::format("{}, joint {}", preload.name, joint + 1)
+                                  : preload.name;
   const Observed theta{"position theta", preload.unit,
-                       [](const Signals& signals) { return signals.joints[0].theta; }};
+                       [k = static_cast<std::size_t>(joint)](const Signals& signals) {
+                         return signals.joints[k].theta;
+                       }};
   const std::array<Equation, 1> equation = {with_observed(rows.equations.front(), {theta})};
-  const Eigen::MatrixXd combinations = seen_combinations(rows, candidates, solutions);
-  const ScanPlan plan = scan_plan(preload, solutions);
+  const Eigen::MatrixXd combinations =
+      seen_combinations(rows.columns.of_joint(joint), candidates, solutions);
+  const ScanPlan plan = scan_plan(preload, section, solutions);
   const TimeAxis time(job.logs, job.wanted, job.settings.rows.decimate);
   ResidualScan residuals(plan, time);
   CurveScan curves(preload);
@@ -153,7 +161,7 @@ std::vector<Figure> elastic_figures(const ElasticJob& job, const BlockedRows& ro
         curves.add(seen);
       });
   Figure blank;
-  blank.section = preload.name;
+  blank.section = section;
   blank.group = "Blocked link: elastic torque";
   blank.x = {"deflection theta - q", preload.unit};
   blank.y = {"motor torque tau", plan.unit};

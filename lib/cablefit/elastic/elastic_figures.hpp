@@ -9,8 +9,9 @@
 
 namespace cablefit {
 
-/// Streams the rows once more. candidates[k], solutions[k] belong to preload.fits[k].
-std::vector<Figure> elastic_figures(const ElasticJob& job, const BlockedRows& rows,
+/// Streams the rows once more. `joint`: whose rows they are, from 0. candidates[k], solutions[k]
+/// belong to preload.fits[k].
+std::vector<Figure> elastic_figures(const ElasticJob& job, const BlockedRows& rows, int joint,
                                     const std::vector<Candidate>& candidates,
                                     const std::vector<LinearSolution>& solutions,
                                     const ElasticPreload& preload);

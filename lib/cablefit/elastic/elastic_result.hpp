@@ -19,6 +19,11 @@ struct InputFile {
   std::size_t rows = 0;
 };
 
+/// Errors of one joint's equation, N m; as the fields of ElasticFit of these names.
+struct ElasticJointErrors {
+  double rms_error = 0, max_abs_error = 0, held_out_rms = 0, held_out_max = 0;
+};
+
 struct ElasticFit {
   std::string model;                 ///< "linear", "poly"
   int order = 1;                     ///< of the force, per cable
@@ -29,6 +34,7 @@ struct ElasticFit {
   Eigen::MatrixXd covariance;
   double rms_error = 0, max_abs_error = 0;    ///< N m, over all rows used
   double held_out_rms = 0, held_out_max = 0;  ///< N m, over blocks the fit had not seen
+  std::vector<ElasticJointErrors> joints;     ///< of several joints, each for itself; else empty
   bool passive = true;  ///< every cable only pulls over the range it was used in
   /// Where a cable would push but for a bound: "cable 1: k(l) >= 0 at l = 0 mrad".
   std::vector<std::string> active_bounds;
@@ -37,6 +43,17 @@ struct ElasticFit {
   std::vector<std::string> warnings;
 };
 
+/// What one of several joints showed; as the fields of ElasticPreload of these names.
+struct ElasticJoint {
+  std::string name;
+  double deflection_low = 0, deflection_high = 0;
+  double peak_torque = 0, loop_half_width = 0;
+  bool both_branches = true;
+  double weight = 1;  ///< of its rows: 1/variance of its residual, relative to the other joints
+  RowCounts counts;
+};
+
+/// With several joints ranges are over all of them, errors and peak torque the largest.
 struct ElasticPreload {
   std::string name;
   std::string unit = "rad";  ///< of the deflection
@@ -44,6 +61,7 @@ struct ElasticPreload {
   double peak_torque = 0;      ///< N m, largest |tau - offset| in the rows used
   double loop_half_width = 0;  ///< N m, f_sm of the selected fit
   bool both_branches = true;
+  std::vector<ElasticJoint> joints;  ///< of several joints; else empty
   RowCounts counts;
   WindowCounts windows;
   std::vector<ElasticFit> fits;        ///< linear first

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "cablefit/elastic/held_out.hpp"
+#include "cablefit/model/model.hpp"
 
 namespace cablefit {
 namespace {
@@ -17,7 +18,7 @@ constexpr double kWorthwhile =
 
 }  // namespace
 
-int choose_order(const ElasticJob& job, const BlockedRows& rows, const Nuisance& nuisance,
+int choose_order(const ElasticJob& job, const BlockedRows& rows, std::span<const Nuisance> nuisance,
                  std::vector<std::string>& words) {
   const HeldOut held_out(*rows.rows);
   std::vector<Eigen::VectorXd> errors;
@@ -85,6 +86,71 @@ void measure_errors(const BlockedRows& rows, const std::vector<Candidate>& candi
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     preload.fits[k].max_abs_error = total.worst[k];
     preload.fits[k].held_out_max = total.worst_held_out[k];
+  }
+}
+
+namespace {
+
+/// Squares and extremes of one fit's residuals on one joint's rows.
+struct ResidualSums {
+  double squares = 0, largest = 0, n = 0;
+  void add(const Eigen::VectorXd& errors) {
+    squares += errors.squaredNorm();
+    largest = std::max(largest, errors.size() > 0 ? errors.cwiseAbs().maxCoeff() : 0.0);
+    n += static_cast<double>(errors.size());
+  }
+  double rms() const { return n > 0 ? std::sqrt(squares / n) : 0; }
+};
+
+/// Residuals of rows in `fold` by the fit to the other folds; `folds`: one combination per fold.
+Eigen::VectorXd held_out_residuals(const Eigen::MatrixXd& rows,
+                                   std::span<const Eigen::Index> numbers, const HeldOut& held_out,
+                                   const std::vector<Eigen::VectorXd>& folds) {
+  Eigen::VectorXd errors(rows.rows());
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    const auto fold =
+        static_cast<std::size_t>(held_out.fold_of_row(numbers[static_cast<std::size_t>(i)]));
+    errors(i) = rows.row(i).dot(folds[fold]);
+  }
+  return errors;
+}
+
+}  // namespace
+
+void measure_joint_errors(const std::vector<BlockedRows>& joints, const BlockedRows& all,
+                          const std::vector<Candidate>& candidates,
+                          const std::vector<LinearSolution>& solutions, ElasticPreload& preload) {
+  const HeldOut held_out(*all.rows);
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const auto folds = held_out.fits(candidates[k], all.torque_response());
+    ElasticFit& fit = preload.fits[k];
+    ResidualSums all_in, all_out;
+    for (const BlockedRows& joint : joints) {
+      ResidualSums in, out;
+      joint.archive->for_each([&](const Eigen::MatrixXd& r, std::span<const Eigen::Index> numbers) {
+        const Eigen::VectorXd errors = r * solutions[k].residual_combination;
+        const Eigen::VectorXd unseen = held_out_residuals(r, numbers, held_out, folds);
+        for (ResidualSums* sums : {&in, &all_in}) sums->add(errors);
+        for (ResidualSums* sums : {&out, &all_out}) sums->add(unseen);
+      });
+      fit.joints.push_back({in.rms(), in.largest, out.rms(), out.largest});
+    }
+    fit.rms_error = all_in.rms();
+    fit.max_abs_error = all_in.largest;
+    fit.held_out_rms = all_out.rms();
+    fit.held_out_max = all_out.largest;
+  }
+  const int n = static_cast<int>(joints.size());
+  for (int joint = 0; joint < n; ++joint) {
+    const auto k = static_cast<std::size_t>(joint);
+    const Estimate* e = find_estimate(preload.fits.front().parameters,
+                                      joint_parameter_name("offset", joint + 1, n));
+    const double offset = e != nullptr && e->not_identifiable.empty() ? e->value : 0;
+    double& peak = preload.joints[k].peak_torque;
+    joints[k].archive->for_each([&](const Eigen::MatrixXd& r, std::span<const Eigen::Index>) {
+      peak = std::max(peak, (r.col(all.columns.tau).array() - offset).abs().maxCoeff());
+    });
+    preload.peak_torque = std::max(preload.peak_torque, peak);
   }
 }
 

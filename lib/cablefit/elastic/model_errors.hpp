@@ -10,12 +10,17 @@ namespace cablefit {
 
 /// Lowest order that no higher one (up to options.max_order) beats significantly on held-out
 /// blocks, by a paired test over blocks; the reason goes to `words`.
-int choose_order(const ElasticJob& job, const BlockedRows& rows, const Nuisance& nuisance,
+int choose_order(const ElasticJob& job, const BlockedRows& rows, std::span<const Nuisance> nuisance,
                  std::vector<std::string>& words);
 
 /// Looks at the rows again: largest errors of every fit, in sample and on held-out blocks,
 /// deflection range and peak torque. candidates[k], solutions[k] belong to preload.fits[k].
 void measure_errors(const BlockedRows& rows, const std::vector<Candidate>& candidates,
                     const std::vector<LinearSolution>& solutions, ElasticPreload& preload);
+/// The same for the rows of several joints, which `all` has together; fills the errors of every
+/// joint and peak torques as well.
+void measure_joint_errors(const std::vector<BlockedRows>& joints, const BlockedRows& all,
+                          const std::vector<Candidate>& candidates,
+                          const std::vector<LinearSolution>& solutions, ElasticPreload& preload);
 
 }  // namespace cablefit

@@ -52,8 +52,15 @@ double longest_elongation(const Transmission& transmission, const Cable& cable, 
                   elongation_at(transmission, cable, high));
 }
 
+std::vector<double> longest_elongations(const Transmission& transmission, double low, double high) {
+  std::vector<double> longest;
+  for (const Cable& cable : transmission.cables)
+    longest.push_back(longest_elongation(transmission, cable, low, high));
+  return longest;
+}
+
 PullConstraints pull_constraints(const Transmission& transmission, const std::vector<bool>& fitted,
-                                 double low, double high) {
+                                 std::span<const double> all_longest) {
   PullConstraints all;
   Eigen::Index n_coefficients = 0;
   for (const Cable& cable : transmission.cables) n_coefficients += cable.n_coefficients();
@@ -61,7 +68,7 @@ PullConstraints pull_constraints(const Transmission& transmission, const std::ve
   for (std::size_t c = 0; c < transmission.cables.size(); ++c) {
     const Cable& cable = transmission.cables[c];
     const Eigen::Index n = cable.n_coefficients();
-    const double longest = longest_elongation(transmission, cable, low, high);
+    const double longest = all_longest[c];
     if (fitted[c] && longest > 0) {
       const PullConditions pull = cable.law->pull_conditions(cable.shape(), longest);
       const Eigen::Index n_before = all.rows.rows();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@ namespace cablefit {
 /// (elongation_at() of modes.hpp); <= 0: it is never taut.
 double longest_elongation(const Transmission& transmission, const Cable& cable, double low,
                           double high);
+/// The same of every cable.
+std::vector<double> longest_elongations(const Transmission& transmission, double low, double high);
 
 /// One row of the conditions, in words.
 struct PullBound {
@@ -34,8 +37,9 @@ struct PullConstraints {
   std::vector<PullRange> ranges;  ///< of the cables that the rows are about
 };
 /// Of the cables that are fitted and were ever taut. `fitted`: one per cable.
+/// `longest`: elongation that each cable reached.
 PullConstraints pull_constraints(const Transmission& transmission, const std::vector<bool>& fitted,
-                                 double low, double high);
+                                 std::span<const double> longest);
 
 /// Where a cable pushes: k(l) < 0 for from < l < to (the hull, if there are several stretches).
 struct Push {

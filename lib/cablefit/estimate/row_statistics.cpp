@@ -2,6 +2,9 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <map>
 
 #include "cablefit/estimate/tall_qr.hpp"
 
@@ -18,7 +21,7 @@ void StreamingQr::absorb(const Eigen::MatrixXd& r) {
 
 void StreamingQr::add(const Rows& rows) { absorb(tall_qr(rows)); }
 
-void StreamingQr::add(const StreamingQr& other) { absorb(other.r_); }
+void StreamingQr::add(const StreamingQr& other, double scale) { absorb(scale * other.r_); }
 
 RowStatistics::RowStatistics(Eigen::Index n_columns, bool with_cells, Eigen::Index cell_rows)
     : n_columns_(n_columns), cell_rows_(cell_rows), with_cells_(with_cells), qr_(n_columns) {}
@@ -66,6 +69,30 @@ void RowStatistics::add(const RowStatistics& later) {
     }
   }
   n_rows_ += later.n_rows_;
+}
+
+RowStatistics RowStatistics::weighted(std::span<const RowStatistics* const> equations,
+                                      std::span<const double> weights) {
+  assert(!equations.empty() && equations.size() == weights.size());
+  RowStatistics all = equations.front()->empty_copy();
+  std::map<Eigen::Index, GramCell> cells;
+  for (std::size_t k = 0; k < equations.size(); ++k) {
+    const RowStatistics& one = *equations[k];
+    assert(one.n_columns_ == all.n_columns_ && one.cell_rows_ == all.cell_rows_);
+    all.qr_.add(one.qr_, std::sqrt(weights[k]));
+    all.n_rows_ += one.n_rows_;
+    for (const GramCell& cell : one.cells_) {
+      const auto [at, is_new] = cells.try_emplace(cell.id, cell);
+      if (is_new) {
+        at->second.gram *= weights[k];
+      } else {
+        at->second.gram += weights[k] * cell.gram;
+        at->second.n_rows += cell.n_rows;
+      }
+    }
+  }
+  for (auto& [id, cell] : cells) all.cells_.push_back(std::move(cell));
+  return all;
 }
 
 }  // namespace cablefit

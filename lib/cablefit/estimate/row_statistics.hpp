@@ -20,7 +20,8 @@ class StreamingQr {
  public:
   explicit StreamingQr(Eigen::Index n_columns);
   void add(const Rows& rows);
-  void add(const StreamingQr& other);
+  /// `scale`: times the rows that the other saw.
+  void add(const StreamingQr& other, double scale = 1);
   const Eigen::MatrixXd& r() const { return r_; }
 
  private:
@@ -50,6 +51,11 @@ class RowStatistics {
   void add(const Rows& rows, std::span<const Eigen::Index> numbers);
   /// What another accumulator saw; its rows come after those of this one.
   void add(const RowStatistics& later);
+
+  /// Rows of several equations with the same columns and time grid as one: each row times the root
+  /// of its equation's weight, and rows of one stretch of time in one cell.
+  static RowStatistics weighted(std::span<const RowStatistics* const> equations,
+                                std::span<const double> weights);
 
   Eigen::Index n_rows() const { return n_rows_; }
   Eigen::Index n_columns() const { return n_columns_; }

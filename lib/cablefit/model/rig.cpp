@@ -41,7 +41,8 @@ Rig default_rig() {
 
 Rig parse_rig(const JsonNode& node) {
   node.allow_only({"schema", "name", "preload", "columns", "motion", "torque_hold", "torque_period",
-                   "load", "controller", "sensors", "cad", "joints", "cables", "reference_pose"});
+                   "load", "controller", "sensors", "cad", "joints", "cables", "reference_pose",
+                   "arm"});
   check_schema(node, "cablefit/rig/1");
   Rig rig;
   rig.path = node.place.file;
@@ -64,6 +65,7 @@ Rig parse_rig(const JsonNode& node) {
   if (const JsonNode* load = node.find("load")) {
     rig.load = rig_parts::read_load(*load, n, rig.linear_motion);
   }
+  if (const JsonNode* arm = node.find("arm")) rig.arm = rig_parts::read_arm(*arm, rig);
   if (const JsonNode* controller = node.find("controller")) {
     rig.controller = rig_parts::read_controller(*controller);
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cablefit/base/parameter.hpp"
+#include "cablefit/model/arm.hpp"
 #include "cablefit/model/cables.hpp"
 #include "cablefit/model/load.hpp"
 
@@ -48,6 +49,7 @@ struct Rig {
   TorqueHold torque_hold = TorqueHold::automatic;
   double torque_period = 0;  ///< s; 0: the log's
   Load load;
+  Arm arm;  ///< of several joints
   std::optional<Controller> controller;
   std::map<std::string, SensorInfo> sensors;  ///< by channel
   std::map<std::string, double> cad;          ///< by parameter name

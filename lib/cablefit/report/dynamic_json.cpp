@@ -27,7 +27,7 @@ Json by_name(const std::map<std::string, Value>& values) {
 Json stage1_json(const ElasticFit& fit) {
   return Json{{"order", fit.order},
               {"theta_0", report_json::per_joint(fit.transmission.encoder_zero())},
-              {"offset", fit.offset},
+              {"offset", report_json::offset(fit)},
               {"parameters", report_json::parameters(fit.parameters)}};
 }
 

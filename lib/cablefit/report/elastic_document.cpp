@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -17,7 +18,8 @@ constexpr int kErrorDigits = 3;
 std::string error_text(double error) { return significant(error, kErrorDigits); }
 
 /// "0.012 +- 0.003", "-" when the fit has no such parameter. `scale`: mrad instead of rad.
-std::string estimate_text(const ElasticFit& fit, const char* name, double scale, Footnotes& notes) {
+std::string estimate_text(const ElasticFit& fit, const std::string& name, double scale,
+                          Footnotes& notes) {
   const Estimate* e = find_estimate(fit.parameters, name);
   if (e == nullptr) return kNoNumber;
   if (!e->not_identifiable.empty()) {
@@ -28,6 +30,29 @@ std::string estimate_text(const ElasticFit& fit, const char* name, double scale,
                                          significant(e->ci_high, 2)));
   }
   return value_with_sd(scale * e->value, scale * e->sd);
+}
+
+/// A row of the table of fits: the whole fit, or of several joints one of them.
+struct FitRow {
+  std::string joint;  ///< empty: there is one
+  ElasticJointErrors errors;
+  std::string name(const char* parameter) const {
+    return joint.empty() ? parameter : fmt::format("{}[{}]", parameter, joint);
+  }
+};
+
+std::vector<FitRow> rows_of(const ElasticFit& fit) {
+  if (fit.joints.empty())
+    return {{"", {fit.rms_error, fit.max_abs_error, fit.held_out_rms, fit.held_out_max}}};
+  std::vector<FitRow> rows;
+  for (std::size_t k = 0; k < fit.joints.size(); ++k)
+    rows.push_back({std::to_string(k + 1), fit.joints[k]});
+  return rows;
+}
+
+bool has_several_joints(const ElasticResult& result) {
+  return std::any_of(result.preloads.begin(), result.preloads.end(),
+                     [](const ElasticPreload& preload) { return !preload.joints.empty(); });
 }
 
 Table fits_table(const ElasticResult& result) {
@@ -46,6 +71,8 @@ Table fits_table(const ElasticResult& result) {
                    {"held-out blocks", "rms", torque},
                    {"held-out blocks", "max", torque},
                    {"", "", "", true}};
+  const bool by_joint = has_several_joints(result);
+  if (by_joint) table.columns.insert(table.columns.begin() + 2, {"", "joint", "", true});
   for (const ElasticPreload& preload : result.preloads) {
     for (const ElasticFit& fit : preload.fits) {
       std::string remark = fit.model == preload.selected ? "selected" : "";
@@ -55,15 +82,31 @@ Table fits_table(const ElasticResult& result) {
       if (!fit.passive) add("pushes");
       if (!fit.active_bounds.empty()) add("at bounds");
       const std::string order = fit.model == "linear" ? "" : fmt::format(", order {}", fit.order);
-      table.rows.push_back({preload.name, fit.model + order, estimate_text(fit, "offset", 1, notes),
-                            estimate_text(fit, "theta_0", 1e3, notes),
-                            estimate_text(fit, "f_sm", 1, notes), error_text(fit.rms_error),
-                            error_text(fit.max_abs_error), error_text(fit.held_out_rms),
-                            error_text(fit.held_out_max), remark});
+      for (const FitRow& row : rows_of(fit)) {
+        std::vector<std::string> cells = {preload.name,
+                                          fit.model + order,
+                                          estimate_text(fit, row.name("offset"), 1, notes),
+                                          estimate_text(fit, row.name("theta_0"), 1e3, notes),
+                                          estimate_text(fit, row.name("f_sm"), 1, notes),
+                                          error_text(row.errors.rms_error),
+                                          error_text(row.errors.max_abs_error),
+                                          error_text(row.errors.held_out_rms),
+                                          error_text(row.errors.held_out_max),
+                                          remark};
+        if (by_joint) cells.insert(cells.begin() + 2, row.joint);
+        table.rows.push_back(std::move(cells));
+      }
     }
   }
   table.notes = notes.lines();
   return table;
+}
+
+/// "0.1", or of several joints "0.1, -0.2".
+std::string numbers_text(const Eigen::VectorXd& numbers) {
+  std::string text;
+  for (const double number : numbers) text += (text.empty() ? "" : ", ") + significant(number, 2);
+  return text;
 }
 
 /// (8c): what the preload alone does in the reference pose.
@@ -73,8 +116,8 @@ std::string balance_text(const ElasticPreload& preload, const ElasticFit& fit) {
       "{}, {}: in the reference pose the preload alone makes {} {} on the link and {} on the "
       "motor; "
       "0 in equilibrium (8c)",
-      preload.name, fit.model, significant(alone.link[0], 2), torque_unit(preload.linear_motion),
-      significant(alone.motor[0], 2));
+      preload.name, fit.model, numbers_text(alone.link), torque_unit(preload.linear_motion),
+      numbers_text(alone.motor));
 }
 
 /// Where cables of a preloaded fit go slack, within the deflections of the logs; no rows otherwise:
@@ -92,6 +135,7 @@ Table slack_table(const ElasticResult& result) {
   for (const ElasticPreload& preload : result.preloads) {
     for (const ElasticFit& fit : preload.fits) {
       if (!is_preloaded(fit.transmission)) continue;
+      if (fit.transmission.n_joints > 1) continue;  // a pose, not one deflection, makes them slack
       table.notes.push_back(balance_text(preload, fit));
       for (const SlackPoint& point :
            slack_points(fit.transmission, preload.deflection_low, preload.deflection_high)) {
@@ -158,6 +202,8 @@ Document elastic_document(const ElasticResult& result) {
     add_warnings(document, preload.name, preload.warnings);
     add_figures(document, preload.figures);
     for (const ElasticFit& fit : preload.fits) {
+      if (fit.transmission.n_joints > 1 && is_preloaded(fit.transmission))
+        document.paragraphs.push_back(balance_text(preload, fit));
       add_warnings(document, preload.name + ", " + fit.model, fit.warnings);
       add_tidy_rows(document.tidy, preload, fit);
     }

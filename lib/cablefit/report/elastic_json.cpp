@@ -22,7 +22,7 @@ Json matrix_json(const Eigen::MatrixXd& matrix) {
 
 Json slack_json(const ElasticPreload& preload, const ElasticFit& fit) {
   Json list = Json::array();
-  if (!is_preloaded(fit.transmission)) return list;
+  if (!is_preloaded(fit.transmission) || fit.transmission.n_joints > 1) return list;
   for (const SlackPoint& point :
        slack_points(fit.transmission, preload.deflection_low, preload.deflection_high)) {
     list.push_back({{"cable", fit.transmission.cables[point.cable].name},
@@ -33,23 +33,49 @@ Json slack_json(const ElasticPreload& preload, const ElasticFit& fit) {
   return list;
 }
 
+Json joint_errors_json(const ElasticJointErrors& errors) {
+  return Json{{"rms_error", errors.rms_error},
+              {"max_abs_error", errors.max_abs_error},
+              {"held_out_rms", errors.held_out_rms},
+              {"held_out_max", errors.held_out_max}};
+}
+
+Json joint_json(const ElasticJoint& joint) {
+  return Json{{"name", joint.name},
+              {"deflection_range", {joint.deflection_low, joint.deflection_high}},
+              {"peak_torque", joint.peak_torque},
+              {"loop_half_width", joint.loop_half_width},
+              {"both_branches", joint.both_branches},
+              {"weight", joint.weight},
+              {"counts", report_json::row_counts(joint.counts)}};
+}
+
+template <typename Item>
+Json list_of(const std::vector<Item>& items, Json (*to_json)(const Item&)) {
+  Json list = Json::array();
+  for (const Item& item : items) list.push_back(to_json(item));
+  return list;
+}
+
 Json fit_json(const ElasticPreload& preload, const ElasticFit& fit) {
-  return Json{{"model", fit.model},
-              {"order", fit.order},
-              {"parameters", report_json::parameters(fit.parameters)},
-              {"rms_error", fit.rms_error},
-              {"max_abs_error", fit.max_abs_error},
-              {"held_out_rms", fit.held_out_rms},
-              {"held_out_max", fit.held_out_max},
-              {"passive", fit.passive},
-              {"active_bounds", fit.active_bounds},
-              {"slack", slack_json(preload, fit)},
-              {"theta_0", report_json::per_joint(fit.transmission.encoder_zero())},
-              {"offset", fit.offset},
-              {"covariance", matrix_json(fit.covariance)},
-              {"effective_rows", fit.effective_rows},
-              {"condition", fit.condition},
-              {"warnings", fit.warnings}};
+  Json json{{"model", fit.model},
+            {"order", fit.order},
+            {"parameters", report_json::parameters(fit.parameters)},
+            {"rms_error", fit.rms_error},
+            {"max_abs_error", fit.max_abs_error},
+            {"held_out_rms", fit.held_out_rms},
+            {"held_out_max", fit.held_out_max},
+            {"passive", fit.passive},
+            {"active_bounds", fit.active_bounds},
+            {"slack", slack_json(preload, fit)},
+            {"theta_0", report_json::per_joint(fit.transmission.encoder_zero())},
+            {"offset", report_json::offset(fit)},
+            {"covariance", matrix_json(fit.covariance)},
+            {"effective_rows", fit.effective_rows},
+            {"condition", fit.condition},
+            {"warnings", fit.warnings}};
+  if (!fit.joints.empty()) json["joints"] = list_of(fit.joints, joint_errors_json);
+  return json;
 }
 
 Json preload_json(const ElasticPreload& preload) {
@@ -57,20 +83,22 @@ Json preload_json(const ElasticPreload& preload) {
   for (const ElasticFit& fit : preload.fits) fits.push_back(fit_json(preload, fit));
   Json counts = report_json::window_counts(preload.windows);
   counts["equations"]["blocked"] = report_json::row_counts(preload.counts);
-  return Json{{"name", preload.name},
-              {"rig", report_json::rig(preload.rig_path)},
-              {"linear_motion", preload.linear_motion},
-              {"deflection_range", {preload.deflection_low, preload.deflection_high}},
-              {"peak_torque", preload.peak_torque},
-              {"loop_half_width", preload.loop_half_width},
-              {"both_branches", preload.both_branches},
-              {"fits", fits},
-              {"selected", preload.selected},
-              {"passive", preload.find(preload.selected)->passive},
-              {"selection", preload.selection},
-              {"counts", counts},
-              {"decisions", report_json::decisions(preload.decisions)},
-              {"warnings", preload.warnings}};
+  Json json{{"name", preload.name},
+            {"rig", report_json::rig(preload.rig_path)},
+            {"linear_motion", preload.linear_motion},
+            {"deflection_range", {preload.deflection_low, preload.deflection_high}},
+            {"peak_torque", preload.peak_torque},
+            {"loop_half_width", preload.loop_half_width},
+            {"both_branches", preload.both_branches},
+            {"fits", fits},
+            {"selected", preload.selected},
+            {"passive", preload.find(preload.selected)->passive},
+            {"selection", preload.selection},
+            {"counts", counts},
+            {"decisions", report_json::decisions(preload.decisions)},
+            {"warnings", preload.warnings}};
+  if (!preload.joints.empty()) json["joints"] = list_of(preload.joints, joint_json);
+  return json;
 }
 
 }  // namespace

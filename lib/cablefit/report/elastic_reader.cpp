@@ -55,6 +55,11 @@ std::vector<Decision> read_decisions(const JsonNode& node) {
   return decisions;
 }
 
+RowCounts read_row_counts(const JsonNode& node) {
+  return {count(node, "rows_used"), count(node, "rows_at_rest"), count(node, "rows_not_used"),
+          count(node, "rows_at_edges")};
+}
+
 void read_counts(const JsonNode& node, ElasticPreload& preload) {
   const JsonNode* counts = node.find("counts");
   if (counts == nullptr) return;
@@ -63,11 +68,12 @@ void read_counts(const JsonNode& node, ElasticPreload& preload) {
   const JsonNode* equations = counts->find("equations");
   const JsonNode* blocked = equations == nullptr ? nullptr : equations->find("blocked");
   if (blocked == nullptr) return;
-  preload.counts = {count(*blocked, "rows_used"), count(*blocked, "rows_at_rest"),
-                    count(*blocked, "rows_not_used"), count(*blocked, "rows_at_edges")};
+  preload.counts = read_row_counts(*blocked);
 }
 
-void read_range(const JsonNode& node, ElasticPreload& preload) {
+/// Of a preload or of one of its joints.
+template <typename Deflected>
+void read_range(const JsonNode& node, Deflected& preload) {
   const JsonNode& range = node.at("deflection_range");
   const std::vector<double> ends = range.numbers();
   if (ends.size() != 2 || ends[0] > ends[1]) {
@@ -75,6 +81,26 @@ void read_range(const JsonNode& node, ElasticPreload& preload) {
   }
   preload.deflection_low = ends[0];
   preload.deflection_high = ends[1];
+}
+
+/// Of a rig of several joints, which has to have as many.
+void read_joints(const JsonNode& node, int n_joints, ElasticPreload& preload) {
+  if (n_joints == 1) return;
+  const JsonNode& list = node.at("joints");
+  if (static_cast<int>(list.items.size()) != n_joints)
+    throw list.error(fmt::format("{} joint(s), expected {}", list.items.size(), n_joints),
+                     "the rig has changed since; run `cablefit elastic` again");
+  for (const JsonNode& item : list.items) {
+    ElasticJoint& joint = preload.joints.emplace_back();
+    joint.name = item.at("name").text();
+    read_range(item, joint);
+    joint.peak_torque = number_or_nan(item, "peak_torque");
+    joint.loop_half_width = number_or_nan(item, "loop_half_width");
+    joint.weight = number_or_nan(item, "weight");
+    if (const JsonNode* branches = item.find("both_branches"))
+      joint.both_branches = branches->boolean();
+    if (const JsonNode* counts = item.find("counts")) joint.counts = read_row_counts(*counts);
+  }
 }
 
 void read_fits(const JsonNode& node, const Rig& rig, ElasticPreload& preload) {
@@ -94,6 +120,7 @@ ElasticPreload read_preload(const JsonNode& node) {
   preload.linear_motion = rig.linear_motion;
   preload.unit = rig.linear_motion ? "m" : "rad";
   read_range(node, preload);
+  read_joints(node, rig.n_joints(), preload);
   read_fits(node, rig, preload);
   preload.peak_torque = number_or_nan(node, "peak_torque");
   preload.loop_half_width = number_or_nan(node, "loop_half_width");

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cablefit/model/file/parts.hpp"
+#include "cablefit/model/model.hpp"
 
 namespace cablefit {
 namespace {
@@ -54,8 +55,11 @@ void take_transmission(const JsonNode& list, const Rig& rig, ElasticFit& fit) {
   fit.transmission = rig.transmission;
   if (fit.model == kLinear) {
     fit.transmission.cables.clear();
-    fit.transmission.linear_stiffness =
-        Eigen::VectorXd::Constant(rig.n_joints(), value_of(fit, "K", list));
+    const int n = rig.n_joints();
+    fit.transmission.linear_stiffness.resize(n);
+    for (int joint = 0; joint < n; ++joint)
+      fit.transmission.linear_stiffness(joint) =
+          value_of(fit, joint_parameter_name("K", joint + 1, n), list);
     return;
   }
   for (Cable& cable : fit.transmission.cables) take_cable(fit, list, rig.cables_given, cable);
@@ -110,6 +114,20 @@ int read_order(const JsonNode& node) {
 
 }  // namespace
 
+namespace {
+
+std::vector<ElasticJointErrors> read_joint_errors(const JsonNode& node) {
+  std::vector<ElasticJointErrors> joints;
+  const JsonNode* list = node.find("joints");
+  if (list == nullptr) return joints;
+  for (const JsonNode& item : list->items)
+    joints.push_back({number_or_nan(item, "rms_error"), number_or_nan(item, "max_abs_error"),
+                      number_or_nan(item, "held_out_rms"), number_or_nan(item, "held_out_max")});
+  return joints;
+}
+
+}  // namespace
+
 ElasticFit read_elastic_fit(const JsonNode& node, const Rig& rig) {
   ElasticFit fit;
   fit.model = node.at("model").text();
@@ -119,10 +137,12 @@ ElasticFit read_elastic_fit(const JsonNode& node, const Rig& rig) {
   take_transmission(list, rig, fit);
   take_theta_0(node, fit);
   fit.covariance = read_covariance(node.at("covariance"), n_coefficients(fit.transmission));
-  if (const JsonNode* offset = node.find("offset")) fit.offset = offset->number();
+  const JsonNode* offset = node.find("offset");
+  if (offset != nullptr && !offset->is_array()) fit.offset = offset->number();
   if (const JsonNode* passive = node.find("passive")) fit.passive = passive->boolean();
   if (const JsonNode* bounds = node.find("active_bounds")) fit.active_bounds = bounds->texts();
   if (const JsonNode* warnings = node.find("warnings")) fit.warnings = warnings->texts();
+  fit.joints = read_joint_errors(node);
   fit.rms_error = number_or_nan(node, "rms_error");
   fit.max_abs_error = number_or_nan(node, "max_abs_error");
   fit.held_out_rms = number_or_nan(node, "held_out_rms");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "cablefit/model/model.hpp"
 #include "cablefit/version.hpp"
 
 namespace cablefit::report_json {
@@ -107,6 +108,17 @@ Json row_counts(const RowCounts& counts) {
               {"rows_at_rest", counts.rows_at_rest},
               {"rows_not_used", counts.rows_not_used},
               {"rows_at_edges", counts.rows_at_edges}};
+}
+
+Json offset(const ElasticFit& fit) {
+  const int n = fit.transmission.n_joints;
+  if (n == 1) return fit.offset;
+  Json list = Json::array();
+  for (int joint = 1; joint <= n; ++joint) {
+    const Estimate* e = find_estimate(fit.parameters, joint_parameter_name("offset", joint, n));
+    list.push_back(e == nullptr ? Json() : Json(e->value));
+  }
+  return list;
 }
 
 Json rig(const std::string& path) { return path.empty() ? Json() : Json(path); }

@@ -24,6 +24,8 @@ Json row_counts(const RowCounts& counts);
 Json rig(const std::string& path);
 /// One number, or a list when there are several joints.
 Json per_joint(const Eigen::VectorXd& values);
+/// The drive's offset, or a list of several joints', null where there is none.
+Json offset(const ElasticFit& fit);
 
 /// Two blanks per level; whatever fits on a line stands on one. Numbers in the shortest form that
 /// reads back as the same bits; NaN and infinities are null, bytes that are no UTF-8 are replaced.

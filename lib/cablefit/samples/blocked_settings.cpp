@@ -21,10 +21,10 @@ constexpr double kSweepLag = 0.25;     // s over which a sweep's speed is measur
 // Speed of a slow sweep: the upper quartile of |theta(t + lag) - theta(t)| / lag, so that holds and
 // plateaus do not hide it, above what noise alone would show.
 double sweep_speed(std::span<const LogSurvey> logs, const PartFilter& wanted, Channel channel,
-                   double noise) {
+                   int joint, double noise) {
   std::vector<double> speeds;
   for (const PilotWindow& p : pilot_windows(logs, wanted, {}, 0, kSettingsWindows)) {
-    const int k = logs[p.log].plan.find(channel);
+    const int k = logs[p.log].plan.find(channel, joint);
     if (k < 0) continue;
     const auto theta = p.window.data.col(k);
     const auto lag =
@@ -41,12 +41,12 @@ double sweep_speed(std::span<const LogSurvey> logs, const PartFilter& wanted, Ch
 }
 
 /// A sweep that repeats faster than a tenth of the cut-off is not quasi-static.
-void warn_of_haste(std::span<const LogSurvey> logs, const PartFilter& wanted, double sweep,
-                   double cutoff, ChosenSettings& chosen) {
+void warn_of_haste(std::span<const LogSurvey> logs, const PartFilter& wanted, int joint,
+                   double sweep, double cutoff, ChosenSettings& chosen) {
   double range = 0;
   for (const LogSurvey& log : logs)
     for (const PartSurvey& part : log.parts) {
-      const int k = log.plan.find(Channel::theta);
+      const int k = log.plan.find(Channel::theta, joint);
       if (k >= 0 && wanted(part))
         range = std::max(range, part.channels[static_cast<std::size_t>(k)].range());
     }
@@ -84,12 +84,12 @@ void choose_rest_speed(ChosenSettings& chosen, const SampleOptions& options, dou
 }  // namespace
 
 ChosenSettings blocked_settings(std::span<const LogSurvey> logs, const PartFilter& wanted,
-                                const SampleOptions& options) {
+                                const SampleOptions& options, int joint) {
   const RateRange rates = sample_rates(logs, wanted);
   const double rate = rates.lowest;  // what the slowest log can carry, all others can
   ChosenSettings chosen = begin_settings(logs, wanted, options, rates);
-  const double noise = worst_noise(logs, wanted, Channel::theta);
-  const double sweep = sweep_speed(logs, wanted, Channel::theta, noise);
+  const double noise = worst_noise(logs, wanted, Channel::theta, joint);
+  const double sweep = sweep_speed(logs, wanted, Channel::theta, joint, noise);
   double& cutoff = chosen.rows.signal.cutoff;
   if (options.cutoff) {
     cutoff = *options.cutoff;
@@ -101,9 +101,10 @@ ChosenSettings blocked_settings(std::span<const LogSurvey> logs, const PartFilte
   choose_decimation(chosen, options, rate);
   choose_edges(chosen, options, rates.highest);
   const double band = cutoff > 0 ? cutoff : rate / 2;
-  const double noise_q = worst_noise(logs, wanted, Channel::q);
-  chosen.rest_speed_q = std::max(4 * velocity_noise(noise_q, band, rate),
-                                 kStillShare * sweep_speed(logs, wanted, Channel::q, noise_q));
+  const double noise_q = worst_noise(logs, wanted, Channel::q, joint);
+  chosen.rest_speed_q =
+      std::max(4 * velocity_noise(noise_q, band, rate),
+               kStillShare * sweep_speed(logs, wanted, Channel::q, joint, noise_q));
   if (cutoff > 0)
     chosen.rows.rest_margin = static_cast<Eigen::Index>(std::ceil(rate / (2 * cutoff)));
   choose_rest_speed(chosen, options, sweep, 4 * velocity_noise(noise, band, rate));
@@ -112,7 +113,7 @@ ChosenSettings blocked_settings(std::span<const LogSurvey> logs, const PartFilte
   chosen.rows.signal.torque_held = options.torque_hold.value_or(rig.torque_hold) == TorqueHold::zoh;
   chosen.rows.signal.torque_period = rig.torque_period;
   chosen.rows.signal.quasi_static = true;
-  warn_of_haste(logs, wanted, sweep, cutoff, chosen);
+  warn_of_haste(logs, wanted, joint, sweep, cutoff, chosen);
   return chosen;
 }
 

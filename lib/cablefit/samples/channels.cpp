@@ -180,19 +180,23 @@ void require_unchanged(const LogPlan& plan) {
 
 void require_channel(const LogPlan& plan, Channel channel, std::string_view why,
                      std::string_view hint) {
-  if (plan.has(channel)) return;
+  const int n = plan.rig.n_joints();
+  int missing = 0;
+  while (missing < n && plan.has(channel, missing)) ++missing;
+  if (missing == n) return;
+  std::string name(channel_name(channel));
+  if (n > 1) name += std::to_string(missing + 1);
   throw input_error(
       {plan.path, plan.header.columns.empty() ? 1 : plan.header.columns[0].place.line, 0},
-      fmt::format("missing column '{}', needed for {}", channel_name(channel), why),
+      fmt::format("missing column '{}', needed for {}", name, why),
       fmt::format("{}; columns are {}", hint, names_of(plan.header)));
 }
 
-void require_one_joint(const LogPlan& plan) {
+void require_one_joint(const LogPlan& plan, std::string_view what) {
   if (plan.rig.n_joints() == 1) return;
-  throw input_error(
-      {plan.rig.path, 0, 0},
-      fmt::format("the rig has {} joints, and fits are made for one", plan.rig.n_joints()),
-      "write one rig file per joint, with its own columns");
+  throw input_error({plan.rig.path, 0, 0},
+                    fmt::format("the rig has {} joints, and {}", plan.rig.n_joints(), what),
+                    "write one rig file per joint, with its own columns");
 }
 
 }  // namespace cablefit

@@ -70,11 +70,12 @@ auto undisturbed(const LogPlan& plan, Pass pass) {
 }
 
 /// Throws Error(input) "missing column 'q' ..." when the log lacks a channel the caller needs.
+/// With several joints: of every joint.
 void require_channel(const LogPlan& plan, Channel channel, std::string_view why,
                      std::string_view hint = "add it, or map it in a rig file");
 
-/// The fits handle one joint so far, although logs, rigs and models carry any number. Throws
-/// Error(input) for a rig with more.
-void require_one_joint(const LogPlan& plan);
+/// For what handles one joint only. Throws Error(input) for a rig with more; `what` may say what
+/// does not: "'--zero theta_0' is made for one".
+void require_one_joint(const LogPlan& plan, std::string_view what = "fits are made for one");
 
 }  // namespace cablefit

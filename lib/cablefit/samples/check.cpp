@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "cablefit/samples/signals.hpp"
 #include "cablefit/samples/speed_histogram.hpp"
@@ -22,46 +24,61 @@ std::string unit_of(Channel channel, bool linear_motion) {
   return linear_motion ? "m" : "rad";
 }
 
+/// "theta", or "theta2" of several joints.
+std::string indexed_name(Channel channel, int joint, const Rig& rig) {
+  std::string name(channel_name(channel));
+  if (rig.n_joints() > 1) name += std::to_string(joint + 1);
+  return name;
+}
+
 std::vector<CheckedChannel> channels_of(const LogSurvey& log, const PartSurvey& part) {
   std::vector<CheckedChannel> channels;
   const Rig& rig = log.plan.rig;
   for (std::size_t k = 0; k < log.plan.slots.size(); ++k) {
     const Slot& slot = log.plan.slots[k];
-    std::string name(channel_name(slot.channel));
-    if (rig.n_joints() > 1) name += std::to_string(slot.joint + 1);
+    const std::string name = indexed_name(slot.channel, slot.joint, rig);
     const std::string unit = unit_of(slot.channel, rig.linear_motion);
     channels.push_back({name, unit, unit == "rad", part.channels[k]});
   }
   return channels;
 }
 
-const Eigen::ArrayXd& speed_of(const Signals& signals, const std::string& channel) {
-  return channel == "q" ? signals.joints[0].qd : signals.joints[0].thetad;
+/// The channel that tells best how one joint moves.
+std::optional<Channel> motion_channel(const LogPlan& plan, int joint) {
+  std::optional<Channel> best;
+  for (const Channel channel : {Channel::q, Channel::w, Channel::theta}) {
+    if (plan.has(channel, joint)) best = channel;
+  }
+  return best;
 }
 
-Excitation excitation_of(const LogSurvey& log, const PartSurvey& part,
-                         const SampleOptions& options) {
+const Eigen::ArrayXd& speed_of(const JointSignals& signals, Channel channel) {
+  return channel == Channel::q ? signals.qd : signals.thetad;
+}
+
+Excitation excitation_of(const LogSurvey& log, const PartSurvey& part, const SampleOptions& options,
+                         int joint) {
   Excitation excitation;
-  for (const Channel channel : {Channel::q, Channel::w, Channel::theta}) {
-    if (log.plan.has(channel)) excitation.channel = channel_name(channel);
-  }
-  if (excitation.channel.empty()) return excitation;
+  const std::optional<Channel> channel = motion_channel(log.plan, joint);
+  if (!channel) return excitation;
+  excitation.channel = indexed_name(*channel, joint, log.plan.rig);
   const PartFilter wanted = [&part](const PartSurvey& other) {
     return other.preload == part.preload && other.run == part.run && other.phase == part.phase &&
            other.t_first == part.t_first;
   };
   const std::span<const LogSurvey> one(&log, 1);
   const ChosenSettings chosen = part.phase == Phase::blocked
-                                    ? blocked_settings(one, wanted, options)
-                                    : moving_settings(one, wanted, options, 0);
+                                    ? blocked_settings(one, wanted, options, joint)
+                                    : moving_settings(one, wanted, options, 0, joint);
   const SignalSettings& settings = chosen.rows.signal;
-  excitation.rest_speed = excitation.channel == "q" ? chosen.rest_speed_q : chosen.rest_speed_theta;
+  excitation.rest_speed = *channel == Channel::q ? chosen.rest_speed_q : chosen.rest_speed_theta;
   SpeedHistogram histogram;
   double n = 0, n_at_rest = 0;
   for_each_window(log, wanted, signal_halo(settings, 1 / part.period), 2 * kDifferenceEdge + 2,
                   bridge_seconds(settings), [&](Window&& window) {
                     const Signals signals = make_signals(window, log.plan, settings);
-                    const Eigen::ArrayXd& speed = speed_of(signals, excitation.channel);
+                    const Eigen::ArrayXd& speed =
+                        speed_of(signals.joints[static_cast<std::size_t>(joint)], *channel);
                     for (Eigen::Index i = window.begin; i < window.end; ++i) {
                       const double v = std::abs(speed(i - window.first));
                       n += 1;
@@ -76,7 +93,34 @@ Excitation excitation_of(const LogSurvey& log, const PartSurvey& part,
   return excitation;
 }
 
+/// Of several joints the one that moves least: what it lacks, the log lacks.
+Excitation least_excitation(const LogSurvey& log, const PartSurvey& part,
+                            const SampleOptions& options) {
+  Excitation least = excitation_of(log, part, options, 0);
+  for (int joint = 1; joint < log.plan.rig.n_joints(); ++joint) {
+    Excitation other = excitation_of(log, part, options, joint);
+    const bool rests_more = other.share_at_rest > least.share_at_rest;
+    if (least.channel.empty() || (!other.channel.empty() && rests_more)) least = std::move(other);
+  }
+  return least;
+}
+
+/// What several joints are good for: every joint needs every channel.
+std::vector<std::string> identified_by_joints(const LogPlan& plan, const PartSurvey& part) {
+  bool all_move = true;
+  for (int joint = 0; joint < plan.rig.n_joints(); ++joint) {
+    for (const Channel channel : {Channel::q, Channel::theta, Channel::tau})
+      if (!plan.has(channel, joint)) return {};
+    const Channel moving = part.phase == Phase::blocked ? Channel::theta : Channel::q;
+    const auto k = static_cast<std::size_t>(plan.find(moving, joint));
+    all_move = all_move && part.channels[k].range() > 0;
+  }
+  if (!all_move) return {};
+  return {part.phase == Phase::blocked ? "elastic" : "dynamic"};
+}
+
 std::vector<std::string> identified_by(const LogPlan& plan, const PartSurvey& part) {
+  if (plan.rig.n_joints() > 1) return identified_by_joints(plan, part);
   const bool q = plan.has(Channel::q), theta = plan.has(Channel::theta);
   const bool tau = plan.has(Channel::tau);
   const auto moves = [&](Channel channel) {
@@ -139,7 +183,7 @@ CheckedPart check_part(const LogSurvey& log, const PartSurvey& survey,
   CheckedPart part;
   part.survey = survey;
   part.channels = channels_of(log, survey);
-  part.excitation = excitation_of(log, survey, options);
+  part.excitation = least_excitation(log, survey, options);
   part.identifies = identified_by(log.plan, survey);
   note_channels(part);
   note_motion(log.plan, part);

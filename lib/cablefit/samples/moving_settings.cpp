@@ -24,7 +24,8 @@ constexpr double kLowestCutoff = 1;    // Hz
 double rest_speed(std::span<const LogSurvey> logs, const PartFilter& wanted,
                   const RowSettings& rows, PilotMotion& motion, Channel channel, double rate) {
   const double band = rows.signal.cutoff > 0 ? rows.signal.cutoff : rate / 2;
-  const double noise = velocity_noise(worst_noise(logs, wanted, channel), band, rate);
+  const double noise =
+      velocity_noise(worst_noise(logs, wanted, channel, motion.joint()), band, rate);
   const double blur = motion.acceleration(rows.signal, channel) / (2 * std::numbers::pi * band);
   return std::max(4 * noise, blur);
 }
@@ -54,7 +55,7 @@ void choose_rest_speed(ChosenSettings& chosen, std::span<const LogSurvey> logs,
 double quiet_cutoff(std::span<const LogSurvey> logs, const PartFilter& wanted,
                     const RowSettings& rows, PilotMotion& motion, Channel channel, double cutoff,
                     double rate) {
-  const double noise = worst_noise(logs, wanted, channel);
+  const double noise = worst_noise(logs, wanted, channel, motion.joint());
   RowSettings trial = rows;
   for (;; cutoff *= 0.8) {
     trial.signal.cutoff = cutoff;
@@ -71,7 +72,7 @@ void choose_link_cutoff(ChosenSettings& chosen, std::span<const LogSurvey> logs,
                         const PartFilter& wanted, const SampleOptions& options, PilotMotion& motion,
                         double rate) {
   chosen.cutoff_q = chosen.rows.signal.cutoff;
-  if (options.cutoff || !first_log_with(logs, wanted).plan.has(Channel::q)) return;
+  if (options.cutoff || !first_log_with(logs, wanted).plan.has(Channel::q, motion.joint())) return;
   chosen.cutoff_q =
       quiet_cutoff(logs, wanted, chosen.rows, motion, Channel::q, chosen.cutoff_q, rate);
   chosen.rows.lowest_cutoff = chosen.cutoff_q;
@@ -112,11 +113,11 @@ void choose_moving_cutoff(ChosenSettings& chosen, std::span<const LogSurvey> log
 }  // namespace
 
 ChosenSettings moving_settings(std::span<const LogSurvey> logs, const PartFilter& wanted,
-                               const SampleOptions& options, double resonance) {
+                               const SampleOptions& options, double resonance, int joint) {
   const RateRange rates = sample_rates(logs, wanted);
   const double rate = rates.lowest;  // what the slowest log can carry, all others can
   ChosenSettings chosen = begin_settings(logs, wanted, options, rates);
-  PilotMotion motion(logs, wanted);
+  PilotMotion motion(logs, wanted, joint);
   choose_moving_cutoff(chosen, logs, wanted, options, motion, resonance, rate);
   choose_decimation(chosen, options, rate);
   choose_edges(chosen, options, rates.highest);

@@ -9,8 +9,11 @@ namespace cablefit {
 double position_noise(const LogSurvey& log, const PartSurvey& part, Channel channel, int joint) {
   const int k = log.plan.find(channel, joint);
   if (k < 0) return 0;
-  const auto sensor = log.plan.rig.sensors.find(std::string(channel_name(channel)));
-  if (sensor != log.plan.rig.sensors.end()) {
+  const Rig& rig = log.plan.rig;
+  const std::string name(channel_name(channel));
+  const auto sensor =
+      rig.sensors.find(rig.n_joints() > 1 ? name + std::to_string(joint + 1) : name);
+  if (sensor != rig.sensors.end()) {
     const double quantum = sensor->second.quantum.value_or(0) / std::sqrt(12.0);
     const double noise = sensor->second.noise.value_or(0);
     if (quantum > 0 || noise > 0) return std::hypot(quantum, noise);

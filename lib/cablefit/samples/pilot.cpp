@@ -22,8 +22,11 @@ std::vector<PilotWindow> pilot_windows(std::span<const LogSurvey> logs, const Pa
   return pilot;
 }
 
-PilotMotion::PilotMotion(std::span<const LogSurvey> logs, const PartFilter& wanted)
-    : logs_(logs), wanted_(wanted), rate_(sample_rates(logs, wanted).highest) {}
+PilotMotion::PilotMotion(std::span<const LogSurvey> logs, const PartFilter& wanted, int joint)
+    : logs_(logs),
+      wanted_(wanted),
+      joint_(static_cast<std::size_t>(joint)),
+      rate_(sample_rates(logs, wanted).highest) {}
 
 double PilotMotion::acceleration(const SignalSettings& settings, Channel channel) {
   auto found = known_.find(settings.cutoff);
@@ -50,8 +53,8 @@ PilotMotion::Accelerations PilotMotion::measure(const SignalSettings& settings) 
   for (const PilotWindow& p :
        pilot_windows(logs_, wanted_, settings, signal_halo(settings, rate_), kSettingsWindows)) {
     const Signals signals = make_signals(p.window, logs_[p.log].plan, settings);
-    found.q.add(signals.joints[0].qdd, p.window);
-    found.theta.add(signals.joints[0].thetadd, p.window);
+    found.q.add(signals.joints[joint_].qdd, p.window);
+    found.theta.add(signals.joints[joint_].thetadd, p.window);
   }
   return found;
 }

@@ -24,9 +24,10 @@ inline constexpr int kSettingsWindows = 4;
 /// Accelerations over the first windows, by cut-off.
 class PilotMotion {
  public:
-  /// Both must outlive this.
-  PilotMotion(std::span<const LogSurvey> logs, const PartFilter& wanted);
+  /// Both must outlive this. `joint`: whose motion, from 0.
+  PilotMotion(std::span<const LogSurvey> logs, const PartFilter& wanted, int joint = 0);
 
+  int joint() const { return static_cast<int>(joint_); }
   /// Root mean square of qdd or thetadd, rad/s^2; 0 when the logs do not have it.
   double acceleration(const SignalSettings& settings, Channel channel);
 
@@ -44,6 +45,7 @@ class PilotMotion {
 
   std::span<const LogSurvey> logs_;
   const PartFilter& wanted_;
+  std::size_t joint_;
   double rate_;
   std::map<double, Accelerations> known_;
 };

@@ -154,7 +154,8 @@ void RowCounts::operator+=(const RowCounts& other) {
 Eigen::Index row_halo(const RowSettings& settings, double rate) {
   const Eigen::Index averaging = 1;
   const int step = thinning_step(settings.signal, settings.decimate, rate);
-  const RowSettings thin = thinned(settings, step, 1 / rate);
+  RowSettings thin = thinned(settings, step, 1 / rate);
+  if (settings.halo_cutoff > 0) thin.signal.cutoff = settings.halo_cutoff;
   const Eigen::Index needed =
       thinning_reach(step) + step * (signal_halo(thin.signal, rate / step) + averaging +
                                      Decimation(thin.decimate).half_width() + thin.rest_margin +

@@ -37,12 +37,14 @@ struct ChosenSettings {
 };
 
 /// Quasi-static stage 1: a low cut-off, rest dropped. `rest_speed_q` is the speed below which a
-/// link counts as standing still: 5 % of its upper quartile, at least 4 sd of its noise.
+/// link counts as standing still: 5 % of its upper quartile, at least 4 sd of its noise. `joint`
+/// (from 0): whose sweep decides; of the settings only the rest speeds depend on it.
 ChosenSettings blocked_settings(std::span<const LogSurvey> logs, const PartFilter& wanted,
-                                const SampleOptions& options);
+                                const SampleOptions& options, int joint = 0);
 
-/// Stage 2. `resonance`: f0 of the elastic fit in Hz, or 0 for a rigid drive.
+/// Stage 2. `resonance`: f0 of the elastic fit in Hz, or 0 for a rigid drive; `joint` (from 0):
+/// whose motion decides.
 ChosenSettings moving_settings(std::span<const LogSurvey> logs, const PartFilter& wanted,
-                               const SampleOptions& options, double resonance);
+                               const SampleOptions& options, double resonance, int joint = 0);
 
 }  // namespace cablefit

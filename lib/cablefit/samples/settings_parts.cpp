@@ -46,11 +46,12 @@ void choose_filter_order(ChosenSettings& chosen, const SampleOptions& options) {
 
 }  // namespace
 
-double worst_noise(std::span<const LogSurvey> logs, const PartFilter& wanted, Channel channel) {
+double worst_noise(std::span<const LogSurvey> logs, const PartFilter& wanted, Channel channel,
+                   int joint) {
   double worst = 0;
   for (const LogSurvey& log : logs)
     for (const PartSurvey& part : log.parts)
-      if (wanted(part)) worst = std::max(worst, position_noise(log, part, channel));
+      if (wanted(part)) worst = std::max(worst, position_noise(log, part, channel, joint));
   return worst;
 }
 

@@ -11,7 +11,8 @@ inline constexpr double kMaxShareOfRate = 0.2;  // beyond it a five-point differ
 inline constexpr const char* kByOption = "given";
 
 /// Worst position_noise() of the parts wanted.
-double worst_noise(std::span<const LogSurvey> logs, const PartFilter& wanted, Channel channel);
+double worst_noise(std::span<const LogSurvey> logs, const PartFilter& wanted, Channel channel,
+                   int joint);
 
 void decide(ChosenSettings& chosen, std::string name, std::string value, std::string reason);
 

@@ -29,11 +29,15 @@ Error absurd_value(const LogPlan& plan, const Slot& slot, double value, std::uin
 Phase phase_of(const PartTracker::Key& key, const PartSurvey& part, const LogPlan& plan) {
   if (key.phase == "blocked") return Phase::blocked;
   if (key.phase == "moving") return Phase::moving;
-  const int q = plan.find(Channel::q);
-  const int theta = plan.find(Channel::theta);
-  if (q < 0 || theta < 0) return Phase::moving;
-  const double moved = part.channels[static_cast<std::size_t>(q)].range();
-  const double reference = part.channels[static_cast<std::size_t>(theta)].range();
+  // Of several joints one motor may sweep while the others rest, and all links have to stand.
+  double moved = 0, reference = 0;
+  for (int joint = 0; joint < plan.rig.n_joints(); ++joint) {
+    const int q = plan.find(Channel::q, joint);
+    const int theta = plan.find(Channel::theta, joint);
+    if (q < 0 || theta < 0) return Phase::moving;
+    moved = std::max(moved, part.channels[static_cast<std::size_t>(q)].range());
+    reference = std::max(reference, part.channels[static_cast<std::size_t>(theta)].range());
+  }
   return moved <= kStillShare * reference ? Phase::blocked : Phase::moving;
 }
 

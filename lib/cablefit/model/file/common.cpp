@@ -120,6 +120,12 @@ Rig read_rig_reference(const JsonNode* node) {
   return read_rig(path.string());
 }
 
+void require_own_inertias(const Rig& rig, const JsonNode& node) {
+  if (!rig.arm.is_coupled()) return;
+  throw node.error(fmt::format("the links of a {} arm cannot be simulated", rig.arm.kind->name),
+                   "only joints whose links do not move each other can so far");
+}
+
 void require_inertia(const Model& model, const JsonNode& node) {
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
     const JointModel& joint = model.joints[k];

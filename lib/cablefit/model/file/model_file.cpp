@@ -89,6 +89,7 @@ Model read_model_file(const JsonNode& root, const Wanted& wanted, std::string* c
   root.allow_only({"schema", "name", "preload", "rig", "joints", "transmission", "elastic"});
   Model model;
   model.rig = read_rig_reference(root.find("rig"));
+  require_own_inertias(model.rig, root);
   model.preload = text_or(root, "preload", model.rig.preload);
   read_joints(root.at("joints"), &model);
   if (model.rigid) {

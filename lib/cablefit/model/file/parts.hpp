@@ -43,6 +43,9 @@ void read_transmission(const JsonNode& node, Model* model);
 /// there is none, to the current folder. Null or missing: the default rig.
 Rig read_rig_reference(const JsonNode* node);
 
+/// Throws Error(input) where links move each other: an axis that is simulated has an inertia of its
+/// own.
+void require_own_inertias(const Rig& rig, const JsonNode& node);
 /// Throws at `place` unless every axis carries a positive inertia.
 void require_inertia(const Model& model, const JsonNode& node);
 

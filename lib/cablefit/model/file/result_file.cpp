@@ -174,6 +174,7 @@ Model read_result_file(const JsonNode& root, const Wanted& wanted, std::string* 
   model.name = fit.at("model").text();
   model.preload = preload.at("name").text();
   model.rig = read_rig_reference(preload.find("rig"));
+  require_own_inertias(model.rig, preload);
   take_torque_hold(preload, &model.rig);
   FitParameters parameters(fit);
   take_joints(&parameters, &model);

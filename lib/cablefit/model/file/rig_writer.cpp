@@ -32,6 +32,14 @@ Json controller_json(const Controller& controller) {
   return json;
 }
 
+Json arm_json(const Arm& arm) {
+  Json json{{"type", arm.kind->name}};
+  for (const auto& [key, value] : arm.kind->entries(arm.parameters)) {
+    std::visit([&, name = std::string(key)](const auto& v) { json[name] = v; }, value);
+  }
+  return json;
+}
+
 Json sensor_json(const SensorInfo& sensor) {
   Json json = Json::object();
   if (sensor.quantum) json["quantum"] = *sensor.quantum;
@@ -97,6 +105,7 @@ Json rig_json(const Rig& rig) {
   if (rig.torque_hold != TorqueHold::automatic) json["torque_hold"] = name_of(rig.torque_hold);
   if (rig.torque_period > 0) json["torque_period"] = rig.torque_period;
   if (rig.load.law) json["load"] = load_json(rig.load);
+  if (rig.arm.kind) json["arm"] = arm_json(rig.arm);
   if (rig.controller) json["controller"] = controller_json(*rig.controller);
   add_map(&json, "sensors", rig.sensors, sensor_json);
   add_map(&json, "cad", rig.cad, [](double value) { return value; });

@@ -1,4 +1,4 @@
-// "load", "controller" and "cad": what stands around the transmission.
+// "load", "arm", "controller" and "cad": what stands around the transmission.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -17,6 +17,8 @@ std::vector<std::string> parameter_names(const Rig& rig) {
   for (const Effect& effect : effects()) {
     for (const ParameterInfo& parameter : effect.parameters) names.emplace_back(parameter.name);
   }
+  for (const ParameterInfo& parameter : rig.arm.base_parameters())
+    names.emplace_back(parameter.name);
   for (const Cable& cable : rig.transmission.cables) {
     for (int j = 0; j < cable.n_coefficients(); ++j) {
       names.push_back(coefficient_name(cable, j, rig.cables_given));
@@ -51,6 +53,17 @@ Load read_load(const JsonNode& node, int n_joints, bool linear_motion) {
                      "its weight is a force: use {\"type\": \"constant\", \"torque\": N}");
   }
   return load;
+}
+
+Arm read_arm(const JsonNode& node, const Rig& rig) {
+  const JsonNode& type = node.at("type");
+  Arm arm;
+  arm.kind = at_place_of(type, [&] { return &find_arm_kind(type.text()); });
+  arm.parameters = arm.kind->read(node, rig.n_joints());
+  if (rig.linear_motion && arm.is_coupled())
+    throw type.error(fmt::format("arm '{}' on linear axes", arm.kind->name),
+                     "its joints turn: leave out \"motion\": \"linear\"");
+  return arm;
 }
 
 Controller read_controller(const JsonNode& node) {

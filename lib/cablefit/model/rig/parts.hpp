@@ -16,6 +16,8 @@ void read_cables(const JsonNode& node, Rig* rig);
 ReferencePose read_reference(const JsonNode& node, int n_joints);
 /// "load": a law of q (one joint) or a column.
 Load read_load(const JsonNode& node, int n_joints, bool linear_motion);
+/// "arm": how the links move each other; needs the joints.
+Arm read_arm(const JsonNode& node, const Rig& rig);
 /// "controller".
 Controller read_controller(const JsonNode& node);
 /// "sensors": resolution and noise per numeric channel.

@@ -1,0 +1,174 @@
+#include "cablefit/elastic/joints_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/elastic/elastic_checks.hpp"
+#include "cablefit/elastic/elastic_estimates.hpp"
+#include "cablefit/elastic/elastic_figures.hpp"
+#include "cablefit/elastic/model_errors.hpp"
+#include "cablefit/elastic/preload_checks.hpp"
+#include "cablefit/model/model.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr double kArbitraryZero = 0.05;  // of the torque's spread: a larger offset is told
+constexpr double kLeastVariance =
+    1e-12;  // of the torque's mean square: residuals that are rounding
+
+/// One preload on the way to a result.
+struct Stage1 {
+  ElasticJob job;
+  std::vector<BlockedRows> joints;
+  BlockedRows all;  ///< of all joints, weighted
+  std::vector<Nuisance> nuisance;
+
+  int n_joints() const { return job.basis.n_joints; }
+};
+
+void look_at_branches(Stage1& stage, int joint, ElasticPreload& preload) {
+  const auto k = static_cast<std::size_t>(joint);
+  Nuisance& nuisance = stage.nuisance[k];
+  nuisance.branches = has_both_branches(stage.joints[k], joint);
+  nuisance.speed = nuisance.branches && speed_tells_more(stage.joints[k], joint);
+  preload.joints[k].both_branches = nuisance.branches;
+  preload.both_branches = preload.both_branches && nuisance.branches;
+  if (!nuisance.branches)
+    preload.warnings.push_back(fmt::format(
+        "theta{0} moves in one direction only: the static friction of motor {0} cannot be told "
+        "from the elastic torque; stiffness and offset[{0}] may be off by it, f_sm[{0}] is not "
+        "estimated; sweep up and down",
+        joint + 1));
+}
+
+/// Variance of what the cables leave of one joint's torque when fitted to that joint alone.
+double own_variance(const Stage1& stage, const BlockedRows& rows) {
+  const int order =
+      stage.job.options.order > 0 ? stage.job.options.order : stage.job.options.max_order;
+  const LinearSolution s =
+      solve_plain(rows, poly_candidate(stage.job, rows, order, stage.nuisance));
+  const auto n = static_cast<double>(s.n_rows);
+  const double least = kLeastVariance * rows.rows->r().col(rows.columns.tau).squaredNorm() / n;
+  return std::max(s.rss / std::max(1.0, n - s.n_params), least);
+}
+
+/// 1/variance of every joint, scaled so that weighted residuals are as large as plain ones.
+std::vector<double> weights_of(const Stage1& stage) {
+  std::vector<double> weights;
+  double total = 0, rows = 0;
+  for (const BlockedRows& joint : stage.joints) {
+    const double variance = own_variance(stage, joint);
+    weights.push_back(variance > 0 ? 1 / variance : 1);
+    total += weights.back() * static_cast<double>(joint.rows->n_rows());
+    rows += static_cast<double>(joint.rows->n_rows());
+  }
+  for (double& weight : weights) weight *= rows / total;
+  return weights;
+}
+
+void collect_rows(Stage1& stage, ElasticPreload& preload) {
+  stage.joints = collect_joints(stage.job, 0, nullptr);
+  stage.nuisance.resize(stage.joints.size());
+  for (int joint = 0; joint < stage.n_joints(); ++joint) {
+    const BlockedRows& rows = stage.joints[static_cast<std::size_t>(joint)];
+    require_rows(rows, stage.job, preload.name, joint);
+    ElasticJoint& told = preload.joints.emplace_back();
+    told.name = stage.job.rig().joints[static_cast<std::size_t>(joint)];
+    told.counts = rows.counts;
+    told.deflection_low = rows.deflection_low;
+    told.deflection_high = rows.deflection_high;
+    look_at_branches(stage, joint, preload);
+  }
+  const std::vector<double> weights = weights_of(stage);
+  stage.all = stack(stage.joints, weights);
+  for (std::size_t k = 0; k < weights.size(); ++k) preload.joints[k].weight = weights[k];
+  preload.counts = stage.all.counts;
+  preload.windows = stage.all.windows;
+  preload.deflection_low = stage.all.deflection_low;
+  preload.deflection_high = stage.all.deflection_high;
+}
+
+double offset_of(const ElasticFit& fit, int joint, int n_joints) {
+  const Estimate* e =
+      find_estimate(fit.parameters, joint_parameter_name("offset", joint + 1, n_joints));
+  return e != nullptr && e->not_identifiable.empty() ? e->value : 0;
+}
+
+/// An encoder's zero is not looked for here; what looks like one is told.
+void note_zero(const Stage1& stage, int joint, ElasticPreload& preload) {
+  const BlockedRows& rows = stage.joints[static_cast<std::size_t>(joint)];
+  const BlockedColumns c = rows.columns.of_joint(joint);
+  const double offset = offset_of(preload.fits.back(), joint, stage.n_joints());
+  const auto& r = rows.rows->r();
+  const double spread = (r.col(c.tau) - offset * r.col(c.offset)).norm() /
+                        std::sqrt(static_cast<double>(rows.rows->n_rows()));
+  if (std::abs(offset) > kArbitraryZero * std::sqrt(2.0) * spread)
+    preload.warnings.push_back(fmt::format(
+        "joint {}: the torque is {:.3g} {} at zero deflection; if that is an encoder's arbitrary "
+        "zero and no offset of the drive, set it right in the rig file (\"shift\" of theta{}): "
+        "with several joints theta_0 is not estimated",
+        joint + 1, offset, preload.linear_motion ? "N" : "N m", joint + 1));
+}
+
+void note_joints(const Stage1& stage, ElasticPreload& preload) {
+  const ElasticFit& best = *preload.find(preload.selected);
+  for (int joint = 0; joint < stage.n_joints(); ++joint) {
+    const auto k = static_cast<std::size_t>(joint);
+    ElasticJoint& told = preload.joints[k];
+    const Estimate* friction =
+        find_estimate(best.parameters, joint_parameter_name("f_sm", joint + 1, stage.n_joints()));
+    told.loop_half_width =
+        friction != nullptr && friction->not_identifiable.empty() ? friction->value : 0;
+    preload.loop_half_width = std::max(preload.loop_half_width, told.loop_half_width);
+    const LoopSeen loop{told.loop_half_width, told.peak_torque, best.joints[k].rms_error,
+                        stage.joints[k].plateaus};
+    for (const std::string& warning : loop_warnings(loop, preload.linear_motion))
+      preload.warnings.push_back(fmt::format("joint {}: {}", joint + 1, warning));
+    note_zero(stage, joint, preload);
+  }
+}
+
+void draw(const Stage1& stage, const std::vector<Candidate>& candidates,
+          const std::vector<LinearSolution>& solutions, ElasticPreload& preload) {
+  for (int joint = 0; joint < stage.n_joints(); ++joint)
+    for (Figure& figure : elastic_figures(stage.job, stage.joints[static_cast<std::size_t>(joint)],
+                                          joint, candidates, solutions, preload))
+      preload.figures.push_back(std::move(figure));
+}
+
+}  // namespace
+
+ElasticPreload fit_joints(ElasticJob job, const std::string& name) {
+  ElasticPreload preload = begin_preload(job, name);
+  require_motion(job);
+  Stage1 stage{std::move(job), {}, {}, {}};
+  collect_rows(stage, preload);
+  int order = std::max(1, stage.job.options.order);
+  if (stage.job.options.order == 0 && !stage.job.orders_given)
+    order = choose_order(stage.job, stage.all, stage.nuisance, preload.selection);
+  const std::vector<Candidate> candidates = {
+      linear_candidate(stage.all, stage.nuisance),
+      poly_candidate(stage.job, stage.all, order, stage.nuisance)};
+  std::vector<LinearSolution> solutions;
+  const std::vector<double> longest =
+      longest_elongations(stage.all, candidates.back().transmission);
+  for (const Candidate& candidate : candidates) {
+    solutions.push_back(solve_candidate(stage.all, candidate));
+    ElasticFit& fit = preload.fits.emplace_back(
+        make_fit(stage.job, candidate, solutions.back(), stage.all, stage.nuisance));
+    for (int joint = 0; joint < stage.n_joints(); ++joint)
+      if (!stage.nuisance[static_cast<std::size_t>(joint)].branches)
+        fit.parameters.push_back(missing_friction(stage.job, joint));
+    check_passive(fit, longest, {stage.job.rig().cables_given, preload.linear_motion});
+  }
+  measure_joint_errors(stage.joints, stage.all, candidates, solutions, preload);
+  select_joint_model(preload, stage.job.options.materiality);
+  note_joints(stage, preload);
+  if (stage.job.options.figures) draw(stage, candidates, solutions, preload);
+  return preload;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,181 @@
+// Results of several joints: written, read back, used, and what is refused of them.
+#include <algorithm>
+#include <set>
+
+#include "cablefit/base/json_document.hpp"
+#include "cablefit/model/model.hpp"
+#include "cablefit/report/dynamic_document.hpp"
+#include "cablefit/report/dynamic_json.hpp"
+#include "cablefit/report/elastic_document.hpp"
+#include "cablefit/report/elastic_json.hpp"
+#include "cablefit/report/elastic_reader.hpp"
+#include "tests/report/schema.hpp"
+#include "tests/support/message.hpp"
+#include "tests/support/plain_rigs.hpp"
+#include "tests/support/recover.hpp"
+
+namespace cablefit::test {
+namespace {
+
+/// Logs of two joints with three coupled cables.
+class TwoJoints {
+ public:
+  explicit TwoJoints(const std::string& more = "") {
+    const PlainRig plain = three_coupled_cables();
+    bench.rig = read_rig(bench.folder().write("rig.json", rig_text(plain, more)));
+    bench.add_text(blocked_log(plain, {0.1, 0.1}, 60, 81));
+    bench.add_text(moving_log(plain, 6, 82));
+  }
+  Bench bench;
+};
+
+DynamicOptions both_models() {
+  DynamicOptions options;
+  options.models = {"linear", "poly"};
+  return options;
+}
+
+TEST_CASE("results of several joints are read back as they were") {
+  const TwoJoints two;
+  ElasticOptions with_figures;
+  with_figures.figures = true;
+  const ElasticResult elastic = fit_elastic(two.bench.logs(), with_figures);
+  const std::string text = elastic_json(elastic);
+  CHECK(schema_errors("elastic", text) == "");
+  const ElasticResult back = parse_elastic_result(parse_json(text, "elastic.json"));
+  const ElasticPreload &was = elastic.preloads.at(0), &is = back.preloads.at(0);
+  REQUIRE(is.joints.size() == 2);
+  for (std::size_t j = 0; j < 2; ++j) {
+    CHECK(is.joints[j].name == was.joints[j].name);
+    CHECK(is.joints[j].deflection_low == was.joints[j].deflection_low);
+    CHECK(is.joints[j].deflection_high == was.joints[j].deflection_high);
+    CHECK(is.joints[j].peak_torque == was.joints[j].peak_torque);
+    CHECK(is.joints[j].loop_half_width == was.joints[j].loop_half_width);
+    CHECK(is.joints[j].weight == was.joints[j].weight);
+    CHECK(is.joints[j].counts.rows_used == was.joints[j].counts.rows_used);
+  }
+  CHECK(elastic_json(back) == text);
+
+  const DynamicResult dynamic = fit_dynamic(two.bench.logs(), elastic, both_models());
+  const std::string result = dynamic_json(dynamic);
+  CHECK(schema_errors("dynamic", result) == "");
+  // Stage 2 from the file is stage 2 from memory.
+  CHECK(dynamic_json(fit_dynamic(two.bench.logs(), back, both_models())) == result);
+
+  // Both models as stage 1 reads them, and the one that fits as the simulation does.
+  std::string choice;
+  const Model model = parse_model(parse_json(result, "dynamic.json"), "", "poly", choice);
+  const auto motor_torques_of = [](const Transmission& transmission) {
+    Eigen::VectorXd link, motor;
+    transmission.torques(Eigen::Vector2d(0.1, -0.05), Eigen::Vector2d(0.13, -0.01), link, motor);
+    return motor;
+  };
+  for (const char* name : {"linear", "poly"})
+    CHECK(motor_torques_of(was.find(name)->transmission) ==
+          motor_torques_of(is.find(name)->transmission));
+  CHECK(motor_torques_of(model.transmission) == motor_torques_of(was.find("poly")->transmission));
+  REQUIRE(model.joints.size() == 2);
+  CHECK(model.joints[1].link.front().parameters.front().value ==
+        estimate(dynamic.preloads.at(0).fits.at(1).parameters, "J_link[2]").value);
+}
+
+TEST_CASE("reports of several joints have a row and figures per joint") {
+  const TwoJoints two;
+  ElasticOptions options;
+  options.figures = true;
+  const ElasticResult elastic = fit_elastic(two.bench.logs(), options);
+  const Document document = elastic_document(elastic);
+  const auto fits = std::find_if(document.tables.begin(), document.tables.end(),
+                                 [](const Table& table) { return table.title == "Fits"; });
+  REQUIRE(fits != document.tables.end());
+  CHECK(fits->columns.at(2).title == "joint");
+  REQUIRE(fits->rows.size() == 4);  // two models, two joints
+  CHECK(fits->rows.at(3).at(2) == "2");
+  for (const auto& row : fits->rows) CHECK(row.size() == fits->columns.size());
+  std::set<std::string> sections;
+  for (const Figure& figure : elastic.preloads.at(0).figures) sections.insert(figure.section);
+  CHECK(sections == std::set<std::string>{"default, joint 1", "default, joint 2"});
+
+  DynamicOptions dynamic = both_models();
+  dynamic.figures = true;
+  const DynamicResult result = fit_dynamic(two.bench.logs(), elastic, dynamic);
+  std::set<std::string> groups;
+  for (const Figure& figure : result.preloads.at(0).figures) groups.insert(figure.group);
+  CHECK(groups == std::set<std::string>{"link[1] equation", "link[2] equation", "motor[1] equation",
+                                        "motor[2] equation"});
+  CHECK_FALSE(dynamic_document(result).tables.empty());
+}
+
+TEST_CASE("given link inertias are taken, not estimated") {
+  const TwoJoints two(R"( "arm": {"type": "independent", "J_link": [0.05, 0.03]},)");
+  const ElasticResult elastic = fit_elastic(two.bench.logs(), {});
+  DynamicOptions options;
+  const DynamicFit fit = fit_dynamic(two.bench.logs(), elastic, options).preloads.at(0).fits.at(0);
+  CHECK(estimate(fit.parameters, "J_link[2]").value == 0.03);
+  CHECK(estimate(fit.parameters, "J_link[2]").sd == 0);
+  CHECK(fit.verdicts.at("J_link[2]") == "given");
+  // What is given stands on the right side: its torque, 0.1 N m and more, is not left over.
+  CHECK(fit.torque_error.at("link[1]").rms < 0.02);
+  CHECK(fit.torque_error.at("link[2]").rms < 0.02);
+  check_recovered(fit.parameters, {{"f_s[1]", 0.1}, {"f_s[2]", 0.06}, {"J_motor[2]", 0.004}}, 3);
+}
+
+TEST_CASE("what is made for one joint says so") {
+  const TwoJoints two;
+  const std::string folder = two.bench.folder().path();
+  const auto refused = [&](auto action) { return message_of(action, folder); };
+  ElasticOptions zero;
+  zero.zero = ZeroMode::theta_0;
+  CHECK(refused([&] { fit_elastic(two.bench.logs(), zero); }) ==
+        "rig.json: the rig has 2 joints, and --zero theta_0 is made for one; write one rig file "
+        "per joint, with its own columns");
+  for (const char* model : {"rigid", "ratios"}) {
+    DynamicOptions options;
+    options.models = {model};
+    CHECK(refused([&] { fit_dynamic(two.bench.logs(), {}, options); }) ==
+          fmt::format("rig.json: the rig has 2 joints, and --model {} is made for one; write one "
+                      "rig file per joint, with its own columns",
+                      model));
+  }
+}
+
+TEST_CASE("the links of a planar arm are not simulated") {
+  const TwoJoints two(R"( "arm": {"type": "planar_two_joint", "length_1": 0.3},)");
+  const ElasticResult elastic = fit_elastic(two.bench.logs(), {});
+  const std::string text = dynamic_json(fit_dynamic(two.bench.logs(), elastic, {}));
+  CHECK(schema_errors("dynamic", text) == "");
+  std::string choice;
+  const std::string message =
+      message_of([&] { parse_model(parse_json(text, "dynamic.json"), "", "", choice); });
+  INFO(message);
+  CHECK(message.find("the links of a planar_two_joint arm cannot be simulated; only joints whose "
+                     "links do not move each other can so far") != std::string::npos);
+}
+
+TEST_CASE("logs that lack a joint, or in which one rests, are told by name") {
+  const PlainRig plain = three_coupled_cables();
+  Bench bench;
+  bench.rig = read_rig(bench.folder().write("rig.json", rig_text(plain, "")));
+  std::string text = "t,q1,theta1,theta2,tau1,tau2\n", still = "t,q1,q2,theta1,theta2,tau1,tau2\n";
+  for (int i = 0; i < 400; ++i) {
+    const double x = 0.1 * std::sin(0.05 * i);
+    text += fmt::format("{:.2f},0,{:.6f},{:.6f},{:.6f},1\n", 0.01 * i, x, x, x);
+    still += fmt::format("{:.2f},0,0,{:.6f},0.3,{:.6f},1\n", 0.01 * i, x, x);
+  }
+  const auto refused = [&] {
+    return message_of([&] { fit_elastic(bench.logs(), {}); }, bench.folder().path());
+  };
+  bench.add_text(text);
+  CHECK(refused() ==
+        "log0.csv:1: missing column 'q2', needed for the deflection theta - q; add it, or map it "
+        "in a rig file; columns are t, q1, theta1, theta2, tau1, tau2");
+  Bench other;
+  other.rig = bench.rig;
+  other.add_text(still);
+  CHECK(message_of([&] { fit_elastic(other.logs(), {}); }, other.folder().path()) ==
+        "log0.csv: theta2 never moves while the link is blocked; sweep the motor slowly up and "
+        "down, and check which column theta2 is");
+}
+
+}  // namespace
+}  // namespace cablefit::test

@@ -1,0 +1,83 @@
+// Rigs for plain_joints.hpp, and how a rig file says them.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/support/plain_joints.hpp"
+
+namespace cablefit::test {
+
+/// The rig file; `more`: further keys, each with a comma behind it.
+inline std::string rig_text(const PlainRig& rig, const std::string& more) {
+  const auto numbers = [](const std::vector<PlainMap>& maps) {
+    std::string list;
+    for (const PlainMap& map : maps) {
+      std::string one = fmt::format("{}", map.radius.front());
+      if (map.radius.size() > 1)
+        one = fmt::format(R"({{"type": "polynomial", "coefficients": [{}]}})",
+                          fmt::join(map.radius, ", "));
+      list += (list.empty() ? "" : ", ") + one;
+    }
+    return list;
+  };
+  std::string joints, cables;
+  for (std::size_t j = 0; j < rig.n(); ++j)
+    joints += fmt::format(R"({}{{"name": "{}"}})", j > 0 ? ", " : "", j + 1);
+  for (const PlainCable& cable : rig.cables)
+    cables += fmt::format(
+        R"({}{{"name": "{}", "motor_radius": [{}], "link_radius": [{}], "order": {}, "initial_elongation": {}}})",
+        cables.empty() ? "" : ",\n  ", cable.name, numbers(cable.motor), numbers(cable.link),
+        cable.k.size(), cable.l_o);
+  return fmt::format(R"({{"schema": "cablefit/rig/1", "joints": [{}],{} "cables": [{}]}})", joints,
+                     more, cables);
+}
+
+inline PlainMap round_map(double radius) { return {{radius}}; }
+
+/// n + 1 cables: two joints that share all of their three cables.
+inline PlainRig three_coupled_cables() {
+  PlainRig rig;
+  rig.joints = {PlainJoint{}, PlainJoint{}};
+  rig.joints[1] = {0.03, 0.004, 0.03, 0.06, 0.01, 0.03, -0.02, 0.25, 0.037, 0.25, 50, 0.5, 1};
+  const auto pulleys = [](double first, double second) {
+    return std::vector<PlainMap>{round_map(first), round_map(second)};
+  };
+  rig.cables = {{"1", pulleys(0.03, 0.02), pulleys(0.03, 0.02), {2e5, 1e7}, 2e-3},
+                {"2", pulleys(-0.03, 0.02), pulleys(-0.03, 0.02), {2e5, 1e7}, 2e-3},
+                {"3", pulleys(0, -0.04), pulleys(0, -0.04), {2.4e5, 0.8e7}, 2e-3}};
+  return rig;
+}
+
+/// A finger of two joints and three tendons, preloaded so that all are taut at rest.
+inline PlainRig tendon_finger() {
+  PlainRig rig;
+  rig.joints = {PlainJoint{}, PlainJoint{}};
+  rig.joints[0] = {4e-3, 8e-4, 4e-3, 6e-3, 2e-3, 5e-3, 4e-3, 0.6, 0.05, 0.5, 6, 0.06, 0.1};
+  rig.joints[1] = {1.5e-3, 5e-4, 3e-3, 4e-3, 1e-3, 4e-3, -3e-3, 0.5, 0.037, 0.5, 4, 0.04, 0.05};
+  rig.torque_noise = 4e-3;
+  const auto pulleys = [](const PlainMap& first, const PlainMap& second) {
+    return std::vector<PlainMap>{first, second};
+  };
+  const PlainMap none = round_map(0);
+  rig.cables = {{"flexor",
+                 pulleys(round_map(0.01), none),
+                 pulleys(round_map(0.01), round_map(0.007)),
+                 {1e5},
+                 2e-3},
+                {"extensor",
+                 pulleys(round_map(-0.01), none),
+                 pulleys(round_map(-0.01), round_map(-0.009)),
+                 {7e4, 1.5e7},
+                 2e-3},
+                {"pip",
+                 pulleys(none, round_map(0.006)),
+                 pulleys(none, {{0.006, 0.001}}),
+                 {5e4, 1e7, 1e9},
+                 1.5e-3}};
+  return rig;
+}
+
+}  // namespace cablefit::test
