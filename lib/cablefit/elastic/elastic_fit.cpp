@@ -143,11 +143,10 @@ void require_motion(const ElasticJob& job) {
 void refuse_search(const Rig& rig) {
   for (std::size_t c = 0; c < rig.search_elongation.size(); ++c)
     if (rig.search_elongation[c])
-      throw input_error(
-          {rig.path, 0, 0},
-          fmt::format("initial_elongation \"search\" of cable '{}' is not available yet",
-                      rig.transmission.cables[c].name),
-          "give a number, 0 when unknown");
+      throw input_error({rig.path, 0, 0},
+                        fmt::format("the initial elongation of cable '{}' is to be searched first",
+                                    rig.transmission.cables[c].name),
+                        "run 'cablefit elastic' or 'cablefit identify', or give a number");
 }
 
 /// f_sm was asked for and could not be told: say so by name.

@@ -270,6 +270,10 @@ void describe(const JointFit& fit, const JudgedPoint& judged,
   for (const Eigen::Index i : judged.point.solution.active)
     result.active_bounds.push_back(bounds.texts[static_cast<std::size_t>(i)]);
   result.condition = judged.linearised.condition_scaled;
+  const Eigen::Index n = fit.layout.n_coefficients;
+  result.coefficient_covariance =
+      (options.honest_sd ? judged.covariance.covariance : judged.covariance.white)
+          .topLeftCorner(n, n);
   const std::vector<std::string> correlated = correlation_warnings(fit, judged);
   result.warnings.insert(result.warnings.end(), correlated.begin(), correlated.end());
 }

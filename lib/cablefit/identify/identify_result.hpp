@@ -59,6 +59,8 @@ struct IdentifyResult {
   std::vector<InputFile> inputs;
   bool linear_motion = false, cable_space = false;
   std::vector<Estimate> parameters;  ///< shared by all preloads
+  /// Of the cable coefficients, the first parameters, in their order; l_o as uncertain as it is.
+  Eigen::MatrixXd coefficient_covariance;
   std::vector<IdentifyPreload> preloads;
   std::vector<ElongationProfile> profiles;
   std::vector<std::string> active_bounds;
