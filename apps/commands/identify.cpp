@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "cablefit/identify/recursive.hpp"
 #include "cablefit/report/identify_document.hpp"
 #include "cablefit/report/identify_json.hpp"
 #include "commands/command.hpp"
@@ -33,6 +34,8 @@ void add_identify_options(CLI::App& app, IdentifyOptions& identify) {
       },
       "initial elongations: search them, or take those of the rig file (else 0) [auto: search "
       "where the rig file says so, and without cables in it all of several preloads]");
+  app.add_flag("--recursive", identify.recursive,
+               "recursive least squares (R-LSA) too: its trace in OUT/identify_trace.csv");
   app.add_flag("--unconstrained", identify.unconstrained,
                "plain least squares: let cables push, with a warning");
 }
@@ -73,6 +76,7 @@ int run_identify(const Arguments& arguments) {
   std::vector<ResultFile> files = {{"identify.json", identify_json(result)}};
   for (const IdentifyPreload& preload : result.preloads)
     if (preload.model) files.push_back({model_file_name(preload.name), model_json(*preload.model)});
+  if (result.trace) files.push_back({"identify_trace.csv", trace_csv(*result.trace)});
   deliver(options, identify_document(result), files);
   return 0;
 }

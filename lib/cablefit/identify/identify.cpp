@@ -10,6 +10,7 @@
 #include "cablefit/identify/identify_estimates.hpp"
 #include "cablefit/identify/identify_figures.hpp"
 #include "cablefit/identify/preload_jobs.hpp"
+#include "cablefit/identify/recursive.hpp"
 #include "cablefit/samples/agreement.hpp"
 
 namespace cablefit {
@@ -196,6 +197,7 @@ IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& 
   describe(fit, judged, facts, options, result);
   result.profiles = profiles_of(fit, judged);
   take_intervals(result.profiles, result);
+  if (options.recursive) result.trace = recursive_trace(fit, judged.point);
   if (options.figures) result.figures = identify_figures(result);
   return result;
 }

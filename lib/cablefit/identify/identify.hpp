@@ -26,6 +26,7 @@ struct IdentifyOptions {
   bool unconstrained = false;  ///< cables may push
   bool honest_sd = true;       ///< --sd honest | white
   std::string preload;         ///< only this one; empty: all
+  bool recursive = false;      ///< R-LSA beside the direct fit: its trace
   bool figures = false;
 };
 

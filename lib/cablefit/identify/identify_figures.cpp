@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "cablefit/identify/recursive.hpp"
 
 namespace cablefit {
 namespace {
@@ -39,6 +41,8 @@ std::vector<Figure> identify_figures(const IdentifyResult& result) {
   const bool length = result.cable_space || result.linear_motion;
   for (const ElongationProfile& profile : result.profiles)
     figures.push_back(profile_figure(profile, 1e3, length ? "mm" : "mrad"));
+  if (result.trace)
+    for (Figure& figure : trace_figures(*result.trace)) figures.push_back(std::move(figure));
   return figures;
 }
 

@@ -37,6 +37,17 @@ struct ElongationProfile {
   double low = -kUnbounded, high = kUnbounded;  ///< of the interval; infinite: beyond the points
 };
 
+/// The linear parameters after so many rows.
+struct TracePoint {
+  std::size_t n_rows = 0;         ///< of all equations
+  std::string record;             ///< "low, blocked": where the last of them comes from
+  std::vector<double> value, sd;  ///< per parameter; NaN: not known yet
+};
+struct RecursiveTrace {
+  std::vector<std::string> names, preloads, units;  ///< per parameter; preload "all": shared
+  std::vector<TracePoint> points;
+};
+
 struct IdentifyPreload {
   std::string name;
   std::string rig_path;
@@ -63,6 +74,7 @@ struct IdentifyResult {
   Eigen::MatrixXd coefficient_covariance;
   std::vector<IdentifyPreload> preloads;
   std::vector<ElongationProfile> profiles;
+  std::optional<RecursiveTrace> trace;  ///< when asked for
   std::vector<std::string> active_bounds;
   double condition = 0;  ///< scaled condition number
   std::vector<Decision> decisions;

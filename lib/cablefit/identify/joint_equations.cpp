@@ -131,6 +131,10 @@ JointColumns joint_columns(const JointEquation& equation, Eigen::Index n) {
   return {equation.n_base(), basis, basis + n, basis + 2 * n};
 }
 
+Equation equation_at(const JointEquation& equation, const Transmission& cables) {
+  return widened(equation, {cables});
+}
+
 Transmission with_elongations(Transmission transmission, const Eigen::VectorXd& l_o) {
   for (std::size_t c = 0; c < transmission.cables.size(); ++c)
     transmission.cables[c].initial_elongation = l_o(static_cast<Eigen::Index>(c));

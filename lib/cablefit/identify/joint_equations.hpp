@@ -41,6 +41,9 @@ struct JointColumns {
 };
 JointColumns joint_columns(const JointEquation& equation, Eigen::Index n_coefficients);
 
+/// The equation with all those columns.
+Equation equation_at(const JointEquation& equation, const Transmission& cables);
+
 /// Logs of one preload and one kind (blocked or moving), read with the same settings.
 struct JointRecord {
   PartFilter wanted;
