@@ -31,6 +31,7 @@ TEST_CASE("recursive least squares ends at the direct answer", "[identify]") {
     // Both by QR of the same rows in another order; the condition number of the scaled columns is
     // about 100, so ten digits and more are left.
     CHECK_THAT(end.value[k], Catch::WithinRel(direct->value, 1e-9));
+    CHECK_THAT(end.sd[k], Catch::WithinRel(direct->sd, 1e-12));
     const TracePoint& early = trace.points[trace.points.size() / 2];
     CHECK((std::isnan(early.sd[k]) || early.sd[k] >= end.sd[k]));
   }

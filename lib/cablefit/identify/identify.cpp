@@ -197,7 +197,11 @@ IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& 
   describe(fit, judged, facts, options, result);
   result.profiles = profiles_of(fit, judged);
   take_intervals(result.profiles, result);
-  if (options.recursive) result.trace = recursive_trace(fit, judged.point);
+  if (options.recursive) {
+    const Eigen::MatrixXd& c =
+        options.honest_sd ? judged.covariance.covariance : judged.covariance.white;
+    result.trace = recursive_trace(fit, judged.point, c.diagonal().cwiseMax(0).cwiseSqrt());
+  }
   if (options.figures) result.figures = identify_figures(result);
   return result;
 }

@@ -87,9 +87,17 @@ void take_record(const JointFit& fit, const JointRecord& record, const Transmiss
       });
 }
 
+void end_at(const Eigen::VectorXd& sd, RecursiveTrace& trace) {
+  const std::vector<double> last = trace.points.back().sd;
+  for (TracePoint& point : trace.points)
+    for (std::size_t k = 0; k < last.size(); ++k)
+      if (last[k] > 0) point.sd[k] *= sd(static_cast<Eigen::Index>(k)) / last[k];
+}
+
 }  // namespace
 
-RecursiveTrace recursive_trace(const JointFit& fit, const JointPoint& point, int n_points) {
+RecursiveTrace recursive_trace(const JointFit& fit, const JointPoint& point,
+                               const Eigen::VectorXd& sd, int n_points) {
   const JointProblem direct = joint_problem(fit.jobs, fit.layout, point.input(), fit.weights, {});
   RecursiveTrace trace;
   for (Eigen::Index k = 0; k < fit.layout.n_linear; ++k) {
@@ -116,6 +124,7 @@ RecursiveTrace recursive_trace(const JointFit& fit, const JointPoint& point, int
       block += n;
     }
   }
+  end_at(sd, trace);
   return trace;
 }
 

@@ -9,8 +9,11 @@
 namespace cablefit {
 
 /// The linear parameters on the way, at the l_o and with the weights of `point`; about `n_points`
-/// per preload and kind of log. One pass over the logs.
-RecursiveTrace recursive_trace(const JointFit& fit, const JointPoint& point, int n_points = 100);
+/// per preload and kind of log. `sd`: of the direct fit, honest and with l_o uncertain, where the
+/// band ends; on the way it has the same ratio to that of the rows seen so far. One pass over the
+/// logs.
+RecursiveTrace recursive_trace(const JointFit& fit, const JointPoint& point,
+                               const Eigen::VectorXd& sd, int n_points = 100);
 
 /// A figure per parameter: the estimate with its band of +-2 sd, and where it ends.
 std::vector<Figure> trace_figures(const RecursiveTrace& trace);
