@@ -17,6 +17,8 @@ constexpr std::array kCommands{
             run_elastic},
     Command{"dynamic", "stage 2, link moving: inertias, friction and offset with sd (Table 2)",
             run_dynamic},
+    Command{"identify", "one step: elastic and dynamic parameters together, l_o searched (26)-(28)",
+            run_identify},
     Command{"simulate", "a model on the input of logs: positions, torques, gap to the measured",
             run_simulate},
     Command{"batch", "all preloads of a campaign side by side, with gates for CI", run_batch},

@@ -1,6 +1,8 @@
 // cablefit elastic: stage 1.
 #include "cablefit/elastic/elastic_fit.hpp"
 
+#include "cablefit/base/error.hpp"
+#include "cablefit/identify/elastic_search.hpp"
 #include "cablefit/report/elastic_document.hpp"
 #include "cablefit/report/elastic_json.hpp"
 #include "commands/command.hpp"
@@ -15,7 +17,7 @@ constexpr const char* kExample =
     "Example:\n"
     "  cablefit elastic data/low/blocked.csv data/high/blocked.csv --report table1.md\n";
 
-void add_elastic_options(CLI::App& app, ElasticOptions& elastic) {
+void add_elastic_options(CLI::App& app, ElasticOptions& elastic, bool& search) {
   const auto take_order = [&elastic](const std::string& text) {
     elastic.order = 0;
     if (text == "auto") return;
@@ -38,6 +40,11 @@ void add_elastic_options(CLI::App& app, ElasticOptions& elastic) {
                                            : ZeroMode::automatic;
       },
       "what is unknown: the drive's offset, or the encoder's zero");
+  add_choice(
+      app, "--l_o", "mode", {"auto", "search"},
+      [&search](const std::string& name) { search = name == "search"; },
+      "initial elongations: those of the rig file (\"search\": looked for; none: 0), or search "
+      "all, several preloads together [auto]");
   app.add_flag("--unconstrained", elastic.unconstrained,
                "plain least squares: let cables push, with a warning");
   add_number(
@@ -53,12 +60,16 @@ int run_elastic(const Arguments& arguments) {
   CommonOptions options;
   ElasticOptions elastic;
   add_log_options(app, options);
-  add_elastic_options(app, elastic);
+  bool search = false;
+  add_elastic_options(app, elastic, search);
   add_sd_option(app, options);
   add_sample_options(app, options);
   add_output_options(app, options);
   app.footer(kExample);
   if (!parse(app, arguments)) return 0;
+  if (search && elastic.still)
+    throw usage_error("--l_o search and --still cannot be combined",
+                      "a moving log belongs to 'cablefit identify'");
 
   const std::vector<LogSurvey> logs = read_logs(options);
   elastic.samples = options.samples;
@@ -70,6 +81,8 @@ int run_elastic(const Arguments& arguments) {
   // Without any blocked log the fit says what to do, for the logs that were given.
   const ElasticResult result = [&] {
     const Progress progress(options.quiet, "fitting stage 1");
+    if (!blocked.empty() && !elastic.still && (search || wants_search(blocked)))
+      return fit_elastic_with_search(blocked, elastic, search);
     return fit_elastic(blocked.empty() ? logs : blocked, elastic);
   }();
   deliver(options, elastic_document(result), {{"elastic.json", elastic_json(result)}});

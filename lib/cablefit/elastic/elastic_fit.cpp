@@ -105,11 +105,10 @@ void look_at_branches(Stage1& stage, ElasticPreload& preload) {
 void refuse_search(const Rig& rig) {
   for (std::size_t c = 0; c < rig.search_elongation.size(); ++c)
     if (rig.search_elongation[c])
-      throw input_error(
-          {rig.path, 0, 0},
-          fmt::format("initial_elongation \"search\" of cable '{}' is not available yet",
-                      rig.transmission.cables[c].name),
-          "give a number, 0 when unknown");
+      throw input_error({rig.path, 0, 0},
+                        fmt::format("the initial elongation of cable '{}' is to be searched first",
+                                    rig.transmission.cables[c].name),
+                        "run 'cablefit elastic' or 'cablefit identify', or give a number");
 }
 
 ElasticPreload fit_preload(ElasticJob job, const std::string& name) {

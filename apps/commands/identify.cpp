@@ -1,0 +1,84 @@
+// cablefit identify: one step.
+#include "cablefit/identify/identify.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include "cablefit/identify/recursive.hpp"
+#include "cablefit/report/identify_document.hpp"
+#include "cablefit/report/identify_json.hpp"
+#include "commands/command.hpp"
+#include "commands/command_line.hpp"
+#include "commands/delivery.hpp"
+#include "commands/progress.hpp"
+
+namespace cablefit::apps {
+namespace {
+
+constexpr const char* kExample =
+    "Example, blocked and moving logs of two preloads:\n"
+    "  cablefit identify data/low/*.csv data/high/*.csv --report identify.html\n"
+    "Writes a model file per preload for 'cablefit simulate' when the dynamics were identified.\n";
+
+void add_identify_options(CLI::App& app, IdentifyOptions& identify) {
+  add_whole(
+      app, "--order", "N", {1, kMaxCableOrder},
+      [&identify](long n) { identify.order = static_cast<int>(n); },
+      "order of the cables' force [the rig file's, else 2]");
+  add_choice(
+      app, "--l_o", "mode", {"auto", "search", "known"},
+      [&identify](const std::string& name) {
+        identify.elongations = name == "search"  ? ElongationMode::search
+                               : name == "known" ? ElongationMode::known
+                                                 : ElongationMode::automatic;
+      },
+      "initial elongations: search them, or take those of the rig file (else 0) [auto: search "
+      "where the rig file says so, and without cables in it all of several preloads]");
+  app.add_flag("--recursive", identify.recursive,
+               "recursive least squares (R-LSA) too: its trace in OUT/identify_trace.csv");
+  app.add_flag("--unconstrained", identify.unconstrained,
+               "plain least squares: let cables push, with a warning");
+}
+
+/// "model_low.json"; what a file's name should not have becomes "_".
+std::string model_file_name(const std::string& preload) {
+  std::string name = "model_" + preload + ".json";
+  std::replace_if(
+      name.begin(), name.end(),
+      [](unsigned char c) { return std::isalnum(c) == 0 && c != '.' && c != '-' && c != '_'; },
+      '_');
+  return name;
+}
+
+}  // namespace
+
+int run_identify(const Arguments& arguments) {
+  CLI::App app("One step: elastic and dynamic parameters together, l_o searched.", "identify");
+  CommonOptions options;
+  IdentifyOptions fit;
+  add_log_options(app, options);
+  add_identify_options(app, fit);
+  add_sd_option(app, options);
+  add_sample_options(app, options);
+  add_output_options(app, options);
+  app.footer(kExample);
+  if (!parse(app, arguments)) return 0;
+
+  const std::vector<LogSurvey> logs = read_logs(options);
+  fit.samples = options.samples;
+  fit.preload = options.preload;
+  fit.honest_sd = options.honest_sd;
+  fit.figures = wants_figures(options);
+  const IdentifyResult result = [&] {
+    const Progress progress(options.quiet, "identifying");
+    return identify(logs, fit);
+  }();
+  std::vector<ResultFile> files = {{"identify.json", identify_json(result)}};
+  for (const IdentifyPreload& preload : result.preloads)
+    if (preload.model) files.push_back({model_file_name(preload.name), model_json(*preload.model)});
+  if (result.trace) files.push_back({"identify_trace.csv", trace_csv(*result.trace)});
+  deliver(options, identify_document(result), files);
+  return 0;
+}
+
+}  // namespace cablefit::apps

@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "cablefit/estimate/joint_least_squares.hpp"
+#include "cablefit/estimate/long_run.hpp"
+#include "cablefit/estimate/scaled_solve.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr std::size_t kMinCells = 8;  // fewer tell nothing of correlation
+
+/// W'rho of every cell of a block, cells x n_params.
+Eigen::MatrixXd cell_scores(const JointBlock& block, const Eigen::VectorXd& combination) {
+  const auto& cells = block.rows->cells();
+  Eigen::MatrixXd scores(static_cast<Eigen::Index>(cells.size()), block.regressors.cols());
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    scores.row(static_cast<Eigen::Index>(c)) =
+        (block.regressors.transpose() * (cells[c].gram * combination)).transpose();
+  return scores;
+}
+
+double variance_of(const JointBlock& block, double rss) {
+  return rss / std::max(1.0, static_cast<double>(block.rows->n_rows()));
+}
+
+/// (W'W)^-1 of the block alone, 0 where it determines nothing.
+Eigen::MatrixXd own_inverse(const JointBlock& block, Eigen::Index& rank) {
+  const Eigen::MatrixXd w = block.rows->r() * block.regressors;
+  std::vector<Eigen::Index> used;
+  for (Eigen::Index k = 0; k < w.cols(); ++k)
+    if (w.col(k).norm() > 0) used.push_back(k);
+  Eigen::MatrixXd own(std::max<Eigen::Index>(w.rows(), static_cast<Eigen::Index>(used.size())),
+                      static_cast<Eigen::Index>(used.size()));
+  own.setZero();
+  for (std::size_t k = 0; k < used.size(); ++k)
+    own.col(static_cast<Eigen::Index>(k)).head(w.rows()) = w.col(used[k]);
+  const ScaledSolve solved = solve_scaled(own, Eigen::VectorXd::Zero(own.rows()));
+  rank = own.cols() - solved.null_directions.cols();
+  Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(w.cols(), w.cols());
+  for (std::size_t i = 0; i < used.size(); ++i)
+    for (std::size_t j = 0; j < used.size(); ++j)
+      inverse(used[i], used[j]) =
+          solved.inverse(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  return inverse;
+}
+
+/// Influence of every time cell of a record on the estimates, by the cell's number.
+std::map<Eigen::Index, Eigen::RowVectorXd> influence_of(const JointProblem& problem,
+                                                        const JointSolution& solution, int record) {
+  std::map<Eigen::Index, Eigen::RowVectorXd> influence;
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
+    const JointBlock& block = problem.blocks[b];
+    if (block.record != record) continue;
+    const Eigen::MatrixXd scores = block.weight * cell_scores(block, solution.combinations[b]);
+    const Eigen::MatrixXd moved = scores * solution.solve_operator;
+    for (Eigen::Index c = 0; c < moved.rows(); ++c) {
+      const Eigen::Index id = block.rows->cells()[static_cast<std::size_t>(c)].id;
+      const auto [at, is_new] = influence.try_emplace(id, moved.row(c));
+      if (!is_new) at->second += moved.row(c);
+    }
+  }
+  return influence;
+}
+
+Eigen::MatrixXd white_of(const JointProblem& problem, const JointSolution& s, int record) {
+  Eigen::MatrixXd middle = Eigen::MatrixXd::Zero(s.x.size(), s.x.size());
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
+    const JointBlock& block = problem.blocks[b];
+    if (block.record != record) continue;
+    const Eigen::MatrixXd w = block.rows->r() * block.regressors;
+    middle += block.weight * block.weight * variance_of(block, s.rss[b]) * (w.transpose() * w);
+  }
+  return s.solve_operator * middle * s.solve_operator;
+}
+
+LongRunCovariance honest_of(const JointProblem& problem, const JointSolution& s, int record) {
+  const auto influence = influence_of(problem, s, record);
+  if (influence.size() < kMinCells) return {white_of(problem, s, record), 1, 1e6};
+  Eigen::MatrixXd series(static_cast<Eigen::Index>(influence.size()), s.x.size());
+  Eigen::Index row = 0;
+  for (const auto& [id, value] : influence) series.row(row++) = value;
+  return long_run_covariance(series);
+}
+
+/// Never below the white variance, as for one equation (solution_covariance.cpp).
+void grow_to(const Eigen::MatrixXd& white, Eigen::MatrixXd& covariance) {
+  for (Eigen::Index k = 0; k < white.rows(); ++k) {
+    if (covariance(k, k) >= white(k, k)) continue;
+    const double grow =
+        covariance(k, k) > 0 ? std::sqrt(white(k, k) / covariance(k, k)) : 0;  // a cut-off kernel
+    covariance.row(k) *= grow;
+    covariance.col(k) *= grow;
+    covariance(k, k) = white(k, k);
+  }
+}
+
+}  // namespace
+
+double residual_inflation(const JointBlock& block, const Eigen::VectorXd& combination) {
+  if (block.rows->cells().size() < kMinCells) return 1;
+  Eigen::Index rank = 0;
+  const Eigen::MatrixXd inverse = own_inverse(block, rank);
+  const double rss = (block.rows->r() * combination).squaredNorm();
+  if (rank == 0 || !(rss > 0)) return 1;
+  const Eigen::MatrixXd influence = cell_scores(block, combination) * inverse;
+  const Eigen::MatrixXd honest = long_run_covariance(influence).covariance;
+  const double variance = variance_of(block, rss);
+  double sum = 0;
+  int counted = 0;
+  for (Eigen::Index k = 0; k < inverse.rows(); ++k) {
+    if (!(inverse(k, k) > 0)) continue;
+    sum += honest(k, k) / (variance * inverse(k, k));
+    ++counted;
+  }
+  return std::max(1.0, sum / counted);
+}
+
+void reweigh(JointProblem& problem, const JointSolution& solution) {
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
+    JointBlock& block = problem.blocks[b];
+    if (!(solution.rss[b] > 0)) continue;
+    block.weight = 1 / (variance_of(block, solution.rss[b]) *
+                        residual_inflation(block, solution.combinations[b]));
+  }
+}
+
+JointCovariance joint_covariance(const JointProblem& problem, const JointSolution& s) {
+  const Eigen::Index p = s.x.size();
+  std::vector<int> records;
+  for (const JointBlock& block : problem.blocks)
+    if (std::find(records.begin(), records.end(), block.record) == records.end())
+      records.push_back(block.record);
+  JointCovariance out{Eigen::MatrixXd::Zero(p, p), Eigen::MatrixXd::Zero(p, p), {}};
+  Eigen::VectorXd spread = Eigen::VectorXd::Zero(p);
+  for (const int record : records) {
+    Eigen::MatrixXd white = white_of(problem, s, record);
+    LongRunCovariance honest = honest_of(problem, s, record);
+    grow_to(white, honest.covariance);
+    out.covariance += honest.covariance;
+    out.white += white;
+    spread += honest.covariance.diagonal().cwiseAbs2() / honest.degrees_of_freedom;
+  }
+  const double n = static_cast<double>(s.n_rows);
+  const double small_sample = n / std::max(1.0, n - static_cast<double>(s.n_params));
+  out.covariance *= small_sample;
+  out.white *= small_sample;
+  out.degrees_of_freedom = Eigen::VectorXd::Constant(p, std::max(1.0, n));
+  for (Eigen::Index k = 0; k < p; ++k)
+    if (spread(k) > 0)
+      out.degrees_of_freedom(k) =
+          std::max(2.0, std::pow(out.covariance(k, k) / small_sample, 2) / spread(k));
+  return out;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,116 @@
+#include "cablefit/identify/elastic_search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cablefit/identify/identify.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr int kDefaultOrder = 2;  // as in identify()
+
+bool is_elongation(const Estimate& e) { return e.name.starts_with("l_o["); }
+
+void require_determined(const IdentifyResult& joint) {
+  for (const IdentifyPreload& preload : joint.preloads)
+    for (const Estimate& e : preload.parameters)
+      if (is_elongation(e) && !e.not_identifiable.empty())
+        throw Error(
+            ErrorKind::not_identifiable,
+            fmt::format("preload '{:.40}': {} {}", preload.name, e.name, e.not_identifiable));
+}
+
+/// The logs of one preload, with its l_o as known.
+std::vector<LogSurvey> known_logs(std::span<const LogSurvey> logs, const IdentifyPreload& preload) {
+  std::vector<LogSurvey> known;
+  for (const LogSurvey& log : logs) {
+    if (std::none_of(log.parts.begin(), log.parts.end(),
+                     [&](const PartSurvey& part) { return part.preload == preload.name; }))
+      continue;
+    known.push_back(log);
+    Rig& rig = known.back().plan.rig;
+    for (std::size_t c = 0; c < rig.transmission.cables.size(); ++c)
+      rig.transmission.cables[c].initial_elongation =
+          preload.transmission.cables[c].initial_elongation;
+    rig.search_elongation.assign(rig.search_elongation.size(), false);
+  }
+  return known;
+}
+
+/// The joint fit's numbers instead of those of this preload alone.
+void take_joint(const IdentifyResult& joint, const IdentifyPreload& preload, ElasticFit& fit) {
+  fit.parameters = joint.parameters;
+  for (const bool elongations : {true, false})
+    for (const Estimate& e : preload.parameters)
+      if (is_elongation(e) == elongations) fit.parameters.push_back(e);
+  fit.transmission = preload.transmission;
+  fit.covariance = joint.coefficient_covariance;
+  fit.active_bounds = joint.active_bounds;
+  if (const Estimate* offset = find_estimate(preload.parameters, "offset"))
+    fit.offset = offset->value;
+  for (const IdentifyEquation& equation : preload.equations) fit.rms_error = equation.rms;
+}
+
+void describe_search(const IdentifyResult& joint, const IdentifyPreload& preload,
+                     ElasticPreload& out) {
+  for (const Decision& d : preload.decisions)
+    if (d.name == "l_o") out.decisions.push_back(d);
+  out.decisions.push_back(
+      {"coefficients", "shared by all preloads",
+       fmt::format("{} preload(s) of one set of cables, equilibrium (8c) imposed",
+                   joint.preloads.size())});
+  const double scale = 1e3;
+  const char* unit = joint.cable_space || joint.linear_motion ? "mm" : "mrad";
+  for (const Estimate& e : preload.parameters)
+    if (is_elongation(e))
+      out.selection.push_back(fmt::format(
+          "{} = {:.5g} +- {:.2g} {}, 95 % within {:.5g} .. {:.5g} by profile likelihood", e.name,
+          scale * e.value, scale * e.sd, unit, scale * e.ci_low, scale * e.ci_high));
+  for (const Figure& figure : joint.figures)
+    if (figure.section == preload.name) out.figures.push_back(figure);
+}
+
+}  // namespace
+
+bool wants_search(std::span<const LogSurvey> logs) {
+  return std::any_of(logs.begin(), logs.end(), [](const LogSurvey& log) {
+    const std::vector<bool>& search = log.plan.rig.search_elongation;
+    return std::find(search.begin(), search.end(), true) != search.end();
+  });
+}
+
+ElasticResult fit_elastic_with_search(std::span<const LogSurvey> logs,
+                                      const ElasticOptions& options, bool search_all) {
+  IdentifyOptions joint_options;
+  joint_options.samples = options.samples;
+  joint_options.order = options.order;
+  joint_options.elongations = search_all ? ElongationMode::search : ElongationMode::automatic;
+  joint_options.unconstrained = options.unconstrained;
+  joint_options.honest_sd = options.honest_sd;
+  joint_options.preload = options.preload;
+  joint_options.figures = options.figures;
+  const IdentifyResult joint = identify(logs, joint_options);
+  require_determined(joint);
+
+  ElasticOptions each = options;
+  if (each.order == 0 && !joint.cable_space) each.order = kDefaultOrder;
+  each.zero = ZeroMode::offset;
+  ElasticResult result;
+  result.inputs = joint.inputs;
+  result.warnings = joint.warnings;
+  for (const IdentifyPreload& preload : joint.preloads) {
+    each.preload = preload.name;
+    ElasticResult one = fit_elastic(known_logs(logs, preload), each);
+    for (ElasticPreload& stage1 : one.preloads) {
+      for (ElasticFit& fit : stage1.fits)
+        if (fit.model == "poly") take_joint(joint, preload, fit);
+      describe_search(joint, preload, stage1);
+      result.preloads.push_back(std::move(stage1));
+    }
+  }
+  return result;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,19 @@
+// Stage 1 with initial elongations that nobody knows: several preloads of the same cables together.
+#pragma once
+
+#include "cablefit/elastic/elastic_fit.hpp"
+#include "cablefit/identify/identify_result.hpp"
+
+namespace cablefit {
+
+/// Some rig of the logs says "initial_elongation": "search".
+bool wants_search(std::span<const LogSurvey> logs);
+
+/// Stage 1 of blocked logs with l_o from the joint fit of all preloads: the polynomial fit of each
+/// has the shared coefficients, whose covariance carries the uncertainty of l_o, and l_o itself.
+/// `search_all`: of every cable, whatever the rig files say. Throws what identify() and
+/// fit_elastic() throw, and Error(not_identifiable) where the logs do not determine an l_o.
+ElasticResult fit_elastic_with_search(std::span<const LogSurvey> logs,
+                                      const ElasticOptions& options, bool search_all);
+
+}  // namespace cablefit

@@ -1,0 +1,37 @@
+// One step (Fichera & Grossard 2017, (26)-(28)): elastic and dynamic parameters of all preloads
+// together, from blocked and moving logs.
+//   blocked  tau_elas_m + f_vm_blocked thetad + f_sm_blocked sgn(thetad) + offset    = tau
+//   motor    J_motor thetadd + f_vm thetad + f_sm sgn(thetad) + offset + tau_elas_m  = tau
+//   link     J_link qdd + f_v qd + f_s sgn(qd) - tau_elas_l                          = tau_load
+// f_sm_blocked is called f_sm where there are no moving logs.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "cablefit/identify/identify_result.hpp"
+#include "cablefit/samples/settings.hpp"
+
+namespace cablefit {
+
+/// Which initial elongations are looked for. `automatic`: those for which the rig file says
+/// "search"; and without cables in the rig files, all of several preloads (one alone is taken as
+/// 0).
+enum class ElongationMode { automatic, search, known };
+
+struct IdentifyOptions {
+  SampleOptions samples;
+  int order = 0;  ///< of the cables' force; 0: the rig file's, else 2
+  ElongationMode elongations = ElongationMode::automatic;
+  bool unconstrained = false;  ///< cables may push
+  bool honest_sd = true;       ///< --sd honest | white
+  std::string preload;         ///< only this one; empty: all
+  bool recursive = false;      ///< R-LSA beside the direct fit: its trace
+  bool figures = false;
+};
+
+/// Throws Error(input) for missing channels, rigs that do not go together and known l_o that cannot
+/// balance; Error(not_identifiable) when there are too few rows.
+IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& options);
+
+}  // namespace cablefit

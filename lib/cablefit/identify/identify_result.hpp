@@ -1,0 +1,85 @@
+// What the one-step identification found, as plain data for reports and for simulation.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cablefit/dynamic/dynamic_result.hpp"
+#include "cablefit/elastic/elastic_result.hpp"
+#include "cablefit/model/model.hpp"
+#include "cablefit/model/modes.hpp"
+
+namespace cablefit {
+
+/// One equation of one preload.
+struct IdentifyEquation {
+  std::string name;  ///< "blocked", "link", "motor"
+  RowCounts counts;
+  double rms = 0;             ///< N m, of its residual
+  double weight = 0;          ///< (N m)^-2
+  double effective_rows = 0;  ///< independent rows that say as much
+};
+
+/// The slope of a straight line through the blocked rows: the linear model's K over their range.
+struct LineStiffness {
+  double low = 0, high = 0;  ///< of the deflection
+  double measured = 0, sd = 0;
+  double model = 0;  ///< of the same line through the fitted elastic torque
+};
+
+/// Minus twice the log likelihood ratio over one l_o, all else re-optimised.
+struct ElongationProfile {
+  std::string preload, name, unit;
+  std::vector<double> l_o;                      ///< ascending
+  std::vector<double> deviance;                 ///< 0 at the best
+  double threshold = 0;                         ///< of the 95 % interval
+  double low = -kUnbounded, high = kUnbounded;  ///< of the interval; infinite: beyond the points
+};
+
+/// The linear parameters after so many rows.
+struct TracePoint {
+  std::size_t n_rows = 0;         ///< of all equations
+  std::string record;             ///< "low, blocked": where the last of them comes from
+  std::vector<double> value, sd;  ///< per parameter; NaN: not known yet
+};
+struct RecursiveTrace {
+  std::vector<std::string> names, preloads, units;  ///< per parameter; preload "all": shared
+  std::vector<TracePoint> points;
+};
+
+struct IdentifyPreload {
+  std::string name;
+  std::string rig_path;
+  std::vector<Estimate> parameters;  ///< of this preload alone: l_o, friction, offset, ...
+  Transmission transmission;         ///< fitted
+  double deflection_low = 0, deflection_high = 0;
+  double equilibrium = 0;  ///< N m, largest |P f|, |S f| in the reference pose
+  std::optional<LineStiffness> line;
+  std::vector<SlackPoint> slack;
+  std::vector<IdentifyEquation> equations;
+  TorqueDelay delay;
+  double resonance = 0;     ///< f0, Hz; 0: no moving logs
+  double load_inertia = 0;  ///< of the hanging or swinging mass, part of J_link
+  std::vector<Decision> decisions;
+  std::vector<std::string> warnings;
+  std::optional<Model> model;  ///< for `simulate`, when the dynamics were identified
+};
+
+struct IdentifyResult {
+  std::vector<InputFile> inputs;
+  bool linear_motion = false, cable_space = false;
+  std::vector<Estimate> parameters;  ///< shared by all preloads
+  /// Of the cable coefficients, the first parameters, in their order; l_o as uncertain as it is.
+  Eigen::MatrixXd coefficient_covariance;
+  std::vector<IdentifyPreload> preloads;
+  std::vector<ElongationProfile> profiles;
+  std::optional<RecursiveTrace> trace;  ///< when asked for
+  std::vector<std::string> active_bounds;
+  double condition = 0;  ///< scaled condition number
+  std::vector<Decision> decisions;
+  std::vector<std::string> warnings;
+  std::vector<Figure> figures;
+};
+
+}  // namespace cablefit

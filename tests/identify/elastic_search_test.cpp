@@ -1,0 +1,59 @@
+// Stage 1 with l_o searched: both preloads give one pair of cables, which stage 2 takes from its
+// result file as from any other.
+#include "cablefit/identify/elastic_search.hpp"
+
+#include "cablefit/report/elastic_json.hpp"
+#include "cablefit/report/elastic_reader.hpp"
+#include "tests/identify/simulated_rigs.hpp"
+#include "tests/report/schema.hpp"
+#include "tests/support/message.hpp"
+
+namespace {
+
+using namespace cablefit;
+using namespace cablefit::test;
+
+TEST_CASE("stage 1 finds l_o of the shipped blocked logs", "[identify][recover]") {
+  const std::vector<LogSurvey> logs = {shipped("low/blocked.csv"), shipped("high/blocked.csv")};
+  const ElasticResult r = fit_elastic_with_search(logs, {}, true);
+  const truth::Rig truths[] = {truth::Rig::low(), truth::Rig::high()};
+  REQUIRE(r.preloads.size() == 2);
+  for (std::size_t j = 0; j < 2; ++j) {
+    const ElasticFit& poly = *r.preloads[j].find("poly");
+    NamedValues truth = elastic_truth(truths[j]);
+    truth.emplace_back("l_o[1]", truths[j].cable_1.initial_elongation);
+    truth.emplace_back("l_o[2]", truths[j].cable_2.initial_elongation);
+    check_recovered(poly.parameters, truth, 3);
+    CHECK(poly.covariance.rows() == 4);
+    CHECK(std::abs(std::sqrt(poly.covariance(0, 0)) / estimate(poly.parameters, "K1_0").sd - 1) <
+          1e-12);
+    CHECK(r.preloads[j].find("linear") != nullptr);
+  }
+  CHECK(schema_errors("elastic", elastic_json(r)) == "");
+
+  const TempFolder folder;
+  const ElasticResult read = read_elastic_result(folder.write("elastic.json", elastic_json(r)));
+  const std::vector<LogSurvey> moving = {shipped("high/moving_load30.csv"),
+                                         shipped("high/moving_load-40.csv")};
+  const DynamicResult stage2 = fit_dynamic(moving, read, {});
+  check_recovered(stage2.preloads.at(0).fits.at(0).parameters, dynamic_truth(truth::Rig::high()),
+                  3);
+}
+
+TEST_CASE("stage 1 refuses to name an l_o that no log tells", "[identify]") {
+  truth::Rig rig = truth::Rig::low();
+  rig.cable_1 = {{1900}, 0.03};
+  rig.cable_2 = {{1700}, 0.057 / 1.7};
+  PreloadedBench bench;
+  bench.add("tight", blocked_log(rig, 5, 0.01));
+  ElasticOptions options;
+  options.order = 1;
+  const std::string message =
+      message_of([&] { fit_elastic_with_search(bench.logs(), options, true); });
+  INFO(message);
+  CHECK(message.starts_with("preload 'tight': l_o[1] cannot be told apart from"));
+  CHECK(message.find("determined is K1_0 + K2_0 = 3") != std::string::npos);
+  CHECK(message.ends_with("move until cable 1 goes slack"));
+}
+
+}  // namespace
