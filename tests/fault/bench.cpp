@@ -133,7 +133,10 @@ std::vector<Writer> writers() {
       {"batch",
        {"batch", "campaign.json", "--out", "out", "--report", "out/a.txt"},
        {"batch.json", "elastic.json", "dynamic.json", "a.txt"}},
-      {"check", {"check", "log.csv", "--json", "out/check.json"}, {"check.json"}}};
+      {"check", {"check", "log.csv", "--json", "out/check.json"}, {"check.json"}},
+      {"identify",
+       {"identify", "log.csv", "moving.csv", "--l_o", "known", "--recursive", "--out", "out"},
+       {"identify.json", "identify_trace.csv", "model_low.json"}}};
 }
 
 void check_whole(const FaultBench& bench, const Writer& writer, bool with_old,

@@ -77,5 +77,6 @@ TEST_CASE("dynamic while a write fails") { fail_all(writers().at(1)); }
 TEST_CASE("simulate while a write fails") { fail_all(writers().at(2)); }
 TEST_CASE("batch while a write fails") { fail_all(writers().at(3)); }
 TEST_CASE("check while a write fails") { fail_all(writers().at(4)); }
+TEST_CASE("identify while a write fails") { fail_all(writers().at(5)); }
 
 }  // namespace

@@ -29,6 +29,8 @@ const kCommands = {
   dynamic: () => ["dynamic", ...at("low/moving_load30.csv", "low/moving_load-40.csv",
                                    "high/moving_load30.csv", "high/moving_load-40.csv")],
   rigid: () => ["dynamic", "--model", "rigid", "--out", "rigid-out", ...at("low/moving_load30.csv")],
+  identify: () => ["identify", "--recursive", "--out", "identify-out",
+                   ...at("low/blocked.csv", "low/moving_load30.csv", "high/blocked.csv", "high/moving_load30.csv")],
   simulate: () => ["simulate", "cablefit-out/dynamic.json", ...at("low/moving_load30.csv", "low/blocked.csv")],
   batch: () => ["batch", ...at("campaign_strict.json")]
 };
@@ -38,7 +40,7 @@ const kResidualTitles = ["Torque error over time", "Distribution of the torque e
                          "Autocorrelation of the torque error"];
 const kWanted = {
   check: {Positions: 2, Torques: 2},
-  elastic: {"Torque against deflection": 2, "Elastic error against deflection": 2, "Measured and predicted": 2,
+  elastic: {"Torque against deflection": 2, "Elastic torque of each cable": 2, "Elastic error against deflection": 2, "Measured and predicted": 2,
             "Torque error against velocity of θ, linear": 2, "Torque error against position θ, linear": 2,
             "Torque error against deflection θ − q, linear": 2, ...counted(kResidualTitles, 2)},
   dynamic: {"Measured and predicted": 2, "Measured and predicted, close-up": 2,
@@ -46,6 +48,7 @@ const kWanted = {
             "Torque error against velocity of q, poly": 2, "Torque error against position θ, poly": 2,
             "Torque error against deflection θ − q, poly": 4, "Torque error against load τ_load, poly": 4},
   rigid: {"Measured and predicted": 1, ...counted(kResidualTitles, 1)},
+  identify: {"Elastic torque of each cable": 2, "Profile likelihood of l_o[1]": 2, "Profile likelihood of l_o[2]": 2, K1_0: 1, J_link: 2},
   simulate: {"Measured and simulated q": 2, "Measured and simulated q, close-up": 2, "Measured and simulated θ": 2, "Gap of q": 2, "Gap of θ": 2},
   batch: {K: 1, J_link: 1, "Torque against deflection": 2, "Torque error over time": 6}
 };

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "cablefit/elastic/cable_figure.hpp"
 #include "cablefit/estimate/residual_scan.hpp"
 #include "cablefit/samples/observed.hpp"
 
@@ -166,6 +167,13 @@ std::vector<Figure> elastic_figures(const ElasticJob& job, const BlockedRows& ro
   blank.x = {"deflection theta - q", preload.unit};
   blank.y = {"motor torque tau", plan.unit};
   std::vector<Figure> figures = {curves.torque(blank), curves.error(blank)};
+  const Transmission& cables = preload.fits.back().transmission;
+  if (cables.n_joints == 1 && !cables.cables.empty()) {
+    figures.push_back(cable_figure(cables, preload.deflection_low, preload.deflection_high,
+                                   preload.linear_motion));
+    figures.back().section = section;
+    figures.back().group = blank.group;
+  }
   for (Figure& figure : residuals.figures()) figures.push_back(std::move(figure));
   return figures;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cablefit/elastic/cable_figure.hpp"
 #include "cablefit/identify/recursive.hpp"
 
 namespace cablefit {
@@ -39,6 +40,12 @@ Figure profile_figure(const ElongationProfile& profile, double scale, const std:
 std::vector<Figure> identify_figures(const IdentifyResult& result) {
   std::vector<Figure> figures;
   const bool length = result.cable_space || result.linear_motion;
+  for (const IdentifyPreload& preload : result.preloads) {
+    figures.push_back(cable_figure(preload.transmission, preload.deflection_low,
+                                   preload.deflection_high, result.linear_motion));
+    figures.back().section = preload.name;
+    figures.back().group = "cables";
+  }
   for (const ElongationProfile& profile : result.profiles)
     figures.push_back(profile_figure(profile, 1e3, length ? "mm" : "mrad"));
   if (result.trace)

@@ -90,7 +90,7 @@
   /** "rad^2" as it is printed; symbols as the paper writes them. */
   const powers = {0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹"};
   const prettyUnit = (text) => text.replace(/\^(\d+)/g, (_, n) => [...n].map((d) => powers[d]).join(""));
-  const prettySymbols = (text) => text.replace(/theta/g, "θ").replace(/\btau/g, "τ").replace(/ - /g, " − ");
+  const prettySymbols = (text) => text.replace(/theta/g, "θ").replace(/\btau(?![a-z])/g, "τ").replace(/ - /g, " − ");
   const withIndices = (html) => html.replace(/([A-Za-zθτ]\d*)_([A-Za-z0-9]+)/g, "$1<sub>$2</sub>");
   const axisTitle = (axis) => withIndices(plain(prettySymbols(axis.title))) +
       (axis.unit ? " [" + plain(prettyUnit(axis.unit)) + "]" : "");
