@@ -156,6 +156,20 @@ void note_load(const DynamicJob& job, DynamicPreload& preload) {
   }
 }
 
+/// A hanging mass that the link outruns is not the load that the law says.
+void note_free_fall(const Load& load, const std::vector<EquationRows>& equations,
+                    DynamicPreload& preload) {
+  if (load.law == nullptr || load.law->free_fall == nullptr) return;
+  const EquationRows& link = equations.front();  // or the one of a rigid drive
+  const double most = load.law->free_fall(load.parameters);
+  if (link.acceleration > most)
+    preload.warnings.push_back(fmt::format(
+        "the link accelerates by up to {:.3g} rad/s^2, beyond the {:.3g} rad/s^2 (g/r) at which a "
+        "'{}' load lets its rope go slack: there tau_load is not what the rig file says; move more "
+        "gently or hang the mass on a smaller radius",
+        link.acceleration, most, load.law->name));
+}
+
 /// The curve of stage 1 must hold the link, not push it.
 void require_restoring(const ElasticFit& fit, const std::string& preload) {
   if (fit.transmission.cables.empty() && !(fit.transmission.linear_stiffness.minCoeff() > 0))
@@ -211,6 +225,7 @@ DynamicPreload fit_preload(DynamicJob job, const ElasticResult& elastic) {
     require_rows(e, job.preload);
     preload.counts[e.equation.name] = e.counts;
   }
+  note_free_fall(job.rig().load, equations, preload);
   fit_models(job, equations, elastic, preload);
   preload.decisions = job.settings.decisions;
   preload.warnings.insert(preload.warnings.end(), job.settings.warnings.begin(),

@@ -103,7 +103,7 @@ struct Share {
   RowStatistics rows;
   ResidualPeaks peaks;
   RowCounts counts;
-  double low = kUnbounded, high = -kUnbounded;
+  double low = kUnbounded, high = -kUnbounded, acceleration = 0;
 };
 
 Share share_of(const EquationBatch& batch, const EquationRows& e, const RowStatistics& blank) {
@@ -115,6 +115,9 @@ Share share_of(const EquationBatch& batch, const EquationRows& e, const RowStati
     share.low = batch.rows.col(e.columns.deflection).minCoeff();
     share.high = batch.rows.col(e.columns.deflection).maxCoeff();
   }
+  // The regressor of an axis' own inertia is its acceleration; effects begin with it.
+  if (!e.columns.effects.empty() && e.columns.effects.front()->inertia != nullptr)
+    share.acceleration = batch.rows.col(0).cwiseAbs().maxCoeff();
   return share;
 }
 
@@ -124,6 +127,7 @@ void take(EquationRows& e, Share&& share) {
   e.counts += share.counts;
   e.deflection_low = std::min(e.deflection_low, share.low);
   e.deflection_high = std::max(e.deflection_high, share.high);
+  e.acceleration = std::max(e.acceleration, share.acceleration);
 }
 
 }  // namespace

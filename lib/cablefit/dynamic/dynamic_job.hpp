@@ -42,6 +42,7 @@ struct EquationRows {
   /// Largest residuals, per model; guessed at by a fit to the first windows.
   std::optional<ResidualPeaks> peaks;
   double deflection_low = kUnbounded, deflection_high = -kUnbounded;
+  double acceleration = 0;  ///< largest magnitude, of one joint's equation
 };
 
 /// Per joint link and motor, or the one equation of a rigid drive; no rows yet.

@@ -38,6 +38,9 @@ struct LoadLaw {
   bool any_joints = false;
   /// Its torque needs a link that turns.
   bool rotary_only = false;
+  /// Acceleration of the link, rad/s^2, at which the load no longer hangs on it (a slack rope).
+  /// nullptr: it always does.
+  double (*free_fall)(const LoadParameters& parameters) = nullptr;
 };
 
 std::span<const LoadLaw> load_laws();

@@ -25,7 +25,8 @@ LoadLaw column() {
           .torque = torque,
           .inertia = inertia,
           .any_joints = true,
-          .rotary_only = false};
+          .rotary_only = false,
+          .free_fall = nullptr};
 }
 
 }  // namespace cablefit::laws

@@ -29,7 +29,8 @@ LoadLaw constant() {
           .torque = torque,
           .inertia = inertia,
           .any_joints = false,
-          .rotary_only = false};
+          .rotary_only = false,
+          .free_fall = nullptr};
 }
 
 }  // namespace cablefit::laws

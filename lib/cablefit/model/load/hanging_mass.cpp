@@ -30,6 +30,9 @@ double torque(const LoadParameters& p, double /*q*/) {
 
 double inertia(const LoadParameters& p) { return p.mass * p.radius * p.radius; }
 
+// A rope only pulls: the mass cannot be pushed down faster than it falls.
+double free_fall(const LoadParameters& p) { return kGravity / p.radius; }
+
 }  // namespace
 
 LoadLaw hanging_mass() {
@@ -41,7 +44,8 @@ LoadLaw hanging_mass() {
           .torque = torque,
           .inertia = inertia,
           .any_joints = false,
-          .rotary_only = true};
+          .rotary_only = true,
+          .free_fall = free_fall};
 }
 
 }  // namespace cablefit::laws

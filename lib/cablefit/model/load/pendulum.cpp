@@ -35,7 +35,8 @@ LoadLaw pendulum() {
           .torque = torque,
           .inertia = inertia,
           .any_joints = false,
-          .rotary_only = true};
+          .rotary_only = true,
+          .free_fall = nullptr};
 }
 
 }  // namespace cablefit::laws

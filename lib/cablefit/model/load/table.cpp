@@ -51,7 +51,8 @@ LoadLaw table() {
           .torque = torque,
           .inertia = inertia,
           .any_joints = false,
-          .rotary_only = false};
+          .rotary_only = false,
+          .free_fall = nullptr};
 }
 
 }  // namespace cablefit::laws
