@@ -208,6 +208,22 @@ TEST_CASE("powers formed after thinning are those of the torque", "[samples]") {
   }
 }
 
+// An equation with a lower cut-off than the others settles more slowly; its windows have to overlap
+// by that much.
+TEST_CASE("windows leave room for the lowest cut-off of any equation", "[samples]") {
+  Bench bench;
+  const LogSurvey& log = bench.add_text(cubic_log(0.3));
+  Equation slow = cubic_equation();
+  slow.cutoff = 5;
+  RowSettings settings = settings_of(100, 4, 400);
+  settings.lowest_cutoff = slow.cutoff;
+  const EquationBatch cut = all_rows(log, settings, slow);
+  const EquationBatch whole = single_shot(log, settings, slow);
+  REQUIRE(cut.numbers == whole.numbers);
+  // Two settling times of the low-pass are left: rounding.
+  CHECK((cut.rows - whole.rows).cwiseAbs().maxCoeff() < 1e-12);
+}
+
 // Thinned windows begin and end anywhere on the thinned grid; what is left of the cuts is one
 // settling time of the low-pass, 1e-10 of the signal.
 TEST_CASE("thinned rows do not show where windows were cut", "[samples]") {

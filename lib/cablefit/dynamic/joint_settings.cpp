@@ -16,8 +16,8 @@ double lower_cutoff(double a, double b) { return a > 0 && b > 0 ? std::min(a, b)
 void take_most(RowSettings& all, const ChosenSettings& joint) {
   const RowSettings& own = joint.rows;
   all.signal.cutoff = std::max(all.signal.cutoff, own.signal.cutoff);
-  all.halo_cutoff = lower_cutoff(all.halo_cutoff, lower_cutoff(own.signal.cutoff, joint.cutoff_q));
-  all.lowest_cutoff = all.halo_cutoff;
+  all.lowest_cutoff =
+      lower_cutoff(all.lowest_cutoff, lower_cutoff(own.signal.cutoff, joint.cutoff_q));
   all.decimate = std::min(all.decimate, own.decimate);
   all.drop_edge = std::max(all.drop_edge, own.drop_edge);
   all.rest_margin = std::max(all.rest_margin, own.rest_margin);

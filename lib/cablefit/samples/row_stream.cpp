@@ -155,7 +155,7 @@ Eigen::Index row_halo(const RowSettings& settings, double rate) {
   const Eigen::Index averaging = 1;
   const int step = thinning_step(settings.signal, settings.decimate, rate);
   RowSettings thin = thinned(settings, step, 1 / rate);
-  if (settings.halo_cutoff > 0) thin.signal.cutoff = settings.halo_cutoff;
+  if (settings.lowest_cutoff > 0) thin.signal.cutoff = settings.lowest_cutoff;
   const Eigen::Index needed =
       thinning_reach(step) + step * (signal_halo(thin.signal, rate / step) + averaging +
                                      Decimation(thin.decimate).half_width() + thin.rest_margin +

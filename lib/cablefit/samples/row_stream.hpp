@@ -19,9 +19,9 @@ namespace cablefit {
 /// Every number that decides which rows come out. SI, rows count raw samples.
 struct RowSettings {
   SignalSettings signal;
-  double lowest_cutoff = 0;  ///< Hz, of any equation with a cut-off of its own; 0: there is none
-  /// Hz, of several joints: the lowest cut-off that windows leave room to settle for; 0: signal's.
-  double halo_cutoff = 0;
+  /// Hz, of any equation with a cut-off of its own: windows leave it room to settle. 0: there is
+  /// none below signal's.
+  double lowest_cutoff = 0;
   int decimate = 1;
   Eigen::Index drop_edge = kDifferenceEdge;  ///< rows dropped at both ends of each segment
   Eigen::Index rest_margin = 0;              ///< rows around a slow one that go with it
