@@ -7,6 +7,7 @@
 #include <cctype>
 #include <vector>
 
+#include "cablefit/base/error.hpp"
 #include "cablefit/base/quote.hpp"
 
 namespace cablefit {
@@ -72,6 +73,11 @@ std::string suggestion(std::string_view name, std::span<const std::string_view> 
     listed.push_back(fmt::format("... ({} more)", known.size() - kMostListed));
   }
   return fmt::format("known: {}", fmt::join(listed, ", "));
+}
+
+void fail_unknown_row(std::string_view kind, std::string_view name,
+                      std::span<const std::string_view> known) {
+  throw input_error({}, fmt::format("unknown {} '{}'", kind, name), suggestion(name, known));
 }
 
 }  // namespace cablefit

@@ -1,7 +1,6 @@
 #include "cablefit/model/arm.hpp"
 
 #include "cablefit/base/catalog.hpp"
-#include "cablefit/base/error.hpp"
 #include "cablefit/model/arm/kinds.hpp"
 
 namespace cablefit {
@@ -16,14 +15,7 @@ const std::vector<ArmKind>& table() {
 
 std::span<const ArmKind> arm_kinds() { return table(); }
 
-const ArmKind& find_arm_kind(std::string_view name) {
-  std::vector<std::string_view> known;
-  for (const ArmKind& kind : arm_kinds()) {
-    if (kind.name == name) return kind;
-    known.push_back(kind.name);
-  }
-  throw input_error({}, "unknown arm '" + std::string(name) + "'", suggestion(name, known));
-}
+const ArmKind& find_arm_kind(std::string_view name) { return find_row(arm_kinds(), "arm", name); }
 
 std::vector<ParameterInfo> Arm::base_parameters() const {
   return kind == nullptr ? std::vector<ParameterInfo>{} : kind->base_parameters(parameters);

@@ -6,7 +6,6 @@
 #include <cassert>
 
 #include "cablefit/base/catalog.hpp"
-#include "cablefit/base/error.hpp"
 #include "cablefit/model/cables/laws.hpp"
 
 namespace cablefit {
@@ -87,12 +86,7 @@ Eigen::VectorXd or_zero(const Eigen::VectorXd& values, int n) {
 std::span<const CableLaw> cable_laws() { return table(); }
 
 const CableLaw& find_cable_law(std::string_view name) {
-  std::vector<std::string_view> known;
-  for (const CableLaw& law : cable_laws()) {
-    if (law.name == name) return law;
-    known.push_back(law.name);
-  }
-  throw input_error({}, fmt::format("unknown cable law '{}'", name), suggestion(name, known));
+  return find_row(cable_laws(), "cable law", name);
 }
 
 double Cable::elongation(const Eigen::VectorXd& q, const Eigen::VectorXd& theta) const {

@@ -1,7 +1,6 @@
 #include "cablefit/model/load.hpp"
 
 #include "cablefit/base/catalog.hpp"
-#include "cablefit/base/error.hpp"
 #include "cablefit/model/load/laws.hpp"
 
 namespace cablefit {
@@ -17,13 +16,6 @@ const std::vector<LoadLaw>& table() {
 
 std::span<const LoadLaw> load_laws() { return table(); }
 
-const LoadLaw& find_load_law(std::string_view name) {
-  std::vector<std::string_view> known;
-  for (const LoadLaw& law : load_laws()) {
-    if (law.name == name) return law;
-    known.push_back(law.name);
-  }
-  throw input_error({}, "unknown load '" + std::string(name) + "'", suggestion(name, known));
-}
+const LoadLaw& find_load_law(std::string_view name) { return find_row(load_laws(), "load", name); }
 
 }  // namespace cablefit

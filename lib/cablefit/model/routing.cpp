@@ -1,7 +1,6 @@
 #include "cablefit/model/routing.hpp"
 
 #include "cablefit/base/catalog.hpp"
-#include "cablefit/base/error.hpp"
 #include "cablefit/model/routing/maps.hpp"
 
 namespace cablefit {
@@ -17,13 +16,7 @@ const std::vector<MapKind>& table() {
 std::span<const MapKind> map_kinds() { return table(); }
 
 const MapKind& find_map_kind(std::string_view name) {
-  std::vector<std::string_view> known;
-  for (const MapKind& kind : map_kinds()) {
-    if (kind.name == name) return kind;
-    known.push_back(kind.name);
-  }
-  throw input_error({}, "unknown displacement map '" + std::string(name) + "'",
-                    suggestion(name, known));
+  return find_row(map_kinds(), "displacement map", name);
 }
 
 Eigen::ArrayXd DisplacementMap::displacements(const Eigen::Ref<const Eigen::ArrayXd>& angle) const {
