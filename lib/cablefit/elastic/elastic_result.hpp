@@ -8,16 +8,10 @@
 #include "cablefit/base/parameter.hpp"
 #include "cablefit/figure/figure.hpp"
 #include "cablefit/model/cables.hpp"
+#include "cablefit/samples/input_file.hpp"
 #include "cablefit/samples/settings.hpp"
 
 namespace cablefit {
-
-/// A log as it went into a result.
-struct InputFile {
-  std::string path;
-  std::string sha256;
-  std::size_t rows = 0;
-};
 
 /// Errors of one joint's equation, N m; as the fields of ElasticFit of these names.
 struct ElasticJointErrors {

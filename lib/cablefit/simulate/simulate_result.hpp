@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "cablefit/elastic/elastic_result.hpp"
+#include "cablefit/figure/figure.hpp"
+#include "cablefit/samples/input_file.hpp"
+#include "cablefit/samples/settings.hpp"
 
 namespace cablefit {
 

@@ -1,0 +1,14 @@
+// A log as a result remembers it.
+#pragma once
+
+#include <string>
+
+namespace cablefit {
+
+struct InputFile {
+  std::string path;
+  std::string sha256;
+  std::size_t rows = 0;
+};
+
+}  // namespace cablefit
