@@ -11,6 +11,7 @@
 #include "cablefit/base/digest.hpp"
 #include "cablefit/base/error.hpp"
 #include "cablefit/campaign/campaign.hpp"
+#include "cablefit/dynamic/estimators.hpp"
 #include "cablefit/elastic/elastic_fit.hpp"
 #include "cablefit/report/dynamic_document.hpp"
 #include "cablefit/report/dynamic_json.hpp"

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "cablefit/dynamic/dynamic_fit.hpp"
+#include "cablefit/dynamic/estimators.hpp"
 #include "cablefit/log/log_reader.hpp"
 #include "cablefit/model/arm.hpp"
 #include "cablefit/model/cables.hpp"

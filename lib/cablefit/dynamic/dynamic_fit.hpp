@@ -21,22 +21,13 @@ struct DynamicModel {
 };
 std::span<const DynamicModel> dynamic_models();
 
-/// A row of the table of estimators (`cablefit list estimators`).
-struct Estimator {
-  std::string_view name;
-  std::string_view description;
-  std::string_view source;
-  bool weights_equations;
-};
-std::span<const Estimator> estimators();
-
 struct DynamicOptions {
   SampleOptions samples;
   std::vector<std::string> models = {"poly"};  ///< names of the table
-  std::string estimator = "wls";
-  bool honest_sd = true;  ///< --sd honest | white
-  std::string preload;    ///< only this one; empty: all
-  bool figures = false;   ///< one more pass, for reports with plots
+  std::string estimator = "wls";               ///< name of the table (estimators.hpp)
+  bool honest_sd = true;                       ///< --sd honest | white
+  std::string preload;                         ///< only this one; empty: all
+  bool figures = false;                        ///< one more pass, for reports with plots
 };
 
 /// Fits every preload of the moving logs. `elastic`: stage 1, may be empty for rigid drives. Throws

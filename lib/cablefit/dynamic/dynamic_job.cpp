@@ -179,14 +179,15 @@ LinearSolution solve_equation(const EquationRows& e, const std::vector<const Ela
 
 RowStatistics stacked_rows(const std::vector<EquationRows>& equations,
                            const std::vector<std::size_t>& system,
-                           const std::vector<const ElasticFit*>& elastic, std::size_t which) {
+                           const std::vector<const ElasticFit*>& elastic, std::size_t which,
+                           Weighting weighting) {
   std::vector<const RowStatistics*> rows;
   std::vector<double> weights;
   for (const std::size_t k : system) {
     const EquationRows& e = equations[k];
     rows.push_back(&*e.rows);
-    const LinearSolution own = solve_equation(e, elastic, which);
-    weights.push_back(own.rss > 0 ? static_cast<double>(own.n_rows) / own.rss : 1);
+    const double rss = weighting == Weighting::none ? 0 : solve_equation(e, elastic, which).rss;
+    weights.push_back(rss > 0 ? static_cast<double>(e.rows->n_rows()) / rss : 1);
   }
   return RowStatistics::weighted(rows, weights);
 }

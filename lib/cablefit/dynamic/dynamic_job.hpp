@@ -58,11 +58,15 @@ std::vector<EquationRows> pilot_equations(const DynamicJob& job, int n_windows);
 /// Streams all wanted rows into the equations.
 WindowCounts collect_rows(const DynamicJob& job, std::vector<EquationRows>& equations);
 
-/// Rows of the equations of a system as one, each equation's weighted with 1/variance of its own
-/// residual.
+/// How much the rows of an equation count beside those of the others.
+enum class Weighting { none, by_residual };
+
+/// Rows of the equations of a system as one, each equation's of weight one or weighted with
+/// 1/variance of its own residual.
 RowStatistics stacked_rows(const std::vector<EquationRows>& equations,
                            const std::vector<std::size_t>& system,
-                           const std::vector<const ElasticFit*>& elastic, std::size_t which);
+                           const std::vector<const ElasticFit*>& elastic, std::size_t which,
+                           Weighting weighting);
 
 /// The fit of model number `which` to rows of these columns.
 LinearSolution solve_rows(const RowStatistics& rows, const DynamicColumns& columns,

@@ -1,0 +1,20 @@
+// Warnings of stage 2 that no estimator sees. Internal to dynamic/.
+#pragma once
+
+#include "cablefit/dynamic/dynamic_job.hpp"
+
+namespace cablefit {
+
+/// Deflections beyond those that stage 1 saw.
+void note_extrapolations(const DynamicJob& job, const std::vector<EquationRows>& equations,
+                         const ElasticResult& elastic, DynamicPreload& preload);
+
+/// The load's inertia, and logs without any load. Throws Error(input) for a load that depends on a
+/// position that the log lacks.
+void note_load(const DynamicJob& job, DynamicPreload& preload);
+
+/// A hanging mass that the link outruns is not the load that the law says.
+void note_free_fall(const Load& load, const std::vector<EquationRows>& equations,
+                    DynamicPreload& preload);
+
+}  // namespace cablefit

@@ -1,0 +1,25 @@
+#include "cablefit/dynamic/estimators.hpp"
+
+#include <array>
+
+#include "cablefit/base/catalog.hpp"
+#include "cablefit/base/error.hpp"
+#include "cablefit/dynamic/estimators/rows.hpp"
+
+namespace cablefit {
+namespace {
+
+const std::vector<Estimator>& table() {
+  static const std::vector<Estimator> rows = {estimation::ols(), estimation::wls()};
+  return rows;
+}
+
+}  // namespace
+
+std::span<const Estimator> estimators() { return table(); }
+
+const Estimator& find_estimator(std::string_view name) {
+  return find_row(estimators(), "estimator", name);
+}
+
+}  // namespace cablefit

@@ -1,0 +1,42 @@
+// The estimators of stage 2 as rows of a table. To add one: a file in estimators/ and one line in
+// estimators.cpp.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "cablefit/dynamic/dynamic_job.hpp"
+
+namespace cablefit {
+
+/// What an estimator works on: one model of one preload.
+struct EstimationTask {
+  const DynamicJob& job;
+  const std::vector<EquationRows>& equations;  ///< with their rows
+  std::size_t model;                           ///< place among job.models and job.elastic
+
+  /// Stage 1 of this model; nullptr for a rigid drive.
+  const ElasticFit* stage1() const { return job.rigid ? nullptr : job.elastic[model]; }
+};
+
+struct Estimation {
+  DynamicFit fit;
+  /// Per equation: what rows * residual_combination = residual is needed for, largest errors and
+  /// plots.
+  std::vector<LinearSolution> solutions;
+};
+
+/// A row of the table (`cablefit list estimators`).
+struct Estimator {
+  std::string_view name;
+  std::string_view description;
+  std::string_view source;
+  Estimation (*estimate)(const EstimationTask& task);
+};
+
+std::span<const Estimator> estimators();
+/// Throws Error(usage) with a suggestion.
+const Estimator& find_estimator(std::string_view name);
+
+}  // namespace cablefit

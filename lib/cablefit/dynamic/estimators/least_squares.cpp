@@ -1,0 +1,45 @@
+// Linear least squares on the rows as collected: each equation alone, or the links of an arm, which
+// share parameters, stacked.
+#include "cablefit/dynamic/estimates.hpp"
+#include "cablefit/dynamic/estimators/rows.hpp"
+
+namespace cablefit::estimation {
+namespace {
+
+Estimation estimate(const EstimationTask& task, Weighting weighting) {
+  const DynamicJob& job = task.job;
+  Estimation out;
+  out.solutions.resize(task.equations.size());
+  for (const std::vector<std::size_t>& system : systems_of(task.equations)) {
+    const EquationRows& first = task.equations[system.front()];
+    std::optional<RowStatistics> stacked;
+    if (system.size() > 1)
+      stacked = stacked_rows(task.equations, system, job.elastic, task.model, weighting);
+    const RowStatistics& rows = stacked ? *stacked : *first.rows;
+    const LinearSolution solution = solve_rows(rows, first.columns, job.elastic, task.model);
+    add_estimates(rows, first.columns, solution, task.stage1(), task.model, job.rig().linear_motion,
+                  job.options.honest_sd, out.fit);
+    for (const std::size_t k : system) {
+      add_errors(*task.equations[k].rows, task.equations[k].equation.name, solution, out.fit);
+      out.solutions[k] = solution;
+    }
+  }
+  return out;
+}
+
+Estimation ordinary(const EstimationTask& task) { return estimate(task, Weighting::none); }
+Estimation weighted(const EstimationTask& task) { return estimate(task, Weighting::by_residual); }
+
+}  // namespace
+
+Estimator ols() {
+  return {"ols", "ordinary least squares by streamed QR, all equations of weight one",
+          "Golub & Van Loan 2013, ch. 5", ordinary};
+}
+
+Estimator wls() {
+  return {"wls", "each equation weighted by 1/variance of its own residual", "Gautier 1997",
+          weighted};
+}
+
+}  // namespace cablefit::estimation
