@@ -114,7 +114,8 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
       std::optional<RowStatistics> stacked;
       if (system.size() > 1) stacked = stacked_rows(equations, system, job.elastic, m);
       const RowStatistics& rows = stacked ? *stacked : *first.rows;
-      const LinearSolution solution = solve_rows(rows, first.columns, job.elastic, m);
+      const LinearSolution solution =
+          solve_rows(rows, first.columns, job.elastic, m, job.rig().linear_motion);
       add_estimates(rows, first.columns, solution, stage1, m, job.rig().linear_motion,
                     job.options.honest_sd, fit);
       for (const std::size_t k : system) {
