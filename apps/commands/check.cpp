@@ -2,6 +2,7 @@
 #include "cablefit/samples/check.hpp"
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/dynamic/prediction.hpp"
 #include "cablefit/dynamic/torque_delay.hpp"
 #include "cablefit/report/check_document.hpp"
 #include "cablefit/report/check_json.hpp"
@@ -10,6 +11,7 @@
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
 #include "commands/problems.hpp"
+#include "commands/progress.hpp"
 
 namespace cablefit::apps {
 namespace {
@@ -63,7 +65,11 @@ int run_check(const Arguments& arguments) {
     for (CheckedPart& part : result.logs[k].parts) add_delay(logs[k], options.samples, part);
     if (wants_figures(options)) result.logs[k].figures = check_figures(logs[k]);
   }
-  deliver(options, check_document(result), {{"", check_json(result)}});
+  const std::vector<Prediction> predictions = [&] {
+    const Progress progress(options.quiet, "predicting");
+    return predict_estimates(logs, result, options.samples);
+  }();
+  deliver(options, check_document(result, predictions), {{"", check_json(result, predictions)}});
   throw_if_useless(result);
   return 0;
 }

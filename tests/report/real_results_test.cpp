@@ -57,9 +57,33 @@ TEST_CASE("a check of real logs is as its schema says") {
   const std::vector<LogSurvey> logs = {survey("low/blocked.csv"), survey("low/moving_load30.csv")};
   const CheckResult result = check_logs(logs, {});
   CHECK(test::schema_errors("check", check_json(result)) == "");
+  const std::vector<Prediction> predictions = predict_estimates(logs, result, {});
+  REQUIRE(predictions.size() == 1);
+  CHECK(predictions[0].equations.size() == 2);
+  CHECK(test::schema_errors("check", check_json(result, predictions)) == "");
+  SampleOptions threads;
+  threads.threads = 4;
+  CHECK(check_json(result, predict_estimates(logs, result, threads)) ==
+        check_json(result, predictions));
   CHECK(result.logs[0].parts[0].identifies == std::vector<std::string>{"elastic"});
   CHECK(result.logs[1].parts[0].identifies == std::vector<std::string>{"dynamic", "rigid"});
   CHECK(result.logs[1].parts[0].excitation.speed_bands > 3);
+}
+
+TEST_CASE("a check of several joints predicts every joint's equations") {
+  const std::vector<LogSurvey> logs = {survey("two_joints/finger/moving.csv")};
+  const CheckResult result = check_logs(logs, {});
+  const std::vector<Prediction> predictions = predict_estimates(logs, result, {});
+  REQUIRE(predictions.size() == 1);
+  INFO(predictions[0].none);
+  std::vector<std::string> names;
+  for (const PredictedEquation& e : predictions[0].equations) {
+    names.push_back(e.name);
+    for (const PredictedParameter& p : e.parameters)
+      CHECK(p.determined != Determined::not_identifiable);
+  }
+  CHECK(names == std::vector<std::string>{"link[1]", "motor[1]", "link[2]", "motor[2]"});
+  CHECK(test::schema_errors("check", check_json(result, predictions)) == "");
 }
 
 }  // namespace

@@ -66,14 +66,14 @@ void add_effects(DynamicColumns& c, int joint) {
     if (joint == c.place.joint) c.effects.push_back(&effect);
     for (const ParameterInfo& info : effect.parameters)
       c.parameters.push_back({info, joint_parameter_name(info.name, joint + 1, c.place.n_joints),
-                              is_inertia, given_inertia(c, effect, joint)});
+                              is_inertia, given_inertia(c, effect, joint), effect.follows});
   }
 }
 
 void add_parameters(DynamicColumns& c) {
   if (!is_coupled_link(c)) return add_effects(c, c.place.joint);
   for (const ParameterInfo& info : c.place.arm->base_parameters())
-    c.parameters.push_back({info, std::string(info.name), false, {}});
+    c.parameters.push_back({info, std::string(info.name), false, {}, MotionPart::joints});
   c.n_arm = static_cast<Eigen::Index>(c.parameters.size());
   for (int joint = 0; joint < c.place.n_joints; ++joint) add_effects(c, joint);
 }
@@ -121,6 +121,13 @@ DynamicColumns dynamic_columns(Side side, const std::vector<const ElasticFit*>& 
   c.position = c.count++;
   c.torque = c.count++;
   return c;
+}
+
+MotionColumn motion_column(const DynamicColumns& columns, std::size_t parameter,
+                           bool linear_motion) {
+  const MotionPart part = columns.parameters[parameter].follows;
+  const bool weighted = columns.n_arm > 0;
+  return {part, weighted ? "" : std::string(motion_unit(part, linear_motion))};
 }
 
 void effect_columns(const std::vector<const Effect*>& effects, Side side, const JointSignals& s,

@@ -8,6 +8,7 @@
 
 #include "cablefit/elastic/elastic_columns.hpp"
 #include "cablefit/elastic/elastic_result.hpp"
+#include "cablefit/estimate/motion_advice.hpp"
 #include "cablefit/model/arm.hpp"
 #include "cablefit/model/effects.hpp"
 
@@ -29,6 +30,7 @@ struct DynamicParameter {
   std::string name;             ///< with the joint's index when there are several
   bool is_inertia = false;      ///< of one axis
   std::optional<double> given;  ///< by the rig file, and not estimated
+  MotionPart follows = MotionPart::several;
 };
 
 /// The link equations of joints that move each other have the same columns, so that their rows can
@@ -64,6 +66,11 @@ Equation dynamic_equation(const DynamicColumns& columns, const std::vector<const
 /// link side, for elastic fit number `which` (ignored on a rigid drive).
 Eigen::VectorXd dynamic_response(const DynamicColumns& columns,
                                  const std::vector<const ElasticFit*>& fits, std::size_t which);
+
+/// What the column of a parameter follows. The rows of several joints are weighted when they stand
+/// under each other, so that their sizes say nothing.
+MotionColumn motion_column(const DynamicColumns& columns, std::size_t parameter,
+                           bool linear_motion);
 
 /// Coefficients of a stage-1 fit in the order of its basis columns.
 Eigen::VectorXd elastic_coefficients(const ElasticFit& fit);

@@ -27,6 +27,12 @@ const ChosenSettings& DynamicJob::settings_of(int joint) const {
 
 namespace {
 
+void widen(const Eigen::MatrixXd& rows, EquationRows& e) {
+  if (rows.rows() == 0 || e.columns.deflection < 0) return;
+  e.deflection_low = std::min(e.deflection_low, rows.col(e.columns.deflection).minCoeff());
+  e.deflection_high = std::max(e.deflection_high, rows.col(e.columns.deflection).maxCoeff());
+}
+
 EquationRows make_equation(const DynamicJob& job, Side side, int joint) {
   const ChosenSettings& settings = job.settings_of(joint);
   EquationRows e;
@@ -81,8 +87,10 @@ std::vector<EquationRows> pilot_equations(const DynamicJob& job, int n_windows) 
   for (const PilotWindow& p :
        pilot_windows(job.logs, job.wanted, settings.signal, row_halo(settings, rate), n_windows)) {
     const RowBatch batch = make_rows(p.window, job.logs[p.log], 0, settings, plain);
-    for (std::size_t k = 0; k < pilot.size(); ++k)
+    for (std::size_t k = 0; k < pilot.size(); ++k) {
       pilot[k].rows->add(batch.equations[k].rows, batch.equations[k].numbers);
+      widen(batch.equations[k].rows, pilot[k]);
+    }
   }
   return pilot;
 }
@@ -158,13 +166,15 @@ WindowCounts collect_rows(const DynamicJob& job, std::vector<EquationRows>& equa
 }
 
 LinearSolution solve_rows(const RowStatistics& rows, const DynamicColumns& columns,
-                          const std::vector<const ElasticFit*>& elastic, std::size_t which) {
+                          const std::vector<const ElasticFit*>& elastic, std::size_t which,
+                          bool linear_motion) {
   LinearProblem problem;
   problem.response = dynamic_response(columns, elastic, which);
   for (const DynamicParameter& parameter : columns.parameters) {
     const auto k = static_cast<Eigen::Index>(problem.regressors.size());
     problem.regressors.push_back(k);
     problem.names.push_back(parameter.name);
+    problem.motion.push_back(motion_column(columns, static_cast<std::size_t>(k), linear_motion));
     problem.lower.push_back(parameter.info.lower);
     problem.held.emplace_back(parameter.given ? "given by the rig file" : "");
     if (parameter.given) problem.response(k) = -*parameter.given;

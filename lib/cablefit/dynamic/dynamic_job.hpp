@@ -70,7 +70,8 @@ RowStatistics stacked_rows(const std::vector<EquationRows>& equations,
 
 /// The fit of model number `which` to rows of these columns.
 LinearSolution solve_rows(const RowStatistics& rows, const DynamicColumns& columns,
-                          const std::vector<const ElasticFit*>& elastic, std::size_t which);
+                          const std::vector<const ElasticFit*>& elastic, std::size_t which,
+                          bool linear_motion = false);
 
 /// The fit of model number `which` to one equation.
 LinearSolution solve_equation(const EquationRows& equation,

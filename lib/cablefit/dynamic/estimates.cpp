@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cablefit/estimate/parameter_estimate.hpp"
@@ -15,6 +16,7 @@ constexpr double kPositionAlias = 0.98;
 // Relative change of an inertia when torques of position are allowed beside it.
 constexpr double kShiftNoted = 0.2;
 constexpr double kShiftRefused = 2.0 / 3;
+constexpr double kDrownedShare = 0.1;  // of an inertial torque in a residual that is systematic
 
 /// R^2 of column `k` on the other effect columns and the position.
 double explained_by_position(const RowStatistics& rows, const DynamicColumns& c, Eigen::Index k) {
@@ -61,33 +63,46 @@ void refuse(Estimate& e, const std::string& why) {
   e.value = e.sd = e.sd_white = e.ci_low = e.ci_high = std::numeric_limits<double>::quiet_NaN();
 }
 
+/// "an inertial torque of 0.02 rms drowns ...; accelerate with ...". A size below its own sd is
+/// noise: the inertia may as well be as large as that.
+std::string drowned_text(double torque, double left, double relative_sd, const MotionColumn& column,
+                         double acceleration) {
+  return fmt::format(
+      "an inertial torque of {:.2g} rms drowns in what the model leaves ({:.2g} rms); {}", torque,
+      left, stronger_motion(column, acceleration, std::min(1.0, relative_sd)));
+}
+
 /// An inertia has to be positive: an interval that reaches zero has determined nothing.
 void judge_inertia(const RowStatistics& rows, const DynamicColumns& c, const LinearSolution& s,
-                   Eigen::Index k, std::size_t which, Estimate& e,
+                   Eigen::Index k, std::size_t which, bool linear_motion, Estimate& e,
                    std::vector<std::string>& warnings) {
   if (!e.not_identifiable.empty()) return;
+  const MotionColumn column = motion_column(c, static_cast<std::size_t>(k), linear_motion);
   const double explained = explained_by_position(rows, c, k);
   if (explained > kPositionAlias) {
     refuse(
         e,
         fmt::format(
             "the acceleration is {:.1f} % a function of position, speed and direction (one sine?): "
-            "inertia cannot be told from stiffness or gravity; move at several frequencies",
-            100 * explained));
+            "inertia cannot be told from stiffness or gravity; {}",
+            100 * explained, separating_motion(column, 0, {MotionPart::position}, 0)));
     return;
   }
   const double inertia = std::max(std::abs(s.unbounded_x(k)), std::abs(e.value));
-  const double torque = inertia * rows.r().col(k).norm() /
-                        std::sqrt(static_cast<double>(std::max<Eigen::Index>(1, rows.n_rows())));
+  const double acceleration =
+      rows.r().col(k).norm() /
+      std::sqrt(static_cast<double>(std::max<Eigen::Index>(1, rows.n_rows())));
+  const double torque = inertia * acceleration;
   // Noise averages out, a wrong model does not: an inertial torque far below a residual that is
   // mostly systematic (few effective rows) would only fit that residual.
   const bool systematic = s.effective_rows < 0.25 * static_cast<double>(s.n_rows);
-  const bool drowned = systematic && torque < 0.1 * s.rms();
+  const bool drowned = systematic && torque < kDrownedShare * s.rms();
   const double alternative = with_position_torque(rows, c, k, s, which);
   if (!e.active_bound.empty() || e.ci_low <= 0 || drowned)
-    refuse(e, fmt::format("an inertial torque of {:.2g} rms drowns in what the model leaves "
-                          "({:.2g} rms); move faster",
-                          torque, s.rms()));
+    refuse(e, drowned_text(
+                  torque, s.rms(),
+                  std::max(e.sd / inertia, kWantedRelativeSd * kDrownedShare * s.rms() / torque),
+                  column, acceleration));
   const double shift = e.value > 0 ? std::abs(alternative - e.value) / e.value : 0;
   if (!e.not_identifiable.empty() || shift < kShiftNoted) return;
   if (shift > kShiftRefused)
@@ -128,7 +143,7 @@ void add_estimates(const RowStatistics& rows, const DynamicColumns& c, const Lin
     if (!e.active_bound.empty() && parameter.info.lower == 0)
       e.active_bound = fmt::format("{} >= 0", e.name);
     if (parameter.is_inertia && !parameter.given)
-      judge_inertia(rows, c, s, k, which, e, fit.warnings);
+      judge_inertia(rows, c, s, k, which, linear_motion, e, fit.warnings);
     fit.verdicts[e.name] = parameter.given              ? "given"
                            : e.not_identifiable.empty() ? "identified"
                                                         : "not identifiable";

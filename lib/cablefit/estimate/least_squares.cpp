@@ -6,25 +6,12 @@
 #include <cmath>
 
 #include "cablefit/estimate/active_set.hpp"
+#include "cablefit/estimate/identifiability.hpp"
 #include "cablefit/estimate/scaled_solve.hpp"
 #include "cablefit/estimate/solution_covariance.hpp"
 
 namespace cablefit {
 namespace {
-
-constexpr double kNullComponent = 0.05;  // share in a null direction that counts as taking part
-constexpr double kCorrelationWarning = 0.95;  // estimation-rules: warn above
-
-std::string null_text(const Eigen::VectorXd& direction, Eigen::Index self,
-                      const std::vector<std::string>& names) {
-  std::string others;
-  for (Eigen::Index k = 0; k < direction.size(); ++k) {
-    if (k == self || std::abs(direction(k)) < kNullComponent) continue;
-    others += (others.empty() ? "" : ", ") + names[static_cast<std::size_t>(k)];
-  }
-  if (others.empty()) return "its column is zero: the log never excites it";
-  return fmt::format("cannot be told apart from {} in these logs", others);
-}
 
 struct FreeFit {
   std::vector<Eigen::Index> free;
@@ -55,15 +42,34 @@ FreeFit fit_free(const RowStatistics& rows, const LinearProblem& problem, const 
   return fit;
 }
 
-void name_null_directions(const FreeFit& fit, const LinearProblem& problem, LinearSolution& out) {
-  std::vector<std::string> names;
-  for (const Eigen::Index k : fit.free) names.push_back(problem.names[static_cast<std::size_t>(k)]);
-  for (Eigen::Index d = 0; d < fit.solve.null_directions.cols(); ++d) {
-    const Eigen::VectorXd direction = fit.solve.null_directions.col(d);
+/// The columns of the problem that `which` lists, for words about them.
+struct Words {
+  std::vector<NamedColumn> names;
+  Eigen::VectorXd rms;
+};
+
+Words words_for(const RowStatistics& rows, const LinearProblem& problem,
+                const std::vector<Eigen::Index>& which) {
+  Words words{{}, Eigen::VectorXd(static_cast<Eigen::Index>(which.size()))};
+  const double n = static_cast<double>(std::max<Eigen::Index>(1, rows.n_rows()));
+  for (const Eigen::Index k : which) {
+    const auto at = static_cast<std::size_t>(k);
+    words.rms(static_cast<Eigen::Index>(words.names.size())) =
+        rows.r().col(problem.regressors[at]).norm() / std::sqrt(n);
+    words.names.push_back(
+        {problem.names[at], problem.motion.empty() ? MotionColumn{} : problem.motion[at]});
+  }
+  return words;
+}
+
+void name_null_directions(const FreeFit& fit, const Words& words, LinearSolution& out) {
+  const Eigen::MatrixXd directions = sparse_directions(fit.solve.null_directions);
+  for (Eigen::Index d = 0; d < directions.cols(); ++d) {
+    const Eigen::VectorXd direction = directions.col(d);
     for (Eigen::Index k = 0; k < direction.size(); ++k)
       if (std::abs(direction(k)) >= kNullComponent)
         out.not_identifiable[static_cast<std::size_t>(fit.free[static_cast<std::size_t>(k)])] =
-            null_text(direction, k, names);
+            not_determined(direction, k, words.rms, words.names);
   }
 }
 
@@ -91,19 +97,19 @@ Eigen::MatrixXd expand(const FreeFit& fit, Eigen::Index p) {
   return full;
 }
 
-void note_correlations(const LinearProblem& problem, const Eigen::MatrixXd& inverse,
-                       LinearSolution& out) {
-  const Eigen::Index p = out.x.size();
-  out.correlation = Eigen::MatrixXd::Identity(p, p);
-  for (Eigen::Index i = 0; i < p; ++i)
+void note_correlations(const FreeFit& unbounded, const Words& words, LinearSolution& out) {
+  out.correlation = Eigen::MatrixXd::Identity(out.x.size(), out.x.size());
+  const Eigen::MatrixXd& inverse = unbounded.solve.inverse;
+  for (Eigen::Index i = 0; i < inverse.rows(); ++i)
     for (Eigen::Index j = 0; j < i; ++j) {
       const double scale = std::sqrt(inverse(i, i) * inverse(j, j));
       const double c = scale > 0 ? inverse(i, j) / scale : 0;
-      out.correlation(i, j) = out.correlation(j, i) = c;
-      if (std::abs(c) > kCorrelationWarning)
-        out.warnings.push_back(fmt::format("{} and {} can hardly be told apart: correlation {:.3f}",
-                                           problem.names[static_cast<std::size_t>(j)],
-                                           problem.names[static_cast<std::size_t>(i)], c));
+      const auto a = static_cast<std::size_t>(j), b = static_cast<std::size_t>(i);
+      out.correlation(unbounded.free[a], unbounded.free[b]) = c;
+      out.correlation(unbounded.free[b], unbounded.free[a]) = c;
+      if (std::abs(c) > kCorrelationTold)
+        out.warnings.push_back(
+            hardly_apart(words.names[a], words.rms(j), words.names[b], words.rms(i), c));
     }
 }
 
@@ -128,7 +134,8 @@ LinearSolution solve(const RowStatistics& rows, const LinearProblem& problem) {
     if (held) out.not_identifiable[k] = problem.held[k];
   }
   const FreeFit unbounded = fit_free(rows, problem, all);
-  name_null_directions(unbounded, problem, out);
+  const Words words = words_for(rows, problem, all.free);
+  name_null_directions(unbounded, words, out);
   const FreeFit fit = fit_constrained(rows, problem, unbounded, out);
   for (std::size_t k = 0; k < fit.free.size(); ++k)
     out.x(fit.free[k]) = fit.solve.x(static_cast<Eigen::Index>(k));
@@ -154,7 +161,7 @@ LinearSolution solve(const RowStatistics& rows, const LinearProblem& problem) {
   const double honesty = std::sqrt(static_cast<double>(out.n_rows) / out.effective_rows);
   out.unbounded_sd = honesty * (out.rss / dof * expand(unbounded, p).diagonal()).cwiseSqrt();
   if (out.active_constraints.empty()) widen_beside_bounds(out);
-  note_correlations(problem, expand(unbounded, p), out);
+  note_correlations(unbounded, words, out);
   return out;
 }
 

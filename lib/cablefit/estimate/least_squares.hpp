@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/estimate/motion_advice.hpp"
 #include "cablefit/estimate/row_statistics.hpp"
 
 namespace cablefit {
@@ -22,6 +23,8 @@ struct LinearProblem {
   std::vector<std::string> held = {};
   /// constraints * x >= 0, a column per regressor; no rows: none.
   Eigen::MatrixXd constraints = {};
+  /// Per regressor what it follows, for advice in messages; empty: none is given.
+  std::vector<MotionColumn> motion = {};
 };
 
 struct LinearSolution {
@@ -47,7 +50,7 @@ struct LinearSolution {
   double degrees_of_freedom = 0;      ///< for t quantiles
   double effective_rows = 0;          ///< effective sample size
   Eigen::MatrixXd correlation;        ///< of the estimates (white)
-  std::vector<std::string> warnings;  ///< "f_v and f_s cannot be told apart: correlation 0.99"
+  std::vector<std::string> warnings;  ///< hardly_apart() of identifiability.hpp
 
   double rms() const;
 };

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "cablefit/base/parameter.hpp"
+#include "cablefit/model/motion_part.hpp"
 
 namespace cablefit {
 
@@ -46,6 +47,9 @@ struct Effect {
   /// `smooth` is a + b velocity and `dry` a constant, whatever the position: the simulator then
   /// evaluates them once instead of at every step. False is always right, only slower.
   bool is_affine = false;
+  /// What every column of the regressor follows; words about motion that would tell effects apart
+  /// go by it.
+  MotionPart follows = MotionPart::several;
 };
 
 /// All rows, in the order in which reports print them.

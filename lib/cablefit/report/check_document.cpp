@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cablefit/report/document_parts.hpp"
@@ -97,9 +98,73 @@ void add_tidy_rows(Table& table, const CheckedLog& log, const CheckedPart& part)
   }
 }
 
+/// "0.3": a size of which one digit may be right.
+std::string size_text(const PredictedParameter& p) {
+  return p.determined == Determined::given ? significant(p.size, kDigits) : significant(p.size, 1);
+}
+
+std::string sd_number(double sd) {
+  return std::isfinite(sd) && sd > 0 ? significant(sd, 2) : kNoNumber;
+}
+
+std::string closest_text(const PredictedParameter& p) {
+  return p.closest.empty() ? kNoNumber : fmt::format("{} {:.2f}", p.closest, p.correlation);
+}
+
+/// What a row of the table says of the prediction that it stands under.
+std::string about(const Prediction& p, const PredictedEquation& e) {
+  const std::string torque = torque_unit(p.linear_motion);
+  return fmt::format(
+      "{}: {} rows, scaled condition number {}, noise of the sensors {} {}, a rough model leaves "
+      "{} "
+      "{}",
+      e.name, e.rows,
+      std::isfinite(e.condition_scaled) ? significant(e.condition_scaled, 2) : "infinite",
+      significant(e.noise, 2), torque, significant(e.left, 2), torque);
+}
+
+Table prediction_table(const Prediction& p) {
+  Table table;
+  const bool one = p.logs.size() == 1;
+  table.title = fmt::format("{}: what {} of the {} drive, predicted", p.preload,
+                            one ? "this motion will tell" : "its moving logs will tell together",
+                            p.rigid ? "rigid" : "elastic");
+  table.columns = {
+      {"", "equation", "", true}, {"", "parameter", "", true}, {"", "unit", "", true},
+      {"at best", "sd", ""},      {"first look", "size", ""},  {"first look", "sd", ""},
+      {"first look", "sd", "%"},  {"", "closest", "", true},   {"", "verdict", "", true}};
+  for (const PredictedEquation& e : p.equations) {
+    for (const PredictedParameter& parameter : e.parameters)
+      table.rows.push_back({e.name, parameter.name, parameter.unit, sd_number(parameter.sd_best),
+                            size_text(parameter), sd_number(parameter.sd_first_look),
+                            sd_number(100 * parameter.relative_sd()), closest_text(parameter),
+                            std::string(to_string(parameter.determined))});
+    table.notes.push_back(about(p, e));
+  }
+  return table;
+}
+
+void add_prediction(const Prediction& p, Document& document) {
+  if (!p.none.empty()) {
+    document.paragraphs.push_back(p.preload +
+                                  ": no prediction of what stage 2 will tell: " + p.none);
+    return;
+  }
+  document.tables.push_back(prediction_table(p));
+  for (const PredictedEquation& e : p.equations)
+    for (const std::string& sentence : e.sentences)
+      document.warnings.push_back(fmt::format("{}, {}: {}", p.preload, e.name, sentence));
+}
+
+constexpr const char* kHowPredicted =
+    "at best: noise of the sensors alone, white; first look: a rough model fitted to these logs "
+    "alone "
+    "(one digit of each size), with the honest sd that all it leaves makes; stage 1 betters the "
+    "model and adds its own error";
+
 }  // namespace
 
-Document check_document(const CheckResult& result) {
+Document check_document(const CheckResult& result, const std::vector<Prediction>& predictions) {
   Document document;
   document.tidy = tidy_check_table();
   document.warnings = result.warnings;
@@ -114,6 +179,10 @@ Document check_document(const CheckResult& result) {
       for (const std::string& warning : part.warnings) document.warnings.push_back(where + warning);
     }
   }
+  for (const Prediction& p : predictions) add_prediction(p, document);
+  const bool any = std::any_of(predictions.begin(), predictions.end(),
+                               [](const Prediction& p) { return p.none.empty(); });
+  if (any) document.tables.back().notes.emplace_back(kHowPredicted);
   return document;
 }
 

@@ -67,9 +67,40 @@ Json log_json(const CheckedLog& log) {
               {"parts", parts}};
 }
 
+Json parameter_json(const PredictedParameter& p) {
+  return Json{{"name", p.name},
+              {"unit", p.unit},
+              {"size", p.size},
+              {"sd_best", p.sd_best},
+              {"sd_first_look", p.sd_first_look},
+              {"closest", p.closest.empty() ? Json() : Json(p.closest)},
+              {"correlation", p.correlation},
+              {"verdict", to_string(p.determined)}};
+}
+
+Json equation_json(const PredictedEquation& e) {
+  Json parameters = Json::array();
+  for (const PredictedParameter& p : e.parameters) parameters.push_back(parameter_json(p));
+  return Json{{"name", e.name},          {"rows", e.rows}, {"condition_scaled", e.condition_scaled},
+              {"noise", e.noise},        {"left", e.left}, {"parameters", parameters},
+              {"sentences", e.sentences}};
+}
+
+Json prediction_json(const Prediction& p) {
+  Json equations = Json::array();
+  for (const PredictedEquation& e : p.equations) equations.push_back(equation_json(e));
+  return Json{{"preload", p.preload},
+              {"logs", p.logs},
+              {"model", p.rigid ? "rigid" : "elastic"},
+              {"linear_motion", p.linear_motion},
+              {"cutoff", p.cutoff},
+              {"equations", equations},
+              {"none", p.none.empty() ? Json() : Json(p.none)}};
+}
+
 }  // namespace
 
-std::string check_json(const CheckResult& result) {
+std::string check_json(const CheckResult& result, const std::vector<Prediction>& predictions) {
   std::vector<InputFile> inputs;
   Json logs = Json::array();
   for (const CheckedLog& log : result.logs) {
@@ -78,6 +109,8 @@ std::string check_json(const CheckResult& result) {
   }
   Json json = report_json::header("check", inputs, result.warnings);
   json["logs"] = logs;
+  json["identifiability"] = Json::array();
+  for (const Prediction& p : predictions) json["identifiability"].push_back(prediction_json(p));
   return report_json::text(json);
 }
 

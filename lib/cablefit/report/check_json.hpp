@@ -3,10 +3,11 @@
 
 #include <string>
 
+#include "cablefit/dynamic/prediction.hpp"
 #include "cablefit/samples/check.hpp"
 
 namespace cablefit {
 
-std::string check_json(const CheckResult& result);
+std::string check_json(const CheckResult& result, const std::vector<Prediction>& predictions = {});
 
 }  // namespace cablefit

@@ -16,7 +16,8 @@ Estimation estimate(const EstimationTask& task, Weighting weighting) {
     if (system.size() > 1)
       stacked = stacked_rows(task.equations, system, job.elastic, task.model, weighting);
     const RowStatistics& rows = stacked ? *stacked : *first.rows;
-    const LinearSolution solution = solve_rows(rows, first.columns, job.elastic, task.model);
+    const LinearSolution solution =
+        solve_rows(rows, first.columns, job.elastic, task.model, job.rig().linear_motion);
     add_estimates(rows, first.columns, solution, task.stage1(), task.model, job.rig().linear_motion,
                   job.options.honest_sd, out.fit);
     for (const std::size_t k : system) {

@@ -30,7 +30,8 @@ Effect coulomb(Side side) {
           .smooth = nullptr,
           .dry = level,
           .inertia = nullptr,
-          .is_affine = true};
+          .is_affine = true,
+          .follows = MotionPart::direction};
 }
 
 }  // namespace cablefit::rows

@@ -33,7 +33,8 @@ Effect inertia(Side side) {
           .smooth = nullptr,
           .dry = nullptr,
           .inertia = added_inertia,
-          .is_affine = true};
+          .is_affine = true,
+          .follows = MotionPart::acceleration};
 }
 
 }  // namespace cablefit::rows

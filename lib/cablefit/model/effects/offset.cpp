@@ -30,7 +30,8 @@ Effect offset(Side side) {
           .smooth = torque,
           .dry = nullptr,
           .inertia = nullptr,
-          .is_affine = true};
+          .is_affine = true,
+          .follows = MotionPart::constant};
 }
 
 }  // namespace cablefit::rows

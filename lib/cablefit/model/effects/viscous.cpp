@@ -33,7 +33,8 @@ Effect viscous(Side side) {
           .smooth = torque,
           .dry = nullptr,
           .inertia = nullptr,
-          .is_affine = true};
+          .is_affine = true,
+          .follows = MotionPart::velocity};
 }
 
 }  // namespace cablefit::rows

@@ -1,0 +1,23 @@
+// What the rows of one equation tell of each parameter. Internal to prediction.cpp.
+#pragma once
+
+#include "cablefit/dynamic/dynamic_columns.hpp"
+#include "cablefit/dynamic/dynamic_result.hpp"
+#include "cablefit/dynamic/prediction.hpp"
+#include "cablefit/estimate/least_squares.hpp"
+
+namespace cablefit {
+
+/// The rows of one system of equations, and what the rough model makes of them.
+struct PredictedSystem {
+  const DynamicColumns& columns;
+  const RowStatistics& rows;
+  LinearSolution solution;
+  DynamicFit fit;
+  double noise = 0;  ///< rms, as the rows are weighted
+};
+
+/// Parameters, scaled condition number and sentences.
+void add_parameters(const PredictedSystem& system, bool linear_motion, PredictedEquation& out);
+
+}  // namespace cablefit

@@ -1,0 +1,37 @@
+// What of the motion a torque follows. Two torques are told apart by motion in which the parts they
+// follow go different ways.
+#pragma once
+
+#include <string_view>
+
+namespace cablefit {
+
+enum class MotionPart {
+  several,  ///< more than one part, or none that has a name here
+  constant,
+  direction,  ///< sgn(velocity)
+  velocity,
+  acceleration,
+  position,
+  joints,  ///< accelerations and velocities of several joints at once
+};
+
+/// "rad/s"; empty for parts without a unit of their own.
+constexpr std::string_view motion_unit(MotionPart part, bool linear_motion) {
+  switch (part) {
+    case MotionPart::velocity:
+      return linear_motion ? "m/s" : "rad/s";
+    case MotionPart::acceleration:
+      return linear_motion ? "m/s^2" : "rad/s^2";
+    case MotionPart::position:
+      return linear_motion ? "m" : "rad";
+    case MotionPart::several:
+    case MotionPart::constant:
+    case MotionPart::direction:
+    case MotionPart::joints:
+      break;
+  }
+  return "";
+}
+
+}  // namespace cablefit
