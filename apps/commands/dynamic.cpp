@@ -35,6 +35,7 @@ struct DynamicCommand {
   CommonOptions common;
   DynamicOptions fit;
   std::string elastic_file;  ///< --elastic; empty: <out>/elastic.json
+  std::vector<std::string> validation;
 };
 
 /// Stage 1, and where it came from.
@@ -44,6 +45,12 @@ struct Stage1 {
   Decision decision;
   bool is_new = false;  ///< fitted here, to be written as well
 };
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  return std::filesystem::weakly_canonical(a, ignored) ==
+         std::filesystem::weakly_canonical(b, ignored);
+}
 
 std::vector<std::string> model_names() {
   std::vector<std::string> names = {"both"};
@@ -72,6 +79,9 @@ void add_dynamic_options(CLI::App& app, DynamicCommand& command) {
       app, "--estimator", "estimator", estimator_names(),
       [&command](const std::string& name) { command.fit.estimator = name; },
       "see 'cablefit list estimators' [wls]");
+  app.add_option("--validate", command.validation,
+                 "logs that are not fitted: how well does the model do on them; give them last")
+      ->type_name("LOG");
 }
 
 bool is_elastic(const DynamicCommand& command) {
@@ -139,6 +149,21 @@ void add_stage1(const Stage1& stage1, DynamicResult& result) {
   }
 }
 
+/// The logs to validate on, read as the others are.
+std::vector<LogSurvey> read_unseen(DynamicCommand& command) {
+  if (command.validation.empty()) return {};
+  CommonOptions unseen = command.common;
+  unseen.logs = command.validation;
+  for (const std::string& log : command.common.logs)
+    for (const std::string& other : command.validation)
+      if (is_same_file(log, other))
+        throw usage_error(fmt::format("log {} is fitted and validated on", log),
+                          "validate on logs that were not fitted");
+  command.common.more_inputs.insert(command.common.more_inputs.end(), unseen.logs.begin(),
+                                    unseen.logs.end());
+  return read_logs(unseen);
+}
+
 /// Without logs on the command line: those of the campaign in this folder.
 std::vector<LogSurvey> campaign_logs(const CommonOptions& options) {
   std::error_code ignored;
@@ -175,11 +200,13 @@ int run_dynamic(const Arguments& arguments) {
   std::optional<Stage1> earlier = earlier_stage1(command);
   const std::vector<LogSurvey> logs =
       options.logs.empty() ? campaign_logs(options) : read_logs(options);
+  command.fit.validation = read_unseen(command);
   const std::vector<LogSurvey> moving =
       logs_with(logs, [](const PartSurvey& part) { return part.phase == Phase::moving; });
   command.fit.samples = options.samples;
   command.fit.preload = options.preload;
   command.fit.honest_sd = options.honest_sd;
+  command.fit.residual_tests = options.honest_sd;
   command.fit.figures = wants_figures(options);
   Stage1 stage1;
   const bool takes_stage1 = is_elastic(command) && !moving.empty() && have_torque(moving);

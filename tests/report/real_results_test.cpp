@@ -34,6 +34,7 @@ DynamicResult stage2(const ElasticResult& elastic, int threads) {
   DynamicOptions options;
   options.models = {"linear", "poly"};
   options.samples.threads = threads;
+  options.validation = {survey("low/moving_load-40.csv")};
   const std::vector<LogSurvey> logs = {survey("low/moving_load30.csv")};
   return fit_dynamic(logs, elastic, options);
 }

@@ -12,6 +12,7 @@
 #include "cablefit/dynamic/estimators.hpp"
 #include "cablefit/dynamic/ratios.hpp"
 #include "cablefit/dynamic/requirements.hpp"
+#include "cablefit/dynamic/validation.hpp"
 #include "cablefit/samples/agreement.hpp"
 
 namespace cablefit {
@@ -77,6 +78,7 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
     preload.fits.push_back(std::move(fit));
     solutions.push_back(std::move(estimation.solutions));
   }
+  judge({job, equations, solutions}, preload);
   if (job.options.figures) preload.figures = dynamic_figures(job, equations, solutions, preload);
 }
 
@@ -140,6 +142,14 @@ DynamicResult fit_dynamic(std::span<const LogSurvey> logs, const ElasticResult& 
     for (const LogSurvey& log : logs)
       require_one_joint(log.plan,
                         fmt::format("--model {} is made for one", options.models.front()));
+  if (!options.validation.empty()) {
+    if (ratios)
+      throw usage_error("--validate judges torques, and --model ratios has none",
+                        "validate a fit of another model");
+    require_judgeable(options.validation, names, logs.front(), rigid);
+    for (const LogSurvey& log : options.validation)
+      result.inputs.push_back({log.plan.path, log.sha256, log.n_rows});
+  }
   for (const std::string& name : names) {
     const PartFilter wanted = [name](const PartSurvey& part) {
       return part.phase == Phase::moving && part.preload == name;

@@ -28,6 +28,8 @@ struct DynamicOptions {
   bool honest_sd = true;                       ///< --sd honest | white
   std::string preload;                         ///< only this one; empty: all
   bool figures = false;                        ///< one more pass, for reports with plots
+  bool residual_tests = true;                  ///< a look at up to 40 windows of every log
+  std::vector<LogSurvey> validation = {};      ///< logs to judge the fit on, none of them fitted
 };
 
 /// Fits every preload of the moving logs. `elastic`: stage 1, may be empty for rigid drives. Throws

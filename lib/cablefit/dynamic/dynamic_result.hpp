@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/dynamic/validation_result.hpp"
 #include "cablefit/elastic/elastic_result.hpp"
 
 namespace cablefit {
@@ -50,6 +51,8 @@ struct DynamicPreload {
   std::vector<std::string> warnings;
   std::string rig_path;
   std::vector<Figure> figures;
+  std::vector<JudgedEquation> residual_tests;  ///< on the logs that were fitted
+  std::optional<Validation> validation;        ///< on logs that were not, when there are any
 };
 
 struct DynamicResult {

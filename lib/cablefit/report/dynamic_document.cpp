@@ -6,6 +6,7 @@
 
 #include "cablefit/report/document_parts.hpp"
 #include "cablefit/report/numbers.hpp"
+#include "cablefit/report/validation_tables.hpp"
 
 namespace cablefit {
 namespace {
@@ -130,11 +131,18 @@ Document dynamic_document(const DynamicResult& result) {
       add_warnings(document, preload.name + ", " + fit.model, fit.warnings);
       add_tidy_rows(document.tidy, preload, fit);
     }
+    add_validation_rows(document.tidy, preload);
+    add_warnings(document, preload.name, validation_warnings(preload));
   }
   finish_decisions(document, result.preloads.size());
   document.tables = parameter_tables(result);
   const Table errors = error_table(result);
   if (errors.columns.size() > 2) document.tables.push_back(errors);
+  for (Table& table : validation_tables(result)) document.tables.push_back(std::move(table));
+  if (const Table summary = residual_summary(result); !summary.rows.empty()) {
+    document.tables.push_back(summary);
+    document.tables.push_back(residual_table(result));
+  }
   document.tables.push_back(sd_table(result));
   document.tables.push_back(conditioning_table(result));
   document.tables.push_back(counts);

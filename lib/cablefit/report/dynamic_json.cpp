@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cablefit/report/json_parts.hpp"
+#include "cablefit/report/validation_json.hpp"
 
 namespace cablefit {
 namespace {
@@ -65,16 +66,19 @@ Json counts_json(const DynamicPreload& preload) {
 Json preload_json(const DynamicPreload& preload) {
   Json fits = Json::array();
   for (const DynamicFit& fit : preload.fits) fits.push_back(fit_json(fit));
-  return Json{{"name", preload.name},
-              {"rig", report_json::rig(preload.rig_path)},
-              {"linear_motion", preload.linear_motion},
-              {"resonance_hz", preload.resonance > 0 ? Json(preload.resonance) : Json()},
-              {"load_inertia", preload.load_inertia},
-              {"torque_delay", delay_json(preload.delay)},
-              {"fits", fits},
-              {"counts", counts_json(preload)},
-              {"decisions", report_json::decisions(preload.decisions)},
-              {"warnings", preload.warnings}};
+  Json json{{"name", preload.name},
+            {"rig", report_json::rig(preload.rig_path)},
+            {"linear_motion", preload.linear_motion},
+            {"resonance_hz", preload.resonance > 0 ? Json(preload.resonance) : Json()},
+            {"load_inertia", preload.load_inertia},
+            {"torque_delay", delay_json(preload.delay)},
+            {"fits", fits},
+            {"counts", counts_json(preload)},
+            {"decisions", report_json::decisions(preload.decisions)},
+            {"residual_tests", report_json::residual_tests(preload.residual_tests)},
+            {"warnings", preload.warnings}};
+  if (preload.validation) json["validation"] = report_json::validation(*preload.validation);
+  return json;
 }
 
 }  // namespace

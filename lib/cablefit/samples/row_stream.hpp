@@ -67,6 +67,7 @@ struct RowBatch {
 };
 
 using PartFilter = std::function<bool(const PartSurvey&)>;
+using WindowFilter = std::function<bool(const WindowPlace&)>;
 
 RowBatch make_rows(const Window& window, const LogSurvey& log, Eigen::Index number_offset,
                    const RowSettings& settings, std::span<const Equation> equations);
@@ -79,11 +80,11 @@ Eigen::Index expected_rows(std::span<const LogSurvey> logs, const PartFilter& wa
                            const RowSettings& settings);
 
 /// Runs over all wanted rows of all logs in order: map(RowBatch) on worker threads, reduce(its
-/// result) in order on this one.
+/// result) in order on this one. `keep`: windows for which it says false are passed over.
 template <class Map, class Reduce>
 WindowCounts stream_rows(std::span<const LogSurvey> logs, const PartFilter& wanted,
                          const RowSettings& settings, std::span<const Equation> equations,
-                         int threads, Map map, Reduce reduce) {
+                         int threads, Map map, Reduce reduce, const WindowFilter& keep = {}) {
   struct Item {
     std::size_t log = 0;
     Eigen::Index offset = 0;
@@ -101,7 +102,7 @@ WindowCounts stream_rows(std::span<const LogSurvey> logs, const PartFilter& want
       const WindowCounts counts = for_each_window(
           logs[k], wanted, halo, 2 * settings.drop_edge + 2 * kDifferenceEdge + settings.decimate,
           bridge_seconds(settings.signal), [&](Window&& window) {
-            return emit(Item{k, offset, std::move(window)});
+            return (keep && !keep(window)) || emit(Item{k, offset, std::move(window)});
           });
       total.rows_read += counts.rows_read;
       total.rows_resampled += counts.rows_resampled;

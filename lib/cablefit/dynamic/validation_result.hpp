@@ -1,0 +1,57 @@
+// How a fitted model does on logs, as plain data for reports.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace cablefit {
+
+inline constexpr double kNotThere = std::numeric_limits<double>::quiet_NaN();
+
+/// Torque error on the rows of one condition, N m (N on a linear axis).
+struct ConditionError {
+  std::string condition, value;  ///< "load", "-40 N m"
+  std::size_t n_rows = 0;
+  double rms = 0, mean = 0, max_abs = 0;
+  double relative = 0;        ///< rms of the error over rms of the torque to be explained
+  double zero = 0;            ///< rms of a model that says 0: of the torque to be explained
+  double linear = kNotThere;  ///< rms of the linear model; NaN: this is it, or there is none
+  double fitted = 0;    ///< rms on the rows that were fitted, of the same condition if they have it
+  bool fails = false;   ///< significantly and materially worse than `fitted`
+  std::string verdict;  ///< "fails: 3.2 times the error of the fitted logs"
+
+  double ratio() const { return fitted > 0 ? rms / fitted : 0; }
+};
+
+/// What a test of residuals found; `material`: seen, and large enough to matter.
+enum class Finding { nothing, immaterial, material, untestable };
+std::string_view to_string(Finding finding);
+
+struct ResidualTest {
+  std::string name;       ///< "whiteness", "position q", "direction"
+  std::string statistic;  ///< "Ljung-Box over 20 lags", "F(6, 212)"
+  double value = 0;
+  double p_value = 1;
+  double structure = 0;  ///< N m rms of what was found; of whiteness 0
+  Finding finding = Finding::nothing;
+  std::string verdict;  ///< in words
+};
+
+/// One model and equation.
+struct JudgedEquation {
+  std::string model, equation;
+  double noise_floor = 0;                  ///< rms that no model can get below, N m
+  std::string floor_source;                ///< "repeats", "sensor noise"
+  std::vector<ConditionError> conditions;  ///< empty for the logs that were fitted
+  std::vector<ResidualTest> tests;
+};
+
+struct Validation {
+  std::vector<std::string> logs;
+  std::string linear_name;  ///< what the linear baseline is
+  std::vector<JudgedEquation> equations;
+};
+
+}  // namespace cablefit

@@ -1,0 +1,56 @@
+#include "cablefit/report/validation_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace cablefit::report_json {
+namespace {
+
+Json test_json(const ResidualTest& test) {
+  return Json{{"name", test.name},           {"statistic", test.statistic},
+              {"value", test.value},         {"p_value", test.p_value},
+              {"structure", test.structure}, {"finding", to_string(test.finding)},
+              {"verdict", test.verdict}};
+}
+
+Json tests_json(const std::vector<ResidualTest>& tests) {
+  Json json = Json::array();
+  for (const ResidualTest& test : tests) json.push_back(test_json(test));
+  return json;
+}
+
+Json condition_json(const ConditionError& c) {
+  return Json{{"condition", c.condition}, {"value", c.value},
+              {"rows", c.n_rows},         {"rms", c.rms},
+              {"mean", c.mean},           {"max_abs", c.max_abs},
+              {"relative", c.relative},   {"fitted_rms", c.fitted},
+              {"linear_rms", c.linear},   {"zero_rms", c.zero},
+              {"fails", c.fails},         {"verdict", c.verdict}};
+}
+
+}  // namespace
+
+Json residual_tests(const std::vector<JudgedEquation>& equations) {
+  Json json = Json::array();
+  for (const JudgedEquation& e : equations)
+    json.push_back(
+        Json{{"model", e.model}, {"equation", e.equation}, {"tests", tests_json(e.tests)}});
+  return json;
+}
+
+Json validation(const Validation& validation) {
+  Json equations = Json::array();
+  for (const JudgedEquation& e : validation.equations) {
+    Json conditions = Json::array();
+    for (const ConditionError& c : e.conditions) conditions.push_back(condition_json(c));
+    equations.push_back(Json{{"model", e.model},
+                             {"equation", e.equation},
+                             {"noise_floor", e.noise_floor},
+                             {"noise_floor_source", e.floor_source},
+                             {"conditions", conditions},
+                             {"tests", tests_json(e.tests)}});
+  }
+  return Json{
+      {"logs", validation.logs}, {"linear", validation.linear_name}, {"equations", equations}};
+}
+
+}  // namespace cablefit::report_json
