@@ -126,9 +126,9 @@ class PlainLog {
   std::string text_;
 };
 
-/// All motors sweep at once, at rates without a common period, links held at `q`.
+/// All motors sweep at once about q + `ahead`, at rates without a common period, links held at `q`.
 inline std::string blocked_log(const PlainRig& rig, const std::vector<double>& q, double seconds,
-                               unsigned seed, double rate = 200) {
+                               unsigned seed, double rate = 200, double ahead = 0) {
   PlainLog log(rig, seed);
   for (int i = 0; i < static_cast<int>(seconds * rate); ++i) {
     const double t = i / rate;
@@ -136,8 +136,9 @@ inline std::string blocked_log(const PlainRig& rig, const std::vector<double>& q
     for (std::size_t j = 0; j < rig.n(); ++j) {
       const double w = 2 * M_PI * rig.joints[j].sweep_rate;
       // Two tones: the speed varies, so that viscous and static friction differ.
-      theta.push_back(q[j] + rig.joints[j].sweep *
-                                 (0.7 * std::sin(w * t) + 0.3 * std::sin(2.7 * w * t + 0.4)));
+      theta.push_back(q[j] + ahead +
+                      rig.joints[j].sweep *
+                          (0.7 * std::sin(w * t) + 0.3 * std::sin(2.7 * w * t + 0.4)));
       speed.push_back(rig.joints[j].sweep * w *
                       (0.7 * std::cos(w * t) + 0.3 * 2.7 * std::cos(2.7 * w * t + 0.4)));
     }

@@ -135,19 +135,16 @@ Collected collect(const ElasticJob& job, const Transmission& transmission,
   return all;
 }
 
-/// Deflections and, of several joints, elongations of the rows.
+/// Deflections and elongations of the rows.
 void measure_ranges(BlockedRows& blocked, Eigen::Index deflection_column) {
   const BlockedColumns& c = blocked.columns;
-  if (c.elongation >= 0) blocked.elongations.resize(blocked.transmission.cables.size());
+  blocked.elongations.resize(blocked.transmission.cables.size());
   blocked.archive->for_each([&](const Eigen::MatrixXd& rows, std::span<const Eigen::Index>) {
     const auto deflection = rows.col(deflection_column);
     blocked.deflection_low = std::min(blocked.deflection_low, deflection.minCoeff());
     blocked.deflection_high = std::max(blocked.deflection_high, deflection.maxCoeff());
-    for (std::size_t k = 0; k < blocked.elongations.size(); ++k) {
-      const auto l = rows.col(c.elongation + static_cast<Eigen::Index>(k));
-      ElongationRange& range = blocked.elongations[k];
-      range = {std::min(range.low, l.minCoeff()), std::max(range.high, l.maxCoeff())};
-    }
+    for (std::size_t k = 0; k < blocked.elongations.size(); ++k)
+      blocked.elongations[k].include(rows.col(c.elongation + static_cast<Eigen::Index>(k)));
   });
 }
 
@@ -202,11 +199,8 @@ BlockedRows stack(const std::vector<BlockedRows>& joints, const std::vector<doub
     all.counts += joint.counts;
     all.deflection_low = std::min(all.deflection_low, joint.deflection_low);
     all.deflection_high = std::max(all.deflection_high, joint.deflection_high);
-    for (std::size_t k = 0; k < all.elongations.size(); ++k) {
-      ElongationRange& range = all.elongations[k];
-      range = {std::min(range.low, joint.elongations[k].low),
-               std::max(range.high, joint.elongations[k].high)};
-    }
+    for (std::size_t k = 0; k < all.elongations.size(); ++k)
+      all.elongations[k].include(joint.elongations[k]);
   }
   all.rows = RowStatistics::weighted(rows, weights);
   return all;

@@ -8,6 +8,7 @@
 
 #include "cablefit/elastic/elastic_columns.hpp"
 #include "cablefit/elastic/elastic_fit.hpp"
+#include "cablefit/elastic/elongation_range.hpp"
 #include "cablefit/estimate/row_statistics.hpp"
 #include "cablefit/samples/row_archive.hpp"
 
@@ -32,11 +33,6 @@ struct ElasticJob {
 ElasticJob make_job(std::span<const LogSurvey> logs, const ElasticOptions& options,
                     const std::string& name);
 
-/// Elongations that a cable reached, m or rad.
-struct ElongationRange {
-  double low = kUnbounded, high = -kUnbounded;
-};
-
 /// Rows of one joint's equation under one choice of theta_0, or of all joints' together.
 struct BlockedRows {
   Transmission transmission;  ///< as ElasticJob::basis, theta_0 set
@@ -47,8 +43,8 @@ struct BlockedRows {
   RowCounts counts;
   WindowCounts windows;
   double deflection_low = kUnbounded, deflection_high = -kUnbounded;  ///< of the rows
-  std::vector<ElongationRange> elongations;  ///< per cable; several joints only
-  bool plateaus = false;                     ///< rows at rest were used, there are hardly others
+  std::vector<ElongationRange> elongations;                           ///< per cable, of the rows
+  bool plateaus = false;  ///< rows at rest were used, there are hardly others
 
   Eigen::VectorXd torque_response() const {
     return Eigen::VectorXd::Unit(columns.count, columns.tau);

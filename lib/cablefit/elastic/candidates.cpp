@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "cablefit/model/model.hpp"
 
 namespace cablefit {
 namespace {
 
-constexpr double kTautShare = 0.02;
+constexpr double kTautShare = 0.02;  // of the largest elongation or slack
 
 void add_nuisance(Candidate& candidate, const BlockedColumns& c, const Nuisance& nuisance,
                   int joint) {
@@ -37,33 +35,11 @@ void add_nuisances(Candidate& candidate, const BlockedRows& rows,
                  joint);
 }
 
-/// Pulled so little (first basis column, as rms, against what the rms deflection would give) that
-/// its coefficients would be fitted to noise about its slack point.
-bool hardly_taut(const BlockedRows& rows, std::size_t index, Eigen::Index first_column) {
-  const Cable& cable = rows.transmission.cables[index];
-  if (!rows.elongations.empty()) {
-    // Of several joints: the longest elongation against the largest way on either side of slack.
-    const ElongationRange& range = rows.elongations[index];
-    return range.high < kTautShare * std::max(range.high, -range.low);
-  }
-  const auto& r = rows.rows->r();
-  const double n = std::sqrt(static_cast<double>(rows.rows->n_rows()));
-  const double radius = std::abs(cable.motor_map.front().radius(0));
-  const double stretch = radius * r.col(rows.columns.deflection).norm() / n;
-  std::array<double, kMaxCableOrder> basis{};
-  if (stretch > 0) cable.law->basis(cable.shape(), stretch, basis.data());
-  return r.col(first_column).norm() / n < kTautShare * radius * basis[0];
-}
+/// Stretched so little, against the way on either side of slack, that its coefficients would be
+/// fitted to noise about its slack point.
+bool hardly_taut(const ElongationRange& range) { return range.high < kTautShare * range.reach(); }
 
 }  // namespace
-
-std::vector<double> longest_elongations(const BlockedRows& rows, const Transmission& transmission) {
-  if (rows.elongations.empty())
-    return longest_elongations(transmission, rows.deflection_low, rows.deflection_high);
-  std::vector<double> longest;
-  for (const ElongationRange& range : rows.elongations) longest.push_back(range.high);
-  return longest;
-}
 
 Candidate linear_candidate(const BlockedRows& rows, std::span<const Nuisance> nuisance) {
   Candidate candidate;
@@ -95,7 +71,7 @@ Candidate poly_candidate(const ElasticJob& job, const BlockedRows& rows, int ord
     const Cable& cable = candidate.transmission.cables[c];
     candidate.order = std::max(candidate.order, cable.order);
     const std::string held =
-        hardly_taut(rows, c, first)
+        hardly_taut(rows.elongations[c])
             ? fmt::format("cable {} was hardly ever taut in these logs", cable.name)
             : "";
     fitted.push_back(held.empty());
@@ -110,8 +86,7 @@ Candidate poly_candidate(const ElasticJob& job, const BlockedRows& rows, int ord
   candidate.n_elastic = candidate.regressors.size();
   add_nuisances(candidate, rows, nuisance);
   if (!job.options.unconstrained)
-    candidate.pull = pull_constraints(candidate.transmission, fitted,
-                                      longest_elongations(rows, candidate.transmission));
+    candidate.pull = pull_constraints(candidate.transmission, fitted, longest_of(rows.elongations));
   return candidate;
 }
 

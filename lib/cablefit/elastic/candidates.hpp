@@ -34,9 +34,6 @@ Candidate linear_candidate(const BlockedRows& rows, std::span<const Nuisance> nu
 Candidate poly_candidate(const ElasticJob& job, const BlockedRows& rows, int order,
                          std::span<const Nuisance> nuisance);
 
-/// Elongation that each cable of the transmission reached in the rows.
-std::vector<double> longest_elongations(const BlockedRows& rows, const Transmission& transmission);
-
 /// candidate.pull with a column per regressor.
 Eigen::MatrixXd constraint_rows(const Candidate& candidate);
 /// A cable that may only pull pushes. The constraints are a little more than that asks for, so a

@@ -113,23 +113,23 @@ void note_loop(ElasticPreload& preload, bool plateaus) {
     preload.warnings.push_back(std::move(warning));
 }
 
-void note_closure(ElasticPreload& preload) {
-  const ElasticFit& poly = preload.fits.back();
-  if (poly.model != "poly" || poly.transmission.n_joints > 1 ||
-      poly.transmission.cables.size() != 2)
-    return;
-  for (const Cable& cable : poly.transmission.cables)
-    if (cable.initial_elongation != 0 || cable.coefficients.empty()) return;
+bool looks_preloaded(const Transmission& transmission, std::span<const ElongationRange> ranges) {
+  if (transmission.n_joints > 1 || transmission.cables.size() != 2) return false;
   // With l_o = 0 each cable acts on its own side. A preloaded pair is about twice as stiff at zero
   // as where one cable has gone slack, so its slope FALLS away from zero on both sides.
-  const double reach = std::min(-preload.deflection_low, preload.deflection_high);
-  if (!(reach > 0)) return;
-  int falling = 0;
-  for (const Cable& cable : poly.transmission.cables) {
-    const double stretch = std::abs(cable.motor_map.front().radius(0)) * reach;
-    falling += cable.stiffness(0.2 * stretch) < 0.9 * cable.stiffness(1e-6 * stretch);
+  for (std::size_t c = 0; c < 2; ++c) {
+    const Cable& cable = transmission.cables[c];
+    if (cable.initial_elongation != 0 || cable.coefficients.empty()) return false;
+    const double stretch = std::min(-ranges[c].low, ranges[c].high);
+    if (!(stretch > 0) || !(cable.stiffness(0.2 * stretch) < 0.9 * cable.stiffness(1e-6 * stretch)))
+      return false;
   }
-  if (falling == 2)
+  return true;
+}
+
+void note_closure(std::span<const ElongationRange> ranges, ElasticPreload& preload) {
+  const ElasticFit& poly = preload.fits.back();
+  if (poly.model == "poly" && looks_preloaded(poly.transmission, ranges))
     preload.warnings.emplace_back(
         "the stiffness falls on both sides of zero, as with cables that are both taut there "
         "(preload): with l_o = 0 "

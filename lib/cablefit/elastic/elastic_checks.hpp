@@ -5,6 +5,7 @@
 #include <span>
 
 #include "cablefit/elastic/elastic_result.hpp"
+#include "cablefit/elastic/elongation_range.hpp"
 #include "cablefit/elastic/passivity.hpp"
 
 namespace cablefit {
@@ -32,7 +33,10 @@ std::vector<std::string> loop_warnings(const LoopSeen& loop, bool linear_motion)
 /// Fills loop_half_width; warns when the torque depends on the path.
 void note_loop(ElasticPreload& preload, bool plateaus);
 
-/// Warns when the curve looks like two taut cables (preload) while l_o = 0 was assumed.
-void note_closure(ElasticPreload& preload);
+/// The curve of a pair of cables fitted with l_o = 0 looks like that of two taut ones (preload).
+/// `ranges`: elongations that each cable reached.
+bool looks_preloaded(const Transmission& transmission, std::span<const ElongationRange> ranges);
+/// Warns of it.
+void note_closure(std::span<const ElongationRange> ranges, ElasticPreload& preload);
 
 }  // namespace cablefit

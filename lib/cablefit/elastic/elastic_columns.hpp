@@ -26,14 +26,14 @@ Eigen::Index n_elastic_columns(const Transmission& transmission);
 /// Position of every column of the blocked equation. With n joints, the equations of all have the
 /// same columns, so that their rows can stand under each other: of deflection, offset, direction,
 /// speed and zero there is one per joint, side by side, and 0 in the rows of the other joints; each
-/// cable's coefficients are shared, and its elongation follows tau.
+/// cable's coefficients are shared. The elongation of every cable follows tau.
 struct BlockedColumns {
   int n_joints = 1;
   Eigen::Index deflection = 0;  ///< phi = theta - theta_0 - q
   Eigen::Index basis = 1;       ///< first of n_basis columns
   Eigen::Index n_basis = 0;
   Eigen::Index offset = 0, direction = 0, speed = 0, zero = 0, tau = 0;
-  Eigen::Index elongation = -1;  ///< first of one per cable; -1: one joint, needs none
+  Eigen::Index elongation = 0;  ///< first of one per cable
   Eigen::Index count = 0;
 
   /// The same with deflection, offset, direction, speed and zero those of one joint (from 0).

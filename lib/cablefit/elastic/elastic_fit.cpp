@@ -138,12 +138,11 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
   preload.windows = stage.rows.windows;
   measure_errors(stage.rows, candidates, solutions, preload);
   for (ElasticFit& fit : preload.fits)
-    check_passive(
-        fit, longest_elongations(fit.transmission, preload.deflection_low, preload.deflection_high),
-        {stage.job.rig().cables_given, preload.linear_motion});
+    check_passive(fit, longest_of(stage.rows.elongations),
+                  {stage.job.rig().cables_given, preload.linear_motion});
   select_model(preload, stage.job.options.materiality);
   note_loop(preload, stage.rows.plateaus);
-  note_closure(preload);
+  note_closure(stage.rows.elongations, preload);
   if (stage.job.options.figures)
     preload.figures = elastic_figures(stage.job, stage.rows, 0, candidates, solutions, preload);
   return preload;

@@ -153,8 +153,7 @@ ElasticPreload fit_joints(ElasticJob job, const std::string& name) {
       linear_candidate(stage.all, stage.nuisance),
       poly_candidate(stage.job, stage.all, order, stage.nuisance)};
   std::vector<LinearSolution> solutions;
-  const std::vector<double> longest =
-      longest_elongations(stage.all, candidates.back().transmission);
+  const std::vector<double> longest = longest_of(stage.all.elongations);
   for (const Candidate& candidate : candidates) {
     solutions.push_back(solve_candidate(stage.all, candidate));
     ElasticFit& fit = preload.fits.emplace_back(

@@ -62,7 +62,9 @@ void measure_errors(const BlockedRows& rows, const std::vector<Candidate>& candi
   Extremes total;
   total.worst.assign(candidates.size(), 0);
   total.worst_held_out.assign(candidates.size(), 0);
-  const double offset = preload.fits.front().offset;
+  // Of the curve: the straight line's is extrapolated to a zero that may lie far outside.
+  const double curve = preload.fits.back().offset;
+  const double offset = std::isfinite(curve) ? curve : preload.fits.front().offset;
   const auto absolute = [](const Eigen::MatrixXd& r, const Eigen::VectorXd& combination) {
     return (r * combination).cwiseAbs().eval();
   };

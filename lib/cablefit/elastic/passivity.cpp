@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "cablefit/base/parameter.hpp"
-#include "cablefit/model/modes.hpp"
 
 namespace cablefit {
 namespace {
@@ -45,19 +44,6 @@ double elongation_scanned(double longest, int i) {
 }
 
 }  // namespace
-
-double longest_elongation(const Transmission& transmission, const Cable& cable, double low,
-                          double high) {
-  return std::max(elongation_at(transmission, cable, low),
-                  elongation_at(transmission, cable, high));
-}
-
-std::vector<double> longest_elongations(const Transmission& transmission, double low, double high) {
-  std::vector<double> longest;
-  for (const Cable& cable : transmission.cables)
-    longest.push_back(longest_elongation(transmission, cable, low, high));
-  return longest;
-}
 
 PullConstraints pull_constraints(const Transmission& transmission, const std::vector<bool>& fitted,
                                  std::span<const double> all_longest) {

@@ -11,13 +11,6 @@
 
 namespace cablefit {
 
-/// Elongation of the cable at the end of the deflection range low..high where it is longest
-/// (elongation_at() of modes.hpp); <= 0: it is never taut.
-double longest_elongation(const Transmission& transmission, const Cable& cable, double low,
-                          double high);
-/// The same of every cable.
-std::vector<double> longest_elongations(const Transmission& transmission, double low, double high);
-
 /// One row of the conditions, in words.
 struct PullBound {
   std::size_t cable = 0;

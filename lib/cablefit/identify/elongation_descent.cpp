@@ -204,11 +204,7 @@ Eigen::Index n_undetermined(const JointFit& fit, const JointPoint& point) {
 }
 
 double search_reach(const JointFit& fit, std::size_t job, std::size_t cable) {
-  const double deflection =
-      std::max(std::abs(fit.deflection_low(job)), std::abs(fit.deflection_high(job)));
-  const Transmission& transmission = fit.jobs[job].transmission;
-  return 2 * deflection *
-         std::abs(transmission.cables[cable].motor_radii(transmission.reference_theta())(0));
+  return 2 * fit.displacements(job, cable).reach();
 }
 
 std::vector<JointPoint> descend(JointFit& fit, const std::vector<ElongationStart>& starts) {

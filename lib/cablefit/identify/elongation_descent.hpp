@@ -25,7 +25,7 @@ JointProblem linearised(const JointFit& fit, const JointPoint& point);
 /// Directions of all parameters, l_o included, that the data do not determine there.
 Eigen::Index n_undetermined(const JointFit& fit, const JointPoint& point);
 
-/// Largest |l_o| looked at: twice the deflection seen, in elongation.
+/// Largest |l_o| looked at: twice the way that the logs stretch or slacken the cable.
 double search_reach(const JointFit& fit, std::size_t job, std::size_t cable);
 
 /// Descends from the point, and where a preload is next to none also from either side of l_o = 0:

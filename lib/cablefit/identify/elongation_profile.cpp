@@ -8,6 +8,8 @@ namespace cablefit {
 namespace {
 
 constexpr std::array kNear = {-3.0, -2.5, -2.0, -1.5, -1.0, -0.5, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0};
+// Deviance below the best that is no rounding of a descent, and still says nothing of any l_o.
+constexpr double kBelow = 0.01;
 constexpr std::array kFar = {-50.0, -25.0, -12.0, -7.0, -4.5, 4.5, 7.0, 12.0, 25.0, 50.0};
 
 const JointParameter& parameter_at(const JointFit& fit, Eigen::Index k) {
@@ -33,7 +35,8 @@ ElongationStart start_at(const JointFit& fit, const JointPoint& best, Eigen::Ind
 template <typename Wanted>
 void add_points(JointFit& fit, const JointPoint& best, const std::vector<Eigen::Index>& which,
                 const Eigen::MatrixXd& covariance, std::span<const double> distances, Wanted wanted,
-                std::vector<std::vector<std::pair<double, double>>>& points) {
+                std::vector<std::vector<std::pair<double, double>>>& points, double allowed,
+                std::optional<JointPoint>& better) {
   std::vector<ElongationStart> starts;
   std::vector<std::size_t> owner;
   for (std::size_t i = 0; i < which.size(); ++i)
@@ -53,6 +56,8 @@ void add_points(JointFit& fit, const JointPoint& best, const std::vector<Eigen::
   for (std::size_t s = 0; s < ends.size(); ++s)
     points[owner[s]].emplace_back(elongation_of(fit, ends[s].l_o, which[owner[s]]),
                                   ends[s].merit() - best.merit());
+  const JointPoint& lowest = best_of(ends);
+  if (lowest.merit() < (better ? better->merit() : best.merit() - allowed)) better = lowest;
   for (auto& profile : points) std::sort(profile.begin(), profile.end());
 }
 
@@ -82,23 +87,28 @@ double crossing(const std::vector<std::pair<double, double>>& points, double bes
 
 }  // namespace
 
-std::vector<ElongationProfile> profile_elongations(JointFit& fit, const JointPoint& best,
-                                                   const std::vector<Eigen::Index>& which,
-                                                   const Eigen::MatrixXd& covariance,
-                                                   const std::vector<double>& t,
-                                                   const std::vector<double>& scale) {
+ElongationProfiles profile_elongations(JointFit& fit, const JointPoint& best,
+                                       const std::vector<Eigen::Index>& which,
+                                       const Eigen::MatrixXd& covariance,
+                                       const std::vector<double>& t,
+                                       const std::vector<double>& scale) {
+  ElongationProfiles out;
   std::vector<std::vector<std::pair<double, double>>> points(which.size());
   JointPoint centre = best;
+  // Where something is left open, the point was chosen for it among others a little lower.
+  const double allowed = n_undetermined(fit, best) > 0 ? kUnbounded : kBelow;
   add_points(
-      fit, best, which, covariance, kNear, [](std::size_t, double) { return true; }, points);
+      fit, best, which, covariance, kNear, [](std::size_t, double) { return true; }, points,
+      allowed, out.better);
+  if (out.better) return out;
   add_points(
       fit, best, which, covariance, kFar,
       [&](std::size_t i, double distance) {
         const double at = elongation_of(fit, centre.l_o, which[i]);
         return std::isinf(crossing(points[i], at, t[i] / std::sqrt(scale[i]), distance > 0));
       },
-      points);
-  std::vector<ElongationProfile> profiles;
+      points, allowed, out.better);
+  if (out.better) return out;
   for (std::size_t i = 0; i < which.size(); ++i) {
     const JointParameter& p = parameter_at(fit, which[i]);
     const PreloadJob& job = fit.jobs[static_cast<std::size_t>(p.preload)];
@@ -113,9 +123,9 @@ std::vector<ElongationProfile> profile_elongations(JointFit& fit, const JointPoi
       profile.l_o.push_back(l_o);
       profile.deviance.push_back(scale[i] * deviance);
     }
-    profiles.push_back(std::move(profile));
+    out.profiles.push_back(std::move(profile));
   }
-  return profiles;
+  return out;
 }
 
 }  // namespace cablefit

@@ -17,7 +17,8 @@ namespace cablefit {
 namespace {
 
 constexpr int kReweighings = 3;
-constexpr double kSettled = 0.02;    // change of a weight that changes nothing
+constexpr double kSettled = 0.02;  // change of a weight that changes nothing
+constexpr int kRestarts = 4;
 constexpr double kDifferenceSd = 3;  // inertias that differ by more sd are no longer one
 
 std::vector<PreloadFacts> preloads_of(std::span<const LogSurvey> logs,
@@ -125,9 +126,10 @@ JointFit full_fit(std::span<const LogSurvey> logs, const IdentifyOptions& option
     if (facts[j].has_blocked) jobs[j].records.push_back(blocked[j]);
     if (!facts[j].has_moving) continue;
     ++moving;
+    const Transmission cables = fitted_cables(first.jobs[j], start.l_o[j], start.solution.x);
     jobs[j].records.push_back(
-        moving_record(logs, options, fitted_cables(first.jobs[j], start.l_o[j], start.solution.x),
-                      first.deflection_low(j), first.deflection_high(j), facts[j]));
+        moving_record(logs, options, cables,
+                      reference_deflections(cables, first.elongations(j, start.l_o[j])), facts[j]));
   }
   return make_joint_fit(logs, std::move(jobs), moving > 1, options.unconstrained,
                         options.samples.threads);
@@ -159,7 +161,7 @@ void take_intervals(const std::vector<ElongationProfile>& profiles, IdentifyResu
       }
 }
 
-std::vector<ElongationProfile> profiles_of(JointFit& fit, const JudgedPoint& judged) {
+ElongationProfiles profiles_of(JointFit& fit, const JudgedPoint& judged) {
   std::vector<Eigen::Index> which;
   std::vector<double> t, scale;
   const Eigen::MatrixXd& honest = judged.covariance.covariance;
@@ -171,6 +173,25 @@ std::vector<ElongationProfile> profiles_of(JointFit& fit, const JudgedPoint& jud
     t.push_back(t_quantile_975(judged.covariance.degrees_of_freedom(k)));
   }
   return profile_elongations(fit, judged.point, which, honest, t, scale);
+}
+
+/// The best point, with everything that judges it.
+struct Profiled {
+  JudgedPoint judged;
+  std::vector<ElongationProfile> profiles;
+};
+
+/// A profile that leads below the point says where to search on.
+Profiled judge_with_profiles(JointFit& fit, JointPoint point) {
+  for (int i = 0; i < kRestarts; ++i) {
+    JudgedPoint judged = judge_point(fit, evaluate(fit, {point.l_o}, true).front());
+    ElongationProfiles found = profiles_of(fit, judged);
+    if (!found.better) return {std::move(judged), std::move(found.profiles)};
+    point = settle(fit, std::move(*found.better));
+  }
+  throw Error(ErrorKind::not_identifiable,
+              "the initial elongations: every profile likelihood leads to another best place; give "
+              "them in the rig file, or sweep until every cable goes slack");
 }
 
 }  // namespace
@@ -193,9 +214,10 @@ IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& 
   const bool apart = fit.layout.find("J_link", kShared) < 0 && fit.layout.find("J_link", 0) >= 0;
   JointPoint point = fit_all(fit, first, start);
   if (apart) point = share_inertias(fit, std::move(point), result);
-  const JudgedPoint judged = judge_point(fit, evaluate(fit, {point.l_o}, true).front());
+  Profiled found = judge_with_profiles(fit, std::move(point));
+  const JudgedPoint& judged = found.judged;
   describe(fit, judged, facts, options, result);
-  result.profiles = profiles_of(fit, judged);
+  result.profiles = std::move(found.profiles);
   take_intervals(result.profiles, result);
   if (options.recursive) {
     const Eigen::MatrixXd& c =

@@ -201,8 +201,10 @@ IdentifyPreload preload_of(const JointFit& fit, const JudgedPoint& judged, std::
   preload.rig_path = facts.rig.path;
   preload.transmission =
       fitted_cables(fit.jobs[job], judged.point.l_o[job], judged.point.solution.x);
-  preload.deflection_low = fit.deflection_low(job);
-  preload.deflection_high = fit.deflection_high(job);
+  preload.elongations = fit.elongations(job, judged.point.l_o[job]);
+  const DeflectionRange range = reference_deflections(preload.transmission, preload.elongations);
+  preload.deflection_low = range.low;
+  preload.deflection_high = range.high;
   const PreloadTorques torques = preload_torques(preload.transmission);
   preload.equilibrium =
       std::max(torques.link.cwiseAbs().maxCoeff(), torques.motor.cwiseAbs().maxCoeff());
@@ -219,10 +221,9 @@ IdentifyPreload preload_of(const JointFit& fit, const JudgedPoint& judged, std::
 }
 
 void note_pushing(const JointFit& fit, const IdentifyPreload& preload, IdentifyResult& result) {
-  for (const Cable& cable : preload.transmission.cables) {
-    const double longest = longest_elongation(preload.transmission, cable, preload.deflection_low,
-                                              preload.deflection_high);
-    if (const std::optional<Push> push = find_push(cable, longest); longest > 0 && push)
+  for (std::size_t c = 0; c < preload.transmission.cables.size(); ++c) {
+    const Cable& cable = preload.transmission.cables[c];
+    if (const std::optional<Push> push = find_push(cable, preload.elongations[c].high))
       result.warnings.push_back(
           push_text(cable, *push, {fit.jobs.front().cable_space, fit.jobs.front().linear_motion}));
   }

@@ -7,6 +7,7 @@
 
 #include "cablefit/dynamic/dynamic_result.hpp"
 #include "cablefit/elastic/elastic_result.hpp"
+#include "cablefit/elastic/elongation_range.hpp"
 #include "cablefit/model/model.hpp"
 #include "cablefit/model/modes.hpp"
 
@@ -51,8 +52,10 @@ struct RecursiveTrace {
 struct IdentifyPreload {
   std::string name;
   std::string rig_path;
-  std::vector<Estimate> parameters;  ///< of this preload alone: l_o, friction, offset, ...
-  Transmission transmission;         ///< fitted
+  std::vector<Estimate> parameters;          ///< of this preload alone: l_o, friction, offset, ...
+  Transmission transmission;                 ///< fitted
+  std::vector<ElongationRange> elongations;  ///< that each cable reached
+  /// Deflections that reach them with the link in its reference position.
   double deflection_low = 0, deflection_high = 0;
   double equilibrium = 0;  ///< N m, largest |P f|, |S f| in the reference pose
   std::optional<LineStiffness> line;

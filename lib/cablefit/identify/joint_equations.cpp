@@ -65,6 +65,24 @@ Equation widened(const JointEquation& equation, const std::vector<Transmission>&
   return wide;
 }
 
+/// The same with l - l_o of every cable, last.
+Equation with_displacements(Equation equation, const Transmission& cables) {
+  const auto n = static_cast<Eigen::Index>(equation.columns.size());
+  equation.columns.resize(equation.columns.size() + cables.cables.size());
+  equation.averaged.resize(equation.columns.size(), equation.averaged.front());
+  equation.fill = [fill = std::move(equation.fill), n, cables](const Signals& signals,
+                                                               Eigen::Ref<Eigen::MatrixXd> out) {
+    fill(signals, out.leftCols(n));
+    const JointSignals& s = signals.joints[0];
+    const Eigen::ArrayXd turned = s.theta - cables.encoder_zero()(0);
+    Eigen::Index column = n;
+    for (const Cable& cable : cables.cables)
+      out.col(column++) = cable.motor_map.front().displacements(turned) -
+                          cable.link_map.front().displacements(s.q) - cable.reference_displacement;
+  };
+  return equation;
+}
+
 /// One window's share of one equation, per trial.
 struct Share {
   std::vector<RowStatistics> rows;
@@ -75,10 +93,15 @@ Share share_of(const EquationBatch& batch, Eigen::Index n_shared, Eigen::Index n
                std::size_t n_trials, const RowStatistics& blank) {
   Share share;
   share.facts.counts = batch.counts;
+  const Eigen::Index n_of_trials = n_shared + static_cast<Eigen::Index>(n_trials) * n_own;
+  share.facts.displacements.resize(static_cast<std::size_t>(batch.rows.cols() - n_of_trials));
   share.rows.assign(n_trials, blank.empty_copy());
   if (batch.rows.rows() == 0) return share;
   share.facts.deflection_low = batch.rows.col(n_shared - 1).minCoeff();
   share.facts.deflection_high = batch.rows.col(n_shared - 1).maxCoeff();
+  for (std::size_t c = 0; c < share.facts.displacements.size(); ++c)
+    share.facts.displacements[c].include(
+        batch.rows.col(n_of_trials + static_cast<Eigen::Index>(c)));
   Eigen::MatrixXd rows(batch.rows.rows(), n_shared + n_own);
   rows.leftCols(n_shared) = batch.rows.leftCols(n_shared);
   for (std::size_t t = 0; t < n_trials; ++t) {
@@ -98,10 +121,10 @@ void collect_record(std::span<const LogSurvey> logs, const JointRecord& record,
   std::vector<RowStatistics> blank;
   const std::size_t first = out.facts.size();
   for (const JointEquation& equation : record.equations) {
-    wide.push_back(widened(equation, trials));
+    wide.push_back(with_displacements(widened(equation, trials), trials.front()));
     blank.emplace_back(equation.n_base() + 1 + n_own, expected, with_cells);
     for (auto& trial : out.rows) trial.push_back(blank.back());
-    out.facts.emplace_back();
+    out.facts.emplace_back().displacements.resize(trials.front().cables.size());
   }
   stream_rows(
       logs, record.wanted, record.settings, wide, threads,
@@ -116,15 +139,21 @@ void collect_record(std::span<const LogSurvey> logs, const JointRecord& record,
         for (std::size_t e = 0; e < wide.size(); ++e) {
           for (std::size_t t = 0; t < trials.size(); ++t)
             out.rows[t][first + e].add(shares[e].rows[t]);
-          EquationFacts& facts = out.facts[first + e];
-          facts.counts += shares[e].facts.counts;
-          facts.deflection_low = std::min(facts.deflection_low, shares[e].facts.deflection_low);
-          facts.deflection_high = std::max(facts.deflection_high, shares[e].facts.deflection_high);
+          out.facts[first + e] += shares[e].facts;
         }
       });
 }
 
 }  // namespace
+
+EquationFacts& EquationFacts::operator+=(const EquationFacts& other) {
+  counts += other.counts;
+  deflection_low = std::min(deflection_low, other.deflection_low);
+  deflection_high = std::max(deflection_high, other.deflection_high);
+  for (std::size_t c = 0; c < displacements.size(); ++c)
+    displacements[c].include(other.displacements[c]);
+  return *this;
+}
 
 JointColumns joint_columns(const JointEquation& equation, Eigen::Index n) {
   const Eigen::Index basis = equation.n_base() + 1;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cablefit/base/parameter.hpp"
+#include "cablefit/elastic/elongation_range.hpp"
 #include "cablefit/estimate/row_statistics.hpp"
 #include "cablefit/model/cables.hpp"
 #include "cablefit/samples/row_stream.hpp"
@@ -65,6 +66,9 @@ struct PreloadJob {
 struct EquationFacts {
   RowCounts counts;
   double deflection_low = kUnbounded, deflection_high = -kUnbounded;
+  std::vector<ElongationRange> displacements;  ///< per cable, l - l_o
+
+  EquationFacts& operator+=(const EquationFacts& other);
 };
 
 /// rows[trial][equation], equations of all records one after the other.

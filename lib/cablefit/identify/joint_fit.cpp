@@ -46,27 +46,29 @@ bool breaks_bounds(const JointFit& fit, const Elongations& l_o, const Eigen::Vec
   if (fit.unconstrained) return false;
   for (std::size_t j = 0; j < fit.jobs.size(); ++j) {
     const Transmission cables = fitted_cables(fit.jobs[j], l_o[j], x);
-    for (const Cable& cable : cables.cables) {
-      const double longest =
-          longest_elongation(cables, cable, fit.deflection_low(j), fit.deflection_high(j));
-      if (longest > 0 && find_push(cable, longest)) return true;
-    }
+    const std::vector<double> longest = longest_of(fit.elongations(j, l_o[j]));
+    for (std::size_t c = 0; c < longest.size(); ++c)
+      if (find_push(cables.cables[c], longest[c])) return true;
   }
   return false;
 }
 
 }  // namespace
 
-double JointFit::deflection_low(std::size_t job) const {
-  double low = kUnbounded;
-  for (const EquationFacts& f : facts[job]) low = std::min(low, f.deflection_low);
-  return low;
+ElongationRange JointFit::displacements(std::size_t job, std::size_t cable) const {
+  ElongationRange range;
+  for (const EquationFacts& f : facts[job]) range.include(f.displacements[cable]);
+  return range;
 }
 
-double JointFit::deflection_high(std::size_t job) const {
-  double high = -kUnbounded;
-  for (const EquationFacts& f : facts[job]) high = std::max(high, f.deflection_high);
-  return high;
+std::vector<ElongationRange> JointFit::elongations(std::size_t job,
+                                                   const Eigen::VectorXd& l_o) const {
+  std::vector<ElongationRange> ranges;
+  for (Eigen::Index c = 0; c < l_o.size(); ++c) {
+    const ElongationRange range = displacements(job, static_cast<std::size_t>(c));
+    ranges.push_back({range.low + l_o(c), range.high + l_o(c)});
+  }
+  return ranges;
 }
 
 JointFit make_joint_fit(std::span<const LogSurvey> logs, std::vector<PreloadJob> jobs,
@@ -119,9 +121,9 @@ PhysicalBounds physical_bounds(const JointFit& fit, const Elongations& l_o) {
     const PreloadJob& job = fit.jobs[j];
     const ElongationUnit unit{job.cable_space, job.linear_motion};
     const Transmission cables = with_elongations(job.transmission, l_o[j]);
-    const PullConstraints pull = pull_constraints(
-        cables, std::vector<bool>(cables.cables.size(), true),
-        longest_elongations(cables, fit.deflection_low(j), fit.deflection_high(j)));
+    const PullConstraints pull =
+        pull_constraints(cables, std::vector<bool>(cables.cables.size(), true),
+                         longest_of(fit.elongations(j, l_o[j])));
     for (Eigen::Index i = 0; i < pull.rows.rows(); ++i) {
       rows.emplace_back(Eigen::RowVectorXd::Zero(n));
       rows.back().head(pull.rows.cols()) = pull.rows.row(i);

@@ -30,9 +30,10 @@ struct JointFit {
   bool searches() const {
     return layout.n_linear < static_cast<Eigen::Index>(layout.parameters.size());
   }
-  /// Deflections of all equations of the job.
-  double deflection_low(std::size_t job) const;
-  double deflection_high(std::size_t job) const;
+  /// l - l_o of a cable in all equations of the job.
+  ElongationRange displacements(std::size_t job, std::size_t cable) const;
+  /// Elongations that the cables of a job reach with these l_o.
+  std::vector<ElongationRange> elongations(std::size_t job, const Eigen::VectorXd& l_o) const;
 };
 
 JointFit make_joint_fit(std::span<const LogSurvey> logs, std::vector<PreloadJob> jobs,

@@ -4,10 +4,13 @@
 #include <array>
 #include <limits>
 
+#include "cablefit/estimate/constrained_least_squares.hpp"
 #include "cablefit/model/effects.hpp"
 
 namespace cablefit {
 namespace {
+
+constexpr double kBalanced = 1e-11;  // of pulleys of unit radius: rounding
 
 bool has_own(const PreloadJob& job, std::string_view name) {
   for (const JointRecord& record : job.records)
@@ -225,13 +228,20 @@ Transmission fitted_cables(const PreloadJob& job, const Eigen::VectorXd& l_o,
 }
 
 bool can_balance(const Transmission& transmission, const Eigen::VectorXd& l_o) {
-  const Eigen::VectorXd gain = reference_gain(transmission, true);
-  bool forward = false, backward = false;
-  for (Eigen::Index c = 0; c < l_o.size(); ++c) {
-    if (!(l_o(c) > 0)) continue;
-    (gain(c) > 0 ? forward : backward) = true;
-  }
-  return forward == backward;
+  std::vector<Eigen::Index> taut;
+  for (Eigen::Index c = 0; c < l_o.size(); ++c)
+    if (l_o(c) > 0) taut.push_back(c);
+  if (taut.empty()) return true;
+  Eigen::MatrixXd gain(2, l_o.size());
+  gain << reference_gain(transmission, true).transpose(),
+      reference_gain(transmission, false).transpose();
+  Eigen::MatrixXd pulls = gain(Eigen::all, taut);
+  for (Eigen::Index i = 0; i < 2; ++i)
+    if (pulls.row(i).norm() > 0) pulls.row(i).normalize();
+  // Forces of any positive size: 1 + u with u >= 0, up to a factor.
+  const Eigen::VectorXd ones = pulls.rowwise().sum();
+  const Eigen::VectorXd more = non_negative_least_squares(pulls, -ones);
+  return (ones + pulls * more).norm() < kBalanced;
 }
 
 }  // namespace cablefit

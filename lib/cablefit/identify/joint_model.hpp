@@ -58,7 +58,7 @@ Transmission fitted_cables(const PreloadJob& job, const Eigen::VectorXd& l_o,
                            const Eigen::VectorXd& x);
 
 /// Whether cables with these elongations can balance each other in the reference pose: none is
-/// taut, or some pull either way.
+/// taut, or P f = S f = 0 for some forces that are all positive.
 bool can_balance(const Transmission& transmission, const Eigen::VectorXd& l_o);
 
 }  // namespace cablefit

@@ -86,11 +86,13 @@ void decide_elongations(PreloadJob& job, bool several, const IdentifyOptions& op
   facts.decisions.push_back({"l_o", value, reason});
   const bool any = std::find(job.searched.begin(), job.searched.end(), true) != job.searched.end();
   if (!any && !can_balance(job.transmission, elongations_of(job.transmission)))
-    throw input_error({facts.rig.path, 0, 0},
-                      fmt::format("preload '{:.40}': the initial elongations cannot balance, all "
-                                  "cables that are taut pull the same way",
-                                  job.name),
-                      "give every cable its elongation, or \"search\"");
+    throw input_error(
+        {facts.rig.path, 0, 0},
+        fmt::format("preload '{:.40}': the initial elongations cannot balance, whatever the cables "
+                    "that are taut in the reference pose pull with: motor and link would move",
+                    job.name),
+        "give every cable its elongation, or \"search\"; check the signs of the radii, and that "
+        "motor_radius / link_radius is the same for cables that pull against each other");
 }
 
 JointEquation equation_of(Side side, const ChosenSettings& settings) {
@@ -203,7 +205,7 @@ JointRecord first_moving_record(std::span<const LogSurvey> logs, const IdentifyO
 }
 
 JointRecord moving_record(std::span<const LogSurvey> logs, const IdentifyOptions& options,
-                          const Transmission& fitted, double deflection_low, double deflection_high,
+                          const Transmission& fitted, const DeflectionRange& deflections,
                           PreloadFacts& facts) {
   const PartFilter wanted = moving_parts(facts.name);
   require_agreement(logs, wanted, facts.name);
@@ -214,8 +216,8 @@ JointRecord moving_record(std::span<const LogSurvey> logs, const IdentifyOptions
   ElasticResult stage1;
   stage1.preloads.emplace_back();
   stage1.preloads.back().name = facts.name;
-  stage1.preloads.back().deflection_low = deflection_low;
-  stage1.preloads.back().deflection_high = deflection_high;
+  stage1.preloads.back().deflection_low = deflections.low;
+  stage1.preloads.back().deflection_high = deflections.high;
   DynamicOptions dynamic;
   dynamic.samples = options.samples;
   DynamicJob job{logs, dynamic, facts.name, wanted, {&elastic}, {"poly"}, false, {}, {}};

@@ -38,7 +38,7 @@ JointRecord first_moving_record(std::span<const LogSurvey> logs, const IdentifyO
 
 /// The same with settings chosen by the elastic fit: filter by the resonance, torque hold.
 JointRecord moving_record(std::span<const LogSurvey> logs, const IdentifyOptions& options,
-                          const Transmission& fitted, double deflection_low, double deflection_high,
+                          const Transmission& fitted, const DeflectionRange& deflections,
                           PreloadFacts& facts);
 
 }  // namespace cablefit
