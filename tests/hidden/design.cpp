@@ -273,7 +273,8 @@ Case make_case(const CaseSpec& spec) {
   out.floor = twin.floor;
 
   std::vector<Wish>& wishes = out.spec.effects;
-  if (spec.rho && !wishes.empty()) wishes[0].m = size_for(*spec.rho, wishes[0], twin);
+  if (spec.rho)
+    for (Wish& wish : wishes) wish.m = size_for(*spec.rho, wish, twin);
   out.recordings = laboratory.record(wishes, spec.clutter, false, true);
   out.rho = twin.rho(out.recordings);
   if (spec.clutter > 0) out.background = twin.rho({}, spec.clutter);

@@ -42,10 +42,21 @@ Wish wish_of(const std::string& text) {
   return wish;
 }
 
-Reference reference_of(const std::string& file) {
+/// Column theta_ref at 1 kHz, read off between the rows of the file, and the load of its first row
+/// if it has one.
+Extra extra_of(const std::string& file, double load) {
   const RealLog log = read_log(file);
-  const Eigen::VectorXd reference = log.column("theta_ref");
-  return {reference.begin(), reference.end()};
+  const Eigen::VectorXd t = log.column("t"), reference = log.column("theta_ref");
+  Extra extra{load, {}};
+  Eigen::Index row = 0;
+  for (double now = t[0]; row + 1 < t.size(); now += 1 / kRate) {
+    while (row + 1 < t.size() && t[row + 1] <= now) ++row;
+    if (row + 1 == t.size()) break;
+    const double share = (now - t[row]) / (t[row + 1] - t[row]);
+    extra.reference.push_back((1 - share) * reference[row] + share * reference[row + 1]);
+  }
+  if (log.has("tau_load")) extra.load = log.column("tau_load")[0];
+  return extra;
 }
 
 }  // namespace
@@ -65,15 +76,16 @@ int main(int argc, char** argv) try {
   one.add_option("--seed", spec.seed, "rig, references, phases, noise");
   one.add_option("--design", spec.design, "which runs");
   one.add_option("--clutter", spec.clutter, "sd of a wandering torque on the link, N m");
-  auto* with_rho = one.add_option("--rho", rho, "scale the first effect until rho is this");
+  auto* with_rho =
+      one.add_option("--rho", rho, "scale each effect until this is its rho by itself");
   auto* with_load = one.add_option("--extra-load", extra_load, "a further run at this load, N m");
   auto* with_file = one.add_option("--extra", extra_file,
-                                   "a further run with column theta_ref of this CSV, 1 kHz");
+                                   "a further run by columns t, theta_ref (and tau_load) of a CSV");
   one.callback([&] {
     for (const std::string& text : effects) spec.effects.push_back(wish_of(text));
     if (with_rho->count() > 0) spec.rho = rho;
     if (with_load->count() + with_file->count() > 0)
-      spec.extra = Extra{extra_load, extra_file.empty() ? Reference{} : reference_of(extra_file)};
+      spec.extra = extra_file.empty() ? Extra{extra_load, {}} : extra_of(extra_file, extra_load);
     write_case(out, make_case(spec));
   });
 
