@@ -1,0 +1,163 @@
+"""The acceptance table and the confusion matrix."""
+import collections
+import csv
+
+from score import (aliases_listed, both_named, coefficients, judge, names_something, quantile, removed,
+                   truths, upper_bound)
+
+
+class Table:
+    """Lines of figure, value, goal. A figure without cases misses nothing."""
+
+    def __init__(self):
+        self.lines, self.missed = [], 0
+
+    def add(self, figure, value, n, goal=None, least=True, show="{:.1f} %", scale=100, note=""):
+        if n == 0 or value is None:
+            return
+        verdict = ""
+        if goal is not None:
+            good = value >= goal if least else value <= goal
+            self.missed += not good
+            verdict = f"{'>=' if least else '<='} {show.format(scale * goal)}  {'ok' if good else 'MISSED'}"
+        self.lines.append((figure, show.format(scale * value), str(n), verdict, note))
+
+    def rate(self, figure, hits, goal=None, least=True, note=""):
+        hits = list(hits)
+        self.add(figure, sum(hits) / len(hits) if hits else None, len(hits), goal, least, note=note)
+
+    def show(self):
+        rows = [("figure", "value", "cases", "goal", "")] + self.lines
+        widths = [max(len(row[i]) for row in rows) for i in range(4)]
+        for row in rows:
+            print("  ".join(cell.ljust(width) for cell, width in zip(row, widths + [0])).rstrip())
+
+
+def of_kind(results, *kinds):
+    return [one for one in results if one["case"]["kind"] in kinds]
+
+
+def rho(result):
+    return result["truth"]["rho"]["all"]
+
+
+def show_controls(table, results):
+    for kind, label, goal in (("controls", "named on effect-free data", 1 / 475),
+                              ("clutter_controls", "named on clutter alone", 0.01)):
+        some = [one for one in of_kind(results, kind) if one["answer"]]
+        named = [names_something(one["answer"]) for one in some]
+        bound = f"rate below {100 * upper_bound(sum(named), len(named)):.1f} % (95 %)" if some else ""
+        table.rate(label, named, goal, least=False, note=bound)
+
+
+def show_names(table, results):
+    some = of_kind(results, "effects")
+    for form, bands in (("matched", ((1.5, 1e9, 0.97), (1.1, 1.5, 0.93), (0, 1.1, None))),
+                        ("other", ((1.5, 1e9, 0.92), (1.1, 1.5, 0.92), (0, 1.1, None)))):
+        for low, high, goal in bands:
+            chosen = [judge(one) for one in some
+                      if truths(one)[0]["form"] == form and low <= rho(one) < high]
+            band = f">= {low}" if high > 1e8 else f"{low} to {high}" if low else f"< {high}"
+            table.rate(f"top-1, {form} form, rho {band}", (one["top"] for one in chosen), goal)
+    seen = [judge(one) for one in some if rho(one) >= 1.1]
+    table.rate("truth in the set, rho >= 1.1", (one["in_set"] for one in seen), 0.99)
+    sizes = [one["size"] for one in seen if one["size"]]
+    table.add("mean set", sum(sizes) / len(sizes) if sizes else None, len(sizes), 1.4, False, "{:.2f}", 1)
+    table.rate("confident wrong name, rho >= 1.1", (one["wrong"] for one in seen), 0.01, least=False)
+    aliases = [aliases_listed(one) for one in some]
+    table.rate("alias class listed together", (one for one in aliases if one is not None), 1)
+
+
+def show_others(table, results):
+    strange = [one for one in of_kind(results, "outside") if rho(one) >= 1.3]
+    table.rate("outside the catalogue: unexplained, rho >= 1.3",
+               ((one["answer"] or {}).get("verdict") == "unexplained" for one in strange), 0.97)
+    table.rate("two effects, both named", (both_named(one) for one in of_kind(results, "pairs")), 0.9)
+    for m, goal in ((0.1, 0.85), (0.3, 0.93)):
+        chosen = [one for one in of_kind(results, "clutter") if abs(truths(one)[0]["m"] - m) < 1e-9]
+        table.rate(f"top-1 in clutter, m = {m}", (judge(one)["top"] for one in chosen), goal)
+    flagship = [one for one in of_kind(results, "preloads") if truths(one)]
+    table.rate("tension friction named across preloads", (judge(one)["top"] for one in flagship), 1)
+    table.rate("named across preloads, nothing hidden",
+               (names_something(one["answer"]) for one in of_kind(results, "preloads")
+                if not truths(one) and one["answer"]), 0, least=False)
+    planted = of_kind(results, "real")
+    table.rate("planted in real logs, >= half the residual", (judge(one)["in_set"] for one in planted), 0.9)
+    one_load = of_kind(results, "one_load")
+    table.rate("one load: truth in the set", (judge(one)["in_set"] for one in one_load))
+    table.rate("one load: the run to add is named",
+               (bool(one["answer"] and one["answer"].get("next_experiment")) for one in one_load), 1)
+    table.rate("one load, advised run added: top-1", (judge(one, "with_advised")["top"] for one in one_load),
+               0.9)
+
+
+def show_gaps(table, results):
+    right = [one for one in of_kind(results, "effects") if judge(one)["top"]]
+    for space, label in (("simulation", "deflection"), ("torque", "torque")):
+        shares = [removed(one["answer"]["gap"][space]) for one in right
+                  if space in one["answer"].get("gap", {})]
+        shares = [one for one in shares if one is not None]
+        table.add(f"excess squared gap removed, {label}, median", quantile(shares, 0.5), len(shares), 0.95)
+        table.add(f"excess squared gap removed, {label}, p10", quantile(shares, 0.1), len(shares), 0.85)
+    found = [one for result in right if truths(result)[0]["form"] == "matched" and rho(result) >= 1.1
+             for one in coefficients(result)]
+    errors = [error for error, _ in found]
+    table.add("coefficient error, median", quantile(errors, 0.5), len(errors), 0.03, least=False)
+    inside = [one for _, one in found if one is not None]
+    cover = sum(inside) / len(inside) if inside else None
+    table.add("95 % intervals that hold the truth", cover, len(inside), 0.9)
+    if len(inside) >= 100:  # too wide is not to be told from luck in fewer
+        table.add("  and no more than", cover, len(inside), 0.98, least=False)
+    seconds = [one["seconds"] for one in results if one["answer"]]
+    table.add("seconds a case, largest", max(seconds, default=None), len(seconds), 20, False, "{:.1f} s", 1)
+    table.rate("no answer (see stderr in the result file)", (one["answer"] is None for one in results), 0,
+               least=False)
+
+
+def confusion(results):
+    """{truth: Counter of answers} over single hidden effects, nothing hidden, and what no name fits."""
+    matrix = collections.defaultdict(collections.Counter)
+    for one in results:
+        some = truths(one)
+        if len(some) > 1:
+            continue
+        if some:
+            matrix[some[0]["id"]][judge(one)["said"]] += 1
+            continue
+        hidden = [effect["id"] for effect in one["truth"]["effects"]]
+        answer = one["answer"]
+        said = "failed" if answer is None else answer["verdict"]
+        if answer and names_something(answer):
+            said = f"{answer['effects'][0]['name']}.{answer['effects'][0]['side']}"
+        matrix[hidden[0] if hidden else "(clutter)" if one["truth"]["clutter"] else "(nothing)"][said] += 1
+    return matrix
+
+
+def show_confusion(matrix):
+    print("\nhidden, and what was said (alias classes as one)")
+    width = max(map(len, matrix), default=0)
+    for truth in sorted(matrix):
+        said = ", ".join(f"{name} {n}" for name, n in matrix[truth].most_common())
+        print(f"  {truth.ljust(width)}  {said}")
+
+
+def write_matrix(matrix, file):
+    columns = sorted({said for row in matrix.values() for said in row})
+    with open(file, "w", newline="") as out:
+        writer = csv.writer(out)
+        writer.writerow(["hidden", *columns])
+        for truth in sorted(matrix):
+            writer.writerow([truth, *(matrix[truth][column] for column in columns)])
+
+
+def show(results, matrix_file=None):
+    """Prints everything; returns how many goals were missed."""
+    table = Table()
+    for part in (show_controls, show_names, show_others, show_gaps):
+        part(table, results)
+    table.show()
+    matrix = confusion(results)
+    show_confusion(matrix)
+    if matrix_file:
+        write_matrix(matrix, matrix_file)
+    return table.missed
