@@ -101,7 +101,8 @@ PredictedEquation predict_system(const DynamicJob& job, const std::vector<Equati
   const EquationRows& first = equations[which.front()];
   const bool linear = job.rig().linear_motion;
   std::optional<RowStatistics> stacked;
-  if (which.size() > 1) stacked = stacked_rows(equations, which, job.elastic, 0);
+  if (which.size() > 1)
+    stacked = stacked_rows(equations, which, job.elastic, 0, Weighting::by_residual);
   const RowStatistics& rows = stacked ? *stacked : *first.rows;
   PredictedSystem system{
       first.columns, rows, solve_rows(rows, first.columns, job.elastic, 0, linear), {}};
