@@ -48,7 +48,8 @@ struct BlockedRows {
   WindowCounts windows;
   double deflection_low = kUnbounded, deflection_high = -kUnbounded;  ///< of the rows
   std::vector<ElongationRange> elongations;  ///< per cable; several joints only
-  bool plateaus = false;                     ///< rows at rest were used, there are hardly others
+  ModeCounts modes;
+  bool plateaus = false;  ///< rows at rest were used, there are hardly others
 
   Eigen::VectorXd torque_response() const {
     return Eigen::VectorXd::Unit(columns.count, columns.tau);

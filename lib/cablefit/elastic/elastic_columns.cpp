@@ -109,11 +109,8 @@ BlockedColumns blocked_columns(const Transmission& transmission) {
   c.speed = c.direction + n;
   c.zero = c.speed + n;
   c.tau = c.zero + n;
-  c.count = c.tau + 1;
-  if (n > 1) {
-    c.elongation = c.count;
-    c.count += static_cast<Eigen::Index>(transmission.cables.size());
-  }
+  c.elongation = c.tau + 1;
+  c.count = c.elongation + static_cast<Eigen::Index>(transmission.cables.size());
   return c;
 }
 
@@ -128,11 +125,14 @@ BlockedColumns BlockedColumns::of_joint(int joint) const {
 
 namespace {
 
-// What the rows of one of several joints have in the others' columns, and the elongations.
-void fill_others(const Transmission& transmission, const BlockedColumns& c,
-                 std::span<const JointSignals> joints, Eigen::Ref<Eigen::MatrixXd> out) {
+// What the rows of one of several joints have in the others' columns.
+void clear_others(const BlockedColumns& c, Eigen::Ref<Eigen::MatrixXd> out) {
   out.leftCols(c.basis).setZero();
   out.middleCols(c.basis + c.n_basis, c.tau - c.basis - c.n_basis).setZero();
+}
+
+void fill_elongations(const Transmission& transmission, const BlockedColumns& c,
+                      std::span<const JointSignals> joints, Eigen::Ref<Eigen::MatrixXd> out) {
   for (std::size_t k = 0; k < transmission.cables.size(); ++k)
     out.col(c.elongation + static_cast<Eigen::Index>(k)) =
         elongation(transmission, transmission.cables[k], joints);
@@ -158,7 +158,8 @@ Equation blocked_equation(const Transmission& transmission, const Transmission* 
   equation.fill = [transmission, c, curve, joint, own](const Signals& signals,
                                                        Eigen::Ref<Eigen::MatrixXd> out) {
     const JointSignals& s = signals.joints[own];
-    if (c.n_joints > 1) fill_others(transmission, c, signals.joints, out);
+    if (c.n_joints > 1) clear_others(c, out);
+    fill_elongations(transmission, c, signals.joints, out);
     out.col(c.deflection) = deflection(transmission, s, own);
     elastic_basis(transmission, signals.joints, ElasticSide::motor, joint,
                   out.middleCols(c.basis, c.n_basis));

@@ -33,7 +33,7 @@ struct BlockedColumns {
   Eigen::Index basis = 1;       ///< first of n_basis columns
   Eigen::Index n_basis = 0;
   Eigen::Index offset = 0, direction = 0, speed = 0, zero = 0, tau = 0;
-  Eigen::Index elongation = -1;  ///< first of one per cable; -1: one joint, needs none
+  Eigen::Index elongation = 0;  ///< first of one per cable
   Eigen::Index count = 0;
 
   /// The same with deflection, offset, direction, speed and zero those of one joint (from 0).
