@@ -62,6 +62,29 @@ TEST_CASE("the fitted line of the figure is the linear model") {
                Catch::WithinAbs(linear.parameters[0].value * line.x[i] + linear.offset, 1e-6));
 }
 
+TEST_CASE("stage 1 draws the models of Fig. 4 and a map of the modes") {
+  const ElasticPreload low = fitted(true, 1);
+  const Figure& cables = figure(low, "Elastic torque of each cable");
+  const Trace& classical = cables.traces.at(cables.traces.size() - 2);
+  CHECK(classical.name == "classical linear, K (theta - q)");
+  CHECK_THAT(classical.y.back(),
+             Catch::WithinRel(low.fits[0].parameters[0].value * classical.x.back(), 1e-9));
+  const Trace& first_order = cables.traces.back();
+  CHECK(first_order.name == "cables of order 1");
+  // One slope on each side of zero, and not the line's.
+  CHECK_THAT(first_order.y.at(150) / first_order.x.at(150),
+             Catch::WithinRel(first_order.y.back() / first_order.x.back(), 1e-6));
+  CHECK(std::abs(first_order.y.back() / classical.y.back() - 1) > 1e-3);
+  const Figure& map = figure(low, "Force closure and disclosure over q and theta");
+  const Trace& rows = map.traces.back();
+  CHECK(rows.name == "rows of the logs");
+  // The cloud spans what was fitted, less what two of its at least 16 cells may hide.
+  const auto [least, most] = std::minmax_element(rows.y.begin(), rows.y.end());
+  CHECK_THAT(*most - *least, Catch::WithinAbs(low.deflection_high - low.deflection_low, 0.012));
+  CHECK(largest(rows.x) < 1e-4);  // the link is blocked at 0
+  CHECK(map.notes.size() == 2);   // no preload: one cable or the other
+}
+
 TEST_CASE("figures of stage 1 do not depend on the threads, and the fit not on figures") {
   const ElasticPreload one = fitted(true, 1), many = fitted(true, 5), none = fitted(false, 1);
   CHECK(none.figures.empty());

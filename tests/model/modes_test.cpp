@@ -37,6 +37,10 @@ TEST_CASE("cables of the shipped rig go slack where its README says") {
   CHECK(points[1].link == points[1].motor);
   CHECK(points[1].slack_above);
   CHECK(slack_points(high_preload(), -0.004, 0.004).empty());
+  Transmission loose = high_preload();  // both slack between the two points
+  loose.cables[0].initial_elongation = -2.96e-6;
+  loose.cables[1].initial_elongation = -2.29e-6;
+  for (const SlackPoint& point : slack_points(loose, -0.045, 0.045)) CHECK(point.motor == 0);
   CHECK(is_preloaded(high_preload()));
   CHECK_FALSE(is_preloaded(antagonist_pair(2)));
 }
@@ -92,13 +96,13 @@ TEST_CASE("a map over the positions of one joint has the modes of its poses") {
   const VectorXd q = VectorXd::LinSpaced(7, -0.03, 0.03), theta = VectorXd::LinSpaced(5, 0, 0.04);
   const ReferencePose pose{Eigen::Vector2d(0, 0.1), Eigen::Vector2d(0, 0.15)};
   const ModeMap map = mode_map(arm, 0, q, theta, pose);
-  REQUIRE(map.taut.size() == 4);
+  REQUIRE(map.elongation.size() == 4);
   for (Eigen::Index i = 0; i < q.size(); ++i) {
     for (Eigen::Index j = 0; j < theta.size(); ++j) {
-      CHECK(map.taut[0](i, j) == (theta[j] - q[i] + 0.01 > 0));
-      CHECK(map.taut[1](i, j) == (q[i] - theta[j] + 0.01 > 0));
-      CHECK(map.taut[2](i, j));        // 0.15 - 0.1 - 0.01
-      CHECK_FALSE(map.taut[3](i, j));  // 0.1 - 0.15 + 0.01
+      CHECK(map.taut(0, i, j) == (theta[j] - q[i] + 0.01 > 0));
+      CHECK(map.taut(1, i, j) == (q[i] - theta[j] + 0.01 > 0));
+      CHECK(map.taut(2, i, j));        // 0.15 - 0.1 - 0.01
+      CHECK_FALSE(map.taut(3, i, j));  // 0.1 - 0.15 + 0.01
       CHECK(map.mode(i, j) == Mode::disclosure);
     }
   }

@@ -26,6 +26,7 @@ function cablefit(...args) {
 const kCommands = {
   check: () => ["check", ...at("low/blocked.csv", "low/moving_load30.csv")],
   elastic: () => ["elastic", ...at("low/blocked.csv", "high/blocked.csv")],
+  preloaded: () => ["elastic", "--out", "preloaded-out", ...at("high/blocked.csv"), "--rig", ...at("high/rig_cables.json")],
   dynamic: () => ["dynamic", ...at("low/moving_load30.csv", "low/moving_load-40.csv",
                                    "high/moving_load30.csv", "high/moving_load-40.csv")],
   rigid: () => ["dynamic", "--model", "rigid", "--out", "rigid-out", ...at("low/moving_load30.csv")],
@@ -40,15 +41,16 @@ const kResidualTitles = ["Torque error over time", "Distribution of the torque e
                          "Autocorrelation of the torque error"];
 const kWanted = {
   check: {Positions: 2, Torques: 2},
-  elastic: {"Torque against deflection": 2, "Elastic torque of each cable": 2, "Elastic error against deflection": 2, "Measured and predicted": 2,
+  elastic: {"Torque against deflection": 2, "Elastic torque of each cable": 2, "Force closure and disclosure over q and θ": 2, "Elastic error against deflection": 2, "Measured and predicted": 2,
             "Torque error against velocity of θ, linear": 2, "Torque error against position θ, linear": 2,
             "Torque error against deflection θ − q, linear": 2, ...counted(kResidualTitles, 2)},
+  preloaded: {"Elastic torque of each cable": 1, "Force closure and disclosure over q and θ": 1},
   dynamic: {"Measured and predicted": 2, "Measured and predicted, close-up": 2,
             "Measured and predicted, poly": 2, "Measured and predicted, poly, close-up": 2, ...counted(kResidualTitles, 4),
             "Torque error against velocity of q, poly": 2, "Torque error against position θ, poly": 2,
             "Torque error against deflection θ − q, poly": 4, "Torque error against load τ_load, poly": 4},
   rigid: {"Measured and predicted": 1, ...counted(kResidualTitles, 1)},
-  identify: {"Elastic torque of each cable": 2, "Profile likelihood of l_o[1]": 2, "Profile likelihood of l_o[2]": 2, K1_0: 1, J_link: 2},
+  identify: {"Elastic torque of each cable": 2, "Force closure and disclosure over q and θ": 2, "Profile likelihood of l_o[1]": 2, "Profile likelihood of l_o[2]": 2, K1_0: 1, J_link: 2},
   simulate: {"Measured and simulated q": 2, "Measured and simulated q, close-up": 2, "Measured and simulated θ": 2, "Gap of q": 2, "Gap of θ": 2},
   batch: {K: 1, J_link: 1, "Torque against deflection": 2, "Torque error over time": 6}
 };
@@ -235,6 +237,26 @@ test("dark for readers who like it dark, light on paper", async () => {
   const pdf = await page.pdf();
   assert.equal(pdf.subarray(0, 5).toString(), "%PDF-");
   assertQuiet(page);
+});
+
+test("a map names its regions, readable in light and dark", async () => {
+  for (const dark of [false, true]) {
+    const page = await open("preloaded.html", {dark});
+    await page.evaluate("cablefitReport.drawAll().then(() => true)");
+    const maps = await page.evaluate(`cablefitReport.plots.filter(({figure}) => figure.notes.length).map(({place}) => ({
+      words: [...place.querySelectorAll(".annotation-text")].map((node) => node.textContent),
+      ink: getComputedStyle([...place.querySelectorAll(".annotation-text")].at(-1)).fill,
+      filled: getComputedStyle(place.querySelector(".js-fill")).fill,
+    }))`);
+    assert.equal(maps.length, 2);
+    for (const {words, ink, filled} of maps) {
+      for (const word of ["all taut", "slack: agonist", "slack: antagonist"]) assert.ok(words.includes(word), word);
+      const lightness = (text) => colour(text).reduce((sum, part) => sum + part, 0) / 3;
+      assert.ok(Math.abs(lightness(ink) - lightness(filled)) > 125, `${ink} on ${filled}`);
+    }
+    assert.deepEqual(await page.evaluate(kComplaints), []);
+    assertQuiet(page);
+  }
 });
 
 /** A shipped log with a column, a preload and a name that would like to run. */

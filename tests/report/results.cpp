@@ -107,6 +107,7 @@ ElasticPreload elastic_preload(const std::string& name, int order_1, int order_2
   preload.peak_torque = 138;
   preload.loop_half_width = 2.79;
   preload.counts = {900, 90, 3, 200};
+  preload.modes = {100, {{"1", 420}, {"2", 380}}};
   preload.windows = {20000, 7, 5, 2};
   preload.fits = {linear_fit(), poly_fit(order_1, order_2)};
   preload.selected = "poly";

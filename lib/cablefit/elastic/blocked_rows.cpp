@@ -135,14 +135,31 @@ Collected collect(const ElasticJob& job, const Transmission& transmission,
   return all;
 }
 
-/// Deflections and elongations of the rows.
+/// A cable is taut where its (low-passed) elongation is positive, not where its basis is: that
+/// rings beyond its slack point.
+void count_modes(BlockedRows& blocked, const Eigen::MatrixXd& rows) {
+  using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
+  Flags closure = Flags::Constant(rows.rows(), true);
+  for (std::size_t k = 0; k < blocked.modes.slack.size(); ++k) {
+    const Flags taut =
+        rows.col(blocked.columns.elongation + static_cast<Eigen::Index>(k)).array() > 0;
+    blocked.modes.slack[k].rows += static_cast<std::size_t>(taut.size() - taut.count());
+    closure = closure && taut;
+  }
+  blocked.modes.closure += static_cast<std::size_t>(closure.count());
+}
+
+/// Deflections, modes and elongations of the rows.
 void measure_ranges(BlockedRows& blocked, Eigen::Index deflection_column) {
   const BlockedColumns& c = blocked.columns;
   blocked.elongations.resize(blocked.transmission.cables.size());
+  for (const Cable& cable : blocked.transmission.cables)
+    blocked.modes.slack.push_back({cable.name, 0});
   blocked.archive->for_each([&](const Eigen::MatrixXd& rows, std::span<const Eigen::Index>) {
     const auto deflection = rows.col(deflection_column);
     blocked.deflection_low = std::min(blocked.deflection_low, deflection.minCoeff());
     blocked.deflection_high = std::max(blocked.deflection_high, deflection.maxCoeff());
+    count_modes(blocked, rows);
     for (std::size_t k = 0; k < blocked.elongations.size(); ++k)
       blocked.elongations[k].include(rows.col(c.elongation + static_cast<Eigen::Index>(k)));
   });
@@ -193,14 +210,18 @@ BlockedRows stack(const std::vector<BlockedRows>& joints, const std::vector<doub
   all.columns = joints.front().columns;
   all.windows = joints.front().windows;
   all.elongations.resize(all.transmission.cables.size());
+  for (const Cable& cable : all.transmission.cables) all.modes.slack.push_back({cable.name, 0});
   std::vector<const RowStatistics*> rows;
   for (const BlockedRows& joint : joints) {
     rows.push_back(&*joint.rows);
     all.counts += joint.counts;
     all.deflection_low = std::min(all.deflection_low, joint.deflection_low);
     all.deflection_high = std::max(all.deflection_high, joint.deflection_high);
-    for (std::size_t k = 0; k < all.elongations.size(); ++k)
+    for (std::size_t k = 0; k < all.elongations.size(); ++k) {
       all.elongations[k].include(joint.elongations[k]);
+      all.modes.slack[k].rows += joint.modes.slack[k].rows;
+    }
+    all.modes.closure += joint.modes.closure;
   }
   all.rows = RowStatistics::weighted(rows, weights);
   return all;

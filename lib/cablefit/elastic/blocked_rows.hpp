@@ -44,6 +44,7 @@ struct BlockedRows {
   WindowCounts windows;
   double deflection_low = kUnbounded, deflection_high = -kUnbounded;  ///< of the rows
   std::vector<ElongationRange> elongations;                           ///< per cable, of the rows
+  ModeCounts modes;
   bool plateaus = false;  ///< rows at rest were used, there are hardly others
 
   Eigen::VectorXd torque_response() const {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "cablefit/model/modes.hpp"
@@ -11,12 +12,22 @@ namespace cablefit {
 namespace {
 
 constexpr int kSteps = 200;
-constexpr double kMarkRoom = 0.1;  // of the range; names of marks closer than that share a place
+constexpr double kMarkRoom = 0.1;    // of the range; names of marks closer than that share a place
+constexpr double kLeastZone = 1e-6;  // of the range; two cables that go slack together
+constexpr double kNoteRoom = 0.06;   // of the torque's range, from its ends
 
 double motor_torque(const Transmission& transmission, const Cable& cable, double phi) {
   const double theta = transmission.reference_q()(0) + phi;
   return cable.motor_map.front().radius(theta) *
          cable.force(elongation_at(transmission, cable, phi));
+}
+
+double motor_torque(const Transmission& transmission, double phi) {
+  const Eigen::VectorXd q = transmission.reference_q();
+  Eigen::VectorXd link, motor;
+  transmission.torques(q, q + Eigen::VectorXd::Constant(1, phi) + transmission.encoder_zero(), link,
+                       motor);
+  return motor(0);
 }
 
 /// By the names of the cables.
@@ -31,35 +42,101 @@ std::vector<Mark> slack_marks(const Transmission& transmission, double low, doub
   return marks;
 }
 
+/// Deflections between two changes of a cable, and which cables are slack there.
+struct Zone {
+  double low, high;
+  std::string slack;  ///< "1, 2"; empty: force closure
+};
+
+std::vector<Zone> zones_of(const Transmission& transmission, double low, double high) {
+  std::vector<double> ends = {low, high};
+  for (const SlackPoint& point : slack_points(transmission, low, high))
+    ends.push_back(point.deflection);
+  std::sort(ends.begin(), ends.end());
+  std::vector<Zone> zones;
+  for (std::size_t k = 1; k < ends.size(); ++k) {
+    const double middle = (ends[k - 1] + ends[k]) / 2;
+    if (!(ends[k] - ends[k - 1] > kLeastZone * (high - low))) continue;
+    Zone zone{ends[k - 1], ends[k], ""};
+    for (const Cable& cable : transmission.cables)
+      if (!(elongation_at(transmission, cable, middle) > 0))
+        zone.slack += (zone.slack.empty() ? "" : ", ") + cable.name;
+    zones.push_back(std::move(zone));
+  }
+  return zones;
+}
+
+/// From corner to corner of a torque that grows: up to which deflection and which torque.
+void add_box(const Transmission& transmission, const Zone& zone, Trace& area) {
+  const double from = motor_torque(transmission, zone.low);
+  const double to = motor_torque(transmission, zone.high);
+  if (!area.x.empty()) {
+    area.x.push_back(std::numeric_limits<double>::quiet_NaN());
+    area.y.push_back(area.x.back());
+  }
+  area.x.insert(area.x.end(), {zone.low, zone.high, zone.high, zone.low, zone.low});
+  area.y.insert(area.y.end(), {from, from, to, to, from});
+}
+
+/// Above the curve or below it, where there is more room.
+Note zone_note(const Transmission& transmission, const Zone& zone, double least, double most) {
+  const double middle = (zone.low + zone.high) / 2;
+  const double edge = kNoteRoom * (most - least);
+  const bool below = motor_torque(transmission, middle) > (least + most) / 2;
+  return {middle, below ? least + edge : most - edge,
+          zone.slack.empty() ? "all taut" : "slack: " + zone.slack};
+}
+
+/// Which cables are slack where.
+void add_zones(const Transmission& transmission, const Trace& all, Figure& figure) {
+  const auto [least, most] = std::minmax_element(all.y.begin(), all.y.end());
+  const double low = all.x.front(), high = all.x.back();
+  Trace area{"all taut: force closure", TraceStyle::area, kReference, {}, {}, {}, {}, {}};
+  for (const Zone& zone : zones_of(transmission, low, high)) {
+    if (zone.slack.empty()) add_box(transmission, zone, area);
+    if (zone.high - zone.low > kMarkRoom * (high - low))
+      figure.notes.push_back(zone_note(transmission, zone, *least, *most));
+  }
+  if (!area.x.empty()) figure.traces.push_back(std::move(area));
+}
+
+template <typename Torque>
+Trace curve(std::string name, TraceStyle style, int series, const std::vector<double>& phi,
+            Torque torque) {
+  Trace trace{std::move(name), style, series, phi, {}, {}, {}, {}};
+  for (const double at : phi) trace.y.push_back(torque(at));
+  return trace;
+}
+
 }  // namespace
 
-Figure cable_figure(const Transmission& transmission, double low, double high, bool linear_motion) {
+Figure cable_figure(const Transmission& transmission, double low, double high, bool linear_motion,
+                    std::span<const ComparedModel> compared) {
   Figure figure;
   figure.title = "Elastic torque of each cable";
   figure.caption =
       "The fitted cables without friction and offset. A dotted line is where the cable of that "
-      "name "
-      "goes slack: force closure while all are taut, force disclosure beyond.";
+      "name goes slack: force closure while all are taut, at the deflections and torques of the "
+      "grey box, force disclosure beyond.";
   figure.wide = true;
   figure.x = {"deflection theta - q", linear_motion ? "m" : "rad"};
   figure.y = {"elastic torque on the motor", linear_motion ? "N" : "N m"};
-  Trace all{"all cables", TraceStyle::broad, kMeasured, {}, {}, {}, {}, {}};
-  for (int i = 0; i <= kSteps; ++i) all.x.push_back(low + (high - low) * i / kSteps);
-  all.y.assign(all.x.size(), 0);
-  std::vector<Trace> single;
-  for (std::size_t c = 0; c < transmission.cables.size(); ++c) {
-    const Cable& cable = transmission.cables[c];
-    Trace trace{
-        "cable " + cable.name, TraceStyle::line, static_cast<int>(c) + 1, {}, {}, {}, {}, {}};
-    trace.x = all.x;
-    for (std::size_t i = 0; i < all.x.size(); ++i) {
-      trace.y.push_back(motor_torque(transmission, cable, all.x[i]));
-      all.y[i] += trace.y.back();
-    }
-    single.push_back(std::move(trace));
-  }
-  figure.traces.push_back(std::move(all));
-  for (Trace& trace : single) figure.traces.push_back(std::move(trace));
+  std::vector<double> phi;
+  for (int i = 0; i <= kSteps; ++i) phi.push_back(low + (high - low) * i / kSteps);
+  const auto total = [](const Transmission& of) {
+    return [&of](double at) { return motor_torque(of, at); };
+  };
+  const Trace all = curve("all cables", TraceStyle::broad, kMeasured, phi, total(transmission));
+  add_zones(transmission, all, figure);
+  figure.traces.push_back(all);
+  int series = 0;
+  for (const Cable& cable : transmission.cables)
+    figure.traces.push_back(
+        curve("cable " + cable.name, TraceStyle::line, ++series, phi,
+              [&](double at) { return motor_torque(transmission, cable, at); }));
+  for (const ComparedModel& other : compared)
+    figure.traces.push_back(
+        curve(other.name, TraceStyle::dashed, ++series, phi, total(other.transmission)));
   figure.marks = slack_marks(transmission, low, high);
   return figure;
 }

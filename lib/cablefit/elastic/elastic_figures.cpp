@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "cablefit/elastic/cable_figure.hpp"
+#include "cablefit/elastic/mode_figure.hpp"
 #include "cablefit/estimate/residual_scan.hpp"
 #include "cablefit/samples/observed.hpp"
 
@@ -60,8 +60,9 @@ std::string model_name(const ElasticFit& fit) {
 /// Figs. 6a/7a and 6b/7b.
 class CurveScan {
  public:
-  explicit CurveScan(const ElasticPreload& preload)
+  CurveScan(const ElasticPreload& preload, double theta_0)
       : preload_(preload),
+        theta_0_(theta_0),
         branches_(2, PointCloud(kFineX, kFineY)),
         errors_(preload.fits.size(), PointCloud(kFineX, kFineY)),
         curves_(preload.fits.size(), BinnedMean(kCurveBins)) {}
@@ -69,6 +70,8 @@ class CurveScan {
   void add(const SeenRows& rows) {
     for (Eigen::Index i = 0; i < rows.values.rows(); ++i) {
       const double deflection = rows.values(i, kDeflection);
+      const double theta = rows.values(i, kPosition);
+      positions_.add(theta - theta_0_ - deflection, theta);
       branches_[rows.values(i, kDirection) > 0 ? 1 : 0].add(deflection, rows.values(i, kTau));
       for (std::size_t k = 0; k < curves_.size(); ++k) {
         errors_[k].add(deflection, rows.values(i, residual_of(k)));
@@ -107,12 +110,20 @@ class CurveScan {
     return figure;
   }
 
+  Trace positions() const {
+    Trace trace{"rows of the logs", TraceStyle::points, kMeasured, {}, {}, {}, {}, {}};
+    positions_.draw(trace);
+    return trace;
+  }
+
  private:
   Trace model_trace(std::size_t k, TraceStyle style) const {
     return {model_name(preload_.fits[k]), style, static_cast<int>(k) + 1, {}, {}, {}, {}, {}};
   }
 
   const ElasticPreload& preload_;
+  double theta_0_;
+  PointCloud positions_;              ///< q, theta
   std::vector<PointCloud> branches_;  ///< falling, rising
   std::vector<PointCloud> errors_;    ///< by fit
   std::vector<BinnedMean> curves_;
@@ -139,7 +150,8 @@ ScanPlan scan_plan(const ElasticPreload& preload, const std::string& section,
 std::vector<Figure> elastic_figures(const ElasticJob& job, const BlockedRows& rows, int joint,
                                     const std::vector<Candidate>& candidates,
                                     const std::vector<LinearSolution>& solutions,
-                                    const ElasticPreload& preload) {
+                                    const ElasticPreload& preload,
+                                    const std::vector<ComparedModel>& compared) {
   const std::string section = rows.columns.n_joints > 1
                                   ? fmt::format("{}, joint {}", preload.name, joint + 1)
                                   : preload.name;
@@ -153,7 +165,7 @@ std::vector<Figure> elastic_figures(const ElasticJob& job, const BlockedRows& ro
   const ScanPlan plan = scan_plan(preload, section, solutions);
   const TimeAxis time(job.logs, job.wanted, job.settings.rows.decimate);
   ResidualScan residuals(plan, time);
-  CurveScan curves(preload);
+  CurveScan curves(preload, rows.transmission.encoder_zero()(joint));
   stream_rows(
       job.logs, job.wanted, job.settings.rows, equation, job.options.samples.threads,
       [&](const RowBatch& batch) { return see_rows(batch, 0, combinations); },
@@ -168,12 +180,19 @@ std::vector<Figure> elastic_figures(const ElasticJob& job, const BlockedRows& ro
   blank.y = {"motor torque tau", plan.unit};
   std::vector<Figure> figures = {curves.torque(blank), curves.error(blank)};
   const Transmission& cables = preload.fits.back().transmission;
-  if (cables.n_joints == 1 && !cables.cables.empty()) {
-    figures.push_back(cable_figure(cables, preload.deflection_low, preload.deflection_high,
-                                   preload.linear_motion));
-    figures.back().section = section;
-    figures.back().group = blank.group;
-  }
+  const auto push_back = [&](Figure figure) {
+    figure.section = section;
+    figure.group = blank.group;
+    figures.push_back(std::move(figure));
+  };
+  if (cables.n_joints == 1)
+    push_back(cable_figure(cables, preload.deflection_low, preload.deflection_high,
+                           preload.linear_motion, compared));
+  Figure map =
+      mode_figure(cables, joint, seen_range(job.logs, job.wanted, Channel::q, joint),
+                  seen_range(job.logs, job.wanted, Channel::theta, joint), preload.linear_motion);
+  map.traces.push_back(curves.positions());
+  push_back(std::move(map));
   for (Figure& figure : residuals.figures()) figures.push_back(std::move(figure));
   return figures;
 }

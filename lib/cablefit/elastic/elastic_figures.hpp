@@ -4,16 +4,18 @@
 
 #include <vector>
 
+#include "cablefit/elastic/cable_figure.hpp"
 #include "cablefit/elastic/candidates.hpp"
 #include "cablefit/figure/figure.hpp"
 
 namespace cablefit {
 
 /// Streams the rows once more. `joint`: whose rows they are, from 0. candidates[k], solutions[k]
-/// belong to preload.fits[k].
+/// belong to preload.fits[k]. `compared`: drawn beside the cables of one joint.
 std::vector<Figure> elastic_figures(const ElasticJob& job, const BlockedRows& rows, int joint,
                                     const std::vector<Candidate>& candidates,
                                     const std::vector<LinearSolution>& solutions,
-                                    const ElasticPreload& preload);
+                                    const ElasticPreload& preload,
+                                    const std::vector<ComparedModel>& compared);
 
 }  // namespace cablefit

@@ -111,6 +111,17 @@ void refuse_search(const Rig& rig) {
                         "run 'cablefit elastic' or 'cablefit identify', or give a number");
 }
 
+/// What Fig. 4 compares the fitted cables with: the straight line, and cables of order 1.
+std::vector<ComparedModel> simpler_models(const Stage1& stage, const ElasticPreload& preload) {
+  std::vector<ComparedModel> models = {
+      {"classical linear, K (theta - q)", preload.fits.front().transmission}};
+  if (stage.job.orders_given || preload.fits.back().order == 1) return models;
+  const Candidate first_order = poly_candidate(stage.job, stage.rows, 1, stage.nuisances());
+  models.push_back({"cables of order 1",
+                    fitted_transmission(first_order, solve_candidate(stage.rows, first_order).x)});
+  return models;
+}
+
 ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
   ElasticPreload preload = begin_preload(job, name);
   require_motion(job);
@@ -135,6 +146,7 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
       preload.fits.back().parameters.push_back(missing_friction(stage.job, 0));
   }
   preload.counts = stage.rows.counts;
+  preload.modes = stage.rows.modes;
   preload.windows = stage.rows.windows;
   measure_errors(stage.rows, candidates, solutions, preload);
   for (ElasticFit& fit : preload.fits)
@@ -144,7 +156,8 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
   note_loop(preload, stage.rows.plateaus);
   note_closure(stage.rows.elongations, preload);
   if (stage.job.options.figures)
-    preload.figures = elastic_figures(stage.job, stage.rows, 0, candidates, solutions, preload);
+    preload.figures = elastic_figures(stage.job, stage.rows, 0, candidates, solutions, preload,
+                                      simpler_models(stage, preload));
   return preload;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,16 @@ struct ElasticFit {
   std::vector<std::string> warnings;
 };
 
+/// Rows by functioning mode, (12)-(13). Of several joints: rows of all their equations.
+struct ModeCounts {
+  struct Slack {
+    std::string cable;
+    std::size_t rows = 0;
+  };
+  std::size_t closure = 0;   ///< all cables taut
+  std::vector<Slack> slack;  ///< per cable
+};
+
 /// What one of several joints showed; as the fields of ElasticPreload of these names.
 struct ElasticJoint {
   std::string name;
@@ -57,6 +68,7 @@ struct ElasticPreload {
   bool both_branches = true;
   std::vector<ElasticJoint> joints;  ///< of several joints; else empty
   RowCounts counts;
+  ModeCounts modes;  ///< of counts.rows_used
   WindowCounts windows;
   std::vector<ElasticFit> fits;        ///< linear first
   std::string selected;                ///< "linear" or "poly"

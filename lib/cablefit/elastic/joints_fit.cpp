@@ -86,6 +86,7 @@ void collect_rows(Stage1& stage, ElasticPreload& preload) {
   stage.all = stack(stage.joints, weights);
   for (std::size_t k = 0; k < weights.size(); ++k) preload.joints[k].weight = weights[k];
   preload.counts = stage.all.counts;
+  preload.modes = stage.all.modes;
   preload.windows = stage.all.windows;
   preload.deflection_low = stage.all.deflection_low;
   preload.deflection_high = stage.all.deflection_high;
@@ -135,7 +136,7 @@ void draw(const Stage1& stage, const std::vector<Candidate>& candidates,
           const std::vector<LinearSolution>& solutions, ElasticPreload& preload) {
   for (int joint = 0; joint < stage.n_joints(); ++joint)
     for (Figure& figure : elastic_figures(stage.job, stage.joints[static_cast<std::size_t>(joint)],
-                                          joint, candidates, solutions, preload))
+                                          joint, candidates, solutions, preload, {}))
       preload.figures.push_back(std::move(figure));
 }
 

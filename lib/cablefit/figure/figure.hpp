@@ -19,6 +19,7 @@ enum class TraceStyle {
   points,    ///< a cloud
   steps,     ///< a histogram's outline, x at the middle of the bins
   interval,  ///< points with a bar from low to high
+  area,      ///< filled outlines; a NaN begins the next
 };
 
 /// Whose colour a trace has. Models count from 1, the same number on every figure of a report.
@@ -40,6 +41,12 @@ struct Mark {
   std::string text;
 };
 
+/// A word within the plot, such as what a region is.
+struct Note {
+  double x = 0, y = 0;  ///< the middle of the word
+  std::string text;
+};
+
 struct Figure {
   std::string section;  ///< heading above its figures: the preload, or the log
   std::string group;    ///< heading below that: "motor equation"; may be empty
@@ -48,6 +55,7 @@ struct Figure {
   Axis x, y;
   std::vector<Trace> traces;
   std::vector<Mark> marks;
+  std::vector<Note> notes;
   bool wide = false;  ///< over the full width, as things over time are
 };
 

@@ -224,7 +224,7 @@ IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& 
         options.honest_sd ? judged.covariance.covariance : judged.covariance.white;
     result.trace = recursive_trace(fit, judged.point, c.diagonal().cwiseMax(0).cwiseSqrt());
   }
-  if (options.figures) result.figures = identify_figures(result);
+  if (options.figures) result.figures = identify_figures(logs, result);
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cablefit/elastic/cable_figure.hpp"
+#include "cablefit/elastic/mode_figure.hpp"
 #include "cablefit/identify/recursive.hpp"
 
 namespace cablefit {
@@ -35,16 +36,33 @@ Figure profile_figure(const ElongationProfile& profile, double scale, const std:
   return figure;
 }
 
+std::vector<Figure> cable_figures(std::span<const LogSurvey> logs, const IdentifyPreload& preload,
+                                  bool linear_motion) {
+  const auto of_preload = [&](const PartSurvey& part) { return part.preload == preload.name; };
+  std::vector<ComparedModel> line;
+  if (preload.line) {
+    line.push_back({"classical linear, K (theta - q)", {}});
+    line.back().transmission.linear_stiffness =
+        Eigen::VectorXd::Constant(1, preload.line->measured);
+  }
+  return {cable_figure(preload.transmission, preload.deflection_low, preload.deflection_high,
+                       linear_motion, line),
+          mode_figure(preload.transmission, 0, seen_range(logs, of_preload, Channel::q),
+                      seen_range(logs, of_preload, Channel::theta), linear_motion)};
+}
+
 }  // namespace
 
-std::vector<Figure> identify_figures(const IdentifyResult& result) {
+std::vector<Figure> identify_figures(std::span<const LogSurvey> logs,
+                                     const IdentifyResult& result) {
   std::vector<Figure> figures;
   const bool length = result.cable_space || result.linear_motion;
   for (const IdentifyPreload& preload : result.preloads) {
-    figures.push_back(cable_figure(preload.transmission, preload.deflection_low,
-                                   preload.deflection_high, result.linear_motion));
-    figures.back().section = preload.name;
-    figures.back().group = "cables";
+    for (Figure& figure : cable_figures(logs, preload, result.linear_motion)) {
+      figure.section = preload.name;
+      figure.group = "cables";
+      figures.push_back(std::move(figure));
+    }
   }
   for (const ElongationProfile& profile : result.profiles)
     figures.push_back(profile_figure(profile, 1e3, length ? "mm" : "mrad"));

@@ -31,8 +31,10 @@ double root_between(Function f, double a, double b, double tolerance) {
   return b;
 }
 
-SlackPoint slack_point(const Transmission& transmission, std::size_t cable, double deflection,
+/// The cable itself gives nothing there, whichever way its root was rounded.
+SlackPoint slack_point(Transmission transmission, std::size_t cable, double deflection,
                        bool slack_above) {
+  for (double& coefficient : transmission.cables[cable].coefficients) coefficient = 0;
   const Eigen::VectorXd q = transmission.reference_q();
   const Eigen::VectorXd phi = Eigen::VectorXd::Constant(1, deflection);
   Eigen::VectorXd link, motor;
@@ -92,8 +94,8 @@ std::vector<SlackPoint> slack_points(const Transmission& transmission, double lo
 }
 
 Mode ModeMap::mode(Eigen::Index q_index, Eigen::Index theta_index) const {
-  for (const TautTable& cable : taut) {
-    if (!cable(q_index, theta_index)) return Mode::disclosure;
+  for (std::size_t c = 0; c < elongation.size(); ++c) {
+    if (!taut(c, q_index, theta_index)) return Mode::disclosure;
   }
   return Mode::closure;
 }
@@ -102,7 +104,7 @@ ModeMap mode_map(const Transmission& transmission, int joint, const Eigen::Vecto
                  const Eigen::VectorXd& theta, const ReferencePose& pose) {
   assert(joint >= 0 && joint < transmission.n_joints);
   ModeMap map{q, theta, {}};
-  map.taut.assign(transmission.cables.size(), TautTable(q.size(), theta.size()));
+  map.elongation.assign(transmission.cables.size(), Eigen::MatrixXd(q.size(), theta.size()));
   ReferencePose at = pose;
   for (Eigen::Index i = 0; i < q.size(); ++i) {
     for (Eigen::Index j = 0; j < theta.size(); ++j) {
@@ -110,7 +112,7 @@ ModeMap mode_map(const Transmission& transmission, int joint, const Eigen::Vecto
       at.theta[joint] = theta[j];
       const Eigen::VectorXd l = transmission.elongations(at.q, at.theta);
       for (Eigen::Index c = 0; c < l.size(); ++c) {
-        map.taut[static_cast<std::size_t>(c)](i, j) = l[c] > 0;
+        map.elongation[static_cast<std::size_t>(c)](i, j) = l[c];
       }
     }
   }

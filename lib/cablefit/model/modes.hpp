@@ -46,13 +46,16 @@ std::vector<SlackPoint> slack_points(const Transmission& transmission, double lo
 
 /// Modes over the positions of one joint, the others held.
 struct ModeMap {
-  Eigen::VectorXd q, theta;     ///< the grid
-  std::vector<TautTable> taut;  ///< per cable, q.size() x theta.size()
+  Eigen::VectorXd q, theta;                 ///< the grid
+  std::vector<Eigen::MatrixXd> elongation;  ///< l per cable, q.size() x theta.size()
 
+  bool taut(std::size_t cable, Eigen::Index q_index, Eigen::Index theta_index) const {
+    return elongation[cable](q_index, theta_index) > 0;
+  }
   Mode mode(Eigen::Index q_index, Eigen::Index theta_index) const;
 };
 
-/// The map of `joint` (from 0); `pose` holds the other joints, n_joints each.
+/// The map of `joint` (from 0); `pose` holds the other joints, n_joints each, its theta as logged.
 ModeMap mode_map(const Transmission& transmission, int joint, const Eigen::VectorXd& q,
                  const Eigen::VectorXd& theta, const ReferencePose& pose);
 

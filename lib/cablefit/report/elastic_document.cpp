@@ -120,6 +120,19 @@ std::string balance_text(const ElasticPreload& preload, const ElasticFit& fit) {
       numbers_text(alone.motor));
 }
 
+/// "high: all cables taut (force closure) in 12.0 % of the rows; slack: 1 in 44.1 %, ...".
+std::string modes_text(const ElasticPreload& preload) {
+  const auto percent = [&](std::size_t rows) {
+    const auto all = static_cast<double>(preload.counts.rows_used);
+    return fmt::format("{:.1f} %", 100 * static_cast<double>(rows) / std::max(1.0, all));
+  };
+  std::string slack;
+  for (const ModeCounts::Slack& own : preload.modes.slack)
+    slack += fmt::format("{}{} in {}", slack.empty() ? "" : ", ", own.cable, percent(own.rows));
+  return fmt::format("{}: all cables taut (force closure) in {} of the rows; slack: {}",
+                     preload.name, percent(preload.modes.closure), slack);
+}
+
 /// Where cables of a preloaded fit go slack, within the deflections of the logs; no rows otherwise:
 /// with every l_o = 0 each cable ends at zero deflection by definition.
 Table slack_table(const ElasticResult& result) {
@@ -199,6 +212,8 @@ Document elastic_document(const ElasticResult& result) {
     for (const std::string& words : preload.selection) {
       document.paragraphs.push_back(preload.name + ": " + words);
     }
+    if (!preload.fits.empty() && is_preloaded(preload.fits.back().transmission))
+      document.paragraphs.push_back(modes_text(preload));
     add_warnings(document, preload.name, preload.warnings);
     add_figures(document, preload.figures);
     for (const ElasticFit& fit : preload.fits) {

@@ -78,6 +78,14 @@ Json fit_json(const ElasticPreload& preload, const ElasticFit& fit) {
   return json;
 }
 
+Json modes_json(const ElasticPreload& preload) {
+  Json slack = Json::array();
+  for (const ModeCounts::Slack& own : preload.modes.slack)
+    slack.push_back({{"cable", own.cable}, {"rows", own.rows}});
+  return Json{
+      {"rows", preload.counts.rows_used}, {"closure", preload.modes.closure}, {"slack", slack}};
+}
+
 Json preload_json(const ElasticPreload& preload) {
   Json fits = Json::array();
   for (const ElasticFit& fit : preload.fits) fits.push_back(fit_json(preload, fit));
@@ -95,6 +103,7 @@ Json preload_json(const ElasticPreload& preload) {
             {"passive", preload.find(preload.selected)->passive},
             {"selection", preload.selection},
             {"counts", counts},
+            {"modes", modes_json(preload)},
             {"decisions", report_json::decisions(preload.decisions)},
             {"warnings", preload.warnings}};
   if (!preload.joints.empty()) json["joints"] = list_of(preload.joints, joint_json);

@@ -71,6 +71,15 @@ void read_counts(const JsonNode& node, ElasticPreload& preload) {
   preload.counts = read_row_counts(*blocked);
 }
 
+void read_modes(const JsonNode& node, ElasticPreload& preload) {
+  const JsonNode* modes = node.find("modes");
+  if (modes == nullptr) return;
+  preload.modes.closure = count(*modes, "closure");
+  if (const JsonNode* slack = modes->find("slack"))
+    for (const JsonNode& item : slack->items)
+      preload.modes.slack.push_back({item.at("cable").text(), count(item, "rows")});
+}
+
 /// Of a preload or of one of its joints.
 template <typename Deflected>
 void read_range(const JsonNode& node, Deflected& preload) {
@@ -137,6 +146,7 @@ ElasticPreload read_preload(const JsonNode& node) {
   preload.decisions = read_decisions(node);
   preload.warnings = texts(node, "warnings");
   read_counts(node, preload);
+  read_modes(node, preload);
   return preload;
 }
 

@@ -14,7 +14,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// In the order of TraceStyle.
-constexpr const char* kStyles[] = {"line", "broad", "dashed", "points", "steps", "interval"};
+constexpr const char* kStyles[] = {"line",  "broad",    "dashed", "points",
+                                   "steps", "interval", "area"};
 
 Json texts(const std::vector<std::string>& all) {
   Json list = Json::array();
@@ -61,10 +62,13 @@ Json figure_json(const Figure& figure) {
                {"y", axis_json(figure.y)},
                {"wide", figure.wide},
                {"traces", Json::array()},
-               {"marks", Json::array()}};
+               {"marks", Json::array()},
+               {"notes", Json::array()}};
   for (const Trace& trace : figure.traces) json["traces"].push_back(trace_json(trace));
   for (const Mark& mark : figure.marks)
     json["marks"].push_back({{"x", mark.x}, {"text", printable(mark.text)}});
+  for (const Note& note : figure.notes)
+    json["notes"].push_back({{"x", note.x}, {"y", note.y}, {"text", printable(note.text)}});
   return json;
 }
 

@@ -216,6 +216,22 @@ const LogSurvey& first_log_with(std::span<const LogSurvey> logs,
   return logs.front();
 }
 
+ChannelRange seen_range(std::span<const LogSurvey> logs,
+                        const std::function<bool(const PartSurvey&)>& wanted, Channel channel,
+                        int joint) {
+  ChannelRange range;
+  for (const LogSurvey& log : logs) {
+    const int k = log.plan.find(channel, joint);
+    if (k < 0) continue;
+    for (const PartSurvey& part : log.parts) {
+      if (!wanted(part)) continue;
+      const ChannelSurvey& seen = part.channels[static_cast<std::size_t>(k)];
+      range = {std::min(range.low, seen.min), std::max(range.high, seen.max)};
+    }
+  }
+  return range;
+}
+
 namespace {
 
 LogSurvey survey_once(const LogPlan& plan, const std::string& preload, int threads) {

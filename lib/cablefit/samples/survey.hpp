@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/base/parameter.hpp"
 #include "cablefit/samples/channel_scan.hpp"
 #include "cablefit/samples/channels.hpp"
 #include "cablefit/samples/clock_scan.hpp"
@@ -49,5 +50,16 @@ std::vector<std::string> preload_names(std::span<const LogSurvey> logs,
 /// The first log with a part for which `wanted` says true; the first one of all when there is none.
 const LogSurvey& first_log_with(std::span<const LogSurvey> logs,
                                 const std::function<bool(const PartSurvey&)>& wanted);
+
+/// Lowest and highest value of a channel in the parts for which `wanted` says true; low > high when
+/// no such log has the channel.
+struct ChannelRange {
+  double low = kUnbounded, high = -kUnbounded;
+  double width() const { return high - low; }
+  double middle() const { return (low + high) / 2; }
+};
+ChannelRange seen_range(std::span<const LogSurvey> logs,
+                        const std::function<bool(const PartSurvey&)>& wanted, Channel channel,
+                        int joint = 0);
 
 }  // namespace cablefit

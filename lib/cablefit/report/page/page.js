@@ -111,7 +111,7 @@
     return colours;
   }
 
-  function drawnLook(trace, colour, many, few) {
+  function drawnLook(trace, colour, fillColour, many, few) {
     switch (trace.style) {
       case "points":
         return {mode: "markers", marker: {color: colour, size: many ? 3 : 4, opacity: 0.65}};
@@ -121,6 +121,8 @@
         return {mode: "lines", line: {color: colour, width: 1.5, dash: "dash"}};
       case "interval":
         return {mode: "markers", marker: {color: colour, size: 8}};
+      case "area":
+        return {mode: "lines", fill: "toself", fillcolor: fillColour, line: {color: colour, width: 1}};
       case "broad":
         return {mode: "lines", line: {color: colour, width: 4}};
       default:  // few points may have no neighbour to be joined with
@@ -152,7 +154,7 @@
       showlegend: trace.name !== "",
       hovertemplate: (trace.labels ? "" : "%{x:.6g} " + plain(prettyUnit(figure.x.unit)) + "<br>") + "%{y:.5g} " +
           plain(prettyUnit(figure.y.unit)) + "<extra>%{fullData.name}</extra>",
-      ...drawnLook(trace, colour, y.length > 400, y.length < 16)
+      ...drawnLook(trace, colour, colours.grid, y.length > 400, y.length < 16)
     };
     if (trace.style === "interval") {
       const [low, high] = [numbers(trace.low), numbers(trace.high)];
@@ -171,6 +173,11 @@
       text: plain(shortened(mark.text)), font: {size: 10, color: colours.faint}
     }));
   }
+
+  const noteAnnotations = (figure, colours) => figure.notes.map((note) => ({
+    x: note.x, y: note.y, showarrow: false, text: plain(note.text), font: {size: 11.5, color: colours.ink},
+    bgcolor: colours.ground, borderpad: 1
+  }));
 
   function drawnAxis(axis, colours) {
     return {title: {text: axisTitle(axis), standoff: 8}, color: colours.ink, gridcolor: colours.grid,
@@ -195,6 +202,7 @@
       annotations: markAnnotations(figure, colours)
     };
     if (layout.annotations.length) layout.legend.y = 1.09;
+    layout.annotations.push(...noteAnnotations(figure, colours));
     const labels = labelsOf(figure);
     if (labels.length) {
       Object.assign(layout.xaxis, {tickvals: labels.map((_, k) => k), ticktext: labels.map(plain),
