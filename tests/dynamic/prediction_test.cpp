@@ -87,11 +87,13 @@ TEST_CASE("rich motion of a rigid drive promises what the fit then achieves", "[
 
 // Smooth torque, so that sixth differences of it show noise alone: what the sensors' noise makes in
 // the rows is what a fit of the true model leaves, and stays so when the model is wrong.
+constexpr double kFaint = 0.001;  // N m of dry friction, 0.1 % of the torque
 TEST_CASE("noise of the sensors is told from what the model leaves", "[dynamic]") {
-  const PredictedEquation right = predict_rigid(drive(sines(kRich), 3310, 0));
-  const PredictedEquation wrong = predict_rigid(drive(sines(kRich), 3311, 0, 0.3));
+  const PredictedEquation right = predict_rigid(drive(sines(kRich), 3310, kFaint));
+  const PredictedEquation wrong = predict_rigid(drive(sines(kRich), 3311, kFaint, 0.3));
   CHECK(wrong.left > 5 * right.left);
-  // There is none, and that much is known of it.
+  // Its sd is more than half of it, but it is known not to count.
+  CHECK(parameter(right, "f_s").sd_first_look > 0.5 * kFaint);
   CHECK(parameter(right, "f_s").determined == Determined::identifiable);
   CHECK(right.sentences.empty());
   CHECK(wrong.noise == Approx(right.left).epsilon(0.05));

@@ -100,6 +100,30 @@ TEST_CASE("two confusions at once are told one by one", "[estimate]") {
               "move in both directions"});
 }
 
+TEST_CASE("three columns in one line are told in pairs", "[estimate]") {
+  Eigen::MatrixXd w = rigid_rows(6410);
+  w.col(1) = w.col(0);
+  w.col(2) = -w.col(0);
+  const Identifiability found = identifiability(w, kRows, kRigid);
+  REQUIRE(found.confusions.size() == 2);
+  for (const Confusion& confusion : found.confusions) CHECK(confusion.members.size() == 2);
+}
+
+TEST_CASE("directions are reduced to the fewest parameters, whatever their mixture", "[estimate]") {
+  const double h = std::sqrt(0.5);
+  Eigen::MatrixXd pure = Eigen::MatrixXd::Zero(5, 2);
+  pure.col(0) << h, 0, -h, 0, 0;
+  pure.col(1) << 0, 0, 0, h, h;
+  Eigen::Matrix2d turn;
+  turn << std::cos(0.7), -std::sin(0.7), std::sin(0.7), std::cos(0.7);
+  const Eigen::MatrixXd found = sparse_directions(pure * turn);
+  for (Eigen::Index d = 0; d < 2; ++d) {
+    const Eigen::VectorXd along = (pure.transpose() * found.col(d)).cwiseAbs();
+    CHECK(along.maxCoeff() == Approx(1).epsilon(1e-12));
+    CHECK(along.minCoeff() < 1e-12);
+  }
+}
+
 TEST_CASE("a correlation above 0.95 is told with what would lower it", "[estimate]") {
   Eigen::MatrixXd w = rigid_rows(6406);
   Normal normal(6407);
