@@ -6,6 +6,7 @@
 
 #include "cablefit/report/document_parts.hpp"
 #include "cablefit/report/numbers.hpp"
+#include "cablefit/report/proof_report.hpp"
 #include "cablefit/report/validation_tables.hpp"
 
 namespace cablefit {
@@ -143,6 +144,11 @@ Document dynamic_document(const DynamicResult& result) {
     document.tables.push_back(summary);
     document.tables.push_back(residual_table(result));
   }
+  for (const DynamicPreload& preload : result.preloads)
+    for (const DynamicFit& fit : preload.fits)
+      if (fit.proof)
+        document.tables.push_back(proof_table(
+            fmt::format("{}, {} by {}", preload.name, fit.model, fit.estimator), *fit.proof));
   document.tables.push_back(sd_table(result));
   document.tables.push_back(conditioning_table(result));
   document.tables.push_back(counts);

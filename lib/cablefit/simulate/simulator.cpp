@@ -1,5 +1,6 @@
 #include "cablefit/simulate/simulator.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -27,27 +28,44 @@ std::unique_ptr<Drive> make_drive(const Model& model, const SimulationInput& sta
   return std::make_unique<ReplayDrive>(model, options, clock);
 }
 
-/// The log's load torque, linear between rows; 0 when the rig has a law of q or there is no column.
-class LoadColumn {
+/// Torques that do not depend on the state, linear between rows: the log's load on the link (none
+/// when the rig has a law of q or there is no column) and the disturbances.
+class OuterTorques {
  public:
-  LoadColumn(const Model& model, const Clock& clock)
+  OuterTorques(const Model& model, const Clock& clock)
       : from_log_(!model.rig.load.law || model.rig.load.law->from_column),
         steps_per_row_(static_cast<double>(clock.steps_per_row)),
-        torque_(model.joints.size(), 0.0) {}
+        motor_(model.joints.size(), 0.0),
+        link_(model.joints.size(), 0.0) {}
 
-  const std::vector<double>& at(const Eigen::ArrayXXd& table, Eigen::Index row, Eigen::Index step) {
-    if (!from_log_ || table.size() == 0) return torque_;
-    const double fraction = (static_cast<double>(step) + 0.5) / steps_per_row_;
-    for (std::size_t k = 0; k < torque_.size(); ++k) {
-      torque_[k] = between_rows(table, row, fraction, static_cast<Eigen::Index>(k));
-    }
-    return torque_;
+  /// On the links, over step `step` of row `row`.
+  const double* on_links(const SimulationInput& block, Eigen::Index row, Eigen::Index step) {
+    std::fill(link_.begin(), link_.end(), 0.0);
+    if (from_log_) add(block.tau_load, row, step, link_);
+    add(block.link_disturbance, row, step, link_);
+    return link_.data();
+  }
+  /// The same on the motors, which `drive` turns.
+  const double* on_motors(const SimulationInput& block, Eigen::Index row, Eigen::Index step,
+                          const std::vector<double>& drive) {
+    if (block.motor_disturbance.size() == 0) return drive.data();
+    motor_ = drive;
+    add(block.motor_disturbance, row, step, motor_);
+    return motor_.data();
   }
 
  private:
+  void add(const Eigen::ArrayXXd& table, Eigen::Index row, Eigen::Index step,
+           std::vector<double>& to) const {
+    if (table.size() == 0) return;
+    const double fraction = (static_cast<double>(step) + 0.5) / steps_per_row_;
+    for (std::size_t k = 0; k < to.size(); ++k)
+      to[k] += between_rows(table, row, fraction, static_cast<Eigen::Index>(k));
+  }
+
   bool from_log_;
   double steps_per_row_;
-  std::vector<double> torque_;
+  std::vector<double> motor_, link_;
 };
 
 void record_torque(const std::vector<double>& tau, Eigen::Index row, SimulationResult* result) {
@@ -70,7 +88,7 @@ class Simulation::State {
         n_cables_(static_cast<Eigen::Index>(model.rigid ? 0 : model.transmission.cables.size())),
         clock_(make_clock(model, start, options)),
         plant_(model, start, options.link_blocked),
-        load_(model, clock_),
+        outer_(model, clock_),
         drive_(make_drive(model, start, options, clock_)) {}
 
   SimulationResult run(const SimulationInput& block, Eigen::Index n_rows) {
@@ -94,7 +112,8 @@ class Simulation::State {
   void step_on(const SimulationInput& block, Eigen::Index row) {
     for (Eigen::Index step = 0; step < clock_.steps_per_row; ++step) {
       const std::vector<double>& tau = drive_->torque(row, step, plant_.theta());
-      plant_.step(tau.data(), load_.at(block.tau_load, row, step).data(), clock_.h);
+      plant_.step(outer_.on_motors(block, row, step, tau), outer_.on_links(block, row, step),
+                  clock_.h);
     }
   }
 
@@ -102,7 +121,7 @@ class Simulation::State {
   Eigen::Index n_joints_, n_cables_;
   Clock clock_;
   Plant plant_;
-  LoadColumn load_;
+  OuterTorques outer_;
   std::unique_ptr<Drive> drive_;
 };
 

@@ -24,10 +24,13 @@ namespace cablefit {
 
 /// Uniform input of one segment, rows x joints, SI.
 struct SimulationInput {
-  double period = 0;                         ///< s, of the rows
-  Eigen::ArrayXXd tau;                       ///< N m; replayed when the loop is open
-  Eigen::ArrayXXd tau_load;                  ///< N m; used when the rig has no load law of q
-  Eigen::ArrayXXd theta_ref;                 ///< rad; closed loop only
+  double period = 0;          ///< s, of the rows
+  Eigen::ArrayXXd tau;        ///< N m; replayed when the loop is open
+  Eigen::ArrayXXd tau_load;   ///< N m; used when the rig has no load law of q
+  Eigen::ArrayXXd theta_ref;  ///< rad; closed loop only
+  /// N m, unknown torques added on motor (or rigid drive) and link; linear between rows, none when
+  /// empty.
+  Eigen::ArrayXXd motor_disturbance, link_disturbance;
   Eigen::VectorXd q0, qd0, theta0, thetad0;  ///< initial state
 };
 
