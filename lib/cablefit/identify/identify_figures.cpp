@@ -41,6 +41,7 @@ std::vector<Figure> identify_figures(const IdentifyResult& result) {
   std::vector<Figure> figures;
   const bool length = result.cable_space || result.linear_motion;
   for (const IdentifyPreload& preload : result.preloads) {
+    if (!preload.knows_elongations()) continue;
     figures.push_back(cable_figure(preload.transmission, preload.deflection_low,
                                    preload.deflection_high, result.linear_motion));
     figures.back().section = preload.name;
