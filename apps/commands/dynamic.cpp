@@ -214,7 +214,10 @@ void prove(const DynamicCommand& command, const std::vector<LogSurvey>& moving,
   elastic.logs = blocked;
   elastic.options = stage1_options(command);
   elastic.options.samples.threads = 1;
-  prove_dynamic(moving, elastic, command.fit, options, result);
+  DynamicOptions fit = command.fit;
+  fit.validation.clear();
+  fit.residual_tests = fit.figures = false;
+  prove_dynamic(moving, elastic, fit, options, result);
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cctype>
 
-#include "cablefit/identify/recursive.hpp"
 #include "cablefit/report/identify_document.hpp"
 #include "cablefit/report/identify_json.hpp"
+#include "cablefit/report/trace_csv.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
@@ -40,14 +40,32 @@ void add_identify_options(CLI::App& app, IdentifyOptions& identify) {
                "plain least squares: let cables push, with a warning");
 }
 
+constexpr std::size_t kLongestName = 80;  // of a preload in a file's name
+
 /// "model_low.json"; what a file's name should not have becomes "_".
 std::string model_file_name(const std::string& preload) {
-  std::string name = "model_" + preload + ".json";
+  std::string name = preload.substr(0, kLongestName);
   std::replace_if(
       name.begin(), name.end(),
       [](unsigned char c) { return std::isalnum(c) == 0 && c != '.' && c != '-' && c != '_'; },
       '_');
-  return name;
+  return "model_" + name + ".json";
+}
+
+/// One file per model; names that are taken are numbered: "model_a_b_2.json".
+void add_models(const IdentifyResult& result, std::vector<ResultFile>& files) {
+  const auto taken = [&](const std::string& name) {
+    return std::any_of(files.begin(), files.end(),
+                       [&](const ResultFile& file) { return file.name == name; });
+  };
+  for (const IdentifyPreload& preload : result.preloads) {
+    if (!preload.model) continue;
+    const std::string first = model_file_name(preload.name);
+    std::string name = first;
+    for (int i = 2; taken(name); ++i)
+      name = first.substr(0, first.size() - 5) + '_' + std::to_string(i) + ".json";
+    files.push_back({name, model_json(*preload.model)});
+  }
 }
 
 }  // namespace
@@ -74,8 +92,7 @@ int run_identify(const Arguments& arguments) {
     return identify(logs, fit);
   }();
   std::vector<ResultFile> files = {{"identify.json", identify_json(result)}};
-  for (const IdentifyPreload& preload : result.preloads)
-    if (preload.model) files.push_back({model_file_name(preload.name), model_json(*preload.model)});
+  add_models(result, files);
   if (result.trace) files.push_back({"identify_trace.csv", trace_csv(*result.trace)});
   deliver(options, identify_document(result), files);
   return 0;

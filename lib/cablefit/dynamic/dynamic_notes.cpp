@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
+
+#include "cablefit/samples/agreement.hpp"
 
 namespace cablefit {
 namespace {
@@ -60,16 +63,9 @@ void note_load(const DynamicJob& job, DynamicPreload& preload) {
       require_channel(job.first_log().plan, Channel::theta, "a load that depends on position");
     return;
   }
-  for (const LogSurvey& log : job.logs) {
-    if (job.rigid || std::none_of(log.parts.begin(), log.parts.end(), job.wanted)) continue;
-    const int n = job.n_joints();
-    for (int joint = 0; joint < n; ++joint)
-      if (!log.plan.has(Channel::tau_load, joint))
-        preload.warnings.push_back(fmt::format(
-            "{}: no tau_load{} column and no load law in the rig file: the load torque is taken as "
-            "0",
-            log.plan.path, n > 1 ? std::to_string(joint + 1) : ""));
-  }
+  if (job.rigid) return;
+  for (std::string& warning : unloaded_warnings(job.logs, job.wanted))
+    preload.warnings.push_back(std::move(warning));
 }
 
 void note_free_fall(const Load& load, const std::vector<EquationRows>& equations,

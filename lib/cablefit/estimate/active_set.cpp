@@ -1,10 +1,10 @@
 #include "cablefit/estimate/active_set.hpp"
 
-#include <Eigen/QR>
 #include <cassert>
 
 #include "cablefit/base/parameter.hpp"
 #include "cablefit/estimate/constrained_least_squares.hpp"
+#include "cablefit/estimate/null_space.hpp"
 
 namespace cablefit {
 namespace {
@@ -37,13 +37,6 @@ Inequalities inequalities(const LinearProblem& problem, const std::vector<Eigen:
       all.g.col(static_cast<Eigen::Index>(k)).tail(problem.constraints.rows()) =
           problem.constraints.col(free[k]);
   return all;
-}
-
-/// Orthonormal directions z with ties * z = 0, as columns.
-Eigen::MatrixXd null_space(const Eigen::MatrixXd& ties) {
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(ties.transpose());
-  const Eigen::MatrixXd q = qr.householderQ();
-  return q.rightCols(ties.cols() - qr.rank());
 }
 
 /// What is left of the free parameters when ties * x(free) = 0. Some cannot move at all: they are

@@ -1,17 +1,15 @@
 #include "cablefit/estimate/joint_least_squares.hpp"
 
-#include <Eigen/QR>
 #include <cassert>
 #include <cmath>
 
 #include "cablefit/estimate/constrained_least_squares.hpp"
+#include "cablefit/estimate/null_space.hpp"
 #include "cablefit/estimate/scaled_solve.hpp"
 
 namespace cablefit {
 namespace {
 
-// Of a row of equalities against the others: below, it says what they say.
-constexpr double kEqualityRank = 1e-12;
 // A combination's share in a null direction (both of unit norm, scaled) that is rounding.
 constexpr double kNullShare = 1e-6;
 
@@ -43,19 +41,11 @@ Stack stack_of(const JointProblem& problem) {
   return stack;
 }
 
-/// Orthonormal columns that span the null space of the rows; the identity when there are none.
-Eigen::MatrixXd null_space(const Eigen::MatrixXd& rows, Eigen::Index n_params) {
-  std::vector<Eigen::Index> kept;
+/// What the equalities leave free; those without any parameter say nothing.
+Eigen::MatrixXd free_directions(Eigen::MatrixXd rows) {
   for (Eigen::Index i = 0; i < rows.rows(); ++i)
-    if (rows.row(i).norm() > 0) kept.push_back(i);
-  if (kept.empty()) return Eigen::MatrixXd::Identity(n_params, n_params);
-  Eigen::MatrixXd transposed(n_params, static_cast<Eigen::Index>(kept.size()));
-  for (std::size_t k = 0; k < kept.size(); ++k)
-    transposed.col(static_cast<Eigen::Index>(k)) = rows.row(kept[k]).normalized().transpose();
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(transposed);
-  qr.setThreshold(kEqualityRank);
-  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(n_params, n_params);
-  return q.rightCols(n_params - qr.rank());
+    if (rows.row(i).norm() > 0) rows.row(i).normalize();
+  return null_space(rows);
 }
 
 Eigen::MatrixXd with_rows(const Eigen::MatrixXd& top, const Eigen::MatrixXd& all,
@@ -121,11 +111,12 @@ JointSolution solve(const JointProblem& problem) {
   if (problem.equalities.rows() > 0) equalities = problem.equalities * unscale;
   if (problem.inequalities.rows() > 0) inequalities = problem.inequalities * unscale;
   JointSolution out;
-  Eigen::MatrixXd z = null_space(equalities, p);
+  Eigen::MatrixXd z = free_directions(equalities);
   if (inequalities.rows() > 0) {
     const Eigen::MatrixXd tied = z;
     out.active = find_active(stack, tied, inequalities);
-    if (!out.active.empty()) z = null_space(with_rows(equalities, inequalities, out.active, p), p);
+    if (!out.active.empty())
+      z = free_directions(with_rows(equalities, inequalities, out.active, p));
   }
   finish(problem, stack, z, out);
   return out;

@@ -15,6 +15,12 @@ void set_interval(Estimate& e, double degrees_of_freedom, double lower) {
   e.ci_high = e.value + t * e.sd;
 }
 
+void set_on_bound(Estimate& e, double unbounded, double degrees_of_freedom) {
+  e.value = 0;
+  e.ci_low = 0;
+  e.ci_high = std::max(0.0, unbounded) + t_quantile_975(degrees_of_freedom) * e.sd;
+}
+
 Estimate estimate_of(const ParameterInfo& info, bool linear_motion, const LinearSolution& s,
                      Eigen::Index k, const SdChoice& choice) {
   Estimate e;
@@ -29,8 +35,7 @@ Estimate estimate_of(const ParameterInfo& info, bool linear_motion, const Linear
     if (info.lower == -kUnbounded) return e;
     e.active_bound = fmt::format("{} >= 0", e.name);
     e.sd = s.unbounded_sd(k);
-    e.ci_low = 0;
-    e.ci_high = std::max(0.0, s.unbounded_x(k) + t_quantile_975(s.degrees_of_freedom) * e.sd);
+    set_on_bound(e, s.unbounded_x(k), s.degrees_of_freedom);
     return e;
   }
   e.sd_white = std::sqrt(s.covariance_white(k, k));

@@ -16,9 +16,12 @@ struct SdChoice {
 /// `lower`.
 void set_interval(Estimate& e, double degrees_of_freedom, double lower = -kUnbounded);
 
-/// Parameter `k` of the solution. On its bound, 0, the sd is that of the fit without bounds and the
-/// interval reaches from the bound to where that fit's does. Held at 0 by constraints instead, it
-/// has neither.
+/// value, ci_low, ci_high of a parameter on its lower bound 0, sd being that of the fit without
+/// bounds, whose value is `unbounded`: one-sided, and never shorter than t sd.
+void set_on_bound(Estimate& e, double unbounded, double degrees_of_freedom);
+
+/// Parameter `k` of the solution. On its bound, 0, see set_on_bound(). Held at 0 by constraints
+/// instead, it has neither.
 Estimate estimate_of(const ParameterInfo& info, bool linear_motion, const LinearSolution& solution,
                      Eigen::Index k, const SdChoice& choice);
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -14,12 +16,21 @@ Eigen::VectorXd unit(const JudgedPoint& judged, Eigen::Index k) {
   return Eigen::VectorXd::Unit(judged.linearised.x.size(), k);
 }
 
-/// "K1_0, K2_0": the others that take part in what is not determined.
+/// What moves when the parameter moves within what is not determined: its row of the projection
+/// onto the null directions.
+Eigen::RowVectorXd moves_with(const JudgedPoint& judged, Eigen::Index self) {
+  const Eigen::MatrixXd& null = judged.linearised.null_directions;
+  Eigen::HouseholderQR<Eigen::MatrixXd> qr(null);
+  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(null.rows(), null.cols());
+  return q.row(self) * q.transpose();
+}
+
+/// "K1_0, K2_0": the others among them.
 std::string partners(const JointFit& fit, const JudgedPoint& judged, Eigen::Index self) {
   std::string names;
-  const Eigen::MatrixXd& null = judged.linearised.null_directions;
-  for (Eigen::Index k = 0; k < null.rows(); ++k) {
-    if (k == self || null.row(k).norm() < kTakesPart) continue;
+  const Eigen::RowVectorXd moved = moves_with(judged, self);
+  for (Eigen::Index k = 0; k < moved.size(); ++k) {
+    if (k == self || std::abs(moved(k)) < kTakesPart) continue;
     const JointParameter& p = fit.layout.parameters[static_cast<std::size_t>(k)];
     names += (names.empty() ? "" : ", ") + p.name;
     if (p.preload != kShared && fit.jobs.size() > 1)
@@ -74,12 +85,24 @@ std::string determined_sums(const JointFit& fit, const JudgedPoint& judged) {
   return text;
 }
 
+/// Of a parameter whose column is zero.
+std::string why_unexcited(const JointFit& fit, const JudgedPoint& judged, Eigen::Index k) {
+  const JointParameter& p = fit.layout.parameters[static_cast<std::size_t>(k)];
+  double longest = -kUnbounded;
+  for (std::size_t j = 0; j < fit.jobs.size(); ++j)
+    longest = std::max(longest, fit.elongations(j, judged.point.l_o[j])[p.cable].high);
+  const bool of_cable = k < fit.layout.n_coefficients || k >= fit.layout.n_linear;
+  if (!of_cable || longest > 0) return "its column is zero: the logs never excite it";
+  return fmt::format("cable {} was never taut in these logs",
+                     fit.jobs.front().transmission.cables[p.cable].name);
+}
+
 }  // namespace
 
 std::string why_undetermined(const JointFit& fit, const JudgedPoint& judged, Eigen::Index k) {
   if (judged.linearised.determines(unit(judged, k))) return "";
   const std::string others = partners(fit, judged, k);
-  if (others.empty()) return "its column is zero: the logs never excite it";
+  if (others.empty()) return why_unexcited(fit, judged, k);
   std::string text = fmt::format("cannot be told apart from {} in these logs", others);
   const JointParameter& p = fit.layout.parameters[static_cast<std::size_t>(k)];
   const bool elastic = k < fit.layout.n_coefficients || k >= fit.layout.n_linear;

@@ -1,7 +1,7 @@
 // What the data do not determine, in words, with the combination that they do.
 #pragma once
 
-#include "cablefit/identify/identify_estimates.hpp"
+#include "cablefit/identify/judged_point.hpp"
 
 namespace cablefit {
 

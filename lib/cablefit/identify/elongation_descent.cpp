@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/identify/admissible_elongations.hpp"
+#include "cablefit/identify/equilibrium.hpp"
+
 namespace cablefit {
 namespace {
 
@@ -11,8 +14,7 @@ constexpr double kConverged = 1e-8;     // of the reach, far below any sd
 constexpr double kSmallestStep = 2e-3;  // of the Gauss-Newton step
 constexpr double kLargestStep = 0.2;    // of the reach
 constexpr double kNearEquilibrium = 2;  // merit with equilibrium over that without
-constexpr int kRestorations = 3;
-constexpr double kNearSlack = 0.01;  // of the reach: the other side of l_o = 0 is worth a look
+constexpr double kNearSlack = 0.01;     // of the reach: the other side of l_o = 0 is worth a look
 
 bool is_held(const std::vector<Eigen::Index>& held, Eigen::Index k) {
   return std::find(held.begin(), held.end(), k) != held.end();
@@ -28,41 +30,6 @@ std::vector<bool> movable(const JointFit& fit, std::size_t job,
     moves[c] = moves[c] && !is_held(held, k);
   }
   return moves;
-}
-
-/// Cables that cannot balance each other are at most about to be taut; next to one that is held
-/// taut, the others become taut as well.
-void make_admissible(const PreloadJob& job, const std::vector<bool>& moves, Eigen::VectorXd& l_o) {
-  if (can_balance(job.transmission, l_o)) return;
-  double taut_and_fixed = 0;
-  for (Eigen::Index c = 0; c < l_o.size(); ++c)
-    if (!moves[static_cast<std::size_t>(c)]) taut_and_fixed = std::max(taut_and_fixed, l_o(c));
-  for (Eigen::Index c = 0; c < l_o.size(); ++c) {
-    if (!moves[static_cast<std::size_t>(c)]) continue;
-    l_o(c) = taut_and_fixed > 0 ? std::max(l_o(c), taut_and_fixed) : std::min(l_o(c), 0.0);
-  }
-}
-
-/// Newton steps of least norm towards S f = 0 in the reference pose.
-void restore_equilibrium(const PreloadJob& job, const std::vector<bool>& moves,
-                         const Eigen::VectorXd& x, Eigen::VectorXd& l_o) {
-  for (int i = 0; i < kRestorations; ++i) {
-    if (!(l_o.array() > 0).all()) return;
-    const Transmission cables = fitted_cables(job, l_o, x);
-    double torque = 0;
-    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(l_o.size());
-    for (Eigen::Index c = 0; c < l_o.size(); ++c) {
-      const Cable& cable = cables.cables[static_cast<std::size_t>(c)];
-      const double gain = cable.motor_radii(cables.reference_theta())(0);
-      torque += gain * cable.force(l_o(c));
-      if (moves[static_cast<std::size_t>(c)]) gradient(c) = gain * cable.stiffness(l_o(c));
-    }
-    const double norm = gradient.squaredNorm();
-    if (!(norm > 0)) return;
-    const Eigen::VectorXd next = l_o - gradient * (torque / norm);
-    if (!(next.array() > 0).all()) return;
-    l_o = next;
-  }
 }
 
 /// Coefficients about which to linearise: far from equilibrium those that keep it tell nothing.

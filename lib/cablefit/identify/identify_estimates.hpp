@@ -1,31 +1,14 @@
-// From the joint solution to what reports show.
+// What the fit says of each parameter: a number with its sd and interval, a bound that holds it, or
+// why there is none. Result files, traces and models all read it from here.
 #pragma once
 
-#include "cablefit/identify/elongation_search.hpp"
-#include "cablefit/identify/identify.hpp"
-#include "cablefit/identify/preload_jobs.hpp"
+#include "cablefit/identify/elongation_profile.hpp"
+#include "cablefit/identify/judged_point.hpp"
 
 namespace cablefit {
 
-/// The solution with everything that judges it.
-struct JudgedPoint {
-  JointPoint point;             ///< rows with cells
-  JointProblem problem;         ///< all parameters, l_o linearised
-  JointSolution linearised;     ///< of that problem
-  JointCovariance covariance;   ///< of all parameters
-  Eigen::VectorXd unbounded_x;  ///< linear parameters without inequalities; empty: none is active
-  Eigen::VectorXd unbounded_sd;
-};
-
-/// Problem, solution and covariance at the point (evaluated with cells).
-JudgedPoint judge_point(const JointFit& fit, JointPoint point);
-
-/// Every parameter of the layout, in its order.
-std::vector<Estimate> joint_estimates(const JointFit& fit, const JudgedPoint& judged, bool honest);
-
-/// Fills parameters, preloads, equations, K lines, slack points and models of the result.
-void describe(const JointFit& fit, const JudgedPoint& judged,
-              const std::vector<PreloadFacts>& facts, const IdentifyOptions& options,
-              IdentifyResult& result);
+/// Every parameter of the layout, in its order; intervals of l_o are those of the profiles.
+std::vector<Estimate> joint_estimates(const JointFit& fit, const JudgedPoint& judged,
+                                      const std::vector<ElongationProfile>& profiles, bool honest);
 
 }  // namespace cablefit

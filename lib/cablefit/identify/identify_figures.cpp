@@ -58,6 +58,7 @@ std::vector<Figure> identify_figures(std::span<const LogSurvey> logs,
   std::vector<Figure> figures;
   const bool length = result.cable_space || result.linear_motion;
   for (const IdentifyPreload& preload : result.preloads) {
+    if (!preload.knows_elongations()) continue;
     for (Figure& figure : cable_figures(logs, preload, result.linear_motion)) {
       figure.section = preload.name;
       figure.group = "cables";

@@ -67,6 +67,9 @@ struct IdentifyPreload {
   std::vector<Decision> decisions;
   std::vector<std::string> warnings;
   std::optional<Model> model;  ///< for `simulate`, when the dynamics were identified
+
+  /// No l_o is left open: slack points and tensions mean something.
+  bool knows_elongations() const;
 };
 
 struct IdentifyResult {

@@ -59,6 +59,7 @@ struct PreloadJob {
   std::vector<bool> searched;  ///< per cable: l_o is not known
   bool cable_space = false;    ///< coefficients are those of cables, not of the joint
   bool linear_motion = false;
+  double load_inertia = 0;  ///< rides on the link, kg m^2; known, beside the J_link looked for
   std::vector<JointRecord> records;
 };
 

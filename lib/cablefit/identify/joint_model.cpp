@@ -1,16 +1,12 @@
 #include "cablefit/identify/joint_model.hpp"
 
 #include <algorithm>
-#include <array>
-#include <limits>
 
-#include "cablefit/estimate/constrained_least_squares.hpp"
+#include "cablefit/identify/equilibrium.hpp"
 #include "cablefit/model/effects.hpp"
 
 namespace cablefit {
 namespace {
-
-constexpr double kBalanced = 1e-11;  // of pulleys of unit radius: rounding
 
 bool has_own(const PreloadJob& job, std::string_view name) {
   for (const JointRecord& record : job.records)
@@ -42,7 +38,7 @@ void add_effects(const std::vector<PreloadJob>& jobs, bool inertias, bool apart,
         for (const ParameterInfo& info : effect.parameters)
           if (is_used(info.name))
             layout.parameters.push_back({std::string(info.name), std::string(info.symbol),
-                                         std::string(info.unit), info.lower, preload, 0});
+                                         std::string(info.unit), info.lower, preload, 0, inertias});
       }
   };
   if (!apart)
@@ -75,66 +71,13 @@ void add_elongations(const std::vector<PreloadJob>& jobs, JointLayout& layout) {
     }
 }
 
-using Values = std::array<double, kMaxCableOrder>;
-
-/// Rows P f and S f of a preload in its reference pose, over all parameters.
-class Equilibrium {
- public:
-  Equilibrium(const PreloadJob& job, int place, const Eigen::VectorXd& l_o,
-              const JointLayout& layout, const JointForm& form)
-      : job_(job), place_(place), l_o_(l_o), layout_(layout), form_(form) {}
-
-  /// Slack cables everywhere balance by themselves.
-  bool speaks() const { return (l_o_.array() > 0).any() || (l_o_.array() >= 0).all(); }
-
-  Eigen::RowVectorXd row(const Eigen::VectorXd& gain, Eigen::Index n_params) const {
-    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(n_params);
-    Eigen::Index first = 0;
-    for (std::size_t c = 0; c < job_.transmission.cables.size(); ++c) {
-      const Cable& cable = job_.transmission.cables[c];
-      const auto at = static_cast<Eigen::Index>(c);
-      if (l_o_(at) > 0) add_force(cable, gain(at), l_o_(at), first, row);
-      if (l_o_(at) >= 0 && form_.coefficients) add_slope(c, gain(at), first, row);
-      first += cable.n_coefficients();
-    }
-    return row;
-  }
-
- private:
-  static void add_force(const Cable& cable, double gain, double l, Eigen::Index first,
-                        Eigen::RowVectorXd& row) {
-    Values values{};
-    cable.law->basis(cable.shape(), l, values.data());
-    for (int k = 0; k < cable.n_coefficients(); ++k)
-      row(first + k) += gain * values[static_cast<std::size_t>(k)];
-  }
-  void add_slope(std::size_t c, double gain, Eigen::Index first, Eigen::RowVectorXd& row) const {
-    const Cable& cable = job_.transmission.cables[c];
-    const Eigen::Index column = layout_.find(elongation_name(cable), place_);
-    if (column < 0) return;
-    Values values{};
-    // At l_o = 0 the cable is about to be taut: its slope is that from above.
-    const double l =
-        std::max(l_o_(static_cast<Eigen::Index>(c)), std::numeric_limits<double>::min());
-    cable.law->slope(cable.shape(), l, values.data());
-    for (int k = 0; k < cable.n_coefficients(); ++k)
-      row(column) += gain * values[static_cast<std::size_t>(k)] * (*form_.coefficients)(first + k);
-  }
-
-  const PreloadJob& job_;
-  int place_;
-  const Eigen::VectorXd& l_o_;
-  const JointLayout& layout_;
-  const JointForm& form_;
-};
-
-Eigen::VectorXd reference_gain(const Transmission& transmission, bool motor_side) {
-  Eigen::VectorXd gain(static_cast<Eigen::Index>(transmission.cables.size()));
-  for (std::size_t c = 0; c < transmission.cables.size(); ++c)
-    gain(static_cast<Eigen::Index>(c)) =
-        motor_side ? transmission.cables[c].motor_radii(transmission.reference_theta())(0)
-                   : transmission.cables[c].link_radii(transmission.reference_q())(0);
-  return gain;
+/// Coefficients of cable space have those of cables whatever the axis.
+void use_units_of_axis(const PreloadJob& job, JointLayout& layout) {
+  if (!job.linear_motion) return;
+  const std::size_t first =
+      job.cable_space ? static_cast<std::size_t>(layout.n_coefficients) : std::size_t{0};
+  for (std::size_t k = first; k < layout.parameters.size(); ++k)
+    layout.parameters[k].unit = linear_unit(layout.parameters[k].unit);
 }
 
 JointBlock block_of(const JointEquation& equation, const PreloadJob& job, int place,
@@ -145,8 +88,12 @@ JointBlock block_of(const JointEquation& equation, const PreloadJob& job, int pl
   block.rows = &rows;
   block.response = Eigen::VectorXd::Unit(c.count, equation.response);
   block.regressors = Eigen::MatrixXd::Zero(c.count, n_params);
-  for (const JointEquation::Own& own : equation.own)
-    block.regressors(own.column, layout.find(own.name, place)) = 1;
+  for (const JointEquation::Own& own : equation.own) {
+    const Eigen::Index k = layout.find(own.name, place);
+    block.regressors(own.column, k) = 1;
+    if (layout.parameters[static_cast<std::size_t>(k)].inertia && !equation.motor_side)
+      block.response(own.column) -= job.load_inertia;
+  }
   for (Eigen::Index k = 0; k < layout.n_coefficients; ++k)
     block.regressors(c.basis + k, k) = equation.sign();
   if (!form.coefficients) return block;
@@ -179,6 +126,7 @@ JointLayout joint_layout(const std::vector<PreloadJob>& jobs, bool inertias_apar
   add_blocked(jobs, layout);
   layout.n_linear = static_cast<Eigen::Index>(layout.parameters.size());
   add_elongations(jobs, layout);
+  use_units_of_axis(jobs.front(), layout);
   return layout;
 }
 
@@ -190,7 +138,7 @@ JointProblem joint_problem(const std::vector<PreloadJob>& jobs, const JointLayou
   JointProblem problem;
   for (Eigen::Index k = 0; k < n_params; ++k)
     problem.names.push_back(layout.parameters[static_cast<std::size_t>(k)].name);
-  std::vector<Eigen::RowVectorXd> equalities;
+  problem.equalities.resize(0, n_params);
   int record_number = 0;
   for (std::size_t j = 0; j < jobs.size(); ++j) {
     const int place = static_cast<int>(j);
@@ -204,15 +152,12 @@ JointProblem joint_problem(const std::vector<PreloadJob>& jobs, const JointLayou
       }
       ++record_number;
     }
-    const Equilibrium equilibrium(jobs[j], place, input.l_o[j], layout, form);
-    if (!form.equilibrium || !equilibrium.speaks()) continue;
-    for (const bool motor_side : {true, false})
-      equalities.push_back(
-          equilibrium.row(reference_gain(jobs[j].transmission, motor_side), n_params));
+    if (!form.equilibrium) continue;
+    const Eigen::MatrixXd rows =
+        equilibrium_rows(jobs[j], place, input.l_o[j], layout, form.coefficients);
+    problem.equalities.conservativeResize(problem.equalities.rows() + rows.rows(), n_params);
+    problem.equalities.bottomRows(rows.rows()) = rows;
   }
-  problem.equalities.resize(static_cast<Eigen::Index>(equalities.size()), n_params);
-  for (std::size_t i = 0; i < equalities.size(); ++i)
-    problem.equalities.row(static_cast<Eigen::Index>(i)) = equalities[i];
   return problem;
 }
 
@@ -225,23 +170,6 @@ Transmission fitted_cables(const PreloadJob& job, const Eigen::VectorXd& l_o,
     for (double& coefficient : cable.coefficients) coefficient = x(next++);
   }
   return transmission;
-}
-
-bool can_balance(const Transmission& transmission, const Eigen::VectorXd& l_o) {
-  std::vector<Eigen::Index> taut;
-  for (Eigen::Index c = 0; c < l_o.size(); ++c)
-    if (l_o(c) > 0) taut.push_back(c);
-  if (taut.empty()) return true;
-  Eigen::MatrixXd gain(2, l_o.size());
-  gain << reference_gain(transmission, true).transpose(),
-      reference_gain(transmission, false).transpose();
-  Eigen::MatrixXd pulls = gain(Eigen::all, taut);
-  for (Eigen::Index i = 0; i < 2; ++i)
-    if (pulls.row(i).norm() > 0) pulls.row(i).normalize();
-  // Forces of any positive size: 1 + u with u >= 0, up to a factor.
-  const Eigen::VectorXd ones = pulls.rowwise().sum();
-  const Eigen::VectorXd more = non_negative_least_squares(pulls, -ones);
-  return (ones + pulls * more).norm() < kBalanced;
 }
 
 }  // namespace cablefit

@@ -18,10 +18,11 @@ inline constexpr int kShared = -1;
 struct JointParameter {
   std::string name;    ///< as in results: "K1_0", "J_link", "l_o[1]"
   std::string symbol;  ///< the paper's
-  std::string unit;
+  std::string unit;    ///< of the rig's axis
   double lower = -kUnbounded;
   int preload = kShared;  ///< place among the jobs
   std::size_t cable = 0;  ///< of a coefficient or l_o
+  bool inertia = false;
 };
 
 struct JointLayout {
@@ -48,7 +49,8 @@ struct JointForm {
   std::optional<Eigen::VectorXd> coefficients = {};
 };
 
-/// The problem without inequalities. `weights`: per equation, jobs one after the other.
+/// The problem without inequalities. J_link is that of the link alone: a load's own is known and
+/// taken off its equation. `weights`: per equation, jobs one after the other.
 JointProblem joint_problem(const std::vector<PreloadJob>& jobs, const JointLayout& layout,
                            const JointInput& input, const std::vector<double>& weights,
                            const JointForm& form);
@@ -56,9 +58,5 @@ JointProblem joint_problem(const std::vector<PreloadJob>& jobs, const JointLayou
 /// The cables of a job with these coefficients and elongations.
 Transmission fitted_cables(const PreloadJob& job, const Eigen::VectorXd& l_o,
                            const Eigen::VectorXd& x);
-
-/// Whether cables with these elongations can balance each other in the reference pose: none is
-/// taut, or P f = S f = 0 for some forces that are all positive.
-bool can_balance(const Transmission& transmission, const Eigen::VectorXd& l_o);
 
 }  // namespace cablefit

@@ -87,17 +87,21 @@ void take_record(const JointFit& fit, const JointRecord& record, const Transmiss
       });
 }
 
-void end_at(const Eigen::VectorXd& sd, RecursiveTrace& trace) {
+void end_at(const std::vector<Estimate>& estimates, RecursiveTrace& trace) {
   const std::vector<double> last = trace.points.back().sd;
   for (TracePoint& point : trace.points)
-    for (std::size_t k = 0; k < last.size(); ++k)
-      if (last[k] > 0) point.sd[k] *= sd(static_cast<Eigen::Index>(k)) / last[k];
+    for (std::size_t k = 0; k < last.size(); ++k) {
+      const Estimate& e = estimates[k];
+      if (!e.not_identifiable.empty()) point.value[k] = kNone;
+      const bool has_band = e.not_identifiable.empty() && e.active_bound.empty() && last[k] > 0;
+      point.sd[k] = has_band ? point.sd[k] * e.sd / last[k] : kNone;
+    }
 }
 
 }  // namespace
 
 RecursiveTrace recursive_trace(const JointFit& fit, const JointPoint& point,
-                               const Eigen::VectorXd& sd, int n_points) {
+                               const std::vector<Estimate>& estimates, int n_points) {
   const JointProblem direct = joint_problem(fit.jobs, fit.layout, point.input(), fit.weights, {});
   RecursiveTrace trace;
   for (Eigen::Index k = 0; k < fit.layout.n_linear; ++k) {
@@ -124,7 +128,7 @@ RecursiveTrace recursive_trace(const JointFit& fit, const JointPoint& point,
       block += n;
     }
   }
-  end_at(sd, trace);
+  end_at(estimates, trace);
   return trace;
 }
 
@@ -155,24 +159,6 @@ std::vector<Figure> trace_figures(const RecursiveTrace& trace) {
     if (!value.x.empty()) figures.push_back(std::move(figure));
   }
   return figures;
-}
-
-std::string trace_csv(const RecursiveTrace& trace) {
-  std::string text = "rows,record";
-  for (std::size_t k = 0; k < trace.names.size(); ++k)
-    text += fmt::format(",{0} ({1}) [{2}],sd {0} ({1}) [{2}]", trace.names[k], trace.preloads[k],
-                        trace.units[k]);
-  text += '\n';
-  const auto cell = [](double value) {
-    return std::isnan(value) ? std::string() : fmt::format("{:.17g}", value);
-  };
-  for (const TracePoint& point : trace.points) {
-    text += fmt::format("{},\"{}\"", point.n_rows, point.record);
-    for (std::size_t k = 0; k < trace.names.size(); ++k)
-      text += ',' + cell(point.value[k]) + ',' + cell(point.sd[k]);
-    text += '\n';
-  }
-  return text;
 }
 
 }  // namespace cablefit

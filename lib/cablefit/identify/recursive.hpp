@@ -9,16 +9,14 @@
 namespace cablefit {
 
 /// The linear parameters on the way, at the l_o and with the weights of `point`; about `n_points`
-/// per preload and kind of log. `sd`: of the direct fit, honest and with l_o uncertain, where the
-/// band ends; on the way it has the same ratio to that of the rows seen so far. One pass over the
-/// logs.
+/// per preload and kind of log. `estimates`: of the direct fit, per parameter of the layout. The
+/// band ends at their sd (with l_o uncertain) and on the way has the same ratio to that of the rows
+/// seen so far; a parameter that a bound holds has none, and one that is not identifiable stays
+/// empty. One pass over the logs.
 RecursiveTrace recursive_trace(const JointFit& fit, const JointPoint& point,
-                               const Eigen::VectorXd& sd, int n_points = 100);
+                               const std::vector<Estimate>& estimates, int n_points = 100);
 
 /// A figure per parameter: the estimate with its band of +-2 sd, and where it ends.
 std::vector<Figure> trace_figures(const RecursiveTrace& trace);
-
-/// rows,record,NAME,sd NAME,...; empty cells where nothing is known yet.
-std::string trace_csv(const RecursiveTrace& trace);
 
 }  // namespace cablefit

@@ -30,13 +30,18 @@ Json line_json(const std::optional<LineStiffness>& line) {
               {"model", line->model}};
 }
 
-Json cables_json(const Transmission& transmission) {
+Json elongation_json(const IdentifyPreload& preload, const Cable& cable) {
+  const Estimate* e = find_estimate(preload.parameters, elongation_name(cable));
+  return e == nullptr || e->not_identifiable.empty() ? Json(cable.initial_elongation) : Json();
+}
+
+Json cables_json(const IdentifyPreload& preload) {
   Json list = Json::array();
-  for (const Cable& cable : transmission.cables)
+  for (const Cable& cable : preload.transmission.cables)
     list.push_back({{"name", cable.name},
                     {"law", cable.law->name},
                     {"order", cable.order},
-                    {"initial_elongation", cable.initial_elongation}});
+                    {"initial_elongation", elongation_json(preload, cable)}});
   return list;
 }
 
@@ -55,7 +60,7 @@ Json preload_json(const IdentifyPreload& preload) {
   return Json{{"name", preload.name},
               {"rig", report_json::rig(preload.rig_path)},
               {"parameters", report_json::parameters(preload.parameters)},
-              {"cables", cables_json(preload.transmission)},
+              {"cables", cables_json(preload)},
               {"deflection_range", {preload.deflection_low, preload.deflection_high}},
               {"equilibrium_torque", preload.equilibrium},
               {"linear_K", line_json(preload.line)},

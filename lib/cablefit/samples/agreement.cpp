@@ -49,4 +49,36 @@ void require_agreement(std::span<const LogSurvey> logs, const PartFilter& wanted
     }
 }
 
+std::vector<std::string> unloaded_warnings(std::span<const LogSurvey> logs,
+                                           const PartFilter& wanted) {
+  std::vector<std::string> warnings;
+  for (const LogSurvey& log : logs) {
+    const int n = log.plan.rig.n_joints();
+    if (log.plan.rig.load.law != nullptr ||
+        std::none_of(log.parts.begin(), log.parts.end(), wanted))
+      continue;
+    for (int joint = 0; joint < n; ++joint)
+      if (!log.plan.has(Channel::tau_load, joint))
+        warnings.push_back(fmt::format(
+            "{}: no tau_load{} column and no load law in the rig file: the load torque is taken as "
+            "0",
+            log.plan.path, n > 1 ? std::to_string(joint + 1) : ""));
+  }
+  return warnings;
+}
+
+std::vector<std::string> duplicate_warnings(std::span<const LogSurvey> logs) {
+  std::vector<std::string> warnings;
+  for (std::size_t b = 0; b < logs.size(); ++b)
+    for (std::size_t a = 0; a < b; ++a) {
+      if (logs[a].sha256 != logs[b].sha256) continue;
+      warnings.push_back(
+          fmt::format("{} has the same content as {}: what it says counts twice, and every sd is "
+                      "too small",
+                      logs[b].plan.path, logs[a].plan.path));
+      break;
+    }
+  return warnings;
+}
+
 }  // namespace cablefit

@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "cablefit/samples/row_stream.hpp"
 
@@ -12,6 +13,14 @@ namespace cablefit {
 /// column wherever the rig says that the load is one. Throws Error(input) naming the two logs.
 void require_agreement(std::span<const LogSurvey> logs, const PartFilter& wanted,
                        const std::string& preload);
+
+/// Warnings of logs with moving parts among the wanted that have neither a load law in the rig file
+/// nor a tau_load column (of some joint).
+std::vector<std::string> unloaded_warnings(std::span<const LogSurvey> logs,
+                                           const PartFilter& wanted);
+
+/// Warnings of files with the same content, whose rows count twice.
+std::vector<std::string> duplicate_warnings(std::span<const LogSurvey> logs);
 
 /// Samples per second of the wanted parts. They may differ: the slowest log bounds the cut-off and
 /// the decimation for all, the fastest decides how many rows a filter needs to settle.

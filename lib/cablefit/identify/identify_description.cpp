@@ -1,0 +1,93 @@
+#include "cablefit/identify/identify_description.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cablefit/elastic/passivity.hpp"
+#include "cablefit/identify/identify_model.hpp"
+#include "cablefit/identify/identify_preload.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr double kCorrelationWarning = 0.95;  // estimation-rules: warn above
+
+/// The elastic coefficients of one cable always lean on each other, and on its l_o.
+std::vector<std::string> correlation_warnings(const JointFit& fit, const JudgedPoint& judged) {
+  std::vector<std::string> warnings;
+  const Eigen::MatrixXd& c = judged.linearised.solve_operator;
+  for (Eigen::Index i = fit.layout.n_coefficients; i < fit.layout.n_linear; ++i)
+    for (Eigen::Index k = 0; k < i; ++k) {
+      const double scale = std::sqrt(c(i, i) * c(k, k));
+      if (!(scale > 0) || std::abs(c(i, k)) < kCorrelationWarning * scale) continue;
+      warnings.push_back(fmt::format("{} and {} can hardly be told apart: correlation {:.3f}",
+                                     judged.problem.names[static_cast<std::size_t>(k)],
+                                     judged.problem.names[static_cast<std::size_t>(i)],
+                                     c(i, k) / scale));
+    }
+  return warnings;
+}
+
+void add_cad(const Rig& rig, std::vector<Estimate>& parameters) {
+  for (Estimate& e : parameters)
+    if (const auto found = rig.cad.find(e.name); found != rig.cad.end()) e.cad = found->second;
+}
+
+void note_pushing(const JointFit& fit, const IdentifyPreload& preload, IdentifyResult& result) {
+  for (std::size_t c = 0; c < preload.transmission.cables.size(); ++c) {
+    const Cable& cable = preload.transmission.cables[c];
+    if (const std::optional<Push> push = find_push(cable, preload.elongations[c].high))
+      result.warnings.push_back(
+          push_text(cable, *push, {fit.jobs.front().cable_space, fit.jobs.front().linear_motion}));
+  }
+}
+
+/// What rests on l_o is told only where l_o is known.
+void add_slack_points(IdentifyPreload& preload) {
+  if (preload.knows_elongations())
+    preload.slack =
+        slack_points(preload.transmission, preload.deflection_low, preload.deflection_high);
+}
+
+void add_model(const PreloadFacts& facts, IdentifyResult& result, IdentifyPreload& preload) {
+  std::string why_not;
+  preload.model = model_of(result, preload, facts, why_not);
+  if (!why_not.empty()) preload.warnings.push_back("no model file: " + why_not);
+}
+
+}  // namespace
+
+void describe(const JointFit& fit, const JudgedPoint& judged,
+              const std::vector<Estimate>& estimates, const std::vector<PreloadFacts>& facts,
+              const IdentifyOptions& options, IdentifyResult& result) {
+  for (std::size_t j = 0; j < fit.jobs.size(); ++j)
+    result.preloads.push_back(preload_of(fit, judged, j, facts[j]));
+  for (std::size_t k = 0; k < estimates.size(); ++k) {
+    if (estimates[k].name == kCreep) continue;
+    const int preload = fit.layout.parameters[k].preload;
+    (preload == kShared ? result.parameters
+                        : result.preloads[static_cast<std::size_t>(preload)].parameters)
+        .push_back(estimates[k]);
+  }
+  add_cad(facts.front().rig, result.parameters);
+  for (std::size_t j = 0; j < facts.size(); ++j) {
+    IdentifyPreload& preload = result.preloads[j];
+    add_cad(facts[j].rig, preload.parameters);
+    add_slack_points(preload);
+    add_model(facts[j], result, preload);
+    note_pushing(fit, preload, result);
+  }
+  const PhysicalBounds bounds = physical_bounds(fit, judged.point.l_o);
+  for (const Eigen::Index i : judged.point.solution.active)
+    result.active_bounds.push_back(bounds.texts[static_cast<std::size_t>(i)]);
+  result.condition = judged.linearised.condition_scaled;
+  const Eigen::Index n = fit.layout.n_coefficients;
+  result.coefficient_covariance =
+      (options.honest_sd ? judged.covariance.covariance : judged.covariance.white)
+          .topLeftCorner(n, n);
+  const std::vector<std::string> correlated = correlation_warnings(fit, judged);
+  result.warnings.insert(result.warnings.end(), correlated.begin(), correlated.end());
+}
+
+}  // namespace cablefit

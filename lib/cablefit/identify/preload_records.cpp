@@ -1,0 +1,119 @@
+#include "cablefit/identify/preload_records.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "cablefit/dynamic/dynamic_job.hpp"
+#include "cablefit/elastic/blocked_rows.hpp"
+#include "cablefit/samples/agreement.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr double kWideBand = 0.15;  // of the rate: the widest band the differences allow
+constexpr std::size_t kMinRows = 10;
+
+PartFilter moving_parts(const std::string& preload) {
+  return [preload](const PartSurvey& part) {
+    return part.phase == Phase::moving && part.preload == preload;
+  };
+}
+
+JointEquation equation_of(Side side, const ChosenSettings& settings) {
+  const DynamicColumns columns = dynamic_columns(side, {});
+  JointEquation equation;
+  equation.base =
+      dynamic_equation(columns, {}, settings.rows.signal.torque_held,
+                       side == Side::link ? settings.rest_speed_q : settings.rest_speed_theta);
+  if (side == Side::link) equation.base.cutoff = settings.cutoff_q;
+  for (const Effect* effect : columns.effects)
+    for (const ParameterInfo& info : effect->parameters)
+      equation.own.push_back(
+          {std::string(info.name), static_cast<Eigen::Index>(equation.own.size())});
+  equation.response = columns.torque;
+  equation.motor_side = side == Side::motor;
+  return equation;
+}
+
+JointRecord record_of(const std::string& preload, const ChosenSettings& settings) {
+  return {moving_parts(preload),
+          settings.rows,
+          {equation_of(Side::link, settings), equation_of(Side::motor, settings)}};
+}
+
+}  // namespace
+
+JointRecord blocked_record(std::span<const LogSurvey> logs, const IdentifyOptions& options,
+                           bool moving, PreloadFacts& facts) {
+  ElasticOptions elastic;
+  elastic.samples = options.samples;
+  elastic.order = 1;
+  const ElasticJob job = make_job(logs, elastic, facts.name);
+  const BlockedRows rows = collect_blocked(job, 0, nullptr);
+  if (static_cast<std::size_t>(rows.rows->n_rows()) < kMinRows)
+    throw Error(ErrorKind::not_identifiable,
+                fmt::format("preload '{:.40}': {} usable rows of a blocked link are too few; sweep "
+                            "the motor slowly up and down, several times",
+                            facts.name, rows.rows->n_rows()));
+  const bool both = has_both_branches(rows);
+  if (!both)
+    facts.warnings.push_back(
+        "theta moves in one direction only while the link is blocked: the motor's static friction "
+        "cannot be told from the elastic torque; sweep up and down");
+  JointEquation equation;
+  equation.base = blocked_equation(job.basis, nullptr, !rows.plateaus, job.rest_speeds.front(),
+                                   job.still_speeds.front());
+  equation.own = {{"offset", rows.columns.offset}};
+  if (both) equation.own.push_back({moving ? kBlockedFriction : "f_sm", rows.columns.direction});
+  if (both && speed_tells_more(rows)) equation.own.push_back({kCreep, rows.columns.speed});
+  equation.response = rows.columns.tau;
+  for (const Decision& d : job.settings.decisions)
+    facts.decisions.push_back({"blocked: " + d.name, d.value, d.reason});
+  facts.warnings.insert(facts.warnings.end(), job.settings.warnings.begin(),
+                        job.settings.warnings.end());
+  return {job.wanted, job.settings.rows, {equation}};
+}
+
+JointRecord first_moving_record(std::span<const LogSurvey> logs, const IdentifyOptions& options,
+                                const PreloadFacts& facts) {
+  const PartFilter wanted = moving_parts(facts.name);
+  SampleOptions wide = options.samples;
+  if (!wide.cutoff) wide.cutoff = kWideBand * sample_rates(logs, wanted).lowest;
+  ChosenSettings settings = moving_settings(logs, wanted, wide, 0);
+  settings.rows.signal.torque_period = facts.rig.torque_period;
+  settings.rows.signal.torque_held =
+      options.samples.torque_hold.value_or(facts.rig.torque_hold) == TorqueHold::zoh;
+  return record_of(facts.name, settings);
+}
+
+JointRecord moving_record(std::span<const LogSurvey> logs, const IdentifyOptions& options,
+                          const Transmission& fitted, const DeflectionRange& deflections,
+                          PreloadFacts& facts) {
+  const PartFilter wanted = moving_parts(facts.name);
+  for (std::string& warning : unloaded_warnings(logs, wanted))
+    facts.warnings.push_back(std::move(warning));
+  ElasticFit elastic;
+  elastic.model = "poly";
+  elastic.transmission = fitted;
+  ElasticResult stage1;
+  stage1.preloads.emplace_back();
+  stage1.preloads.back().name = facts.name;
+  stage1.preloads.back().deflection_low = deflections.low;
+  stage1.preloads.back().deflection_high = deflections.high;
+  DynamicOptions dynamic;
+  dynamic.samples = options.samples;
+  DynamicJob job{logs, dynamic, facts.name, wanted, {&elastic}, {"poly"}, false, {}, {}};
+  DynamicPreload found;
+  choose_settings(job, found, stage1);
+  facts.delay = found.delay;
+  facts.resonance = found.resonance;
+  for (const Decision& d : job.settings.decisions)
+    facts.decisions.push_back({"moving: " + d.name, d.value, d.reason});
+  for (const auto* warnings : {&found.warnings, &job.settings.warnings})
+    facts.warnings.insert(facts.warnings.end(), warnings->begin(), warnings->end());
+  return record_of(facts.name, job.settings);
+}
+
+}  // namespace cablefit
