@@ -226,13 +226,17 @@ struct Twin {
   }
 };
 
-/// The gap grows about as the square of the size, so a few steps of a secant in log-log do.
+/// The gap grows about as the square of the size, so a step of a secant in log-log mostly does;
+/// where it leaves what is known to lie between too small and too large, the middle of that.
 double size_for(double target, Wish wish, const Twin& twin) {
-  for (int i = 0; i < 8; ++i) {
+  double small = 1e-4, large = 50;
+  for (int i = 0; i < 14; ++i) {
     const double rho = twin.rho({wish}, 0).all;
     if (std::abs(rho - target) < 0.02 * (target - 1)) break;
+    (rho < target ? small : large) = wish.m;
     const double step = std::sqrt((target - 1) / std::max(rho - 1, 1e-6));
-    wish.m = std::clamp(wish.m * std::clamp(step, 0.1, 10.0), 1e-4, 50.0);
+    wish.m *= std::clamp(step, 0.1, 10.0);
+    if (wish.m <= small || wish.m >= large) wish.m = std::sqrt(small * large);
   }
   return wish.m;
 }

@@ -28,7 +28,7 @@ struct CaseSpec {
   std::uint64_t seed = 1;
   std::vector<Wish> effects;
   double clutter = 0;         ///< N m, sd of a wandering torque on the link
-  std::optional<double> rho;  ///< the first effect is scaled until rho is this
+  std::optional<double> rho;  ///< each effect is scaled until this is its rho by itself
   std::optional<Extra> extra;
 };
 

@@ -63,7 +63,10 @@ TEST_CASE("what conserves energy in the rig conserves it in the simulation") {
   Bench bench = frictionless();
   bench.rig = preloaded(bench.rig, 5e-3);  // cables go slack and taut again
   double least = 1e300, most = 0;
-  Hooks watch = push_link(8, 0, 0.05);
+  Hooks watch;
+  watch.sides = [](const State& s, Sides& sides) {  // a knock: nearly all of it goes into swinging
+    if (s.t >= 0 && s.t < 1e-3) sides.motor.torque -= 50;
+  };
   watch.advance = [&](const State& s) {
     if (s.t < 0.06) return;
     const double energy = 0.5 * bench.rig.J_link * s.qd * s.qd +
@@ -77,7 +80,7 @@ TEST_CASE("what conserves energy in the rig conserves it in the simulation") {
   // part; omega = sqrt(k/J_motor) up to 700 rad/s, so 8e-5. A drift would show over 20 s, 1500
   // turns.
   CHECK(most / least - 1 < 8e-5);
-  CHECK(least > 0.1);
+  CHECK(least > 0.05);
 }
 
 TEST_CASE("a link sticks below its friction and breaks away above it") {
