@@ -25,7 +25,7 @@ struct PredictedParameter {
   /// Honest, with all that the rough model leaves, without the error of stage 1; NaN when not
   /// determined.
   double sd_first_look = 0;
-  std::string closest;  ///< the parameter it correlates with most; empty: it is alone
+  std::string closest = {};  ///< the parameter it correlates with most; empty: it is alone
   double correlation = 0;
   Determined determined = Determined::identifiable;
 
