@@ -17,10 +17,11 @@ constexpr const char* kExample =
     "Example:\n"
     "  cablefit elastic data/low/blocked.csv data/high/blocked.csv --report table1.md\n";
 
-void add_elastic_options(CLI::App& app, ElasticOptions& elastic, bool& search) {
-  const auto take_order = [&elastic](const std::string& text) {
+void add_elastic_options(CLI::App& app, ElasticOptions& elastic, bool& search, bool& order_auto) {
+  const auto take_order = [&elastic, &order_auto](const std::string& text) {
     elastic.order = 0;
-    if (text == "auto") return;
+    order_auto = text == "auto";
+    if (order_auto) return;
     elastic.order = static_cast<int>(parse_whole("--order", text, {1, kMaxCableOrder}));
   };
   app.add_option_function<std::string>(
@@ -53,6 +54,17 @@ void add_elastic_options(CLI::App& app, ElasticOptions& elastic, bool& search) {
       "of the peak torque: a smaller difference between models does not matter [1]");
 }
 
+/// The search fits all preloads together, with one order and theta - q as it is.
+void require_searchable(const ElasticOptions& elastic, bool order_auto) {
+  if (elastic.zero == ZeroMode::theta_0)
+    throw usage_error(
+        "--zero theta_0 and a search of l_o cannot be combined",
+        "find theta_0 with l_o given, and put it in the rig file (\"shift\" of theta)");
+  if (order_auto)
+    throw usage_error("--order auto and a search of l_o cannot be combined",
+                      "give the order, or leave it at 2");
+}
+
 }  // namespace
 
 int run_elastic(const Arguments& arguments) {
@@ -60,8 +72,8 @@ int run_elastic(const Arguments& arguments) {
   CommonOptions options;
   ElasticOptions elastic;
   add_log_options(app, options);
-  bool search = false;
-  add_elastic_options(app, elastic, search);
+  bool search = false, order_auto = false;
+  add_elastic_options(app, elastic, search, order_auto);
   add_sd_option(app, options);
   add_sample_options(app, options);
   add_output_options(app, options);
@@ -78,11 +90,12 @@ int run_elastic(const Arguments& arguments) {
   elastic.figures = wants_figures(options);
   const std::vector<LogSurvey> blocked = logs_with(
       logs, [&](const PartSurvey& part) { return elastic.still || part.phase == Phase::blocked; });
+  const bool searches = !blocked.empty() && !elastic.still && (search || wants_search(blocked));
+  if (searches) require_searchable(elastic, order_auto);
   // Without any blocked log the fit says what to do, for the logs that were given.
   const ElasticResult result = [&] {
     const Progress progress(options.quiet, "fitting stage 1");
-    if (!blocked.empty() && !elastic.still && (search || wants_search(blocked)))
-      return fit_elastic_with_search(blocked, elastic, search);
+    if (searches) return fit_elastic_with_search(blocked, elastic, search);
     return fit_elastic(blocked.empty() ? logs : blocked, elastic);
   }();
   deliver(options, elastic_document(result), {{"elastic.json", elastic_json(result)}});

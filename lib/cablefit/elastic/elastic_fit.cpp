@@ -11,6 +11,7 @@
 #include "cablefit/elastic/joints_fit.hpp"
 #include "cablefit/elastic/model_errors.hpp"
 #include "cablefit/elastic/preload_checks.hpp"
+#include "cablefit/samples/agreement.hpp"
 
 namespace cablefit {
 namespace {
@@ -174,6 +175,7 @@ ElasticResult fit_elastic(std::span<const LogSurvey> logs, const ElasticOptions&
     require_channel(log.plan, Channel::theta, "the deflection theta - q");
     require_channel(log.plan, Channel::tau, "the elastic torque");
   }
+  result.warnings = input_warnings(logs);
   const std::vector<std::string> names = preload_names(logs, [&](const PartSurvey& part) {
     return (options.still || part.phase == Phase::blocked) &&
            (options.preload.empty() || options.preload == part.preload);

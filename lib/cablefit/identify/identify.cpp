@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/identify/identify_checks.hpp"
 #include "cablefit/identify/identify_description.hpp"
 #include "cablefit/identify/identify_estimates.hpp"
 #include "cablefit/identify/identify_figures.hpp"
@@ -18,7 +19,14 @@ namespace {
 
 void require_channels(std::span<const LogSurvey> logs) {
   for (const LogSurvey& log : logs) {
-    require_one_joint(log.plan);
+    if (log.plan.rig.n_joints() > 1)
+      throw input_error(
+          {log.plan.rig.path, 0, 0},
+          fmt::format("the rig has {} joints; one step, and the search of l_o, are made for one",
+                      log.plan.rig.n_joints()),
+          "use 'cablefit elastic' and 'cablefit dynamic', and give every \"initial_elongation\" as "
+          "a "
+          "number");
     require_channel(log.plan, Channel::q, "the deflection theta - q");
     require_channel(log.plan, Channel::theta, "the deflection theta - q");
     require_channel(log.plan, Channel::tau, "the torque balance of the motor");
@@ -64,7 +72,7 @@ IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& 
   require_channels(logs);
   for (const LogSurvey& log : logs)
     result.inputs.push_back({log.plan.path, log.sha256, log.n_rows});
-  result.warnings = duplicate_warnings(logs);
+  result.warnings = input_warnings(logs);
   std::vector<PreloadFacts> facts = preloads_of(logs, options);
   const std::vector<PreloadJob> jobs = begin_jobs(logs, options, facts, result);
   std::vector<JointRecord> blocked(facts.size());
@@ -80,6 +88,7 @@ IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& 
   if (apart) point = share_inertias(fit, std::move(point), result);
   Profiled found = judge_with_profiles(fit, std::move(point));
   const JudgedPoint& judged = found.judged;
+  for (std::size_t j = 0; j < fit.jobs.size(); ++j) require_explained(fit, judged, j);
   const std::vector<Estimate> estimates =
       joint_estimates(fit, judged, found.profiles, options.honest_sd);
   describe(fit, judged, estimates, facts, options, result);

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cablefit/elastic/passivity.hpp"
+#include "cablefit/identify/identify_checks.hpp"
 #include "cablefit/identify/identify_model.hpp"
 #include "cablefit/identify/identify_preload.hpp"
 
@@ -50,6 +53,25 @@ void add_slack_points(IdentifyPreload& preload) {
         slack_points(preload.transmission, preload.deflection_low, preload.deflection_high);
 }
 
+/// One link, but each preload's J_link is that with its load.
+bool under_several_loads(const JointFit& fit, std::size_t k) {
+  const JointParameter& p = fit.layout.parameters[k];
+  const bool of_link = std::any_of(
+      base_effects(Side::link).begin(), base_effects(Side::link).end(), [&](const Effect& effect) {
+        return effect.inertia != nullptr && effect.parameters.front().name == p.name;
+      });
+  return of_link && std::any_of(fit.jobs.begin(), fit.jobs.end(), [&](const PreloadJob& job) {
+           return job.load_inertia != fit.jobs.front().load_inertia;
+         });
+}
+
+void add_with_loads(const JointFit& fit, const Estimate& of_link, IdentifyResult& result) {
+  for (std::size_t j = 0; j < fit.jobs.size(); ++j) {
+    Estimate& e = result.preloads[j].parameters.emplace_back(of_link);
+    for (double* number : {&e.value, &e.ci_low, &e.ci_high}) *number += fit.jobs[j].load_inertia;
+  }
+}
+
 void add_model(const PreloadFacts& facts, IdentifyResult& result, IdentifyPreload& preload) {
   std::string why_not;
   preload.model = model_of(result, preload, facts, why_not);
@@ -66,6 +88,10 @@ void describe(const JointFit& fit, const JudgedPoint& judged,
   for (std::size_t k = 0; k < estimates.size(); ++k) {
     if (estimates[k].name == kCreep) continue;
     const int preload = fit.layout.parameters[k].preload;
+    if (preload == kShared && under_several_loads(fit, k)) {
+      add_with_loads(fit, estimates[k], result);
+      continue;
+    }
     (preload == kShared ? result.parameters
                         : result.preloads[static_cast<std::size_t>(preload)].parameters)
         .push_back(estimates[k]);
@@ -77,6 +103,8 @@ void describe(const JointFit& fit, const JudgedPoint& judged,
     add_slack_points(preload);
     add_model(facts[j], result, preload);
     note_pushing(fit, preload, result);
+    for (std::string& warning : misfit_warnings(fit, judged, j, preload))
+      preload.warnings.push_back(std::move(warning));
   }
   const PhysicalBounds bounds = physical_bounds(fit, judged.point.l_o);
   for (const Eigen::Index i : judged.point.solution.active)

@@ -50,6 +50,12 @@ double known(double end) {
   return std::isinf(end) ? std::numeric_limits<double>::quiet_NaN() : end;
 }
 
+void add_known(double part, Estimate& e) {
+  e.value += part;
+  e.ci_low += part;
+  e.ci_high += part;
+}
+
 Estimate estimate_at(const JointFit& fit, const JudgedPoint& judged,
                      const ElongationProfile* profile, Eigen::Index k, bool honest) {
   const JointParameter& p = fit.layout.parameters[static_cast<std::size_t>(k)];
@@ -67,6 +73,7 @@ Estimate estimate_at(const JointFit& fit, const JudgedPoint& judged,
     e.sd = sd_at(chosen(judged.unbounded->covariance, honest), k);
     e.sd_white = sd_at(judged.unbounded->covariance.white, k);
     set_on_bound(e, judged.unbounded->x(k), degrees_of_freedom);
+    add_known(p.known, e);
     return e;
   }
   e.value = k < fit.layout.n_linear ? judged.point.solution.x(k)
@@ -79,6 +86,7 @@ Estimate estimate_at(const JointFit& fit, const JudgedPoint& judged,
     e.ci_low = known(profile->low);
     e.ci_high = known(profile->high);
   }
+  add_known(p.known, e);
   return e;
 }
 

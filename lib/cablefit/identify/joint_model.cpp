@@ -71,6 +71,21 @@ void add_elongations(const std::vector<PreloadJob>& jobs, JointLayout& layout) {
     }
 }
 
+/// The link's inertia of a preload, or of all when the same load rides on it; shared under several
+/// loads it stays that of the link alone.
+void add_loads(const std::vector<PreloadJob>& jobs, JointLayout& layout) {
+  const double first = jobs.front().load_inertia;
+  const bool same = std::all_of(jobs.begin(), jobs.end(),
+                                [&](const PreloadJob& job) { return job.load_inertia == first; });
+  for (const Effect& effect : base_effects(Side::link))
+    for (const ParameterInfo& info : effect.parameters)
+      for (JointParameter& p : layout.parameters) {
+        if (effect.inertia == nullptr || p.name != info.name) continue;
+        if (p.preload != kShared) p.known = jobs[static_cast<std::size_t>(p.preload)].load_inertia;
+        if (p.preload == kShared && same) p.known = first;
+      }
+}
+
 /// Coefficients of cable space have those of cables whatever the axis.
 void use_units_of_axis(const PreloadJob& job, JointLayout& layout) {
   if (!job.linear_motion) return;
@@ -127,6 +142,7 @@ JointLayout joint_layout(const std::vector<PreloadJob>& jobs, bool inertias_apar
   layout.n_linear = static_cast<Eigen::Index>(layout.parameters.size());
   add_elongations(jobs, layout);
   use_units_of_axis(jobs.front(), layout);
+  add_loads(jobs, layout);
   return layout;
 }
 

@@ -88,7 +88,8 @@ JointPoint share_inertias(JointFit& fit, JointPoint point, IdentifyResult& resul
                               differences + "; they are not shared");
     return point;
   }
-  result.decisions.push_back({"inertias", "shared", "those of the preloads agree within 3 sd"});
+  result.decisions.push_back(
+      {"inertias", "shared", "those of the preloads agree within 3 sd, each without its load"});
   fit.layout = joint_layout(fit.jobs, false);
   return settle(fit, descend(fit, {{point.l_o}}).front());
 }

@@ -87,11 +87,13 @@ void take_record(const JointFit& fit, const JointRecord& record, const Transmiss
       });
 }
 
-void end_at(const std::vector<Estimate>& estimates, RecursiveTrace& trace) {
+void end_at(const JointLayout& layout, const std::vector<Estimate>& estimates,
+            RecursiveTrace& trace) {
   const std::vector<double> last = trace.points.back().sd;
   for (TracePoint& point : trace.points)
     for (std::size_t k = 0; k < last.size(); ++k) {
       const Estimate& e = estimates[k];
+      point.value[k] += layout.parameters[k].known;
       if (!e.not_identifiable.empty()) point.value[k] = kNone;
       const bool has_band = e.not_identifiable.empty() && e.active_bound.empty() && last[k] > 0;
       point.sd[k] = has_band ? point.sd[k] * e.sd / last[k] : kNone;
@@ -128,7 +130,7 @@ RecursiveTrace recursive_trace(const JointFit& fit, const JointPoint& point,
       block += n;
     }
   }
-  end_at(estimates, trace);
+  end_at(fit.layout, estimates, trace);
   return trace;
 }
 

@@ -17,6 +17,8 @@ constexpr std::array<std::pair<std::string_view, Reader>, 2> kReaders{
     {{model_file::kModelSchema, model_file::read_model_file},
      {model_file::kResultSchema, model_file::read_result_file}}};
 
+constexpr std::string_view kIdentifySchema = "cablefit/identify/1";
+
 }  // namespace
 
 std::string joint_parameter_name(std::string_view name, int joint, int n_joints) {
@@ -39,6 +41,9 @@ Model parse_model(const JsonNode& root, const std::string& preload, const std::s
   for (const auto& [name, reader] : kReaders) {
     if (schema.text() == name) return reader(root, {preload, model}, &choice);
   }
+  if (schema.text() == kIdentifySchema)
+    throw schema.error("a result of `cablefit identify` is no model",
+                       "take the model_PRELOAD.json beside it");
   throw schema.error(fmt::format("schema {} is no model", cablefit::quoted(schema.text())),
                      fmt::format("expected '{}', or '{}' as `cablefit dynamic` writes it",
                                  model_file::kModelSchema, model_file::kResultSchema));

@@ -36,6 +36,14 @@ Cells cells_of(const Estimate* e, Footnotes& notes) {
   return {value_text(e->value, e->sd), significant(e->rsd_percent(), kRsdDigits)};
 }
 
+/// J_link without the mass that hangs on it, whose own inertia is known.
+Cells without_load(const Estimate* e, double load_inertia) {
+  if (e == nullptr || !e->not_identifiable.empty()) return {kNoNumber, ""};
+  Estimate net = *e;
+  net.value -= load_inertia;
+  return {value_text(net.value, net.sd), significant(net.rsd_percent(), kRsdDigits)};
+}
+
 std::string cad_text(const Estimate& e) {
   return std::isnan(e.cad) ? kNoNumber : fmt::format("{:g}", e.cad);
 }
@@ -48,10 +56,14 @@ Table shared_table(const IdentifyResult& result) {
   table.columns = {{"", "parameter", "", true}, {"", "unit", "", true}, {"", "CAD", ""},
                    {"", "value", ""},           {"", "sd", ""},         {"", "rsd %", ""}};
   for (const Estimate& e : result.parameters) {
-    const Cells cells = cells_of(&e, notes);
+    Cells cells = cells_of(&e, notes);
     const bool has_sd = e.not_identifiable.empty();
     table.rows.push_back({label(e), e.unit, cad_text(e), cells.value,
                           has_sd ? sd_text(e.value, e.sd) : "", cells.rsd});
+    const double load = result.preloads.front().load_inertia;
+    if (e.name != "J_link" || !(load > 0)) continue;
+    cells = without_load(&e, load);
+    table.rows.push_back({"  without the load", e.unit, kNoNumber, cells.value, "", cells.rsd});
   }
   table.notes = notes.lines();
   return table;
@@ -111,6 +123,20 @@ Table elongation_table(const IdentifyResult& result) {
   return table;
 }
 
+bool any_load(const IdentifyResult& result) {
+  return std::any_of(result.preloads.begin(), result.preloads.end(),
+                     [](const IdentifyPreload& preload) { return preload.load_inertia > 0; });
+}
+
+void add_net_row(const IdentifyResult& result, const Estimate& row, Table& table) {
+  std::vector<std::string> cells = {"  without the load", row.unit, kNoNumber};
+  for (const IdentifyPreload& preload : result.preloads) {
+    const Cells c = without_load(find_estimate(preload.parameters, row.name), preload.load_inertia);
+    cells.insert(cells.end(), {c.value, c.rsd});
+  }
+  table.rows.push_back(cells);
+}
+
 /// Table 2, a column per preload.
 Table dynamics_table(const IdentifyResult& result) {
   Table table;
@@ -134,6 +160,7 @@ Table dynamics_table(const IdentifyResult& result) {
       cells.insert(cells.end(), {c.value, c.rsd});
     }
     table.rows.push_back(cells);
+    if (row->name == "J_link" && any_load(result)) add_net_row(result, *row, table);
   }
   table.notes = notes.lines();
   return table;

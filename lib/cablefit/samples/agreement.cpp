@@ -22,6 +22,33 @@ void require_same_rig(const LogSurvey& first, const LogSurvey& log, const std::s
       "fit them apart, or name their preloads differently in the rig files");
 }
 
+/// "q2, theta2, tau2" of a log that is read as one of one joint.
+std::string second_joint(const LogPlan& plan) {
+  std::string names;
+  if (plan.rig.n_joints() > 1) return names;
+  for (std::size_t k = 0; k < plan.header.columns.size(); ++k) {
+    const std::string& name = plan.header.columns[k].name;
+    const bool is_read = std::any_of(plan.slots.begin(), plan.slots.end(),
+                                     [&](const Slot& slot) { return slot.column == k; });
+    const bool is_second = std::any_of(kChannels.begin(), kChannels.end(), [&](Channel channel) {
+      return name == fmt::format("{}2", channel_name(channel));
+    });
+    if (is_second && !is_read) names += (names.empty() ? "" : ", ") + name;
+  }
+  return names;
+}
+
+std::vector<std::string> unread_joints(std::span<const LogSurvey> logs) {
+  std::vector<std::string> warnings;
+  for (const LogSurvey& log : logs)
+    if (const std::string names = second_joint(log.plan); !names.empty())
+      warnings.push_back(
+          fmt::format("{}: columns {} are not used, the log is read as one of one joint: name the "
+                      "joints in a rig file",
+                      log.plan.path, names));
+  return warnings;
+}
+
 }  // namespace
 
 RateRange sample_rates(std::span<const LogSurvey> logs, const PartFilter& wanted) {
@@ -67,8 +94,8 @@ std::vector<std::string> unloaded_warnings(std::span<const LogSurvey> logs,
   return warnings;
 }
 
-std::vector<std::string> duplicate_warnings(std::span<const LogSurvey> logs) {
-  std::vector<std::string> warnings;
+std::vector<std::string> input_warnings(std::span<const LogSurvey> logs) {
+  std::vector<std::string> warnings = unread_joints(logs);
   for (std::size_t b = 0; b < logs.size(); ++b)
     for (std::size_t a = 0; a < b; ++a) {
       if (logs[a].sha256 != logs[b].sha256) continue;

@@ -50,7 +50,8 @@ void energy(const LawShape& shape, double l, double* values) {
   });
 }
 
-// Every group of wires pulls: stiffer than k >= 0 asks, but a group cannot push.
+// Every group of wires pulls: sufficient, and stiffer than k >= 0 asks. A fit that pulls as a whole
+// stands as it is, though groups that lean on each other share out their K_j with either sign.
 PullConditions pull_conditions(const LawShape& shape, double /*longest*/) {
   PullConditions conditions{Eigen::MatrixXd::Identity(shape.order, shape.order),
                             Eigen::VectorXd(shape.order)};
@@ -66,7 +67,9 @@ CableLaw strand() {
       .name = "strand",
       .equation = "f = sum_j K_j B_j(l) for l > 0, else 0; dB_j/dl: ramp from 0 at a_j to 1 at toe",
       .source = "Blankevoort & Huiskes 1991 (order 1); hinge functions: Friedman 1991",
-      .coefficients = "K_j >= 0, of what bears from a_j = 0, 1/2, 1/4, 3/4 of toe on",
+      .coefficients =
+          "K_j, of what bears from a_j = 0, 1/2, 1/4, 3/4 of toe on: any sign as long as f >= 0 in "
+          "use",
       .max_order = static_cast<int>(kStart.size()),
       .has_toe = true,
       .n_coefficients = n_coefficients,
