@@ -6,25 +6,13 @@
 #include <cmath>
 
 #include "cablefit/estimate/active_set.hpp"
-#include "cablefit/estimate/scaled_solve.hpp"
+#include "cablefit/estimate/null_directions.hpp"
 #include "cablefit/estimate/solution_covariance.hpp"
 
 namespace cablefit {
 namespace {
 
-constexpr double kNullComponent = 0.05;  // share in a null direction that counts as taking part
 constexpr double kCorrelationWarning = 0.95;  // estimation-rules: warn above
-
-std::string null_text(const Eigen::VectorXd& direction, Eigen::Index self,
-                      const std::vector<std::string>& names) {
-  std::string others;
-  for (Eigen::Index k = 0; k < direction.size(); ++k) {
-    if (k == self || std::abs(direction(k)) < kNullComponent) continue;
-    others += (others.empty() ? "" : ", ") + names[static_cast<std::size_t>(k)];
-  }
-  if (others.empty()) return "its column is zero: the log never excites it";
-  return fmt::format("cannot be told apart from {} in these logs", others);
-}
 
 struct FreeFit {
   std::vector<Eigen::Index> free;
@@ -45,11 +33,11 @@ FreeFit fit_free(const RowStatistics& rows, const LinearProblem& problem, const 
   const Eigen::MatrixXd a = columns_of(rows, problem, freedom.free);
   const Eigen::VectorXd b = rows.r() * problem.response;
   if (!freedom.basis) {
-    fit.solve = solve_scaled(a, b);
+    fit.solve = solve_scaled(a, b, problem.rank_tolerance);
     return fit;
   }
   const Eigen::MatrixXd& basis = *freedom.basis;
-  fit.solve = solve_scaled(a * basis, b);
+  fit.solve = solve_scaled(a * basis, b, problem.rank_tolerance);
   fit.solve.x = basis * fit.solve.x;
   fit.solve.inverse = basis * fit.solve.inverse * basis.transpose();
   return fit;
@@ -58,13 +46,10 @@ FreeFit fit_free(const RowStatistics& rows, const LinearProblem& problem, const 
 void name_null_directions(const FreeFit& fit, const LinearProblem& problem, LinearSolution& out) {
   std::vector<std::string> names;
   for (const Eigen::Index k : fit.free) names.push_back(problem.names[static_cast<std::size_t>(k)]);
-  for (Eigen::Index d = 0; d < fit.solve.null_directions.cols(); ++d) {
-    const Eigen::VectorXd direction = fit.solve.null_directions.col(d);
-    for (Eigen::Index k = 0; k < direction.size(); ++k)
-      if (std::abs(direction(k)) >= kNullComponent)
-        out.not_identifiable[static_cast<std::size_t>(fit.free[static_cast<std::size_t>(k)])] =
-            null_text(direction, k, names);
-  }
+  const std::vector<std::string> texts =
+      cablefit::name_null_directions(fit.solve.null_directions, names);
+  for (std::size_t k = 0; k < texts.size(); ++k)
+    if (!texts[k].empty()) out.not_identifiable[static_cast<std::size_t>(fit.free[k])] = texts[k];
 }
 
 /// The fit under all inequalities; `unbounded` itself when it satisfies them.

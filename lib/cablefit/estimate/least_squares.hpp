@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cablefit/estimate/row_statistics.hpp"
+#include "cablefit/estimate/scaled_solve.hpp"
 
 namespace cablefit {
 
@@ -22,6 +23,9 @@ struct LinearProblem {
   std::vector<std::string> held = {};
   /// constraints * x >= 0, a column per regressor; no rows: none.
   Eigen::MatrixXd constraints = {};
+  /// Share of the largest singular value (scaled columns) below which columns cannot be told apart;
+  /// smaller for data that are exact by definition.
+  double rank_tolerance = kMeasuredRankTolerance;
 };
 
 struct LinearSolution {
