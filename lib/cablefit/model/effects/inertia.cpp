@@ -21,6 +21,8 @@ void regressor(const Motion& motion, Eigen::Ref<Eigen::MatrixXd> columns) {
 
 double added_inertia(const double* parameters) { return parameters[0]; }
 
+void inertia_slopes(const double* /*parameters*/, double* slopes) { slopes[0] = 1; }
+
 }  // namespace
 
 Effect inertia(Side side) {
@@ -33,7 +35,8 @@ Effect inertia(Side side) {
           .smooth = nullptr,
           .dry = nullptr,
           .inertia = added_inertia,
-          .is_affine = true};
+          .is_affine = true,
+          .inertia_slopes = inertia_slopes};
 }
 
 }  // namespace cablefit::rows
