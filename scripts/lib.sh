@@ -6,7 +6,7 @@ jobs="$(nproc)"
 
 # What cablefit needs of Debian 12 to be built, what its tests need on top (a browser for the HTML
 # reports), and what steps of scripts/check need.
-build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libcli11-dev
+build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libceres-dev libcli11-dev
                 nlohmann-json3-dev libfmt-dev libfast-float-dev zlib1g-dev libzstd-dev libssl-dev
                 catch2 npm)
 test_packages=(nodejs chromium)

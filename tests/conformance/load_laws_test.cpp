@@ -76,6 +76,25 @@ TEST_CASE("a load law refuses keys that are not its own", "[conformance]") {
   }
 }
 
+TEST_CASE("a load law's slope is that of its torque", "[conformance]") {
+  const LoadParameters parameters{.torque = 2,
+                                  .mass = 1,
+                                  .radius = 0.1,
+                                  .length = 0.3,
+                                  .zero = 0.2,
+                                  .q = {-0.5, 0.1, 0.4},
+                                  .table_torque = {1, -2, 3}};
+  for (const LoadLaw& law : load_laws()) {
+    INFO(law.name);
+    for (const double q : {-0.7, -0.2, 0.25, 0.6}) {
+      // Central differences, h^2 / 6 of a third derivative of 3, and rounding 1e-16 / h.
+      const double central =
+          (law.torque(parameters, q + 1e-5) - law.torque(parameters, q - 1e-5)) / 2e-5;
+      CHECK(std::abs((law.slope ? law.slope(parameters, q) : 0) - central) <= 1e-9);
+    }
+  }
+}
+
 TEST_CASE("a pendulum is driven back to its zero, a hanging mass up or down", "[model]") {
   const LoadLaw& pendulum = find_load_law("pendulum");
   LoadParameters p;

@@ -197,4 +197,18 @@ Identifiability identifiability(const Eigen::MatrixXd& columns, Eigen::Index n_r
   return out;
 }
 
+std::vector<std::string> not_determined(const Eigen::MatrixXd& null_directions,
+                                        const Eigen::VectorXd& rms,
+                                        std::span<const NamedColumn> names) {
+  std::vector<std::string> texts(names.size());
+  const Eigen::MatrixXd directions = sparse_directions(null_directions);
+  for (Eigen::Index d = 0; d < directions.cols(); ++d) {
+    const Eigen::VectorXd direction = directions.col(d);
+    for (Eigen::Index k = 0; k < direction.size(); ++k)
+      if (std::abs(direction(k)) >= kNullComponent)
+        texts[static_cast<std::size_t>(k)] = not_determined(direction, k, rms, names);
+  }
+  return texts;
+}
+
 }  // namespace cablefit

@@ -52,6 +52,11 @@ inline constexpr double kCorrelationTold = 0.95;  // estimation-rules: warn abov
 /// rows do not show: "cannot be told apart from f_s in these logs; ...".
 std::string not_determined(const Eigen::VectorXd& direction, Eigen::Index self,
                            const Eigen::VectorXd& rms, std::span<const NamedColumn> names);
+/// Per parameter the same of all directions; empty where it is determined. `null_directions`:
+/// parameters x directions, columns of unit norm, in scaled parameters.
+std::vector<std::string> not_determined(const Eigen::MatrixXd& null_directions,
+                                        const Eigen::VectorXd& rms,
+                                        std::span<const NamedColumn> names);
 /// The same space in directions of as few parameters as there can be: each has one of its own.
 Eigen::MatrixXd sparse_directions(Eigen::MatrixXd directions);
 /// Smallest share in a null direction that counts as taking part.

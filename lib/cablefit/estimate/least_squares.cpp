@@ -32,11 +32,11 @@ FreeFit fit_free(const RowStatistics& rows, const LinearProblem& problem, const 
   const Eigen::MatrixXd a = columns_of(rows, problem, freedom.free);
   const Eigen::VectorXd b = rows.r() * problem.response;
   if (!freedom.basis) {
-    fit.solve = solve_scaled(a, b);
+    fit.solve = solve_scaled(a, b, problem.rank_tolerance);
     return fit;
   }
   const Eigen::MatrixXd& basis = *freedom.basis;
-  fit.solve = solve_scaled(a * basis, b);
+  fit.solve = solve_scaled(a * basis, b, problem.rank_tolerance);
   fit.solve.x = basis * fit.solve.x;
   fit.solve.inverse = basis * fit.solve.inverse * basis.transpose();
   return fit;
@@ -63,14 +63,10 @@ Words words_for(const RowStatistics& rows, const LinearProblem& problem,
 }
 
 void name_null_directions(const FreeFit& fit, const Words& words, LinearSolution& out) {
-  const Eigen::MatrixXd directions = sparse_directions(fit.solve.null_directions);
-  for (Eigen::Index d = 0; d < directions.cols(); ++d) {
-    const Eigen::VectorXd direction = directions.col(d);
-    for (Eigen::Index k = 0; k < direction.size(); ++k)
-      if (std::abs(direction(k)) >= kNullComponent)
-        out.not_identifiable[static_cast<std::size_t>(fit.free[static_cast<std::size_t>(k)])] =
-            not_determined(direction, k, words.rms, words.names);
-  }
+  const std::vector<std::string> texts =
+      not_determined(fit.solve.null_directions, words.rms, words.names);
+  for (std::size_t k = 0; k < texts.size(); ++k)
+    if (!texts[k].empty()) out.not_identifiable[static_cast<std::size_t>(fit.free[k])] = texts[k];
 }
 
 /// The fit under all inequalities; `unbounded` itself when it satisfies them.

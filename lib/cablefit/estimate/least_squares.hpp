@@ -8,6 +8,7 @@
 
 #include "cablefit/estimate/motion_advice.hpp"
 #include "cablefit/estimate/row_statistics.hpp"
+#include "cablefit/estimate/scaled_solve.hpp"
 
 namespace cablefit {
 
@@ -25,6 +26,9 @@ struct LinearProblem {
   Eigen::MatrixXd constraints = {};
   /// Per regressor what it follows, for advice in messages; empty: none is given.
   std::vector<MotionColumn> motion = {};
+  /// Share of the largest singular value (scaled columns) below which columns cannot be told apart;
+  /// smaller for data that are exact by definition.
+  double rank_tolerance = kMeasuredRankTolerance;
 };
 
 struct LinearSolution {

@@ -5,15 +5,9 @@
 #include <limits>
 
 namespace cablefit {
-namespace {
 
-// Columns whose scaled singular value is below this cannot be told apart in double precision data
-// that carries at best nine digits ("%.9g").
-constexpr double kRankTolerance = 1e-9;
-
-}  // namespace
-
-ScaledSolve solve_scaled(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+ScaledSolve solve_scaled(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
+                         double rank_tolerance) {
   const Eigen::Index p = a.cols();
   ScaledSolve s;
   if (p == 0) {  // every parameter stands on its bound
@@ -27,7 +21,7 @@ ScaledSolve solve_scaled(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const Eigen::VectorXd& sv = svd.singularValues();
   Eigen::Index rank = 0;
-  while (rank < sv.size() && sv(rank) > kRankTolerance * sv(0)) ++rank;
+  while (rank < sv.size() && sv(rank) > rank_tolerance * sv(0)) ++rank;
   s.condition_scaled =
       sv(sv.size() - 1) > 0 ? sv(0) / sv(sv.size() - 1) : std::numeric_limits<double>::infinity();
   const Eigen::VectorXd plain = Eigen::JacobiSVD<Eigen::MatrixXd>(a).singularValues();

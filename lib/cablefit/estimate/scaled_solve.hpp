@@ -14,7 +14,12 @@ struct ScaledSolve {
   double condition = 0;             ///< of the columns as they are
 };
 
+/// Columns whose scaled singular value is below this share of the largest cannot be told apart: of
+/// measured data, which carry at best nine digits ("%.9g").
+inline constexpr double kMeasuredRankTolerance = 1e-9;
+
 /// Minimises |a x - b|. a: m x p with m >= p, b: m. p = 0 is allowed.
-ScaledSolve solve_scaled(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+ScaledSolve solve_scaled(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
+                         double rank_tolerance = kMeasuredRankTolerance);
 
 }  // namespace cablefit

@@ -13,10 +13,13 @@ namespace {
 /// The table. The paper's model comes first, side by side; candidates of refine follow.
 const std::vector<Effect>& table() {
   static const std::vector<Effect> kRows{
-      rows::inertia(Side::link),  rows::viscous(Side::link),  rows::coulomb(Side::link),
-      rows::inertia(Side::motor), rows::viscous(Side::motor), rows::coulomb(Side::motor),
-      rows::offset(Side::motor),  rows::inertia(Side::rigid), rows::viscous(Side::rigid),
-      rows::coulomb(Side::rigid), rows::offset(Side::rigid),
+      rows::inertia(Side::link),         rows::viscous(Side::link),
+      rows::coulomb(Side::link),         rows::inertia(Side::motor),
+      rows::viscous(Side::motor),        rows::coulomb(Side::motor),
+      rows::offset(Side::motor),         rows::inertia(Side::rigid),
+      rows::viscous(Side::rigid),        rows::coulomb(Side::rigid),
+      rows::offset(Side::rigid),         rows::smooth_coulomb(Side::link),
+      rows::smooth_coulomb(Side::motor), rows::smooth_coulomb(Side::rigid),
   };
   return kRows;
 }

@@ -35,7 +35,8 @@ struct Effect {
   std::string_view source;    ///< author, year, equation
   std::span<const ParameterInfo> parameters;
 
-  /// Regressor: writes the torque per unit of each parameter into `columns` (n x parameters).
+  /// Regressor: writes the torque per unit of each parameter into `columns` (n x parameters,
+  /// without those of `shape`).
   void (*regressor)(const Motion& motion, Eigen::Ref<Eigen::MatrixXd> columns);
   /// Simulation, part that is a smooth function of the state. nullptr: none.
   double (*smooth)(double position, double velocity, const double* parameters);
@@ -50,6 +51,25 @@ struct Effect {
   /// What every column of the regressor follows; words about motion that would tell effects apart
   /// go by it.
   MotionPart follows = MotionPart::several;
+
+  /// For sensitivities: the value of `smooth` and its derivatives with respect to position,
+  /// velocity and each parameter, slopes[0 .. parameters + 1]. There exactly when `smooth` is.
+  double (*smooth_slopes)(double position, double velocity, const double* parameters,
+                          double* slopes) = nullptr;
+  /// The same of `dry`.
+  double (*dry_slopes)(double position, double velocity, const double* parameters,
+                       double* slopes) = nullptr;
+  /// Derivatives of `inertia` with respect to each parameter.
+  void (*inertia_slopes)(const double* parameters, double* slopes) = nullptr;
+
+  /// The last parameters, when they enter nonlinearly: typical values, which `regressor` assumes
+  /// and at which a fit holds them unless it is told to look for them.
+  std::span<const double> shape = {};
+  /// Name of the row that this one replaces: another law of the same thing. An axis has one of
+  /// them.
+  std::string_view instead_of = {};
+
+  std::size_t n_linear() const { return parameters.size() - shape.size(); }
 };
 
 /// All rows, in the order in which reports print them.

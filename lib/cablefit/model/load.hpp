@@ -41,6 +41,8 @@ struct LoadLaw {
   /// Acceleration of the link, rad/s^2, at which the load no longer hangs on it (a slack rope).
   /// nullptr: it always does.
   double (*free_fall)(const LoadParameters& parameters) = nullptr;
+  /// d torque / dq, N m/rad. nullptr: it does not depend on q.
+  double (*slope)(const LoadParameters& parameters, double q) = nullptr;
 };
 
 std::span<const LoadLaw> load_laws();

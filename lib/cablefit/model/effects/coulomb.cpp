@@ -18,6 +18,13 @@ double level(double /*position*/, double /*velocity*/, const double* parameters)
   return parameters[0];
 }
 
+double level_slopes(double /*position*/, double /*velocity*/, const double* parameters,
+                    double* slopes) {
+  slopes[0] = slopes[1] = 0;
+  slopes[2] = 1;
+  return parameters[0];
+}
+
 }  // namespace
 
 Effect coulomb(Side side) {
@@ -31,7 +38,8 @@ Effect coulomb(Side side) {
           .dry = level,
           .inertia = nullptr,
           .is_affine = true,
-          .follows = MotionPart::direction};
+          .follows = MotionPart::direction,
+          .dry_slopes = level_slopes};
 }
 
 }  // namespace cablefit::rows

@@ -21,6 +21,8 @@ void regressor(const Motion& motion, Eigen::Ref<Eigen::MatrixXd> columns) {
 
 double added_inertia(const double* parameters) { return parameters[0]; }
 
+void inertia_slopes(const double* /*parameters*/, double* slopes) { slopes[0] = 1; }
+
 }  // namespace
 
 Effect inertia(Side side) {
@@ -34,7 +36,8 @@ Effect inertia(Side side) {
           .dry = nullptr,
           .inertia = added_inertia,
           .is_affine = true,
-          .follows = MotionPart::acceleration};
+          .follows = MotionPart::acceleration,
+          .inertia_slopes = inertia_slopes};
 }
 
 }  // namespace cablefit::rows

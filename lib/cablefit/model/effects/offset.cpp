@@ -17,6 +17,13 @@ double torque(double /*position*/, double /*velocity*/, const double* parameters
   return parameters[0];
 }
 
+double torque_slopes(double /*position*/, double /*velocity*/, const double* parameters,
+                     double* slopes) {
+  slopes[0] = slopes[1] = 0;
+  slopes[2] = 1;
+  return parameters[0];
+}
+
 }  // namespace
 
 Effect offset(Side side) {
@@ -31,7 +38,8 @@ Effect offset(Side side) {
           .dry = nullptr,
           .inertia = nullptr,
           .is_affine = true,
-          .follows = MotionPart::constant};
+          .follows = MotionPart::constant,
+          .smooth_slopes = torque_slopes};
 }
 
 }  // namespace cablefit::rows

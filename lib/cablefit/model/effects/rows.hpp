@@ -15,6 +15,9 @@ Effect coulomb(Side side);
 /// A constant torque on the motor (or on a rigid drive).
 Effect offset(Side side);
 
+/// f_s tanh(v / v_s): dry friction without stiction, as simulations smooth it.
+Effect smooth_coulomb(Side side);
+
 /// What differs between the sides of one effect.
 template <typename T>
 struct PerSide {

@@ -21,6 +21,14 @@ double torque(double /*position*/, double velocity, const double* parameters) {
   return parameters[0] * velocity;
 }
 
+double torque_slopes(double /*position*/, double velocity, const double* parameters,
+                     double* slopes) {
+  slopes[0] = 0;
+  slopes[1] = parameters[0];
+  slopes[2] = velocity;
+  return parameters[0] * velocity;
+}
+
 }  // namespace
 
 Effect viscous(Side side) {
@@ -34,7 +42,8 @@ Effect viscous(Side side) {
           .dry = nullptr,
           .inertia = nullptr,
           .is_affine = true,
-          .follows = MotionPart::velocity};
+          .follows = MotionPart::velocity,
+          .smooth_slopes = torque_slopes};
 }
 
 }  // namespace cablefit::rows

@@ -22,6 +22,10 @@ double torque(const LoadParameters& p, double q) {
   return -p.mass * kGravity * p.length * std::sin(q - p.zero);
 }
 
+double slope(const LoadParameters& p, double q) {
+  return -p.mass * kGravity * p.length * std::cos(q - p.zero);
+}
+
 double inertia(const LoadParameters& p) { return p.mass * p.length * p.length; }
 
 }  // namespace
@@ -36,7 +40,8 @@ LoadLaw pendulum() {
           .inertia = inertia,
           .any_joints = false,
           .rotary_only = true,
-          .free_fall = nullptr};
+          .free_fall = nullptr,
+          .slope = slope};
 }
 
 }  // namespace cablefit::laws

@@ -38,6 +38,13 @@ double torque(const LoadParameters& p, double q) {
   return p.table_torque[i - 1] + fraction * (p.table_torque[i] - p.table_torque[i - 1]);
 }
 
+double slope(const LoadParameters& p, double q) {
+  const auto above = std::upper_bound(p.q.begin(), p.q.end(), q);
+  if (above == p.q.begin() || above == p.q.end()) return 0.0;
+  const auto i = static_cast<std::size_t>(above - p.q.begin());
+  return (p.table_torque[i] - p.table_torque[i - 1]) / (p.q[i] - p.q[i - 1]);
+}
+
 double inertia(const LoadParameters& /*parameters*/) { return 0.0; }
 
 }  // namespace
@@ -52,7 +59,8 @@ LoadLaw table() {
           .inertia = inertia,
           .any_joints = false,
           .rotary_only = false,
-          .free_fall = nullptr};
+          .free_fall = nullptr,
+          .slope = slope};
 }
 
 }  // namespace cablefit::laws

@@ -1,0 +1,124 @@
+#include "cablefit/model/model_parameters.hpp"
+
+#include <fmt/core.h>
+
+namespace cablefit {
+namespace {
+
+std::string unit_on(const Rig& rig, std::string_view unit) {
+  return rig.linear_motion ? linear_unit(unit) : std::string(unit);
+}
+
+void add_effects(const Model& model, int joint, bool on_link, std::vector<ModelParameter>& out) {
+  const JointModel& axes = model.joints[static_cast<std::size_t>(joint)];
+  const std::vector<EffectInstance>& instances = on_link ? axes.link : axes.motor;
+  const auto n_joints = static_cast<int>(model.joints.size());
+  for (std::size_t e = 0; e < instances.size(); ++e) {
+    const Effect& effect = *instances[e].effect;
+    for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
+      const ParameterInfo& info = effect.parameters[k];
+      ModelParameter p;
+      p.name = joint_parameter_name(info.name, joint + 1, n_joints);
+      p.symbol = info.symbol;
+      p.unit = unit_on(model.rig, info.unit);
+      p.lower = info.lower;
+      p.upper = info.upper;
+      p.is_shape = k >= effect.n_linear();
+      p.joint = joint;
+      p.on_link = on_link;
+      p.effect = e;
+      p.index = k;
+      out.push_back(p);
+    }
+  }
+}
+
+ModelParameter per_joint(ParameterKind kind, std::string_view name, std::string_view unit,
+                         int joint, const Model& model) {
+  ModelParameter p;
+  p.kind = kind;
+  p.name = joint_parameter_name(name, joint + 1, static_cast<int>(model.joints.size()));
+  p.symbol = p.name;
+  p.unit = unit_on(model.rig, unit);
+  p.joint = joint;
+  return p;
+}
+
+void add_elastic(const Model& model, std::vector<ModelParameter>& out) {
+  const auto n_joints = static_cast<int>(model.joints.size());
+  const std::vector<Cable>& cables = model.transmission.cables;
+  for (int joint = 0; cables.empty() && joint < n_joints; ++joint) {
+    out.push_back(per_joint(ParameterKind::stiffness, "K", "N m/rad", joint, model));
+    out.back().lower = 0;
+  }
+  const bool cable_space = model.rig.cables_given;
+  for (std::size_t i = 0; i < cables.size(); ++i) {
+    for (int j = 0; j < cables[i].n_coefficients(); ++j) {
+      ModelParameter p;
+      p.kind = ParameterKind::coefficient;
+      p.name = p.symbol = coefficient_name(cables[i], j, cable_space);
+      p.unit = unit_on(model.rig, coefficient_unit(*cables[i].law, j, cable_space));
+      p.cable = i;
+      p.index = static_cast<std::size_t>(j);
+      out.push_back(p);
+    }
+  }
+  for (std::size_t i = 0; i < cables.size(); ++i) {
+    ModelParameter p;
+    p.kind = ParameterKind::elongation;
+    p.name = p.symbol = elongation_name(cables[i]);
+    p.unit = unit_on(model.rig, elongation_unit(cable_space));
+    p.cable = i;
+    out.push_back(p);
+  }
+  for (int joint = 0; joint < n_joints; ++joint)
+    out.push_back(per_joint(ParameterKind::encoder_zero, "theta_0", "rad", joint, model));
+}
+
+/// The number itself, of a model that may be const. theta_0 must be there.
+template <typename SomeModel>
+auto& number(SomeModel& model, const ModelParameter& p) {
+  auto& transmission = model.transmission;
+  switch (p.kind) {
+    case ParameterKind::effect: {
+      auto& axes = model.joints[static_cast<std::size_t>(p.joint)];
+      return (p.on_link ? axes.link : axes.motor)[p.effect].parameters[p.index].value;
+    }
+    case ParameterKind::stiffness:
+      return transmission.linear_stiffness[p.joint];
+    case ParameterKind::coefficient:
+      return transmission.cables[p.cable].coefficients[p.index];
+    case ParameterKind::elongation:
+      return transmission.cables[p.cable].initial_elongation;
+    case ParameterKind::encoder_zero:
+      break;
+  }
+  return transmission.theta_0[p.joint];
+}
+
+}  // namespace
+
+std::vector<ModelParameter> model_parameters(const Model& model) {
+  std::vector<ModelParameter> out;
+  for (int joint = 0; joint < static_cast<int>(model.joints.size()); ++joint) {
+    if (!model.rigid) add_effects(model, joint, true, out);
+    add_effects(model, joint, false, out);
+  }
+  if (!model.rigid) add_elastic(model, out);
+  return out;
+}
+
+double parameter_value(const Model& model, const ModelParameter& parameter) {
+  if (parameter.kind == ParameterKind::encoder_zero && model.transmission.theta_0.size() == 0)
+    return 0;
+  return number(model, parameter);
+}
+
+void set_parameter_value(Model& model, const ModelParameter& parameter, double value) {
+  if (model.transmission.theta_0.size() == 0)
+    model.transmission.theta_0 =
+        Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.joints.size()));
+  number(model, parameter) = value;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,32 @@
+// Every number of a model that a fit can move, by name: effects of every axis, stiffness or cable
+// coefficients, initial elongations and encoder zeros.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cablefit/model/model.hpp"
+
+namespace cablefit {
+
+enum class ParameterKind { effect, stiffness, coefficient, elongation, encoder_zero };
+
+/// Where a parameter stands in a model. Which members count depends on `kind`.
+struct ModelParameter {
+  ParameterKind kind = ParameterKind::effect;
+  std::string name, symbol, unit;
+  double lower = -kUnbounded, upper = kUnbounded;
+  bool is_shape = false;  ///< of an effect, see Effect::shape
+  int joint = 0;          ///< effect, stiffness, encoder_zero
+  bool on_link = false;   ///< effect: of the link side
+  std::size_t effect = 0, cable = 0, index = 0;
+};
+
+/// In the order of the file: effects joint by joint (link, then motor), K or the coefficients of
+/// every cable, l_o of every cable, theta_0 of every joint. A rigid drive has effects only.
+std::vector<ModelParameter> model_parameters(const Model& model);
+
+double parameter_value(const Model& model, const ModelParameter& parameter);
+void set_parameter_value(Model& model, const ModelParameter& parameter, double value);
+
+}  // namespace cablefit
