@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "cablefit/report/dynamic_json.hpp"
 #include "cablefit/report/elastic_json.hpp"
 #include "cablefit/report/elastic_reader.hpp"
+#include "cablefit/report/trace_csv.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
@@ -47,6 +49,15 @@ struct Stage1 {
   Decision decision;
   bool is_new = false;  ///< fitted here, to be written as well
 };
+
+/// What a file's name should not have becomes "_".
+std::string file_name(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(),
+      [](unsigned char c) { return std::isalnum(c) == 0 && c != '.' && c != '-' && c != '_'; },
+      '_');
+  return name;
+}
 
 bool is_same_file(const std::string& a, const std::string& b) {
   std::error_code ignored;
@@ -81,6 +92,8 @@ void add_dynamic_options(CLI::App& app, DynamicCommand& command) {
       app, "--estimator", "estimator", estimator_names(),
       [&command](const std::string& name) { command.fit.estimator = name; },
       "see 'cablefit list estimators' [wls]");
+  app.add_flag("--sweep", command.fit.sweep,
+               "fit again with other cut-offs and rest speeds: is the estimate flat?");
   app.add_option("--validate", command.validation,
                  "logs that are not fitted: how well does the model do on them; give them last")
       ->type_name("LOG");
@@ -163,19 +176,35 @@ void add_stage1(const Stage1& stage1, DynamicResult& result) {
   }
 }
 
-/// The logs to validate on, read as the others are.
-std::vector<LogSurvey> read_unseen(DynamicCommand& command) {
-  if (command.validation.empty()) return {};
-  CommonOptions unseen = command.common;
-  unseen.logs = command.validation;
+void require_unseen(const DynamicCommand& command) {
   for (const std::string& log : command.common.logs)
     for (const std::string& other : command.validation)
       if (is_same_file(log, other))
         throw usage_error(fmt::format("log {} is fitted and validated on", log),
                           "validate on logs that were not fitted");
+}
+
+/// The logs to validate on, read as the others are.
+std::vector<LogSurvey> read_unseen(DynamicCommand& command) {
+  if (command.validation.empty()) return {};
+  CommonOptions unseen = command.common;
+  unseen.logs = command.validation;
   command.common.more_inputs.insert(command.common.more_inputs.end(), unseen.logs.begin(),
                                     unseen.logs.end());
   return read_logs(unseen);
+}
+
+/// "dynamic_trace.csv", with preload and model in the name when there are several.
+std::vector<ResultFile> trace_files(const DynamicResult& result) {
+  std::vector<ResultFile> files;
+  for (const DynamicPreload& preload : result.preloads)
+    for (const DynamicFit& fit : preload.fits) {
+      if (!fit.trace) continue;
+      const bool only = result.preloads.size() == 1 && preload.fits.size() == 1;
+      const std::string name = only ? "" : '_' + preload.name + '_' + fit.model;
+      files.push_back({file_name("dynamic_trace" + name + ".csv"), trace_csv(*fit.trace)});
+    }
+  return files;
 }
 
 /// Without logs on the command line: those of the campaign in this folder.
@@ -233,6 +262,7 @@ int run_dynamic(const Arguments& arguments) {
   add_output_options(app, options);
   app.footer(kExample);
   if (!parse(app, arguments)) return 0;
+  require_unseen(command);
   std::optional<Stage1> earlier = earlier_stage1(command);
   const std::vector<LogSurvey> logs =
       options.logs.empty() ? campaign_logs(options) : read_logs(options);
@@ -258,6 +288,7 @@ int run_dynamic(const Arguments& arguments) {
 
   std::vector<ResultFile> files = {{"dynamic.json", dynamic_json(result)}};
   if (stage1.is_new) files.push_back({"elastic.json", elastic_json(stage1.result)});
+  for (ResultFile& trace : trace_files(result)) files.push_back(std::move(trace));
   deliver(options, dynamic_document(result), files);
   return 0;
 }

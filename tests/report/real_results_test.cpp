@@ -54,6 +54,19 @@ TEST_CASE("real results are as the schemas say, whatever the number of threads")
   CHECK(dynamic_json(stage2(read, 1)) == dynamic);
 }
 
+TEST_CASE("suspects, a sweep and a recursive fit are as the schema says") {
+  DynamicOptions options;
+  options.sweep = true;
+  options.estimator = "robust";
+  const std::vector<LogSurvey> logs = {survey("low/moving_load30.csv")};
+  DynamicResult result = fit_dynamic(logs, stage1(1), options);
+  result.preloads.at(0).fits.at(0).suspects.push_back({"link", "a.csv", "", 1.5, 1.6, -4, 3});
+  const std::string json = dynamic_json(result);
+  CHECK(test::schema_errors("dynamic", json) == "");
+  CHECK(json.find("\"suspects\"") != std::string::npos);
+  CHECK(json.find("\"sweep\"") != std::string::npos);
+}
+
 TEST_CASE("a check of real logs is as its schema says") {
   const std::vector<LogSurvey> logs = {survey("low/blocked.csv"), survey("low/moving_load30.csv")};
   const CheckResult result = check_logs(logs, {});

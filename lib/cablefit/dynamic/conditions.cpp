@@ -163,11 +163,11 @@ ConditionError error_of(const BinErrors& bin, double fitted, bool has_linear) {
   const bool is_larger = e.ratio() > kMaterialRatio;
   e.fails = is_larger && excess_in_sd(bin, fitted) > kSignificantSd;
   e.verdict =
-      fmt::format("{} {} times the error of the fitted rows{}",
-                  e.fails     ? "fails:"
-                  : is_larger ? "unsure:"
-                              : "holds:",
-                  ratio_text(e), is_larger && !e.fails ? ", too few independent rows to say" : "");
+      fmt::format("{}, {} times{}",
+                  e.fails     ? "fails"
+                  : is_larger ? "unsure"
+                              : "holds",
+                  ratio_text(e), is_larger && !e.fails ? " (too few independent rows)" : "");
   return e;
 }
 

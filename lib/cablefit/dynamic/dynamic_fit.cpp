@@ -12,6 +12,7 @@
 #include "cablefit/dynamic/estimators.hpp"
 #include "cablefit/dynamic/ratios.hpp"
 #include "cablefit/dynamic/requirements.hpp"
+#include "cablefit/dynamic/sweep.hpp"
 #include "cablefit/dynamic/validation.hpp"
 #include "cablefit/samples/agreement.hpp"
 
@@ -75,11 +76,20 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
     if (!job.rigid) fit.elastic = *job.elastic[m];
     add_largest_errors(job, equations, estimation.solutions, m, fit);
     add_cad(fit, job.rig());
+    if (job.options.sweep) fit.sweep = sweep_settings(job, estimator, m, fit);
     preload.fits.push_back(std::move(fit));
     solutions.push_back(std::move(estimation.solutions));
   }
   judge({job, equations, solutions}, preload);
-  if (job.options.figures) preload.figures = dynamic_figures(job, equations, solutions, preload);
+  if (!job.options.figures) return;
+  preload.figures = dynamic_figures(job, equations, solutions, preload);
+  for (const DynamicFit& fit : preload.fits)
+    if (fit.trace)
+      for (Figure& figure : trace_figures(*fit.trace)) {
+        figure.section = preload.name;
+        figure.group = "recursive least squares, " + fit.model;
+        preload.figures.push_back(std::move(figure));
+      }
 }
 
 DynamicPreload fit_preload(DynamicJob job, const ElasticResult& elastic) {

@@ -29,6 +29,7 @@ struct DynamicOptions {
   std::string preload;                         ///< only this one; empty: all
   bool figures = false;                        ///< one more pass, for reports with plots
   bool residual_tests = true;                  ///< a look at up to 40 windows of every log
+  bool sweep = false;                          ///< fit again with other cut-offs and rest speeds
   std::vector<LogSurvey> validation = {};      ///< logs to judge the fit on, none of them fitted
 };
 

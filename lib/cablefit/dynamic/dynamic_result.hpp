@@ -9,12 +9,40 @@
 #include "cablefit/dynamic/validation_result.hpp"
 #include "cablefit/elastic/elastic_result.hpp"
 #include "cablefit/estimate/fit_proof.hpp"
+#include "cablefit/estimate/recursive_trace.hpp"
 
 namespace cablefit {
 
 struct TorqueError {
   double rms = 0, max_abs = 0;  ///< N m
   double relative = 0;          ///< |residual| / |response|, both as root of the sum of squares
+};
+
+/// A stretch of time that a robust fit did not believe.
+struct SuspectSpan {
+  std::string equation;
+  std::string log, run;
+  double from = 0, to = 0;  ///< s, of the log
+  double largest = 0;       ///< residual, N m, signed
+  std::size_t n_rows = 0;   ///< after decimation, that stick out
+};
+
+/// How a parameter changes with a setting that should not matter.
+struct SweepPoint {
+  std::string setting;         ///< "cut-off", "rest speed"
+  double factor = 1;           ///< times what was chosen
+  double value = 0;            ///< Hz, rad/s; of the motor side
+  std::vector<double> change;  ///< per parameter, in sd; NaN: not identifiable there
+};
+struct SweepVerdict {
+  std::string setting, text;
+  bool is_flat = true;
+};
+struct Sweep {
+  std::vector<std::string> parameters;
+  std::vector<double> relative_sd;  ///< per parameter, of the fit itself
+  std::vector<SweepPoint> points;
+  std::vector<SweepVerdict> verdicts;
 };
 
 struct DynamicFit {
@@ -29,6 +57,10 @@ struct DynamicFit {
   std::map<std::string, std::string> verdicts;  ///< "J_link": "identified", ...
   std::vector<std::string> warnings;
   std::optional<FitProof> proof;  ///< of a rerun on simulated logs, when it was asked for
+  std::map<std::string, std::string> sd_reason = {};  ///< by equation: which sd, and why
+  std::vector<SuspectSpan> suspects = {};             ///< of a robust fit
+  std::optional<RecursiveTrace> trace = {};           ///< of a recursive one
+  std::optional<Sweep> sweep = {};                    ///< when asked for
 };
 
 /// How long the measured torque is before its effect, and what was made of it.

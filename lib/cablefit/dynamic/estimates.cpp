@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cablefit/estimate/parameter_estimate.hpp"
+#include "cablefit/estimate/sd_choice.hpp"
 
 namespace cablefit {
 namespace {
@@ -127,6 +128,21 @@ Estimate given_estimate(const DynamicParameter& parameter, bool linear_motion) {
   return e;
 }
 
+std::vector<Eigen::Index> regressors_of(const DynamicColumns& c) {
+  std::vector<Eigen::Index> regressors;
+  for (Eigen::Index k = 0; k < c.n_effects; ++k) regressors.push_back(k);
+  return regressors;
+}
+
+/// The chosen sd and its quantile, where they are not those of the solution.
+void take_chosen(const ChosenSd& chosen, Eigen::Index k, double extra_variance, double lower,
+                 Estimate& e) {
+  const bool has_sd = e.not_identifiable.empty() && e.active_bound.empty();
+  if (!has_sd || chosen.kind[static_cast<std::size_t>(k)] != SdKind::block_bootstrap) return;
+  e.sd = std::sqrt(chosen.variance(k) + extra_variance);
+  set_interval(e, chosen.degrees_of_freedom(k), lower);
+}
+
 }  // namespace
 
 void add_estimates(const RowStatistics& rows, const DynamicColumns& c, const LinearSolution& s,
@@ -134,11 +150,14 @@ void add_estimates(const RowStatistics& rows, const DynamicColumns& c, const Lin
                    DynamicFit& fit) {
   Eigen::MatrixXd extra = Eigen::MatrixXd::Zero(s.x.size(), s.x.size());
   if (stage1 != nullptr && honest) extra = stage1_covariance(rows, c, s, *stage1, which);
+  const std::optional<ChosenSd> chosen =
+      honest ? std::optional(choose_sd(rows, regressors_of(c), s)) : std::nullopt;
   for (Eigen::Index k = 0; k < c.n_effects; ++k) {
     const DynamicParameter& parameter = c.parameters[static_cast<std::size_t>(k)];
     Estimate e = parameter.given
                      ? given_estimate(parameter, linear_motion)
                      : estimate_of(parameter.info, linear_motion, s, k, {honest, extra(k, k)});
+    if (chosen && !parameter.given) take_chosen(*chosen, k, extra(k, k), parameter.info.lower, e);
     e.name = parameter.name;
     if (!e.active_bound.empty() && parameter.info.lower == 0)
       e.active_bound = fmt::format("{} >= 0", e.name);
@@ -150,6 +169,30 @@ void add_estimates(const RowStatistics& rows, const DynamicColumns& c, const Lin
     fit.parameters.push_back(std::move(e));
   }
   fit.warnings.insert(fit.warnings.end(), s.warnings.begin(), s.warnings.end());
+}
+
+std::string sd_reason(const RowStatistics& rows, const DynamicColumns& c, const LinearSolution& s,
+                      double row_seconds) {
+  const ChosenSd chosen = choose_sd(rows, regressors_of(c), s);
+  const double seconds = static_cast<double>(s.n_rows) / chosen.effective_rows * row_seconds;
+  const std::string correlated = fmt::format(
+      "residuals are correlated over {}, effective rows {:.0f} of {}",
+      seconds < 1 ? fmt::format("{:.2g} ms", 1e3 * seconds) : fmt::format("{:.2g} s", seconds),
+      chosen.effective_rows, s.n_rows);
+  if (chosen.worst() == SdKind::white)
+    return fmt::format("white: residuals are not correlated, all {} rows count", s.n_rows);
+  if (chosen.worst() == SdKind::hac) return "HAC: " + correlated;
+  std::string names;
+  double dof = kUnbounded;
+  for (std::size_t k = 0; k < chosen.kind.size(); ++k) {
+    if (chosen.kind[k] != SdKind::block_bootstrap) continue;
+    names += (names.empty() ? "" : ", ") + c.parameters[k].name;
+    dof = std::min(dof, chosen.degrees_of_freedom(static_cast<Eigen::Index>(k)));
+  }
+  return fmt::format(
+      "block bootstrap of {}, HAC of the rest: {}: {} blocks, t with {:.0f} degrees "
+      "of freedom",
+      names, correlated, chosen.blocks, dof);
 }
 
 void add_errors(const RowStatistics& rows, const std::string& equation, const LinearSolution& s,

@@ -16,6 +16,11 @@ void add_estimates(const RowStatistics& rows, const DynamicColumns& columns,
                    const LinearSolution& solution, const ElasticFit* stage1, std::size_t which,
                    bool linear_motion, bool honest, DynamicFit& fit);
 
+/// Which sd the parameters of these rows have, and why: "HAC: residuals are correlated over 14 ms,
+/// effective rows 812 of 12639". `row_seconds`: between rows.
+std::string sd_reason(const RowStatistics& rows, const DynamicColumns& columns,
+                      const LinearSolution& solution, double row_seconds);
+
 /// Errors, weight and conditioning of one equation with these rows.
 void add_errors(const RowStatistics& rows, const std::string& equation,
                 const LinearSolution& solution, DynamicFit& fit);

@@ -10,7 +10,8 @@ namespace cablefit {
 namespace {
 
 const std::vector<Estimator>& table() {
-  static const std::vector<Estimator> rows = {estimation::ols(), estimation::wls()};
+  static const std::vector<Estimator> rows = {estimation::ols(), estimation::wls(),
+                                              estimation::robust(), estimation::recursive()};
   return rows;
 }
 

@@ -20,7 +20,7 @@ struct ConditionError {
   double linear = kNotThere;  ///< rms of the linear model; NaN: this is it, or there is none
   double fitted = 0;    ///< rms on the rows that were fitted, of the same condition if they have it
   bool fails = false;   ///< significantly and materially worse than `fitted`
-  std::string verdict;  ///< "fails: 3.2 times the error of the fitted logs"
+  std::string verdict;  ///< "fails, 3.2 times": of `fitted`
 
   double ratio() const { return fitted > 0 ? rms / fitted : 0; }
 };

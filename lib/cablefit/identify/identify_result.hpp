@@ -8,6 +8,7 @@
 #include "cablefit/dynamic/dynamic_result.hpp"
 #include "cablefit/elastic/elastic_result.hpp"
 #include "cablefit/elastic/elongation_range.hpp"
+#include "cablefit/estimate/recursive_trace.hpp"
 #include "cablefit/model/model.hpp"
 #include "cablefit/model/modes.hpp"
 
@@ -36,17 +37,6 @@ struct ElongationProfile {
   std::vector<double> deviance;                 ///< 0 at the best
   double threshold = 0;                         ///< of the 95 % interval
   double low = -kUnbounded, high = kUnbounded;  ///< of the interval; infinite: beyond the points
-};
-
-/// The linear parameters after so many rows.
-struct TracePoint {
-  std::size_t n_rows = 0;         ///< of all equations
-  std::string record;             ///< "low, blocked": where the last of them comes from
-  std::vector<double> value, sd;  ///< per parameter; NaN: not known yet
-};
-struct RecursiveTrace {
-  std::vector<std::string> names, preloads, units;  ///< per parameter; preload "all": shared
-  std::vector<TracePoint> points;
 };
 
 struct IdentifyPreload {

@@ -1,6 +1,4 @@
-// Recursive least squares (R-LSA, [43] of Fichera & Grossard 2017) in square-root information form
-// (Bierman 1977, ch. V): rows are taken in one after the other by QR, and what has been seen so far
-// is solved with the equalities of the direct fit (D-LSA), whose answer is reached at the end.
+// Recursive least squares (R-LSA, recursive_trace.hpp) of the one-step identification.
 #pragma once
 
 #include "cablefit/identify/identify_result.hpp"
@@ -15,8 +13,5 @@ namespace cablefit {
 /// empty. One pass over the logs.
 RecursiveTrace recursive_trace(const JointFit& fit, const JointPoint& point,
                                const std::vector<Estimate>& estimates, int n_points = 100);
-
-/// A figure per parameter: the estimate with its band of +-2 sd, and where it ends.
-std::vector<Figure> trace_figures(const RecursiveTrace& trace);
 
 }  // namespace cablefit

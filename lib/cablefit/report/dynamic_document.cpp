@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <set>
 
 #include "cablefit/report/document_parts.hpp"
@@ -75,6 +76,76 @@ Table sd_table(const DynamicResult& result) {
   return table;
 }
 
+Table suspect_table(const DynamicResult& result) {
+  Table table;
+  table.title = "Suspect spans: where the residual sticks out of what noise explains";
+  const bool linear = !result.preloads.empty() && result.preloads.front().linear_motion;
+  table.columns = {{"", "preload", "", true},
+                   {"", "model", "", true},
+                   {"", "equation", "", true},
+                   {"", "log", "", true},
+                   {"", "from", "s"},
+                   {"", "to", "s"},
+                   {"", "largest", torque_unit(linear)}};
+  for (const DynamicPreload& preload : result.preloads)
+    for (const DynamicFit& fit : preload.fits)
+      for (const SuspectSpan& span : fit.suspects)
+        table.rows.push_back({preload.name, fit.model, span.equation,
+                              span.run.empty() ? span.log : span.log + ", run " + span.run,
+                              fmt::format("{:.3f}", span.from), fmt::format("{:.3f}", span.to),
+                              significant(span.largest, kErrorDigits)});
+  return table;
+}
+
+/// A table per preload and model: parameters down, settings across.
+std::vector<Table> sweep_tables(const DynamicResult& result) {
+  std::vector<Table> tables;
+  for (const DynamicPreload& preload : result.preloads)
+    for (const DynamicFit& fit : preload.fits) {
+      if (!fit.sweep) continue;
+      Table table;
+      table.title =
+          fmt::format("Sweep: {}, {}: change of every parameter in sd", preload.name, fit.model);
+      table.columns = {{"", "parameter", "", true}};
+      for (const SweepPoint& point : fit.sweep->points)
+        table.columns.push_back({point.setting, significant(point.value, kErrorDigits), ""});
+      for (std::size_t k = 0; k < fit.sweep->parameters.size(); ++k) {
+        std::vector<std::string> row = {fit.sweep->parameters[k]};
+        for (const SweepPoint& point : fit.sweep->points)
+          row.push_back(std::isfinite(point.change[k]) ? fmt::format("{:+.2f}", point.change[k])
+                                                       : kNoNumber);
+        table.rows.push_back(row);
+      }
+      for (const SweepVerdict& verdict : fit.sweep->verdicts)
+        table.notes.push_back(verdict.setting + ": " + verdict.text);
+      tables.push_back(std::move(table));
+    }
+  return tables;
+}
+
+std::vector<std::string> sweep_warnings(const DynamicFit& fit) {
+  std::vector<std::string> warnings;
+  if (!fit.sweep) return warnings;
+  for (const SweepVerdict& verdict : fit.sweep->verdicts)
+    if (!verdict.is_flat)
+      warnings.push_back("not flat against " + verdict.setting + ": " + verdict.text);
+  return warnings;
+}
+
+Table sd_reason_table(const DynamicResult& result) {
+  Table table;
+  table.title = "Which sd, and why";
+  table.columns = {{"", "preload", "", true},
+                   {"", "model", "", true},
+                   {"", "equation", "", true},
+                   {"", "sd", "", true}};
+  for (const DynamicPreload& preload : result.preloads)
+    for (const DynamicFit& fit : preload.fits)
+      for (const auto& [equation, reason] : fit.sd_reason)
+        table.rows.push_back({preload.name, fit.model, equation, reason});
+  return table;
+}
+
 Table conditioning_table(const DynamicResult& result) {
   Table table;
   table.title = "Conditioning";
@@ -130,6 +201,7 @@ Document dynamic_document(const DynamicResult& result) {
     add_figures(document, preload.figures);
     for (const DynamicFit& fit : preload.fits) {
       add_warnings(document, preload.name + ", " + fit.model, fit.warnings);
+      add_warnings(document, preload.name + ", " + fit.model, sweep_warnings(fit));
       add_tidy_rows(document.tidy, preload, fit);
     }
     add_validation_rows(document.tidy, preload);
@@ -139,6 +211,9 @@ Document dynamic_document(const DynamicResult& result) {
   document.tables = parameter_tables(result);
   const Table errors = error_table(result);
   if (errors.columns.size() > 2) document.tables.push_back(errors);
+  if (Table suspects = suspect_table(result); !suspects.rows.empty())
+    document.tables.push_back(std::move(suspects));
+  for (Table& table : sweep_tables(result)) document.tables.push_back(std::move(table));
   for (Table& table : validation_tables(result)) document.tables.push_back(std::move(table));
   if (const Table summary = residual_summary(result); !summary.rows.empty()) {
     document.tables.push_back(summary);
@@ -149,6 +224,8 @@ Document dynamic_document(const DynamicResult& result) {
       if (fit.proof)
         document.tables.push_back(proof_table(
             fmt::format("{}, {} by {}", preload.name, fit.model, fit.estimator), *fit.proof));
+  if (Table reasons = sd_reason_table(result); !reasons.rows.empty())
+    document.tables.push_back(std::move(reasons));
   document.tables.push_back(sd_table(result));
   document.tables.push_back(conditioning_table(result));
   document.tables.push_back(counts);

@@ -33,6 +33,32 @@ Json stage1_json(const ElasticFit& fit) {
               {"parameters", report_json::parameters(fit.parameters)}};
 }
 
+Json suspects_json(const std::vector<SuspectSpan>& spans) {
+  Json json = Json::array();
+  for (const SuspectSpan& span : spans)
+    json.push_back(Json{{"equation", span.equation},
+                        {"log", span.log},
+                        {"run", span.run},
+                        {"from", span.from},
+                        {"to", span.to},
+                        {"largest", span.largest},
+                        {"rows", span.n_rows}});
+  return json;
+}
+
+Json sweep_json(const Sweep& sweep) {
+  Json points = Json::array(), verdicts = Json::array();
+  for (const SweepPoint& point : sweep.points)
+    points.push_back(Json{{"setting", point.setting},
+                          {"factor", point.factor},
+                          {"value", point.value},
+                          {"change_in_sd", point.change}});
+  for (const SweepVerdict& verdict : sweep.verdicts)
+    verdicts.push_back(
+        Json{{"setting", verdict.setting}, {"flat", verdict.is_flat}, {"verdict", verdict.text}});
+  return Json{{"parameters", sweep.parameters}, {"points", points}, {"verdicts", verdicts}};
+}
+
 Json fit_json(const DynamicFit& fit) {
   Json json{{"model", fit.model},
             {"estimator", fit.estimator},
@@ -42,6 +68,9 @@ Json fit_json(const DynamicFit& fit) {
             {"condition", by_name(fit.condition)},
             {"effective_rows", by_name(fit.effective_rows)}};
   if (fit.elastic) json["elastic"] = stage1_json(*fit.elastic);
+  json["sd_reason"] = by_name(fit.sd_reason);
+  if (!fit.suspects.empty()) json["suspects"] = suspects_json(fit.suspects);
+  if (fit.sweep) json["sweep"] = sweep_json(*fit.sweep);
   json["verdicts"] = by_name(fit.verdicts);
   json["warnings"] = fit.warnings;
   if (fit.proof) json["prove"] = proof_json(*fit.proof);

@@ -1,12 +1,12 @@
 // Linear least squares on the rows as collected: each equation alone, or the links of an arm, which
 // share parameters, stacked.
 #include "cablefit/dynamic/estimates.hpp"
+#include "cablefit/dynamic/estimators/least_squares_fit.hpp"
 #include "cablefit/dynamic/estimators/rows.hpp"
 
 namespace cablefit::estimation {
-namespace {
 
-Estimation estimate(const EstimationTask& task, Weighting weighting) {
+Estimation least_squares_fit(const EstimationTask& task, Weighting weighting) {
   const DynamicJob& job = task.job;
   Estimation out;
   out.solutions.resize(task.equations.size());
@@ -20,16 +20,25 @@ Estimation estimate(const EstimationTask& task, Weighting weighting) {
         solve_rows(rows, first.columns, job.elastic, task.model, job.rig().linear_motion);
     add_estimates(rows, first.columns, solution, task.stage1(), task.model, job.rig().linear_motion,
                   job.options.honest_sd, out.fit);
+    const std::string reason = job.options.honest_sd
+                                   ? sd_reason(rows, first.columns, solution,
+                                               job.settings.rows.decimate * job.first_part().period)
+                                   : "white: as asked for, the paper's (25)";
     for (const std::size_t k : system) {
       add_errors(*task.equations[k].rows, task.equations[k].equation.name, solution, out.fit);
+      out.fit.sd_reason[task.equations[k].equation.name] = reason;
       out.solutions[k] = solution;
     }
   }
   return out;
 }
 
-Estimation ordinary(const EstimationTask& task) { return estimate(task, Weighting::none); }
-Estimation weighted(const EstimationTask& task) { return estimate(task, Weighting::by_residual); }
+namespace {
+
+Estimation ordinary(const EstimationTask& task) { return least_squares_fit(task, Weighting::none); }
+Estimation weighted(const EstimationTask& task) {
+  return least_squares_fit(task, Weighting::by_residual);
+}
 
 }  // namespace
 

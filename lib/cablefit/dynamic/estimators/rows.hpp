@@ -7,5 +7,7 @@ namespace cablefit::estimation {
 
 Estimator ols();
 Estimator wls();
+Estimator robust();
+Estimator recursive();
 
 }  // namespace cablefit::estimation

@@ -1,0 +1,86 @@
+#include "cablefit/estimate/sd_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/estimate/bootstrap.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr double kWhiteEnough = 1.1;  // HAC variance over the white one
+constexpr double kFewRows = 100;      // effective: below it HAC's intervals are too short
+constexpr double kBlockLengths = 5;   // correlation lengths in a block: 10 % of the variance lost
+constexpr Eigen::Index kLeastBlocks = 5;
+constexpr Eigen::Index kLeastCells = 40;
+
+/// (W'W)^-1 W' rho of every cell: what it adds to each estimate's error; cells that were dropped
+/// add nothing but take their time.
+Eigen::MatrixXd influences(const RowStatistics& rows, const std::vector<Eigen::Index>& regressors,
+                           const LinearSolution& s) {
+  const std::vector<GramCell>& cells = rows.cells();
+  const Eigen::Index first = cells.front().id, n = cells.back().id - first + 1;
+  Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(n, s.x.size());
+  for (const GramCell& cell : cells) {
+    const Eigen::VectorXd all = cell.gram * s.residual_combination;
+    for (Eigen::Index k = 0; k < s.x.size(); ++k)
+      scores(cell.id - first, k) = all(regressors[static_cast<std::size_t>(k)]);
+  }
+  return scores * s.solve_operator;
+}
+
+}  // namespace
+
+SdKind ChosenSd::worst() const {
+  SdKind worst = SdKind::white;
+  for (const SdKind one : kind) worst = std::max(worst, one);
+  return worst;
+}
+
+ChosenSd choose_sd(const RowStatistics& rows, const std::vector<Eigen::Index>& regressors,
+                   const LinearSolution& s) {
+  const Eigen::Index p = s.x.size();
+  const auto n = static_cast<double>(s.n_rows);
+  ChosenSd out;
+  out.variance = s.covariance.diagonal();
+  out.degrees_of_freedom = Eigen::VectorXd::Constant(p, s.degrees_of_freedom);
+  out.effective_rows = n;
+  double slowest = 1;
+  for (Eigen::Index k = 0; k < p; ++k) {
+    const double white = s.covariance_white(k, k);
+    const double inflation = white > 0 ? std::max(1.0, out.variance(k) / white) : 1;
+    out.effective_rows = std::min(out.effective_rows, n / inflation);
+    const bool is_slow = inflation > kWhiteEnough && n / inflation < kFewRows;
+    if (is_slow) slowest = std::max(slowest, inflation);
+    out.kind.push_back(inflation < kWhiteEnough ? SdKind::white
+                       : is_slow                ? SdKind::block_bootstrap
+                                                : SdKind::hac);
+  }
+  if (out.worst() != SdKind::block_bootstrap) return out;
+  if (static_cast<Eigen::Index>(rows.cells().size()) < kLeastCells) {
+    std::replace(out.kind.begin(), out.kind.end(), SdKind::block_bootstrap, SdKind::hac);
+    return out;
+  }
+  const Eigen::MatrixXd series = influences(rows, regressors, s);
+  const double cells_per_row = static_cast<double>(series.rows()) / n;
+  const auto resampled = [&](double inflation) {
+    const double block = std::ceil(kBlockLengths * inflation * cells_per_row);
+    return block_bootstrap(
+        series, std::min(static_cast<Eigen::Index>(block), series.rows() / kLeastBlocks));
+  };
+  // HAC's own idea of the correlation length may be too short: that of the first blocks counts too.
+  BootstrapSd bootstrap = resampled(slowest);
+  for (Eigen::Index k = 0; k < p; ++k)
+    if (out.kind[static_cast<std::size_t>(k)] == SdKind::block_bootstrap)
+      slowest = std::max(slowest, bootstrap.sd(k) * bootstrap.sd(k) / s.covariance_white(k, k));
+  bootstrap = resampled(slowest);
+  out.blocks = series.rows() / bootstrap.block;
+  for (Eigen::Index k = 0; k < p; ++k) {
+    if (out.kind[static_cast<std::size_t>(k)] != SdKind::block_bootstrap) continue;
+    out.variance(k) = std::max(out.variance(k), bootstrap.sd(k) * bootstrap.sd(k));
+    out.degrees_of_freedom(k) = std::min(s.degrees_of_freedom, bootstrap.degrees_of_freedom);
+  }
+  return out;
+}
+
+}  // namespace cablefit
