@@ -13,6 +13,7 @@
 #include "cablefit/campaign/campaign.hpp"
 #include "cablefit/dynamic/estimators.hpp"
 #include "cablefit/elastic/elastic_fit.hpp"
+#include "cablefit/prove/prove.hpp"
 #include "cablefit/report/dynamic_document.hpp"
 #include "cablefit/report/dynamic_json.hpp"
 #include "cablefit/report/elastic_json.hpp"
@@ -35,6 +36,7 @@ struct DynamicCommand {
   CommonOptions common;
   DynamicOptions fit;
   std::string elastic_file;  ///< --elastic; empty: <out>/elastic.json
+  std::size_t prove = 0;     ///< --prove: runs; 0: not asked for
 };
 
 /// Stage 1, and where it came from.
@@ -72,6 +74,10 @@ void add_dynamic_options(CLI::App& app, DynamicCommand& command) {
       app, "--estimator", "estimator", estimator_names(),
       [&command](const std::string& name) { command.fit.estimator = name; },
       "see 'cablefit list estimators' [wls]");
+  add_whole(
+      app, "--prove", "N", {20, 100000},
+      [&command](long n) { command.prove = static_cast<std::size_t>(n); },
+      "rerun the fit on N simulated logs of its own model: do the intervals cover?");
 }
 
 bool is_elastic(const DynamicCommand& command) {
@@ -99,10 +105,15 @@ Stage1 read_stage1(const std::string& path) {
   return stage1;
 }
 
-Stage1 fit_stage1(const DynamicCommand& command, const std::vector<LogSurvey>& blocked) {
+ElasticOptions stage1_options(const DynamicCommand& command) {
   ElasticOptions options;
   options.samples.threads = command.common.samples.threads;
   options.preload = command.common.preload;
+  return options;
+}
+
+Stage1 fit_stage1(const DynamicCommand& command, const std::vector<LogSurvey>& blocked) {
+  const ElasticOptions options = stage1_options(command);
   const Progress progress(command.common.quiet, "fitting stage 1");
   Stage1 stage1;
   stage1.result = fit_elastic(blocked, options);
@@ -123,9 +134,12 @@ std::optional<Stage1> earlier_stage1(const DynamicCommand& command) {
   return read_stage1(path);
 }
 
+std::vector<LogSurvey> blocked_of(const std::vector<LogSurvey>& logs) {
+  return logs_with(logs, [](const PartSurvey& part) { return part.phase == Phase::blocked; });
+}
+
 Stage1 stage1_from_logs(const DynamicCommand& command, const std::vector<LogSurvey>& logs) {
-  const std::vector<LogSurvey> blocked =
-      logs_with(logs, [](const PartSurvey& part) { return part.phase == Phase::blocked; });
+  const std::vector<LogSurvey> blocked = blocked_of(logs);
   if (!blocked.empty()) return fit_stage1(command, blocked);
   throw input_error({default_elastic_file(command.common), 0, 0}, "no result of stage 1",
                     "run 'cablefit elastic' on blocked logs first, add them here, name a result "
@@ -159,6 +173,25 @@ std::vector<LogSurvey> campaign_logs(const CommonOptions& options) {
   return logs;
 }
 
+/// --prove: fills in what simulated logs say of the fits.
+void prove(const DynamicCommand& command, const std::vector<LogSurvey>& moving,
+           const std::vector<LogSurvey>& blocked, const Stage1& stage1, DynamicResult& result) {
+  Progress display(command.common.quiet, "proving");
+  ProveOptions options;
+  options.n_runs = command.prove;
+  options.seed = command.common.seed;
+  options.threads = command.common.samples.threads;
+  options.progress = [&display](std::size_t done, std::size_t of) {
+    display.rename(fmt::format("proving: run {} of {}", done, of));
+  };
+  ProveStage1 elastic;
+  if (is_elastic(command)) elastic.result = &stage1.result;
+  elastic.logs = blocked;
+  elastic.options = stage1_options(command);
+  elastic.options.samples.threads = 1;
+  prove_dynamic(moving, elastic, command.fit, options, result);
+}
+
 }  // namespace
 
 int run_dynamic(const Arguments& arguments) {
@@ -190,6 +223,7 @@ int run_dynamic(const Arguments& arguments) {
     const Progress progress(options.quiet, "fitting stage 2");
     return fit_dynamic(moving.empty() ? logs : moving, stage1.result, command.fit);
   }();
+  if (command.prove > 0) prove(command, moving, blocked_of(logs), stage1, result);
   if (takes_stage1) add_stage1(stage1, result);
 
   std::vector<ResultFile> files = {{"dynamic.json", dynamic_json(result)}};

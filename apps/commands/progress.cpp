@@ -54,6 +54,11 @@ Progress::~Progress() {
   thread_.join();
 }
 
+void Progress::rename(std::string what) {
+  const std::lock_guard lock(mutex_);
+  what_ = std::move(what);
+}
+
 void Progress::show() {
   ProgressLine line(what_, steady_seconds());
   std::unique_lock lock(mutex_);
@@ -61,6 +66,7 @@ void Progress::show() {
   while (!done_.wait_for(lock, wait, [this] { return is_done_; })) {
     wait = kNext;
     is_shown = 1;
+    line.rename(what_);
     say(fmt::format("{}{}", kClearLine,
                     line.at(steady_seconds(), read_progress(), terminal_width())));
   }

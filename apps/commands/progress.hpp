@@ -14,6 +14,8 @@ class Progress {
  public:
   Progress(bool quiet, std::string what);
   ~Progress();
+  /// What it says from now on; from any thread.
+  void rename(std::string what);
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 

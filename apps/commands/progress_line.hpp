@@ -19,6 +19,7 @@ class ProgressLine {
   /// "reading logs: big.csv [####....]  45 %, 230 MB/s, 3 s left" once a pass takes longer than a
   /// second, "fitting stage 1 ... 12 s" while nothing is read; at most `width` characters.
   std::string at(double seconds, const ReadProgress& now, std::size_t width);
+  void rename(const std::string& what) { what_ = what; }
 
  private:
   std::string what_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cablefit/elastic/elastic_result.hpp"
+#include "cablefit/estimate/fit_proof.hpp"
 
 namespace cablefit {
 
@@ -26,6 +27,7 @@ struct DynamicFit {
   std::optional<ElasticFit> elastic;            ///< what was used of stage 1
   std::map<std::string, std::string> verdicts;  ///< "J_link": "identified", ...
   std::vector<std::string> warnings;
+  std::optional<FitProof> proof;  ///< of a rerun on simulated logs, when it was asked for
 };
 
 /// How long the measured torque is before its effect, and what was made of it.

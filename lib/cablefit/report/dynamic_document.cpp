@@ -6,6 +6,7 @@
 
 #include "cablefit/report/document_parts.hpp"
 #include "cablefit/report/numbers.hpp"
+#include "cablefit/report/proof_report.hpp"
 
 namespace cablefit {
 namespace {
@@ -135,6 +136,11 @@ Document dynamic_document(const DynamicResult& result) {
   document.tables = parameter_tables(result);
   const Table errors = error_table(result);
   if (errors.columns.size() > 2) document.tables.push_back(errors);
+  for (const DynamicPreload& preload : result.preloads)
+    for (const DynamicFit& fit : preload.fits)
+      if (fit.proof)
+        document.tables.push_back(proof_table(
+            fmt::format("{}, {} by {}", preload.name, fit.model, fit.estimator), *fit.proof));
   document.tables.push_back(sd_table(result));
   document.tables.push_back(conditioning_table(result));
   document.tables.push_back(counts);

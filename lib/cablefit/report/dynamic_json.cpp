@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cablefit/report/json_parts.hpp"
+#include "cablefit/report/proof_report.hpp"
 
 namespace cablefit {
 namespace {
@@ -42,6 +43,7 @@ Json fit_json(const DynamicFit& fit) {
   if (fit.elastic) json["elastic"] = stage1_json(*fit.elastic);
   json["verdicts"] = by_name(fit.verdicts);
   json["warnings"] = fit.warnings;
+  if (fit.proof) json["prove"] = proof_json(*fit.proof);
   return json;
 }
 

@@ -1,0 +1,52 @@
+// Coloured noise like a residual: its autocovariance, an autoregressive model of it, and new noise
+// of that colour.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "cablefit/base/random.hpp"
+
+namespace cablefit {
+
+/// Autocovariance of a series with holes; only pairs that are both there count.
+class Autocovariance {
+ public:
+  explicit Autocovariance(std::size_t n_lags) : products_(n_lags), n_pairs_(n_lags) {}
+  /// Next values with their places on the grid, ascending over all calls.
+  void add(std::span<const Eigen::Index> numbers, const Eigen::Ref<const Eigen::VectorXd>& values);
+
+  /// Lag 0, 1, ...; 0 where no pair was there. About zero, not about the mean: a residual has none,
+  /// and what is left of one is part of what it is off by.
+  Eigen::VectorXd values() const;
+  std::size_t n_values() const { return n_pairs_.empty() ? 0 : n_pairs_.front(); }
+
+ private:
+  struct Value {
+    Eigen::Index number;
+    double value;
+  };
+  std::vector<double> products_;
+  std::vector<std::size_t> n_pairs_;
+  std::vector<Value> recent_;  // ring of as many values as there are lags
+  std::size_t next_ = 0;
+};
+
+/// x_i = sum_k coefficients[k] x_(i-1-k) + innovation, `period` s apart.
+struct ArModel {
+  double period = 0;
+  std::vector<double> coefficients;
+  double innovation_sd = 0;
+  double sd = 0;  ///< of x
+};
+
+/// Yule-Walker by Levinson-Durbin, of the order up to the number of lags that has the least AIC
+/// (Akaike 1974) for `n_values`. Where the autocovariance is not positive definite the order ends.
+/// Autocovariance that is not positive at lag 0: no noise, sd 0.
+ArModel fit_ar(const Eigen::VectorXd& autocovariance, double period, std::size_t n_values);
+
+/// n_rows values `period` s apart, linear between the model's own, from its stationary state.
+Eigen::ArrayXd draw(const ArModel& model, Eigen::Index n_rows, double period, Random& random);
+
+}  // namespace cablefit

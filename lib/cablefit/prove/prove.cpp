@@ -1,0 +1,214 @@
+#include "cablefit/prove/prove.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <optional>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/base/parallel.hpp"
+#include "cablefit/prove/fitted_model.hpp"
+#include "cablefit/prove/residual_colour.hpp"
+#include "cablefit/prove/stage1_draw.hpp"
+#include "cablefit/prove/twin.hpp"
+
+namespace cablefit {
+namespace {
+
+/// Streams of random numbers of one run, and of the run that tells what noise alone leaves.
+constexpr std::uint64_t kDisturbances = 1, kSensors = 2, kStage1 = 3, kCalibration = 4;
+
+/// Everything that the runs of one fit share.
+struct Plan {
+  Twin moving;
+  std::optional<Twin> blocked;  ///< none: stage 1 is drawn
+  TwinDisturbance disturbance;
+  DynamicOptions options;  ///< of the fit in each run
+  const ProveStage1* stage1 = nullptr;
+  const ElasticFit* elastic = nullptr;
+};
+
+/// What a run found; a complaint instead when there is nothing.
+struct Run {
+  std::vector<Estimate> parameters;
+  std::string failure;
+};
+
+/// What noise and rounding do not explain of the residuals is a disturbance.
+TwinDisturbance disturbances_of(const std::map<std::string, ResidualColour>& measured,
+                                const std::map<std::string, ResidualColour>& by_noise, int n_joints,
+                                std::vector<std::string>& notes) {
+  TwinDisturbance disturbance;
+  disturbance.motor.resize(static_cast<std::size_t>(n_joints));
+  disturbance.link.resize(static_cast<std::size_t>(n_joints));
+  for (const auto& [name, colour] : measured) {
+    Eigen::VectorXd left = colour.autocovariance;
+    const auto noise = by_noise.find(name);
+    const bool same_grid = noise != by_noise.end() && noise->second.period == colour.period;
+    if (same_grid) left -= noise->second.autocovariance;
+    const ArModel model = fit_ar(left, colour.period, colour.n_values);
+    auto& of_side = colour.side == Side::link ? disturbance.link : disturbance.motor;
+    of_side[static_cast<std::size_t>(colour.joint)] = model;
+    const double total = std::sqrt(colour.autocovariance(0));
+    notes.push_back(
+        fmt::format("{} equation: residual {:.3g} rms, of which {:.3g} are simulated "
+                    "as a disturbance, autoregressive of order {}",
+                    name, total, model.sd, model.coefficients.size()));
+  }
+  return disturbance;
+}
+
+Run run_once(const Plan& plan, std::uint64_t seed) {
+  Run run;
+  try {
+    Random disturbances(seed, kDisturbances), sensors(seed, kSensors), draws(seed, kStage1);
+    ElasticResult elastic;
+    if (plan.blocked) {
+      const auto motions = run_twin(*plan.blocked, plan.disturbance, disturbances);
+      elastic = fit_elastic(record_twin(*plan.blocked, motions, sensors), plan.stage1->options);
+    } else if (plan.elastic != nullptr) {
+      elastic = draw_stage1(*plan.stage1->result, plan.options.preload, *plan.elastic, draws);
+    }
+    const auto motions = run_twin(plan.moving, plan.disturbance, disturbances);
+    const std::vector<LogSurvey> logs = record_twin(plan.moving, motions, sensors);
+    run.parameters = fit_dynamic(logs, elastic, plan.options).preloads.at(0).fits.at(0).parameters;
+  } catch (const Error& error) {
+    run.failure = error.what();
+  }
+  return run;
+}
+
+PartFilter parts_of(Phase phase, const std::string& preload) {
+  return [phase, preload](const PartSurvey& part) {
+    return part.phase == phase && part.preload == preload;
+  };
+}
+
+bool has_part(std::span<const LogSurvey> logs, const PartFilter& wanted) {
+  return std::any_of(logs.begin(), logs.end(), [&](const LogSurvey& log) {
+    return std::any_of(log.parts.begin(), log.parts.end(), wanted);
+  });
+}
+
+/// What the low-pass of stage 2 lets through; 0: there is none.
+double cutoff_of(const DynamicPreload& preload, std::span<const LogSurvey> logs,
+                 const DynamicOptions& options) {
+  if (options.samples.cutoff) return *options.samples.cutoff;
+  const PartFilter wanted = parts_of(Phase::moving, preload.name);
+  return moving_settings(logs, wanted, options.samples, preload.resonance).rows.signal.cutoff;
+}
+
+void add_blocked(const ProveStage1& stage1, const DynamicPreload& preload, const Model& model,
+                 const TwinDrive& drive, Plan& plan) {
+  const PartFilter wanted = parts_of(Phase::blocked, preload.name);
+  if (stage1.logs.empty() || !has_part(stage1.logs, wanted)) {
+    plan.moving.notes.push_back("stage 1 drawn from its covariance");
+    return;
+  }
+  plan.blocked = make_twin(model, stage1.logs, wanted, drive);
+  Random unused(0);
+  choose_sensors(*plan.blocked, run_twin(*plan.blocked, {}, unused));
+  plan.moving.notes.push_back("stage 1 rerun on simulated blocked logs");
+}
+
+Plan make_plan(std::span<const LogSurvey> logs, const ProveStage1& stage1,
+               const DynamicOptions& options, const ProveOptions& prove, const Model& model,
+               const DynamicPreload& preload, const DynamicFit& fit) {
+  Plan plan;
+  plan.options = options;
+  plan.options.models = {fit.model};
+  plan.options.preload = preload.name;
+  plan.options.figures = false;
+  plan.options.samples.threads = 1;
+  plan.stage1 = &stage1;
+  if (fit.elastic) plan.elastic = &*fit.elastic;
+  const TwinDrive drive{preload.delay.held, cutoff_of(preload, logs, options)};
+  plan.moving = make_twin(model, logs, parts_of(Phase::moving, preload.name), drive);
+  for (std::string& note : plan.moving.notes) note = "controller: " + note;
+  const ElasticResult none;
+  const ElasticResult& elastic = stage1.result != nullptr ? *stage1.result : none;
+  Random calibration(prove.seed, kCalibration);
+  const auto quiet = run_twin(plan.moving, {}, calibration);
+  choose_sensors(plan.moving, quiet);
+  DynamicOptions colours = options;
+  colours.samples.threads = prove.threads;
+  const auto by_noise = residual_colours(record_twin(plan.moving, quiet, calibration), preload.name,
+                                         elastic, fit, colours);
+  plan.disturbance = disturbances_of(residual_colours(logs, preload.name, elastic, fit, colours),
+                                     by_noise, model.rig.n_joints(), plan.moving.notes);
+  if (plan.elastic != nullptr) add_blocked(stage1, preload, model, drive, plan);
+  return plan;
+}
+
+std::string verdict_of(const FitProof& proof) {
+  std::vector<std::string> narrow, biased;
+  for (const ProvedParameter& p : proof.parameters) {
+    if (p.factor > 1) narrow.push_back(p.name);
+    if (p.verdict.find("biased") != std::string::npos) biased.push_back(p.name);
+  }
+  std::string text = narrow.empty()
+                         ? "the 95 % intervals cover"
+                         : fmt::format("the intervals of {} are too narrow and were widened",
+                                       fmt::join(narrow, ", "));
+  if (!biased.empty())
+    text += fmt::format("; {} off by more than half an sd on average", fmt::join(biased, ", "));
+  return text;
+}
+
+FitProof prove_fit(const Plan& plan, const ProveOptions& prove, const DynamicFit& fit) {
+  FitProof proof;
+  proof.n_runs = prove.n_runs;
+  proof.seed = prove.seed;
+  proof.notes = plan.moving.notes;
+  std::vector<Run> runs;
+  ordered_pipeline<std::uint64_t>(
+      prove.threads,
+      [&](auto emit) {
+        for (std::size_t k = 0; k < prove.n_runs; ++k) emit(std::uint64_t{prove.seed + k});
+      },
+      [&](std::uint64_t seed) { return run_once(plan, seed); },
+      [&](Run run) {
+        runs.push_back(std::move(run));
+        if (prove.progress) prove.progress(runs.size(), prove.n_runs);
+      });
+  for (const Run& run : runs) {
+    if (run.failure.empty()) continue;
+    if (proof.n_failed++ == 0) proof.first_failure = run.failure;
+  }
+  for (const Estimate& e : fit.parameters) {
+    if (!e.not_identifiable.empty() || !(e.sd > 0)) continue;
+    std::vector<Estimate> found;
+    for (const Run& run : runs)
+      if (const Estimate* same = find_estimate(run.parameters, e.name)) found.push_back(*same);
+    proof.parameters.push_back(judge_runs(e, found));
+  }
+  proof.verdict = verdict_of(proof);
+  return proof;
+}
+
+const LogSurvey& log_of(std::span<const LogSurvey> logs, const std::string& preload) {
+  return first_log_with(logs, parts_of(Phase::moving, preload));
+}
+
+}  // namespace
+
+void prove_dynamic(std::span<const LogSurvey> logs, const ProveStage1& stage1,
+                   const DynamicOptions& options, const ProveOptions& prove,
+                   DynamicResult& result) {
+  for (DynamicPreload& preload : result.preloads) {
+    const Rig& rig = log_of(logs, preload.name).plan.rig;
+    for (DynamicFit& fit : preload.fits) {
+      std::string why_not;
+      const Model model = fitted_model(fit, preload, rig, why_not);
+      if (!why_not.empty()) {
+        fit.warnings.push_back("not proved: " + why_not);
+        continue;
+      }
+      const Plan plan = make_plan(logs, stage1, options, prove, model, preload, fit);
+      fit.proof = prove_fit(plan, prove, fit);
+      widen(fit.parameters, *fit.proof);
+    }
+  }
+}
+
+}  // namespace cablefit

@@ -1,0 +1,30 @@
+// What a fit leaves of its equations on given logs, as autocovariances. Internal to prove/.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+
+#include "cablefit/dynamic/dynamic_fit.hpp"
+#include "cablefit/prove/coloured_noise.hpp"
+
+namespace cablefit {
+
+/// Of one equation: residual torque on the grid of the rows used.
+struct ResidualColour {
+  Side side = Side::motor;
+  int joint = 0;
+  Eigen::VectorXd autocovariance;  ///< (N m)^2, lags of `period`
+  double period = 0;               ///< s, of the rows after decimation
+  std::size_t n_values = 0;
+};
+
+/// The fit's residuals on logs of one preload, with the settings that stage 2 chooses for them. By
+/// the name of the equation.
+std::map<std::string, ResidualColour> residual_colours(std::span<const LogSurvey> logs,
+                                                       const std::string& preload,
+                                                       const ElasticResult& elastic,
+                                                       const DynamicFit& fit,
+                                                       const DynamicOptions& options);
+
+}  // namespace cablefit

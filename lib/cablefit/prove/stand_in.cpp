@@ -1,0 +1,127 @@
+#include "cablefit/prove/stand_in.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "cablefit/samples/butterworth.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr double kBandwidth = 5;      // Hz: slower than most joint controllers, so that little of a
+                                      // disturbance comes back that did not before
+constexpr double kLargestGain = 0.3;  // kd period / J_motor; a sampled loop is unstable at 2
+constexpr int kCommandsPerRow = 8;    // of a torque that is not held
+constexpr double kWidestBand = 0.4;   // of the rate, for the low-pass
+constexpr int kFilterOrder = 4;
+
+double inertia(const std::vector<EffectInstance>& effects) {
+  double sum = 0;
+  for (const EffectInstance& e : effects) {
+    std::vector<double> parameters;
+    for (const Estimate& p : e.parameters) parameters.push_back(p.value);
+    if (e.effect->inertia != nullptr) sum += e.effect->inertia(parameters.data());
+  }
+  return sum;
+}
+
+struct Inertias {
+  double drive = kUnbounded, all = kUnbounded;  ///< the least of all joints, kg m^2
+};
+
+Inertias inertias_of(const Model& model, bool link_blocked) {
+  Inertias least;
+  for (const JointModel& joint : model.joints) {
+    const double motor = inertia(joint.motor);
+    least.drive = std::min(least.drive, motor);
+    least.all = std::min(least.all, motor + (link_blocked ? 0 : inertia(joint.link)));
+  }
+  return least;
+}
+
+bool has_reference(const LogPlan& plan) {
+  for (int joint = 0; joint < plan.rig.n_joints(); ++joint)
+    if (!plan.has(Channel::theta_ref, joint)) return false;
+  return plan.rig.controller.has_value();
+}
+
+/// A PD controller of kBandwidth, as damped as the motor's inertia allows.
+Controller stand_in(const Inertias& inertias, double period) {
+  const double omega = 2 * std::numbers::pi * kBandwidth;
+  Controller controller;
+  controller.kd = std::min(2 * inertias.all * omega, kLargestGain * inertias.drive / period);
+  controller.kp = controller.kd * omega / 2;
+  controller.period = period;
+  return controller;
+}
+
+Eigen::MatrixXd smooth(const Eigen::MatrixXd& columns, double period, double cutoff) {
+  Eigen::MatrixXd out = columns;
+  if (cutoff > 0 && cutoff < kWidestBand / period)
+    Butterworth(kFilterOrder, cutoff, 1 / period).apply(out, true, true);
+  return out;
+}
+
+/// theta_ref with which the controller's torque at theta is exactly tau: theta + e, where
+/// kp e_i + kd (e_i - e_(i-1)) / period = tau_i.
+Eigen::ArrayXd reference_for(const Eigen::ArrayXd& theta, const Eigen::ArrayXd& tau,
+                             const Controller& controller, double period) {
+  const double kd = controller.kd / period;
+  Eigen::ArrayXd reference = theta;
+  double error = tau.size() > 0 ? tau(0) / controller.kp : 0;
+  for (Eigen::Index i = 0; i < tau.size(); ++i) {
+    error = (tau(i) + kd * error) / (controller.kp + kd);
+    reference(i) += error;
+  }
+  return reference;
+}
+
+void follow_measured(const Model& model, const LogPlan& plan, const TwinDrive& drive,
+                     TwinStretch& stretch) {
+  const double period = stretch.input.period;
+  const Controller controller = stand_in(inertias_of(model, stretch.link_blocked),
+                                         drive.torque_held ? period : period / kCommandsPerRow);
+  const int n_joints = plan.rig.n_joints();
+  stretch.input.theta_ref.resize(stretch.measured.rows(), n_joints);
+  for (int joint = 0; joint < n_joints; ++joint) {
+    Eigen::MatrixXd both(stretch.measured.rows(), 2);
+    both.col(0) = stretch.measured.col(plan.find(Channel::theta, joint));
+    both.col(1) = stretch.measured.col(plan.find(Channel::tau, joint));
+    both = smooth(both, period, drive.cutoff);
+    stretch.input.theta_ref.col(joint) =
+        reference_for(both.col(0).array(), both.col(1).array(), controller, period);
+  }
+  stretch.rig.controller = controller;
+  stretch.rig.sensors.clear();  // it reads theta as it is; what is recorded is rounded all the same
+}
+
+}  // namespace
+
+std::string choose_controller(const Model& model, const LogSurvey& log, const TwinDrive& drive,
+                              TwinStretch& stretch) {
+  const LogPlan& plan = log.plan;
+  stretch.rig = plan.rig;
+  if (!has_reference(plan)) {
+    follow_measured(model, plan, drive, stretch);
+    return fmt::format(
+        "a stand-in of {:g} Hz that follows the measured theta, the measured torque as "
+        "feed-forward",
+        kBandwidth);
+  }
+  const int n_joints = plan.rig.n_joints();
+  stretch.input.theta_ref.resize(stretch.measured.rows(), n_joints);
+  for (int joint = 0; joint < n_joints; ++joint) {
+    stretch.input.theta_ref.col(joint) =
+        stretch.measured.col(plan.find(Channel::theta_ref, joint)).array();
+    const auto theta = static_cast<std::size_t>(plan.find(Channel::theta, joint));
+    SensorInfo& sensor =
+        stretch.rig
+            .sensors[n_joints > 1 ? fmt::format("theta{}", joint + 1) : std::string("theta")];
+    if (!sensor.quantum) sensor.quantum = log.parts[stretch.part].channels[theta].quantum;
+  }
+  return "the rig's, with the reference of the log";
+}
+
+}  // namespace cablefit

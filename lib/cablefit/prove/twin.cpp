@@ -1,0 +1,100 @@
+#include "cablefit/prove/twin.hpp"
+
+#include <algorithm>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/prove/stand_in.hpp"
+#include "cablefit/samples/noise.hpp"
+#include "cablefit/simulate/start_state.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr Eigen::Index kLeastRows = 16;  // a shorter stretch shows no motion
+
+void require_channels(const LogPlan& plan, bool rigid) {
+  require_channel(plan, Channel::theta, "the simulated logs of --prove");
+  require_channel(plan, Channel::tau, "the simulated logs of --prove");
+  if (!rigid) require_channel(plan, Channel::q, "the simulated logs of --prove");
+}
+
+/// Rows of a window behind those of the stretch.
+void append(TwinStretch& stretch, const Window& window) {
+  const Eigen::Index before = stretch.measured.rows();
+  stretch.measured.conservativeResize(before + window.data.rows(), window.data.cols());
+  stretch.measured.bottomRows(window.data.rows()) = window.data;
+}
+
+std::vector<TwinStretch> read_stretches(const LogSurvey& log, std::size_t number,
+                                        const PartFilter& wanted) {
+  std::vector<TwinStretch> stretches;
+  for_each_window(log, wanted, 0, kLeastRows, 0, [&](Window&& window) {
+    if (window.starts_segment && window.begin == 0) {
+      stretches.emplace_back();
+      stretches.back().log = number;
+      stretches.back().part = window.part;
+      stretches.back().t0 = window.t0;
+      stretches.back().input.period = window.period;
+    }
+    append(stretches.back(), window);
+    return true;
+  });
+  return stretches;
+}
+
+void set_start(const LogSurvey& log, TwinStretch& stretch) {
+  const PartSurvey& part = log.parts[stretch.part];
+  const int n_joints = log.plan.rig.n_joints();
+  SimulationInput& input = stretch.input;
+  input.q0 = input.qd0 = input.theta0 = input.thetad0 = Eigen::VectorXd::Zero(n_joints);
+  const auto state_of = [&](Channel channel, int joint) -> StartState {
+    const int slot = log.plan.find(channel, joint);
+    if (slot < 0) return {};
+    return start_state(stretch.measured.col(slot).array(), 0, input.period,
+                       position_noise(log, part, channel, joint));
+  };
+  for (int joint = 0; joint < n_joints; ++joint) {
+    const StartState q = state_of(Channel::q, joint), theta = state_of(Channel::theta, joint);
+    input.q0[joint] = q.position;
+    input.qd0[joint] = q.velocity;
+    input.theta0[joint] = theta.position;
+    input.thetad0[joint] = theta.velocity;
+  }
+}
+
+void set_load(const LogPlan& plan, TwinStretch& stretch) {
+  const int n_joints = plan.rig.n_joints();
+  for (int joint = 0; joint < n_joints; ++joint)
+    if (!plan.has(Channel::tau_load, joint)) return;
+  stretch.input.tau_load.resize(stretch.measured.rows(), n_joints);
+  for (int joint = 0; joint < n_joints; ++joint)
+    stretch.input.tau_load.col(joint) =
+        stretch.measured.col(plan.find(Channel::tau_load, joint)).array();
+}
+
+}  // namespace
+
+Twin make_twin(const Model& model, std::span<const LogSurvey> logs, const PartFilter& wanted,
+               const TwinDrive& drive) {
+  Twin twin;
+  twin.model = model;
+  for (std::size_t k = 0; k < logs.size(); ++k) {
+    const LogSurvey& log = logs[k];
+    twin.plans.push_back(log.plan);
+    twin.parts.push_back(log.parts);
+    if (std::none_of(log.parts.begin(), log.parts.end(), wanted)) continue;
+    require_channels(log.plan, model.rigid);
+    for (TwinStretch& stretch : read_stretches(log, k, wanted)) {
+      stretch.link_blocked = log.parts[stretch.part].phase == Phase::blocked;
+      set_start(log, stretch);
+      set_load(log.plan, stretch);
+      const std::string which = choose_controller(model, log, drive, stretch);
+      if (std::find(twin.notes.begin(), twin.notes.end(), which) == twin.notes.end())
+        twin.notes.push_back(which);
+      twin.stretches.push_back(std::move(stretch));
+    }
+  }
+  return twin;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,71 @@
+// A twin of an experiment: the same motion, sensors and clock as the logs have, with a model in
+// place of the bench. Internal to prove/.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cablefit/base/random.hpp"
+#include "cablefit/prove/coloured_noise.hpp"
+#include "cablefit/samples/recorded.hpp"
+#include "cablefit/samples/row_stream.hpp"
+#include "cablefit/simulate/simulator.hpp"
+
+namespace cablefit {
+
+/// Evenly spaced rows without a gap, of one part of one log.
+struct TwinStretch {
+  std::size_t log = 0, part = 0;
+  double t0 = 0;             ///< s
+  Eigen::MatrixXd measured;  ///< rows x slots of the log's plan
+  SimulationInput input;     ///< reference, load and initial state
+  Rig rig;                   ///< the log's, with the controller that is simulated
+  bool link_blocked = false;
+};
+
+/// How a log's channels are measured: rounded to `quantum` after noise of `noise` was added.
+struct TwinSensor {
+  double quantum = 0, noise = 0;
+};
+
+/// Disturbance torques, per joint; sd 0: none.
+struct TwinDisturbance {
+  std::vector<ArModel> motor, link;
+};
+
+struct Twin {
+  Model model;
+  std::vector<LogPlan> plans;  ///< as those of the logs
+  std::vector<std::vector<PartSurvey>> parts;
+  std::vector<TwinStretch> stretches;
+  std::vector<std::vector<TwinSensor>> sensors;  ///< by log and slot
+  std::vector<std::string> notes;                ///< what is simulated, in words
+};
+
+/// What decides about the controller of a twin.
+struct TwinDrive {
+  bool torque_held = true;
+  double cutoff = 0;  ///< Hz, of the low-pass on what a stand-in follows; 0: none
+};
+
+/// The parts of the logs for which `wanted` says true, in closed loop: the rig's controller where
+/// it and its reference are known, else a stand-in that follows the measured theta with the
+/// measured torque as feed-forward. Blocked parts have their link held. Throws Error(input) for a
+/// missing channel.
+Twin make_twin(const Model& model, std::span<const LogSurvey> logs, const PartFilter& wanted,
+               const TwinDrive& drive);
+
+/// The true motion of every stretch. Throws Error(not_identifiable) when it diverges.
+std::vector<SimulationResult> run_twin(const Twin& twin, const TwinDisturbance& disturbance,
+                                       Random& random);
+
+/// Motions as a recorder with the twin's sensors sees them.
+std::vector<LogSurvey> record_twin(const Twin& twin, const std::vector<SimulationResult>& motions,
+                                   Random& random);
+
+/// Fills `sensors` from the rig files, and where they say nothing so that the twin's logs look as
+/// noisy as the measured ones: `motions` are those without disturbances.
+void choose_sensors(Twin& twin, const std::vector<SimulationResult>& motions);
+
+}  // namespace cablefit

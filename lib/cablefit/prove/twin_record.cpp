@@ -1,0 +1,165 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/prove/twin.hpp"
+
+namespace cablefit {
+namespace {
+
+Eigen::ArrayXXd disturbances(const std::vector<ArModel>& models, const TwinStretch& stretch,
+                             Random& random) {
+  bool any = false;
+  for (const ArModel& model : models) any |= model.sd > 0;
+  if (!any) return {};
+  const Eigen::Index n_rows = stretch.measured.rows();
+  Eigen::ArrayXXd table(n_rows, static_cast<Eigen::Index>(models.size()));
+  for (std::size_t k = 0; k < models.size(); ++k)
+    table.col(static_cast<Eigen::Index>(k)) = draw(models[k], n_rows, stretch.input.period, random);
+  return table;
+}
+
+/// What really happened on a slot; nullptr: it is an input and stays as it was measured.
+const Eigen::ArrayXXd* truth_of(const SimulationResult& motion, Channel channel) {
+  switch (channel) {
+    case Channel::q:
+      return &motion.q;
+    case Channel::theta:
+      return &motion.theta;
+    case Channel::w:
+      return &motion.thetad;
+    case Channel::tau:
+      return &motion.tau;
+    case Channel::tau_load:
+    case Channel::theta_ref:
+      return nullptr;
+  }
+  return nullptr;
+}
+
+Eigen::ArrayXd measure(const Eigen::ArrayXd& truth, const TwinSensor& sensor, Random& random) {
+  Eigen::ArrayXd out = truth;
+  for (Eigen::Index i = 0; i < out.size(); ++i) {
+    if (sensor.noise > 0) out(i) += sensor.noise * random.normal();
+    if (sensor.quantum > 0) out(i) = sensor.quantum * std::round(out(i) / sensor.quantum);
+  }
+  return out;
+}
+
+/// [t, slots] of a stretch.
+Eigen::MatrixXd recorded_rows(const TwinStretch& stretch, const SimulationResult& motion,
+                              const LogPlan& plan, const std::vector<TwinSensor>& sensors,
+                              Random& random) {
+  Eigen::MatrixXd rows(stretch.measured.rows(), stretch.measured.cols() + 1);
+  rows.rightCols(stretch.measured.cols()) = stretch.measured;
+  for (Eigen::Index i = 0; i < rows.rows(); ++i)
+    rows(i, 0) = stretch.t0 + static_cast<double>(i) * stretch.input.period;
+  for (std::size_t k = 0; k < plan.slots.size(); ++k) {
+    const Slot& slot = plan.slots[k];
+    const Eigen::ArrayXXd* truth = truth_of(motion, slot.channel);
+    if (truth == nullptr) continue;
+    if (stretch.link_blocked && slot.channel == Channel::q) continue;
+    rows.col(static_cast<Eigen::Index>(k) + 1) =
+        measure(truth->col(slot.joint), sensors.empty() ? TwinSensor{} : sensors[k], random);
+  }
+  return rows;
+}
+
+RecordedPart begin_part(const PartSurvey& part) {
+  return {part.preload, part.run, part.phase, true, {}};
+}
+
+/// What the rig file says of a slot's sensor; nullptr: nothing.
+const SensorInfo* sensor_of(const LogPlan& plan, const Slot& slot) {
+  const std::string name(channel_name(slot.channel));
+  auto found =
+      plan.rig.sensors.find(plan.rig.n_joints() > 1 ? name + std::to_string(slot.joint + 1) : name);
+  if (found == plan.rig.sensors.end()) found = plan.rig.sensors.find(name);
+  return found == plan.rig.sensors.end() ? nullptr : &found->second;
+}
+
+bool is_position(Channel channel) { return channel == Channel::q || channel == Channel::theta; }
+
+/// White noise that the measured channel has more than the simulated one.
+double noise_left(const ChannelSurvey& measured, const ChannelSurvey& simulated) {
+  const double more = measured.noise * measured.noise - simulated.noise * simulated.noise;
+  return more > 0 ? std::sqrt(more) : 0;
+}
+
+}  // namespace
+
+std::vector<SimulationResult> run_twin(const Twin& twin, const TwinDisturbance& disturbance,
+                                       Random& random) {
+  std::vector<SimulationResult> motions;
+  for (const TwinStretch& stretch : twin.stretches) {
+    Model model = twin.model;
+    model.rig = stretch.rig;
+    SimulationInput input = stretch.input;
+    input.motor_disturbance = disturbances(disturbance.motor, stretch, random);
+    if (!stretch.link_blocked)
+      input.link_disturbance = disturbances(disturbance.link, stretch, random);
+    SimulationOptions options;
+    options.closed_loop = true;
+    options.link_blocked = stretch.link_blocked;
+    motions.push_back(simulate(model, input, options));
+    if (motions.back().diverged_at)
+      throw Error(ErrorKind::not_identifiable,
+                  fmt::format("the simulated loop of {} diverged", twin.plans[stretch.log].path));
+  }
+  return motions;
+}
+
+std::vector<LogSurvey> record_twin(const Twin& twin, const std::vector<SimulationResult>& motions,
+                                   Random& random) {
+  std::vector<LogSurvey> logs;
+  for (std::size_t log = 0; log < twin.plans.size(); ++log) {
+    std::vector<RecordedPart> parts;
+    std::size_t last = twin.parts[log].size();
+    for (std::size_t k = 0; k < twin.stretches.size(); ++k) {
+      const TwinStretch& stretch = twin.stretches[k];
+      if (stretch.log != log) continue;
+      if (stretch.part != last) parts.push_back(begin_part(twin.parts[log][stretch.part]));
+      last = stretch.part;
+      const Eigen::MatrixXd rows = recorded_rows(
+          stretch, motions[k], twin.plans[log],
+          twin.sensors.empty() ? std::vector<TwinSensor>{} : twin.sensors[log], random);
+      Eigen::MatrixXd& all = parts.back().rows;
+      all.conservativeResize(all.rows() + rows.rows(), rows.cols());
+      all.bottomRows(rows.rows()) = rows;
+    }
+    if (!parts.empty()) logs.push_back(survey_recorded(twin.plans[log], parts));
+  }
+  return logs;
+}
+
+void choose_sensors(Twin& twin, const std::vector<SimulationResult>& motions) {
+  twin.sensors.clear();
+  for (std::size_t log = 0; log < twin.plans.size(); ++log) {
+    const LogPlan& plan = twin.plans[log];
+    std::vector<TwinSensor>& sensors = twin.sensors.emplace_back(plan.slots.size());
+    const auto first =
+        std::find_if(twin.stretches.begin(), twin.stretches.end(),
+                     [log](const TwinStretch& stretch) { return stretch.log == log; });
+    if (first == twin.stretches.end()) continue;
+    const auto& motion = motions[static_cast<std::size_t>(first - twin.stretches.begin())];
+    const PartSurvey& part = twin.parts[log][first->part];
+    for (std::size_t k = 0; k < plan.slots.size(); ++k) {
+      const SensorInfo* info = sensor_of(plan, plan.slots[k]);
+      const bool position = is_position(plan.slots[k].channel);
+      sensors[k].quantum = info != nullptr && info->quantum ? *info->quantum
+                           : position                       ? part.channels[k].quantum
+                                                            : 0;
+      const bool is_told = info != nullptr && (info->noise || (position && info->quantum));
+      if (is_told) sensors[k].noise = info->noise.value_or(0);
+      const Eigen::ArrayXXd* truth = truth_of(motion, plan.slots[k].channel);
+      if (is_told || truth == nullptr) continue;
+      Random none(0);
+      ChannelScan scan;
+      scan.add(measure(truth->col(plan.slots[k].joint), sensors[k], none));
+      sensors[k].noise = noise_left(part.channels[k], scan.result());
+    }
+  }
+}
+
+}  // namespace cablefit
