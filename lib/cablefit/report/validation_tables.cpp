@@ -33,10 +33,9 @@ Table condition_table(const std::string& unit, const std::string& linear) {
                    {"rms of", "noise floor", unit},
                    {"", "verdict", "", true}};
   table.notes.push_back(
-      "fitted rows: of the logs that were fitted, under the same condition where they have it; "
-      "zero "
-      "model: says 0, so its error is the torque to be explained; noise floor: what no model can "
-      "explain");
+      "fitted rows: of the logs that were fitted, under the same condition where they have it, and "
+      "what the verdict goes by; zero model: says 0, so its error is the torque to be explained; "
+      "noise floor: what no model can explain");
   if (!linear.empty()) table.notes.back() += "; linear: " + linear;
   return table;
 }
