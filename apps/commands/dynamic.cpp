@@ -71,7 +71,7 @@ void add_dynamic_options(CLI::App& app, DynamicCommand& command) {
   add_choice(
       app, "--estimator", "estimator", estimator_names(),
       [&command](const std::string& name) { command.fit.estimator = name; },
-      "see 'cablefit list estimators' [wls]");
+      "see 'cablefit list estimators' [auto]");
 }
 
 bool is_elastic(const DynamicCommand& command) {

@@ -76,6 +76,8 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
     add_cad(fit, job.rig());
     preload.fits.push_back(std::move(fit));
     solutions.push_back(std::move(estimation.solutions));
+    preload.decisions.insert(preload.decisions.end(), estimation.decisions.begin(),
+                             estimation.decisions.end());
   }
   if (job.options.figures) preload.figures = dynamic_figures(job, equations, solutions, preload);
 }
@@ -99,7 +101,8 @@ DynamicPreload fit_preload(DynamicJob job, const ElasticResult& elastic) {
   note_free_fall(job.rig().load, equations, preload);
   fit_models(job, equations, preload);
   note_extrapolations(job, equations, elastic, preload);
-  preload.decisions = job.settings.decisions;
+  preload.decisions.insert(preload.decisions.begin(), job.settings.decisions.begin(),
+                           job.settings.decisions.end());
   preload.warnings.insert(preload.warnings.end(), job.settings.warnings.begin(),
                           job.settings.warnings.end());
   return preload;

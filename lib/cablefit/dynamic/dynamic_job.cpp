@@ -157,8 +157,8 @@ WindowCounts collect_rows(const DynamicJob& job, std::vector<EquationRows>& equa
       });
 }
 
-LinearSolution solve_rows(const RowStatistics& rows, const DynamicColumns& columns,
-                          const std::vector<const ElasticFit*>& elastic, std::size_t which) {
+LinearProblem problem_of(const DynamicColumns& columns,
+                         const std::vector<const ElasticFit*>& elastic, std::size_t which) {
   LinearProblem problem;
   problem.response = dynamic_response(columns, elastic, which);
   for (const DynamicParameter& parameter : columns.parameters) {
@@ -169,7 +169,12 @@ LinearSolution solve_rows(const RowStatistics& rows, const DynamicColumns& colum
     problem.held.emplace_back(parameter.given ? "given by the rig file" : "");
     if (parameter.given) problem.response(k) = -*parameter.given;
   }
-  return solve(rows, problem);
+  return problem;
+}
+
+LinearSolution solve_rows(const RowStatistics& rows, const DynamicColumns& columns,
+                          const std::vector<const ElasticFit*>& elastic, std::size_t which) {
+  return solve(rows, problem_of(columns, elastic, which));
 }
 
 LinearSolution solve_equation(const EquationRows& e, const std::vector<const ElasticFit*>& elastic,

@@ -10,7 +10,8 @@ namespace cablefit {
 namespace {
 
 const std::vector<Estimator>& table() {
-  static const std::vector<Estimator> rows = {estimation::ols(), estimation::wls()};
+  static const std::vector<Estimator> rows = {estimation::automatic(), estimation::ols(),
+                                              estimation::wls(), estimation::iv()};
   return rows;
 }
 

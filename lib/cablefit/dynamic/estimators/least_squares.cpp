@@ -28,9 +28,12 @@ Estimation estimate(const EstimationTask& task, Weighting weighting) {
 }
 
 Estimation ordinary(const EstimationTask& task) { return estimate(task, Weighting::none); }
-Estimation weighted(const EstimationTask& task) { return estimate(task, Weighting::by_residual); }
 
 }  // namespace
+
+Estimation weighted_least_squares(const EstimationTask& task) {
+  return estimate(task, Weighting::by_residual);
+}
 
 Estimator ols() {
   return {"ols", "ordinary least squares by streamed QR, all equations of weight one",
@@ -39,7 +42,7 @@ Estimator ols() {
 
 Estimator wls() {
   return {"wls", "each equation weighted by 1/variance of its own residual", "Gautier 1997",
-          weighted};
+          weighted_least_squares};
 }
 
 }  // namespace cablefit::estimation
