@@ -91,7 +91,7 @@ void add_dynamic_options(CLI::App& app, DynamicCommand& command) {
   add_choice(
       app, "--estimator", "estimator", estimator_names(),
       [&command](const std::string& name) { command.fit.estimator = name; },
-      "see 'cablefit list estimators' [wls]");
+      "see 'cablefit list estimators' [auto]");
   app.add_flag("--sweep", command.fit.sweep,
                "fit again with other cut-offs and rest speeds: is the estimate flat?");
   app.add_option("--validate", command.validation,

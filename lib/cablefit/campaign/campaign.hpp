@@ -28,7 +28,7 @@ struct Campaign {
   std::string path, name;
   std::vector<CampaignCell> cells;
   std::vector<std::string> models = {"linear", "poly"};
-  std::string estimator = "wls";
+  std::string estimator = "auto";
   CampaignLimits limits;
 };
 

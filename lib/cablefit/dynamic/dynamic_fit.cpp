@@ -79,6 +79,8 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
     if (job.options.sweep) fit.sweep = sweep_settings(job, estimator, m, fit);
     preload.fits.push_back(std::move(fit));
     solutions.push_back(std::move(estimation.solutions));
+    preload.decisions.insert(preload.decisions.end(), estimation.decisions.begin(),
+                             estimation.decisions.end());
   }
   judge({job, equations, solutions}, preload);
   if (!job.options.figures) return;
@@ -111,7 +113,8 @@ DynamicPreload fit_preload(DynamicJob job, const ElasticResult& elastic) {
   note_free_fall(job.rig().load, equations, preload);
   fit_models(job, equations, preload);
   note_extrapolations(job, equations, elastic, preload);
-  preload.decisions = job.settings.decisions;
+  preload.decisions.insert(preload.decisions.begin(), job.settings.decisions.begin(),
+                           job.settings.decisions.end());
   preload.warnings.insert(preload.warnings.end(), job.settings.warnings.begin(),
                           job.settings.warnings.end());
   return preload;

@@ -24,7 +24,7 @@ std::span<const DynamicModel> dynamic_models();
 struct DynamicOptions {
   SampleOptions samples;
   std::vector<std::string> models = {"poly"};  ///< names of the table
-  std::string estimator = "wls";               ///< name of the table (estimators.hpp)
+  std::string estimator = "auto";              ///< name of the table (estimators.hpp)
   bool honest_sd = true;                       ///< --sd honest | white
   std::string preload;                         ///< only this one; empty: all
   bool figures = false;                        ///< one more pass, for reports with plots

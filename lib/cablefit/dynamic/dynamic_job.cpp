@@ -165,9 +165,9 @@ WindowCounts collect_rows(const DynamicJob& job, std::vector<EquationRows>& equa
       });
 }
 
-LinearSolution solve_rows(const RowStatistics& rows, const DynamicColumns& columns,
-                          const std::vector<const ElasticFit*>& elastic, std::size_t which,
-                          bool linear_motion) {
+LinearProblem problem_of(const DynamicColumns& columns,
+                         const std::vector<const ElasticFit*>& elastic, std::size_t which,
+                         bool linear_motion) {
   LinearProblem problem;
   problem.response = dynamic_response(columns, elastic, which);
   for (const DynamicParameter& parameter : columns.parameters) {
@@ -179,7 +179,13 @@ LinearSolution solve_rows(const RowStatistics& rows, const DynamicColumns& colum
     problem.held.emplace_back(parameter.given ? "given by the rig file" : "");
     if (parameter.given) problem.response(k) = -*parameter.given;
   }
-  return solve(rows, problem);
+  return problem;
+}
+
+LinearSolution solve_rows(const RowStatistics& rows, const DynamicColumns& columns,
+                          const std::vector<const ElasticFit*>& elastic, std::size_t which,
+                          bool linear_motion) {
+  return solve(rows, problem_of(columns, elastic, which, linear_motion));
 }
 
 LinearSolution solve_equation(const EquationRows& e, const std::vector<const ElasticFit*>& elastic,

@@ -68,6 +68,11 @@ RowStatistics stacked_rows(const std::vector<EquationRows>& equations,
                            const std::vector<const ElasticFit*>& elastic, std::size_t which,
                            Weighting weighting);
 
+/// What model number `which` fits to rows of these columns.
+LinearProblem problem_of(const DynamicColumns& columns,
+                         const std::vector<const ElasticFit*>& elastic, std::size_t which,
+                         bool linear_motion = false);
+
 /// The fit of model number `which` to rows of these columns.
 LinearSolution solve_rows(const RowStatistics& rows, const DynamicColumns& columns,
                           const std::vector<const ElasticFit*>& elastic, std::size_t which,

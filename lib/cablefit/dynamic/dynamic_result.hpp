@@ -47,14 +47,15 @@ struct Sweep {
 
 struct DynamicFit {
   std::string model;      ///< "linear", "poly", "rigid", "ratios"
-  std::string estimator;  ///< "ols", "wls"
+  std::string estimator;  ///< "ols", "wls", "iv"; what `auto` took
   std::vector<Estimate> parameters;
   std::map<std::string, TorqueError> torque_error;  ///< by equation: "motor", "link"
   std::map<std::string, double> weight;     ///< by equation: 1/variance of its residual, (N m)^-2
   std::map<std::string, double> condition;  ///< cond(W) by equation, columns as they are
   std::map<std::string, double> effective_rows;
-  std::optional<ElasticFit> elastic;            ///< what was used of stage 1
-  std::map<std::string, std::string> verdicts;  ///< "J_link": "identified", ...
+  std::optional<ElasticFit> elastic;  ///< what was used of stage 1
+  /// "J_link": "identified", ...; "motor equation": what the test of its regressors says
+  std::map<std::string, std::string> verdicts;
   std::vector<std::string> warnings;
   std::optional<FitProof> proof;  ///< of a rerun on simulated logs, when it was asked for
   std::map<std::string, std::string> sd_reason = {};  ///< by equation: which sd, and why

@@ -26,7 +26,7 @@ double explained_by_position(const RowStatistics& rows, const DynamicColumns& c,
     if (j != k) problem.regressors.push_back(j);
   problem.regressors.push_back(c.position);
   problem.names.assign(problem.regressors.size(), "");
-  problem.response = Eigen::VectorXd::Unit(c.count, k);
+  problem.response = Eigen::VectorXd::Unit(rows.n_columns(), k);
   const double total = rows.r().col(k).squaredNorm();
   return total > 0 ? 1 - solve(rows, problem).rss / total : 1;
 }
@@ -44,6 +44,11 @@ double with_position_torque(const RowStatistics& rows, const DynamicColumns& c, 
   problem.names.assign(problem.regressors.size(), "");
   problem.response = s.residual_combination;
   for (Eigen::Index j = 0; j < c.n_effects; ++j) problem.response(j) += s.x(j);
+  problem.instruments = s.instruments;
+  // What is allowed in addition is its own instrument.
+  if (!s.instruments.empty())
+    problem.instruments.insert(problem.instruments.end(), problem.regressors.begin() + c.n_effects,
+                               problem.regressors.end());
   return solve(rows, problem).x(k);
 }
 
@@ -53,7 +58,7 @@ Eigen::MatrixXd stage1_covariance(const RowStatistics& rows, const DynamicColumn
   const Eigen::Index n = c.n_elastic[which];
   if (stage1.covariance.rows() != n) return Eigen::MatrixXd::Zero(s.x.size(), s.x.size());
   const Eigen::MatrixXd cross =
-      rows.r().leftCols(c.n_effects).transpose() * rows.r().middleCols(c.elastic[which], n);
+      (rows.r() * s.score_columns).transpose() * rows.r().middleCols(c.elastic[which], n);
   const Eigen::MatrixXd sensitivity = s.solve_operator * cross;
   return sensitivity * stage1.covariance * sensitivity.transpose();
 }

@@ -10,8 +10,9 @@ namespace cablefit {
 namespace {
 
 const std::vector<Estimator>& table() {
-  static const std::vector<Estimator> rows = {estimation::ols(), estimation::wls(),
-                                              estimation::robust(), estimation::recursive()};
+  static const std::vector<Estimator> rows = {estimation::automatic(), estimation::ols(),
+                                              estimation::wls(),       estimation::iv(),
+                                              estimation::robust(),    estimation::recursive()};
   return rows;
 }
 

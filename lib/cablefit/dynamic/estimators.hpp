@@ -25,6 +25,7 @@ struct Estimation {
   /// Per equation: what rows * residual_combination = residual is needed for, largest errors and
   /// plots.
   std::vector<LinearSolution> solutions;
+  std::vector<Decision> decisions;  ///< what was chosen on the way, with the reason
 };
 
 /// A row of the table (`cablefit list estimators`).

@@ -7,6 +7,7 @@
 
 #include "cablefit/estimate/active_set.hpp"
 #include "cablefit/estimate/identifiability.hpp"
+#include "cablefit/estimate/instruments.hpp"
 #include "cablefit/estimate/scaled_solve.hpp"
 #include "cablefit/estimate/solution_covariance.hpp"
 
@@ -27,10 +28,12 @@ Eigen::MatrixXd columns_of(const RowStatistics& rows, const LinearProblem& probl
   return a;
 }
 
-FreeFit fit_free(const RowStatistics& rows, const LinearProblem& problem, const Freedom& freedom) {
+/// What is minimised is |a x - b|, a and b seen through the instruments when there are any.
+FreeFit fit_free(const RowStatistics& rows, const LinearProblem& problem, const Instruments& seen,
+                 const Freedom& freedom) {
   FreeFit fit{freedom.free, {}};
-  const Eigen::MatrixXd a = columns_of(rows, problem, freedom.free);
-  const Eigen::VectorXd b = rows.r() * problem.response;
+  const Eigen::MatrixXd a = seen.project(columns_of(rows, problem, freedom.free));
+  const Eigen::VectorXd b = seen.project(rows.r() * problem.response);
   if (!freedom.basis) {
     fit.solve = solve_scaled(a, b, problem.rank_tolerance);
     return fit;
@@ -71,17 +74,17 @@ void name_null_directions(const FreeFit& fit, const Words& words, LinearSolution
 
 /// The fit under all inequalities; `unbounded` itself when it satisfies them.
 FreeFit fit_constrained(const RowStatistics& rows, const LinearProblem& problem,
-                        const FreeFit& unbounded, LinearSolution& out) {
-  const ActiveSet active =
-      find_active_set(columns_of(rows, problem, unbounded.free), rows.r() * problem.response,
-                      unbounded.solve.x, problem, unbounded.free);
+                        const Instruments& seen, const FreeFit& unbounded, LinearSolution& out) {
+  const ActiveSet active = find_active_set(seen.project(columns_of(rows, problem, unbounded.free)),
+                                           seen.project(rows.r() * problem.response),
+                                           unbounded.solve.x, problem, unbounded.free);
   if (active.empty) return unbounded;
   out.active_constraints = active.constraints;
   for (const Eigen::Index k : unbounded.free) out.at_bound[static_cast<std::size_t>(k)] = true;
   for (const Eigen::Index k : active.freedom.free)
     out.at_bound[static_cast<std::size_t>(k)] = false;
   out.n_tied = active.freedom.n_tied();
-  return fit_free(rows, problem, active.freedom);
+  return fit_free(rows, problem, seen, active.freedom);
 }
 
 Eigen::MatrixXd expand(const FreeFit& fit, Eigen::Index p) {
@@ -109,6 +112,28 @@ void note_correlations(const FreeFit& unbounded, const Words& words, LinearSolut
     }
 }
 
+/// How well the instruments stand for the regressors, and which they hardly do.
+void note_first_stage(const RowStatistics& rows, const LinearProblem& problem,
+                      const FreeFit& unbounded, LinearSolution& out) {
+  out.first_stage = Eigen::VectorXd::Ones(out.x.size());
+  if (problem.instruments.empty()) return;
+  const Eigen::MatrixXd own = columns_of(rows, problem, unbounded.free);
+  const Eigen::VectorXd plain = solve_scaled(own, rows.r() * problem.response).inverse.diagonal();
+  for (std::size_t i = 0; i < unbounded.free.size(); ++i) {
+    const Eigen::Index k = unbounded.free[i];
+    const auto at = static_cast<Eigen::Index>(i);
+    const double with = unbounded.solve.inverse(at, at);
+    out.first_stage(k) = with > 0 ? std::min(1.0, plain(at) / with) : 0;
+    const double f = first_stage_f(out.first_stage(k), out.effective_rows);
+    if (f >= kStrongFirstStage || !out.not_identifiable[static_cast<std::size_t>(k)].empty())
+      continue;
+    out.warnings.push_back(
+        fmt::format("weak instruments: the simulated motion tells little of what {} is the torque "
+                    "of (first-stage F = {:.2g}, below {:g})",
+                    problem.names[static_cast<std::size_t>(k)], f, kStrongFirstStage));
+  }
+}
+
 }  // namespace
 
 double LinearSolution::rms() const {
@@ -122,6 +147,7 @@ LinearSolution solve(const RowStatistics& rows, const LinearProblem& problem) {
   out.not_identifiable.assign(problem.regressors.size(), "");
   out.at_bound.assign(problem.regressors.size(), false);
   out.n_rows = rows.n_rows();
+  out.instruments = problem.instruments;
 
   Freedom all;
   for (std::size_t k = 0; k < problem.regressors.size(); ++k) {
@@ -129,15 +155,17 @@ LinearSolution solve(const RowStatistics& rows, const LinearProblem& problem) {
     if (!held) all.free.push_back(static_cast<Eigen::Index>(k));
     if (held) out.not_identifiable[k] = problem.held[k];
   }
-  const FreeFit unbounded = fit_free(rows, problem, all);
+  const Instruments seen(rows, problem.instruments);
+  const FreeFit unbounded = fit_free(rows, problem, seen, all);
   const Words words = words_for(rows, problem, all.free);
   name_null_directions(unbounded, words, out);
-  const FreeFit fit = fit_constrained(rows, problem, unbounded, out);
+  const FreeFit fit = fit_constrained(rows, problem, seen, unbounded, out);
   for (std::size_t k = 0; k < fit.free.size(); ++k)
     out.x(fit.free[k]) = fit.solve.x(static_cast<Eigen::Index>(k));
   out.condition_scaled = unbounded.solve.condition_scaled;
   out.condition = unbounded.solve.condition;
   out.solve_operator = expand(fit, p);
+  out.score_columns = seen.score_columns(rows, problem.regressors);
   out.residual_combination = problem.response;
   for (Eigen::Index k = 0; k < p; ++k) {
     out.residual_combination(problem.regressors[static_cast<std::size_t>(k)]) -= out.x(k);
@@ -149,7 +177,7 @@ LinearSolution solve(const RowStatistics& rows, const LinearProblem& problem) {
   out.rss = (rows.r() * out.residual_combination).squaredNorm();
   const double dof = static_cast<double>(std::max<Eigen::Index>(1, out.n_rows - out.n_params));
   out.covariance_white = out.rss / dof * out.solve_operator;
-  honest_covariance(rows, problem, out);
+  honest_covariance(rows, out);
   out.unbounded_x = Eigen::VectorXd::Zero(p);
   for (std::size_t k = 0; k < unbounded.free.size(); ++k)
     out.unbounded_x(unbounded.free[k]) = unbounded.solve.x(static_cast<Eigen::Index>(k));
@@ -158,6 +186,7 @@ LinearSolution solve(const RowStatistics& rows, const LinearProblem& problem) {
   out.unbounded_sd = honesty * (out.rss / dof * expand(unbounded, p).diagonal()).cwiseSqrt();
   if (out.active_constraints.empty()) widen_beside_bounds(out);
   note_correlations(unbounded, words, out);
+  note_first_stage(rows, problem, unbounded, out);
   return out;
 }
 

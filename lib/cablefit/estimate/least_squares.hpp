@@ -1,5 +1,5 @@
 // Linear least squares on RowStatistics: scaled columns, QR, physical bounds, rank told in words,
-// white and honest covariance.
+// white and honest covariance; two-stage least squares when there are instruments.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,6 +29,12 @@ struct LinearProblem {
   /// Share of the largest singular value (scaled columns) below which columns cannot be told apart;
   /// smaller for data that are exact by definition.
   double rank_tolerance = kMeasuredRankTolerance;
+  /// Columns Z, at least one per regressor that is estimated, for instrumental variables: then
+  /// |Q'rows * (response - ...)| is minimised with Q an orthonormal basis of Z, so that without
+  /// bounds x = (W'P W)^-1 W'P y, P = Z (Z'Z)^-1 Z', which is (Z'W)^-1 Z'y for as many instruments
+  /// as regressors (Wright 1928; Young & Jakeman 1979; Janot, Vandanjon & Gautier 2014). A
+  /// regressor without error is its own instrument. Empty: ordinary least squares.
+  std::vector<Eigen::Index> instruments = {};
 };
 
 struct LinearSolution {
@@ -36,7 +42,14 @@ struct LinearSolution {
   Eigen::MatrixXd covariance_white;  ///< the paper's (25), sigma^2 (W'W)^-1
   /// Honest: HAC sandwich over the cells, never below the white one; the white one without cells.
   Eigen::MatrixXd covariance;
-  Eigen::MatrixXd solve_operator;             ///< (W'W)^-1, p x p; 0 rows for fixed or undetermined
+  Eigen::MatrixXd solve_operator;  ///< (W'W)^-1, p x p; 0 rows for fixed or undetermined
+  /// n_columns x p: rows * this = What, the regressors, or what the instruments explain of them
+  /// (P W); x answers to the response by solve_operator What'. W'W above is What'What then.
+  Eigen::MatrixXd score_columns;
+  /// Per parameter the share (0..1) of what the other regressors leave of its column that the
+  /// instruments explain: partial R^2 (Shea 1997; Godfrey 1999). 1 without instruments.
+  Eigen::VectorXd first_stage;
+  std::vector<Eigen::Index> instruments;      ///< of the problem
   std::vector<std::string> not_identifiable;  ///< per parameter, empty text when it is determined
   std::vector<bool> at_bound;  ///< at 0, by a bound or by constraints that leave no way out
   /// Rows of problem.constraints that hold the solution. Then covariances are conditional on them:

@@ -7,8 +7,7 @@
 
 namespace cablefit {
 
-void honest_covariance(const RowStatistics& rows, const LinearProblem& problem,
-                       LinearSolution& out) {
+void honest_covariance(const RowStatistics& rows, LinearSolution& out) {
   const Eigen::Index p = out.x.size();
   const auto n_cells = static_cast<Eigen::Index>(rows.cells().size());
   if (n_cells < 8) {
@@ -22,8 +21,7 @@ void honest_covariance(const RowStatistics& rows, const LinearProblem& problem,
   for (Eigen::Index c = 0; c < n_cells; ++c) {
     const Eigen::VectorXd all =
         rows.cells()[static_cast<std::size_t>(c)].gram * out.residual_combination;
-    for (Eigen::Index k = 0; k < p; ++k)
-      scores(c, k) = all(problem.regressors[static_cast<std::size_t>(k)]);
+    scores.row(c) = out.score_columns.transpose() * all;
   }
   // Rotate into the parameters before choosing a bandwidth: what counts is the correlation of each
   // estimate's own influence, not of the raw columns.

@@ -54,6 +54,24 @@ Table error_table(const DynamicResult& result) {
   return table;
 }
 
+/// What the test of each equation's regressors says; no rows where none was made.
+Table verdict_table(const DynamicResult& result) {
+  Table table;
+  table.title = "Are regressors correlated with what the model leaves (Durbin-Wu-Hausman)?";
+  table.columns = {{"", "preload", "", true},
+                   {"", "model", "", true},
+                   {"", "equation", "", true},
+                   {"", "verdict", "", true}};
+  for (const DynamicPreload& preload : result.preloads)
+    for (const DynamicFit& fit : preload.fits)
+      for (const auto& [equation, error] : fit.torque_error) {
+        const auto found = fit.verdicts.find(equation + " equation");
+        if (found == fit.verdicts.end()) continue;
+        table.rows.push_back({preload.name, fit.model, equation, found->second});
+      }
+  return table;
+}
+
 Table sd_table(const DynamicResult& result) {
   Table table;
   table.title = "Standard deviations: the one cablefit stands behind, and the paper's (25)";
@@ -211,6 +229,8 @@ Document dynamic_document(const DynamicResult& result) {
   document.tables = parameter_tables(result);
   const Table errors = error_table(result);
   if (errors.columns.size() > 2) document.tables.push_back(errors);
+  const Table verdicts = verdict_table(result);
+  if (!verdicts.rows.empty()) document.tables.push_back(verdicts);
   if (Table suspects = suspect_table(result); !suspects.rows.empty())
     document.tables.push_back(std::move(suspects));
   for (Table& table : sweep_tables(result)) document.tables.push_back(std::move(table));

@@ -1,4 +1,4 @@
-// The rows of the table of estimators. Internal to dynamic/.
+// The rows of the table of estimators, and what several of them are made of. Internal to dynamic/.
 #pragma once
 
 #include "cablefit/dynamic/estimators.hpp"
@@ -9,5 +9,7 @@ Estimator ols();
 Estimator wls();
 Estimator robust();
 Estimator recursive();
+Estimator iv();
+Estimator automatic();
 
 }  // namespace cablefit::estimation

@@ -1,0 +1,206 @@
+// Instrumental variables, always (`iv`) or where least squares fails its test (`auto`).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/dynamic/estimates.hpp"
+#include "cablefit/dynamic/estimators/least_squares_fit.hpp"
+#include "cablefit/dynamic/estimators/rows.hpp"
+#include "cablefit/dynamic/instrumental_variables.hpp"
+#include "cablefit/dynamic/log_copy.hpp"
+
+namespace cablefit::estimation {
+namespace {
+
+constexpr double kSignificant = 0.05;
+// `auto` looks at this many rows of longer logs before it decides. A bias that shows in fewer rows
+// than that matters, one that does not is below the sd of the fit to them.
+constexpr double kRowsForTest = 250000;
+
+/// The wanted rows, or of many evenly spaced stretches.
+struct TestRows {
+  std::vector<LogSurvey> stretches;  ///< empty: all rows
+  std::string note;
+
+  std::span<const LogSurvey> logs(const DynamicJob& job) const {
+    return stretches.empty() ? job.logs : std::span<const LogSurvey>(stretches);
+  }
+};
+
+TestRows rows_for_test(const DynamicJob& job) {
+  TestRows rows;
+  double all = 0;
+  for (const LogSurvey& log : job.logs)
+    for (const PartSurvey& part : log.parts)
+      if (job.wanted(part)) all += static_cast<double>(part.n_rows);
+  if (all <= kRowsForTest) return rows;
+  const double share = kRowsForTest / all;
+  rows.stretches =
+      stretches_of(job.logs, job.wanted, share, bridge_seconds(job.settings.rows.signal));
+  rows.note =
+      fmt::format(", judged on {:.2g} % of the rows in evenly spaced stretches", 100 * share);
+  return rows;
+}
+
+std::string label(const EstimationTask& task, const char* what) {
+  if (task.job.models.size() < 2) return what;
+  return fmt::format("{}, {}", what, task.job.models[task.model]);
+}
+
+std::string describe(const LoopPlan& plan) {
+  if (plan.kind == LoopKind::known)
+    return "noise-free loop of the rig's controller and the log's reference";
+  return fmt::format(
+      "{}: a stand-in follows theta smoothed at {:.3g} Hz; encoder noise is kept out, disturbances "
+      "that moved the robot are not",
+      plan.reason, plan.bandwidth);
+}
+
+/// "link 9432 rows, motor 5573": not those of least squares.
+std::string rows_of(const EstimationTask& task, const IvFit& fit) {
+  std::string text;
+  for (std::size_t k = 0; k < task.equations.size(); ++k)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", task.equations[k].equation.name,
+                        fit.rows[k].counts.rows_used);
+  return text;
+}
+
+void note_instruments(const EstimationTask& task, const LoopPlan& plan, const IvFit& fit,
+                      Estimation& out) {
+  out.decisions.push_back(
+      {label(task, "instruments"),
+       fmt::format("{} simulation{}", fit.n_simulations, fit.n_simulations == 1 ? "" : "s"),
+       fmt::format("{}; rows by its rest: {}", describe(plan), rows_of(task, fit))});
+  if (!fit.converged())
+    out.fit.warnings.push_back(
+        fmt::format("the instruments have not settled after {} simulations: the last one moved an "
+                    "estimate by {:.2g} sd",
+                    fit.n_simulations, fit.last_change));
+}
+
+std::vector<LinearSolution> least_squares_of(const EstimationTask& task) {
+  std::vector<LinearSolution> solutions;
+  for (const EquationRows& e : task.equations)
+    solutions.push_back(solve_equation(e, task.job.elastic, task.model));
+  return solutions;
+}
+
+void add_equation(const EstimationTask& task, std::size_t k, const RowStatistics& rows,
+                  const LinearSolution& solution, Estimation& out) {
+  const EquationRows& e = task.equations[k];
+  add_estimates(rows, e.columns, solution, task.stage1(), task.model, task.job.rig().linear_motion,
+                task.job.options.honest_sd, out.fit);
+  LinearSolution own = solution;  // without the instruments' columns, which it does not use
+  own.residual_combination = solution.residual_combination.head(e.columns.count).eval();
+  add_errors(*e.rows, e.equation.name, own, out.fit);
+  out.solutions.push_back(std::move(own));
+}
+
+bool is_rejected(const ExogeneityTest& test) {
+  return test.possible && test.p_value < kSignificant;
+}
+
+std::string verdict(const ExogeneityTest& test) {
+  if (!test.possible) return "not tested: no instrument differs from its regressor";
+  if (is_rejected(test))
+    return fmt::format("correlated with the residual ({}): the iv estimates are used",
+                       test.p_text());
+  return fmt::format("regressors are exogenous: wls stands ({})", test.p_text());
+}
+
+std::string verdict_key(const EquationRows& e) { return e.equation.name + " equation"; }
+
+/// Least squares, because nothing could be simulated.
+Estimation stay_with_least_squares(const EstimationTask& task, const std::string& why) {
+  Estimation out = least_squares_fit(task, Weighting::by_residual);
+  out.fit.estimator = "wls";
+  out.decisions.push_back({label(task, "estimator"), "wls", "no instruments: " + why});
+  for (const EquationRows& e : task.equations)
+    out.fit.verdicts[verdict_key(e)] = "not tested, no instruments: " + why;
+  return out;
+}
+
+Estimation estimate_iv(const EstimationTask& task) {
+  const DynamicJob& job = task.job;
+  const LoopPlan plan = plan_loop(job, job.logs);
+  if (plan.kind == LoopKind::none) return stay_with_least_squares(task, plan.reason);
+  const IvFit fit =
+      fit_by_instruments(job, job.logs, task.equations, least_squares_of(task), task.model, plan);
+  if (!fit.failure.empty()) return stay_with_least_squares(task, fit.failure);
+  Estimation out;
+  for (std::size_t k = 0; k < task.equations.size(); ++k) {
+    add_equation(task, k, fit.rows[k].rows, fit.solutions[k], out);
+    const bool rejected = is_rejected(fit.tests[k]);
+    out.fit.verdicts[verdict_key(task.equations[k])] =
+        rejected || !fit.tests[k].possible
+            ? verdict(fit.tests[k])
+            : fmt::format("regressors are exogenous: wls would do ({})", fit.tests[k].p_text());
+  }
+  note_instruments(task, plan, fit, out);
+  return out;
+}
+
+/// "motor p = 0.4, link p < 0.001"
+std::string all_p(const EstimationTask& task, const std::vector<ExogeneityTest>& tests) {
+  std::string text;
+  for (std::size_t k = 0; k < task.equations.size(); ++k)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", task.equations[k].equation.name,
+                        tests[k].possible ? tests[k].p_text() : "not tested");
+  return text;
+}
+
+Estimation estimate_automatically(const EstimationTask& task) {
+  const DynamicJob& job = task.job;
+  const LoopPlan plan = plan_loop(job, job.logs);
+  if (plan.kind == LoopKind::none) return stay_with_least_squares(task, plan.reason);
+  const std::vector<LinearSolution> plain = least_squares_of(task);
+  const TestRows test = rows_for_test(job);
+  IvFit fit = fit_by_instruments(job, test.logs(job), task.equations, plain, task.model, plan);
+  if (!fit.failure.empty()) return stay_with_least_squares(task, fit.failure);
+  for (const LinearSolution& solution : fit.solutions)
+    if (has_weak_instruments(solution))
+      return stay_with_least_squares(task, "the simulated loop does not move as the robot did");
+  const std::vector<ExogeneityTest> tests = fit.tests;
+  const bool any = std::any_of(tests.begin(), tests.end(), is_rejected);
+  if (any && !test.stretches.empty()) {
+    // Settled on the stretches; the same once more with all rows.
+    IvFit all =
+        fit_by_instruments(job, job.logs, task.equations, fit.solutions, task.model, plan, 1);
+    if (!all.failure.empty()) return stay_with_least_squares(task, all.failure);
+    all.n_simulations += fit.n_simulations;
+    all.last_change = fit.last_change;
+    fit = std::move(all);
+  }
+  Estimation out;
+  out.fit.estimator = any ? "iv" : "wls";
+  out.decisions.push_back({label(task, "estimator"), any ? "iv" : "wls",
+                           fmt::format("Durbin-Wu-Hausman: {}{}", all_p(task, tests), test.note)});
+  for (std::size_t k = 0; k < task.equations.size(); ++k) {
+    if (is_rejected(tests[k])) {
+      add_equation(task, k, fit.rows[k].rows, fit.solutions[k], out);
+    } else {
+      add_equation(task, k, *task.equations[k].rows, plain[k], out);
+    }
+    out.fit.verdicts[verdict_key(task.equations[k])] = verdict(tests[k]);
+  }
+  note_instruments(task, plan, fit, out);
+  return out;
+}
+
+}  // namespace
+
+Estimator iv() {
+  return {
+      "iv",
+      "instrumental variables: regressors of a simulated noise-free closed loop, iterated; with "
+      "the Durbin-Wu-Hausman test",
+      "Janot, Vandanjon & Gautier 2014; Janot et al. 2016", estimate_iv};
+}
+
+Estimator automatic() {
+  return {"auto", "wls, and iv for each equation that fails the Durbin-Wu-Hausman test",
+          "Janot et al. 2016", estimate_automatically};
+}
+
+}  // namespace cablefit::estimation

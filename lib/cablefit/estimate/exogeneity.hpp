@@ -1,0 +1,32 @@
+// Are the regressors correlated with the residual? Then least squares is biased, whatever its
+// standard deviations say, and instruments are needed.
+#pragma once
+
+#include <string>
+
+#include "cablefit/estimate/least_squares.hpp"
+
+namespace cablefit {
+
+struct ExogeneityTest {
+  bool possible = false;  ///< there was an instrument apart from the regressors
+  double statistic = 0;   ///< F
+  double dof_numerator = 0, dof_denominator = 0;
+  double p_value = 1;
+
+  /// "p = 0.4", "p < 0.001"
+  std::string p_text() const;
+};
+
+/// Revised Durbin-Wu-Hausman test (Janot, Vandanjon & Gautier 2016; Wu 1973; Hausman 1978) in the
+/// form of an augmented regression: y on [W Z]. Given instruments uncorrelated with the residual,
+/// Z adds nothing to W exactly when W is uncorrelated with it too. What Z adds is tested with the
+/// honest covariance, so that coloured residuals do not make it too eager. `problem`: with
+/// instruments; its bounds are left out.
+ExogeneityTest test_exogeneity(const RowStatistics& rows, const LinearProblem& problem);
+
+/// A determined parameter's instruments hardly move as its regressor does: estimates by them lean
+/// towards least squares and their intervals are too short.
+bool has_weak_instruments(const LinearSolution& solution);
+
+}  // namespace cablefit
