@@ -40,7 +40,7 @@ struct SlowNoise {
     problem.response = Eigen::VectorXd::Unit(3, 2);
     solution = solve(rows, problem);
   }
-  ChosenSd chosen() const { return choose_sd(rows, {0, 1}, solution); }
+  ChosenSd chosen() const { return choose_sd(rows, solution); }
 };
 
 struct Coverage {

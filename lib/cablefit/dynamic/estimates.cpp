@@ -133,12 +133,6 @@ Estimate given_estimate(const DynamicParameter& parameter, bool linear_motion) {
   return e;
 }
 
-std::vector<Eigen::Index> regressors_of(const DynamicColumns& c) {
-  std::vector<Eigen::Index> regressors;
-  for (Eigen::Index k = 0; k < c.n_effects; ++k) regressors.push_back(k);
-  return regressors;
-}
-
 /// The chosen sd and its quantile, where they are not those of the solution.
 void take_chosen(const ChosenSd& chosen, Eigen::Index k, double extra_variance, double lower,
                  Estimate& e) {
@@ -155,8 +149,7 @@ void add_estimates(const RowStatistics& rows, const DynamicColumns& c, const Lin
                    DynamicFit& fit) {
   Eigen::MatrixXd extra = Eigen::MatrixXd::Zero(s.x.size(), s.x.size());
   if (stage1 != nullptr && honest) extra = stage1_covariance(rows, c, s, *stage1, which);
-  const std::optional<ChosenSd> chosen =
-      honest ? std::optional(choose_sd(rows, regressors_of(c), s)) : std::nullopt;
+  const std::optional<ChosenSd> chosen = honest ? std::optional(choose_sd(rows, s)) : std::nullopt;
   for (Eigen::Index k = 0; k < c.n_effects; ++k) {
     const DynamicParameter& parameter = c.parameters[static_cast<std::size_t>(k)];
     Estimate e = parameter.given
@@ -178,7 +171,7 @@ void add_estimates(const RowStatistics& rows, const DynamicColumns& c, const Lin
 
 std::string sd_reason(const RowStatistics& rows, const DynamicColumns& c, const LinearSolution& s,
                       double row_seconds) {
-  const ChosenSd chosen = choose_sd(rows, regressors_of(c), s);
+  const ChosenSd chosen = choose_sd(rows, s);
   const double seconds = static_cast<double>(s.n_rows) / chosen.effective_rows * row_seconds;
   const std::string correlated = fmt::format(
       "residuals are correlated over {}, effective rows {:.0f} of {}",

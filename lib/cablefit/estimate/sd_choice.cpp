@@ -16,15 +16,13 @@ constexpr Eigen::Index kLeastCells = 40;
 
 /// (W'W)^-1 W' rho of every cell: what it adds to each estimate's error; cells that were dropped
 /// add nothing but take their time.
-Eigen::MatrixXd influences(const RowStatistics& rows, const std::vector<Eigen::Index>& regressors,
-                           const LinearSolution& s) {
+Eigen::MatrixXd influences(const RowStatistics& rows, const LinearSolution& s) {
   const std::vector<GramCell>& cells = rows.cells();
   const Eigen::Index first = cells.front().id, n = cells.back().id - first + 1;
   Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(n, s.x.size());
   for (const GramCell& cell : cells) {
     const Eigen::VectorXd all = cell.gram * s.residual_combination;
-    for (Eigen::Index k = 0; k < s.x.size(); ++k)
-      scores(cell.id - first, k) = all(regressors[static_cast<std::size_t>(k)]);
+    scores.row(cell.id - first) = s.score_columns.transpose() * all;
   }
   return scores * s.solve_operator;
 }
@@ -37,8 +35,7 @@ SdKind ChosenSd::worst() const {
   return worst;
 }
 
-ChosenSd choose_sd(const RowStatistics& rows, const std::vector<Eigen::Index>& regressors,
-                   const LinearSolution& s) {
+ChosenSd choose_sd(const RowStatistics& rows, const LinearSolution& s) {
   const Eigen::Index p = s.x.size();
   const auto n = static_cast<double>(s.n_rows);
   ChosenSd out;
@@ -61,7 +58,7 @@ ChosenSd choose_sd(const RowStatistics& rows, const std::vector<Eigen::Index>& r
     std::replace(out.kind.begin(), out.kind.end(), SdKind::block_bootstrap, SdKind::hac);
     return out;
   }
-  const Eigen::MatrixXd series = influences(rows, regressors, s);
+  const Eigen::MatrixXd series = influences(rows, s);
   const double cells_per_row = static_cast<double>(series.rows()) / n;
   const auto resampled = [&](double inflation) {
     const double block = std::ceil(kBlockLengths * inflation * cells_per_row);

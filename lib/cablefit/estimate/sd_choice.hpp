@@ -23,8 +23,6 @@ struct ChosenSd {
 /// as at least 100 rows count as independent; else the noise is too slow for a kernel, whose
 /// prewhitening ends at a correlation of 0.97 a cell, and the block bootstrap of the cells'
 /// influences with blocks of five correlation lengths takes its place (never below HAC).
-/// `regressors` as in the problem that was solved.
-ChosenSd choose_sd(const RowStatistics& rows, const std::vector<Eigen::Index>& regressors,
-                   const LinearSolution& solution);
+ChosenSd choose_sd(const RowStatistics& rows, const LinearSolution& solution);
 
 }  // namespace cablefit

@@ -91,6 +91,7 @@ void add_equation(const EstimationTask& task, std::size_t k, const RowStatistics
   const EquationRows& e = task.equations[k];
   add_estimates(rows, e.columns, solution, task.stage1(), task.model, task.job.rig().linear_motion,
                 task.job.options.honest_sd, out.fit);
+  out.fit.sd_reason[e.equation.name] = reason_for_sd(task, rows, e.columns, solution);
   LinearSolution own = solution;  // without the instruments' columns, which it does not use
   own.residual_combination = solution.residual_combination.head(e.columns.count).eval();
   add_errors(*e.rows, e.equation.name, own, out.fit);

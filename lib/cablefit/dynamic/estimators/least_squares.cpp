@@ -6,6 +6,13 @@
 
 namespace cablefit::estimation {
 
+std::string reason_for_sd(const EstimationTask& task, const RowStatistics& rows,
+                          const DynamicColumns& columns, const LinearSolution& solution) {
+  const DynamicJob& job = task.job;
+  if (!job.options.honest_sd) return "white: as asked for, the paper's (25)";
+  return sd_reason(rows, columns, solution, job.settings.rows.decimate * job.first_part().period);
+}
+
 Estimation least_squares_fit(const EstimationTask& task, Weighting weighting) {
   const DynamicJob& job = task.job;
   Estimation out;
@@ -20,10 +27,7 @@ Estimation least_squares_fit(const EstimationTask& task, Weighting weighting) {
         solve_rows(rows, first.columns, job.elastic, task.model, job.rig().linear_motion);
     add_estimates(rows, first.columns, solution, task.stage1(), task.model, job.rig().linear_motion,
                   job.options.honest_sd, out.fit);
-    const std::string reason = job.options.honest_sd
-                                   ? sd_reason(rows, first.columns, solution,
-                                               job.settings.rows.decimate * job.first_part().period)
-                                   : "white: as asked for, the paper's (25)";
+    const std::string reason = reason_for_sd(task, rows, first.columns, solution);
     for (const std::size_t k : system) {
       add_errors(*task.equations[k].rows, task.equations[k].equation.name, solution, out.fit);
       out.fit.sd_reason[task.equations[k].equation.name] = reason;
