@@ -265,6 +265,7 @@ NonlinearSolution solve_with(ScaledProblem& scaled, const NonlinearProblem& prob
   out.at_bound = on_bound(scaled, u);
   judge_minimum(scaled, problem, out);
   out.is_flat = is_flat(scaled, u);
+  out.decrement = decrement(scaled);
   return out;
 }
 

@@ -45,6 +45,7 @@ struct NonlinearSolution {
   bool converged = false;
   std::string message;  ///< how it ended, in words
   int n_evaluations = 0;
+  double decrement = 0;   ///< |r|^2 that one more Gauss-Newton step would take away
   Eigen::Index rank = 0;  ///< of the Jacobian of the parameters that are not on a bound
   /// (J'J)^-1 of what is determined and not on a bound, by QR with scaled columns; times the
   /// variance of r it is the covariance of x. p x p.

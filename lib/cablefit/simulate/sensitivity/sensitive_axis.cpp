@@ -58,7 +58,7 @@ SensitiveAxis::Friction SensitiveAxis::friction(double position, double velocity
   return sum;
 }
 
-double SensitiveAxis::dry_level(double position, double velocity) {
+double SensitiveAxis::dry_level(double position, double velocity) const {
   double level = 0;
   for (const Term& term : terms_)
     if (term.effect->dry)

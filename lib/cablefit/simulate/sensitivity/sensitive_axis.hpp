@@ -25,6 +25,8 @@ class SensitiveAxis {
   Step advance(double position, double velocity, double force, double h);
 
   double inertia() const { return inertia_; }
+  /// Level of dry friction, N m; 0 without.
+  double dry_level(double position, double velocity) const;
   /// All effects' parameters, one after another.
   std::vector<double>& parameters() { return parameters_; }
   /// Number of the first parameter of the effect of that number.
@@ -50,7 +52,6 @@ class SensitiveAxis {
   };
 
   Friction friction(double position, double velocity, double sigma);
-  double dry_level(double position, double velocity);
   Slide slide(double position, double velocity, double force, double sigma, double h);
   Step moving(double position, double velocity, double force, double sigma, double h);
   Step stopping(double position, double velocity, double force, double sigma, double h);

@@ -1,0 +1,17 @@
+// How noisy the forces of a log are, by maximum likelihood of the filter's predictions.
+#pragma once
+
+#include <span>
+
+#include "cablefit/dynamic/output_error/prediction_filter.hpp"
+
+namespace cablefit {
+
+/// The force noise of every axis that makes the predictions of `windows` most likely under this
+/// model (Schweppe 1965; Nelder & Mead 1965 on its logarithms), from `start` on. Position noise is
+/// known and stays. Model error counts as force noise.
+NoiseLevels likeliest_noise(const Model& model, std::span<const OutputErrorWindow> windows,
+                            const NoiseLevels& start, const FilterSettings& settings,
+                            int max_evaluations);
+
+}  // namespace cablefit

@@ -1,0 +1,59 @@
+// Output error: the parameters with which the simulation follows the measured positions best, with
+// the noise of the torque that drives it taken for what it is (prediction_filter.hpp).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cablefit/base/parameter.hpp"
+#include "cablefit/dynamic/output_error/measured_stretch.hpp"
+#include "cablefit/dynamic/output_error/prediction_filter.hpp"
+
+namespace cablefit {
+
+/// What an earlier stage knows of some parameters: rows of the fit.
+struct GaussianPrior {
+  std::vector<std::string> names;
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd covariance;  ///< honest
+};
+
+struct OutputErrorOptions {
+  std::vector<std::string> held;  ///< parameters to leave as they are
+  /// Fits l_o, theta_0 and shape parameters of effects too, unless they are held.
+  bool fit_shapes = false, fit_elongations = false, fit_encoder_zeros = false;
+  GaussianPrior prior;
+  Eigen::VectorXd position_sd;  ///< rad, per axis (links, then motors; rigid drives one each)
+  /// N m, per axis, of the forces; empty: estimated. 0 where there is none.
+  Eigen::VectorXd force_sd;
+  double window = 2;     ///< s
+  double step = 250e-6;  ///< s, upper limit; divided so that a row is a whole number of steps
+  /// Rows, see FilterSettings: until the fit has settled, and at last.
+  int first_compare_every = 5, compare_every = 2;
+  int max_rounds = 4;       ///< of noise, gains and fit
+  int max_iterations = 10;  ///< of the fit in a round
+  int threads = 1;
+};
+
+struct OutputErrorFit {
+  Model model;  ///< with the fitted parameters and their sd
+  std::vector<Estimate> parameters;
+  Eigen::MatrixXd covariance, covariance_white;  ///< of `parameters`; 0 for those on a bound
+  NoiseLevels noise;
+  double residual_rms = 0;  ///< whitened: 1 when the noise levels are right
+  double correlation = 0;   ///< of whitened residuals one row apart: 0 when they are right
+  double degrees_of_freedom = 0, effective_rows = 0;
+  std::size_t n_rows = 0;  ///< of the fit: rows of the log times axes
+  bool converged = false;
+  int n_rounds = 0;
+  int n_passes = 0;  ///< over all rows, with sensitivities
+  std::string message;
+  std::vector<std::string> warnings;
+};
+
+/// Starts from the parameters of `model`; the result does not depend on `threads`. Not to converge
+/// is a result.
+OutputErrorFit fit_output_error(const Model& model, const std::vector<MeasuredStretch>& stretches,
+                                const OutputErrorOptions& options);
+
+}  // namespace cablefit

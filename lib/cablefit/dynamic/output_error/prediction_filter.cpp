@@ -1,0 +1,288 @@
+#include "cablefit/dynamic/output_error/prediction_filter.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <limits>
+
+namespace cablefit {
+namespace {
+
+constexpr double kLargestState = 1e6;
+constexpr Eigen::Index kMost = 12;  // axes x 2: rigs of three joints without allocation per row
+
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMost, kMost>;
+using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMost, 1>;
+using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// The initial position is that of the first row, and of its noise; the velocity is all but
+/// unknown.
+constexpr double kVelocityUncertainty = 4;  // of what a first difference would have
+constexpr double kRestSpeeds = 2;           // sd of a speed: what a row's noise does to it
+
+/// Drives the plant from row `row` to the next, `correction` added to the forces.
+class RowStepper {
+ public:
+  RowStepper(const OutputErrorWindow& window, int steps)
+      : window_(window), steps_(steps), h_(window.period / steps), force_(window.n_axes) {}
+
+  void step(SensitivePlant& plant, SensitiveState& state, std::size_t row,
+            const double* correction) {
+    const std::size_t n = window_.n_axes;
+    const double* held = window_.held.data() + row * n;
+    const double* from = window_.sloping.data() + row * n;
+    const double* to = row + 1 < window_.n_rows ? from + n : from;
+    for (int s = 0; s < steps_; ++s) {
+      const double fraction = (s + 0.5) / steps_;
+      for (std::size_t a = 0; a < n; ++a)
+        force_[a] =
+            held[a] + from[a] + fraction * (to[a] - from[a]) + (correction ? correction[a] : 0.0);
+      plant.step(state, force_.data(), h_);
+    }
+  }
+
+ private:
+  const OutputErrorWindow& window_;
+  int steps_;
+  double h_;
+  std::vector<double> force_;
+};
+
+/// What a row does: state by state and by force, read off the plant's inputs.
+struct RowModel {
+  Matrix transition, input;
+  Vector force_sd;  ///< N m
+};
+
+/// Dry friction tells of an axis at rest, or turning round, nothing but an inequality, which the
+/// noise of the force breaks one way only: there friction counts as unknown.
+void loosen_at_rest(const SensitivePlant& plant, const OutputErrorWindow& window,
+                    const NoiseLevels& noise, const Eigen::Ref<const Eigen::VectorXd>& before,
+                    const SensitiveState& state, RowModel& model) {
+  const auto n = static_cast<Eigen::Index>(plant.n_axes());
+  model.force_sd = noise.force;
+  for (Eigen::Index a = 0; a < n; ++a) {
+    const auto axis = static_cast<std::size_t>(a);
+    const double level = plant.rest_level(axis, state.position[axis]);
+    if (level == 0) continue;
+    const double speed_sd =
+        noise.force[a] * window.period / plant.inertia(axis) + noise.position[a] / window.period;
+    const double from = before[n + a], to = state.velocity[axis];
+    const bool moves = std::min(std::abs(from), std::abs(to)) > kRestSpeeds * speed_sd;
+    if (!moves || from * to < 0) model.force_sd[a] = std::hypot(noise.force[a], level);
+  }
+}
+
+void read_model(const SensitivePlant& plant, const SensitiveState& state, double period,
+                RowModel& model) {
+  const auto n = static_cast<Eigen::Index>(plant.n_axes());
+  const auto columns = static_cast<Eigen::Index>(plant.n_columns());
+  const auto first = static_cast<Eigen::Index>(plant.first_input());
+  const Eigen::Map<const Table> by_position(state.by_position.data(), n, columns);
+  const Eigen::Map<const Table> by_velocity(state.by_velocity.data(), n, columns);
+  model.transition.resize(2 * n, 2 * n);
+  model.transition.topRows(n) = by_position.middleCols(first, 2 * n);
+  model.transition.bottomRows(n) = by_velocity.middleCols(first, 2 * n);
+  model.input.resize(2 * n, n);
+  model.input.topRows(n) = by_position.rightCols(n);
+  model.input.bottomRows(n) = by_velocity.rightCols(n);
+  // An axis that is held in the model may be moving in truth: what is known of its velocity must
+  // not become exact.
+  for (Eigen::Index a = 0; a < n; ++a)
+    if (state.velocity[static_cast<std::size_t>(a)] == 0)
+      model.input(n + a, a) = period / plant.inertia(static_cast<std::size_t>(a));
+}
+
+/// Covariance of a filter, gain and whitener of each row.
+class Covariance {
+ public:
+  Covariance(const OutputErrorWindow& window, const NoiseLevels& noise)
+      : n_(static_cast<Eigen::Index>(window.n_axes)), noise_(noise) {
+    covariance_ = Matrix::Zero(2 * n_, 2 * n_);
+    covariance_.diagonal().head(n_) = noise.position.cwiseAbs2();
+    covariance_.diagonal().tail(n_) =
+        (kVelocityUncertainty / window.period * noise.position).cwiseAbs2();
+  }
+
+  /// Over a row.
+  void advance(const RowModel& model) {
+    const Matrix scaled = model.input * model.force_sd.asDiagonal();
+    const Matrix moved = model.transition * covariance_;
+    covariance_.noalias() = moved * model.transition.transpose();
+    covariance_.noalias() += scaled * scaled.transpose();
+  }
+
+  /// By what was measured at its end.
+  void compare() {
+    Matrix innovation = covariance_.topLeftCorner(n_, n_);
+    innovation.diagonal() += noise_.position.cwiseAbs2();
+    const Eigen::LLT<Matrix> llt(innovation);
+    whitener_ = llt.matrixL().solve(Matrix::Identity(n_, n_));
+    const Matrix half = whitener_ * covariance_.topRows(n_);
+    gain_ = half.transpose() * whitener_;
+    covariance_.noalias() -= half.transpose() * half;
+  }
+
+  const Matrix& gain() const { return gain_; }
+  const Matrix& whitener() const { return whitener_; }
+  const Matrix& covariance() const { return covariance_; }
+
+ private:
+  Eigen::Index n_;
+  const NoiseLevels& noise_;
+  Matrix covariance_, gain_, whitener_;
+};
+
+void set_state(const Eigen::Ref<const Eigen::VectorXd>& from, SensitiveState& state) {
+  const std::size_t n = state.position.size();
+  for (std::size_t a = 0; a < n; ++a) {
+    state.position[a] = from[static_cast<Eigen::Index>(a)];
+    state.velocity[a] = from[static_cast<Eigen::Index>(n + a)];
+  }
+}
+
+Vector state_vector(const SensitiveState& state) {
+  const auto n = static_cast<Eigen::Index>(state.position.size());
+  Vector x(2 * n);
+  x.head(n) = Eigen::Map<const Eigen::VectorXd>(state.position.data(), n);
+  x.tail(n) = Eigen::Map<const Eigen::VectorXd>(state.velocity.data(), n);
+  return x;
+}
+
+Vector start_of(const OutputErrorWindow& window) {
+  const auto n = static_cast<Eigen::Index>(window.n_axes);
+  Vector x(2 * n);
+  x.head(n) = Eigen::Map<const Eigen::VectorXd>(window.position.data(), n);
+  x.tail(n) = Eigen::Map<const Eigen::VectorXd>(window.start_velocity.data(), n);
+  return x;
+}
+
+Eigen::Map<const Eigen::VectorXd> measured(const OutputErrorWindow& window, std::size_t row) {
+  return Eigen::Map<const Eigen::VectorXd>(window.position.data() + row * window.n_axes,
+                                           static_cast<Eigen::Index>(window.n_axes));
+}
+
+/// What the smoother needs of a row on its way back.
+struct RowMemory {
+  Matrix transition, input, gain, covariance;
+  Vector weighted_innovation;  ///< S^-1 times it
+  Vector force_sd;             ///< N m
+  bool compared = false;
+};
+
+/// Bryson & Frazier 1963: the adjoint of the filter; needs no inverse but that of the innovation.
+void smooth_back(const std::vector<RowMemory>& rows, const Matrix& start_covariance,
+                 SmoothedMotion& motion) {
+  const Eigen::Index n = start_covariance.rows() / 2;
+  motion.correction.resize(n, static_cast<Eigen::Index>(rows.size()));
+  Vector after = Vector::Zero(2 * n);
+  for (std::size_t i = rows.size(); i-- > 0;) {
+    const RowMemory& row = rows[i];
+    const auto at = static_cast<Eigen::Index>(i);
+    motion.state.col(at + 1) -= row.covariance * after;
+    Vector before = after;
+    if (row.compared) before.head(n) -= row.gain.transpose() * after + row.weighted_innovation;
+    motion.correction.col(at) =
+        -row.force_sd.cwiseAbs2().cwiseProduct(row.input.transpose() * before);
+    after = row.transition.transpose() * before;
+  }
+  motion.state.col(0) -= start_covariance * after;
+}
+
+}  // namespace
+
+SmoothedMotion smooth_motion(SensitivePlant& plant, const OutputErrorWindow& window,
+                             const NoiseLevels& noise, const FilterSettings& settings,
+                             bool smooth) {
+  const auto n = static_cast<Eigen::Index>(window.n_axes);
+  SmoothedMotion motion;
+  motion.minus_log_likelihood = std::numeric_limits<double>::infinity();
+  if (smooth) motion.state.resize(2 * n, static_cast<Eigen::Index>(window.n_rows));
+  SensitiveState state = plant.blank_state();
+  RowStepper stepper(window, settings.steps);
+  Covariance covariance(window, noise);
+  const Matrix start_covariance = covariance.covariance();
+  RowModel model;
+  std::vector<RowMemory> rows(smooth ? window.n_rows - 1 : 0);
+  Vector x = start_of(window);
+  if (smooth) motion.state.col(0) = x;
+  double sum = 0;
+  for (std::size_t row = 0; row + 1 < window.n_rows; ++row) {
+    set_state(x, state);
+    plant.reset_sensitivities(state);
+    stepper.step(plant, state, row, nullptr);
+    const Vector before = x;
+    x = state_vector(state);
+    if (!(x.cwiseAbs().maxCoeff() < kLargestState)) return motion;
+    read_model(plant, state, window.period, model);
+    loosen_at_rest(plant, window, noise, before, state, model);
+    covariance.advance(model);
+    Vector white = Vector::Zero(n);
+    if (settings.compares(row + 1)) {
+      covariance.compare();
+      const Vector innovation = measured(window, row + 1) - x.head(n);
+      white = covariance.whitener() * innovation;
+      sum += white.squaredNorm() - 2 * covariance.whitener().diagonal().array().log().sum();
+      x += covariance.gain() * innovation;
+    }
+    if (!smooth) continue;
+    motion.state.col(static_cast<Eigen::Index>(row + 1)) = x;
+    rows[row] = {model.transition,
+                 model.input,
+                 covariance.gain(),
+                 covariance.covariance(),
+                 covariance.whitener().transpose() * white,
+                 model.force_sd,
+                 settings.compares(row + 1)};
+  }
+  motion.minus_log_likelihood = sum;
+  motion.valid = true;
+  if (smooth) smooth_back(rows, start_covariance, motion);
+  return motion;
+}
+
+Eigen::MatrixXd window_residuals(SensitivePlant& plant, const OutputErrorWindow& window,
+                                 const NoiseLevels& noise, const SmoothedMotion& motion,
+                                 const FilterSettings& settings) {
+  const auto n = static_cast<Eigen::Index>(window.n_axes);
+  const auto p = static_cast<Eigen::Index>(plant.first_input());
+  const auto n_columns = static_cast<Eigen::Index>(plant.n_columns());
+  const auto n_compared = static_cast<Eigen::Index>((window.n_rows - 1) / settings.compare_every);
+  Eigen::MatrixXd rows(n_compared * n, p + 1);
+  Eigen::Index next = 0;
+  SensitiveState state = plant.blank_state();
+  RowStepper stepper(window, settings.steps);
+  Covariance covariance(window, noise);
+  RowModel model;
+  // Deviation from the smoothed motion, by each parameter and (last) as it is.
+  Eigen::MatrixXd deviation = Eigen::MatrixXd::Zero(2 * n, p + 1), moved(2 * n, p + 1);
+  deviation.col(p) = start_of(window) - motion.state.col(0);
+  Eigen::MatrixXd error(n, p + 1);
+  for (std::size_t row = 0; row + 1 < window.n_rows; ++row) {
+    const auto at = static_cast<Eigen::Index>(row);
+    set_state(motion.state.col(at), state);
+    plant.reset_sensitivities(state);
+    stepper.step(plant, state, row, motion.correction.col(at).data());
+    const Vector x = state_vector(state);
+    if (!(x.cwiseAbs().maxCoeff() < kLargestState)) return {};
+    read_model(plant, state, window.period, model);
+    loosen_at_rest(plant, window, noise, motion.state.col(at), state, model);
+    covariance.advance(model);
+    moved.noalias() = model.transition * deviation;
+    moved.topLeftCorner(n, p) +=
+        Eigen::Map<const Table>(state.by_position.data(), n, n_columns).leftCols(p);
+    moved.bottomLeftCorner(n, p) +=
+        Eigen::Map<const Table>(state.by_velocity.data(), n, n_columns).leftCols(p);
+    moved.col(p) += x - motion.state.col(at + 1) - model.input * motion.correction.col(at);
+    deviation = moved;
+    if (!settings.compares(row + 1)) continue;
+    covariance.compare();
+    error = moved.topRows(n);
+    error.col(p) -= measured(window, row + 1) - motion.state.col(at + 1).head(n);
+    rows.middleRows(next, n).noalias() = covariance.whitener() * error;
+    next += n;
+    deviation.noalias() -= covariance.gain() * error;
+  }
+  return rows;
+}
+
+}  // namespace cablefit
