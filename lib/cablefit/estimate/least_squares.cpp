@@ -60,7 +60,7 @@ Words words_for(const RowStatistics& rows, const LinearProblem& problem,
     words.rms(static_cast<Eigen::Index>(words.names.size())) =
         rows.r().col(problem.regressors[at]).norm() / std::sqrt(n);
     words.names.push_back(
-        {problem.names[at], problem.motion.empty() ? MotionColumn{} : problem.motion[at]});
+        {problem.names[at], at < problem.motion.size() ? problem.motion[at] : MotionColumn{}});
   }
   return words;
 }

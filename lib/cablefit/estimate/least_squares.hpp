@@ -24,7 +24,7 @@ struct LinearProblem {
   std::vector<std::string> held = {};
   /// constraints * x >= 0, a column per regressor; no rows: none.
   Eigen::MatrixXd constraints = {};
-  /// Per regressor what it follows, for advice in messages; empty: none is given.
+  /// Per regressor what it follows, for advice in messages; none is given for those beyond its end.
   std::vector<MotionColumn> motion = {};
   /// Share of the largest singular value (scaled columns) below which columns cannot be told apart;
   /// smaller for data that are exact by definition.

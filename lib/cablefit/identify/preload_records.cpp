@@ -59,7 +59,7 @@ JointRecord blocked_record(std::span<const LogSurvey> logs, const IdentifyOption
                             facts.name, rows.rows->n_rows()));
   const bool both = has_both_branches(rows);
   if (!both)
-    facts.warnings.push_back(
+    facts.warnings.emplace_back(
         "theta moves in one direction only while the link is blocked: the motor's static friction "
         "cannot be told from the elastic torque; sweep up and down");
   JointEquation equation;
