@@ -40,6 +40,37 @@ TEST_CASE("stage 1 finds l_o of the shipped blocked logs", "[identify][recover]"
                   3);
 }
 
+// What a stage says of its errors is of the coefficients it tells, not of a fit to one preload.
+TEST_CASE("errors of a search are those of its cables", "[identify]") {
+  PreloadedBench bench;
+  bench.add("low", blocked_log(truth::Rig::low(), 17));
+  bench.add("high", blocked_log(truth::Rig::high(), 18));
+  const ElasticResult found = fit_elastic_with_search(bench.logs(), {}, true);
+  const IdentifyResult joint = identify(bench.logs(), {});
+  for (std::size_t j = 0; j < 2; ++j) {
+    const ElasticFit& poly = *found.preloads.at(j).find("poly");
+    // The same rows and cables; offset and friction are fitted to them once more.
+    CHECK_THAT(poly.rms_error, Catch::WithinRel(joint.preloads.at(j).equations.at(0).rms, 1e-4));
+    ElasticOptions options;
+    options.order = 2;
+    options.preload = found.preloads[j].name;
+    PreloadedBench known;
+    known.rig.transmission = joint.preloads[j].transmission;
+    known.add(options.preload, blocked_log(j == 0 ? truth::Rig::low() : truth::Rig::high(),
+                                           17 + static_cast<std::uint64_t>(j)));
+    const ElasticFit alone = *fit_elastic(known.logs(), options).preloads.at(0).find("poly");
+    for (const Cable& cable : joint.preloads[j].transmission.cables)
+      for (const double k : cable.coefficients) options.coefficients.push_back(k);
+    const ElasticFit given = *fit_elastic(known.logs(), options).preloads.at(0).find("poly");
+    CHECK(poly.max_abs_error == given.max_abs_error);
+    CHECK(poly.max_abs_error != alone.max_abs_error);
+    CHECK(given.rms_error > alone.rms_error);
+    for (double& k : options.coefficients) k *= 1.1;
+    CHECK(fit_elastic(known.logs(), options).preloads.at(0).find("poly")->rms_error >
+          10 * given.rms_error);
+  }
+}
+
 TEST_CASE("stage 1 refuses to name an l_o that no log tells", "[identify]") {
   truth::Rig rig = truth::Rig::low();
   rig.cable_1 = {{1900}, 0.03};

@@ -43,10 +43,13 @@ double stiffness_at(const Transmission& transmission, int joint, double phi) {
 double typical_stiffness(const ElasticFit& fit, const ElasticPreload& preload) {
   if (fit.transmission.cables.empty()) return fit.transmission.linear_stiffness(0);
   double sum = 0;
-  const double deflection = 0.5 * std::max(-preload.deflection_low, preload.deflection_high);
+  const double q = fit.transmission.reference_q()(0);
+  const double centre = fit.transmission.reference_theta()(0) - q;
+  const double deflection =
+      0.5 * std::max(centre - preload.deflection_low, preload.deflection_high - centre);
   for (const Cable& cable : fit.transmission.cables) {
-    for (const double phi : {-deflection, deflection}) {
-      const double r = cable.motor_map.front().radius(phi);
+    for (const double phi : {centre - deflection, centre + deflection}) {
+      const double r = cable.motor_map.front().radius(q + phi);
       sum += 0.5 * r * r * cable.stiffness(elongation_at(fit.transmission, cable, phi));
     }
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 
 #include "cablefit/model/model.hpp"
 
@@ -117,6 +118,23 @@ LinearSolution solve_candidate(const BlockedRows& rows, const Candidate& candida
   if (!breaks_constraints(candidate, plain.x)) return plain;
   return solve(*rows.rows, {candidate.regressors, candidate.names, candidate.lower,
                             rows.torque_response(), candidate.held, constraint_rows(candidate)});
+}
+
+LinearSolution solve_given(const BlockedRows& rows, const Candidate& candidate,
+                           std::span<const double> coefficients) {
+  assert(coefficients.size() == candidate.n_elastic);
+  LinearProblem problem{candidate.regressors, candidate.names, candidate.lower,
+                        rows.torque_response(), candidate.held};
+  for (std::size_t k = 0; k < coefficients.size(); ++k) {
+    problem.response(candidate.regressors[k]) -= coefficients[k];
+    problem.held[k] = "given";
+  }
+  LinearSolution s = solve(*rows.rows, problem);
+  for (std::size_t k = 0; k < coefficients.size(); ++k) {
+    s.x(static_cast<Eigen::Index>(k)) = coefficients[k];
+    s.not_identifiable[k].clear();
+  }
+  return s;
 }
 
 Transmission fitted_transmission(const Candidate& candidate, const Eigen::VectorXd& x) {

@@ -41,6 +41,9 @@ Eigen::MatrixXd constraint_rows(const Candidate& candidate);
 bool breaks_constraints(const Candidate& candidate, const Eigen::VectorXd& x);
 /// Plain least squares where every cable only pulls by itself, constrained where one would push.
 LinearSolution solve_candidate(const BlockedRows& rows, const Candidate& candidate);
+/// With these elastic coefficients, all of the candidate's; the rest is fitted.
+LinearSolution solve_given(const BlockedRows& rows, const Candidate& candidate,
+                           std::span<const double> coefficients);
 /// Whether cables push or not.
 LinearSolution solve_plain(const BlockedRows& rows, const Candidate& candidate);
 /// The candidate's transmission with the coefficients that `x` starts with.

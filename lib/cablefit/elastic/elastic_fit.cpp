@@ -140,7 +140,10 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
       poly_candidate(stage.job, stage.rows, order, stage.nuisances())};
   std::vector<LinearSolution> solutions;
   for (const Candidate& candidate : candidates) {
-    solutions.push_back(solve_candidate(stage.rows, candidate));
+    const std::vector<double>& given = stage.job.options.coefficients;
+    solutions.push_back(candidate.model == "linear" || given.empty()
+                            ? solve_candidate(stage.rows, candidate)
+                            : solve_given(stage.rows, candidate, given));
     preload.fits.push_back(
         make_fit(stage.job, candidate, solutions.back(), stage.rows, stage.nuisances()));
     if (!preload.both_branches)

@@ -5,6 +5,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "cablefit/elastic/elastic_result.hpp"
 
@@ -27,6 +28,9 @@ struct ElasticOptions {
   bool honest_sd = true;       ///< --sd honest | white
   std::string preload;         ///< only this one; empty: all
   bool figures = false;        ///< one more pass, for reports with plots
+  /// Of all cables of one joint, one after the other: given, so that offset and friction alone are
+  /// fitted beside them; none: fitted.
+  std::vector<double> coefficients = {};
 };
 
 /// Fits every preload found in the blocked logs (with `still`: in all logs). Throws Error(input)

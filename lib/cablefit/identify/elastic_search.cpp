@@ -39,7 +39,8 @@ std::vector<LogSurvey> known_logs(std::span<const LogSurvey> logs, const Identif
   return known;
 }
 
-/// The joint fit's numbers instead of those of this preload alone.
+/// The joint fit's numbers with their sd instead of those of this preload alone. Errors and figures
+/// are of the given coefficients already; held-out blocks are of fits to the other blocks.
 void take_joint(const IdentifyResult& joint, const IdentifyPreload& preload, ElasticFit& fit) {
   fit.parameters = joint.parameters;
   for (const bool elongations : {true, false})
@@ -50,7 +51,6 @@ void take_joint(const IdentifyResult& joint, const IdentifyPreload& preload, Ela
   fit.active_bounds = joint.active_bounds;
   if (const Estimate* offset = find_estimate(preload.parameters, "offset"))
     fit.offset = offset->value;
-  for (const IdentifyEquation& equation : preload.equations) fit.rms_error = equation.rms;
 }
 
 void describe_search(const IdentifyResult& joint, const IdentifyPreload& preload,
@@ -102,6 +102,10 @@ ElasticResult fit_elastic_with_search(std::span<const LogSurvey> logs,
   result.warnings = joint.warnings;
   for (const IdentifyPreload& preload : joint.preloads) {
     each.preload = preload.name;
+    each.coefficients.clear();
+    for (const Cable& cable : preload.transmission.cables)
+      each.coefficients.insert(each.coefficients.end(), cable.coefficients.begin(),
+                               cable.coefficients.end());
     ElasticResult one = fit_elastic(known_logs(logs, preload), each);
     for (ElasticPreload& stage1 : one.preloads) {
       for (ElasticFit& fit : stage1.fits)

@@ -25,6 +25,14 @@ Eigen::VectorXd grid_elongations(const JointFit& fit, std::size_t job, double sc
   return l_o;
 }
 
+/// Every searched cable taut wherever the logs went.
+Elongations tight_elongations(const JointFit& fit) {
+  Elongations tight;
+  for (std::size_t j = 0; j < fit.jobs.size(); ++j)
+    tight.push_back(grid_elongations(fit, j, kGrid.back()));
+  return tight;
+}
+
 /// Rows of every job at every place of the grid, and the merit of a combination of places.
 class Grid {
  public:
@@ -111,9 +119,10 @@ std::vector<Ranked> rank_places(const JointFit& fit, const Grid& grid) {
   return ranked;
 }
 
-/// Of all explanations that stand beside the best, the one that claims least: linear cables that
-/// never go slack look like one cable at a time, twice as stiff, without preload.
-JointPoint least_certain(const JointFit& fit, const std::vector<JointPoint>& ends) {
+}  // namespace
+
+JointPoint least_certain(JointFit& fit, std::vector<JointPoint> ends) {
+  ends.push_back(evaluate(fit, {tight_elongations(fit)}).front());
   const JointPoint* chosen = &best_of(ends);
   const double best = chosen->merit();
   const Eigen::Index least = n_undetermined(fit, *chosen);
@@ -129,8 +138,6 @@ JointPoint least_certain(const JointFit& fit, const std::vector<JointPoint>& end
   return *chosen;
 }
 
-}  // namespace
-
 JointPoint search_elongations(JointFit& fit, double grid_scale) {
   Elongations known;
   for (const PreloadJob& job : fit.jobs) known.push_back(elongations_of(job.transmission));
@@ -145,9 +152,7 @@ JointPoint search_elongations(JointFit& fit, double grid_scale) {
   std::vector<Ranked> ranked = rank_places(fit, grid);
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const Ranked& a, const Ranked& b) { return a.merit < b.merit; });
-  Grid::Places tight;  // every cable taut wherever the logs went
-  for (std::size_t j = 0; j < fit.jobs.size(); ++j) tight.push_back(grid.n_places(j) - 1);
-  std::vector<ElongationStart> starts = {{grid.point(tight).l_o}};
+  std::vector<ElongationStart> starts = {{tight_elongations(fit)}};
   for (const Ranked& r : ranked)
     if (starts.size() <= kStarts) starts.push_back({grid.point(r.places).l_o});
   std::vector<JointPoint> ends = descend(fit, starts);

@@ -1,6 +1,8 @@
 // The initial elongations from many starts, since every cable that goes slack makes a kink.
 #pragma once
 
+#include <vector>
+
 #include "cablefit/identify/elongation_descent.hpp"
 
 namespace cablefit {
@@ -10,5 +12,10 @@ namespace cablefit {
 /// the one point there is. Where several explanations fit alike, the one that determines least.
 /// `grid_scale`: stretches the grid.
 JointPoint search_elongations(JointFit& fit, double grid_scale = 1);
+
+/// Of the points, and of all searched cables taut wherever the logs went, the explanation that
+/// stands beside the best and claims least: linear cables that never go slack look like one cable
+/// at a time, twice as stiff, without preload.
+JointPoint least_certain(JointFit& fit, std::vector<JointPoint> points);
 
 }  // namespace cablefit

@@ -64,7 +64,10 @@ JointPoint settle(JointFit& fit, JointPoint point) {
       change = std::max(change, std::abs(problem.blocks[b].weight / fit.weights[b] - 1));
       fit.weights[b] = problem.blocks[b].weight;
     }
-    point = polish(fit, point);
+    // Where something is left open a descent drifts, and may end where a single row decides.
+    point = fit.searches()
+                ? least_certain(fit, {polish(fit, point), evaluate(fit, {point.l_o}).front()})
+                : polish(fit, point);
     if (change < kSettled) break;
   }
   return point;
