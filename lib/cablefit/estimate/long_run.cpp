@@ -8,12 +8,6 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kMaxRho = 0.97;
-// A kernel this share of the series long leaves as many degrees of freedom, which t quantiles pay
-// for (2.00 instead of 1.96). Andrews' bandwidth supposes a spectrum with its peak at zero and
-// smooths over a dip: slow noise times a fast regressor has one there, and its sd came out 1.4
-// times too large. Coverage wants longer kernels than the least mean square error does (Sun,
-// Phillips & Jin 2008, Econometrica 76:175).
-constexpr double kFrequencies = 64;
 
 double lag1_correlation(const Eigen::Ref<const Eigen::VectorXd>& x) {
   const Eigen::Index n = x.size();
@@ -76,8 +70,8 @@ LongRunCovariance long_run_covariance(const Eigen::Ref<const Eigen::MatrixXd>& s
     white.col(k) = series.col(k).tail(n - 1) - rho(k) * series.col(k).head(n - 1);
   }
   const double n_white = static_cast<double>(n - 1);
-  result.bandwidth = std::clamp(1.3221 * std::pow(andrews_alpha2(white) * n_white, 0.2),
-                                std::max(1.0, n_white / kFrequencies), n_white / 4);
+  result.bandwidth =
+      std::clamp(1.3221 * std::pow(andrews_alpha2(white) * n_white, 0.2), 1.0, n_white / 4);
   const Eigen::VectorXd recolour = (1 - rho.array()).inverse();
   const double scale = static_cast<double>(n) / n_white;
   result.covariance =
