@@ -4,27 +4,31 @@
 
 #include <cmath>
 
+#include "cablefit/model/effect_choice.hpp"
+
 namespace cablefit {
 namespace {
 
-/// Every effect of the side of which the fit has all parameters.
+/// The effects of the side that the fit has.
 std::vector<EffectInstance> effects_of(const DynamicFit& fit, Side side, int joint, int n_joints,
                                        std::string& why_not) {
+  const auto find = [&](std::string_view name) {
+    return find_estimate(fit.parameters, joint_parameter_name(name, joint, n_joints));
+  };
+  const auto has = [&](std::string_view name) { return find(name) != nullptr; };
   std::vector<EffectInstance> result;
-  for (const Effect& effect : effects()) {
-    if (effect.side != side) continue;
-    EffectInstance instance{&effect, {}};
-    for (const ParameterInfo& info : effect.parameters) {
-      const Estimate* e =
-          find_estimate(fit.parameters, joint_parameter_name(info.name, joint, n_joints));
+  for (const Effect* effect : effects_with(side, has)) {
+    EffectInstance instance{effect, {}};
+    for (const ParameterInfo& info : effect->parameters) {
+      const Estimate* e = find(info.name);
       if (e == nullptr) break;
       instance.parameters.push_back(*e);
       if (std::isfinite(e->value)) continue;
       instance.parameters.back().value = 0;
-      if (effect.inertia != nullptr)
+      if (effect->inertia != nullptr)
         why_not = fmt::format("{} is not identifiable, so the fit cannot be simulated", e->name);
     }
-    if (instance.parameters.size() == effect.parameters.size()) result.push_back(instance);
+    if (instance.parameters.size() == effect->parameters.size()) result.push_back(instance);
   }
   return result;
 }

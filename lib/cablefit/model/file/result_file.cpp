@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cablefit/base/quote.hpp"
+#include "cablefit/model/effect_choice.hpp"
 #include "cablefit/model/file/fit_parameters.hpp"
 #include "cablefit/model/file/parts.hpp"
 #include "cablefit/model/json_reading.hpp"
@@ -46,18 +47,19 @@ Estimate take(const JsonNode& node, const Estimate& blank) {
 /// Every effect of the side of which the fit has a parameter.
 std::vector<EffectInstance> take_effects(FitParameters* parameters, Side side, int joint,
                                          const Model& model) {
+  const auto has = [&](std::string_view name) {
+    return parameters->find_dynamic(joint_parameter_name(name, joint, model.rig.n_joints())) !=
+           nullptr;
+  };
   std::vector<EffectInstance> result;
-  for (const Effect& effect : effects()) {
-    if (effect.side != side) continue;
-    EffectInstance instance{&effect, {}};
-    for (const ParameterInfo& info : effect.parameters) {
+  for (const Effect* effect : effects_with(side, has)) {
+    parameters->require_all(*effect, joint, model.rig);
+    EffectInstance& instance = result.emplace_back();
+    instance.effect = effect;
+    for (const ParameterInfo& info : effect->parameters) {
       const Estimate blank = blank_estimate(info, joint, model.rig);
-      const JsonNode* node = parameters->find_dynamic(blank.name);
-      if (node) instance.parameters.push_back(take(*node, blank));
+      instance.parameters.push_back(take(*parameters->find_dynamic(blank.name), blank));
     }
-    if (instance.parameters.empty()) continue;
-    parameters->require_all(effect, joint, model.rig);
-    result.push_back(instance);
   }
   return result;
 }
