@@ -192,11 +192,9 @@ Estimation estimate_automatically(const EstimationTask& task) {
 }  // namespace
 
 Estimator iv() {
-  return {
-      "iv",
-      "instrumental variables: regressors of a simulated noise-free closed loop, iterated; with "
-      "the Durbin-Wu-Hausman test",
-      "Janot, Vandanjon & Gautier 2014; Janot et al. 2016", estimate_iv};
+  return {"iv",
+          "instrumental variables from a simulated noise-free closed loop, iterated (IDIM-IV)",
+          "Janot, Vandanjon & Gautier 2014", estimate_iv};
 }
 
 Estimator automatic() {
