@@ -216,11 +216,12 @@ SmoothedMotion smooth_motion(SensitivePlant& plant, const OutputErrorWindow& win
     read_model(plant, state, window.period, model);
     loosen_at_rest(plant, window, noise, before, state, model);
     covariance.advance(model);
-    Vector white = Vector::Zero(n);
+    Vector weighted_innovation = Vector::Zero(n);
     if (settings.compares(row + 1)) {
       covariance.compare();
       const Vector innovation = measured(window, row + 1) - x.head(n);
-      white = covariance.whitener() * innovation;
+      const Vector white = covariance.whitener() * innovation;
+      weighted_innovation = covariance.whitener().transpose() * white;
       sum += white.squaredNorm() - 2 * covariance.whitener().diagonal().array().log().sum();
       x += covariance.gain() * innovation;
     }
@@ -230,7 +231,7 @@ SmoothedMotion smooth_motion(SensitivePlant& plant, const OutputErrorWindow& win
                  model.input,
                  covariance.gain(),
                  covariance.covariance(),
-                 covariance.whitener().transpose() * white,
+                 weighted_innovation,
                  model.force_sd,
                  settings.compares(row + 1)};
   }
