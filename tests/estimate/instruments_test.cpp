@@ -5,9 +5,9 @@
 #include <cstdio>
 
 #include "cablefit/estimate/exogeneity.hpp"
-#include "cablefit/estimate/f_distribution.hpp"
 #include "cablefit/estimate/least_squares.hpp"
 #include "cablefit/estimate/long_run.hpp"
+#include "cablefit/estimate/tail_probability.hpp"
 #include "tests/support/columns.hpp"
 #include "tests/support/monte_carlo.hpp"
 
@@ -76,9 +76,9 @@ TEST_CASE("the tail of F is R's", "[estimate]") {
                              {0.001, 2, 5, 0.99900069958}};
   for (const auto& [f, numerator, denominator, p] : table) {
     INFO("F(" << numerator << ", " << denominator << ") = " << f);
-    CHECK_THAT(f_upper_tail(f, numerator, denominator), Catch::WithinRel(p, 1e-9));
+    CHECK_THAT(f_tail(f, numerator, denominator), Catch::WithinRel(p, 1e-9));
   }
-  CHECK(f_upper_tail(0, 2, 5) == 1);
+  CHECK(f_tail(0, 2, 5) == 1);
 }
 
 TEST_CASE("regressors as their own instruments are least squares", "[estimate]") {

@@ -5,8 +5,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "cablefit/estimate/f_distribution.hpp"
 #include "cablefit/estimate/instruments.hpp"
+#include "cablefit/estimate/tail_probability.hpp"
 
 namespace cablefit {
 namespace {
@@ -73,7 +73,7 @@ ExogeneityTest test_exogeneity(const RowStatistics& rows, const LinearProblem& p
   test.dof_numerator = distance.rank;
   test.dof_denominator = s.degrees_of_freedom;
   test.statistic = distance.sum / distance.rank;
-  test.p_value = f_upper_tail(test.statistic, test.dof_numerator, test.dof_denominator);
+  test.p_value = f_tail(test.statistic, test.dof_numerator, test.dof_denominator);
   return test;
 }
 
