@@ -1,23 +1,14 @@
 #include "cablefit/dynamic/instrumental_variables.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "cablefit/dynamic/fitted_model.hpp"
+#include "cablefit/estimate/exogeneity.hpp"
 
 namespace cablefit {
 namespace {
 
 constexpr double kStill = 0.05;  // of an sd: what another simulation would move
-
-double largest_change(const LinearSolution& from, const LinearSolution& to) {
-  double largest = 0;
-  for (Eigen::Index k = 0; k < to.x.size(); ++k) {
-    const double sd = std::sqrt(to.covariance(k, k));
-    if (sd > 0) largest = std::max(largest, std::abs(to.x(k) - from.x(k)) / sd);
-  }
-  return largest;
-}
 
 /// Simulates with `before` and fits; the new solutions are in `fit`.
 void simulate_and_fit(const DynamicJob& job, std::span<const LogSurvey> logs,
@@ -35,7 +26,7 @@ void simulate_and_fit(const DynamicJob& job, std::span<const LogSurvey> logs,
   for (std::size_t k = 0; k < equations.size(); ++k) {
     fit.solutions.push_back(
         solve(fit.rows[k].rows, instrumented_problem(job, equations[k], which)));
-    fit.last_change = std::max(fit.last_change, largest_change(before[k], fit.solutions[k]));
+    fit.last_change = std::max(fit.last_change, largest_change_in_sd(before[k], fit.solutions[k]));
   }
 }
 
@@ -52,7 +43,10 @@ IvFit fit_by_instruments(const DynamicJob& job, std::span<const LogSurvey> logs,
   while (fit.n_simulations < most_simulations) {
     simulate_and_fit(job, logs, equations, before, which, plan, fit);
     if (!fit.failure.empty()) return fit;
-    if (fit.converged()) break;
+    // What weak instruments say of the model is not worth a simulation.
+    if (fit.converged() ||
+        std::any_of(fit.solutions.begin(), fit.solutions.end(), has_weak_instruments))
+      break;
     before = fit.solutions;
   }
   for (std::size_t k = 0; k < equations.size(); ++k)

@@ -190,6 +190,15 @@ LinearSolution solve(const RowStatistics& rows, const LinearProblem& problem) {
   return out;
 }
 
+double largest_change_in_sd(const LinearSolution& from, const LinearSolution& to) {
+  double largest = 0;
+  for (Eigen::Index k = 0; k < to.x.size(); ++k) {
+    const double sd = std::sqrt(to.covariance(k, k));
+    if (sd > 0) largest = std::max(largest, std::abs(to.x(k) - from.x(k)) / sd);
+  }
+  return largest;
+}
+
 double rms_on_cells(const std::vector<const GramCell*>& cells, const Eigen::VectorXd& combination) {
   double sum = 0;
   Eigen::Index n = 0;

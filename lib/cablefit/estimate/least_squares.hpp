@@ -75,6 +75,10 @@ struct LinearSolution {
 /// Throws nothing for rank deficiency or too few rows: that is a result, told in not_identifiable.
 LinearSolution solve(const RowStatistics& rows, const LinearProblem& problem);
 
+/// Largest change of a parameter from one solution to another of the same problem, in sd of `to`:
+/// the measure by which an iteration stands still. 0 where no parameter has an sd.
+double largest_change_in_sd(const LinearSolution& from, const LinearSolution& to);
+
 /// Root mean square of rows * combination over the given cells (held-out blocks), from their Grams.
 double rms_on_cells(const std::vector<const GramCell*>& cells, const Eigen::VectorXd& combination);
 

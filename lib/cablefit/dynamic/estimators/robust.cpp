@@ -77,16 +77,6 @@ void pull_in_rows(const RowArchive& rows, const Eigen::VectorXd& combination, co
   e.rows = std::move(pulled);
 }
 
-/// Largest change of a parameter, in sd.
-double change(const LinearSolution& from, const LinearSolution& to) {
-  double largest = 0;
-  for (Eigen::Index k = 0; k < to.x.size(); ++k) {
-    const double sd = std::sqrt(to.covariance(k, k));
-    if (sd > 0) largest = std::max(largest, std::abs(to.x(k) - from.x(k)) / sd);
-  }
-  return largest;
-}
-
 struct Iteration {
   Estimation estimation;
   std::vector<Huber> hubers;  ///< per equation
@@ -111,8 +101,9 @@ Iteration step(const EstimationTask& task, const Archives& archives, const Itera
   next.estimation = least_squares_fit({task.job, pulled, task.model}, Weighting::by_residual);
   next.is_still = !from.hubers.empty();
   for (std::size_t k = 0; k < pulled.size(); ++k)
-    next.is_still = next.is_still && change(from.estimation.solutions[k],
-                                            next.estimation.solutions[k]) < kStandsStill;
+    next.is_still =
+        next.is_still && largest_change_in_sd(from.estimation.solutions[k],
+                                              next.estimation.solutions[k]) < kStandsStill;
   return next;
 }
 
