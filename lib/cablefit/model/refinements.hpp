@@ -1,0 +1,112 @@
+// The catalogue of what a real drive may have beyond the paper's model, (14) with (30) and (31):
+// what `refine` may name and add. One row is a regressor, a torque (or sensor, or cable) of the
+// simulation, and a candidate. To add one: one file with its functions, one line in
+// refinements.cpp.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "cablefit/base/parameter.hpp"
+#include "cablefit/model/cables.hpp"
+
+namespace cablefit {
+
+/// Where it acts. A rigid drive has one axis, which counts as its motor.
+enum class Site { link, motor, transmission, sensor, drive };
+std::string_view to_string(Site site);
+
+/// One joint at one time, as the equations of a refinement see it. SI, joint side. On a rigid drive
+/// q is theta, and nothing elastic is there.
+struct JointState {
+  double t = 0;            ///< s, since the log began
+  double since_event = 0;  ///< s, negative before it; rows with `is_event` only
+  double q = 0, qd = 0, qdd = 0;
+  double theta = 0, thetad = 0, thetadd = 0;
+  double deflection = 0;  ///< theta - theta_0 - q
+  double deflection_rate = 0;
+  double tau_elas = 0;   ///< N m, of the model's cables on the motor
+  double stiffness = 0;  ///< N m/rad, d tau_elas / d deflection
+  double tension = 0;    ///< N m, sum of all cable forces, each at its motor pulley
+};
+
+/// One joint's signals on an even grid, as logged; what the log lacks is empty.
+struct Recording {
+  double period = 0;  ///< s
+  Eigen::ArrayXd q, theta, tau, tau_load;
+};
+
+/// Values of one nonlinear parameter that a scan tries.
+struct ShapeGrid {
+  double low = 0, high = 0;  ///< also the bounds of the parameter in a fit
+  int n_values = 1;
+  bool is_geometric = true;  ///< even in its logarithm
+
+  double value(int i) const;
+};
+
+/// A row. Exactly one of `torque` (with or without `level`), `level`, `correct` and `change` groups
+/// is there. Torques stand on the LEFT side of the equations of motion, like J qdd: they oppose.
+struct Refinement {
+  std::string_view name;  ///< contract: "stribeck"
+  Site site;
+  /// Names in one class cannot be told apart by any log of the usual kind: "constant", "scale",
+  /// "l_o"; empty: none.
+  std::string_view alias_class;
+  std::string_view equation;    ///< "a sgn(qd) exp(-(qd / v_s)^2)"
+  std::string_view signature;   ///< what it looks like, and what looks like it
+  std::string_view experiment;  ///< the cheapest run that separates it from its look-alikes
+  std::string_view source;      ///< author, year
+  /// Linear ones first, then one per entry of `shape`.
+  std::span<const ParameterInfo> parameters;
+  std::span<const ShapeGrid> shape;
+  /// The linear parameters are pairs (sine, cosine) of this many harmonics; 0: they are not.
+  int n_harmonics = 0;
+  /// Dated: since_event counts from a time that is looked for.
+  bool is_event = false;
+
+  /// Internal states z[0 .. n_states), 0 at the start. `advance` takes them over the time h (s), in
+  /// which the state is that of the middle; it must be stable for any h.
+  std::size_t n_states = 0;
+  void (*advance)(const JointState& state, const double* shape, double h, double* z) = nullptr;
+  /// Per unit of each linear parameter: torque on the link and on the motor (N m per unit), both
+  /// arrays as long as there are linear parameters; what is not written stays 0.
+  void (*torque)(const JointState& state, const double* shape, const double* z, double* link,
+                 double* motor) = nullptr;
+  /// Per unit of each linear parameter: level of dry friction on the row's own axis, to be
+  /// multiplied with sgn(v) (set-valued at rest). `direction`: -1 or 1, of motion, or of the push.
+  void (*level)(const JointState& state, double direction, const double* shape, const double* z,
+                double* level) = nullptr;
+
+  /// A sensor or drive that is not as it should be: makes of a recording what it ought to have
+  /// been, given all parameters. Rows with a linear parameter are linear for small ones.
+  void (*correct)(const double* parameters, Recording& recording) = nullptr;
+  /// Size of the linear parameter for a difference quotient; `correct` only.
+  double step = 0;
+
+  /// Other cables: the transmission with this effect, given the shape. Nothing where the effect
+  /// makes no sense for it or is there already. Coefficients are then fitted anew.
+  std::optional<Transmission> (*change)(const Transmission& transmission,
+                                        const double* shape) = nullptr;
+
+  std::size_t n_linear() const { return parameters.size() - shape.size(); }
+};
+
+/// All rows, in the order of the contract's list.
+std::span<const Refinement> refinements();
+/// The row of that name and site; throws Error(input) with a suggestion.
+const Refinement& find_refinement(std::string_view name, Site site);
+
+/// A row with numbers, as a model holds it: parameters[i].name is refinement->parameters[i].name.
+struct RefinementInstance {
+  const Refinement* refinement = nullptr;
+  std::vector<Estimate> parameters;
+  /// When an event happened: number of the log (from 0, in the order given) and s since it began.
+  std::size_t event_log = 0;
+  double event_time = 0;
+};
+
+}  // namespace cablefit
