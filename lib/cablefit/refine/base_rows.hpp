@@ -1,0 +1,47 @@
+// The model's own equations as linear columns over the rows of a stretch. Internal to refine/.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cablefit/refine/motion.hpp"
+
+namespace cablefit {
+
+/// Columns that all kinds of rows share: effects of the link, of the motor, then the coefficients
+/// of the cables (or K). Rows of one axis have 0 in the columns of the other.
+///   link     Phi_l x_l - P basis x_e = tau_load
+///   motor    Phi_m x_m + S basis x_e = tau          (blocked: the same, the link stands)
+/// Several preloads share all of them (Fichera & Grossard 2017, (26)-(28)).
+struct BaseLayout {
+  Eigen::Index n_link = 0, n_motor = 0, n_elastic = 0;
+  std::vector<ParameterInfo> effects;  ///< link, then motor
+  Eigen::Index n() const { return n_link + n_motor + n_elastic; }
+};
+BaseLayout base_layout(const Model& model);
+
+/// Values of the columns' parameters in a model, and back into it.
+Eigen::VectorXd base_values(const BaseLayout& layout, const Model& model);
+void set_base_values(const Eigen::VectorXd& values, Model& model);
+
+/// Rows of one kind out of one stretch.
+struct KindRows {
+  RowKind kind = RowKind::motor;
+  std::vector<Eigen::Index> at;  ///< samples of the stretch
+  Eigen::MatrixXd base;          ///< n_rows x layout.n()
+  Eigen::VectorXd response;      ///< n_rows, N m
+};
+
+/// What a stretch gives: at most a link and a motor (or blocked) equation.
+struct StretchRows {
+  SmoothMotion motion;
+  std::vector<KindRows> kinds;
+};
+
+/// `kept`: take the rows of these instead of choosing, so that a changed recording can be compared
+/// row by row.
+StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayout& layout,
+                      const Smoothing& smoothing, const StretchRows* kept = nullptr);
+
+}  // namespace cablefit

@@ -1,0 +1,56 @@
+// The whole of the data as linear equations: a model's columns, and those of what was added to it,
+// over the rows of every stretch. Internal to refine/.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cablefit/refine/base_rows.hpp"
+
+namespace cablefit {
+
+/// A row of the catalogue with its nonlinear parameters fixed, and its date.
+struct Variant {
+  const Refinement* refinement = nullptr;
+  std::vector<double> shape;
+  std::size_t event_log = 0;  ///< events only
+  double event_time = 0;      ///< s
+};
+
+/// Everything that a fit of linear parameters needs. Columns: those of the layout, then those of
+/// `added`, in order.
+struct Design {
+  std::vector<Model> models;  ///< per preload, with the coefficients that states were made with
+  BaseLayout layout;
+  Smoothing smoothing;
+  std::vector<Stretch> stretches;
+  std::vector<StretchRows> rows;                  ///< per stretch; `base` has all columns
+  std::vector<std::vector<JointState>> states;    ///< per stretch
+  std::vector<Variant> added;
+  Eigen::Index n_columns() const;
+};
+
+/// `models`: of the same structure, one per preload. The least speeds of the smoothing are chosen
+/// from the recordings unless `smoothing` has them.
+Design make_design(std::span<const Model> models, std::vector<Stretch> stretches,
+                   Smoothing smoothing);
+
+/// Columns of a variant, per stretch and kind of row (n_rows x n_linear). Rows that a variant
+/// replaces are not its business, see replaced_rows.
+using VariantColumns = std::vector<std::vector<Eigen::MatrixXd>>;
+VariantColumns variant_columns(const Design& design, const Variant& variant,
+                               const Eigen::VectorXd& values);
+
+/// Whether a variant has no columns but other base columns or responses (other cables, a clipped
+/// torque), and these. Empty: it makes no sense for this model.
+bool replaces_rows(const Refinement& refinement);
+std::vector<StretchRows> replaced_rows(const Design& design, const Variant& variant);
+
+/// The design with a variant in it. `values`: of the columns so far.
+Design with_variant(const Design& design, const Variant& variant, const Eigen::VectorXd& values);
+
+/// All of it anew with other coefficients in the models: states and nonlinear columns follow them.
+Design relinearised(const Design& design, const Eigen::VectorXd& values);
+
+}  // namespace cablefit

@@ -1,0 +1,58 @@
+// How well a design explains the data: block Gram matrices, held-out blocks, the evidence for one
+// more column. Gram matrices serve the scan, where thousands of small fits are compared; the numbers
+// that are reported come from a QR of the rows. Internal to refine/.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "cablefit/refine/design.hpp"
+
+namespace cablefit {
+
+/// rms per kind of row, N m.
+using KindLevels = std::array<double, kRowKinds>;
+
+/// [response, columns]' [response, columns] of each block of time and kind of row.
+struct BlockGrams {
+  Eigen::Index n_columns = 0;
+  struct Block {
+    std::size_t log = 0;
+    std::array<Eigen::MatrixXd, kRowKinds> gram;  ///< (1 + n_columns)^2; empty: no row of the kind
+    std::array<Eigen::Index, kRowKinds> n_rows{};
+  };
+  std::vector<Block> blocks;
+};
+
+/// Blocks of `block_seconds`; consecutive rows stay together, as residuals are correlated.
+BlockGrams block_grams(const std::vector<StretchRows>& rows, const std::vector<Stretch>& stretches,
+                       double block_seconds);
+
+/// The same with columns more, without forming again what is there.
+BlockGrams extended(const BlockGrams& base, const std::vector<StretchRows>& rows,
+                    const std::vector<Stretch>& stretches, const VariantColumns& columns,
+                    double block_seconds);
+
+/// A weighted fit, rows weighted by 1/level^2 of their kind.
+struct BlockFit {
+  Eigen::VectorXd x;                ///< n_columns
+  Eigen::ArrayXd held_out;          ///< per block: squared error predicted by the others
+  Eigen::ArrayXd in_sample;         ///< per block
+  std::array<double, kRowKinds> squares{};  ///< sum of squared residuals, (N m)^2
+  std::array<double, kRowKinds> n_rows{};
+  Eigen::MatrixXd covariance;       ///< of x, sandwich over the blocks
+  KindLevels rms() const;
+};
+
+/// None where the columns cannot be told apart: the smallest scaled eigenvalue is below `tolerance`.
+std::optional<BlockFit> fit_blocks(const BlockGrams& grams, const KindLevels& levels,
+                                   bool with_held_out = true, double tolerance = 1e-9);
+
+/// Squared error of given values, per block, weighted.
+Eigen::ArrayXd errors_of(const BlockGrams& grams, const KindLevels& levels,
+                         const Eigen::VectorXd& x);
+/// Unweighted, per kind.
+KindLevels rms_of(const BlockGrams& grams, const Eigen::VectorXd& x);
+
+}  // namespace cablefit

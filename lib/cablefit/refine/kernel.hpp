@@ -1,0 +1,34 @@
+// Smoothing kernels of refine's rows: one and the same on every column, derivatives moved on to the
+// kernel (weak form; Messenger & Bortz 2021). Internal to refine/.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace cablefit {
+
+/// Symmetric weights at lags -reach .. reach.
+struct Kernel {
+  Eigen::ArrayXd weights;
+  Eigen::Index reach() const { return weights.size() / 2; }
+};
+
+/// Gaussian of standard deviation `sd` (s) sampled every `period` (s) over +-4 sd, and its first two
+/// derivatives (per s, per s^2). The truncated samples are corrected so that they give exactly what
+/// they should of 1, t and t^2: an uncorrected second derivative makes an acceleration of every
+/// standing position.
+Kernel gaussian(double sd, double period);
+Kernel gaussian_slope(double sd, double period);
+Kernel gaussian_curvature(double sd, double period);
+
+/// Both applied one after the other, as one.
+Kernel convolved(const Kernel& a, const Kernel& b);
+
+/// sum_j weights[j] x[i + j] for every i; at the ends the first and last value go on.
+Eigen::ArrayXd apply(const Kernel& kernel, const Eigen::Ref<const Eigen::ArrayXd>& x);
+
+/// The same of every column, only at `rows`, all at least `reach` from the ends.
+Eigen::MatrixXd apply_at(const Kernel& kernel, const Eigen::Ref<const Eigen::MatrixXd>& x,
+                         const std::vector<Eigen::Index>& rows);
+
+}  // namespace cablefit

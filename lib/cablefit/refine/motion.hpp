@@ -1,0 +1,52 @@
+// Smooth motion of a recording, and which rows of the equations it gives. Internal to refine/.
+//
+// Every signal is smoothed by one kernel S, nonlinear columns are formed from that, and then all
+// columns and both left sides go through one kernel F (parallel filtering; Gautier & Poignet 2001),
+// so that a smoothed switch of friction stands against an equally smoothed torque.
+#pragma once
+
+#include <vector>
+
+#include "cablefit/model/refinements.hpp"
+#include "cablefit/refine/kernel.hpp"
+#include "cablefit/refine/stretches.hpp"
+
+namespace cablefit {
+
+/// Widths of the kernels, s.
+struct Smoothing {
+  double signals = 2.5e-3, columns = 5e-3;
+  Eigen::Index stride = 5;  ///< samples from row to row
+  double least_speed_theta = 0, least_speed_q = 0;  ///< rad/s; slower rows are at rest
+};
+
+/// For a recording of this period (s): the widths above, wider where the sampling is coarse.
+Smoothing smoothing_for(double period);
+
+enum class RowKind { link, motor, blocked };
+inline constexpr std::size_t kRowKinds = 3;
+std::string_view to_string(RowKind kind);
+
+/// Motion of a stretch at its full rate, n samples each.
+struct SmoothMotion {
+  double t0 = 0, period = 0;
+  Eigen::ArrayXd q, qd, qdd, theta, thetad, thetadd;
+  Eigen::ArrayXd tau, tau_load;             ///< smoothed; tau at the time it acts
+  Eigen::ArrayXd q_direction, theta_direction;  ///< -1, 0, 1
+  Eigen::Index size() const { return theta.size(); }
+};
+
+/// `held`: a logged torque acts until the next sample, so that on average it acts half a period
+/// later.
+SmoothMotion smooth_motion_of(const Recording& recording, double t0, bool held,
+                              const Smoothing& smoothing);
+
+/// Samples at which an equation has a row: far enough from the ends, and no rest of the own axis
+/// within reach of the kernel.
+std::vector<Eigen::Index> moving_rows(const Eigen::ArrayXd& speed, double least_speed,
+                                      double period, const Smoothing& smoothing);
+
+/// What the model's cables do at every sample, beside the motion.
+std::vector<JointState> joint_states(const SmoothMotion& motion, const Model& model);
+
+}  // namespace cablefit

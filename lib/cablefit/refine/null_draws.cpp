@@ -1,0 +1,159 @@
+#include "cablefit/refine/null_draws.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/prove/twin.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr std::uint64_t kSensors = 11, kCalibration = 12;
+constexpr double kFollowCutoff = 40;  // Hz, of what a stand-in controller follows
+
+/// Levels of kinds without rows stay 1, so that nothing divides by 0.
+KindLevels positive(KindLevels levels) {
+  for (double& level : levels)
+    if (!(level > 0)) level = 1;
+  return levels;
+}
+
+/// The same motion a little aside, so that its rounding is another.
+void move_aside(Twin& twin, Random& random) {
+  constexpr double kQuanta = 16, kLeast = 1e-4;  // rad
+  for (TwinStretch& stretch : twin.stretches) {
+    double quantum = 0;
+    for (const TwinSensor& sensor : twin.sensors[stretch.log])
+      quantum = std::max(quantum, sensor.quantum);
+    const double aside = std::max(kLeast, kQuanta * quantum) * (random.uniform() - 0.5);
+    stretch.input.theta_ref += aside;
+    stretch.input.theta0.array() += aside;
+    if (!stretch.link_blocked) stretch.input.q0.array() += aside;
+  }
+}
+
+/// Twins of the logs of one preload.
+struct PreloadTwin {
+  std::size_t model = 0;
+  Twin twin;
+  std::vector<std::size_t> logs;          ///< number of each recorded log among those given
+};
+
+}  // namespace
+
+struct NullBench::Parts {
+  std::vector<Model> models;
+  std::vector<PreloadTwin> twins;
+  Smoothing smoothing;
+};
+
+NullBench::NullBench(std::span<const Model> models, std::span<const LogSurvey> logs,
+                     const PartFilter& wanted, const Smoothing& smoothing)
+    : parts_(std::make_unique<Parts>()) {
+  parts_->models.assign(models.begin(), models.end());
+  parts_->smoothing = smoothing;
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    const Model& model = models[m];
+    const PartFilter of_model = [&](const PartSurvey& part) {
+      return wanted(part) && (models.size() == 1 || part.preload == model.preload);
+    };
+    PreloadTwin& twin = parts_->twins.emplace_back();
+    twin.model = m;
+    const bool held = model.rig.torque_hold != TorqueHold::none;
+    twin.twin = make_twin(model, logs, of_model, {held, kFollowCutoff});
+    Random calibration(1, kCalibration);
+    choose_sensors(twin.twin, run_twin(twin.twin, {}, calibration));
+    for (std::size_t k = 0; k < logs.size(); ++k)
+      if (std::any_of(twin.twin.stretches.begin(), twin.twin.stretches.end(),
+                      [k](const TwinStretch& stretch) { return stretch.log == k; }))
+        twin.logs.push_back(k);
+  }
+}
+
+NullBench::~NullBench() = default;
+
+std::vector<Stretch> NullBench::draw(std::uint64_t seed) const {
+  std::vector<Stretch> all;
+  for (const PreloadTwin& twin : parts_->twins) {
+    Random random(seed, kSensors + 2 * twin.model);
+    Twin aside = twin.twin;
+    move_aside(aside, random);
+    const std::vector<LogSurvey> logs =
+        record_twin(aside, run_twin(aside, {}, random), random);
+    const std::span<const Model> model(&parts_->models[twin.model], 1);
+    for (Stretch& stretch :
+         read_stretches(logs, model, [](const PartSurvey&) { return true; })) {
+      stretch.log = twin.logs[stretch.log];
+      stretch.model = twin.model;
+      all.push_back(std::move(stretch));
+    }
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Stretch& a, const Stretch& b) { return a.log < b.log; });
+  return all;
+}
+
+BaseFit fit_base(Design design, double block_seconds, const KindLevels* levels) {
+  constexpr int kRounds = 2;
+  BaseFit base;
+  base.design = std::move(design);
+  base.levels = levels != nullptr ? positive(*levels) : KindLevels{1, 1, 1};
+  for (int round = 0; round < kRounds; ++round) {
+    base.grams = block_grams(base.design.rows, base.design.stretches, block_seconds);
+    for (int pass = 0; pass < 2; ++pass) {
+      auto fit = fit_blocks(base.grams, base.levels, true, 1e-12);
+      if (!fit)
+        throw Error(ErrorKind::not_identifiable,
+                    "the logs do not determine the parameters of the model; run `cablefit dynamic` "
+                    "or `cablefit check` on them to see which");
+      base.fit = std::move(*fit);
+      if (levels != nullptr) break;
+      base.levels = positive(base.fit.rms());
+    }
+    if (round + 1 < kRounds) base.design = relinearised(base.design, base.fit.x);
+  }
+  return base;
+}
+
+NullDraw NullBench::base_only(std::uint64_t seed, const KindLevels* levels) const {
+  const BaseFit base =
+      fit_base(make_design(parts_->models, draw(seed), parts_->smoothing), 2, levels);
+  NullDraw out;
+  out.floor = base.fit.rms();
+  return out;
+}
+
+NullDraw NullBench::searched(std::uint64_t seed, const KindLevels& levels,
+                             const ScanSettings& settings) const {
+  const BaseFit base = fit_base(make_design(parts_->models, draw(seed), parts_->smoothing),
+                                settings.block_seconds, &levels);
+  NullDraw out;
+  out.floor = base.fit.rms();
+  for (const Candidate& candidate :
+       scan({base.design, base.grams, base.fit, base.levels}, settings, {}))
+    if (candidate.refused.empty()) out.gains[candidate.variant.refinement] = candidate.gain;
+  return out;
+}
+
+double tail_of_largest(const std::vector<double>& largest, double gain) {
+  const auto n = static_cast<double>(largest.size());
+  if (largest.size() < 2) return 1;
+  double sum = 0, squares = 0, above = 0;
+  for (const double one : largest) {
+    sum += one;
+    above += one >= gain ? 1 : 0;
+  }
+  const double mean = sum / n;
+  for (const double one : largest) squares += (one - mean) * (one - mean);
+  const double counted = (1 + above) / (1 + n);
+  if (above > 0) return counted;
+  // Gumbel: sd = pi/sqrt(6) scale, mean = mode + gamma scale (Johnson, Kotz & Balakrishnan 1995).
+  const double scale =
+      std::max(1e-12, std::sqrt(squares / (n - 1)) * std::sqrt(6.0) / std::numbers::pi);
+  const double mode = mean - std::numbers::egamma * scale;
+  return std::min(counted, -std::expm1(-std::exp(-(gain - mode) / scale)));
+}
+
+}  // namespace cablefit

@@ -1,0 +1,58 @@
+// What the whole search finds where there is nothing to find: logs simulated from the fitted base
+// model, with the same reference, controller, clock, rounding and noise, go through the same
+// pipeline (parametric bootstrap; Efron & Tibshirani 1993). Noise models of the residual alone
+// under-state it: what a search finds by chance is made by filters at reversals and by rounding.
+// Internal to refine/.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+
+#include "cablefit/refine/scan.hpp"
+
+namespace cablefit {
+
+/// One simulated data set, searched.
+struct NullDraw {
+  KindLevels floor{};                          ///< rms the base model leaves
+  double rho = 0;                              ///< of it, against the levels given
+  std::map<const Refinement*, double> gains;   ///< best of each row; events in sample
+};
+
+class NullBench {
+ public:
+  /// `models`: fitted, one per preload. `logs`: as the search sees them. Throws
+  /// Error(not_identifiable) when the base cannot be simulated.
+  NullBench(std::span<const Model> models, std::span<const LogSurvey> logs,
+            const PartFilter& wanted, const Smoothing& smoothing);
+  ~NullBench();
+  NullBench(const NullBench&) = delete;
+  NullBench& operator=(const NullBench&) = delete;
+
+  /// The recording of one draw.
+  std::vector<Stretch> draw(std::uint64_t seed) const;
+  /// Its base fit, without a search. `levels`: weights; nullptr: of its own residual.
+  NullDraw base_only(std::uint64_t seed, const KindLevels* levels) const;
+  NullDraw searched(std::uint64_t seed, const KindLevels& levels,
+                    const ScanSettings& settings) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// P(largest gain of a search >= gain) where there is nothing: (1 + count) / (1 + n), or the tail
+/// of a Gumbel distribution fitted by moments where that is smaller than draws can tell.
+double tail_of_largest(const std::vector<double>& largest, double gain);
+
+/// A base fit iterated twice: weights from its own residual (or `levels`), states from its values.
+struct BaseFit {
+  Design design;
+  BlockGrams grams;
+  BlockFit fit;
+  KindLevels levels{};
+};
+BaseFit fit_base(Design design, double block_seconds, const KindLevels* levels);
+
+}  // namespace cablefit

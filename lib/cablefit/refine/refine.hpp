@@ -1,0 +1,41 @@
+// Where do model and measurement disagree, which effect is missing, and does the gap shrink on data
+// that had no say? The decision rule stands in one place, verdict.cpp.
+//
+// Method. Rows of the blocked, link and motor equations (base_rows.hpp) of all training logs are
+// fitted jointly; every row of the catalogue is tried as further columns with everything refitted
+// (never on a frozen base: Brynjarsdottir & O'Hagan 2014) and judged on held-out blocks of time.
+// What such a search finds by chance is known from logs simulated from the fitted base
+// (null_draws.hpp). A term stays only if it helps on the test logs too.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "cablefit/refine/refine_result.hpp"
+#include "cablefit/samples/survey.hpp"
+
+namespace cablefit {
+
+struct RefineOptions {
+  std::size_t n_draws = 24;      ///< simulated data sets
+  unsigned long seed = 1;        ///< of the first; counted up from there
+  double materiality = 0.01;     ///< least share of the squared residual that is worth a name
+  double significance = 0.01;    ///< largest p value of a name
+  std::size_t most_effects = 3;
+  int threads = 1;
+  bool figures = false;
+  std::function<void(std::string_view what, double share)> progress;
+};
+
+/// Which logs are for what. Without test logs the last third of every moving log is held out.
+struct RefineLogs {
+  std::vector<LogSurvey> train, test, blocked;
+};
+
+/// `models`: one per preload, of the same structure, fitted to about these logs; coefficients of
+/// cables are shared between preloads, l_o are not. Throws Error(input) for missing channels and
+/// several joints, Error(not_identifiable) where the base cannot be fitted or simulated.
+RefineResult refine(std::span<const Model> models, const RefineLogs& logs,
+                    const RefineOptions& options);
+
+}  // namespace cablefit

@@ -1,0 +1,96 @@
+#include "cablefit/refine/stretches.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cablefit/base/error.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr Eigen::Index kLeastRows = 64;  // a shorter stretch is all edge
+constexpr std::string_view kWhy = "comparing the model's equations with the log";
+
+std::size_t model_of(std::span<const Model> models, const LogPlan& plan, const PartSurvey& part) {
+  if (models.size() == 1) return 0;
+  const auto found = std::find_if(models.begin(), models.end(), [&](const Model& model) {
+    return model.preload == part.preload;
+  });
+  if (found != models.end()) return static_cast<std::size_t>(found - models.begin());
+  throw input_error({plan.path}, fmt::format("no model of preload '{}'", part.preload),
+                    "give a model of every preload, or leave the log out");
+}
+
+void require_channels(const LogPlan& plan, const Model& model, bool blocked) {
+  require_one_joint(plan, "refine is made for one");
+  require_channel(plan, Channel::theta, kWhy);
+  require_channel(plan, Channel::tau, kWhy);
+  if (!model.rigid && !blocked) require_channel(plan, Channel::q, kWhy);
+}
+
+Eigen::ArrayXd column(const Window& window, const LogPlan& plan, Channel channel) {
+  const int slot = plan.find(channel, 0);
+  if (slot < 0) return {};
+  return window.data.col(slot).array();
+}
+
+void append(Eigen::ArrayXd& to, const Eigen::ArrayXd& rows) {
+  const Eigen::Index before = to.size();
+  to.conservativeResize(before + rows.size());
+  to.tail(rows.size()) = rows;
+}
+
+void append(Stretch& stretch, const Window& window, const LogPlan& plan) {
+  append(stretch.recording.q, column(window, plan, Channel::q));
+  append(stretch.recording.theta, column(window, plan, Channel::theta));
+  append(stretch.recording.tau, column(window, plan, Channel::tau));
+  append(stretch.recording.tau_load, column(window, plan, Channel::tau_load));
+}
+
+/// q of a blocked link that was not logged stands at 0; of a rigid drive it is theta.
+void complete(const Model& model, const Rig& rig, Stretch& stretch) {
+  Recording& r = stretch.recording;
+  if (r.q.size() == 0) r.q = model.rigid ? r.theta : Eigen::ArrayXd::Zero(r.theta.size());
+  const Load& load = rig.load.law != nullptr ? rig.load : model.rig.load;
+  if (r.tau_load.size() == 0) r.tau_load = Eigen::ArrayXd::Zero(r.theta.size());
+  if (load.law == nullptr || load.law->from_column) return;
+  for (Eigen::Index i = 0; i < r.q.size(); ++i)
+    r.tau_load(i) = load.law->torque(load.parameters, r.q(i));
+}
+
+void read_log(const LogSurvey& log, std::size_t number, std::span<const Model> models,
+              const PartFilter& wanted, std::vector<Stretch>& stretches) {
+  const std::size_t first = stretches.size();
+  std::vector<double> part_began(log.parts.size(), kUnbounded);
+  for_each_window(log, wanted, 0, kLeastRows, 0, [&](Window&& window) {
+    const PartSurvey& part = log.parts[window.part];
+    if (window.starts_segment && window.begin == 0) {
+      Stretch& stretch = stretches.emplace_back();
+      stretch.log = number;
+      stretch.model = model_of(models, log.plan, part);
+      stretch.blocked = part.phase == Phase::blocked;
+      stretch.recording.period = window.period;
+      part_began[window.part] = std::min(part_began[window.part], window.t0);
+      stretch.t0 = window.t0 - part_began[window.part];
+      require_channels(log.plan, models[stretch.model], stretch.blocked);
+    }
+    append(stretches.back(), window, log.plan);
+    return true;
+  });
+  for (std::size_t k = first; k < stretches.size(); ++k)
+    complete(models[stretches[k].model], log.plan.rig, stretches[k]);
+}
+
+}  // namespace
+
+std::vector<Stretch> read_stretches(std::span<const LogSurvey> logs, std::span<const Model> models,
+                                    const PartFilter& wanted) {
+  std::vector<Stretch> stretches;
+  for (std::size_t k = 0; k < logs.size(); ++k)
+    if (std::any_of(logs[k].parts.begin(), logs[k].parts.end(), wanted))
+      read_log(logs[k], k, models, wanted, stretches);
+  return stretches;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,27 @@
+// Evenly sampled recordings out of logs: what refine looks at, again and again. Internal to refine/.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cablefit/model/model.hpp"
+#include "cablefit/model/refinements.hpp"
+#include "cablefit/samples/row_stream.hpp"
+
+namespace cablefit {
+
+/// Evenly spaced rows without a gap, of one part of one log.
+struct Stretch {
+  std::size_t log = 0;    ///< among those given
+  std::size_t model = 0;  ///< which of the models its preload is
+  double t0 = 0;          ///< s, since the part began
+  bool blocked = false;
+  Recording recording;    ///< tau_load complete: what the rig's law says is in it
+};
+
+/// The wanted parts of the logs, whose preloads are those of `models` (one per preload; a single one
+/// takes every preload). One joint. Throws Error(input) for a missing channel.
+std::vector<Stretch> read_stretches(std::span<const LogSurvey> logs, std::span<const Model> models,
+                                    const PartFilter& wanted);
+
+}  // namespace cablefit

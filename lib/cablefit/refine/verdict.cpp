@@ -1,0 +1,164 @@
+#include "cablefit/refine/verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/base/random.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr double kNextMateriality = 0.02;  // of what is left: imperfect first terms leave crumbs
+constexpr double kLookAlikeSd = 2;         // paired blocks' difference
+constexpr double kLookAlikeShare = 0.25;   // of the gap: more than that apart is not alike
+constexpr double kTieShare = 0.02;         // of the gap: closer than that is a tie at any sd
+constexpr double kSafety = 1.3;            // times the largest chance gain seen
+constexpr int kResamples = 200;
+
+bool may_be_named(const Candidate& c) { return c.refused.empty() && c.gain > 0; }
+
+std::vector<double> largest_gains(const std::vector<NullDraw>& draws, bool events) {
+  std::vector<double> largest;
+  for (const NullDraw& draw : draws) {
+    double most = 0;
+    for (const auto& [row, gain] : draw.gains)
+      if (row->is_event == events) most = std::max(most, gain);
+    largest.push_back(most);
+  }
+  return largest;
+}
+
+/// Difference of two candidates' errors over the blocks, and its standard error.
+struct Paired {
+  double mean = 0, se = 0;
+};
+Paired paired(const Eigen::ArrayXd& a, const Eigen::ArrayXd& b) {
+  const Eigen::ArrayXd d = a - b;
+  const auto n = static_cast<double>(d.size());
+  const double sum = d.sum();
+  const double variance = (d - sum / n).square().sum() * n / std::max(1.0, n - 1);
+  return {sum, std::sqrt(variance)};
+}
+
+/// The same law on the link and on the motor is two.
+bool same_class(const Refinement& a, const Refinement& b) {
+  const bool other_axis = (a.site == Site::link && b.site == Site::motor) ||
+                          (a.site == Site::motor && b.site == Site::link);
+  return !a.alias_class.empty() && a.alias_class == b.alias_class && !other_axis;
+}
+
+/// Share of resamples of the blocks in which each candidate has the least error.
+std::vector<double> inclusions(const std::vector<const Candidate*>& candidates) {
+  std::vector<double> share(candidates.size(), 0.0);
+  if (candidates.empty()) return share;
+  const Eigen::Index n = candidates.front()->error.size();
+  Random random(1, 21);
+  for (int resample = 0; resample < kResamples; ++resample) {
+    Eigen::ArrayXd weight = Eigen::ArrayXd::Zero(n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      weight(static_cast<Eigen::Index>(random.uniform() * static_cast<double>(n))) += 1;
+    std::size_t best = 0;
+    double least = kUnbounded;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      const double error = (weight * candidates[k]->error).sum();
+      if (error < least) {
+        least = error;
+        best = k;
+      }
+    }
+    share[best] += 1.0 / kResamples;
+  }
+  return share;
+}
+
+Rival rival_of(const Candidate& c, const SquaredGap& gap) {
+  const Refinement& row = *c.variant.refinement;
+  Rival rival;
+  rival.name = row.name;
+  rival.side = to_string(row.site);
+  rival.gain = gap.above() > 0 ? c.gain * gap.total / gap.above() : 0;
+  rival.refused = c.refused;
+  rival.experiment = row.experiment;
+  return rival;
+}
+
+}  // namespace
+
+bool anything_material(const std::vector<Candidate>& candidates, const RefineOptions& options) {
+  return std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& c) {
+    return may_be_named(c) && c.gain >= options.materiality;
+  });
+}
+
+Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGap& gap,
+                       const std::vector<NullDraw>& draws, const RefineOptions& options,
+                       bool is_first) {
+  Judgement judgement;
+  std::vector<const Candidate*> able;
+  for (const Candidate& c : candidates)
+    if (may_be_named(c)) able.push_back(&c);
+  std::stable_sort(able.begin(), able.end(),
+                   [](const Candidate* a, const Candidate* b) { return a->gain > b->gain; });
+  const std::vector<double> share = inclusions(able);
+  for (std::size_t k = 0; k < able.size(); ++k) {
+    judgement.league.push_back(rival_of(*able[k], gap));
+    judgement.league.back().inclusion = share[k];
+  }
+  for (const Candidate& c : candidates)
+    if (!may_be_named(c)) judgement.league.push_back(rival_of(c, gap));
+
+  // An event may not win by what any date would have won: each kind has its own null.
+  const auto significant = [&](const Candidate& c, double& p) {
+    const auto largest = largest_gains(draws, c.variant.refinement->is_event);
+    p = tail_of_largest(largest, c.gain);
+    const double chance =
+        largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
+    const double least = is_first ? options.materiality
+                                  : std::max(kNextMateriality, options.materiality);
+    return c.gain >= least && c.gain > kSafety * chance && p <= options.significance;
+  };
+  for (std::size_t k = 0; k < able.size(); ++k) {
+    double p = 1;
+    if (!significant(*able[k], p)) continue;
+    judgement.best = able[k];
+    judgement.p_value = p;
+    judgement.inclusion = share[k];
+    judgement.is_named = true;
+    break;
+  }
+  if (judgement.best == nullptr) return judgement;
+  const Candidate& best = *judgement.best;
+  const Refinement& named = *best.variant.refinement;
+  for (std::size_t k = 0; k < able.size(); ++k) {
+    const Candidate& c = *able[k];
+    const Refinement& row = *c.variant.refinement;
+    if (&row == &named) continue;
+    Rival rival = rival_of(c, gap);
+    rival.inclusion = share[k];
+    rival.by_rule = same_class(row, named);
+    const Paired d = paired(c.error, best.error);
+    rival.difference = d.se > 0 ? d.mean / d.se : 0;
+    const bool comparable = row.is_event == named.is_event;
+    const double apart = gap.above() > 0 ? d.mean / gap.above() : kUnbounded;
+    const bool alike = comparable && ((rival.difference < kLookAlikeSd && apart < kLookAlikeShare) ||
+                                      apart < kTieShare);
+    if (alike || rival.by_rule) judgement.rivals.push_back(rival);
+  }
+  // Aliases are listed by rule, also where their columns vanished beside each other.
+  for (const Refinement& row : refinements()) {
+    if (&row == &named || !same_class(row, named)) continue;
+    const bool there = std::any_of(
+        judgement.rivals.begin(), judgement.rivals.end(),
+        [&](const Rival& r) { return r.name == row.name && r.side == to_string(row.site); });
+    if (there) continue;
+    Rival rival;
+    rival.name = row.name;
+    rival.side = to_string(row.site);
+    rival.by_rule = true;
+    rival.experiment = row.experiment;
+    judgement.rivals.push_back(rival);
+  }
+  return judgement;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,34 @@
+// The decision rule of refine, all of it. Internal to refine/.
+#pragma once
+
+#include "cablefit/refine/null_draws.hpp"
+#include "cablefit/refine/refine.hpp"
+#include "cablefit/refine/scan.hpp"
+
+namespace cablefit {
+
+/// What one search tells.
+struct Judgement {
+  const Candidate* best = nullptr;   ///< the largest gain of all that may be named; nullptr: none
+  double p_value = 1;
+  bool is_named = false;
+  std::vector<Rival> rivals;         ///< look-alikes of the best, likeliest first
+  std::vector<Rival> league;         ///< all rows, by gain
+  double inclusion = 0;
+};
+
+/// Squared held-out error of the base, and how much of it noise alone would leave (both weighted).
+struct SquaredGap {
+  double total = 0, floor = 0;
+  double above() const { return std::max(0.0, total - floor); }
+};
+
+/// `is_first`: a further effect has to carry more.
+Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGap& gap,
+                       const std::vector<NullDraw>& draws, const RefineOptions& options,
+                       bool is_first);
+
+/// Whether any candidate is worth the bootstrap at all.
+bool anything_material(const std::vector<Candidate>& candidates, const RefineOptions& options);
+
+}  // namespace cablefit
