@@ -30,8 +30,14 @@ struct JointState {
   double deflection_rate = 0;
   double tau_elas = 0;   ///< N m, of the model's cables on the motor
   double stiffness = 0;  ///< N m/rad, d tau_elas / d deflection
-  double tension = 0;    ///< N m, sum of all cable forces, each at its motor pulley
+  /// N m, sum of all cable forces, each at its motor pulley; |tau_elas| without cables.
+  double tension = 0;
 };
+
+/// Fills in what the transmission says at these positions (rad, n_joints each): deflection,
+/// tau_elas, stiffness and tension of joint `joint` (from 0).
+void set_elastic(const Transmission& transmission, const Eigen::VectorXd& q,
+                 const Eigen::VectorXd& theta, int joint, JointState& state);
 
 /// One joint's signals on an even grid, as logged; what the log lacks is empty.
 struct Recording {
@@ -44,8 +50,14 @@ struct ShapeGrid {
   double low = 0, high = 0;  ///< also the bounds of the parameter in a fit
   int n_values = 1;
   bool is_geometric = true;  ///< even in its logarithm
+  /// Bounds and values are shares of the largest |tau| of the logs.
+  bool is_share_of_peak = false;
 
-  double value(int i) const;
+  /// Value i = 0 .. n_values-1, in SI. `peak`: largest |tau| of the logs, N m.
+  double value(int i, double peak) const;
+  /// The bounds of the parameter in SI.
+  double lowest(double peak) const { return is_share_of_peak ? peak * low : low; }
+  double highest(double peak) const { return is_share_of_peak ? peak * high : high; }
 };
 
 /// A row. Exactly one of `torque` (with or without `level`), `level`, `correct` and `change` groups
@@ -55,14 +67,14 @@ struct Refinement {
   Site site;
   /// Names in one class cannot be told apart by any log of the usual kind: "constant", "scale",
   /// "l_o"; empty: none.
-  std::string_view alias_class;
+  std::string_view alias_class = {};
   std::string_view equation;    ///< "a sgn(qd) exp(-(qd / v_s)^2)"
   std::string_view signature;   ///< what it looks like, and what looks like it
   std::string_view experiment;  ///< the cheapest run that separates it from its look-alikes
   std::string_view source;      ///< author, year
   /// Linear ones first, then one per entry of `shape`.
-  std::span<const ParameterInfo> parameters;
-  std::span<const ShapeGrid> shape;
+  std::span<const ParameterInfo> parameters = {};
+  std::span<const ShapeGrid> shape = {};
   /// The linear parameters are pairs (sine, cosine) of this many harmonics; 0: they are not.
   int n_harmonics = 0;
   /// Dated: since_event counts from a time that is looked for.

@@ -1,0 +1,97 @@
+#include "cablefit/model/refinements.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "cablefit/base/catalog.hpp"
+#include "cablefit/base/error.hpp"
+#include "cablefit/model/refinements/rows.hpp"
+
+namespace cablefit {
+namespace {
+
+const std::vector<Refinement>& table() {
+  using namespace rows;
+  using enum Site;
+  static const std::vector<Refinement> kRows{
+      constant_torque(),
+      asymmetric_coulomb(link),
+      asymmetric_coulomb(motor),
+      gravity_imbalance(),
+      asymmetric_viscous(link),
+      asymmetric_viscous(motor),
+      stribeck(link),
+      stribeck(motor),
+      quadratic_drag(link),
+      quadratic_drag(motor),
+      nonlinear_viscous(link),
+      nonlinear_viscous(motor),
+      position_friction(link),
+      position_friction(motor),
+      tension_friction(link),
+      tension_friction(motor),
+      presliding(link),
+      presliding(motor),
+      friction_drift(link),
+      friction_drift(motor),
+      cogging(),
+      drive_efficiency(),
+      cable_damping(),
+      cable_hysteresis(),
+      stiffness_order(),
+      stiffness_asymmetry(),
+      pulley_eccentricity(),
+      creep(),
+      dead_zone(),
+      rows::preload(),
+      encoder_scale(),
+      encoder_offset(),
+      encoder_delay(),
+      torque_delay(),
+      offset_drift(),
+      torque_gain(),
+      load_scale(),
+      saturation(),
+      drive_dead_band(),
+      slip(),
+      contact(),
+      payload_change(),
+  };
+  return kRows;
+}
+
+}  // namespace
+
+std::string_view to_string(Site site) {
+  static constexpr std::array<std::string_view, 5> kNames{"link", "motor", "transmission", "sensor",
+                                                          "drive"};
+  return kNames.at(static_cast<std::size_t>(site));
+}
+
+double ShapeGrid::value(int i, double peak) const {
+  assert(i >= 0 && i < n_values);
+  const double share = n_values > 1 ? static_cast<double>(i) / (n_values - 1) : 0.5;
+  const double from = lowest(peak), to = highest(peak);
+  if (!is_geometric) return from + share * (to - from);
+  return from * std::pow(to / from, share);
+}
+
+std::span<const Refinement> refinements() { return table(); }
+
+const Refinement& find_refinement(std::string_view name, Site site) {
+  std::vector<std::string_view> known, elsewhere;
+  for (const Refinement& row : refinements()) {
+    if (row.name == name && row.site == site) return row;
+    if (row.name == name) elsewhere.push_back(to_string(row.site));
+    if (row.site == site) known.push_back(row.name);
+  }
+  throw input_error({}, fmt::format("unknown refinement '{}' of the {}", name, to_string(site)),
+                    elsewhere.empty()
+                        ? suggestion(name, known)
+                        : fmt::format("there is one of: {}", fmt::join(elsewhere, ", ")));
+}
+
+}  // namespace cablefit

@@ -1,0 +1,90 @@
+#include "cablefit/model/refinements/rows.hpp"
+
+// Cables that take energy: with the rate of the deflection, with its way, with time.
+namespace cablefit::rows {
+namespace {
+
+constexpr ParameterInfo kDamping[] = {{"damping", "d", "N m s/rad", "of the cables", 0}};
+constexpr ParameterInfo kHysteresis[] = {
+    {"amplitude", "a", "N m", "torque of the friction between wires", 0},
+    {"yield", "y", "rad", "deflection after which 63 % of it is there", 1e-7}};
+constexpr ParameterInfo kCreep[] = {
+    {"compliance", "a", "rad/(N m)", "that comes with time; times the stiffness: a fraction", 0},
+    {"T", "T", "s", "time after which 63 % of it is there", 1e-3}};
+
+constexpr ShapeGrid kYield[] = {{.low = 0.2e-3, .high = 4e-3, .n_values = 8}};
+constexpr ShapeGrid kTime[] = {{.low = 0.3, .high = 10, .n_values = 8}};
+
+void damp(const JointState& state, const double* /*shape*/, const double* /*z*/, double* link,
+          double* motor) {
+  pull(state.deflection_rate, 0, link, motor);
+}
+
+void yield(const JointState& state, const double* shape, double h, double* z) {
+  z[0] = slid(z[0], state.deflection_rate * h, shape[0]);
+}
+
+void hold(const JointState& /*state*/, const double* /*shape*/, const double* z, double* link,
+          double* motor) {
+  pull(z[0], 0, link, motor);
+}
+
+// z: the torque that they have settled under. Exact for a torque that is constant over h.
+void settle(const JointState& state, const double* shape, double h, double* z) {
+  z[0] += (state.tau_elas - z[0]) * settled(h, shape[0]);
+}
+
+// tau_elas(phi - a z) to first order.
+void give_way(const JointState& state, const double* /*shape*/, const double* z, double* link,
+              double* motor) {
+  pull(-state.stiffness * z[0], 0, link, motor);
+}
+
+}  // namespace
+
+Refinement cable_damping() {
+  return {.name = "cable_damping",
+          .site = Site::transmission,
+          .equation = "d phid on the motor, -d phid on the link",
+          .signature =
+              "opposite on the two sides, with the rate of the deflection; like a delay "
+              "of the link's encoder, which goes with the speed of the link",
+          .experiment = "a dither near the resonance at rest, and on a fast motion",
+          .source = "Fichera & Grossard 2017, Assumption 1, which leaves it out",
+          .parameters = kDamping,
+          .torque = damp};
+}
+
+Refinement cable_hysteresis() {
+  return {.name = "cable_hysteresis",
+          .site = Site::transmission,
+          .equation = "a z on the motor, -a z on the link, dz/dphi = (1 - z sgn(phid)) / y",
+          .signature =
+              "a loop of torque over deflection, blocked too, the same at any rate; damping "
+              "depends on the rate, presliding on the axis' own way",
+          .experiment = "blocked link, slow loops of two sizes at two rates",
+          .source = "Bouc 1967; Wen 1976; Do, Tjahjowidodo et al. 2015",
+          .parameters = kHysteresis,
+          .shape = kYield,
+          .n_states = 1,
+          .advance = yield,
+          .torque = hold};
+}
+
+Refinement creep() {
+  return {.name = "creep",
+          .site = Site::transmission,
+          .equation = "tau_elas(phi - a c) - tau_elas(phi) = -k a c, dc/dt = (tau_elas - c) / T",
+          .signature =
+              "the deflection follows the history of the load, on both sides; hysteresis "
+              "does not relax, a slip stays",
+          .experiment = "steps of load, each held for several T",
+          .source = "Zener 1948 (standard linear solid)",
+          .parameters = kCreep,
+          .shape = kTime,
+          .n_states = 1,
+          .advance = settle,
+          .torque = give_way};
+}
+
+}  // namespace cablefit::rows

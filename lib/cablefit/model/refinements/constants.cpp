@@ -1,0 +1,53 @@
+#include "cablefit/model/refinements/rows.hpp"
+
+namespace cablefit::rows {
+namespace {
+
+constexpr ParameterInfo kTorque[] = {{"torque", "c", "N m", "constant torque on the link"}};
+constexpr ParameterInfo kHalfDifference[] = {
+    {"half_difference", "a", "N m", "dry friction is f + a forwards, f - a backwards"}};
+
+template <Site kSide>
+void one(const JointState& /*state*/, const double* /*shape*/, const double* /*z*/, double* link,
+         double* motor) {
+  own<kSide>(link, motor)[0] = 1;
+}
+
+}  // namespace
+
+Refinement constant_torque() {
+  return {.name = "constant_torque",
+          .site = Site::link,
+          .alias_class = "constant",
+          .equation = "c",
+          .signature =
+              "the same on every link row, none on the motor rows; like asymmetric "
+              "Coulomb friction, a wrong load zero, or a wrong elastic stage",
+          .experiment =
+              "none tells it from asymmetric Coulomb friction; two loads and both cable "
+              "sides tell it from the rest",
+          .source = "Fichera & Grossard 2017, Table 2 (the motor's offset)",
+          .parameters = kTorque,
+          .torque = one<Site::link>};
+}
+
+Refinement asymmetric_coulomb(Site side) {
+  constexpr TwoSides<std::string_view> kEquation{"a, beside f_s sgn(qd)",
+                                                 "a, beside f_sm sgn(thetad)"};
+  constexpr TwoSides<std::string_view> kSignature{
+      "dry friction of the link differs between directions: the same law as Coulomb's plus a "
+      "constant, at rest too",
+      "dry friction of the motor differs between directions: the same law as Coulomb's plus the "
+      "offset of the model"};
+  return {.name = "asymmetric_coulomb",
+          .site = side,
+          .alias_class = "constant",
+          .equation = kEquation.at(side),
+          .signature = kSignature.at(side),
+          .experiment = "none",
+          .source = "Bittencourt et al. 2010",
+          .parameters = kHalfDifference,
+          .torque = side == Site::link ? one<Site::link> : one<Site::motor>};
+}
+
+}  // namespace cablefit::rows

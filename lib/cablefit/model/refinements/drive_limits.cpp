@@ -1,0 +1,55 @@
+#include <algorithm>
+
+#include "cablefit/model/refinements/rows.hpp"
+
+// What the drive makes of a command, where the log holds the command.
+namespace cablefit::rows {
+namespace {
+
+constexpr ParameterInfo kLimit[] = {{"limit", "T", "N m", "largest torque that acts", 0}};
+constexpr ParameterInfo kBand[] = {{"band", "b", "N m", "largest command that does nothing", 0}};
+
+// Nearer to the peak a limit shows in a few rows only, further down it is no limit any more.
+constexpr ShapeGrid kLimits[] = {
+    {.low = 0.4, .high = 0.99, .n_values = 13, .is_geometric = false, .is_share_of_peak = true}};
+constexpr ShapeGrid kBands[] = {{.low = 0.05, .high = 3, .n_values = 9}};
+
+void clip(const double* parameters, Recording& recording) {
+  recording.tau = recording.tau.min(parameters[0]).max(-parameters[0]);
+}
+
+void lose_band(const double* parameters, Recording& recording) {
+  recording.tau -= recording.tau.min(parameters[0]).max(-parameters[0]);
+}
+
+}  // namespace
+
+Refinement saturation() {
+  return {.name = "saturation",
+          .site = Site::drive,
+          .equation = "true tau = logged tau, clipped at +-T",
+          .signature =
+              "a gap on the motor rows beyond a torque, none below; a low limit is like a "
+              "torque gain",
+          .experiment = "the same motion with a lighter load, so that the command stays low",
+          .source = "a limit of the drive, where the log holds the command",
+          .parameters = kLimit,
+          .shape = kLimits,
+          .correct = clip};
+}
+
+Refinement drive_dead_band() {
+  return {.name = "drive_dead_band",
+          .site = Site::drive,
+          .equation = "true tau = logged tau less b towards 0, 0 below",
+          .signature =
+              "a constant that changes sign with the torque, on the motor rows alone; dry "
+              "friction changes sign with speed",
+          .experiment = "loads of both signs, each in both directions",
+          .source = "a dead band of the drive, where the log holds the command",
+          .parameters = kBand,
+          .shape = kBands,
+          .correct = lose_band};
+}
+
+}  // namespace cablefit::rows

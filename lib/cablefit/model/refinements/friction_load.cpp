@@ -1,0 +1,54 @@
+#include <cmath>
+
+#include "cablefit/model/refinements/rows.hpp"
+
+// Dry friction that grows with what the cables carry.
+namespace cablefit::rows {
+namespace {
+
+constexpr ParameterInfo kMu[] = {
+    {"mu", "mu", "", "dry friction per cable force at the pulley (N m per N m)", 0}};
+constexpr ParameterInfo kLoss[] = {
+    {"loss", "a", "", "share of tau_elas lost while the motor drives", 0}};
+
+void tension_level(const JointState& state, double /*direction*/, const double* /*shape*/,
+                   const double* /*z*/, double* level) {
+  level[0] = state.tension;
+}
+
+void driving_level(const JointState& state, double direction, const double* /*shape*/,
+                   const double* /*z*/, double* level) {
+  level[0] = state.tau_elas * direction > 0 ? std::abs(state.tau_elas) : 0;
+}
+
+}  // namespace
+
+Refinement tension_friction(Site side) {
+  constexpr TwoSides<std::string_view> kEquation{"mu (T1 + T2) sgn(qd)",
+                                                 "mu (T1 + T2) sgn(thetad)"};
+  return {.name = "tension_friction",
+          .site = side,
+          .equation = kEquation.at(side),
+          .signature =
+              "dry friction that grows with load and preload; Stribeck friction depends "
+              "on speed, a torque gain does not change sign with direction",
+          .experiment = "the same motion under two loads or at two preloads",
+          .source = "Miyasaka et al. 2015; Kaneko et al. 1991",
+          .parameters = kMu,
+          .level = tension_level};
+}
+
+Refinement drive_efficiency() {
+  return {.name = "drive_efficiency",
+          .site = Site::motor,
+          .equation = "a |tau_elas| sgn(thetad) while tau_elas thetad > 0",
+          .signature =
+              "friction with load while the motor drives, none while the load does; "
+              "tension friction is there both ways",
+          .experiment = "lift and lower the same load",
+          .source = "reductions with unlike efficiency forwards and backwards, ball screws",
+          .parameters = kLoss,
+          .level = driving_level};
+}
+
+}  // namespace cablefit::rows

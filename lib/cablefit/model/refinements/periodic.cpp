@@ -1,0 +1,91 @@
+#include "cablefit/model/refinements/rows.hpp"
+
+// What repeats with the angle. Two harmonics each, so that a form that is no sine is named as well.
+namespace cablefit::rows {
+namespace {
+
+constexpr ParameterInfo kGravity[] = {{"a_sin", "a_sin", "N m", "with sin(q)"},
+                                      {"a_cos", "a_cos", "N m", "with cos(q)"},
+                                      {"b_sin", "b_sin", "N m", "with sin(2 q)"},
+                                      {"b_cos", "b_cos", "N m", "with cos(2 q)"}};
+constexpr ParameterInfo kCogging[] = {
+    {"a_sin", "a_sin", "N m", "with sin(n theta)"},
+    {"a_cos", "a_cos", "N m", "with cos(n theta)"},
+    {"b_sin", "b_sin", "N m", "with sin(2 n theta)"},
+    {"b_cos", "b_cos", "N m", "with cos(2 n theta)"},
+    {"order", "n", "1/rad", "periods per turn after the reduction, any number", 0}};
+constexpr ParameterInfo kEccentricity[] = {{"a_sin", "a_sin", "rad", "deflection with sin(q)"},
+                                           {"a_cos", "a_cos", "rad", "deflection with cos(q)"},
+                                           {"b_sin", "b_sin", "rad", "deflection with sin(2 q)"},
+                                           {"b_cos", "b_cos", "rad", "deflection with cos(2 q)"}};
+
+// A motion of 2 rad tells orders apart that differ by about pi/2.
+constexpr ShapeGrid kOrder[] = {{.low = 4, .high = 40, .n_values = 73, .is_geometric = false}};
+
+void gravity(const JointState& state, const double* /*shape*/, const double* /*z*/, double* link,
+             double* /*motor*/) {
+  two_harmonics(state.q, link);
+}
+
+void ripple(const JointState& state, const double* shape, const double* /*z*/, double* /*link*/,
+            double* motor) {
+  two_harmonics(shape[0] * state.theta, motor);
+}
+
+void eccentricity(const JointState& state, const double* /*shape*/, const double* /*z*/,
+                  double* link, double* motor) {
+  double f[4];
+  two_harmonics(state.q, f);
+  for (std::size_t i = 0; i < 4; ++i) pull(state.stiffness * f[i], i, link, motor);
+}
+
+}  // namespace
+
+Refinement gravity_imbalance() {
+  return {.name = "gravity_imbalance",
+          .site = Site::link,
+          .equation = "a_sin sin(q) + a_cos cos(q) + b_sin sin(2 q) + b_cos cos(2 q)",
+          .signature =
+              "a function of q on the link rows alone, whatever the speed and direction; "
+              "like a wrong load law, or eccentric pulleys under one load",
+          .experiment = "a slow sweep over more than 0.5 rad without load, both directions",
+          .source = "Khalil & Dombre 2002",
+          .parameters = kGravity,
+          .n_harmonics = 2,
+          .torque = gravity};
+}
+
+Refinement cogging() {
+  return {.name = "cogging",
+          .site = Site::motor,
+          .equation =
+              "a_sin sin(n theta) + a_cos cos(n theta) + b_sin sin(2 n theta) + b_cos "
+              "cos(2 n theta)",
+          .signature =
+              "a line in the order spectrum over theta, the same sign in both "
+              "directions; position friction changes sign with direction",
+          .experiment = "slow passes at constant speed, both directions",
+          .source = "Holtz & Springob 1996",
+          .parameters = kCogging,
+          .shape = kOrder,
+          .n_harmonics = 2,
+          .torque = ripple};
+}
+
+Refinement pulley_eccentricity() {
+  return {.name = "pulley_eccentricity",
+          .site = Site::transmission,
+          .equation =
+              "tau_elas(phi + f) - tau_elas(phi) = k f, f = a_sin sin(q) + a_cos cos(q) + "
+              "b_sin sin(2 q) + b_cos cos(2 q)",
+          .signature =
+              "a function of q that grows with the stiffness, opposite on the link and "
+              "motor rows; gravity is on the link rows alone",
+          .experiment = "the same slow sweep over q under two loads",
+          .source = "Fichera & Grossard 2017, (3)-(4), with a radius that varies",
+          .parameters = kEccentricity,
+          .n_harmonics = 2,
+          .torque = eccentricity};
+}
+
+}  // namespace cablefit::rows

@@ -1,0 +1,94 @@
+#include "cablefit/model/refinements/rows.hpp"
+
+// Scales and offsets of what is measured. As torques of the MODEL: a column of the measured torque
+// would fit itself.
+namespace cablefit::rows {
+namespace {
+
+constexpr ParameterInfo kScale[] = {{"scale", "a", "", "true theta = (1 + a) logged theta"}};
+constexpr ParameterInfo kOffset[] = {{"offset", "a", "rad", "true theta - q = logged + a"}};
+constexpr ParameterInfo kGain[] = {{"gain", "a", "", "true tau = (1 + a) logged tau"}};
+constexpr ParameterInfo kLoad[] = {{"scale", "a", "", "true tau_load = (1 + a) logged tau_load"}};
+
+void scaled(const JointState& state, const double* /*shape*/, const double* /*z*/, double* link,
+            double* motor) {
+  pull(state.stiffness * state.theta, 0, link, motor);
+}
+
+void shifted(const JointState& state, const double* /*shape*/, const double* /*z*/, double* link,
+             double* motor) {
+  pull(state.stiffness, 0, link, motor);
+}
+
+// J thetadd + ... + tau_elas = (1 + a) tau: divided by 1 + a, all but tau_elas is in the other
+// parameters, and tau_elas falls by a (to first order).
+void motor_share(const JointState& state, const double* /*shape*/, const double* /*z*/,
+                 double* /*link*/, double* motor) {
+  motor[0] = -state.tau_elas;
+}
+
+// The same on the link: J qdd + ... - tau_elas = (1 + a) tau_load.
+void link_share(const JointState& state, const double* /*shape*/, const double* /*z*/, double* link,
+                double* /*motor*/) {
+  link[0] = state.tau_elas;
+}
+
+}  // namespace
+
+Refinement encoder_scale() {
+  return {.name = "encoder_scale",
+          .site = Site::sensor,
+          .equation =
+              "tau_elas(phi + a theta) - tau_elas(phi) = k a theta, true theta = (1 + a) "
+              "logged",
+          .signature =
+              "opposite on the two sides, in proportion to position; on a short range "
+              "like pulley eccentricity, on the link rows alone like gravity",
+          .experiment = "one sweep over the whole range of q",
+          .source = "a wrong resolution or reduction ratio",
+          .parameters = kScale,
+          .torque = scaled};
+}
+
+Refinement encoder_offset() {
+  return {.name = "encoder_offset",
+          .site = Site::sensor,
+          .equation = "tau_elas(phi + a) - tau_elas(phi) = k a, true theta - q = logged + a",
+          .signature =
+              "opposite on the two sides, in proportion to the stiffness; slip comes at "
+              "a time, creep with the load",
+          .experiment = "both cables loaded in turn",
+          .source = "a reference run that ended elsewhere",
+          .parameters = kOffset,
+          .torque = shifted};
+}
+
+Refinement torque_gain() {
+  return {.name = "torque_gain",
+          .site = Site::drive,
+          .alias_class = "scale",
+          .equation = "-a tau_elas on the motor, true tau = (1 + a) logged",
+          .signature =
+              "tau_elas of the motor rows and of the link rows differ by a factor; like a "
+              "wrong load",
+          .experiment = "a second load that is known, or the inertia from CAD",
+          .source = "a torque constant that is off: Gautier & Briot 2014",
+          .parameters = kGain,
+          .torque = motor_share};
+}
+
+Refinement load_scale() {
+  return {.name = "load_scale",
+          .site = Site::link,
+          .alias_class = "scale",
+          .equation = "a tau_elas on the link, true tau_load = (1 + a) logged",
+          .signature =
+              "tau_elas of the link rows and of the motor rows differ by a factor; like a "
+              "wrong torque constant",
+          .experiment = "a second load that is known, or the inertia from CAD",
+          .source = "a load mass or radius that is off: Gautier & Briot 2014",
+          .parameters = kLoad,
+          .torque = link_share};
+}
+
+}  // namespace cablefit::rows
