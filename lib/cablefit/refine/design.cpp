@@ -154,6 +154,8 @@ Design make_design(std::span<const Model> models, std::vector<Stretch> stretches
   design.models.assign(models.begin(), models.end());
   design.layout = base_layout(models.front());
   design.stretches = std::move(stretches);
+  for (const Stretch& stretch : design.stretches)
+    design.peak = std::max(design.peak, stretch.recording.tau.abs().maxCoeff());
   if (!(smoothing.least_speed_theta > 0)) {
     smoothing.least_speed_theta = least_speed(design.stretches, &Recording::theta, false, smoothing);
     smoothing.least_speed_q = least_speed(design.stretches, &Recording::q, true, smoothing);

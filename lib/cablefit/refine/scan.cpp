@@ -56,14 +56,14 @@ std::optional<Candidate> try_variant(const ScanStart& start, const ScanSettings&
 }
 
 /// Every combination of the grid's values.
-std::vector<std::vector<double>> grid_points(const Refinement& row) {
+std::vector<std::vector<double>> grid_points(const Refinement& row, double peak) {
   std::vector<std::vector<double>> points = {{}};
   for (const ShapeGrid& grid : row.shape) {
     std::vector<std::vector<double>> more;
     for (const auto& point : points)
       for (int i = 0; i < grid.n_values; ++i) {
         more.push_back(point);
-        more.back().push_back(grid.value(i));
+        more.back().push_back(grid.value(i, peak));
       }
     points = std::move(more);
   }
@@ -85,7 +85,7 @@ std::vector<std::pair<std::size_t, double>> dates(const Design& design, double s
 
 std::vector<Variant> variants_of(const Refinement& row, const Design& design, double event_step) {
   std::vector<Variant> all;
-  for (const auto& shape : grid_points(row)) {
+  for (const auto& shape : grid_points(row, design.peak)) {
     if (!row.is_event) {
       all.push_back({&row, shape, 0, 0});
       continue;
@@ -134,15 +134,16 @@ double golden(double low, double high, Error error) {
   return at_a < at_b ? a : b;
 }
 
-/// Half a step of the grid to either side, as far as the grid goes.
-std::pair<double, double> around(const ShapeGrid& grid, double value) {
-  if (grid.n_values < 2) return {grid.low, grid.high};
+/// A step of the grid to either side, as far as the grid goes.
+std::pair<double, double> around(const ShapeGrid& grid, double value, double peak) {
+  const double low = grid.lowest(peak), high = grid.highest(peak);
+  if (grid.n_values < 2) return {low, high};
   if (grid.is_geometric) {
-    const double step = std::pow(grid.high / grid.low, 1.0 / (grid.n_values - 1));
-    return {std::max(grid.low, value / step), std::min(grid.high, value * step)};
+    const double step = std::pow(high / low, 1.0 / (grid.n_values - 1));
+    return {std::max(low, value / step), std::min(high, value * step)};
   }
-  const double step = (grid.high - grid.low) / (grid.n_values - 1);
-  return {std::max(grid.low, value - step), std::min(grid.high, value + step)};
+  const double step = (high - low) / (grid.n_values - 1);
+  return {std::max(low, value - step), std::min(high, value + step)};
 }
 
 }  // namespace
@@ -174,7 +175,7 @@ Candidate refined_shape(const ScanStart& start, const ScanSettings& settings, Ca
   Variant variant = candidate.variant;
   for (int round = 0; round < kRounds; ++round) {
     for (std::size_t i = 0; i < variant.shape.size(); ++i) {
-      const auto [low, high] = around(row.shape[i], variant.shape[i]);
+      const auto [low, high] = around(row.shape[i], variant.shape[i], start.design.peak);
       variant.shape[i] = golden(low, high, [&](double value) {
         Variant other = variant;
         other.shape[i] = value;
