@@ -64,20 +64,25 @@ struct FullTorques {
   Eigen::MatrixXd link, motor;  ///< samples x n_linear
 };
 
+/// At every `every`-th sample.
 FullTorques full_torques(const Variant& variant, const Stretch& stretch,
-                         const std::vector<JointState>& states) {
+                         const std::vector<JointState>& states, Eigen::Index every) {
   const Refinement& row = *variant.refinement;
   const std::size_t n = row.n_linear();
-  const auto rows = static_cast<Eigen::Index>(states.size());
+  const auto rows = (static_cast<Eigen::Index>(states.size()) + every - 1) / every;
   FullTorques out{Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(n)),
                   Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(n))};
+  if (row.is_event && stretch.log < variant.event_log) return out;
   std::vector<double> z(row.n_states), link(n), motor(n), level(n);
   const bool on_link = row.site == Site::link;
+  const double h = static_cast<double>(every) * stretch.recording.period;
   for (Eigen::Index i = 0; i < rows; ++i) {
-    JointState state = states[static_cast<std::size_t>(i)];
-    if (row.is_event) state.since_event = since_event(variant, stretch, state.t);
-    if (row.advance != nullptr)
-      row.advance(state, variant.shape.data(), stretch.recording.period, z.data());
+    JointState state = states[static_cast<std::size_t>(i * every)];
+    if (row.is_event) {
+      state.since_event = since_event(variant, stretch, state.t);
+      if (state.since_event < 0) continue;
+    }
+    if (row.advance != nullptr) row.advance(state, variant.shape.data(), h, z.data());
     std::fill(link.begin(), link.end(), 0.0);
     std::fill(motor.begin(), motor.end(), 0.0);
     if (row.torque != nullptr)
@@ -100,13 +105,23 @@ FullTorques full_torques(const Variant& variant, const Stretch& stretch,
 
 std::vector<Eigen::MatrixXd> torque_columns(const Design& design, const Variant& variant,
                                             std::size_t k) {
-  const FullTorques full = full_torques(variant, design.stretches[k], design.states[k]);
-  const Kernel filter =
-      gaussian(design.smoothing.columns, design.stretches[k].recording.period);
+  const Eigen::Index every = design.smoothing.every;
+  const FullTorques full =
+      full_torques(variant, design.stretches[k], design.states[k], every);
+  const Kernel filter = gaussian(design.smoothing.columns,
+                                 static_cast<double>(every) * design.stretches[k].recording.period);
   std::vector<Eigen::MatrixXd> columns;
-  for (const KindRows& kind : design.rows[k].kinds)
-    columns.push_back(
-        apply_at(filter, kind.kind == RowKind::link ? full.link : full.motor, kind.at));
+  for (const KindRows& kind : design.rows[k].kinds) {
+    const Eigen::MatrixXd& own = kind.kind == RowKind::link ? full.link : full.motor;
+    const auto n_rows = static_cast<Eigen::Index>(kind.at.size());
+    if ((own.array() == 0).all()) {
+      columns.emplace_back(Eigen::MatrixXd::Zero(n_rows, own.cols()));
+      continue;
+    }
+    std::vector<Eigen::Index> at = kind.at;
+    for (Eigen::Index& i : at) i /= every;
+    columns.push_back(apply_at(filter, own, at));
+  }
   return columns;
 }
 

@@ -50,7 +50,10 @@ Smoothing smoothing_for(double period) {
   Smoothing s;
   s.signals = std::max(s.signals, kSamplesPerWidth * period);
   s.columns = 2 * s.signals;
-  s.stride = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::floor(s.columns / period)));
+  const double samples = s.columns / period;
+  // A kernel sampled at less than half its width is as good as one sampled finely.
+  s.every = samples >= 4 ? 2 : 1;
+  s.stride = s.every * std::max<Eigen::Index>(1, std::llround(1.2 * samples / static_cast<double>(s.every)));
   return s;
 }
 
@@ -80,7 +83,8 @@ SmoothMotion smooth_motion_of(const Recording& r, double t0, bool held, const Sm
 std::vector<Eigen::Index> moving_rows(const Eigen::ArrayXd& speed, double least_speed,
                                       double period, const Smoothing& smoothing) {
   const Eigen::Index reach = gaussian(smoothing.columns, period).reach();
-  const Eigen::Index edge = reach + gaussian(smoothing.signals, period).reach();
+  const Eigen::Index margin = reach + gaussian(smoothing.signals, period).reach();
+  const Eigen::Index edge = (margin / smoothing.every + 2) * smoothing.every;
   const Eigen::Index n = speed.size();
   std::vector<Eigen::Index> rows;
   Eigen::Index last_slow = -1;

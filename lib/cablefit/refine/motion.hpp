@@ -16,7 +16,8 @@ namespace cablefit {
 /// Widths of the kernels, s.
 struct Smoothing {
   double signals = 2.5e-3, columns = 5e-3;
-  Eigen::Index stride = 5;  ///< samples from row to row
+  Eigen::Index stride = 6;  ///< samples from row to row
+  Eigen::Index every = 2;   ///< samples from one evaluation of a candidate to the next
   double least_speed_theta = 0, least_speed_q = 0;  ///< rad/s; slower rows are at rest
 };
 
