@@ -30,7 +30,7 @@ std::vector<double> largest_gains(const std::vector<NullDraw>& draws, bool event
 
 /// Difference of two candidates' errors over the blocks, and its standard error.
 struct Paired {
-  double mean = 0, se = 0;
+  double sum = 0, se = 0;
 };
 Paired paired(const Eigen::ArrayXd& a, const Eigen::ArrayXd& b) {
   const Eigen::ArrayXd d = a - b;
@@ -69,6 +69,15 @@ std::vector<double> inclusions(const std::vector<const Candidate*>& candidates) 
     share[best] += 1.0 / kResamples;
   }
   return share;
+}
+
+std::size_t n_parameters(const Candidate& c) {
+  return c.variant.refinement->parameters.size() + (c.variant.refinement->is_event ? 1 : 0);
+}
+
+bool is_tie(const Candidate& a, const Candidate& b, const SquaredGap& gap) {
+  if (a.variant.refinement->is_event != b.variant.refinement->is_event) return false;
+  return paired(a.error, b.error).sum < kTieShare * gap.above();
 }
 
 Rival rival_of(const Candidate& c, const SquaredGap& gap) {
@@ -120,11 +129,14 @@ Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGa
   for (std::size_t k = 0; k < able.size(); ++k) {
     double p = 1;
     if (!significant(*able[k], p)) continue;
+    // Of those that do as well, the one with the fewest parameters.
+    const bool ties = judgement.best != nullptr && is_tie(*able[k], *judgement.best, gap) &&
+                      n_parameters(*able[k]) < n_parameters(*judgement.best);
+    if (judgement.best != nullptr && !ties) continue;
     judgement.best = able[k];
     judgement.p_value = p;
     judgement.inclusion = share[k];
     judgement.is_named = true;
-    break;
   }
   if (judgement.best == nullptr) return judgement;
   const Candidate& best = *judgement.best;
@@ -137,9 +149,9 @@ Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGa
     rival.inclusion = share[k];
     rival.by_rule = same_class(row, named);
     const Paired d = paired(c.error, best.error);
-    rival.difference = d.se > 0 ? d.mean / d.se : 0;
+    rival.difference = d.se > 0 ? d.sum / d.se : 0;
     const bool comparable = row.is_event == named.is_event;
-    const double apart = gap.above() > 0 ? d.mean / gap.above() : kUnbounded;
+    const double apart = gap.above() > 0 ? d.sum / gap.above() : kUnbounded;
     const bool alike = comparable && ((rival.difference < kLookAlikeSd && apart < kLookAlikeShare) ||
                                       apart < kTieShare);
     if (alike || rival.by_rule) judgement.rivals.push_back(rival);
