@@ -6,19 +6,13 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/prove/twin.hpp"
+#include "cablefit/refine/levels.hpp"
 
 namespace cablefit {
 namespace {
 
 constexpr std::uint64_t kSensors = 11, kCalibration = 12;
 constexpr double kFollowCutoff = 40;  // Hz, of what a stand-in controller follows
-
-/// Levels of kinds without rows stay 1, so that nothing divides by 0.
-KindLevels positive(KindLevels levels) {
-  for (double& level : levels)
-    if (!(level > 0)) level = 1;
-  return levels;
-}
 
 /// The same motion a little aside, so that its rounding is another.
 void move_aside(Twin& twin, Random& random) {
@@ -74,19 +68,26 @@ NullBench::NullBench(std::span<const Model> models, std::span<const LogSurvey> l
 
 NullBench::~NullBench() = default;
 
-std::vector<Stretch> NullBench::draw(std::uint64_t seed) const {
-  std::vector<Stretch> all;
+std::vector<NullBench::Recorded> NullBench::record(std::uint64_t seed) const {
+  std::vector<Recorded> all;
   for (const PreloadTwin& twin : parts_->twins) {
     Random random(seed, kSensors + 2 * twin.model);
     Twin aside = twin.twin;
     move_aside(aside, random);
-    const std::vector<LogSurvey> logs =
-        record_twin(aside, run_twin(aside, {}, random), random);
-    const std::span<const Model> model(&parts_->models[twin.model], 1);
+    all.push_back({twin.model, record_twin(aside, run_twin(aside, {}, random), random)});
+  }
+  return all;
+}
+
+std::vector<Stretch> NullBench::draw(std::uint64_t seed) const {
+  std::vector<Stretch> all;
+  const std::vector<Recorded> recorded = record(seed);
+  for (std::size_t k = 0; k < recorded.size(); ++k) {
+    const std::span<const Model> model(&parts_->models[recorded[k].model], 1);
     for (Stretch& stretch :
-         read_stretches(logs, model, [](const PartSurvey&) { return true; })) {
-      stretch.log = twin.logs[stretch.log];
-      stretch.model = twin.model;
+         read_stretches(recorded[k].logs, model, [](const PartSurvey&) { return true; })) {
+      stretch.log = parts_->twins[k].logs[stretch.log];
+      stretch.model = recorded[k].model;
       all.push_back(std::move(stretch));
     }
   }
@@ -123,6 +124,12 @@ NullDraw NullBench::base_only(std::uint64_t seed, const KindLevels* levels) cons
   NullDraw out;
   out.floor = base.fit.rms();
   return out;
+}
+
+KindLevels NullBench::unfitted(std::uint64_t seed) const {
+  const Design design = make_design(parts_->models, draw(seed), parts_->smoothing);
+  return rms_of(block_grams(design.rows, design.stretches, 2),
+                base_values(design.layout, design.models.front()));
 }
 
 NullDraw NullBench::searched(std::uint64_t seed, const KindLevels& levels,

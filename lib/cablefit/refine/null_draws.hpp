@@ -30,10 +30,18 @@ class NullBench {
   NullBench(const NullBench&) = delete;
   NullBench& operator=(const NullBench&) = delete;
 
-  /// The recording of one draw.
+  /// One draw as logs, by model.
+  struct Recorded {
+    std::size_t model = 0;
+    std::vector<LogSurvey> logs;
+  };
+  std::vector<Recorded> record(std::uint64_t seed) const;
+  /// The same as stretches, numbered as the logs that the bench was made from.
   std::vector<Stretch> draw(std::uint64_t seed) const;
   /// Its base fit, without a search. `levels`: weights; nullptr: of its own residual.
   NullDraw base_only(std::uint64_t seed, const KindLevels* levels) const;
+  /// What the models leave as they are, nothing fitted: the floor of logs that had no say.
+  KindLevels unfitted(std::uint64_t seed) const;
   NullDraw searched(std::uint64_t seed, const KindLevels& levels,
                     const ScanSettings& settings) const;
 

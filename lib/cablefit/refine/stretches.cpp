@@ -93,4 +93,22 @@ std::vector<Stretch> read_stretches(std::span<const LogSurvey> logs, std::span<c
   return stretches;
 }
 
+std::vector<Stretch> hold_out(std::vector<Stretch>& stretches, double share) {
+  std::vector<Stretch> held;
+  for (Stretch& stretch : stretches) {
+    if (stretch.blocked) continue;
+    const Eigen::Index n = stretch.recording.theta.size();
+    const auto kept = static_cast<Eigen::Index>((1 - share) * static_cast<double>(n));
+    Stretch last = stretch;
+    last.t0 += static_cast<double>(kept) * stretch.recording.period;
+    for (Eigen::ArrayXd Recording::*signal :
+         {&Recording::q, &Recording::theta, &Recording::tau, &Recording::tau_load}) {
+      last.recording.*signal = Eigen::ArrayXd((stretch.recording.*signal).tail(n - kept));
+      stretch.recording.*signal = Eigen::ArrayXd((stretch.recording.*signal).head(kept));
+    }
+    held.push_back(std::move(last));
+  }
+  return held;
+}
+
 }  // namespace cablefit

@@ -24,4 +24,7 @@ struct Stretch {
 std::vector<Stretch> read_stretches(std::span<const LogSurvey> logs, std::span<const Model> models,
                                     const PartFilter& wanted);
 
+/// The last `share` (0..1) of every moving stretch, taken from it.
+std::vector<Stretch> hold_out(std::vector<Stretch>& stretches, double share);
+
 }  // namespace cablefit

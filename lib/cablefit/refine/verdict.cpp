@@ -1,5 +1,7 @@
 #include "cablefit/refine/verdict.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,6 +16,7 @@ constexpr double kLookAlikeShare = 0.25;   // of the gap: more than that apart i
 constexpr double kTieShare = 0.02;         // of the gap: closer than that is a tie at any sd
 constexpr double kSafety = 1.3;            // times the largest chance gain seen
 constexpr int kResamples = 200;
+constexpr double kRemainder = 1.2;  // squared residual over floor: above, something is there
 
 bool may_be_named(const Candidate& c) { return c.refused.empty() && c.gain > 0; }
 
@@ -171,6 +174,43 @@ Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGa
     judgement.rivals.push_back(rival);
   }
   return judgement;
+}
+
+std::string why_not_added(const UnseenChange& change) {
+  if (change.row.is_event) return "";
+  if (!(change.rho_after < change.rho_before))
+    return "the equations of unseen logs do not fit better with it";
+  if (!change.before.known() || !change.floor.known()) return "";
+  if (!change.after.known()) return "with it the simulation fails: " + change.after.failure;
+  if (!(in_floors(change.after, change.floor) < in_floors(change.before, change.floor)))
+    return "unseen logs are not simulated better with it";
+  return "";
+}
+
+void conclude(RefineResult& result) {
+  const double rho = result.rho_before;
+  if (!result.effects.empty()) {
+    const std::vector<Rival>& rivals = result.effects.front().rivals;
+    result.verdict = rivals.empty() ? Verdict::named : Verdict::ambiguous;
+    const double closed = (rho - result.rho_after) / std::max(1e-9, rho - 1);
+    result.reason = fmt::format("it closes {:.0f} % of the squared gap above the noise floor",
+                                100 * std::clamp(closed, 0.0, 1.0));
+    if (result.rho_after > kRemainder) result.reason += "; a remainder is unexplained";
+    if (!rivals.empty()) result.next_experiment = rivals.front().experiment;
+    return;
+  }
+  const bool refused = !result.steps.empty();
+  const std::string level =
+      fmt::format("the squared residual is {:.3g} times what the sensors' noise leaves", rho);
+  if (rho < kRemainder && !refused) {
+    result.verdict = Verdict::none;
+    result.reason = level + "; no effect of the catalogue improves on it beyond chance";
+    return;
+  }
+  result.verdict = Verdict::unexplained;
+  result.reason = level + (refused ? ", and what fits best, " + result.steps.front().added +
+                                         ", was refused: " + result.steps.front().reason
+                                   : ", and no effect of the catalogue explains it");
 }
 
 }  // namespace cablefit

@@ -1,6 +1,7 @@
 // The decision rule of refine, all of it. Internal to refine/.
 #pragma once
 
+#include "cablefit/refine/confirm.hpp"
 #include "cablefit/refine/null_draws.hpp"
 #include "cablefit/refine/refine.hpp"
 #include "cablefit/refine/scan.hpp"
@@ -27,6 +28,24 @@ struct SquaredGap {
 Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGap& gap,
                        const std::vector<NullDraw>& draws, const RefineOptions& options,
                        bool is_first);
+
+/// Squared residual over floor that a base of no fault reaches: floors are known to some per cent.
+inline constexpr double kNoGap = 1.07;
+/// Squared gap over floor that is seen on unseen rows.
+inline constexpr double kVisibleGap = 1.1;
+
+/// What adding an effect did on logs that had no say.
+struct UnseenChange {
+  const Refinement& row;
+  double rho_before = 0, rho_after = 0;  ///< equations
+  const SimulatedGap &before, &after, &floor;
+};
+/// Why it is refused, whatever it did to the equation error of the training logs; empty: it is
+/// not. Events are judged on their own log.
+std::string why_not_added(const UnseenChange& change);
+
+/// Verdict, reason and next experiment of a result whose effects stand.
+void conclude(RefineResult& result);
 
 /// Whether any candidate is worth the bootstrap at all.
 bool anything_material(const std::vector<Candidate>& candidates, const RefineOptions& options);

@@ -1,0 +1,79 @@
+#include "cablefit/refine/levels.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/base/random.hpp"
+
+namespace cablefit {
+
+KindLevels positive(KindLevels levels) {
+  for (double& level : levels)
+    if (!(level > 0)) level = 1;
+  return levels;
+}
+
+KindLevels at_least(KindLevels levels, const KindLevels& floor) {
+  for (std::size_t k = 0; k < kRowKinds; ++k) levels[k] = std::max(levels[k], floor[k]);
+  return levels;
+}
+
+KindLevels rms_over(const std::vector<KindLevels>& several) {
+  KindLevels out{};
+  for (const KindLevels& one : several)
+    for (std::size_t k = 0; k < kRowKinds; ++k)
+      out[k] += one[k] * one[k] / static_cast<double>(several.size());
+  for (double& level : out) level = std::sqrt(level);
+  return out;
+}
+
+double rho_of(const BlockFit& fit, const KindLevels& floor) {
+  double sum = 0, n = 0;
+  for (std::size_t k = 0; k < kRowKinds; ++k) {
+    sum += fit.squares[k] / (floor[k] * floor[k]);
+    n += fit.n_rows[k];
+  }
+  return n > 0 ? sum / n : 0;
+}
+
+double RowGap::quantile(double level, std::uint64_t seed) const {
+  constexpr int kResamples = 400;
+  Random random(seed, 31);
+  std::vector<double> rhos;
+  const Eigen::Index n = squares.size();
+  for (int i = 0; i < kResamples; ++i) {
+    double sum = 0, rows = 0;
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const auto b = static_cast<Eigen::Index>(random.uniform() * static_cast<double>(n));
+      sum += squares(b);
+      rows += n_rows(b);
+    }
+    if (rows > 0) rhos.push_back(sum / rows);
+  }
+  if (rhos.empty()) return 0;
+  std::sort(rhos.begin(), rhos.end());
+  return rhos[static_cast<std::size_t>(level * static_cast<double>(rhos.size() - 1))];
+}
+
+RowGap gap_of(const Design& design, const Eigen::VectorXd& x, const KindLevels& floor,
+              double block_seconds) {
+  const BlockGrams grams = block_grams(design.rows, design.stretches, block_seconds);
+  RowGap gap;
+  gap.squares = errors_of(grams, floor, x);
+  gap.n_rows = Eigen::ArrayXd::Zero(gap.squares.size());
+  for (std::size_t b = 0; b < grams.blocks.size(); ++b)
+    for (const Eigen::Index n : grams.blocks[b].n_rows)
+      gap.n_rows(static_cast<Eigen::Index>(b)) += static_cast<double>(n);
+  const double rows = gap.n_rows.sum();
+  gap.rho = rows > 0 ? gap.squares.sum() / rows : 0;
+  return gap;
+}
+
+double floor_error(const BlockFit& fit, const KindLevels& floor, const KindLevels& levels) {
+  double sum = 0;
+  for (std::size_t k = 0; k < kRowKinds; ++k)
+    sum += fit.n_rows[k] * floor[k] * floor[k] / (levels[k] * levels[k]);
+  return sum;
+}
+
+}  // namespace cablefit

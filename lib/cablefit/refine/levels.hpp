@@ -1,0 +1,28 @@
+// Sizes of residuals, per kind of row and all together. Internal to refine/.
+#pragma once
+
+#include "cablefit/refine/evidence.hpp"
+
+namespace cablefit {
+
+/// Levels that may be divided by: kinds without rows get 1.
+KindLevels positive(KindLevels levels);
+KindLevels at_least(KindLevels levels, const KindLevels& floor);
+/// Root of the mean square over several.
+KindLevels rms_over(const std::vector<KindLevels>& several);
+
+/// rho: mean over all rows of the squared residual in units of its floor.
+double rho_of(const BlockFit& fit, const KindLevels& floor);
+/// The same of given values on other rows; per block too, for a bootstrap.
+struct RowGap {
+  double rho = 0;
+  Eigen::ArrayXd squares, n_rows;  ///< per block
+  double quantile(double level, std::uint64_t seed = 1) const;  ///< of rho, blocks resampled
+};
+RowGap gap_of(const Design& design, const Eigen::VectorXd& x, const KindLevels& floor,
+              double block_seconds);
+
+/// What noise alone leaves of a weighted squared error of this fit.
+double floor_error(const BlockFit& fit, const KindLevels& floor, const KindLevels& levels);
+
+}  // namespace cablefit

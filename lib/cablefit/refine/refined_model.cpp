@@ -1,0 +1,168 @@
+#include "cablefit/refine/refined_model.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "cablefit/estimate/long_run.hpp"
+
+namespace cablefit {
+namespace {
+
+void set_estimate(Estimate& e, double value, double sd, double dof) {
+  const auto none = std::numeric_limits<double>::quiet_NaN();
+  e.value = value;
+  e.sd = e.sd_white = e.ci_low = e.ci_high = none;
+  if (!(sd > 0) || !std::isfinite(sd)) return;
+  e.sd = e.sd_white = sd;
+  const double reach = t_quantile_975(dof) * sd;
+  e.ci_low = value - reach;
+  e.ci_high = value + reach;
+}
+
+Estimate estimate_of(const ParameterInfo& info, double value, double sd, double dof) {
+  Estimate e;
+  e.name = info.name;
+  e.symbol = info.symbol;
+  e.unit = info.unit;
+  set_estimate(e, value, sd, dof);
+  return e;
+}
+
+double sd_at(const FinalFit& fit, Eigen::Index i) { return std::sqrt(fit.covariance(i, i)); }
+
+/// Amplitude of each harmonic from its sine and cosine, by the delta method.
+std::vector<Estimate> amplitudes(const Refinement& row, const FinalFit& fit, Eigen::Index first) {
+  constexpr std::array<std::string_view, 3> kNames{"amplitude", "amplitude_2", "amplitude_3"};
+  std::vector<Estimate> out;
+  for (int h = 0; h < std::min(row.n_harmonics, 3); ++h) {
+    const Eigen::Index at = first + 2 * h;
+    const double a = std::hypot(fit.x(at), fit.x(at + 1));
+    if (!(a > 0)) continue;
+    const Eigen::Vector2d slope(fit.x(at) / a, fit.x(at + 1) / a);
+    const double sd = std::sqrt(slope.dot(fit.covariance.block<2, 2>(at, at) * slope));
+    const std::string_view name = kNames[static_cast<std::size_t>(h)];
+    const std::string_view unit = row.parameters[static_cast<std::size_t>(2 * h)].unit;
+    out.push_back(estimate_of({name, name, unit, ""}, a, sd, fit.degrees_of_freedom));
+  }
+  return out;
+}
+
+/// Uses every linear parameter of the base, in the order of the columns.
+template <typename Use>
+void for_each_effect_parameter(Model& model, Use use) {
+  JointModel& axes = model.joints.front();
+  for (auto* effects : {&axes.link, &axes.motor})
+    for (EffectInstance& instance : *effects)
+      for (std::size_t i = 0; i < instance.effect->n_linear(); ++i) use(instance.parameters[i]);
+}
+
+/// The coefficients that the file tells of stage 1, as far as there are; a cable that got a higher
+/// order has more than stage 1 knew.
+void set_elastic_estimates(const Design& design, const FinalFit& fit, Model& model) {
+  if (model.rigid) return;
+  std::vector<Estimate> elastic;
+  Eigen::Index at = design.layout.n_link + design.layout.n_motor;
+  const auto add = [&](const std::string& name, const std::string& unit) {
+    Estimate e;
+    e.name = e.symbol = name;
+    e.unit = unit;
+    set_estimate(e, fit.x(at), sd_at(fit, at), fit.degrees_of_freedom);
+    elastic.push_back(std::move(e));
+    ++at;
+  };
+  if (model.transmission.cables.empty()) add("K", "N m/rad");
+  for (const Cable& cable : model.transmission.cables)
+    for (int i = 0; i < cable.n_coefficients(); ++i)
+      add(coefficient_name(cable, i, model.rig.cables_given),
+          coefficient_unit(*cable.law, i, model.rig.cables_given));
+  for (const Estimate& old : model.elastic) {
+    const bool again = find_estimate(elastic, old.name) != nullptr;
+    if (!again) elastic.push_back(old);
+  }
+  model.elastic = std::move(elastic);
+}
+
+}  // namespace
+
+std::vector<NamedEffect> named_effects(const Design& design, const FinalFit& fit) {
+  std::vector<NamedEffect> effects;
+  const auto first = first_columns(design);
+  Eigen::Index shape_at = design.n_columns();
+  for (std::size_t k = 0; k < design.added.size(); ++k) {
+    const Variant& variant = design.added[k];
+    const Refinement& row = *variant.refinement;
+    const auto n = static_cast<Eigen::Index>(row.n_linear());
+    NamedEffect& effect = effects.emplace_back();
+    effect.instance.refinement = &row;
+    effect.instance.event_log = variant.event_log;
+    effect.instance.event_time = variant.event_time;
+    const auto add = [&](std::size_t parameter, double value, Eigen::Index column) {
+      effect.instance.parameters.push_back(estimate_of(
+          row.parameters[parameter], value, sd_at(fit, column), fit.degrees_of_freedom));
+    };
+    for (Eigen::Index p = 0; p < n; ++p)
+      add(static_cast<std::size_t>(p), fit.x(first[k] + p), first[k] + p);
+    for (std::size_t p = 0; p < variant.shape.size(); ++p)
+      add(row.n_linear() + p, variant.shape[p], shape_at++);
+    effect.derived = amplitudes(row, fit, first[k]);
+    if (n > 0) effect.torque_rms = carried_torque(design, fit.x, first[k], n);
+  }
+  return effects;
+}
+
+std::vector<ParameterShift> parameter_shifts(const Design& design, const FinalFit& fit,
+                                             const Eigen::VectorXd& before) {
+  std::vector<ParameterShift> shifts;
+  for (std::size_t i = 0; i < design.layout.effects.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    const ParameterInfo& info = design.layout.effects[i];
+    shifts.push_back({std::string(info.name), std::string(info.unit), before(at), fit.x(at),
+                      sd_at(fit, at)});
+  }
+  return shifts;
+}
+
+std::vector<Model> models_with(const Design& design, const Eigen::VectorXd& x) {
+  FinalFit fit;
+  fit.x = x;
+  Eigen::Index n = design.n_columns();
+  for (const Variant& variant : design.added) n += static_cast<Eigen::Index>(variant.shape.size());
+  fit.covariance = Eigen::MatrixXd::Zero(n, n);
+  const std::vector<NamedEffect> effects = named_effects(design, fit);
+  std::vector<Model> models = design.models;
+  for (Model& model : models) {
+    set_base_values(x.head(design.layout.n()), model);
+    for (const NamedEffect& effect : effects)
+      if (effect.instance.refinement->change == nullptr)
+#ifndef NOREF
+        model.joints.front().refinements.push_back(effect.instance);
+#else
+        (void)effect;
+#endif
+  }
+  return models;
+}
+
+std::vector<Model> refined_models(const Design& design, const FinalFit& fit) {
+  std::vector<Model> models = models_with(design, fit.x);
+  const std::vector<NamedEffect> effects = named_effects(design, fit);
+  for (Model& model : models) {
+    Eigen::Index at = 0;
+    for_each_effect_parameter(model, [&](Estimate& e) {
+      set_estimate(e, fit.x(at), sd_at(fit, at), fit.degrees_of_freedom);
+      ++at;
+    });
+    set_elastic_estimates(design, fit, model);
+#ifndef NOREF
+    auto& instances = model.joints.front().refinements;
+    std::size_t next = 0;
+    for (const NamedEffect& effect : effects)
+      if (effect.instance.refinement->change == nullptr) instances[next++] = effect.instance;
+#endif
+  }
+  return models;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,21 @@
+// A design's fit as effects with numbers and as models. Internal to refine/.
+#pragma once
+
+#include "cablefit/refine/final_fit.hpp"
+#include "cablefit/refine/refine_result.hpp"
+
+namespace cablefit {
+
+/// What was added, in order, with values, sd and 95 % intervals (t quantile of the blocks).
+std::vector<NamedEffect> named_effects(const Design& design, const FinalFit& fit);
+
+/// Parameters of the base before and after.
+std::vector<ParameterShift> parameter_shifts(const Design& design, const FinalFit& fit,
+                                             const Eigen::VectorXd& before);
+
+/// The design's models with these values, and with what was added. No sd.
+std::vector<Model> models_with(const Design& design, const Eigen::VectorXd& x);
+/// The same with the sd of every parameter.
+std::vector<Model> refined_models(const Design& design, const FinalFit& fit);
+
+}  // namespace cablefit

@@ -1,0 +1,75 @@
+#include "cablefit/refine/search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/refine/levels.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr double kSameLevel = 1.1;  // weights this close decide alike
+
+std::vector<const Refinement*> named_already(const Design& design) {
+  std::vector<const Refinement*> out;
+  for (const Variant& variant : design.added)
+    for (const Refinement& row : refinements()) {
+      const Refinement& named = *variant.refinement;
+      const bool alias = !row.alias_class.empty() && row.alias_class == named.alias_class;
+      if (&row == &named || alias) out.push_back(&row);
+    }
+  return out;
+}
+
+/// An event may win only by its own null; it does not set weights.
+const Candidate* best_of(const std::vector<Candidate>& candidates) {
+  const Candidate* best = nullptr;
+  for (const Candidate& c : candidates)
+    if (c.refused.empty() && !c.variant.refinement->is_event && c.gain > 0 &&
+        (best == nullptr || c.gain > best->gain))
+      best = &c;
+  return best;
+}
+
+bool is_same(const KindLevels& a, const KindLevels& b) {
+  for (std::size_t k = 0; k < kRowKinds; ++k)
+    if (a[k] > kSameLevel * b[k] || b[k] > kSameLevel * a[k]) return false;
+  return true;
+}
+
+}  // namespace
+
+Search search(const Design& design, const KindLevels& floor, const ScanSettings& settings) {
+  constexpr int kPasses = 2;
+  Search s;
+  s.levels = floor;
+  s.grams = block_grams(design.rows, design.stretches, settings.block_seconds);
+  const auto without = named_already(design);
+  for (int pass = 0; pass < kPasses; ++pass) {
+    auto fit = fit_blocks(s.grams, s.levels, true, 1e-12);
+    if (!fit)
+      throw Error(ErrorKind::not_identifiable, "the logs do not determine the model's parameters");
+    s.fit = std::move(*fit);
+    s.candidates = scan({design, s.grams, s.fit, s.levels}, settings, without);
+    const Candidate* best = best_of(s.candidates);
+    const KindLevels left = at_least(best != nullptr ? best->rms : s.fit.rms(), floor);
+    if (is_same(left, s.levels) || pass + 1 == kPasses) break;
+    s.levels = left;
+  }
+  return s;
+}
+
+std::vector<std::string> not_separable(const Search& search) {
+  std::vector<std::string> out;
+  for (const Refinement& row : refinements()) {
+    const bool found =
+        std::any_of(search.candidates.begin(), search.candidates.end(),
+                    [&](const Candidate& c) { return c.variant.refinement == &row; });
+    if (!found) out.push_back(fmt::format("{} ({})", row.name, to_string(row.site)));
+  }
+  return out;
+}
+
+}  // namespace cablefit
