@@ -10,6 +10,7 @@
 #include "cablefit/model/cables.hpp"
 #include "cablefit/model/effects.hpp"
 #include "cablefit/model/load.hpp"
+#include "cablefit/model/refinements.hpp"
 #include "cablefit/report/list_json.hpp"
 #include "cablefit/report/writers.hpp"
 #include "commands/command.hpp"
@@ -31,22 +32,50 @@ Table text_table_of(const std::string& title, const std::vector<std::string>& co
   return table;
 }
 
-std::string parameters_of(const Effect& effect) {
+std::string parameters_of(std::span<const ParameterInfo> parameters) {
   std::string text;
-  for (const ParameterInfo& info : effect.parameters) {
-    text += fmt::format("{}{} [{}]", text.empty() ? "" : ", ", info.name, info.unit);
+  for (const ParameterInfo& info : parameters) {
+    if (!text.empty()) text += ", ";
+    text += info.name;
+    if (!info.unit.empty()) text += fmt::format(" [{}]", info.unit);
   }
   return text;
+}
+
+/// The other names of its class.
+std::string aliases_of(const Refinement& row) {
+  std::string text;
+  for (const Refinement& other : refinements())
+    if (!row.alias_class.empty() && other.alias_class == row.alias_class && &other != &row)
+      text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", other.name, to_string(other.site));
+  return text;
+}
+
+std::vector<Table> refinement_tables() {
+  Table rows = text_table_of("Refinements: what a drive may have beyond the model",
+                             {"name", "side", "equation", "parameters", "source"});
+  Table differences = text_table_of("How refinements are told apart",
+                                    {"name", "side", "never from", "signature", "experiment"});
+  for (const Refinement& row : refinements()) {
+    const std::string name(row.name), side(to_string(row.site));
+    rows.rows.push_back({name, side, std::string(row.equation), parameters_of(row.parameters),
+                         std::string(row.source)});
+    differences.rows.push_back(
+        {name, side, aliases_of(row), std::string(row.signature), std::string(row.experiment)});
+  }
+  return {rows, differences};
 }
 
 std::vector<Table> effect_tables() {
   Table table = text_table_of("Effects", {"name", "side", "equation", "parameters", "source"});
   for (const Effect& effect : effects()) {
     table.rows.push_back({std::string(effect.name), std::string(to_string(effect.side)),
-                          std::string(effect.equation), parameters_of(effect),
+                          std::string(effect.equation), parameters_of(effect.parameters),
                           std::string(effect.source)});
   }
-  return {table};
+  std::vector<Table> tables = refinement_tables();
+  tables.insert(tables.begin(), table);
+  return tables;
 }
 
 std::string orders_of(const CableLaw& law) {

@@ -8,6 +8,7 @@
 #include "cablefit/base/parameter.hpp"
 #include "cablefit/model/cables.hpp"
 #include "cablefit/model/effects.hpp"
+#include "cablefit/model/refinements.hpp"
 #include "cablefit/model/rig.hpp"
 
 namespace cablefit {
@@ -25,6 +26,8 @@ std::string joint_parameter_name(std::string_view name, int joint, int n_joints)
 struct JointModel {
   std::vector<EffectInstance> link;   ///< empty on a rigid drive
   std::vector<EffectInstance> motor;  ///< for a rigid drive the effects of Side::rigid
+  /// What `refine` added. The cables of the model are those with its `change` rows already.
+  std::vector<RefinementInstance> refinements = {};
 };
 
 struct Model {

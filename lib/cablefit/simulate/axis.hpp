@@ -19,6 +19,15 @@ class Axis {
   /// that of `position`. Exactly 0 when dry friction can hold the torque.
   double advance(double position, double velocity, double torque, double h) const;
 
+  /// What refinements add to an axis.
+  struct Extra {
+    double up = 0, down = 0;  ///< N m, dry friction of motion forwards and backwards
+    double inertia = 0;       ///< kg m^2
+  };
+  /// The same with more (or less) dry friction, which stays >= 0 in sum, and inertia.
+  double advance(double position, double velocity, double torque, double h,
+                 const Extra& extra) const;
+
  private:
   using TorqueFunction = double (*)(double position, double velocity, const double* parameters);
   struct Term {
@@ -35,8 +44,9 @@ class Axis {
   void fold(const Effect& effect, const double* parameters);
   double sum(const std::vector<Term>& terms, double position, double velocity) const;
   Friction friction(double position, double velocity) const;
-  double slide(double velocity, double push, double damping, double h) const;
-  double leave_rest(const Friction& friction, double torque, double h) const;
+  static Friction with(const Friction& friction, double more, double velocity);
+  double move(const Friction& up, const Friction& down, double inertia, double velocity,
+              double push, double h) const;
 
   std::vector<double> parameters_;
   std::vector<Term> smooth_, dry_;  ///< of the rows that are not affine
@@ -65,28 +75,49 @@ inline Axis::Friction Axis::friction(double position, double velocity) const {
 }
 
 /// Trapezoidal rule for J v' = push - damping v.
-inline double Axis::slide(double velocity, double push, double damping, double h) const {
+inline double slid_velocity(double inertia, double velocity, double push, double damping,
+                            double h) {
   const double half = 0.5 * h * damping;
-  return ((inertia_ - half) * velocity + h * push) / (inertia_ + half);
+  return ((inertia - half) * velocity + h * push) / (inertia + half);
 }
 
-inline double Axis::leave_rest(const Friction& friction, double torque, double h) const {
-  const double excess = std::abs(torque) - friction.level;
-  if (excess <= 0) return 0.0;
-  return std::copysign(slide(0.0, excess, friction.damping + friction.level_slope, h), torque);
+/// `push`: all but friction; `up` and `down`: the friction of either direction.
+inline double Axis::move(const Friction& up, const Friction& down, double inertia, double velocity,
+                         double push, double h) const {
+  const auto leave_rest = [&](double time) {
+    const Friction& f = push > 0 ? up : down;
+    const double excess = std::abs(push) - f.level;
+    if (excess <= 0) return 0.0;
+    return std::copysign(slid_velocity(inertia, 0.0, excess, f.damping + f.level_slope, time),
+                         push);
+  };
+  if (velocity == 0) return leave_rest(h);
+  const Friction& f = velocity > 0 ? up : down;
+  const double sliding_push = push - std::copysign(f.level, velocity);
+  const double damping = f.damping + f.level_slope;
+  const double next = slid_velocity(inertia, velocity, sliding_push, damping, h);
+  if (next * velocity > 0) return next;
+  // It comes to rest on the way; the same rule solved for the time at which v' = 0.
+  const double until_rest = inertia * velocity / (0.5 * damping * velocity - sliding_push);
+  return leave_rest(h - std::clamp(until_rest, 0.0, h));
 }
 
 inline double Axis::advance(double position, double velocity, double torque, double h) const {
   const Friction f = friction(position, velocity);
-  const double push = torque - f.constant;
-  if (velocity == 0) return leave_rest(f, push, h);
-  const double sliding_push = push - std::copysign(f.level, velocity);
-  const double damping = f.damping + f.level_slope;
-  const double next = slide(velocity, sliding_push, damping, h);
-  if (next * velocity > 0) return next;
-  // It comes to rest on the way; the same rule solved for the time at which v' = 0.
-  const double until_rest = inertia_ * velocity / (0.5 * damping * velocity - sliding_push);
-  return leave_rest(f, push, h - std::clamp(until_rest, 0.0, h));
+  return move(f, f, inertia_, velocity, torque - f.constant, h);
+}
+
+inline Axis::Friction Axis::with(const Friction& friction, double more, double velocity) {
+  Friction sum = friction;
+  sum.level = std::max(friction.level + more, -friction.level_slope * std::abs(velocity));
+  return sum;
+}
+
+inline double Axis::advance(double position, double velocity, double torque, double h,
+                            const Extra& extra) const {
+  const Friction f = friction(position, velocity);
+  return move(with(f, extra.up, velocity), with(f, extra.down, velocity), inertia_ + extra.inertia,
+              velocity, torque - f.constant, h);
 }
 
 }  // namespace cablefit

@@ -1,6 +1,7 @@
 #include "cablefit/simulate/coupling.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cablefit {
 namespace {
@@ -26,8 +27,8 @@ Coupling::Coupling(const Transmission& transmission)
   theta_0_.assign(theta_0.begin(), theta_0.end());
   for (const Cable& cable : transmission.cables) {
     const bool round = all_round(cable.motor_map) && all_round(cable.link_map);
-    Strand strand{cable.law->basis,  cable.shape(), cable.n_coefficients(), {}, cable.shift(),
-                  motor_map_.size(), round};
+    Strand strand{cable.law->basis, cable.law->slope,  cable.shape(), cable.n_coefficients(), {},
+                  cable.shift(),    motor_map_.size(), round};
     std::copy(cable.coefficients.begin(), cable.coefficients.end(), strand.coefficients.begin());
     if (round) strand.slack -= cable.motor_radii(theta_0).dot(theta_0);
     cables_.push_back(strand);
@@ -48,6 +49,27 @@ double Coupling::elongation(const Strand& strand, const double* q, const double*
          link_map_[strand.first_joint + k].displacement(q[k]);
   }
   return l;
+}
+
+void Coupling::look(std::size_t joint, const double* q, const double* theta,
+                    JointState& state) const {
+  const double turned = theta[joint] - theta_0_[joint];
+  state.deflection = turned - q[joint];
+  if (cables_.empty()) {
+    state.stiffness = stiffness_[joint];
+    state.tension = std::abs(state.stiffness * state.deflection);
+    return;
+  }
+  state.stiffness = state.tension = 0;
+  for (const Strand& strand : cables_) {
+    const DisplacementMap& map = motor_map_[strand.first_joint + joint];
+    if (map.is_zero()) continue;
+    const double l = stretch(strand, q, theta);
+    const double radius = map.radius(turned), force = combine(strand, strand.basis, l);
+    state.stiffness +=
+        radius * radius * combine(strand, strand.slope, l) + map.radius_slope(turned) * force;
+    state.tension += std::abs(radius) * force;
+  }
 }
 
 void Coupling::add_by_maps(const Strand& strand, double force, const double* q, const double* theta,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cablefit/model/cables.hpp"
+#include "cablefit/model/refinements.hpp"
 
 namespace cablefit {
 
@@ -16,12 +17,15 @@ class Coupling {
 
   /// tau_elas_l and tau_elas_m (N m, n_joints each) at these positions (rad).
   void torques(const double* q, const double* theta, double* link, double* motor) const;
+  /// As set_elastic of refinements.hpp, but for tau_elas, which `torques` gives.
+  void look(std::size_t joint, const double* q, const double* theta, JointState& state) const;
   /// Tension of one cable (N; joint space N m).
   double tension(std::size_t cable, const double* q, const double* theta) const;
 
  private:
+  using LawFunction = void (*)(const LawShape& shape, double l, double* values);
   struct Strand {
-    void (*basis)(const LawShape& shape, double l, double* values);
+    LawFunction basis, slope;
     LawShape shape;
     int n_coefficients;
     std::array<double, kMaxCableOrder> coefficients;
@@ -30,6 +34,10 @@ class Coupling {
     bool round;               ///< all its pulleys are round
   };
 
+  /// sum_j coefficient_j values_j at elongation l; 0 when slack.
+  static double combine(const Strand& strand, LawFunction values_of, double l);
+  double stretch(const Strand& strand, const double* q, const double* theta) const;
+  /// The same by the maps.
   double elongation(const Strand& strand, const double* q, const double* theta) const;
   /// Adds one cable's torques with its radii at these positions.
   void add_by_maps(const Strand& strand, double force, const double* q, const double* theta,
@@ -42,25 +50,30 @@ class Coupling {
   std::vector<double> stiffness_, theta_0_;            ///< linear model, per joint
 };
 
-inline double Coupling::tension(std::size_t cable, const double* q, const double* theta) const {
-  const Strand& strand = cables_[cable];
+inline double Coupling::stretch(const Strand& strand, const double* q, const double* theta) const {
+  if (!strand.round) return elongation(strand, q, theta);
   double l = strand.slack;
-  if (strand.round) {
-    const double* motor_radius = motor_radius_.data() + strand.first_joint;
-    const double* link_radius = link_radius_.data() + strand.first_joint;
-    for (std::size_t k = 0; k < n_joints_; ++k)
-      l += motor_radius[k] * theta[k] - link_radius[k] * q[k];
-  } else {
-    l = elongation(strand, q, theta);
-  }
+  const double* motor_radius = motor_radius_.data() + strand.first_joint;
+  const double* link_radius = link_radius_.data() + strand.first_joint;
+  for (std::size_t k = 0; k < n_joints_; ++k)
+    l += motor_radius[k] * theta[k] - link_radius[k] * q[k];
+  return l;
+}
+
+inline double Coupling::combine(const Strand& strand, LawFunction values_of, double l) {
   if (!(l > 0)) return 0.0;
   std::array<double, kMaxCableOrder> values;  // NOLINT(*-member-init): filled by the next call
-  strand.basis(strand.shape, l, values.data());
-  double force = 0;
+  values_of(strand.shape, l, values.data());
+  double sum = 0;
   for (std::size_t j = 0; j < static_cast<std::size_t>(strand.n_coefficients); ++j) {
-    force += strand.coefficients[j] * values[j];
+    sum += strand.coefficients[j] * values[j];
   }
-  return force;
+  return sum;
+}
+
+inline double Coupling::tension(std::size_t cable, const double* q, const double* theta) const {
+  const Strand& strand = cables_[cable];
+  return combine(strand, strand.basis, stretch(strand, q, theta));
 }
 
 inline void Coupling::torques(const double* q, const double* theta, double* link,

@@ -77,7 +77,8 @@ PdDrive::PdDrive(const Model& model, const SimulationInput& start, const Clock& 
       period_(controller_period(model, start)),
       steps_per_row_(static_cast<double>(clock.steps_per_row)),
       steps_per_command_(period_ / clock.h),
-      tau_(model.joints.size()) {
+      tau_(model.joints.size()),
+      drive_(model, period_) {
   for (std::size_t k = 0; k < tau_.size(); ++k) {
     const auto joint = static_cast<Eigen::Index>(k);
     quantum_.push_back(theta_quantum(model.rig, k));
@@ -99,7 +100,7 @@ const std::vector<double>& PdDrive::torque(Eigen::Index row, Eigen::Index step,
   const double now =
       (rows_before_ + static_cast<double>(row)) * steps_per_row_ + static_cast<double>(step);
   if (now >= std::round(n_commands_ * steps_per_command_)) command(row, step, theta);
-  return tau_;
+  return acting_;
 }
 
 void PdDrive::end(Eigen::Index n_rows) {
@@ -119,6 +120,7 @@ void PdDrive::command(Eigen::Index row, Eigen::Index step, const std::vector<dou
     const double tau = controller_.kp * error + controller_.kd * rate;
     tau_[k] = std::clamp(tau, -controller_.limit, controller_.limit);
   }
+  acting_ = drive_.after(tau_);
 }
 
 }  // namespace cablefit

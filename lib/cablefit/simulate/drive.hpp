@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "cablefit/simulate/acting_torque.hpp"
 #include "cablefit/simulate/simulator.hpp"
 
 namespace cablefit {
@@ -66,9 +67,11 @@ class PdDrive final : public Drive {
   void end(Eigen::Index n_rows) override;
   const std::vector<double>& torque(Eigen::Index row, Eigen::Index step,
                                     const std::vector<double>& theta) override;
+  /// The command, which a drive may not follow.
   const std::vector<double>& torque_at(Eigen::Index row,
                                        const std::vector<double>& theta) override {
-    return torque(row, 0, theta);
+    (void)torque(row, 0, theta);
+    return tau_;
   }
 
  private:
@@ -83,6 +86,8 @@ class PdDrive final : public Drive {
   std::vector<double> quantum_;         ///< rad; 0: none
   std::vector<double> previous_error_;  ///< rad, at the last command
   std::vector<double> tau_;
+  ActingTorque drive_;
+  std::vector<double> acting_;  ///< what it makes of tau_
 };
 
 }  // namespace cablefit

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cablefit/samples/noise.hpp"
+#include "cablefit/simulate/corrections.hpp"
 
 namespace cablefit {
 namespace {
@@ -32,10 +33,16 @@ std::string unit_of(Channel channel, bool linear_motion) {
 
 }  // namespace
 
-PartReplay::PartReplay(Experiment experiment, const LogSurvey& log, const PartSurvey& part)
+Eigen::Index replay_halo(const Model& model) {
+  return kReplayHalo + (corrects(model) ? kCorrectionHalo : 0);
+}
+
+PartReplay::PartReplay(Experiment experiment, const LogSurvey& log, const PartSurvey& part,
+                       std::size_t log_number)
     : experiment_(std::move(experiment)),
       log_(log),
       part_(part),
+      log_number_(log_number),
       window_rows_(rows_in(experiment_.window_seconds, part.period)) {
   result_.log = log.plan.path;
   result_.preload = part.preload;
@@ -63,6 +70,16 @@ void PartReplay::choose_signals() {
 }
 
 void PartReplay::add(const Window& window, const RowSink& sink) {
+  if (!corrects(experiment_.model)) {
+    add_corrected(window, sink);
+    return;
+  }
+  Window corrected = window;
+  correct(experiment_.model, log_.plan, experiment_.simulation.closed_loop, corrected);
+  add_corrected(corrected, sink);
+}
+
+void PartReplay::add_corrected(const Window& window, const RowSink& sink) {
   Eigen::Index row = window.begin;
   while (row < window.end && result_.diverged.empty()) {
     const bool starts = window_rows_ > 0 ? row % window_rows_ == 0 : row == 0;
@@ -101,6 +118,9 @@ void PartReplay::start_anew(const Window& window, Eigen::Index row) {
   const int n_joints = log_.plan.rig.n_joints();
   const Eigen::Index rows_after = window.data.rows() - (row - window.first);
   SimulationInput start = input_rows(window, row, std::min<Eigen::Index>(2, rows_after));
+  start.log_number = log_number_;
+  const double t = window.t0 + static_cast<double>(row) * window.period;
+  start.t0 = t - log_.parts.front().t_first;
   start.q0 = start.qd0 = start.theta0 = start.thetad0 = Eigen::VectorXd::Zero(n_joints);
   const auto state_of = [&](Channel channel, int joint) -> StartState {
     const int slot = log_.plan.find(channel, joint);
@@ -118,7 +138,6 @@ void PartReplay::start_anew(const Window& window, Eigen::Index row) {
   }
   simulation_.emplace(experiment_.model, start, experiment_.simulation);
   ++result_.n_windows;
-  const double t = window.t0 + static_cast<double>(row) * window.period;
   for (Signal& signal : signals_) signal.scan.start_window(t);
 }
 

@@ -26,14 +26,17 @@ using RowSink = std::function<void(const ReplayedRows&)>;
 /// Rows of a log's window that a start from the measured state may look at, on either side; one
 /// more for the row that a block steps on to.
 inline constexpr Eigen::Index kReplayHalo = kStartRows + 1;
+/// The halo for a model: corrections of a recording (model/refinements.hpp) need neighbours too.
+Eigen::Index replay_halo(const Model& model);
 
 class PartReplay {
  public:
-  /// `log` and `part` must outlive it.
-  PartReplay(Experiment experiment, const LogSurvey& log, const PartSurvey& part);
+  /// `log` and `part` must outlive it. `log_number`: see SimulationInput.
+  PartReplay(Experiment experiment, const LogSurvey& log, const PartSurvey& part,
+             std::size_t log_number);
 
-  /// The next window of the part, which has kReplayHalo. `sink`: takes the rows. After a divergence
-  /// nothing is done.
+  /// The next window of the part, which has replay_halo rows. Signals are compared as the model's
+  /// refinements correct them. `sink`: takes the rows. After a divergence nothing is done.
   void add(const Window& window, const RowSink& sink);
 
   SimulatedPart result() const;
@@ -48,6 +51,7 @@ class PartReplay {
   };
 
   void choose_signals();
+  void add_corrected(const Window& window, const RowSink& sink);
   SimulationInput input_rows(const Window& window, Eigen::Index begin, Eigen::Index n_rows) const;
   Eigen::ArrayXXd measured(const Window& window, Channel channel, Eigen::Index begin,
                            Eigen::Index n_rows) const;
@@ -61,6 +65,7 @@ class PartReplay {
   Experiment experiment_;
   const LogSurvey& log_;
   const PartSurvey& part_;
+  std::size_t log_number_;
   Eigen::Index window_rows_;  ///< between starts from the measured state; 0: never
   std::optional<Simulation> simulation_;
   std::vector<Signal> signals_;

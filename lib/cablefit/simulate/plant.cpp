@@ -33,12 +33,16 @@ Plant::Plant(const Model& model, const SimulationInput& input, bool link_blocked
     : is_rigid_(model.rigid),
       link_blocked_(link_blocked),
       load_(model.rig.load),
-      coupling_(model.rigid ? Transmission{} : model.transmission) {
+      coupling_(model.rigid ? Transmission{} : model.transmission),
+      t0_(input.t0) {
   const std::size_t n = model.joints.size();
   for (const JointModel& joint : model.joints) {
     motor_.emplace_back(joint.motor);
     if (!is_rigid_) link_.emplace_back(joint.link);
   }
+  if (!is_plain(model))
+    for (const JointModel& joint : model.joints)
+      refined_.emplace_back(joint.refinements, input.log_number);
   q_ = initial(input.q0, n);
   qd_ = link_blocked ? std::vector<double>(n, 0.0) : initial(input.qd0, n);
   theta_ = initial(is_rigid_ && input.theta0.size() == 0 ? input.q0 : input.theta0, n);
@@ -61,6 +65,10 @@ void Plant::step_elastic(const double* tau, const double* tau_load, double h) {
     q_[k] += 0.5 * h * qd_[k];
   }
   coupling_.torques(q_.data(), theta_.data(), elastic_link_.data(), elastic_motor_.data());
+  if (!refined_.empty()) {
+    advance_refined(tau, tau_load, h);
+    return;
+  }
   advance_motors(tau, h);
   if (!link_blocked_) advance_links(tau_load, h);
 }
@@ -80,7 +88,55 @@ void Plant::advance_links(const double* tau_load, double h) {
   }
 }
 
+JointState Plant::middle_of_step(std::size_t joint, double h) const {
+  JointState state;
+  state.t = t0_ + (n_steps_ + 0.5) * h;
+  state.theta = theta_[joint];
+  state.thetad = thetad_[joint];
+  state.q = is_rigid_ ? state.theta : q_[joint];
+  state.qd = is_rigid_ ? state.thetad : qd_[joint];
+  if (is_rigid_) return state;
+  coupling_.look(joint, q_.data(), theta_.data(), state);
+  state.tau_elas = elastic_motor_[joint];
+  return state;
+}
+
+void Plant::advance_refined(const double* tau, const double* tau_load, double h) {
+  for (std::size_t k = 0; k < theta_.size(); ++k) {
+    const RefinedStep more = refined_[k].step(middle_of_step(k, h), h);
+    thetad_[k] = motor_[k].advance(theta_[k], thetad_[k],
+                                   tau[k] - elastic_motor_[k] - more.motor_torque, h, more.motor);
+    if (link_blocked_) continue;
+    const double torque = elastic_link_[k] + tau_load[k] + load_at(q_[k]) - more.link_torque;
+    qd_[k] = link_[k].advance(q_[k], qd_[k], torque, h, more.link);
+  }
+  for (std::size_t k = 0; k < theta_.size(); ++k) {
+    theta_[k] += 0.5 * h * thetad_[k];
+    if (!link_blocked_) q_[k] += 0.5 * h * qd_[k];
+  }
+  ++n_steps_;
+}
+
+/// On the only axis what acts on either side: a torque between the sides has no effect.
+void Plant::advance_refined_rigid(const double* tau, const double* tau_load, double h) {
+  for (std::size_t k = 0; k < theta_.size(); ++k) {
+    theta_[k] += 0.5 * h * thetad_[k];
+    const RefinedStep more = refined_[k].step(middle_of_step(k, h), h);
+    const double torque =
+        tau[k] + tau_load[k] + load_at(theta_[k]) - more.motor_torque - more.link_torque;
+    const Axis::Extra all{more.link.up + more.motor.up, more.link.down + more.motor.down,
+                          more.link.inertia + more.motor.inertia};
+    thetad_[k] = motor_[k].advance(theta_[k], thetad_[k], torque, h, all);
+    theta_[k] += 0.5 * h * thetad_[k];
+  }
+  ++n_steps_;
+}
+
 void Plant::step_rigid(const double* tau, const double* tau_load, double h) {
+  if (!refined_.empty()) {
+    advance_refined_rigid(tau, tau_load, h);
+    return;
+  }
   for (std::size_t k = 0; k < theta_.size(); ++k) {
     theta_[k] += 0.5 * h * thetad_[k];
     const double torque = tau[k] + tau_load[k] + load_at(theta_[k]);

@@ -5,6 +5,7 @@
 
 #include "cablefit/simulate/axis.hpp"
 #include "cablefit/simulate/coupling.hpp"
+#include "cablefit/simulate/refined_joint.hpp"
 #include "cablefit/simulate/simulator.hpp"
 
 namespace cablefit {
@@ -32,6 +33,10 @@ class Plant {
   void step_rigid(const double* tau, const double* tau_load, double h);
   void advance_motors(const double* tau, double h);
   void advance_links(const double* tau_load, double h);
+  /// The same with the refinements of the model.
+  void advance_refined(const double* tau, const double* tau_load, double h);
+  void advance_refined_rigid(const double* tau, const double* tau_load, double h);
+  JointState middle_of_step(std::size_t joint, double h) const;
 
   bool is_rigid_, link_blocked_;
   Load load_;
@@ -39,6 +44,9 @@ class Plant {
   Coupling coupling_;
   std::vector<double> q_, qd_, theta_, thetad_;
   std::vector<double> elastic_link_, elastic_motor_;  ///< N m, of the present step
+  std::vector<RefinedJoint> refined_;                 ///< empty: the model has none
+  double t0_;                                         ///< s
+  double n_steps_ = 0;                                ///< counted for refinements
 };
 
 }  // namespace cablefit

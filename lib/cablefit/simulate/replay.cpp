@@ -35,6 +35,7 @@ bool has_part_of_model(const Model& model, const LogSurvey& log) {
 
 /// One replay per part of the log, empty for those left out.
 std::vector<std::unique_ptr<PartReplay>> plan_parts(const Model& model, const LogSurvey& log,
+                                                    std::size_t log_number,
                                                     const ReplayOptions& options,
                                                     SimulateResult& result) {
   const bool of_model = has_part_of_model(model, log);
@@ -56,16 +57,20 @@ std::vector<std::unique_ptr<PartReplay>> plan_parts(const Model& model, const Lo
       result.warnings.push_back(fmt::format("{} is simulated by a model of preload {}", where,
                                             cablefit::quoted(model.preload)));
     }
-    replay = std::make_unique<PartReplay>(plan_experiment(model, log, part, options), log, part);
+    replay = std::make_unique<PartReplay>(plan_experiment(model, log, part, options), log, part,
+                                          log_number);
   }
   return replays;
 }
 
 class LogReplay {
  public:
-  LogReplay(const Model& model, const LogSurvey& log, const ReplayOptions& options,
-            SimulateResult& result)
-      : log_(log), replays_(plan_parts(model, log, options, result)), figures_(log.parts.size()) {
+  LogReplay(const Model& model, const LogSurvey& log, std::size_t log_number,
+            const ReplayOptions& options, SimulateResult& result)
+      : log_(log),
+        halo_(replay_halo(model)),
+        replays_(plan_parts(model, log, log_number, options, result)),
+        figures_(log.parts.size()) {
     for (std::size_t k = 0; options.figures && k < replays_.size(); ++k)
       if (replays_[k]) figures_[k].emplace(log, log.parts[k], replays_[k]->result().closed_loop);
   }
@@ -79,7 +84,7 @@ class LogReplay {
       return bool(replays_[static_cast<std::size_t>(&part - log_.parts.data())]);
     };
     const WindowCounts counts =
-        for_each_window(log_, wanted, kReplayHalo, kMinRows, 0.0, [&](Window&& window) {
+        for_each_window(log_, wanted, halo_, kMinRows, 0.0, [&](Window&& window) {
           std::optional<ReplayFigures>& figures = figures_[window.part];
           if (!figures) {
             replays_[window.part]->add(window, sink);
@@ -103,6 +108,7 @@ class LogReplay {
 
  private:
   const LogSurvey& log_;
+  Eigen::Index halo_;
   std::vector<std::unique_ptr<PartReplay>> replays_;
   std::vector<std::optional<ReplayFigures>> figures_;  ///< by part, when asked for
 };
@@ -112,7 +118,8 @@ std::vector<LogReplay> plan_logs(const Model& model, std::span<const LogSurvey> 
   std::vector<LogReplay> replays;
   for (const LogSurvey& log : logs) {
     result.inputs.push_back({log.plan.path, log.sha256, log.n_rows});
-    replays.emplace_back(model, log, options, result);
+    const std::size_t number = replays.size();
+    replays.emplace_back(model, log, number, options, result);
   }
   const bool nothing = std::all_of(replays.begin(), replays.end(),
                                    [](const LogReplay& replay) { return replay.is_empty(); });

@@ -11,6 +11,10 @@
 // friction"; the stop is placed inside the step, so that reversals keep the order). Second order in
 // h, through stops, reversals and cables that go slack too. Explicit in the elastic torque: stable
 // for h < 2/omega of the stiffest mode (paper's rig: 350 to 630 rad/s, h omega < 0.016 at 25 us).
+//
+// Refinements of the model act as torques at the midpoint, with velocities extrapolated to it, and
+// as more (or less) dry friction of their axis. Those that correct a recording say what acts of a
+// controller's commands; a replayed torque has to be corrected before (part_replay.hpp).
 #pragma once
 
 #include <Eigen/Core>
@@ -32,6 +36,8 @@ struct SimulationInput {
   /// empty.
   Eigen::ArrayXXd motor_disturbance, link_disturbance;
   Eigen::VectorXd q0, qd0, theta0, thetad0;  ///< initial state
+  double t0 = 0;               ///< s since the log began, of the first row; for refinements
+  std::size_t log_number = 0;  ///< from 0; for refinements with a date
 };
 
 struct SimulationOptions {
@@ -42,7 +48,7 @@ struct SimulationOptions {
 };
 
 /// State at every row: positions rad, velocities rad/s, tension per cable (N; joint space N m), and
-/// the motor torque N m applied from the row on; rows x joints (cables). Linear model: no cables.
+/// the motor torque N m commanded from the row on; rows x joints (cables). Linear model: no cables.
 struct SimulationResult {
   Eigen::ArrayXXd q, theta, qd, thetad, tau, tension;
   /// First row at which a state was no longer finite or left +-1e6; rows from there on are NaN.

@@ -49,21 +49,27 @@ std::vector<EffectInstance> read_side(const JsonNode& node, Side side, int joint
   return effects;
 }
 
-/// {"name", "link", "motor"}, or {"name", "rigid"} on a drive without elasticity.
+/// {"name", "link", "motor", "refinements"}, or {"name", "rigid", "refinements"} on a drive without
+/// elasticity.
 JointModel read_joint(const JsonNode& node, int joint, const Model& model) {
-  node.allow_only({"name", "link", "motor", "rigid"});
+  node.allow_only({"name", "link", "motor", "rigid", "refinements"});
   const std::string& expected = model.rig.joints[static_cast<std::size_t>(joint) - 1];
   if (text_or(node, "name", expected) != expected) {
     throw node.at("name").error(fmt::format("joint {}", cablefit::quoted(node.at("name").text())),
                                 fmt::format("the rig calls it '{}'", expected));
   }
+  JointModel axes;
   if (model.rigid) {
-    node.allow_only({"name", "rigid"});
-    return {{}, read_side(node.at("rigid"), Side::rigid, joint, model.rig)};
+    node.allow_only({"name", "rigid", "refinements"});
+    axes.motor = read_side(node.at("rigid"), Side::rigid, joint, model.rig);
+  } else {
+    node.allow_only({"name", "link", "motor", "refinements"});
+    axes.link = read_side(node.at("link"), Side::link, joint, model.rig);
+    axes.motor = read_side(node.at("motor"), Side::motor, joint, model.rig);
   }
-  node.allow_only({"name", "link", "motor"});
-  return {read_side(node.at("link"), Side::link, joint, model.rig),
-          read_side(node.at("motor"), Side::motor, joint, model.rig)};
+  if (const JsonNode* refinements = node.find("refinements"))
+    axes.refinements = read_refinements(*refinements, model);
+  return axes;
 }
 
 void read_joints(const JsonNode& node, Model* model) {

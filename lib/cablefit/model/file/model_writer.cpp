@@ -44,6 +44,16 @@ Json side_json(const std::vector<EffectInstance>& effects) {
   return json;
 }
 
+Json refinement_json(const RefinementInstance& instance) {
+  Json json{{"name", instance.refinement->name}, {"side", to_string(instance.refinement->site)}};
+  Json& values = json["parameters"] = Json::object();
+  for (const Estimate& parameter : instance.parameters)
+    values[parameter.name] = estimate_json(parameter);
+  if (instance.refinement->is_event)
+    json["event"] = {{"log", instance.event_log + 1}, {"time", instance.event_time}};
+  return json;
+}
+
 Json joints_json(const Model& model) {
   Json list = Json::array();
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
@@ -54,6 +64,8 @@ Json joints_json(const Model& model) {
       json["link"] = side_json(model.joints[k].link);
       json["motor"] = side_json(model.joints[k].motor);
     }
+    for (const RefinementInstance& instance : model.joints[k].refinements)
+      json["refinements"].push_back(refinement_json(instance));
     list.push_back(json);
   }
   return list;

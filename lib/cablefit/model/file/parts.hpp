@@ -36,6 +36,9 @@ Estimate blank_estimate(const ParameterInfo& parameter, int joint, const Rig& ri
 /// Unit of the linear stiffness K.
 std::string stiffness_unit(const Rig& rig);
 
+/// "refinements" of a joint: [{"name", "side", "parameters": {...}, "event": {"log", "time"}}].
+std::vector<RefinementInstance> read_refinements(const JsonNode& node, const Model& model);
+
 /// "transmission" of a model file, for the cables that the model's rig has.
 void read_transmission(const JsonNode& node, Model* model);
 

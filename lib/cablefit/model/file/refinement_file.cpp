@@ -1,0 +1,86 @@
+// "refinements" of a model file.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/base/quote.hpp"
+#include "cablefit/model/file/parts.hpp"
+#include "cablefit/model/json_reading.hpp"
+
+namespace cablefit::model_file {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, Site>, 5> kSites{
+    {{"link", Site::link},
+     {"motor", Site::motor},
+     {"transmission", Site::transmission},
+     {"sensor", Site::sensor},
+     {"drive", Site::drive}}};
+
+Estimate read_parameter(const JsonNode& node, const ParameterInfo& info, const Rig& rig) {
+  Estimate estimate =
+      read_strict_estimate(node, std::string(info.name), info.symbol, parameter_unit(info, rig));
+  if (estimate.value >= info.lower && estimate.value <= info.upper) return estimate;
+  const std::string range = std::isinf(info.upper)
+                                ? fmt::format("at least {:g}", info.lower)
+                                : fmt::format("from {:g} to {:g}", info.lower, info.upper);
+  throw node.error(fmt::format("{} = {:g} {}", info.name, estimate.value, estimate.unit),
+                   fmt::format("expected {}: {}", range, info.meaning));
+}
+
+std::vector<Estimate> read_parameters(const JsonNode* node, const JsonNode& row_node,
+                                      const Refinement& row, const Rig& rig) {
+  std::vector<Estimate> parameters;
+  if (!node && row.parameters.empty()) return parameters;
+  const JsonNode& values = node ? *node : row_node.at("parameters");
+  std::vector<std::string_view> known;
+  for (const ParameterInfo& info : row.parameters) {
+    parameters.push_back(read_parameter(values.at(info.name), info, rig));
+    known.push_back(info.name);
+  }
+  for (const auto& [key, value] : members_of(values))
+    if (std::find(known.begin(), known.end(), key) == known.end())
+      fail_unknown(value, "parameter", key, known);
+  return parameters;
+}
+
+void read_event(const JsonNode& node, RefinementInstance& instance) {
+  const JsonNode* event = node.find("event");
+  if (!instance.refinement->is_event) {
+    if (!event) return;
+    throw event->error(fmt::format("'{}' has no date", instance.refinement->name), "drop it");
+  }
+  const JsonNode& date = node.at("event");
+  date.allow_only({"log", "time"});
+  const double log = number_or(date, "log", 1);
+  if (!(log >= 1) || log != std::floor(log) || log > 1e6)
+    throw date.at("log").error("no number of a log", "expected 1, 2, ...: in the order given");
+  instance.event_log = static_cast<std::size_t>(log) - 1;
+  instance.event_time = date.at("time").number();
+}
+
+RefinementInstance read_refinement(const JsonNode& node, const Model& model) {
+  node.allow_only({"name", "side", "parameters", "event"});
+  const Site site = choose(node.at("side"), kSites);
+  const JsonNode& name = node.at("name");
+  RefinementInstance instance;
+  instance.refinement = at_place_of(name, [&] { return &find_refinement(name.text(), site); });
+  if (model.rigid && site == Site::transmission)
+    throw name.error(fmt::format("{} on a rigid drive", cablefit::quoted(name.text())),
+                     "it has no transmission: drop it, or give link and motor");
+  instance.parameters =
+      read_parameters(node.find("parameters"), node, *instance.refinement, model.rig);
+  read_event(node, instance);
+  return instance;
+}
+
+}  // namespace
+
+std::vector<RefinementInstance> read_refinements(const JsonNode& node, const Model& model) {
+  std::vector<RefinementInstance> refinements;
+  for (const JsonNode& item : some_items(node)) refinements.push_back(read_refinement(item, model));
+  return refinements;
+}
+
+}  // namespace cablefit::model_file

@@ -1,0 +1,51 @@
+// What the refinements of one joint do during a step. Internal to the simulator.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "cablefit/model/model.hpp"
+#include "cablefit/simulate/axis.hpp"
+
+namespace cablefit {
+
+/// Torques on the left side, N m: they oppose.
+struct RefinedStep {
+  double link_torque = 0, motor_torque = 0;
+  Axis::Extra link, motor;
+};
+
+class RefinedJoint {
+ public:
+  /// `log_number`: of the log that is simulated, see SimulationInput.
+  RefinedJoint(const std::vector<RefinementInstance>& refinements, std::size_t log_number);
+
+  /// Over a step of length h. `state`: of its middle, but with the velocities of its beginning,
+  /// which are extrapolated to the middle, and without accelerations.
+  RefinedStep step(JointState state, double h);
+
+ private:
+  struct Term {
+    const Refinement* row;
+    std::vector<double> linear, shape, z;
+    double event_time;  ///< s since this log began; +-infinity in a log before or after it
+    bool carries;       ///< its torque grows with an acceleration: an inertia
+    std::vector<double> link, motor;  ///< per unit, room to write
+  };
+
+  static Term make_term(const RefinementInstance& instance, std::size_t log_number);
+  static std::pair<double, double> torques(Term& term, const JointState& state);
+  static double level(Term& term, const JointState& state, double direction);
+  static void act(Term& term, const JointState& state, double h, RefinedStep& sum);
+  static void add_inertia(Term& term, JointState state, double link, double motor,
+                          RefinedStep& sum);
+
+  std::vector<Term> terms_;
+  double qd_before_ = 0, thetad_before_ = 0;
+  bool has_begun_ = false;
+};
+
+/// No refinement that acts on the plant, as most models have it.
+bool is_plain(const Model& model);
+
+}  // namespace cablefit
