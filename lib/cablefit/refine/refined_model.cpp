@@ -136,11 +136,7 @@ std::vector<Model> models_with(const Design& design, const Eigen::VectorXd& x) {
     set_base_values(x.head(design.layout.n()), model);
     for (const NamedEffect& effect : effects)
       if (effect.instance.refinement->change == nullptr)
-#ifndef NOREF
         model.joints.front().refinements.push_back(effect.instance);
-#else
-        (void)effect;
-#endif
   }
   return models;
 }
@@ -155,12 +151,10 @@ std::vector<Model> refined_models(const Design& design, const FinalFit& fit) {
       ++at;
     });
     set_elastic_estimates(design, fit, model);
-#ifndef NOREF
     auto& instances = model.joints.front().refinements;
     std::size_t next = 0;
     for (const NamedEffect& effect : effects)
       if (effect.instance.refinement->change == nullptr) instances[next++] = effect.instance;
-#endif
   }
   return models;
 }
