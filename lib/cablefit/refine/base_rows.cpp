@@ -28,7 +28,8 @@ template <typename Axes, typename Use>
 void for_each_value(Axes& axes, Use use) {
   for (auto* effects : {&axes.link, &axes.motor})
     for (auto& instance : *effects)
-      for (std::size_t i = 0; i < instance.effect->n_linear(); ++i) use(instance.parameters[i].value);
+      for (std::size_t i = 0; i < instance.effect->n_linear(); ++i)
+        use(instance.parameters[i].value);
 }
 
 void fill_effects(const std::vector<EffectInstance>& effects, const Motion& motion,
@@ -127,7 +128,8 @@ StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayo
                : moving_rows(link ? rows.motion.qd : rows.motion.thetad,
                              link ? smoothing.least_speed_q : smoothing.least_speed_theta,
                              stretch.recording.period, smoothing);
-    const Eigen::MatrixXd all = apply_at(filter, full_columns(kind, rows.motion, model, layout), k.at);
+    const Eigen::MatrixXd all =
+        apply_at(filter, full_columns(kind, rows.motion, model, layout), k.at);
     k.base = all.leftCols(layout.n());
     k.response = all.col(layout.n());
   }

@@ -106,8 +106,7 @@ FullTorques full_torques(const Variant& variant, const Stretch& stretch,
 std::vector<Eigen::MatrixXd> torque_columns(const Design& design, const Variant& variant,
                                             std::size_t k) {
   const Eigen::Index every = design.smoothing.every;
-  const FullTorques full =
-      full_torques(variant, design.stretches[k], design.states[k], every);
+  const FullTorques full = full_torques(variant, design.stretches[k], design.states[k], every);
   const Kernel filter = gaussian(design.smoothing.columns,
                                  static_cast<double>(every) * design.stretches[k].recording.period);
   std::vector<Eigen::MatrixXd> columns;
@@ -159,7 +158,8 @@ std::vector<Eigen::MatrixXd> sensor_columns(const Design& design, const Variant&
 
 Eigen::Index Design::n_columns() const {
   Eigen::Index n = layout.n();
-  for (const Variant& variant : added) n += static_cast<Eigen::Index>(variant.refinement->n_linear());
+  for (const Variant& variant : added)
+    n += static_cast<Eigen::Index>(variant.refinement->n_linear());
   return n;
 }
 
@@ -172,7 +172,8 @@ Design make_design(std::span<const Model> models, std::vector<Stretch> stretches
   for (const Stretch& stretch : design.stretches)
     design.peak = std::max(design.peak, stretch.recording.tau.abs().maxCoeff());
   if (!(smoothing.least_speed_theta > 0)) {
-    smoothing.least_speed_theta = least_speed(design.stretches, &Recording::theta, false, smoothing);
+    smoothing.least_speed_theta =
+        least_speed(design.stretches, &Recording::theta, false, smoothing);
     smoothing.least_speed_q = least_speed(design.stretches, &Recording::q, true, smoothing);
   }
   design.smoothing = smoothing;

@@ -25,10 +25,10 @@ struct Design {
   BaseLayout layout;
   Smoothing smoothing;
   std::vector<Stretch> stretches;
-  std::vector<StretchRows> rows;                  ///< per stretch; `base` has all columns
-  std::vector<std::vector<JointState>> states;    ///< per stretch
+  std::vector<StretchRows> rows;                ///< per stretch; `base` has all columns
+  std::vector<std::vector<JointState>> states;  ///< per stretch
   std::vector<Variant> added;
-  double peak = 0;                                ///< N m, largest |tau|
+  double peak = 0;  ///< N m, largest |tau|
   Eigen::Index n_columns() const;
 };
 

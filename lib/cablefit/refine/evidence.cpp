@@ -53,8 +53,7 @@ std::optional<Normal> solve_normal(const Eigen::MatrixXd& gram, bool with_invers
   const Eigen::VectorXd diagonal = gram.diagonal().tail(p);
   if (p > 0 && !(diagonal.minCoeff() > 0)) return {};
   const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd a =
-      scale.asDiagonal() * gram.bottomRightCorner(p, p) * scale.asDiagonal();
+  const Eigen::MatrixXd a = scale.asDiagonal() * gram.bottomRightCorner(p, p) * scale.asDiagonal();
   const Eigen::LLT<Eigen::MatrixXd> llt(a);
   if (llt.info() != Eigen::Success) return {};
   // The smallest pivot bounds the smallest eigenvalue from above: a cheap look at collinearity.
@@ -63,8 +62,8 @@ std::optional<Normal> solve_normal(const Eigen::MatrixXd& gram, bool with_invers
   Normal out;
   out.x = scale.cwiseProduct(llt.solve(scale.cwiseProduct(gram.col(0).tail(p))));
   if (with_inverse)
-    out.inverse = scale.asDiagonal() * llt.solve(Eigen::MatrixXd::Identity(p, p)) *
-                  scale.asDiagonal();
+    out.inverse =
+        scale.asDiagonal() * llt.solve(Eigen::MatrixXd::Identity(p, p)) * scale.asDiagonal();
   return out;
 }
 
@@ -101,7 +100,8 @@ BlockGrams block_grams(const std::vector<StretchRows>& rows, const std::vector<S
                        BlockGrams::Block& block = grams.blocks[first[s] + b];
                        block.log = stretches[s].log;
                        const auto k = static_cast<std::size_t>(kind.kind);
-                       block.gram[k] = all.middleRows(from, n).transpose() * all.middleRows(from, n);
+                       block.gram[k] =
+                           all.middleRows(from, n).transpose() * all.middleRows(from, n);
                        block.n_rows[k] = n;
                      });
     }
@@ -120,20 +120,19 @@ BlockGrams extended(const BlockGrams& base, const std::vector<StretchRows>& rows
       const KindRows& kind = rows[s].kinds[i];
       const Eigen::MatrixXd& more = columns[s][i];
       grams.n_columns = base.n_columns + more.cols();
-      for_each_block(kind, stretches[s].recording.period, block_seconds,
-                     [&](std::size_t b, Eigen::Index from, Eigen::Index n) {
-                       Eigen::MatrixXd& g =
-                           grams.blocks[first[s] + b].gram[static_cast<std::size_t>(kind.kind)];
-                       const auto c = more.middleRows(from, n);
-                       g.conservativeResize(1 + grams.n_columns, 1 + grams.n_columns);
-                       g.block(0, before, 1, c.cols()) =
-                           kind.response.segment(from, n).transpose() * c;
-                       g.block(1, before, base.n_columns, c.cols()) =
-                           kind.base.middleRows(from, n).transpose() * c;
-                       g.bottomRightCorner(c.cols(), c.cols()) = c.transpose() * c;
-                       g.bottomLeftCorner(c.cols(), before) =
-                           g.topRightCorner(before, c.cols()).transpose();
-                     });
+      for_each_block(
+          kind, stretches[s].recording.period, block_seconds,
+          [&](std::size_t b, Eigen::Index from, Eigen::Index n) {
+            Eigen::MatrixXd& g =
+                grams.blocks[first[s] + b].gram[static_cast<std::size_t>(kind.kind)];
+            const auto c = more.middleRows(from, n);
+            g.conservativeResize(1 + grams.n_columns, 1 + grams.n_columns);
+            g.block(0, before, 1, c.cols()) = kind.response.segment(from, n).transpose() * c;
+            g.block(1, before, base.n_columns, c.cols()) =
+                kind.base.middleRows(from, n).transpose() * c;
+            g.bottomRightCorner(c.cols(), c.cols()) = c.transpose() * c;
+            g.bottomLeftCorner(c.cols(), before) = g.topRightCorner(before, c.cols()).transpose();
+          });
     }
   return grams;
 }

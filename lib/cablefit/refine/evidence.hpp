@@ -1,6 +1,6 @@
 // How well a design explains the data: block Gram matrices, held-out blocks, the evidence for one
-// more column. Gram matrices serve the scan, where thousands of small fits are compared; the numbers
-// that are reported come from a QR of the rows. Internal to refine/.
+// more column. Gram matrices serve the scan, where thousands of small fits are compared; the
+// numbers that are reported come from a QR of the rows. Internal to refine/.
 #pragma once
 
 #include <array>
@@ -36,16 +36,17 @@ BlockGrams extended(const BlockGrams& base, const std::vector<StretchRows>& rows
 
 /// A weighted fit, rows weighted by 1/level^2 of their kind.
 struct BlockFit {
-  Eigen::VectorXd x;                ///< n_columns
-  Eigen::ArrayXd held_out;          ///< per block: squared error predicted by the others
-  Eigen::ArrayXd in_sample;         ///< per block
+  Eigen::VectorXd x;                        ///< n_columns
+  Eigen::ArrayXd held_out;                  ///< per block: squared error predicted by the others
+  Eigen::ArrayXd in_sample;                 ///< per block
   std::array<double, kRowKinds> squares{};  ///< sum of squared residuals, (N m)^2
   std::array<double, kRowKinds> n_rows{};
-  Eigen::MatrixXd covariance;       ///< of x, sandwich over the blocks
+  Eigen::MatrixXd covariance;  ///< of x, sandwich over the blocks
   KindLevels rms() const;
 };
 
-/// None where the columns cannot be told apart: the smallest scaled eigenvalue is below `tolerance`.
+/// None where the columns cannot be told apart: the smallest scaled eigenvalue is below
+/// `tolerance`.
 std::optional<BlockFit> fit_blocks(const BlockGrams& grams, const KindLevels& levels,
                                    bool with_held_out = true, double tolerance = 1e-9);
 

@@ -9,8 +9,8 @@ namespace cablefit {
 /// Values and covariance of all linear columns of a design, then of every nonlinear parameter of
 /// what was added, in order.
 struct FinalFit {
-  Eigen::VectorXd x;           ///< linear columns
-  Eigen::MatrixXd covariance;  ///< of x and the nonlinear ones; sandwich over blocks
+  Eigen::VectorXd x;              ///< linear columns
+  Eigen::MatrixXd covariance;     ///< of x and the nonlinear ones; sandwich over blocks
   double degrees_of_freedom = 1;  ///< blocks less parameters, for t quantiles
   KindLevels rms{};
 };

@@ -8,7 +8,8 @@ namespace {
 
 /// Lags in s, -reach .. reach.
 Eigen::ArrayXd lags(double sd, double period) {
-  const auto reach = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::ceil(4 * sd / period)));
+  const auto reach =
+      std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::ceil(4 * sd / period)));
   return period * Eigen::ArrayXd::LinSpaced(2 * reach + 1, -static_cast<double>(reach),
                                             static_cast<double>(reach));
 }
@@ -61,8 +62,8 @@ Eigen::MatrixXd apply_at(const Kernel& kernel, const Eigen::Ref<const Eigen::Mat
   const Eigen::Index width = kernel.weights.size();
   for (Eigen::Index column = 0; column < x.cols(); ++column)
     for (std::size_t i = 0; i < rows.size(); ++i)
-      out(static_cast<Eigen::Index>(i), column) = kernel.weights.matrix().dot(
-          x.col(column).segment(rows[i] - kernel.reach(), width));
+      out(static_cast<Eigen::Index>(i), column) =
+          kernel.weights.matrix().dot(x.col(column).segment(rows[i] - kernel.reach(), width));
   return out;
 }
 

@@ -13,10 +13,10 @@ struct Kernel {
   Eigen::Index reach() const { return weights.size() / 2; }
 };
 
-/// Gaussian of standard deviation `sd` (s) sampled every `period` (s) over +-4 sd, and its first two
-/// derivatives (per s, per s^2). The truncated samples are corrected so that they give exactly what
-/// they should of 1, t and t^2: an uncorrected second derivative makes an acceleration of every
-/// standing position.
+/// Gaussian of standard deviation `sd` (s) sampled every `period` (s) over +-4 sd, and its first
+/// two derivatives (per s, per s^2). The truncated samples are corrected so that they give exactly
+/// what they should of 1, t and t^2: an uncorrected second derivative makes an acceleration of
+/// every standing position.
 Kernel gaussian(double sd, double period);
 Kernel gaussian_slope(double sd, double period);
 Kernel gaussian_curvature(double sd, double period);

@@ -16,7 +16,7 @@ double rho_of(const BlockFit& fit, const KindLevels& floor);
 /// The same of given values on other rows; per block too, for a bootstrap.
 struct RowGap {
   double rho = 0;
-  Eigen::ArrayXd squares, n_rows;  ///< per block
+  Eigen::ArrayXd squares, n_rows;                               ///< per block
   double quantile(double level, std::uint64_t seed = 1) const;  ///< of rho, blocks resampled
 };
 RowGap gap_of(const Design& design, const Eigen::VectorXd& x, const KindLevels& floor,

@@ -53,11 +53,13 @@ Smoothing smoothing_for(double period) {
   const double samples = s.columns / period;
   // A kernel sampled at less than half its width is as good as one sampled finely.
   s.every = samples >= 4 ? 2 : 1;
-  s.stride = s.every * std::max<Eigen::Index>(1, std::llround(1.2 * samples / static_cast<double>(s.every)));
+  s.stride = s.every *
+             std::max<Eigen::Index>(1, std::llround(1.2 * samples / static_cast<double>(s.every)));
   return s;
 }
 
-SmoothMotion smooth_motion_of(const Recording& r, double t0, bool held, const Smoothing& smoothing) {
+SmoothMotion smooth_motion_of(const Recording& r, double t0, bool held,
+                              const Smoothing& smoothing) {
   const Kernel smooth = gaussian(smoothing.signals, r.period);
   const Kernel slope = gaussian_slope(smoothing.signals, r.period);
   const Kernel curvature = gaussian_curvature(smoothing.signals, r.period);

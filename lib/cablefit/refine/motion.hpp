@@ -32,7 +32,7 @@ std::string_view to_string(RowKind kind);
 struct SmoothMotion {
   double t0 = 0, period = 0;
   Eigen::ArrayXd q, qd, qdd, theta, thetad, thetadd;
-  Eigen::ArrayXd tau, tau_load;             ///< smoothed; tau at the time it acts
+  Eigen::ArrayXd tau, tau_load;                 ///< smoothed; tau at the time it acts
   Eigen::ArrayXd q_direction, theta_direction;  ///< -1, 0, 1
   Eigen::Index size() const { return theta.size(); }
 };

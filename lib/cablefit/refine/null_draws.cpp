@@ -32,7 +32,7 @@ void move_aside(Twin& twin, Random& random) {
 struct PreloadTwin {
   std::size_t model = 0;
   Twin twin;
-  std::vector<std::size_t> logs;          ///< number of each recorded log among those given
+  std::vector<std::size_t> logs;  ///< number of each recorded log among those given
 };
 
 }  // namespace
@@ -160,7 +160,8 @@ double tail_of_largest(const std::vector<double>& largest, double gain) {
   const double scale =
       std::max(1e-12, std::sqrt(squares / (n - 1)) * std::sqrt(6.0) / std::numbers::pi);
   const double mode = mean - std::numbers::egamma * scale;
-  return std::min(counted, -std::expm1(-std::exp(-(gain - mode) / scale)));
+  const double tail = -std::expm1(-std::exp(-(gain - mode) / scale));
+  return std::max(kLeastTail, std::min(counted, tail));
 }
 
 }  // namespace cablefit

@@ -15,9 +15,9 @@ namespace cablefit {
 
 /// One simulated data set, searched.
 struct NullDraw {
-  KindLevels floor{};                          ///< rms the base model leaves
-  double rho = 0;                              ///< of it, against the levels given
-  std::map<const Refinement*, double> gains;   ///< best of each row; events in sample
+  KindLevels floor{};                         ///< rms the base model leaves
+  double rho = 0;                             ///< of it, against the levels given
+  std::map<const Refinement*, double> gains;  ///< best of each row; events in sample
 };
 
 class NullBench {
@@ -51,7 +51,9 @@ class NullBench {
 };
 
 /// P(largest gain of a search >= gain) where there is nothing: (1 + count) / (1 + n), or the tail
-/// of a Gumbel distribution fitted by moments where that is smaller than draws can tell.
+/// of a Gumbel distribution fitted by moments where none of the draws came that far. Never below
+/// kLeastTail: some tens of draws say nothing of what is rarer.
+inline constexpr double kLeastTail = 1e-4;
 double tail_of_largest(const std::vector<double>& largest, double gain);
 
 /// A base fit iterated twice: weights from its own residual (or `levels`), states from its values.

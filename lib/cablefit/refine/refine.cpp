@@ -31,8 +31,8 @@ bool any_part(const PartSurvey&) { return true; }
 struct Bench {
   const RefineOptions& options;
   ScanSettings scan = {};
-  std::vector<LogSurvey> logs = {};   ///< blocked, then training
-  std::vector<LogSurvey> unseen = {}; ///< simulated for the last word; the training logs when none
+  std::vector<LogSurvey> logs = {};    ///< blocked, then training
+  std::vector<LogSurvey> unseen = {};  ///< simulated for the last word; the training logs when none
   Smoothing smoothing = {};
   KindLevels floor{}, test_floor{};
   SimulatedGap simulation_floor = {};
@@ -45,7 +45,7 @@ struct State {
   Design design, test;  ///< training and unseen rows, with the same columns
   Eigen::VectorXd x;
   KindLevels levels{};
-  double rho = 0;       ///< training rows
+  double rho = 0;  ///< training rows
   RowGap unseen;
   SimulatedGap simulated;
 };
@@ -74,9 +74,8 @@ auto run_draws(const Bench& bench, std::size_t n, std::uint64_t first, std::stri
 KindLevels fitted_floor(const Bench& bench) {
   std::vector<KindLevels> levels;
   for (const NullDraw& draw :
-       run_draws(bench, kFloorDraws, bench.options.seed, "noise floor", [&](std::uint64_t seed) {
-         return bench.null->base_only(seed, nullptr);
-       }))
+       run_draws(bench, kFloorDraws, bench.options.seed, "noise floor",
+                 [&](std::uint64_t seed) { return bench.null->base_only(seed, nullptr); }))
     levels.push_back(draw.floor);
   return positive(rms_over(levels));
 }
@@ -85,11 +84,11 @@ KindLevels fitted_floor(const Bench& bench) {
 void find_unseen_floors(Bench& bench, const std::vector<Model>& models, const RefineLogs& logs) {
   bench.unseen = logs.test.empty() ? logs.train : logs.test;
   const NullBench unseen(models, bench.unseen, any_part, bench.smoothing);
-  bench.test_floor =
-      logs.test.empty() ? bench.floor
-                        : positive(rms_over(run_draws(
-                              bench, kFloorDraws, bench.options.seed, "noise floor",
-                              [&](std::uint64_t seed) { return unseen.unfitted(seed); })));
+  bench.test_floor = logs.test.empty()
+                         ? bench.floor
+                         : positive(rms_over(run_draws(
+                               bench, kFloorDraws, bench.options.seed, "noise floor",
+                               [&](std::uint64_t seed) { return unseen.unfitted(seed); })));
   std::vector<LogSurvey> recorded;
   for (NullBench::Recorded& one : unseen.record(bench.options.seed))
     recorded.insert(recorded.end(), one.logs.begin(), one.logs.end());
@@ -101,10 +100,9 @@ void need_draws(Bench& bench, const std::vector<Candidate>& candidates) {
   if (!bench.draws.empty() || !anything_material(candidates, bench.options)) return;
   ScanSettings settings = bench.scan;
   settings.threads = 1;
-  bench.draws = run_draws(bench, bench.options.n_draws, bench.options.seed + kFloorDraws, "chance",
-                          [&](std::uint64_t seed) {
-                            return bench.null->searched(seed, bench.floor, settings);
-                          });
+  bench.draws = run_draws(
+      bench, bench.options.n_draws, bench.options.seed + kFloorDraws, "chance",
+      [&](std::uint64_t seed) { return bench.null->searched(seed, bench.floor, settings); });
 }
 
 /// The state with one more effect; nothing when the rows become singular.
@@ -120,9 +118,8 @@ std::optional<State> with_candidate(const Bench& bench, const State& state, cons
       next.design = relinearised(next.design, fit->x);
       next.test = relinearised(next.test, fit->x);
     }
-    fit = fit_blocks(
-        block_grams(next.design.rows, next.design.stretches, bench.scan.block_seconds),
-        next.levels, false, 1e-12);
+    fit = fit_blocks(block_grams(next.design.rows, next.design.stretches, bench.scan.block_seconds),
+                     next.levels, false, 1e-12);
     if (!fit) return {};
   }
   next.x = fit->x;
@@ -156,8 +153,7 @@ bool add_next_effect(Bench& bench, State& state, RefineResult& result) {
   const Search found = search(state.design, bench.floor, bench.scan);
   if (is_first) result.not_separable = not_separable(found);
   need_draws(bench, found.candidates);
-  const SquaredGap gap{found.fit.held_out.sum(),
-                       floor_error(found.fit, bench.floor, found.levels)};
+  const SquaredGap gap{found.fit.held_out.sum(), floor_error(found.fit, bench.floor, found.levels)};
   const Judgement judgement =
       judge_search(found.candidates, gap, bench.draws, bench.options, is_first);
   if (is_first) result.league = judgement.league;
@@ -168,10 +164,9 @@ bool add_next_effect(Bench& bench, State& state, RefineResult& result) {
   if (!next) return false;
   const Refinement& row = *winner.variant.refinement;
   RefineStep step{std::string(row.name), std::string(to_string(row.site)), false, "",
-                  std::sqrt(next->rho), std::sqrt(next->unseen.rho)};
-  step.reason = why_not_added(
-      {row, state.unseen.rho, next->unseen.rho, state.simulated, next->simulated,
-       bench.simulation_floor});
+                  std::sqrt(next->rho),  std::sqrt(next->unseen.rho)};
+  step.reason = why_not_added({row, state.unseen.rho, next->unseen.rho, state.simulated,
+                               next->simulated, bench.simulation_floor});
   step.accepted = step.reason.empty();
   result.steps.push_back(step);
   if (!step.accepted) return false;
@@ -239,8 +234,8 @@ State prepare(Bench& bench, std::span<const Model> models, const RefineLogs& log
   if (test.empty()) test = hold_out(train, kHeldOutShare);
   result.held_out_blocks = logs.test.empty();
   const Smoothing wanted = smoothing_for(train.front().recording.period);
-  BaseFit base = fit_base(make_design(models, std::move(train), wanted), bench.scan.block_seconds,
-                          nullptr);
+  BaseFit base =
+      fit_base(make_design(models, std::move(train), wanted), bench.scan.block_seconds, nullptr);
   bench.smoothing = base.design.smoothing;
   std::vector<Model> fitted = models_with(base.design, base.fit.x);
   bench.null.emplace(fitted, bench.logs, any_part, bench.smoothing);

@@ -17,10 +17,10 @@
 namespace cablefit {
 
 struct RefineOptions {
-  std::size_t n_draws = 24;      ///< simulated data sets
-  unsigned long seed = 1;        ///< of the first; counted up from there
-  double materiality = 0.01;     ///< least share of the squared residual that is worth a name
-  double significance = 0.01;    ///< largest p value of a name
+  std::size_t n_draws = 24;    ///< simulated data sets
+  unsigned long seed = 1;      ///< of the first; counted up from there
+  double materiality = 0.01;   ///< least share of the squared residual that is worth a name
+  double significance = 0.01;  ///< largest p value of a name
   std::size_t most_effects = 3;
   int threads = 1;
   bool figures = false;

@@ -19,29 +19,29 @@ std::string_view to_string(Verdict verdict);
 
 /// A stretch of a variable in which the model misses more than elsewhere.
 struct Regime {
-  std::string equation;            ///< "link", "motor", "blocked"
-  std::string regime, variable;    ///< "speed", "thetad"
-  double from = 0, to = 0;         ///< of the variable, SI
-  double share_of_squared_gap = 0; ///< of the equation's squared residual above its floor
+  std::string equation;             ///< "link", "motor", "blocked"
+  std::string regime, variable;     ///< "speed", "thetad"
+  double from = 0, to = 0;          ///< of the variable, SI
+  double share_of_squared_gap = 0;  ///< of the equation's squared residual above its floor
   double share_of_rows = 0;
-  double rms = 0, noise = 0;       ///< N m, there, and the floor
+  double rms = 0, noise = 0;  ///< N m, there, and the floor
 };
 
 /// A look-alike, or a row of the league table.
 struct Rival {
   std::string name, side;
-  double gain = 0;            ///< share of the squared gap above the floor that it removes
-  double difference = 0;      ///< to the best, in sd of the paired blocks' difference
-  double inclusion = 0;       ///< share of block resamples in which it is the best
-  std::string refused;        ///< why it was no candidate; empty: it was one
-  bool by_rule = false;       ///< an alias: no log of the usual kind tells them apart
-  std::string experiment;     ///< what would
+  double gain = 0;         ///< share of the squared gap above the floor that it removes
+  double difference = 0;   ///< to the best, in sd of the paired blocks' difference
+  double inclusion = 0;    ///< share of block resamples in which it is the best
+  std::string refused;     ///< why it was no candidate; empty: it was one
+  bool by_rule = false;    ///< an alias: no log of the usual kind tells them apart
+  std::string experiment;  ///< what would
 };
 
 struct RefineEvidence {
-  double gain = 0;                        ///< of the squared gap above the floor, unseen data
-  double rho_before = 0, rho_after = 0;   ///< weighted squared residual over the floor
-  double p_value = 1;                     ///< by parametric bootstrap of the whole pipeline
+  double gain = 0;                       ///< of the squared gap above the floor, unseen data
+  double rho_before = 0, rho_after = 0;  ///< weighted squared residual over the floor
+  double p_value = 1;                    ///< by parametric bootstrap of the whole pipeline
   double inclusion = 0;
   std::size_t n_draws = 0;
 };
@@ -50,15 +50,15 @@ struct NamedEffect {
   RefinementInstance instance;
   std::vector<Estimate> derived;  ///< amplitude of a pair of sine and cosine
   RefineEvidence evidence;
-  double torque_rms = 0;          ///< N m, what it carries where it acts
+  double torque_rms = 0;  ///< N m, what it carries where it acts
   std::vector<Rival> rivals;
 };
 
 struct RefineStep {
   std::string added, side;
   bool accepted = false;
-  std::string reason;                    ///< of a refusal
-  double gap_train = 0, gap_test = 0;    ///< N m rms weighted as one equation, after it
+  std::string reason;                  ///< of a refusal
+  double gap_train = 0, gap_test = 0;  ///< N m rms weighted as one equation, after it
 };
 
 /// rms of a gap before and after, N m or rad.
@@ -84,7 +84,7 @@ struct RefineResult {
   std::string reason;  ///< one sentence
   std::vector<Regime> where;
   std::vector<NamedEffect> effects;
-  std::vector<Rival> league;  ///< of the first step
+  std::vector<Rival> league;               ///< of the first step
   std::vector<std::string> not_separable;  ///< said before the residual was looked at
   double remainder_link = 0, remainder_motor = 0, floor_link = 0, floor_motor = 0;  ///< N m rms
   double rho_before = 0, rho_after = 0;

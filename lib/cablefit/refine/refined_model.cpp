@@ -99,8 +99,8 @@ std::vector<NamedEffect> named_effects(const Design& design, const FinalFit& fit
     effect.instance.event_log = variant.event_log;
     effect.instance.event_time = variant.event_time;
     const auto add = [&](std::size_t parameter, double value, Eigen::Index column) {
-      effect.instance.parameters.push_back(estimate_of(
-          row.parameters[parameter], value, sd_at(fit, column), fit.degrees_of_freedom));
+      effect.instance.parameters.push_back(estimate_of(row.parameters[parameter], value,
+                                                       sd_at(fit, column), fit.degrees_of_freedom));
     };
     for (Eigen::Index p = 0; p < n; ++p)
       add(static_cast<std::size_t>(p), fit.x(first[k] + p), first[k] + p);
@@ -118,8 +118,8 @@ std::vector<ParameterShift> parameter_shifts(const Design& design, const FinalFi
   for (std::size_t i = 0; i < design.layout.effects.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     const ParameterInfo& info = design.layout.effects[i];
-    shifts.push_back({std::string(info.name), std::string(info.unit), before(at), fit.x(at),
-                      sd_at(fit, at)});
+    shifts.push_back(
+        {std::string(info.name), std::string(info.unit), before(at), fit.x(at), sd_at(fit, at)});
   }
   return shifts;
 }

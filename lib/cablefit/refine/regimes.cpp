@@ -9,9 +9,9 @@ namespace {
 
 constexpr int kCells = 12;
 constexpr std::size_t kMostRegimes = 8;
-constexpr double kStandsOut = 1.5;   // times its share of the rows
-constexpr double kLeastShare = 0.1;  // of the gap
-constexpr double kLeastExcess = 1.1; // squared residual over floor: below, there is no gap
+constexpr double kStandsOut = 1.5;    // times its share of the rows
+constexpr double kLeastShare = 0.1;   // of the gap
+constexpr double kLeastExcess = 1.1;  // squared residual over floor: below, there is no gap
 
 struct Variable {
   std::string_view regime, link, motor;  ///< names

@@ -9,9 +9,9 @@
 namespace cablefit {
 namespace {
 
-constexpr double kTolerance = 1e-7;    // scaled squared pivot: less is not separable with this data
-constexpr double kEventMargin = 1.0;   // s, to the ends of a log
-constexpr int kGoldenSteps = 9;        // 0.618^9 = 1 % of a cell
+constexpr double kTolerance = 1e-7;   // scaled squared pivot: less is not separable with this data
+constexpr double kEventMargin = 1.0;  // s, to the ends of a log
+constexpr int kGoldenSteps = 9;       // 0.618^9 = 1 % of a cell
 
 bool is_out_of_bounds(const Refinement& row, const Eigen::VectorXd& x, Eigen::Index first) {
   for (std::size_t p = 0; p < row.n_linear(); ++p) {

@@ -12,12 +12,12 @@ namespace cablefit {
 /// The best variant of one row of the catalogue.
 struct Candidate {
   Variant variant;
-  double gain = 0;        ///< share of the squared held-out error that it removes; may be negative
-  double gain_in = 0;     ///< the same in sample
-  Eigen::ArrayXd error;   ///< per block: weighted squared error, held out (events: in sample)
-  Eigen::VectorXd x;      ///< all columns, the candidate's last
-  KindLevels rms{};       ///< N m, left
-  std::string refused;    ///< why it is no candidate, "a negative friction"; empty: it is one
+  double gain = 0;       ///< share of the squared held-out error that it removes; may be negative
+  double gain_in = 0;    ///< the same in sample
+  Eigen::ArrayXd error;  ///< per block: weighted squared error, held out (events: in sample)
+  Eigen::VectorXd x;     ///< all columns, the candidate's last
+  KindLevels rms{};      ///< N m, left
+  std::string refused;   ///< why it is no candidate, "a negative friction"; empty: it is one
 };
 
 struct ScanSettings {

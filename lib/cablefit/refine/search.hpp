@@ -8,7 +8,7 @@ namespace cablefit {
 struct Search {
   KindLevels levels{};  ///< weights that decided
   BlockGrams grams;
-  BlockFit fit;         ///< of the design as it is
+  BlockFit fit;  ///< of the design as it is
   std::vector<Candidate> candidates;
 };
 

@@ -1,4 +1,5 @@
-// Evenly sampled recordings out of logs: what refine looks at, again and again. Internal to refine/.
+// Evenly sampled recordings out of logs: what refine looks at, again and again. Internal to
+// refine/.
 #pragma once
 
 #include <span>
@@ -16,11 +17,11 @@ struct Stretch {
   std::size_t model = 0;  ///< which of the models its preload is
   double t0 = 0;          ///< s, since the part began
   bool blocked = false;
-  Recording recording;    ///< tau_load complete: what the rig's law says is in it
+  Recording recording;  ///< tau_load complete: what the rig's law says is in it
 };
 
-/// The wanted parts of the logs, whose preloads are those of `models` (one per preload; a single one
-/// takes every preload). One joint. Throws Error(input) for a missing channel.
+/// The wanted parts of the logs, whose preloads are those of `models` (one per preload; a single
+/// one takes every preload). One joint. Throws Error(input) for a missing channel.
 std::vector<Stretch> read_stretches(std::span<const LogSurvey> logs, std::span<const Model> models,
                                     const PartFilter& wanted);
 

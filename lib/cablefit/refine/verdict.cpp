@@ -123,10 +123,9 @@ Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGa
   const auto significant = [&](const Candidate& c, double& p) {
     const auto largest = largest_gains(draws, c.variant.refinement->is_event);
     p = tail_of_largest(largest, c.gain);
-    const double chance =
-        largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
-    const double least = is_first ? options.materiality
-                                  : std::max(kNextMateriality, options.materiality);
+    const double chance = largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
+    const double least =
+        is_first ? options.materiality : std::max(kNextMateriality, options.materiality);
     return c.gain >= least && c.gain > kSafety * chance && p <= options.significance;
   };
   for (std::size_t k = 0; k < able.size(); ++k) {
@@ -152,11 +151,14 @@ Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGa
     rival.inclusion = share[k];
     rival.by_rule = same_class(row, named);
     const Paired d = paired(c.error, best.error);
-    rival.difference = d.se > 0 ? d.sum / d.se : 0;
+    rival.difference = d.se > 0 ? d.sum / d.se : d.sum > 0 ? kUnbounded : 0;
     const bool comparable = row.is_event == named.is_event;
     const double apart = gap.above() > 0 ? d.sum / gap.above() : kUnbounded;
-    const bool alike = comparable && ((rival.difference < kLookAlikeSd && apart < kLookAlikeShare) ||
-                                      apart < kTieShare);
+    // More parameters that do no better are no other explanation.
+    const bool richer = n_parameters(c) > n_parameters(best) && d.sum >= 0;
+    const bool alike =
+        comparable && !richer &&
+        ((rival.difference < kLookAlikeSd && apart < kLookAlikeShare) || apart < kTieShare);
     if (alike || rival.by_rule) judgement.rivals.push_back(rival);
   }
   // Aliases are listed by rule, also where their columns vanished beside each other.

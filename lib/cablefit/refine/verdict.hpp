@@ -10,11 +10,11 @@ namespace cablefit {
 
 /// What one search tells.
 struct Judgement {
-  const Candidate* best = nullptr;   ///< the largest gain of all that may be named; nullptr: none
+  const Candidate* best = nullptr;  ///< the largest gain of all that may be named; nullptr: none
   double p_value = 1;
   bool is_named = false;
-  std::vector<Rival> rivals;         ///< look-alikes of the best, likeliest first
-  std::vector<Rival> league;         ///< all rows, by gain
+  std::vector<Rival> rivals;  ///< look-alikes of the best, likeliest first
+  std::vector<Rival> league;  ///< all rows, by gain
   double inclusion = 0;
 };
 

@@ -1,0 +1,103 @@
+// What a naive search would name, and which remedy prevents it: each check has the remedy switched
+// off beside it.
+#include <catch2/catch.hpp>
+
+#include "cablefit/refine/null_draws.hpp"
+#include "cablefit/refine/search.hpp"
+#include "tests/refine/hidden_logs.hpp"
+
+using namespace cablefit;
+using namespace cablefit::test;
+
+namespace {
+
+std::vector<LogSurvey> all_training(const RefineLogs& logs) {
+  std::vector<LogSurvey> all = logs.blocked;
+  all.insert(all.end(), logs.train.begin(), logs.train.end());
+  return all;
+}
+
+Design design_of(const HiddenLogs& hidden, const std::vector<Model>& models,
+                 Smoothing smoothing = smoothing_for(1e-3)) {
+  return make_design(
+      models,
+      read_stretches(all_training(hidden.logs), models, [](const PartSurvey&) { return true; }),
+      smoothing);
+}
+
+/// Best gain of a row that is no event, in a scan on top of the base fit.
+double gain_of(const Design& design, std::string_view name, Site site) {
+  const BaseFit base = fit_base(design, 2, nullptr);
+  std::vector<const Refinement*> others;
+  for (const Refinement& row : refinements())
+    if (row.name != name || row.site != site) others.push_back(&row);
+  ScanSettings settings;
+  const auto found = scan({base.design, base.grams, base.fit, base.levels}, settings, others);
+  return found.empty() ? 0 : found.front().gain;
+}
+
+}  // namespace
+
+/// A torque that is held acts half a sample later than it is logged.
+TEST_CASE("without the half sample every log has a delay", "[refine][trap]") {
+  const HiddenLogs nothing = hidden_logs({});
+  CHECK(gain_of(design_of(nothing, nothing.models), "torque_delay", Site::sensor) < 0.01);
+  std::vector<Model> models = nothing.models;
+  models[0].rig.torque_hold = TorqueHold::none;
+  CHECK(gain_of(design_of(nothing, models), "torque_delay", Site::sensor) > 0.05);
+}
+
+/// At rest dry friction is an inequality, not sgn(v).
+TEST_CASE("rows at rest are no rows of the equations", "[refine][trap]") {
+  const HiddenLogs nothing = hidden_logs({});
+  const KindLevels moving = fit_base(design_of(nothing, nothing.models), 2, nullptr).fit.rms();
+  Smoothing all = smoothing_for(1e-3);
+  all.least_speed_theta = all.least_speed_q = 1e-12;
+  const KindLevels with_rest =
+      fit_base(design_of(nothing, nothing.models, all), 2, nullptr).fit.rms();
+  const auto link = static_cast<std::size_t>(RowKind::link);
+  CHECK(moving[link] < 0.06);  // N m: what rounded encoders leave
+  CHECK(with_rest[link] > 1.5 * moving[link]);
+}
+
+/// On a frozen base the part of an effect that the base has swallowed is lost.
+TEST_CASE("a frozen base shrinks what is found", "[refine][trap]") {
+  const HiddenLogs hidden = hidden_logs({"quadratic_drag.link=1"});
+  const BaseFit base = fit_base(design_of(hidden, hidden.models), 2, nullptr);
+  const Variant drag{&find_refinement("quadratic_drag", Site::link), {2.0}, 0, 0};
+  const VariantColumns columns = variant_columns(base.design, drag, base.fit.x);
+  const BlockGrams grams =
+      extended(base.grams, base.design.rows, base.design.stretches, columns, 2);
+  const auto joint = fit_blocks(grams, base.levels);
+  REQUIRE(joint);
+  // On the residual alone.
+  double along = 0, squared = 0;
+  for (std::size_t s = 0; s < columns.size(); ++s)
+    for (std::size_t k = 0; k < columns[s].size(); ++k) {
+      const KindRows& kind = base.design.rows[s].kinds[k];
+      const double level = base.levels[static_cast<std::size_t>(kind.kind)];
+      const Eigen::VectorXd residual = kind.response - kind.base * base.fit.x;
+      along += columns[s][k].col(0).dot(residual) / (level * level);
+      squared += columns[s][k].squaredNorm() / (level * level);
+    }
+  const double truth = hidden.truth.effects[0].coefficients[0].value;
+  CHECK(joint->x(joint->x.size() - 1) == Approx(truth).epsilon(0.1));
+  CHECK(along / squared < 0.5 * truth);
+}
+
+/// One load leaves gain and scale, and what follows the load, apart by nothing.
+TEST_CASE("with one load the data say what they cannot tell apart", "[refine][trap]") {
+  const HiddenLogs one = hidden_logs({}, 1, "one_load");
+  const HiddenLogs several = hidden_logs({}, 1, "short");
+  const auto n_apart = [](const HiddenLogs& hidden) {
+    const BaseFit base = fit_base(design_of(hidden, hidden.models), 2, nullptr);
+    return not_separable(search(base.design, base.levels, {})).size();
+  };
+  CHECK(n_apart(one) >= n_apart(several));
+}
+
+/// A sensor's column is the derivative of what the equations leave.
+TEST_CASE("an encoder's delay has the column of its derivative", "[refine]") {
+  const HiddenLogs hidden = hidden_logs({"encoder_delay.sensor=1"});
+  CHECK(gain_of(design_of(hidden, hidden.models), "encoder_delay", Site::sensor) > 0.5);
+}

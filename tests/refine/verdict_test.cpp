@@ -1,0 +1,142 @@
+// The decision rule on made-up candidates.
+#include "cablefit/refine/verdict.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+using namespace cablefit;
+
+namespace {
+
+constexpr Eigen::Index kBlocks = 20;
+
+/// A candidate that removes `share` of the squared error 1000 (of which noise is 500), the same in
+/// every block but for `unevenness`.
+Candidate candidate(std::string_view name, Site site, double share, double unevenness = 0) {
+  Candidate c;
+  c.variant.refinement = &find_refinement(name, site);
+  c.gain = c.gain_in = share;
+  c.error = Eigen::ArrayXd::Constant(kBlocks, 1000 * (1 - share) / kBlocks);
+  for (Eigen::Index b = 0; b < kBlocks; ++b) c.error(b) += (b % 2 == 0 ? 1 : -1) * unevenness;
+  return c;
+}
+
+constexpr SquaredGap kGap{1000, 500};
+
+/// Searches of nothing, whose best gains are about 0.3 %.
+std::vector<NullDraw> draws(double event_gain = 0.002) {
+  std::vector<NullDraw> all;
+  for (int k = 0; k < 20; ++k) {
+    NullDraw draw;
+    draw.gains[&find_refinement("stribeck", Site::motor)] = 0.002 + 1e-4 * k;
+    draw.gains[&find_refinement("contact", Site::link)] = event_gain;
+    all.push_back(draw);
+  }
+  return all;
+}
+
+std::string best_name(const Judgement& j) {
+  return j.best == nullptr ? "" : std::string(j.best->variant.refinement->name);
+}
+
+bool lists(const std::vector<Rival>& rivals, std::string_view name) {
+  return std::any_of(rivals.begin(), rivals.end(), [&](const Rival& r) { return r.name == name; });
+}
+
+}  // namespace
+
+TEST_CASE("the largest gain beyond chance is named", "[refine]") {
+  const std::vector<Candidate> candidates = {candidate("stribeck", Site::motor, 0.4),
+                                             candidate("quadratic_drag", Site::motor, 0.2)};
+  const Judgement j = judge_search(candidates, kGap, draws(), {}, true);
+  CHECK(j.is_named);
+  CHECK(best_name(j) == "stribeck");
+  CHECK(j.rivals.empty());
+  CHECK(j.league.at(0).gain == Approx(0.8));  // of the gap, not of the total
+}
+
+TEST_CASE("what chance finds, and what is immaterial, is not named", "[refine]") {
+  RefineOptions options;
+  options.materiality = 0.001;
+  const std::vector<Candidate> chance = {candidate("stribeck", Site::motor, 0.004)};
+  CHECK_FALSE(judge_search(chance, kGap, draws(), options, true).is_named);
+  const std::vector<Candidate> clear = {candidate("stribeck", Site::motor, 0.008)};
+  CHECK(judge_search(clear, kGap, draws(), options, true).is_named);
+  CHECK_FALSE(judge_search(clear, kGap, draws(), {}, true).is_named);  // 1 % by default
+  CHECK_FALSE(judge_search(clear, kGap, {}, options, true).is_named);  // without a null
+}
+
+/// The trap: scores of events are in sample, and large where nothing happened.
+TEST_CASE("an event has to beat its own null", "[refine]") {
+  const std::vector<Candidate> candidates = {candidate("contact", Site::link, 0.09)};
+  CHECK(judge_search(candidates, kGap, draws(0.002), {}, true).is_named);
+  CHECK_FALSE(judge_search(candidates, kGap, draws(0.08), {}, true).is_named);
+}
+
+TEST_CASE("a physical bound is not negotiable", "[refine]") {
+  std::vector<Candidate> candidates = {candidate("stribeck", Site::motor, 0.4),
+                                       candidate("quadratic_drag", Site::motor, 0.2)};
+  candidates[0].refused = "beyond its physical bound";
+  const Judgement j = judge_search(candidates, kGap, draws(), {}, true);
+  CHECK(best_name(j) == "quadratic_drag");
+  CHECK_FALSE(lists(j.rivals, "stribeck"));
+  CHECK(j.league.back().refused == "beyond its physical bound");
+}
+
+TEST_CASE("look-alikes are listed, and the simplest of equals is the headline", "[refine]") {
+  // Four parameters that are a trifle better than one.
+  const std::vector<Candidate> ties = {candidate("pulley_eccentricity", Site::transmission, 0.402),
+                                       candidate("encoder_scale", Site::sensor, 0.4)};
+  const Judgement j = judge_search(ties, kGap, draws(), {}, true);
+  CHECK(best_name(j) == "encoder_scale");
+  CHECK(lists(j.rivals, "pulley_eccentricity"));
+  // Twenty points of the gap apart, but the blocks do not agree on it.
+  const std::vector<Candidate> unsure = {candidate("stribeck", Site::motor, 0.4, 20),
+                                         candidate("presliding", Site::motor, 0.35, -20)};
+  CHECK(lists(judge_search(unsure, kGap, draws(), {}, true).rivals, "presliding"));
+  const std::vector<Candidate> sure = {candidate("stribeck", Site::motor, 0.4),
+                                       candidate("presliding", Site::motor, 0.35)};
+  CHECK_FALSE(lists(judge_search(sure, kGap, draws(), {}, true).rivals, "presliding"));
+}
+
+TEST_CASE("aliases are always listed together", "[refine]") {
+  const auto rivals_of = [](const Candidate& c) {
+    return judge_search({c}, kGap, draws(), {}, true).rivals;
+  };
+  CHECK(lists(rivals_of(candidate("constant_torque", Site::link, 0.4)), "asymmetric_coulomb"));
+  CHECK(lists(rivals_of(candidate("torque_gain", Site::drive, 0.4)), "load_scale"));
+  CHECK(lists(rivals_of(candidate("dead_zone", Site::transmission, 0.4)), "preload"));
+}
+
+TEST_CASE("a further effect has to carry more", "[refine]") {
+  RefineOptions options;
+  const std::vector<Candidate> crumb = {candidate("stribeck", Site::motor, 0.015)};
+  CHECK(judge_search(crumb, kGap, draws(), options, true).is_named);
+  CHECK_FALSE(judge_search(crumb, kGap, draws(), options, false).is_named);
+}
+
+/// 1 - exp(-exp(-(g - mode) / scale)) worked out with bc.
+TEST_CASE("the tail of the largest gain", "[refine]") {
+  const std::vector<double> largest = {0.001, 0.002, 0.003};
+  // mean .002, sd .001: scale 7.79697e-4, mode 1.549946e-3.
+  CHECK(tail_of_largest(largest, 0.006) == Approx(0.00331574).epsilon(1e-5));
+  CHECK(tail_of_largest(largest, 0.0025) == Approx(0.5));  // one of three is above
+  CHECK(tail_of_largest(largest, 1) >= kLeastTail);
+  CHECK(tail_of_largest({}, 1) == 1);
+}
+
+/// The trap: a term that improves the equation error and worsens the simulation.
+TEST_CASE("the simulation of unseen logs has the last word", "[refine]") {
+  const Refinement& row = find_refinement("presliding", Site::link);
+  const SimulatedGap floor{1e-5, 0.1, ""}, before{2e-5, 0.2, ""}, worse{3e-5, 0.2, ""},
+      better{1.5e-5, 0.2, ""}, failed{0, 0, "diverged"};
+  CHECK(why_not_added({row, 1.5, 1.2, before, better, floor}).empty());
+  CHECK(why_not_added({row, 1.5, 1.2, before, worse, floor}) ==
+        "unseen logs are not simulated better with it");
+  CHECK(why_not_added({row, 1.5, 1.6, before, better, floor}) ==
+        "the equations of unseen logs do not fit better with it");
+  CHECK(why_not_added({row, 1.5, 1.2, before, failed, floor}) ==
+        "with it the simulation fails: diverged");
+  const Refinement& event = find_refinement("contact", Site::link);
+  CHECK(why_not_added({event, 1.5, 1.6, before, worse, floor}).empty());  // is over in other logs
+}
