@@ -321,6 +321,68 @@ TEST_CASE("states are bounded and do not depend on the step", "[conformance]") {
   }
 }
 
+Torques per_unit(std::string_view name, Site site, const JointState& state, const Values& z = {}) {
+  return act(find_refinement(name, site), state, 1, {1.0, 1.0}, z);
+}
+
+TEST_CASE("what moves the deflection changes the cables' torque by as much", "[conformance]") {
+  const double q = 0.3, theta = 0.31, a = 1e-6, c = 5;
+  const Transmission cables = paper_cables();
+  const auto tau_elas = [&](double more) {
+    Eigen::VectorXd link, motor;
+    cables.torques(Eigen::VectorXd::Constant(1, q), Eigen::VectorXd::Constant(1, theta + more),
+                   link, motor);
+    return motor[0];
+  };
+  JointState state;
+  state.q = q;
+  state.theta = theta;
+  set_elastic(cables, Eigen::VectorXd::Constant(1, q), Eigen::VectorXd::Constant(1, theta), 0,
+              state);
+  // Deflection per unit of the first parameter.
+  const std::vector<std::tuple<const char*, Site, double>> rows = {
+      {"encoder_offset", Site::sensor, 1},
+      {"encoder_scale", Site::sensor, theta},
+      {"slip", Site::transmission, 1},
+      {"pulley_eccentricity", Site::transmission, std::sin(q)},
+      {"creep", Site::transmission, -c}};
+  for (const auto& [name, site, deflection] : rows) {
+    INFO(name);
+    const Torques torques = per_unit(name, site, state, {c});
+    CHECK(a * torques.motor[0] ==
+          Approx(tau_elas(deflection * a) - tau_elas(0)).epsilon(1e-3));  // a tau''/tau' = 4e-4
+    CHECK(torques.link[0] == -torques.motor[0]);
+  }
+}
+
+TEST_CASE("scales are those that make a logged torque the true one", "[conformance]") {
+  // At rest the motor holds tau_elas and the load holds -tau_elas; with the row the model gives
+  // what was logged, true = (1 + a) logged.
+  const double a = 1e-5;
+  JointState state;
+  state.tau_elas = 20;
+  const double tau = state.tau_elas / (1 + a), load = -state.tau_elas / (1 + a);
+  CHECK(state.tau_elas + a * per_unit("torque_gain", Site::drive, state).motor[0] ==
+        Approx(tau).epsilon(2 * a * a));
+  CHECK(-state.tau_elas + a * per_unit("load_scale", Site::link, state).link[0] ==
+        Approx(load).epsilon(2 * a * a));
+}
+
+TEST_CASE("a drive loses while it drives, and a contact pushes", "[conformance]") {
+  const Refinement& efficiency = find_refinement("drive_efficiency", Site::motor);
+  JointState state;
+  for (const double tau_elas : {-7.0, 7.0})
+    for (const double direction : {-1.0, 1.0}) {
+      state.tau_elas = tau_elas;
+      CHECK(act(efficiency, state, direction, {}, {}).level[0] ==
+            (tau_elas * direction > 0 ? 7 : 0));
+    }
+  state.since_event = 0.5;
+  CHECK(per_unit("contact", Site::link, state).link[0] == Approx(-1));
+  state.since_event = 0.25;
+  CHECK(per_unit("contact", Site::link, state).link[0] == Approx(-0.5));
+}
+
 Recording sines() {
   Recording recording;
   recording.period = 1e-3;

@@ -62,12 +62,13 @@ void Coupling::look(std::size_t joint, const double* q, const double* theta,
   }
   state.stiffness = state.tension = 0;
   for (const Strand& strand : cables_) {
-    const DisplacementMap& map = motor_map_[strand.first_joint + joint];
-    if (map.is_zero()) continue;
+    const std::size_t place = strand.first_joint + joint;
+    const double radius = strand.round ? motor_radius_[place] : motor_map_[place].radius(turned);
+    if (strand.round && radius == 0) continue;  // another joint's cable
     const double l = stretch(strand, q, theta);
-    const double radius = map.radius(turned), force = combine(strand, strand.basis, l);
-    state.stiffness +=
-        radius * radius * combine(strand, strand.slope, l) + map.radius_slope(turned) * force;
+    const double force = combine(strand, strand.basis, l);
+    state.stiffness += radius * radius * combine(strand, strand.slope, l);
+    if (!strand.round) state.stiffness += motor_map_[place].radius_slope(turned) * force;
     state.tension += std::abs(radius) * force;
   }
 }

@@ -48,13 +48,15 @@ RefinedJoint::Term RefinedJoint::make_term(const RefinementInstance& instance,
                                            std::size_t log_number) {
   const Refinement& row = *instance.refinement;
   assert(instance.parameters.size() == row.parameters.size());
-  Term term{&row, {}, {}, {}, event_time_in(instance, log_number), false, {}, {}};
+  Term term{&row, {}, {}, {}, event_time_in(instance, log_number), false, false, {}, {}};
   for (std::size_t i = 0; i < instance.parameters.size(); ++i)
     (i < row.n_linear() ? term.linear : term.shape).push_back(instance.parameters[i].value);
   term.z.resize(row.n_states);
   term.link.resize(row.n_linear());
   term.motor.resize(row.n_linear());
-  JointState accelerated;
+  JointState loaded, accelerated;
+  loaded.tau_elas = loaded.qd = loaded.thetad = 1;
+  if (row.level) term.is_directed = level(term, loaded, 1) != level(term, loaded, -1);
   accelerated.qdd = accelerated.thetadd = 1;
   if (row.torque) term.carries = torques(term, accelerated) != torques(term, {});
   return term;
@@ -104,8 +106,9 @@ void RefinedJoint::act(Term& term, const JointState& state, double h, RefinedSte
   if (row.level) {
     assert(row.site == Site::link || row.site == Site::motor);
     Axis::Extra& own = row.site == Site::link ? sum.link : sum.motor;
-    own.up += level(term, state, 1);
-    own.down += level(term, state, -1);
+    const double up = level(term, state, 1);
+    own.up += up;
+    own.down += term.is_directed ? level(term, state, -1) : up;
   }
   if (row.advance) row.advance(state, term.shape.data(), 0.5 * h, term.z.data());
 }

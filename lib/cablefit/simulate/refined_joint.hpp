@@ -29,6 +29,7 @@ class RefinedJoint {
     const Refinement* row;
     std::vector<double> linear, shape, z;
     double event_time;  ///< s since this log began; +-infinity in a log before or after it
+    bool is_directed;   ///< its level differs between directions
     bool carries;       ///< its torque grows with an acceleration: an inertia
     std::vector<double> link, motor;  ///< per unit, room to write
   };

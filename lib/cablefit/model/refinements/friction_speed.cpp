@@ -26,6 +26,12 @@ constexpr ShapeGrid kDragShape[] = {
 constexpr ShapeGrid kNonlinearShape[] = {
     {.low = 0.25, .high = 0.75, .n_values = 3, .is_geometric = false}};
 
+/// x^p for x >= 0; the powers of textbooks without std::pow, which is ten times slower.
+double power(double x, double p) {
+  if (p == 2) return x * x;
+  return p == 1 ? x : std::pow(x, p);
+}
+
 template <Site kSide>
 void absolute(const JointState& state, const double* /*shape*/, const double* /*z*/, double* link,
               double* motor) {
@@ -35,13 +41,13 @@ void absolute(const JointState& state, const double* /*shape*/, const double* /*
 template <Site kSide>
 void stribeck_level(const JointState& state, double /*direction*/, const double* shape,
                     const double* /*z*/, double* level) {
-  level[0] = std::exp(-std::pow(std::abs(speed<kSide>(state)) / shape[0], shape[1]));
+  level[0] = std::exp(-power(std::abs(speed<kSide>(state)) / shape[0], shape[1]));
 }
 
 template <Site kSide>
 void power_level(const JointState& state, double /*direction*/, const double* shape,
                  const double* /*z*/, double* level) {
-  level[0] = std::pow(std::abs(speed<kSide>(state)), shape[0]);
+  level[0] = power(std::abs(speed<kSide>(state)), shape[0]);
 }
 
 }  // namespace
