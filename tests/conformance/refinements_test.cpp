@@ -19,7 +19,7 @@ namespace {
 using namespace cablefit;
 using Values = std::vector<double>;
 
-constexpr double kPeak = 30;  // N m, largest |tau| of the logs
+constexpr LogScale kScale{.peak = 30, .travel = 0.4};
 
 std::string label(const Refinement& row) {
   return std::string(row.name) + " of the " + std::string(to_string(row.site));
@@ -33,7 +33,7 @@ std::vector<Values> shapes_of(const Refinement& row) {
     for (const Values& values : all)
       for (int i = 0; i < grid.n_values; ++i) {
         longer.push_back(values);
-        longer.back().push_back(grid.value(i, kPeak));
+        longer.back().push_back(grid.value(i, kScale));
       }
     all = longer;
   }
@@ -44,8 +44,9 @@ std::vector<Values> shapes_of(const Refinement& row) {
 Values neutral_parameters(const Refinement& row) {
   Values values;
   for (std::size_t i = 0; i < row.parameters.size(); ++i) {
-    const bool is_limit = i >= row.n_linear() && row.shape[i - row.n_linear()].is_share_of_peak;
-    values.push_back(is_limit ? kPeak : std::max(0.0, row.parameters[i].lower));
+    const bool is_limit =
+        i >= row.n_linear() && row.shape[i - row.n_linear()].unit == GridUnit::peak;
+    values.push_back(is_limit ? kScale.peak : std::max(0.0, row.parameters[i].lower));
   }
   return values;
 }
@@ -167,17 +168,20 @@ TEST_CASE("a grid of a refinement rises within the bounds of its parameter", "[c
       INFO(label(row) << ", " << info.name);
       REQUIRE(grid.n_values >= 2);
       CHECK(grid.low > 0);
-      CHECK(grid.value(0, kPeak) == Approx(grid.lowest(kPeak)));
-      CHECK(grid.value(grid.n_values - 1, kPeak) == Approx(grid.highest(kPeak)));
-      CHECK(info.lower <= grid.lowest(kPeak));
-      CHECK(grid.highest(kPeak) <= info.upper);
+      CHECK(grid.value(0, kScale) == Approx(grid.lowest(kScale)));
+      CHECK(grid.value(grid.n_values - 1, kScale) == Approx(grid.highest(kScale)));
+      CHECK(info.lower <= grid.lowest(kScale));
+      CHECK(grid.highest(kScale) <= info.upper);
       for (int k = 1; k < grid.n_values; ++k)
-        CHECK(grid.value(k, kPeak) > grid.value(k - 1, kPeak));
+        CHECK(grid.value(k, kScale) > grid.value(k - 1, kScale));
     }
   const ShapeGrid even{.low = 1, .high = 3, .n_values = 3, .is_geometric = false};
-  CHECK(even.value(1, kPeak) == 2);
-  const ShapeGrid peaks{.low = 0.25, .high = 1, .n_values = 3, .is_share_of_peak = true};
-  CHECK(peaks.value(1, 10) == Approx(5));
+  CHECK(even.value(1, kScale) == 2);
+  const ShapeGrid peaks{.low = 0.25, .high = 1, .n_values = 3, .unit = GridUnit::peak};
+  CHECK(peaks.value(1, {.peak = 10}) == Approx(5));
+  const ShapeGrid orders{
+      .low = 2, .high = 4, .n_values = 3, .is_geometric = false, .unit = GridUnit::per_travel};
+  CHECK(orders.value(1, {.travel = 0.5}) == Approx(6));
 }
 
 TEST_CASE("a refinement is of one kind", "[conformance]") {
@@ -389,7 +393,7 @@ Recording sines() {
   const Eigen::ArrayXd t = Eigen::ArrayXd::LinSpaced(500, 0, 0.499);
   recording.q = (20 * t).sin();
   recording.theta = (20 * t + 0.01).sin();
-  recording.tau = kPeak * (15 * t).sin();
+  recording.tau = kScale * (15 * t).sin();
   recording.tau_load = 3 * (5 * t).cos();
   return recording;
 }
@@ -407,7 +411,7 @@ TEST_CASE("a correction by nothing changes nothing", "[conformance]") {
     row.correct(neutral_parameters(row).data(), recording);
     CHECK(same(recording, sines()));
     Values moved = neutral_parameters(row);
-    moved[0] = row.step > 0 ? row.step : 0.5 * row.shape[0].highest(kPeak);
+    moved[0] = row.step > 0 ? row.step : 0.5 * row.shape[0].highest(kScale);
     row.correct(moved.data(), recording);
     CHECK_FALSE(same(recording, sines()));
   }

@@ -71,10 +71,10 @@ std::string_view to_string(Site site) {
   return kNames.at(static_cast<std::size_t>(site));
 }
 
-double ShapeGrid::value(int i, double peak) const {
+double ShapeGrid::value(int i, const LogScale& scale) const {
   assert(i >= 0 && i < n_values);
   const double share = n_values > 1 ? static_cast<double>(i) / (n_values - 1) : 0.5;
-  const double from = lowest(peak), to = highest(peak);
+  const double from = lowest(scale), to = highest(scale);
   if (!is_geometric) return from + share * (to - from);
   return from * std::pow(to / from, share);
 }

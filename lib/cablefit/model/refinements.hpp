@@ -45,19 +45,36 @@ struct Recording {
   Eigen::ArrayXd q, theta, tau, tau_load;
 };
 
+/// How large the motion of the logs is, which some grids are counted in.
+struct LogScale {
+  double peak = 0;    ///< N m, largest |tau|
+  double travel = 0;  ///< rad, half the range of the positions
+};
+enum class GridUnit {
+  si,
+  peak,        ///< shares of LogScale::peak
+  per_travel,  ///< divided by LogScale::travel: radians of phase over half the range
+};
+
 /// Values of one nonlinear parameter that a scan tries.
 struct ShapeGrid {
   double low = 0, high = 0;  ///< also the bounds of the parameter in a fit
   int n_values = 1;
   bool is_geometric = true;  ///< even in its logarithm
-  /// Bounds and values are shares of the largest |tau| of the logs.
-  bool is_share_of_peak = false;
+  GridUnit unit = GridUnit::si;
 
-  /// Value i = 0 .. n_values-1, in SI. `peak`: largest |tau| of the logs, N m.
-  double value(int i, double peak) const;
+  /// Value i = 0 .. n_values-1, in SI.
+  double value(int i, const LogScale& scale) const;
   /// The bounds of the parameter in SI.
-  double lowest(double peak) const { return is_share_of_peak ? peak * low : low; }
-  double highest(double peak) const { return is_share_of_peak ? peak * high : high; }
+  double lowest(const LogScale& scale) const { return low * factor(scale); }
+  double highest(const LogScale& scale) const { return high * factor(scale); }
+
+ private:
+  double factor(const LogScale& scale) const {
+    return unit == GridUnit::peak         ? scale.peak
+           : unit == GridUnit::per_travel ? 1 / scale.travel
+                                          : 1.0;
+  }
 };
 
 /// A row. Exactly one of `torque` (with or without `level`), `level`, `correct` and `change` groups

@@ -41,6 +41,18 @@ double least_speed(const std::vector<Stretch>& stretches, Eigen::ArrayXd Recordi
   return std::max(kQuietSpeeds * per_noise * noise, kShareOfSpeed * std::sqrt(squares / n));
 }
 
+LogScale scale_of(const std::vector<Stretch>& stretches) {
+  LogScale scale;
+  double low = kUnbounded, high = -kUnbounded;
+  for (const Stretch& stretch : stretches) {
+    scale.peak = std::max(scale.peak, stretch.recording.tau.abs().maxCoeff());
+    low = std::min(low, stretch.recording.theta.minCoeff());
+    high = std::max(high, stretch.recording.theta.maxCoeff());
+  }
+  scale.travel = std::max(1e-9, (high - low) / 2);
+  return scale;
+}
+
 void fill_rows(Design& design, const std::vector<StretchRows>* kept) {
   design.rows.clear();
   design.states.clear();
@@ -169,8 +181,7 @@ Design make_design(std::span<const Model> models, std::vector<Stretch> stretches
   design.models.assign(models.begin(), models.end());
   design.layout = base_layout(models.front());
   design.stretches = std::move(stretches);
-  for (const Stretch& stretch : design.stretches)
-    design.peak = std::max(design.peak, stretch.recording.tau.abs().maxCoeff());
+  design.scale = scale_of(design.stretches);
   if (!(smoothing.least_speed_theta > 0)) {
     smoothing.least_speed_theta =
         least_speed(design.stretches, &Recording::theta, false, smoothing);

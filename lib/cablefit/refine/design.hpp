@@ -28,7 +28,7 @@ struct Design {
   std::vector<StretchRows> rows;                ///< per stretch; `base` has all columns
   std::vector<std::vector<JointState>> states;  ///< per stretch
   std::vector<Variant> added;
-  double peak = 0;  ///< N m, largest |tau|
+  LogScale scale;
   Eigen::Index n_columns() const;
 };
 

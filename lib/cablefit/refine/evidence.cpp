@@ -48,7 +48,8 @@ struct Normal {
   Eigen::MatrixXd inverse;
 };
 std::optional<Normal> solve_normal(const Eigen::MatrixXd& gram, bool with_inverse,
-                                   double tolerance) {
+                                   const OwnPart& own) {
+  constexpr double kIndependent = 1e-12;
   const Eigen::Index p = gram.rows() - 1;
   const Eigen::VectorXd diagonal = gram.diagonal().tail(p);
   if (p > 0 && !(diagonal.minCoeff() > 0)) return {};
@@ -56,9 +57,10 @@ std::optional<Normal> solve_normal(const Eigen::MatrixXd& gram, bool with_invers
   const Eigen::MatrixXd a = scale.asDiagonal() * gram.bottomRightCorner(p, p) * scale.asDiagonal();
   const Eigen::LLT<Eigen::MatrixXd> llt(a);
   if (llt.info() != Eigen::Success) return {};
-  // The smallest pivot bounds the smallest eigenvalue from above: a cheap look at collinearity.
-  const Eigen::MatrixXd l = llt.matrixL();
-  if (p > 0 && l.diagonal().cwiseAbs2().minCoeff() < tolerance) return {};
+  // A squared pivot is what the columns before leave of a column.
+  const Eigen::VectorXd left = Eigen::MatrixXd(llt.matrixL()).diagonal().cwiseAbs2();
+  if (p > 0 && left.minCoeff() < kIndependent) return {};
+  if (own.n_last > 0 && left.tail(own.n_last).minCoeff() < own.least) return {};
   Normal out;
   out.x = scale.cwiseProduct(llt.solve(scale.cwiseProduct(gram.col(0).tail(p))));
   if (with_inverse)
@@ -145,7 +147,7 @@ KindLevels BlockFit::rms() const {
 }
 
 std::optional<BlockFit> fit_blocks(const BlockGrams& grams, const KindLevels& levels,
-                                   bool with_held_out, double tolerance) {
+                                   bool with_held_out, const OwnPart& own) {
   const Eigen::Index n = 1 + grams.n_columns;
   std::vector<Eigen::MatrixXd> each;
   Eigen::MatrixXd total = Eigen::MatrixXd::Zero(n, n);
@@ -153,7 +155,7 @@ std::optional<BlockFit> fit_blocks(const BlockGrams& grams, const KindLevels& le
     each.push_back(weighted(block, levels, n));
     total += each.back();
   }
-  const auto all = solve_normal(total, true, tolerance);
+  const auto all = solve_normal(total, true, own);
   if (!all) return {};
   BlockFit fit;
   fit.x = all->x;
@@ -169,7 +171,7 @@ std::optional<BlockFit> fit_blocks(const BlockGrams& grams, const KindLevels& le
     meat += score * score.transpose();
     fit.in_sample(b) = std::max(0.0, c.dot(gc));
     if (!with_held_out || !(g(0, 0) > 0)) continue;
-    const auto others = solve_normal(total - g, false, tolerance * 1e-3);
+    const auto others = solve_normal(total - g, false, {});
     fit.held_out(b) = others ? squared_error(g, others->x) : kUnbounded;
   }
   fit.covariance = all->inverse * meat * all->inverse;

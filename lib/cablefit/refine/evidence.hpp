@@ -45,10 +45,16 @@ struct BlockFit {
   KindLevels rms() const;
 };
 
-/// None where the columns cannot be told apart: the smallest scaled eigenvalue is below
-/// `tolerance`.
+/// The last `n_last` columns have to bring something of their own: the squared part of each (of
+/// unit norm) that all before it leave is at least `least`. The others only have to be independent.
+struct OwnPart {
+  double least = 0;
+  Eigen::Index n_last = 0;
+};
+
+/// None where the columns cannot be told apart.
 std::optional<BlockFit> fit_blocks(const BlockGrams& grams, const KindLevels& levels,
-                                   bool with_held_out = true, double tolerance = 1e-9);
+                                   bool with_held_out = true, const OwnPart& own = {});
 
 /// Squared error of given values, per block, weighted.
 Eigen::ArrayXd errors_of(const BlockGrams& grams, const KindLevels& levels,

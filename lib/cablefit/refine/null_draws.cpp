@@ -41,6 +41,7 @@ struct NullBench::Parts {
   std::vector<Model> models;
   std::vector<PreloadTwin> twins;
   Smoothing smoothing;
+  TwinDisturbance disturbance;
 };
 
 NullBench::NullBench(std::span<const Model> models, std::span<const LogSurvey> logs,
@@ -68,13 +69,16 @@ NullBench::NullBench(std::span<const Model> models, std::span<const LogSurvey> l
 
 NullBench::~NullBench() = default;
 
+void NullBench::disturb(const TwinDisturbance& disturbance) { parts_->disturbance = disturbance; }
+
 std::vector<NullBench::Recorded> NullBench::record(std::uint64_t seed) const {
   std::vector<Recorded> all;
   for (const PreloadTwin& twin : parts_->twins) {
     Random random(seed, kSensors + 2 * twin.model);
     Twin aside = twin.twin;
     move_aside(aside, random);
-    all.push_back({twin.model, record_twin(aside, run_twin(aside, {}, random), random)});
+    all.push_back(
+        {twin.model, record_twin(aside, run_twin(aside, parts_->disturbance, random), random)});
   }
   return all;
 }
@@ -104,7 +108,7 @@ BaseFit fit_base(Design design, double block_seconds, const KindLevels* levels) 
   for (int round = 0; round < kRounds; ++round) {
     base.grams = block_grams(base.design.rows, base.design.stretches, block_seconds);
     for (int pass = 0; pass < 2; ++pass) {
-      auto fit = fit_blocks(base.grams, base.levels, true, 1e-12);
+      auto fit = fit_blocks(base.grams, base.levels);
       if (!fit)
         throw Error(ErrorKind::not_identifiable,
                     "the logs do not determine the parameters of the model; run `cablefit dynamic` "

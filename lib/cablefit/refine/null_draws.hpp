@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 
+#include "cablefit/prove/twin.hpp"
 #include "cablefit/refine/scan.hpp"
 
 namespace cablefit {
@@ -29,6 +30,9 @@ class NullBench {
   ~NullBench();
   NullBench(const NullBench&) = delete;
   NullBench& operator=(const NullBench&) = delete;
+
+  /// Torques that the draws from now on have beside the model, see remainder.hpp.
+  void disturb(const TwinDisturbance& disturbance);
 
   /// One draw as logs, by model.
   struct Recorded {

@@ -14,6 +14,7 @@
 #include "cablefit/refine/null_draws.hpp"
 #include "cablefit/refine/refined_model.hpp"
 #include "cablefit/refine/regimes.hpp"
+#include "cablefit/refine/remainder.hpp"
 #include "cablefit/refine/search.hpp"
 #include "cablefit/refine/verdict.hpp"
 
@@ -95,9 +96,35 @@ void find_unseen_floors(Bench& bench, const std::vector<Model>& models, const Re
   bench.simulation_floor = simulated_gap(models, recorded, bench.options.threads);
 }
 
+/// Gives the draws of the null what even the best candidate leaves, so that they look like the logs
+/// would without it.
+void disturb_null(Bench& bench, const State& state, const Search& found) {
+  const Candidate* best = best_lasting(found.candidates);
+  Design design = state.design;
+  Eigen::VectorXd x = found.fit.x;
+  if (best != nullptr) {
+    design = with_variant(design, best->variant, x);
+    x = best->x;
+  }
+  const TwinDisturbance wanted = remainder_of(design, x, bench.floor);
+  if (is_quiet(wanted)) return;
+  bench.null->disturb(wanted);
+  // The rows see the disturbance through their kernel, which its colour has been through already.
+  const KindLevels seen = bench.null->base_only(bench.options.seed, nullptr).floor;
+  const KindLevels left = best != nullptr ? best->rms : found.fit.rms();
+  KindLevels factors{1, 1, 1};
+  for (std::size_t k = 0; k < kRowKinds; ++k) {
+    const double floor = bench.floor[k] * bench.floor[k];
+    const double ratio = (left[k] * left[k] - floor) / std::max(1e-12, seen[k] * seen[k] - floor);
+    factors[k] = std::sqrt(std::clamp(ratio, 0.1, 10.0));
+  }
+  bench.null->disturb(scaled(wanted, factors));
+}
+
 /// Simulated data sets are searched only once something is worth it.
-void need_draws(Bench& bench, const std::vector<Candidate>& candidates) {
-  if (!bench.draws.empty() || !anything_material(candidates, bench.options)) return;
+void need_draws(Bench& bench, const State& state, const Search& found) {
+  if (!bench.draws.empty() || !anything_material(found.candidates, bench.options)) return;
+  disturb_null(bench, state, found);
   ScanSettings settings = bench.scan;
   settings.threads = 1;
   bench.draws = run_draws(
@@ -119,7 +146,7 @@ std::optional<State> with_candidate(const Bench& bench, const State& state, cons
       next.test = relinearised(next.test, fit->x);
     }
     fit = fit_blocks(block_grams(next.design.rows, next.design.stretches, bench.scan.block_seconds),
-                     next.levels, false, 1e-12);
+                     next.levels, false);
     if (!fit) return {};
   }
   next.x = fit->x;
@@ -152,7 +179,7 @@ bool add_next_effect(Bench& bench, State& state, RefineResult& result) {
   tell(bench.options, "search", 0);
   const Search found = search(state.design, bench.floor, bench.scan);
   if (is_first) result.not_separable = not_separable(found);
-  need_draws(bench, found.candidates);
+  need_draws(bench, state, found);
   const SquaredGap gap{found.fit.held_out.sum(), floor_error(found.fit, bench.floor, found.levels)};
   const Judgement judgement =
       judge_search(found.candidates, gap, bench.draws, bench.options, is_first);

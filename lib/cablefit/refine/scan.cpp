@@ -9,7 +9,9 @@
 namespace cablefit {
 namespace {
 
-constexpr double kTolerance = 1e-7;   // scaled squared pivot: less is not separable with this data
+// Of a candidate's columns, scaled: the squared part that the others leave. With less, a base that
+// is off by a per cent passes for the effect.
+constexpr double kTolerance = 1e-4;
 constexpr double kEventMargin = 1.0;  // s, to the ends of a log
 constexpr int kGoldenSteps = 9;       // 0.618^9 = 1 % of a cell
 
@@ -41,7 +43,8 @@ std::optional<Candidate> try_variant(const ScanStart& start, const ScanSettings&
   const auto grams = grams_with(start, settings, variant);
   if (!grams) return {};
   const Refinement& row = *variant.refinement;
-  const auto fit = fit_blocks(*grams, start.levels, !row.is_event, kTolerance);
+  const auto fit = fit_blocks(*grams, start.levels, !row.is_event,
+                              {kTolerance, static_cast<Eigen::Index>(row.n_linear())});
   if (!fit) return {};
   Candidate c;
   c.variant = std::move(variant);
@@ -56,14 +59,14 @@ std::optional<Candidate> try_variant(const ScanStart& start, const ScanSettings&
 }
 
 /// Every combination of the grid's values.
-std::vector<std::vector<double>> grid_points(const Refinement& row, double peak) {
+std::vector<std::vector<double>> grid_points(const Refinement& row, const LogScale& scale) {
   std::vector<std::vector<double>> points = {{}};
   for (const ShapeGrid& grid : row.shape) {
     std::vector<std::vector<double>> more;
     for (const auto& point : points)
       for (int i = 0; i < grid.n_values; ++i) {
         more.push_back(point);
-        more.back().push_back(grid.value(i, peak));
+        more.back().push_back(grid.value(i, scale));
       }
     points = std::move(more);
   }
@@ -85,7 +88,7 @@ std::vector<std::pair<std::size_t, double>> dates(const Design& design, double s
 
 std::vector<Variant> variants_of(const Refinement& row, const Design& design, double event_step) {
   std::vector<Variant> all;
-  for (const auto& shape : grid_points(row, design.peak)) {
+  for (const auto& shape : grid_points(row, design.scale)) {
     if (!row.is_event) {
       all.push_back({&row, shape, 0, 0});
       continue;
@@ -135,8 +138,8 @@ double golden(double low, double high, Error error) {
 }
 
 /// A step of the grid to either side, as far as the grid goes.
-std::pair<double, double> around(const ShapeGrid& grid, double value, double peak) {
-  const double low = grid.lowest(peak), high = grid.highest(peak);
+std::pair<double, double> around(const ShapeGrid& grid, double value, const LogScale& scale) {
+  const double low = grid.lowest(scale), high = grid.highest(scale);
   if (grid.n_values < 2) return {low, high};
   if (grid.is_geometric) {
     const double step = std::pow(high / low, 1.0 / (grid.n_values - 1));
@@ -175,7 +178,7 @@ Candidate refined_shape(const ScanStart& start, const ScanSettings& settings, Ca
   Variant variant = candidate.variant;
   for (int round = 0; round < kRounds; ++round) {
     for (std::size_t i = 0; i < variant.shape.size(); ++i) {
-      const auto [low, high] = around(row.shape[i], variant.shape[i], start.design.peak);
+      const auto [low, high] = around(row.shape[i], variant.shape[i], start.design.scale);
       variant.shape[i] = golden(low, high, [&](double value) {
         Variant other = variant;
         other.shape[i] = value;

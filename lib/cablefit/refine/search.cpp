@@ -23,16 +23,6 @@ std::vector<const Refinement*> named_already(const Design& design) {
   return out;
 }
 
-/// An event may win only by its own null; it does not set weights.
-const Candidate* best_of(const std::vector<Candidate>& candidates) {
-  const Candidate* best = nullptr;
-  for (const Candidate& c : candidates)
-    if (c.refused.empty() && !c.variant.refinement->is_event && c.gain > 0 &&
-        (best == nullptr || c.gain > best->gain))
-      best = &c;
-  return best;
-}
-
 bool is_same(const KindLevels& a, const KindLevels& b) {
   for (std::size_t k = 0; k < kRowKinds; ++k)
     if (a[k] > kSameLevel * b[k] || b[k] > kSameLevel * a[k]) return false;
@@ -41,6 +31,15 @@ bool is_same(const KindLevels& a, const KindLevels& b) {
 
 }  // namespace
 
+const Candidate* best_lasting(const std::vector<Candidate>& candidates) {
+  const Candidate* best = nullptr;
+  for (const Candidate& c : candidates)
+    if (c.refused.empty() && !c.variant.refinement->is_event && c.gain > 0 &&
+        (best == nullptr || c.gain > best->gain))
+      best = &c;
+  return best;
+}
+
 Search search(const Design& design, const KindLevels& floor, const ScanSettings& settings) {
   constexpr int kPasses = 2;
   Search s;
@@ -48,12 +47,13 @@ Search search(const Design& design, const KindLevels& floor, const ScanSettings&
   s.grams = block_grams(design.rows, design.stretches, settings.block_seconds);
   const auto without = named_already(design);
   for (int pass = 0; pass < kPasses; ++pass) {
-    auto fit = fit_blocks(s.grams, s.levels, true, 1e-12);
+    auto fit = fit_blocks(s.grams, s.levels);
     if (!fit)
       throw Error(ErrorKind::not_identifiable, "the logs do not determine the model's parameters");
     s.fit = std::move(*fit);
     s.candidates = scan({design, s.grams, s.fit, s.levels}, settings, without);
-    const Candidate* best = best_of(s.candidates);
+    // An event wins by its own null only; it does not set weights.
+    const Candidate* best = best_lasting(s.candidates);
     const KindLevels left = at_least(best != nullptr ? best->rms : s.fit.rms(), floor);
     if (is_same(left, s.levels) || pass + 1 == kPasses) break;
     s.levels = left;

@@ -18,6 +18,9 @@ struct Search {
 /// Throws Error(not_identifiable) when the design itself is singular.
 Search search(const Design& design, const KindLevels& floor, const ScanSettings& settings);
 
+/// The candidate with the largest gain that is physical and no event; nullptr: there is none.
+const Candidate* best_lasting(const std::vector<Candidate>& candidates);
+
 /// The catalogue's rows that this design has no columns for, as "name (side)": the data do not tell
 /// them from the base, whatever the residual says.
 std::vector<std::string> not_separable(const Search& search);

@@ -11,7 +11,7 @@ constexpr ParameterInfo kBand[] = {{"band", "b", "N m", "largest command that do
 
 // Nearer to the peak a limit shows in a few rows only, further down it is no limit any more.
 constexpr ShapeGrid kLimits[] = {
-    {.low = 0.4, .high = 0.99, .n_values = 13, .is_geometric = false, .is_share_of_peak = true}};
+    {.low = 0.4, .high = 0.99, .n_values = 13, .is_geometric = false, .unit = GridUnit::peak}};
 constexpr ShapeGrid kBands[] = {{.low = 0.05, .high = 3, .n_values = 9}};
 
 void clip(const double* parameters, Recording& recording) {

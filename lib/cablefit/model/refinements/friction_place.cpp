@@ -14,7 +14,8 @@ constexpr ParameterInfo kPresliding[] = {
     {"amplitude", "a", "N m", "dry friction that is there only after presliding, at most all", 0},
     {"distance", "d", "rad", "way after which 63 % of it is there", 1e-6}};
 
-constexpr ShapeGrid kOrder[] = {{.low = 0.8, .high = 3.2, .n_values = 13, .is_geometric = false}};
+constexpr ShapeGrid kOrder[] = {
+    {.low = 0.3, .high = 6, .n_values = 16, .is_geometric = false, .unit = GridUnit::per_travel}};
 constexpr ShapeGrid kDistance[] = {{.low = 0.5e-3, .high = 20e-3, .n_values = 8}};
 
 template <Site kSide>

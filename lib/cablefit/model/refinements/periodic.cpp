@@ -19,8 +19,10 @@ constexpr ParameterInfo kEccentricity[] = {{"a_sin", "a_sin", "rad", "deflection
                                            {"b_sin", "b_sin", "rad", "deflection with sin(2 q)"},
                                            {"b_cos", "b_cos", "rad", "deflection with cos(2 q)"}};
 
-// A motion of 2 rad tells orders apart that differ by about pi/2.
-constexpr ShapeGrid kOrder[] = {{.low = 4, .high = 40, .n_values = 73, .is_geometric = false}};
+// A quarter to ten periods over half the range; orders whose phases at its ends are 0.6 rad apart
+// are all but the same.
+constexpr ShapeGrid kOrder[] = {
+    {.low = 1.6, .high = 62, .n_values = 102, .is_geometric = false, .unit = GridUnit::per_travel}};
 
 void gravity(const JointState& state, const double* /*shape*/, const double* /*z*/, double* link,
              double* /*motor*/) {
