@@ -70,6 +70,18 @@ void choose_window(const ReplayOptions& options, Experiment& experiment) {
                         "makes positions drift"});
 }
 
+void tell_refinements(const Model& model, Experiment& experiment) {
+  std::string names;
+  for (std::size_t k = 0; k < model.joints.size(); ++k)
+    for (const RefinementInstance& instance : model.joints[k].refinements) {
+      const Refinement& row = *instance.refinement;
+      if (!names.empty()) names += ", ";
+      names += fmt::format("{} ({})", row.name, to_string(row.site));
+      if (model.joints.size() > 1) names += fmt::format(" of joint {}", model.rig.joints[k]);
+    }
+  if (!names.empty()) experiment.decisions.push_back({"refinements", names, "of the model"});
+}
+
 void require_channels(const Model& model, const LogPlan& plan, const PartSurvey& part,
                       Experiment& experiment) {
   require_in_every_joint(plan, Channel::theta, "the initial state of a simulation");
@@ -123,6 +135,7 @@ Experiment plan_experiment(const Model& model, const LogSurvey& log, const PartS
   choose_mode(log.plan, options, experiment);
   choose_hold(log.plan.rig, options, experiment);
   choose_window(options, experiment);
+  tell_refinements(model, experiment);
   require_channels(model, log.plan, part, experiment);
   return experiment;
 }

@@ -136,7 +136,9 @@ void PartReplay::start_anew(const Window& window, Eigen::Index row) {
     start.theta0[joint] = theta.position;
     start.thetad0[joint] = theta.velocity;
   }
-  simulation_.emplace(experiment_.model, start, experiment_.simulation);
+  Simulation anew(experiment_.model, start, experiment_.simulation);
+  if (simulation_) anew.take_history(*simulation_);
+  simulation_.emplace(std::move(anew));
   ++result_.n_windows;
   for (Signal& signal : signals_) signal.scan.start_window(t);
 }

@@ -145,6 +145,10 @@ void Plant::step_rigid(const double* tau, const double* tau_load, double h) {
   }
 }
 
+void Plant::take_history(const Plant& before) {
+  for (std::size_t k = 0; k < refined_.size(); ++k) refined_[k].take_history(before.refined_[k]);
+}
+
 bool Plant::is_sane() const {
   return all_bounded(q_) && all_bounded(qd_) && all_bounded(theta_) && all_bounded(thetad_) &&
          all_have_inertia(link_) && all_have_inertia(motor_);

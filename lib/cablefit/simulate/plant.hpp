@@ -18,6 +18,9 @@ class Plant {
   /// tau_load is what the log gives, a load law of q is added.
   void step(const double* tau, const double* tau_load, double h);
 
+  /// Inner states of refinements as `before` has them, a plant of the same model.
+  void take_history(const Plant& before);
+
   std::size_t n_joints() const { return theta_.size(); }
   const std::vector<double>& theta() const { return theta_; }
   /// Every state is finite and within +-1e6, every inertia positive.

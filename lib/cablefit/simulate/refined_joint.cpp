@@ -94,6 +94,11 @@ RefinedStep RefinedJoint::step(JointState state, double h) {
   return sum;
 }
 
+void RefinedJoint::take_history(const RefinedJoint& before) {
+  assert(terms_.size() == before.terms_.size());
+  for (std::size_t i = 0; i < terms_.size(); ++i) terms_[i].z = before.terms_[i].z;
+}
+
 void RefinedJoint::act(Term& term, const JointState& state, double h, RefinedStep& sum) {
   const Refinement& row = *term.row;
   if (row.advance) row.advance(state, term.shape.data(), 0.5 * h, term.z.data());

@@ -23,6 +23,8 @@ class RefinedJoint {
   /// Over a step of length h. `state`: of its middle, but with the velocities of its beginning,
   /// which are extrapolated to the middle, and without accelerations.
   RefinedStep step(JointState state, double h);
+  /// Inner states as `before` has them, of the same refinements.
+  void take_history(const RefinedJoint& before);
 
  private:
   struct Term {

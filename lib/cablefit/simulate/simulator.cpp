@@ -91,6 +91,8 @@ class Simulation::State {
         outer_(model, clock_),
         drive_(make_drive(model, start, options, clock_)) {}
 
+  void take_history(const State& before) { plant_.take_history(before.plant_); }
+
   SimulationResult run(const SimulationInput& block, Eigen::Index n_rows) {
     SimulationResult result = nothing_yet(n_rows, n_joints_, n_cables_);
     const Eigen::Index last = n_rows_of(block, options_) - 1;
@@ -138,6 +140,8 @@ Simulation::Simulation(const Model& model, const SimulationInput& start,
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+void Simulation::take_history(const Simulation& before) { state_->take_history(*before.state_); }
 
 SimulationResult Simulation::run(const SimulationInput& block, Eigen::Index n_rows) {
   return state_->run(block, n_rows);

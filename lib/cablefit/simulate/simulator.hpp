@@ -73,6 +73,10 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
+  /// For one that starts anew where `before` ended, of the same model: what cables and friction
+  /// remember (creep, hysteresis, presliding) goes on instead of starting from 0.
+  void take_history(const Simulation& before);
+
   /// Rows [0, n_rows) of `block`, whose row 0 comes right after the last row of the call before;
   /// its initial state is not looked at. Where another block follows, this one must have its first
   /// row as a row more than n_rows: the simulation steps on to there, and what is linear between

@@ -1,6 +1,9 @@
 #include "cablefit/simulate/sensitivity/sensitive_plant.hpp"
 
 #include <algorithm>
+#include <cassert>
+
+#include "cablefit/simulate/refined_joint.hpp"
 
 namespace cablefit {
 namespace {
@@ -28,6 +31,7 @@ SensitivePlant::SensitivePlant(const Model& model, const std::vector<ModelParame
       with_inputs_(with_inputs),
       axes_(axes_of(model)),
       coupling_(model, moving, numbered(moving.size())) {
+  assert(is_plain(model));  // what refinements do has no sensitivities
   n_columns_ = moving.size() + (with_inputs ? 3 * axes_.size() : 0);
   for (SensitiveAxis& axis : axes_) axis_column_.emplace_back(axis.parameters().size(), -1);
   for (std::size_t k = 0; k < moving.size(); ++k) {
