@@ -21,6 +21,9 @@ constexpr std::array kCommands{
             run_identify},
     Command{"simulate", "a model on the input of logs: positions, torques, gap to the measured",
             run_simulate},
+    Command{"refine",
+            "where model and logs disagree, which effect is missing, and does adding it help",
+            run_refine},
     Command{"batch", "all preloads of a campaign side by side, with gates for CI", run_batch},
     Command{"list", "effects, models, estimators and formats that cablefit knows", run_list},
 };

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -23,6 +22,7 @@
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
+#include "commands/file_names.hpp"
 #include "commands/progress.hpp"
 
 namespace cablefit::apps {
@@ -49,15 +49,6 @@ struct Stage1 {
   Decision decision;
   bool is_new = false;  ///< fitted here, to be written as well
 };
-
-/// What a file's name should not have becomes "_".
-std::string file_name(std::string name) {
-  std::replace_if(
-      name.begin(), name.end(),
-      [](unsigned char c) { return std::isalnum(c) == 0 && c != '.' && c != '-' && c != '_'; },
-      '_');
-  return name;
-}
 
 bool is_same_file(const std::string& a, const std::string& b) {
   std::error_code ignored;
@@ -202,7 +193,7 @@ std::vector<ResultFile> trace_files(const DynamicResult& result) {
       if (!fit.trace) continue;
       const bool only = result.preloads.size() == 1 && preload.fits.size() == 1;
       const std::string name = only ? "" : '_' + preload.name + '_' + fit.model;
-      files.push_back({file_name("dynamic_trace" + name + ".csv"), trace_csv(*fit.trace)});
+      files.push_back({safe_file_name("dynamic_trace" + name + ".csv"), trace_csv(*fit.trace)});
     }
   return files;
 }

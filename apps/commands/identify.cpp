@@ -1,15 +1,13 @@
 // cablefit identify: one step.
 #include "cablefit/identify/identify.hpp"
 
-#include <algorithm>
-#include <cctype>
-
 #include "cablefit/report/identify_document.hpp"
 #include "cablefit/report/identify_json.hpp"
 #include "cablefit/report/trace_csv.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
+#include "commands/file_names.hpp"
 #include "commands/progress.hpp"
 
 namespace cablefit::apps {
@@ -40,32 +38,16 @@ void add_identify_options(CLI::App& app, IdentifyOptions& identify) {
                "plain least squares: let cables push, with a warning");
 }
 
-constexpr std::size_t kLongestName = 80;  // of a preload in a file's name
-
-/// "model_low.json"; what a file's name should not have becomes "_".
-std::string model_file_name(const std::string& preload) {
-  std::string name = preload.substr(0, kLongestName);
-  std::replace_if(
-      name.begin(), name.end(),
-      [](unsigned char c) { return std::isalnum(c) == 0 && c != '.' && c != '-' && c != '_'; },
-      '_');
-  return "model_" + name + ".json";
-}
-
-/// One file per model; names that are taken are numbered: "model_a_b_2.json".
+/// One file per preload whose dynamics were identified.
 void add_models(const IdentifyResult& result, std::vector<ResultFile>& files) {
-  const auto taken = [&](const std::string& name) {
-    return std::any_of(files.begin(), files.end(),
-                       [&](const ResultFile& file) { return file.name == name; });
-  };
+  std::vector<std::string> preloads, contents;
   for (const IdentifyPreload& preload : result.preloads) {
     if (!preload.model) continue;
-    const std::string first = model_file_name(preload.name);
-    std::string name = first;
-    for (int i = 2; taken(name); ++i)
-      name = first.substr(0, first.size() - 5) + '_' + std::to_string(i) + ".json";
-    files.push_back({name, model_json(*preload.model)});
+    preloads.push_back(preload.name);
+    contents.push_back(model_json(*preload.model));
   }
+  const std::vector<std::string> names = preload_file_names("model", preloads);
+  for (std::size_t k = 0; k < names.size(); ++k) files.push_back({names[k], contents[k]});
 }
 
 }  // namespace

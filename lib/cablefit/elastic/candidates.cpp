@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kTautShare = 0.02;  // of the largest elongation or slack
 
-void add_nuisance(Candidate& candidate, const BlockedColumns& c, const Nuisance& nuisance,
+void add_nuisance(ElasticCandidate& candidate, const BlockedColumns& c, const Nuisance& nuisance,
                   int joint) {
   const auto add = [&](Eigen::Index column, const char* name, double lower) {
     candidate.regressors.push_back(column);
@@ -29,7 +29,7 @@ void add_nuisance(Candidate& candidate, const BlockedColumns& c, const Nuisance&
   if (nuisance.speed) add(c.speed, "f_vm", -kUnbounded);
 }
 
-void add_nuisances(Candidate& candidate, const BlockedRows& rows,
+void add_nuisances(ElasticCandidate& candidate, const BlockedRows& rows,
                    std::span<const Nuisance> nuisance) {
   for (int joint = 0; joint < rows.columns.n_joints; ++joint)
     add_nuisance(candidate, rows.columns.of_joint(joint), nuisance[static_cast<std::size_t>(joint)],
@@ -42,8 +42,8 @@ bool hardly_taut(const ElongationRange& range) { return range.high < kTautShare 
 
 }  // namespace
 
-Candidate linear_candidate(const BlockedRows& rows, std::span<const Nuisance> nuisance) {
-  Candidate candidate;
+ElasticCandidate linear_candidate(const BlockedRows& rows, std::span<const Nuisance> nuisance) {
+  ElasticCandidate candidate;
   candidate.model = "linear";
   candidate.transmission.n_joints = rows.transmission.n_joints;
   candidate.transmission.linear_stiffness = Eigen::VectorXd::Zero(rows.transmission.n_joints);
@@ -60,9 +60,9 @@ Candidate linear_candidate(const BlockedRows& rows, std::span<const Nuisance> nu
   return candidate;
 }
 
-Candidate poly_candidate(const ElasticJob& job, const BlockedRows& rows, int order,
-                         std::span<const Nuisance> nuisance) {
-  Candidate candidate;
+ElasticCandidate poly_candidate(const ElasticJob& job, const BlockedRows& rows, int order,
+                                std::span<const Nuisance> nuisance) {
+  ElasticCandidate candidate;
   candidate.model = "poly";
   candidate.transmission =
       job.orders_given ? rows.transmission : with_order(rows.transmission, order);
@@ -91,7 +91,7 @@ Candidate poly_candidate(const ElasticJob& job, const BlockedRows& rows, int ord
   return candidate;
 }
 
-Eigen::MatrixXd constraint_rows(const Candidate& candidate) {
+Eigen::MatrixXd constraint_rows(const ElasticCandidate& candidate) {
   const Eigen::MatrixXd& pull = candidate.pull.rows;
   Eigen::MatrixXd rows =
       Eigen::MatrixXd::Zero(pull.rows(), static_cast<Eigen::Index>(candidate.regressors.size()));
@@ -99,7 +99,7 @@ Eigen::MatrixXd constraint_rows(const Candidate& candidate) {
   return rows;
 }
 
-bool breaks_constraints(const Candidate& candidate, const Eigen::VectorXd& x) {
+bool breaks_constraints(const ElasticCandidate& candidate, const Eigen::VectorXd& x) {
   if (candidate.pull.ranges.empty()) return false;
   const Transmission fitted = fitted_transmission(candidate, x);
   return std::any_of(candidate.pull.ranges.begin(), candidate.pull.ranges.end(),
@@ -108,19 +108,19 @@ bool breaks_constraints(const Candidate& candidate, const Eigen::VectorXd& x) {
                      });
 }
 
-LinearSolution solve_plain(const BlockedRows& rows, const Candidate& candidate) {
+LinearSolution solve_plain(const BlockedRows& rows, const ElasticCandidate& candidate) {
   return solve(*rows.rows, {candidate.regressors, candidate.names, candidate.lower,
                             rows.torque_response(), candidate.held});
 }
 
-LinearSolution solve_candidate(const BlockedRows& rows, const Candidate& candidate) {
+LinearSolution solve_candidate(const BlockedRows& rows, const ElasticCandidate& candidate) {
   LinearSolution plain = solve_plain(rows, candidate);
   if (!breaks_constraints(candidate, plain.x)) return plain;
   return solve(*rows.rows, {candidate.regressors, candidate.names, candidate.lower,
                             rows.torque_response(), candidate.held, constraint_rows(candidate)});
 }
 
-LinearSolution solve_given(const BlockedRows& rows, const Candidate& candidate,
+LinearSolution solve_given(const BlockedRows& rows, const ElasticCandidate& candidate,
                            std::span<const double> coefficients) {
   assert(coefficients.size() == candidate.n_elastic);
   LinearProblem problem{candidate.regressors, candidate.names, candidate.lower,
@@ -137,7 +137,7 @@ LinearSolution solve_given(const BlockedRows& rows, const Candidate& candidate,
   return s;
 }
 
-Transmission fitted_transmission(const Candidate& candidate, const Eigen::VectorXd& x) {
+Transmission fitted_transmission(const ElasticCandidate& candidate, const Eigen::VectorXd& x) {
   Transmission transmission = candidate.transmission;
   if (candidate.model == "linear") {
     transmission.linear_stiffness = x.head(transmission.n_joints);

@@ -17,7 +17,7 @@ struct Nuisance {
   bool speed = false;     ///< f_vm, which only keeps it out of f_sm
 };
 
-struct Candidate {
+struct ElasticCandidate {
   std::string model;  ///< "linear", "poly"
   int order = 1;
   Transmission transmission;  ///< without coefficients
@@ -30,23 +30,23 @@ struct Candidate {
 };
 
 /// `nuisance`: one per joint.
-Candidate linear_candidate(const BlockedRows& rows, std::span<const Nuisance> nuisance);
-Candidate poly_candidate(const ElasticJob& job, const BlockedRows& rows, int order,
-                         std::span<const Nuisance> nuisance);
+ElasticCandidate linear_candidate(const BlockedRows& rows, std::span<const Nuisance> nuisance);
+ElasticCandidate poly_candidate(const ElasticJob& job, const BlockedRows& rows, int order,
+                                std::span<const Nuisance> nuisance);
 
 /// candidate.pull with a column per regressor.
-Eigen::MatrixXd constraint_rows(const Candidate& candidate);
+Eigen::MatrixXd constraint_rows(const ElasticCandidate& candidate);
 /// A cable that may only pull pushes. The constraints are a little more than that asks for, so a
 /// fit that does not push stands as it is.
-bool breaks_constraints(const Candidate& candidate, const Eigen::VectorXd& x);
+bool breaks_constraints(const ElasticCandidate& candidate, const Eigen::VectorXd& x);
 /// Plain least squares where every cable only pulls by itself, constrained where one would push.
-LinearSolution solve_candidate(const BlockedRows& rows, const Candidate& candidate);
+LinearSolution solve_candidate(const BlockedRows& rows, const ElasticCandidate& candidate);
 /// With these elastic coefficients, all of the candidate's; the rest is fitted.
-LinearSolution solve_given(const BlockedRows& rows, const Candidate& candidate,
+LinearSolution solve_given(const BlockedRows& rows, const ElasticCandidate& candidate,
                            std::span<const double> coefficients);
 /// Whether cables push or not.
-LinearSolution solve_plain(const BlockedRows& rows, const Candidate& candidate);
+LinearSolution solve_plain(const BlockedRows& rows, const ElasticCandidate& candidate);
 /// The candidate's transmission with the coefficients that `x` starts with.
-Transmission fitted_transmission(const Candidate& candidate, const Eigen::VectorXd& x);
+Transmission fitted_transmission(const ElasticCandidate& candidate, const Eigen::VectorXd& x);
 
 }  // namespace cablefit

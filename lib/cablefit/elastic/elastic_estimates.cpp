@@ -18,7 +18,7 @@ struct Coefficient {
 };
 
 /// Of candidate.names[k]; none for K and for what is estimated beside the elastic coefficients.
-std::optional<Coefficient> coefficient_at(const Candidate& candidate, std::size_t k) {
+std::optional<Coefficient> coefficient_at(const ElasticCandidate& candidate, std::size_t k) {
   std::size_t first = 0;
   for (std::size_t c = 0; c < candidate.transmission.cables.size(); ++c) {
     const auto n = static_cast<std::size_t>(candidate.transmission.cables[c].n_coefficients());
@@ -32,7 +32,7 @@ std::optional<Coefficient> coefficient_at(const Candidate& candidate, std::size_
 std::string without_index(const std::string& name) { return name.substr(0, name.find('[')); }
 
 /// On a rotary axis, or in cable space.
-std::string unit_of(const Candidate& candidate, std::size_t k, bool cable_space) {
+std::string unit_of(const ElasticCandidate& candidate, std::size_t k, bool cable_space) {
   if (const auto coefficient = coefficient_at(candidate, k))
     return coefficient_unit(*candidate.transmission.cables[coefficient->cable].law,
                             coefficient->index, cable_space);
@@ -64,7 +64,7 @@ Estimate zero_of_line(const LinearSolution& s, Eigen::Index constant, double zer
 
 /// Coefficients of one cable always lean on each other; said once rather than pair by pair.
 std::vector<std::string> worth_saying(const std::vector<std::string>& warnings,
-                                      const Candidate& candidate) {
+                                      const ElasticCandidate& candidate) {
   std::vector<std::string> kept;
   if (candidate.model == "linear") return warnings;
   std::size_t between_coefficients = 0;
@@ -87,7 +87,7 @@ std::vector<std::string> worth_saying(const std::vector<std::string>& warnings,
 }
 
 /// "cable 1 only pulls", for a coefficient that this holds at 0.
-std::string hold_text(const Candidate& candidate, std::size_t k) {
+std::string hold_text(const ElasticCandidate& candidate, std::size_t k) {
   const auto coefficient = coefficient_at(candidate, k);
   return fmt::format("cable {} only pulls",
                      candidate.transmission.cables.at(coefficient.value().cable).name);
@@ -106,8 +106,8 @@ std::string coefficients_text(const ElasticFit& fit, const Cable& cable, bool ca
 }
 
 /// What was refused, why, and what it costs.
-void note_active_bounds(const ElasticJob& job, const Candidate& candidate, const LinearSolution& s,
-                        const BlockedRows& rows, ElasticFit& fit) {
+void note_active_bounds(const ElasticJob& job, const ElasticCandidate& candidate,
+                        const LinearSolution& s, const BlockedRows& rows, ElasticFit& fit) {
   const Rig& rig = job.rig();
   const ElongationUnit unit{rig.cables_given, rig.linear_motion};
   for (const Eigen::Index i : s.active_constraints) {
@@ -132,7 +132,7 @@ void note_active_bounds(const ElasticJob& job, const Candidate& candidate, const
 }
 
 /// The motor's viscous friction, of whichever joint.
-bool is_speed(const Candidate& candidate, std::size_t k) {
+bool is_speed(const ElasticCandidate& candidate, std::size_t k) {
   return k >= candidate.n_elastic && without_index(candidate.names[k]) == "f_vm";
 }
 
@@ -148,8 +148,9 @@ Estimate missing_friction(const ElasticJob& job, int joint) {
   return e;
 }
 
-ElasticFit make_fit(const ElasticJob& job, const Candidate& candidate, const LinearSolution& s,
-                    const BlockedRows& rows, std::span<const Nuisance> nuisance) {
+ElasticFit make_fit(const ElasticJob& job, const ElasticCandidate& candidate,
+                    const LinearSolution& s, const BlockedRows& rows,
+                    std::span<const Nuisance> nuisance) {
   const Rig& rig = job.rig();
   const double zero = rows.transmission.theta_0(0);
   const auto n = static_cast<Eigen::Index>(candidate.n_elastic);

@@ -7,7 +7,7 @@
 namespace cablefit {
 
 /// Everything reports need, except the errors that take a second look at the rows.
-ElasticFit make_fit(const ElasticJob& job, const Candidate& candidate,
+ElasticFit make_fit(const ElasticJob& job, const ElasticCandidate& candidate,
                     const LinearSolution& solution, const BlockedRows& rows,
                     std::span<const Nuisance> nuisance);
 /// Of the motor's static friction that could not be told, by name. `joint`: from 0.

@@ -23,7 +23,7 @@ Eigen::Index residual_of(std::size_t model) {
 Eigen::Index curve_of(std::size_t model) { return residual_of(model) + 1; }
 
 /// The model's torque without the motor's friction, as a combination of columns.
-Eigen::VectorXd curve_combination(const BlockedColumns& own, const Candidate& candidate,
+Eigen::VectorXd curve_combination(const BlockedColumns& own, const ElasticCandidate& candidate,
                                   const LinearSolution& solution, Eigen::Index n_columns) {
   Eigen::VectorXd curve = Eigen::VectorXd::Zero(n_columns);
   for (std::size_t k = 0; k < candidate.regressors.size(); ++k) {
@@ -35,7 +35,7 @@ Eigen::VectorXd curve_combination(const BlockedColumns& own, const Candidate& ca
 }
 
 Eigen::MatrixXd seen_combinations(const BlockedColumns& own,
-                                  const std::vector<Candidate>& candidates,
+                                  const std::vector<ElasticCandidate>& candidates,
                                   const std::vector<LinearSolution>& solutions) {
   const Eigen::Index n_columns = own.count + 1;  // and the position
   const auto n_models = static_cast<Eigen::Index>(candidates.size());
@@ -148,7 +148,7 @@ ScanPlan scan_plan(const ElasticPreload& preload, const std::string& section,
 }  // namespace
 
 std::vector<Figure> elastic_figures(const ElasticJob& job, const BlockedRows& rows, int joint,
-                                    const std::vector<Candidate>& candidates,
+                                    const std::vector<ElasticCandidate>& candidates,
                                     const std::vector<LinearSolution>& solutions,
                                     const ElasticPreload& preload,
                                     const std::vector<ComparedModel>& compared) {

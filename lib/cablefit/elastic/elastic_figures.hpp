@@ -13,7 +13,7 @@ namespace cablefit {
 /// Streams the rows once more. `joint`: whose rows they are, from 0. candidates[k], solutions[k]
 /// belong to preload.fits[k]. `compared`: drawn beside the cables of one joint.
 std::vector<Figure> elastic_figures(const ElasticJob& job, const BlockedRows& rows, int joint,
-                                    const std::vector<Candidate>& candidates,
+                                    const std::vector<ElasticCandidate>& candidates,
                                     const std::vector<LinearSolution>& solutions,
                                     const ElasticPreload& preload,
                                     const std::vector<ComparedModel>& compared);

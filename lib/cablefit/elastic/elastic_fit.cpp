@@ -47,7 +47,7 @@ bool zero_is_arbitrary(const Stage1& stage, const LinearSolution& line) {
     return std::abs(offset) > kArbitraryZero * std::sqrt(2.0) * spread;
   };
   if (!is_large(line.x(1))) return false;
-  const Candidate curve =
+  const ElasticCandidate curve =
       poly_candidate(stage.job, stage.rows, pilot_order(stage), stage.nuisances());
   return is_large(solve_plain(stage.rows, curve).x(static_cast<Eigen::Index>(curve.n_elastic)));
 }
@@ -64,7 +64,7 @@ void find_zero(Stage1& stage, const LinearSolution& line) {
   for (int iteration = 0; iteration < kZeroIterations; ++iteration) {
     pilot.theta_0 = Eigen::VectorXd::Constant(pilot.n_joints, zero);
     stage.rows = collect_blocked(stage.job, zero, &pilot);
-    const Candidate curve =
+    const ElasticCandidate curve =
         poly_candidate(stage.job, stage.rows, pilot_order(stage), stage.nuisances());
     const LinearSolution s = solve_plain(stage.rows, curve);
     const double step = s.x(static_cast<Eigen::Index>(curve.n_elastic));
@@ -117,7 +117,7 @@ std::vector<ComparedModel> simpler_models(const Stage1& stage, const ElasticPrel
   std::vector<ComparedModel> models = {
       {"classical linear, K (theta - q)", preload.fits.front().transmission}};
   if (stage.job.orders_given || preload.fits.back().order == 1) return models;
-  const Candidate first_order = poly_candidate(stage.job, stage.rows, 1, stage.nuisances());
+  const ElasticCandidate first_order = poly_candidate(stage.job, stage.rows, 1, stage.nuisances());
   models.push_back({"cables of order 1",
                     fitted_transmission(first_order, solve_candidate(stage.rows, first_order).x)});
   return models;
@@ -135,11 +135,11 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
   int order = std::max(1, stage.job.options.order);
   if (stage.job.options.order == 0 && !stage.job.orders_given)
     order = choose_order(stage.job, stage.rows, stage.nuisances(), preload.selection);
-  const std::vector<Candidate> candidates = {
+  const std::vector<ElasticCandidate> candidates = {
       linear_candidate(stage.rows, stage.nuisances()),
       poly_candidate(stage.job, stage.rows, order, stage.nuisances())};
   std::vector<LinearSolution> solutions;
-  for (const Candidate& candidate : candidates) {
+  for (const ElasticCandidate& candidate : candidates) {
     const std::vector<double>& given = stage.job.options.coefficients;
     solutions.push_back(candidate.model == "linear" || given.empty()
                             ? solve_candidate(stage.rows, candidate)

@@ -56,7 +56,7 @@ Eigen::VectorXd solve_constrained(const NormalEquations& n, const Eigen::MatrixX
                                   .x);
 }
 
-Eigen::VectorXd solve_gram(const Eigen::MatrixXd& gram, const Candidate& candidate,
+Eigen::VectorXd solve_gram(const Eigen::MatrixXd& gram, const ElasticCandidate& candidate,
                            const Eigen::VectorXd& response) {
   const NormalEquations n = normal_equations(gram, candidate.regressors, response);
   const Eigen::VectorXd x =
@@ -86,7 +86,7 @@ Eigen::Index HeldOut::block_of(Eigen::Index cell_id) const {
                                   kHeldOutBlocks - 1);
 }
 
-std::vector<Eigen::VectorXd> HeldOut::fits(const Candidate& candidate,
+std::vector<Eigen::VectorXd> HeldOut::fits(const ElasticCandidate& candidate,
                                            const Eigen::VectorXd& response) const {
   std::vector<Eigen::VectorXd> result;
   for (Eigen::Index fold = 0; fold < kHeldOutFolds; ++fold) {

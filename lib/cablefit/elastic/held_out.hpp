@@ -23,7 +23,7 @@ class HeldOut {
   }
   /// For each fold the residual combination (rows * it = residual) of the fit to the other folds.
   /// They are as passive as the candidate's own fit.
-  std::vector<Eigen::VectorXd> fits(const Candidate& candidate,
+  std::vector<Eigen::VectorXd> fits(const ElasticCandidate& candidate,
                                     const Eigen::VectorXd& response) const;
   /// Mean squared held-out residual of every block that has rows, given fits().
   Eigen::VectorXd block_errors(const std::vector<Eigen::VectorXd>& fits) const;

@@ -132,7 +132,7 @@ void note_joints(const Stage1& stage, ElasticPreload& preload) {
   }
 }
 
-void draw(const Stage1& stage, const std::vector<Candidate>& candidates,
+void draw(const Stage1& stage, const std::vector<ElasticCandidate>& candidates,
           const std::vector<LinearSolution>& solutions, ElasticPreload& preload) {
   for (int joint = 0; joint < stage.n_joints(); ++joint)
     for (Figure& figure : elastic_figures(stage.job, stage.joints[static_cast<std::size_t>(joint)],
@@ -150,12 +150,12 @@ ElasticPreload fit_joints(ElasticJob job, const std::string& name) {
   int order = std::max(1, stage.job.options.order);
   if (stage.job.options.order == 0 && !stage.job.orders_given)
     order = choose_order(stage.job, stage.all, stage.nuisance, preload.selection);
-  const std::vector<Candidate> candidates = {
+  const std::vector<ElasticCandidate> candidates = {
       linear_candidate(stage.all, stage.nuisance),
       poly_candidate(stage.job, stage.all, order, stage.nuisance)};
   std::vector<LinearSolution> solutions;
   const std::vector<double> longest = longest_of(stage.all.elongations);
-  for (const Candidate& candidate : candidates) {
+  for (const ElasticCandidate& candidate : candidates) {
     solutions.push_back(solve_candidate(stage.all, candidate));
     ElasticFit& fit = preload.fits.emplace_back(
         make_fit(stage.job, candidate, solutions.back(), stage.all, stage.nuisance));

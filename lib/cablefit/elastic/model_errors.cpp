@@ -23,7 +23,7 @@ int choose_order(const ElasticJob& job, const BlockedRows& rows, std::span<const
   const HeldOut held_out(*rows.rows);
   std::vector<Eigen::VectorXd> errors;
   for (int order = 1; order <= job.options.max_order; ++order) {
-    const Candidate candidate = poly_candidate(job, rows, order, nuisance);
+    const ElasticCandidate candidate = poly_candidate(job, rows, order, nuisance);
     errors.push_back(held_out.block_errors(held_out.fits(candidate, rows.torque_response())));
   }
   const auto beats = [&](std::size_t high, std::size_t low) {
@@ -47,7 +47,7 @@ int choose_order(const ElasticJob& job, const BlockedRows& rows, std::span<const
   return job.options.max_order;
 }
 
-void measure_errors(const BlockedRows& rows, const std::vector<Candidate>& candidates,
+void measure_errors(const BlockedRows& rows, const std::vector<ElasticCandidate>& candidates,
                     const std::vector<LinearSolution>& solutions, ElasticPreload& preload) {
   const HeldOut held_out(*rows.rows);
   std::vector<std::vector<Eigen::VectorXd>> folds;
@@ -120,7 +120,7 @@ Eigen::VectorXd held_out_residuals(const Eigen::MatrixXd& rows,
 }  // namespace
 
 void measure_joint_errors(const std::vector<BlockedRows>& joints, const BlockedRows& all,
-                          const std::vector<Candidate>& candidates,
+                          const std::vector<ElasticCandidate>& candidates,
                           const std::vector<LinearSolution>& solutions, ElasticPreload& preload) {
   const HeldOut held_out(*all.rows);
   for (std::size_t k = 0; k < candidates.size(); ++k) {

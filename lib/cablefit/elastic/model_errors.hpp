@@ -15,12 +15,12 @@ int choose_order(const ElasticJob& job, const BlockedRows& rows, std::span<const
 
 /// Looks at the rows again: largest errors of every fit, in sample and on held-out blocks,
 /// deflection range and peak torque. candidates[k], solutions[k] belong to preload.fits[k].
-void measure_errors(const BlockedRows& rows, const std::vector<Candidate>& candidates,
+void measure_errors(const BlockedRows& rows, const std::vector<ElasticCandidate>& candidates,
                     const std::vector<LinearSolution>& solutions, ElasticPreload& preload);
 /// The same for the rows of several joints, which `all` has together; fills the errors of every
 /// joint and peak torques as well.
 void measure_joint_errors(const std::vector<BlockedRows>& joints, const BlockedRows& all,
-                          const std::vector<Candidate>& candidates,
+                          const std::vector<ElasticCandidate>& candidates,
                           const std::vector<LinearSolution>& solutions, ElasticPreload& preload);
 
 }  // namespace cablefit

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cablefit/base/quote.hpp"
+#include "cablefit/model/file/identify_file.hpp"
 #include "cablefit/model/file/parts.hpp"
 
 namespace cablefit {
@@ -13,11 +14,10 @@ namespace {
 
 using Reader = Model (*)(const JsonNode&, const model_file::Wanted&, std::string*);
 
-constexpr std::array<std::pair<std::string_view, Reader>, 2> kReaders{
+constexpr std::array<std::pair<std::string_view, Reader>, 3> kReaders{
     {{model_file::kModelSchema, model_file::read_model_file},
-     {model_file::kResultSchema, model_file::read_result_file}}};
-
-constexpr std::string_view kIdentifySchema = "cablefit/identify/1";
+     {model_file::kResultSchema, model_file::read_result_file},
+     {model_file::kIdentifySchema, model_file::read_identify_file}}};
 
 }  // namespace
 
@@ -41,9 +41,6 @@ Model parse_model(const JsonNode& root, const std::string& preload, const std::s
   for (const auto& [name, reader] : kReaders) {
     if (schema.text() == name) return reader(root, {preload, model}, &choice);
   }
-  if (schema.text() == kIdentifySchema)
-    throw schema.error("a result of `cablefit identify` is no model",
-                       "take the model_PRELOAD.json beside it");
   throw schema.error(fmt::format("schema {} is no model", cablefit::quoted(schema.text())),
                      fmt::format("expected '{}', or '{}' as `cablefit dynamic` writes it",
                                  model_file::kModelSchema, model_file::kResultSchema));

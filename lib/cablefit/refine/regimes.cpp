@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+
+#include "cablefit/refine/regime_variables.hpp"
 
 namespace cablefit {
 namespace {
@@ -13,34 +14,12 @@ constexpr double kStandsOut = 1.5;    // times its share of the rows
 constexpr double kLeastShare = 0.1;   // of the gap
 constexpr double kLeastExcess = 1.1;  // squared residual over floor: below, there is no gap
 
-struct Variable {
-  std::string_view regime, link, motor;  ///< names
-  double (*value)(const JointState& state, bool link, double load);
-};
-
-constexpr Variable kVariables[] = {
-    {"speed", "qd", "thetad",
-     [](const JointState& s, bool link, double) { return link ? s.qd : s.thetad; }},
-    {"direction", "sgn(qd)", "sgn(thetad)",
-     [](const JointState& s, bool link, double) {
-       return (link ? s.qd : s.thetad) < 0 ? -1.0 : 1.0;
-     }},
-    {"position", "q", "theta",
-     [](const JointState& s, bool link, double) { return link ? s.q : s.theta; }},
-    {"deflection", "theta - q", "theta - q",
-     [](const JointState& s, bool, double) { return s.deflection; }},
-    {"elastic torque", "tau_elas", "tau_elas",
-     [](const JointState& s, bool, double) { return s.tau_elas; }},
-    {"load", "tau_load", "tau_load", [](const JointState&, bool, double load) { return load; }},
-    {"time", "t", "t", [](const JointState& s, bool, double) { return s.t; }},
-};
-
 struct Point {
   double value, squared;
 };
 
 std::vector<Point> points_of(const Design& design, const Eigen::VectorXd& x, RowKind wanted,
-                             const Variable& variable) {
+                             const RegimeVariable& variable) {
   std::vector<Point> points;
   for (std::size_t s = 0; s < design.rows.size(); ++s)
     for (const KindRows& kind : design.rows[s].kinds) {
@@ -57,8 +36,8 @@ std::vector<Point> points_of(const Design& design, const Eigen::VectorXd& x, Row
   return points;
 }
 
-void add_regimes(std::vector<Point> points, RowKind kind, const Variable& variable, double floor,
-                 std::vector<Regime>& out) {
+void add_regimes(std::vector<Point> points, RowKind kind, const RegimeVariable& variable,
+                 double floor, std::vector<Regime>& out) {
   if (points.empty()) return;
   std::sort(points.begin(), points.end(),
             [](const Point& a, const Point& b) { return a.value < b.value; });
@@ -100,7 +79,7 @@ std::vector<Regime> find_regimes(const Design& design, const Eigen::VectorXd& x,
                                  const KindLevels& floor) {
   std::vector<Regime> all;
   for (const RowKind kind : {RowKind::link, RowKind::motor, RowKind::blocked})
-    for (const Variable& variable : kVariables)
+    for (const RegimeVariable& variable : regime_variables())
       add_regimes(points_of(design, x, kind, variable), kind, variable,
                   floor[static_cast<std::size_t>(kind)], all);
   std::stable_sort(all.begin(), all.end(), [](const Regime& a, const Regime& b) {

@@ -30,8 +30,14 @@ struct DecisionLine {
   std::string name, value, reason;
 };
 
+/// A line of the story in short: "gap", "0.106 -> 0.102 N m".
+struct SummaryLine {
+  std::string label, text;
+};
+
 struct Document {
   std::string title;
+  std::vector<SummaryLine> summary;  ///< before the tables
   std::vector<Table> tables;
   std::vector<std::string> paragraphs;  ///< after the tables
   std::vector<DecisionLine> decisions;

@@ -56,6 +56,11 @@ Json slack_json(const IdentifyPreload& preload) {
   return list;
 }
 
+/// As its file has it, so that the result is a model too; null where no motion was identified.
+Json model_or_null(const IdentifyPreload& preload) {
+  return preload.model ? Json::parse(model_json(*preload.model)) : Json();
+}
+
 Json preload_json(const IdentifyPreload& preload) {
   return Json{{"name", preload.name},
               {"rig", report_json::rig(preload.rig_path)},
@@ -68,6 +73,7 @@ Json preload_json(const IdentifyPreload& preload) {
               {"equations", equations_json(preload.equations)},
               {"resonance_hz", preload.resonance > 0 ? Json(preload.resonance) : Json()},
               {"load_inertia", preload.load_inertia},
+              {"model", model_or_null(preload)},
               {"decisions", report_json::decisions(preload.decisions)},
               {"warnings", preload.warnings}};
 }

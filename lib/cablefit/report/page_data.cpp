@@ -138,10 +138,16 @@ std::string packed(const std::vector<double>& values, double base) {
 }
 
 std::string page_data(const Document& document) {
-  Json json = {{"version", kVersion},        {"title", printable(document.title)},
-               {"tables", Json::array()},    {"paragraphs", texts(document.paragraphs)},
-               {"decisions", Json::array()}, {"warnings", texts(document.warnings)},
+  Json json = {{"version", kVersion},
+               {"title", printable(document.title)},
+               {"summary", Json::array()},
+               {"tables", Json::array()},
+               {"paragraphs", texts(document.paragraphs)},
+               {"decisions", Json::array()},
+               {"warnings", texts(document.warnings)},
                {"figures", Json::array()}};
+  for (const SummaryLine& line : document.summary)
+    json["summary"].push_back({{"label", printable(line.label)}, {"text", printable(line.text)}});
   for (const Table& table : document.tables) json["tables"].push_back(table_json(table));
   for (const DecisionLine& line : document.decisions)
     json["decisions"].push_back({{"where", texts(line.where)},

@@ -34,7 +34,7 @@
     return row;
   }
 
-  const printed = (cell) => prettyUnit(cell.replace(/\+- /g, "± "));
+  const printed = (cell) => prettyUnit(cell.replace(/\+- /g, "± ").replace(/ -> /g, " → "));
   const isLong = (text) => text.length > 60;
 
   function tableNode(table) {
@@ -296,6 +296,11 @@
     }
   }
 
+  function summaryNode() {
+    return make("dl", {class: "summary"}, ...report.summary.flatMap((line) => [
+      make("dt", {}, line.label), make("dd", {}, printed(line.text))]));
+  }
+
   function addTables(main) {
     const tables = report.tables.filter((table) => !table.detail);
     if (!tables.length && !report.paragraphs.length) return;
@@ -321,6 +326,7 @@
     document.title = title + " - cablefit";
     const main = make("main");
     if (report.warnings.length) main.append(warningsNode());
+    if (report.summary.length) main.append(chapter("In short", "h2", contents).heading, summaryNode());
     addTables(main);
     addFigures(main);
     addRest(main);

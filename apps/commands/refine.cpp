@@ -1,0 +1,250 @@
+// cablefit refine: where the gap is, which effect is missing, and does adding it help.
+#include "cablefit/refine/refine.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "cablefit/base/digest.hpp"
+#include "cablefit/base/error.hpp"
+#include "cablefit/model/read_models.hpp"
+#include "cablefit/refine/model_set.hpp"
+#include "cablefit/report/refine_document.hpp"
+#include "cablefit/report/refine_json.hpp"
+#include "cablefit/simulate/experiment.hpp"
+#include "commands/command.hpp"
+#include "commands/command_line.hpp"
+#include "commands/delivery.hpp"
+#include "commands/file_names.hpp"
+#include "commands/problems.hpp"
+#include "commands/progress.hpp"
+#include "process.hpp"
+
+namespace cablefit::apps {
+namespace {
+
+constexpr const char* kExample =
+    "Example, after 'cablefit elastic' and 'cablefit dynamic' (or 'cablefit identify'):\n"
+    "  cablefit refine cablefit-out/dynamic.json --train data/low/*.csv --draws 8\n"
+    "Writes refined.json (refined_PRELOAD.json for several), a model with what was found.\n";
+
+constexpr const char* kResultFile = "refine.json";
+constexpr int kGateFailed = 1;
+constexpr std::size_t kLeastDraws = 4, kMostDraws = 100000, kMostEffects = 10;
+
+struct RefineCommand {
+  CommonOptions common;  ///< its logs: all of them
+  RefineOptions refine;
+  std::vector<std::string> models, train, test, blocked;
+  std::string model;  ///< --model
+  double most_gap = kUnbounded;
+  bool gate_new_effect = false;
+};
+
+/// What the models and the logs are.
+struct RefineInput {
+  std::vector<Model> models;
+  std::string choice;
+  RefineLogs logs;
+};
+
+void add_file_options(CLI::App& app, RefineCommand& command) {
+  app.add_option("MODEL", command.models,
+                 "model file, or result of 'cablefit identify' or 'dynamic'; several for several "
+                 "preloads")
+      ->type_name("");
+  const auto add_logs = [&app](const char* name, std::vector<std::string>& logs, const char* help) {
+    app.add_option(name, logs, help)->type_name("LOG");
+  };
+  add_logs("--train", command.train, "logs to search and fit, moving or blocked");
+  add_logs("--test", command.test,
+           "logs that have no say and show whether the gap shrinks [the last third of every moving "
+           "log of --train]");
+  add_logs("--blocked", command.blocked, "further logs with the link blocked");
+  app.add_option("--model", command.model,
+                 "which fit of a result [the only one, else poly, else the first]")
+      ->type_name("NAME");
+  app.add_option("--preload", command.common.preload, "which preload of a result [all]")
+      ->type_name("NAME");
+  app.add_option("--rig", command.common.rig,
+                 "rig file; default: rig.json beside each log, else the model's")
+      ->type_name("FILE");
+}
+
+void add_search_options(CLI::App& app, RefineOptions& refine) {
+  add_whole(
+      app, "--draws", "N", {kLeastDraws, kMostDraws},
+      [&refine](long n) { refine.n_draws = static_cast<std::size_t>(n); },
+      "simulated data sets without any effect: what a search finds by chance [24]");
+  add_number(
+      app, "--materiality", "PERCENT", {0, 100},
+      [&refine](double percent) { refine.materiality = percent / 100; },
+      "least share of the squared residual that is worth a name [1]");
+  add_number(
+      app, "--significance", "P", {0, 1}, [&refine](double p) { refine.significance = p; },
+      "largest probability of such a find by chance [0.01]");
+  add_whole(
+      app, "--effects", "N", {1, kMostEffects},
+      [&refine](long n) { refine.most_effects = static_cast<std::size_t>(n); },
+      "most effects to add [3]");
+}
+
+void add_gate_options(CLI::App& app, RefineCommand& command) {
+  add_number(
+      app, "--gate-gap", "X", {0}, [&command](double gap) { command.most_gap = gap; },
+      "exit 1 when the torque gap on unseen logs is larger in the end (N m; N on a linear axis)");
+  app.add_flag("--gate-new-effect", command.gate_new_effect, "exit 1 when an effect was named");
+}
+
+/// A log in two places would count double, or judge what was made from it.
+void require_distinct(const RefineCommand& command) {
+  struct Given {
+    std::string path, option;
+  };
+  std::vector<Given> all;
+  const auto add = [&](const char* option, const std::vector<std::string>& paths) {
+    for (const std::string& path : paths) {
+      const std::string whole =
+          std::filesystem::weakly_canonical(std::filesystem::absolute(path)).string();
+      const auto same = std::find_if(all.begin(), all.end(),
+                                     [&](const Given& given) { return given.path == whole; });
+      if (same != all.end())
+        throw usage_error(
+            same->option == option
+                ? fmt::format("log {} is given twice", path)
+                : fmt::format("log {} is given to {} and {}", path, same->option, option),
+            same->option == option ? "its rows would count double" : "a log is for one of them");
+      all.push_back({whole, option});
+    }
+  };
+  add("--train", command.train);
+  add("--test", command.test);
+  add("--blocked", command.blocked);
+}
+
+void require_files(const RefineCommand& command) {
+  if (command.models.empty())
+    throw usage_error("no model given", "name a model file, or a result of 'cablefit identify'");
+  if (command.train.empty() && command.blocked.empty())
+    throw usage_error("no log given", "name the logs to fit after --train");
+  require_distinct(command);
+}
+
+std::vector<Model> read_all_models(const RefineCommand& command, std::string& choice) {
+  std::vector<Model> models;
+  Problems problems;
+  for (const std::string& path : command.models)
+    problems.collect([&] {
+      std::string taken;
+      for (Model& model : read_models(path, command.common.preload, command.model, taken))
+        models.push_back(std::move(model));
+      choice += (choice.empty() ? "" : "; ") + taken;
+    });
+  problems.throw_if_any();
+  require_model_set(models);
+  return models;
+}
+
+/// A log of one of several preloads takes what its rig file leaves open from the model of that
+/// preload; without a rig file of its own it has to say itself which preload it is.
+LogSurvey read_log_for(const std::string& path, const std::string& rig_option,
+                       const std::vector<Model>& models) {
+  if (models.size() == 1) return survey_for_simulation(path, rig_option, models.front());
+  const std::string preload = rig_for_log(path, rig_option).preload;
+  const auto found = std::find_if(models.begin(), models.end(), [&](const Model& model) {
+    return !preload.empty() && model.preload == preload;
+  });
+  Model model = found != models.end() ? *found : models.front();
+  if (found == models.end()) model.preload = model.rig.preload = "";
+  return survey_for_simulation(path, rig_option, model);
+}
+
+RefineInput read_input(RefineCommand& command) {
+  RefineInput input;
+  input.models = read_all_models(command, input.choice);
+  const Progress progress(command.common.quiet, "reading logs");
+  Problems problems;
+  const auto read = [&](const std::vector<std::string>& paths, std::vector<LogSurvey>& logs) {
+    for (const std::string& path : paths)
+      problems.collect(
+          [&] { logs.push_back(read_log_for(path, command.common.rig, input.models)); });
+  };
+  read(command.train, input.logs.train);
+  read(command.test, input.logs.test);
+  read(command.blocked, input.logs.blocked);
+  problems.throw_if_any();
+  std::vector<LogSurvey> fitted = input.logs.train;
+  fitted.insert(fitted.end(), input.logs.blocked.begin(), input.logs.blocked.end());
+  input.models = models_with_logs(std::move(input.models), fitted);
+  return input;
+}
+
+RefineResult run(RefineCommand& command) {
+  const RefineInput input = read_input(command);
+  CommonOptions& common = command.common;
+  for (const auto* some : {&command.train, &command.test, &command.blocked})
+    common.logs.insert(common.logs.end(), some->begin(), some->end());
+  common.more_inputs = command.models;
+  command.refine.seed = common.seed;
+  command.refine.threads = common.samples.threads;
+  command.refine.figures = wants_figures(common);
+  Progress display(common.quiet, "refining");
+  command.refine.progress = [&display](std::string_view what, double share) {
+    display.rename(fmt::format("refining: {} {:.0f} %", what, 100 * share));
+  };
+  RefineResult result = refine(input.models, input.logs, command.refine);
+  result.model_path = fmt::format("{}", fmt::join(command.models, ", "));
+  result.model_choice = input.choice;
+  for (const std::string& path : command.models)
+    result.inputs.push_back({path, sha256_of_file(path), 0});
+  return result;
+}
+
+std::vector<std::string> model_file_names(const RefineResult& result) {
+  if (result.models.size() == 1) return {"refined.json"};
+  std::vector<std::string> preloads;
+  for (const Model& model : result.models) preloads.push_back(model.preload);
+  return preload_file_names("refined", preloads);
+}
+
+std::vector<std::string> failed_gates(const RefineCommand& command, const RefineResult& result) {
+  std::vector<std::string> failed;
+  const std::string unit = result.linear_motion ? "N" : "N m";
+  if (result.torque.test_after > command.most_gap)
+    failed.push_back(fmt::format("gate gap failed: {:.4g} {} on unseen logs, limit {:g} {}",
+                                 result.torque.test_after, unit, command.most_gap, unit));
+  if (command.gate_new_effect && !result.effects.empty())
+    failed.push_back(fmt::format("gate new-effect failed: '{}' was named",
+                                 result.effects.front().instance.refinement->name));
+  return failed;
+}
+
+}  // namespace
+
+int run_refine(const Arguments& arguments) {
+  CLI::App app(
+      "Where model and logs disagree, which effect is missing, and whether the gap shrinks on "
+      "unseen logs when it is added.",
+      "refine");
+  RefineCommand command;
+  add_file_options(app, command);
+  add_search_options(app, command.refine);
+  add_gate_options(app, command);
+  add_output_options(app, command.common);
+  app.footer(kExample);
+  if (!parse(app, arguments)) return 0;
+  require_files(command);
+
+  const RefineResult result = run(command);
+  const std::vector<std::string> names = model_file_names(result);
+  std::vector<ResultFile> files = {{kResultFile, refine_json(result, names)}};
+  for (std::size_t k = 0; k < names.size(); ++k)
+    files.push_back({names[k], model_json(result.models[k])});
+  deliver(command.common, refine_document(result, names), files);
+  const std::vector<std::string> failed = failed_gates(command, result);
+  for (const std::string& gate : failed) complain(gate + "\n");
+  return failed.empty() ? 0 : kGateFailed;
+}
+
+}  // namespace cablefit::apps

@@ -1,0 +1,60 @@
+#include "cablefit/refine/model_set.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cablefit/base/error.hpp"
+
+namespace cablefit {
+namespace {
+
+bool same_effects(const std::vector<EffectInstance>& a, const std::vector<EffectInstance>& b) {
+  return std::equal(
+      a.begin(), a.end(), b.begin(), b.end(),
+      [](const EffectInstance& x, const EffectInstance& y) { return x.effect == y.effect; });
+}
+
+bool same_cables(const std::vector<Cable>& a, const std::vector<Cable>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Cable& x, const Cable& y) {
+    return x.law == y.law && x.order == y.order;
+  });
+}
+
+bool same_structure(const Model& a, const Model& b) {
+  return a.rigid == b.rigid && a.joints.size() == b.joints.size() &&
+         same_cables(a.transmission.cables, b.transmission.cables) &&
+         std::equal(a.joints.begin(), a.joints.end(), b.joints.begin(),
+                    [](const JointModel& x, const JointModel& y) {
+                      return same_effects(x.link, y.link) && same_effects(x.motor, y.motor);
+                    });
+}
+
+}  // namespace
+
+void require_model_set(std::span<const Model> models) {
+  for (std::size_t k = 1; k < models.size(); ++k) {
+    if (!same_structure(models[k], models[0]))
+      throw usage_error(fmt::format("the models of preload '{}' and '{}' have different equations",
+                                    models[0].preload, models[k].preload),
+                        "refine shares coefficients between preloads: fit both in the same way");
+    for (std::size_t j = 0; j < k; ++j)
+      if (models[k].preload == models[j].preload)
+        throw usage_error(fmt::format("two models of preload '{}'", models[k].preload),
+                          "give one model for each preload");
+  }
+}
+
+std::vector<Model> models_with_logs(std::vector<Model> models, std::span<const LogSurvey> logs) {
+  if (models.size() < 2) return models;
+  std::vector<Model> wanted;
+  for (Model& model : models)
+    if (std::any_of(logs.begin(), logs.end(), [&](const LogSurvey& log) {
+          return std::any_of(log.parts.begin(), log.parts.end(),
+                             [&](const PartSurvey& part) { return part.preload == model.preload; });
+        }))
+      wanted.push_back(model);
+  return wanted.empty() ? models : wanted;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,19 @@
+// The models that a refinement starts from, one per preload.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cablefit/model/model.hpp"
+#include "cablefit/samples/survey.hpp"
+
+namespace cablefit {
+
+/// Throws Error(usage) for two models of one preload, and for models that are no two sets of values
+/// of the same equations: their coefficients are shared.
+void require_model_set(std::span<const Model> models);
+
+/// Those whose preload is in the logs; all of them when none is, so that the mismatch is told.
+std::vector<Model> models_with_logs(std::vector<Model> models, std::span<const LogSurvey> logs);
+
+}  // namespace cablefit

@@ -1,0 +1,362 @@
+#include "cablefit/refine/refine_figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "cablefit/figure/autocorrelation.hpp"
+#include "cablefit/figure/binned_mean.hpp"
+#include "cablefit/figure/thinned_line.hpp"
+#include "cablefit/refine/regime_variables.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr std::size_t kBins = 96;
+constexpr std::size_t kFewRows = 10;       // a mean over fewer says nothing
+constexpr std::size_t kMostVariables = 3;  // per equation, those that reveal most
+constexpr double kPause = 1;               // s between logs on the time axis
+constexpr int kBefore = 1, kAfter = 2;     // series, the same colours everywhere
+
+/// One row of an equation, as it is seen.
+struct Seen {
+  double t;  ///< s, on the common axis
+  std::vector<double> variables;
+  double residual;
+};
+
+/// The rows of one kind of all stretches, and their places on a grid for the autocorrelation.
+struct SeenKind {
+  std::vector<Seen> rows;
+  std::vector<Eigen::Index> numbers;
+  double rms = 0;
+};
+
+/// Where each stretch begins on the common axis.
+struct Timeline {
+  std::vector<double> begins;
+  double end = 0, spacing = 0;
+  std::vector<Mark> marks;
+};
+
+Timeline timeline_of(const BeforeAfter& input) {
+  Timeline time;
+  double next = 0;
+  std::size_t log = std::numeric_limits<std::size_t>::max();
+  for (const Stretch& stretch : input.before.stretches) {
+    if (stretch.log != log) {
+      log = stretch.log;
+      const std::filesystem::path path = input.logs[log].plan.path;
+      time.marks.push_back({next, path.filename().string()});
+    }
+    time.begins.push_back(next);
+    const double period = stretch.recording.period;
+    time.spacing =
+        std::max(time.spacing, period * static_cast<double>(input.before.smoothing.stride));
+    next += static_cast<double>(stretch.recording.theta.size()) * period + kPause;
+  }
+  time.end = std::max(next - kPause, time.spacing);
+  if (time.marks.size() < 2) time.marks.clear();
+  return time;
+}
+
+std::vector<double> variables_at(const Design& design, std::size_t stretch, Eigen::Index at,
+                                 bool link) {
+  const JointState& state = design.states[stretch][static_cast<std::size_t>(at)];
+  const double load = design.rows[stretch].motion.tau_load(at);
+  std::vector<double> values;
+  for (const RegimeVariable& variable : regime_variables())
+    values.push_back(variable.value(state, link, load));
+  return values;
+}
+
+SeenKind see(const Design& design, const Eigen::VectorXd& x, RowKind wanted, const Timeline& time) {
+  SeenKind seen;
+  double squares = 0;
+  for (std::size_t s = 0; s < design.rows.size(); ++s)
+    for (const KindRows& kind : design.rows[s].kinds) {
+      if (kind.kind != wanted) continue;
+      const double period = design.stretches[s].recording.period;
+      const auto first = static_cast<Eigen::Index>(time.begins[s] / time.spacing);
+      const Eigen::VectorXd residual = kind.response - kind.base * x;
+      for (std::size_t i = 0; i < kind.at.size(); ++i) {
+        const double t = time.begins[s] + static_cast<double>(kind.at[i]) * period;
+        const double r = residual(static_cast<Eigen::Index>(i));
+        seen.rows.push_back({t, variables_at(design, s, kind.at[i], wanted == RowKind::link), r});
+        seen.numbers.push_back(first + kind.at[i] / design.smoothing.stride);
+        squares += r * r;
+      }
+    }
+  if (!seen.rows.empty()) seen.rms = std::sqrt(squares / static_cast<double>(seen.rows.size()));
+  return seen;
+}
+
+Trace trace_of(std::string name, TraceStyle style, int series) {
+  Trace trace;
+  trace.name = std::move(name);
+  trace.style = style;
+  trace.series = series;
+  return trace;
+}
+
+/// One equation before and after, on its way to figures.
+struct Pair {
+  std::string section, group, unit;
+  bool linear_motion = false, link = false, changed = false;
+  double floor = 0;
+  SeenKind before, after;
+  std::array<const SeenKind*, 2> both() const { return {&before, &after}; }
+};
+
+std::string name_of(std::size_t k) { return k == 0 ? "before" : "after"; }
+int series_of(std::size_t k) { return k == 0 ? kBefore : kAfter; }
+
+Figure blank(const Pair& pair, std::string title) {
+  Figure figure;
+  figure.section = pair.section;
+  figure.group = pair.group;
+  figure.title = std::move(title);
+  figure.y = {"residual", pair.unit};
+  return figure;
+}
+
+/// Without anything added there is no after.
+std::size_t n_states(const Pair& pair) { return pair.changed ? 2 : 1; }
+
+Figure over_time(const Pair& pair, const Timeline& time) {
+  Figure figure = blank(pair, "Residual over time");
+  figure.caption = fmt::format("Measured minus what the model says; noise floor {:.3g} {} rms.",
+                               pair.floor, pair.unit);
+  figure.x = {"time, logs one after the other", "s"};
+  figure.marks = time.marks;
+  figure.wide = true;
+  for (std::size_t k = 0; k < n_states(pair); ++k) {
+    ThinnedLine line(0, time.end, time.spacing);
+    for (const Seen& row : pair.both()[k]->rows) line.add(row.t, row.residual);
+    figure.traces.push_back(
+        trace_of(fmt::format("{}, {:.3g} {} rms", name_of(k), pair.both()[k]->rms, pair.unit),
+                 TraceStyle::line, series_of(k)));
+    line.draw(figure.traces.back());
+  }
+  return figure;
+}
+
+constexpr std::size_t kBackward = 0, kForward = 1;
+
+/// Mean residual over bins of a variable, apart by the direction of motion: friction changes sides.
+BinnedMean mean_of(const SeenKind& kind, std::size_t variable, std::size_t direction,
+                   std::size_t speed) {
+  BinnedMean mean(kBins);
+  for (const Seen& row : kind.rows)
+    if ((row.variables[speed] > 0) == (direction == kForward))
+      mean.add(row.variables[variable], row.residual);
+  return mean;
+}
+
+std::size_t place_of(std::string_view regime) {
+  const auto all = regime_variables();
+  return static_cast<std::size_t>(
+      std::find_if(all.begin(), all.end(),
+                   [&](const RegimeVariable& v) { return v.regime == regime; }) -
+      all.begin());
+}
+
+bool is_plotted(const RegimeVariable& variable) {
+  return variable.regime != "direction" && variable.regime != "time";
+}
+
+/// Mean squared mean of the residual over the bins: what of it is a function of the variable.
+double explained(const SeenKind& kind, std::size_t variable) {
+  const std::size_t speed = place_of("speed");
+  double sum = 0, n = 0;
+  for (const std::size_t direction : {kForward, kBackward}) {
+    Trace mean;
+    mean_of(kind, variable, direction, speed).draw(mean, kFewRows, false);
+    for (const double y : mean.y) {
+      sum += y * y;
+      ++n;
+    }
+  }
+  return n > 0 ? sum / n : 0;
+}
+
+/// The variables of which the residual before was most a function.
+std::vector<std::size_t> revealing(const Pair& pair) {
+  const auto all = regime_variables();
+  std::vector<std::pair<double, std::size_t>> ranked;
+  for (std::size_t v = 0; v < all.size(); ++v) {
+    const auto& rows = pair.before.rows;
+    const auto [low, high] = std::minmax_element(
+        rows.begin(), rows.end(),
+        [v](const Seen& a, const Seen& b) { return a.variables[v] < b.variables[v]; });
+    if (is_plotted(all[v]) && high->variables[v] > low->variables[v])
+      ranked.push_back({-explained(pair.before, v), v});
+  }
+  std::sort(ranked.begin(), ranked.end());
+  std::vector<std::size_t> chosen;
+  for (std::size_t k = 0; k < std::min(kMostVariables, ranked.size()); ++k)
+    chosen.push_back(ranked[k].second);
+  return chosen;
+}
+
+Axis axis_of(const RegimeVariable& variable, bool link, bool linear_motion) {
+  return {std::string(link ? variable.link : variable.motor),
+          regime_unit(variable.regime, linear_motion)};
+}
+
+/// What of the residual is a function of the variable: noise averages out.
+Figure mean_against(const Pair& pair, std::size_t variable) {
+  const RegimeVariable& v = regime_variables()[variable];
+  Figure figure = blank(pair, fmt::format("Mean residual against {}", v.regime));
+  figure.caption = "Rows that move forward; dashed: backward.";
+  figure.x = axis_of(v, pair.link, pair.linear_motion);
+  figure.y = {"mean residual", pair.unit};
+  const std::size_t speed = place_of("speed");
+  for (std::size_t k = 0; k < n_states(pair); ++k)
+    for (const std::size_t direction : {kForward, kBackward}) {
+      Trace mean =
+          trace_of(name_of(k) + (direction == kForward ? "" : ", backward"),
+                   direction == kForward ? TraceStyle::line : TraceStyle::dashed, series_of(k));
+      mean_of(*pair.both()[k], variable, direction, speed).draw(mean, kFewRows, true);
+      if (!mean.x.empty()) figure.traces.push_back(std::move(mean));
+    }
+  return figure;
+}
+
+/// Rms of the residual over bins of a variable, against the floor.
+Figure rms_against(const Pair& pair, std::size_t variable) {
+  const RegimeVariable& v = regime_variables()[variable];
+  Figure figure = blank(pair, fmt::format("Size of the residual by {}", v.regime));
+  figure.x = axis_of(v, pair.link, pair.linear_motion);
+  figure.y = {"rms of the residual", pair.unit};
+  for (std::size_t k = 0; k < n_states(pair); ++k) {
+    BinnedMean mean(kBins);
+    for (const Seen& row : pair.both()[k]->rows)
+      mean.add(row.variables[variable], row.residual * row.residual);
+    Trace trace = trace_of(name_of(k), TraceStyle::line, series_of(k));
+    mean.draw(trace, kFewRows, true);
+    for (double& y : trace.y) y = std::sqrt(y);
+    figure.traces.push_back(std::move(trace));
+  }
+  if (figure.traces.front().x.empty()) return figure;
+  Trace floor = trace_of("noise floor", TraceStyle::dashed, kReference);
+  floor.x = {figure.traces.front().x.front(), figure.traces.front().x.back()};
+  floor.y = {pair.floor, pair.floor};
+  figure.traces.push_back(std::move(floor));
+  return figure;
+}
+
+Figure memory(const Pair& pair, double spacing) {
+  Figure figure = blank(pair, "Autocorrelation of the residual");
+  figure.caption = fmt::format(
+      "One row every {:.3g} ms. What stays away from 0 beyond the first lags is structure.",
+      1e3 * spacing);
+  figure.x = {"lag", "rows"};
+  figure.y = {"autocorrelation", ""};
+  for (std::size_t k = 0; k < n_states(pair); ++k) {
+    const SeenKind& kind = *pair.both()[k];
+    Eigen::VectorXd values(static_cast<Eigen::Index>(kind.rows.size()));
+    for (Eigen::Index i = 0; i < values.size(); ++i)
+      values(i) = kind.rows[static_cast<std::size_t>(i)].residual;
+    Autocorrelation correlation;
+    correlation.add(kind.numbers, values);
+    figure.traces.push_back(trace_of(name_of(k), TraceStyle::line, series_of(k)));
+    correlation.draw(figure.traces.back());
+  }
+  return figure;
+}
+
+std::string effect_name(const Rival& rival) {
+  return fmt::format("{} ({})", rival.name, rival.side);
+}
+
+Figure league_figure(const RefineResult& result) {
+  constexpr std::size_t kMostBars = 10;
+  Figure figure;
+  figure.section = "Outcome";
+  figure.title = "Candidates for the first effect";
+  figure.caption =
+      "Share of the squared gap above the noise floor that each would remove on held-out blocks, "
+      "with everything else fitted anew.";
+  figure.x = {"effect", ""};
+  figure.y = {"removed", "%"};
+  figure.wide = true;
+  Trace bars = trace_of("candidates", TraceStyle::interval, kBefore);
+  for (const Rival& row : result.league) {
+    if (!row.refused.empty() || bars.y.size() == kMostBars) break;
+    bars.labels.push_back(effect_name(row));
+    bars.y.push_back(100 * row.gain);
+    bars.low.push_back(0);
+    bars.high.push_back(100 * row.gain);
+  }
+  if (!bars.y.empty()) figure.traces.push_back(std::move(bars));
+  return figure;
+}
+
+Figure shift_figure(const RefineResult& result) {
+  Figure figure;
+  figure.section = "Outcome";
+  figure.title = "How far the parameters moved";
+  figure.caption =
+      "After minus before, in sd; bars: 95 %. What a missing effect had bent comes back.";
+  figure.x = {"parameter", ""};
+  figure.y = {"shift", "sd"};
+  constexpr double k95 = 1.96;
+  Trace trace = trace_of("shift", TraceStyle::interval, kAfter);
+  for (const ParameterShift& shift : result.shifts) {
+    const double moved = (shift.after - shift.before) / shift.sd;
+    if (!std::isfinite(moved)) continue;
+    trace.labels.push_back(shift.name);
+    trace.y.push_back(moved);
+    trace.low.push_back(moved - k95);
+    trace.high.push_back(moved + k95);
+  }
+  if (!trace.y.empty() && !result.effects.empty()) figure.traces.push_back(std::move(trace));
+  return figure;
+}
+
+enum class Detail { full, over_time };
+
+void add_residuals(const BeforeAfter& rows, const std::string& section, Detail detail,
+                   const RefineResult& result, const KindLevels& floor,
+                   std::vector<Figure>& figures) {
+  const Timeline time = timeline_of(rows);
+  for (const RowKind kind : {RowKind::motor, RowKind::link, RowKind::blocked}) {
+    const Pair pair{section,
+                    fmt::format("{} equation", to_string(kind)),
+                    result.linear_motion ? "N" : "N m",
+                    result.linear_motion,
+                    kind == RowKind::link,
+                    !rows.after.added.empty(),
+                    floor[static_cast<std::size_t>(kind)],
+                    see(rows.before, rows.x_before, kind, time),
+                    see(rows.after, rows.x_after, kind, time)};
+    if (pair.before.rows.empty()) continue;
+    figures.push_back(over_time(pair, time));
+    if (detail == Detail::over_time) continue;
+    for (const std::size_t variable : revealing(pair)) {
+      if (Figure mean = mean_against(pair, variable); !mean.traces.empty())
+        figures.push_back(std::move(mean));
+      figures.push_back(rms_against(pair, variable));
+    }
+    figures.push_back(memory(pair, time.spacing));
+  }
+}
+
+}  // namespace
+
+std::vector<Figure> refine_figures(const RefineResult& result, const BeforeAfter& train,
+                                   const BeforeAfter& test, const KindLevels& floor) {
+  std::vector<Figure> figures;
+  for (Figure figure : {league_figure(result), shift_figure(result)})
+    if (!figure.traces.empty()) figures.push_back(std::move(figure));
+  add_residuals(train, "Logs that were fitted", Detail::full, result, floor, figures);
+  add_residuals(test, "Unseen logs", Detail::over_time, result, floor, figures);
+  return figures;
+}
+
+}  // namespace cablefit

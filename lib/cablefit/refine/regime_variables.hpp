@@ -1,0 +1,26 @@
+// What a residual is looked at against. Internal to refine/ and report/.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "cablefit/model/refinements.hpp"
+
+namespace cablefit {
+
+struct RegimeVariable {
+  std::string_view regime;       ///< "speed"
+  std::string_view link, motor;  ///< its name on either axis: "qd", "thetad"
+  std::string_view unit;         ///< of a rotary axis; may be empty
+  /// `load`: tau_load.
+  double (*value)(const JointState& state, bool link, double load);
+};
+
+/// In order: speed, direction, position, deflection, elastic torque, load, time.
+std::span<const RegimeVariable> regime_variables();
+
+/// The unit of a regime's variable, empty for none.
+std::string regime_unit(std::string_view regime, bool linear_motion);
+
+}  // namespace cablefit

@@ -1,0 +1,199 @@
+#include "cablefit/report/refine_story.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/refine/regime_variables.hpp"
+#include "cablefit/report/document_parts.hpp"
+#include "cablefit/report/numbers.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr int kDigits = 3;
+constexpr std::size_t kPlaces = 2;  // where the gap is, in the story
+constexpr double kLeastP = 1e-6;    // smaller ones are a matter of the fitted tail
+constexpr double kMovedSd = 2;
+
+std::string number(double value) { return significant(value, kDigits); }
+
+std::string percent(double share) {
+  return fmt::format("{:.0f} %", 100 * std::clamp(share, 0.0, 1.0));
+}
+
+/// The places that stand out most, each by another kind of variable.
+std::vector<SummaryLine> where_lines(const RefineResult& result) {
+  std::vector<SummaryLine> lines;
+  std::vector<std::string> told;
+  for (const Regime& r : result.where) {
+    if (told.size() == kPlaces) break;
+    if (std::find(told.begin(), told.end(), r.regime) != told.end()) continue;
+    told.push_back(r.regime);
+    lines.push_back(
+        {lines.empty() ? "where" : "and",
+         fmt::format("{} equation, {}: {} of its squared gap in {} of its rows; {} {} rms "
+                     "there, noise floor {}",
+                     r.equation, regime_text(r, result.linear_motion),
+                     percent(r.share_of_squared_gap), percent(r.share_of_rows), number(r.rms),
+                     torque_unit(result.linear_motion), number(r.noise))});
+  }
+  return lines;
+}
+
+SummaryLine verdict_line(const RefineResult& result) {
+  std::string names;
+  for (const NamedEffect& effect : result.effects) {
+    const Refinement& row = *effect.instance.refinement;
+    names += (names.empty() ? "" : ", ") + effect_text(row.name, to_string(row.site));
+  }
+  std::string text(to_string(result.verdict));
+  if (result.verdict == Verdict::ambiguous) names += " or a look-alike";
+  if (!names.empty()) text += ": " + names;
+  return {"verdict", text + (names.empty() ? ": " : "; ") + result.reason};
+}
+
+std::string parameters_text(const NamedEffect& effect) {
+  std::string text;
+  for (const auto* some : {&effect.instance.parameters, &effect.derived})
+    for (const Estimate& e : *some)
+      text += fmt::format("{}{} = {}{}{}", text.empty() ? "" : ", ", e.name,
+                          value_with_sd(e.value, e.sd), e.unit.empty() ? "" : " ", e.unit);
+  return text;
+}
+
+std::string p_text(double p) {
+  return p < kLeastP ? fmt::format("p < {:g}", kLeastP) : fmt::format("p = {:.1g}", p);
+}
+
+SummaryLine evidence_line(const RefineEvidence& evidence) {
+  return {"evidence",
+          fmt::format("removes {} of the squared gap above the noise floor on unseen data; by "
+                      "chance {} ({} simulated data sets); the best in {} of resamples",
+                      percent(evidence.gain), p_text(evidence.p_value), evidence.n_draws,
+                      percent(evidence.inclusion))};
+}
+
+std::string rival_text(const Rival& rival) {
+  const std::string name = effect_text(rival.name, rival.side);
+  if (rival.by_rule) return name + " is the same in any log of the usual kind";
+  return fmt::format("{} removes {}, {} sd behind", name, percent(rival.gain),
+                     significant(std::max(0.0, rival.difference), 2));
+}
+
+SummaryLine rivals_line(const NamedEffect& effect, const std::vector<Rival>& league) {
+  std::string text;
+  for (const Rival& rival : effect.rivals) text += (text.empty() ? "" : "; ") + rival_text(rival);
+  if (!text.empty()) return {"rivals", text};
+  const Refinement& row = *effect.instance.refinement;
+  const auto next = std::find_if(league.begin(), league.end(), [&](const Rival& r) {
+    return r.refused.empty() && (r.name != row.name || r.side != to_string(row.site));
+  });
+  if (next == league.end() || !(next->gain > 0)) return {"rivals", "none"};
+  return {"rivals", fmt::format("none; the next best, {}, removes {} alone",
+                                effect_text(next->name, next->side), percent(next->gain))};
+}
+
+void add_effect_lines(const RefineResult& result, std::vector<SummaryLine>& lines) {
+  for (const NamedEffect& effect : result.effects) {
+    const Refinement& row = *effect.instance.refinement;
+    std::string text = fmt::format("{}: {}; {}", row.name, row.equation, parameters_text(effect));
+    if (row.is_event)
+      text += fmt::format("; at {} s of {}", number(effect.instance.event_time),
+                          result.inputs.at(effect.instance.event_log).path);
+    if (effect.torque_rms > 0)
+      text += fmt::format("; carries {} {} rms", number(effect.torque_rms),
+                          torque_unit(result.linear_motion));
+    lines.push_back({"effect", text});
+    lines.push_back(evidence_line(effect.evidence));
+    // Further ones were chosen from another league.
+    const bool is_first = &effect == &result.effects.front();
+    if (is_first || !effect.rivals.empty())
+      lines.push_back(rivals_line(effect, is_first ? result.league : std::vector<Rival>{}));
+  }
+}
+
+std::string interval_text(const std::array<double, 2>& ci) {
+  return ci[1] > ci[0] ? fmt::format(" ({} .. {})", number(ci[0]), number(ci[1])) : "";
+}
+
+std::string before_after(double before, double after, bool changed) {
+  return changed ? number(before) + " -> " + number(after) : number(before);
+}
+
+SummaryLine gap_line(const RefineResult& result) {
+  const GapStory& gap = result.torque;
+  const bool changed = !result.effects.empty();
+  return {"gap",
+          fmt::format("torque, {} rms: train {}, unseen {}{}, noise floor {}",
+                      torque_unit(result.linear_motion),
+                      before_after(gap.train_before, gap.train_after, changed),
+                      before_after(gap.test_before, gap.test_after, changed),
+                      interval_text(gap.test_after_ci), number(gap.noise_floor)) +
+              (result.held_out_blocks ? "; unseen: the last third of every moving log" : "")};
+}
+
+SummaryLine simulation_line(const RefineResult& result) {
+  const GapStory& gap = result.simulation;
+  return {"simulation",
+          fmt::format(
+              "of unseen logs, {} rms: {}{}, noise floor {}", result.linear_motion ? "mm" : "mrad",
+              before_after(1e3 * gap.test_before, 1e3 * gap.test_after, !result.effects.empty()),
+              interval_text({1e3 * gap.test_after_ci[0], 1e3 * gap.test_after_ci[1]}),
+              number(1e3 * gap.noise_floor))};
+}
+
+SummaryLine remainder_line(const RefineResult& result) {
+  const std::string unit = torque_unit(result.linear_motion);
+  std::string text;
+  if (!result.rigid) text = fmt::format("link {} {}, ", number(result.remainder_link), unit);
+  return {"remainder", text + fmt::format("motor {} {} rms above the noise floor",
+                                          number(result.remainder_motor), unit)};
+}
+
+SummaryLine shifts_line(const RefineResult& result) {
+  std::string text;
+  for (const ParameterShift& shift : result.shifts) {
+    if (!(std::abs(moved_sd(shift)) > kMovedSd)) continue;
+    text += fmt::format("{}{} {} -> {} {} ({:+.0f} sd)", text.empty() ? "" : ", ", shift.name,
+                        value_text(shift.before, shift.sd), value_with_sd(shift.after, shift.sd),
+                        shift.unit, moved_sd(shift));
+  }
+  if (text.empty()) text = fmt::format("no parameter moved by more than {:g} sd", kMovedSd);
+  return {"shifts", text};
+}
+
+}  // namespace
+
+std::string effect_text(std::string_view name, std::string_view side) {
+  return fmt::format("{} ({})", name, side);
+}
+
+std::string regime_text(const Regime& regime, bool linear_motion) {
+  if (regime.regime == "direction")
+    return fmt::format("{} = {}", regime.variable, regime.from < -0.5 ? -1 : 1);
+  const std::string unit = regime_unit(regime.regime, linear_motion);
+  return fmt::format("{} from {} to {}{}{}", regime.variable, number(regime.from),
+                     number(regime.to), unit.empty() ? "" : " ", unit);
+}
+
+double moved_sd(const ParameterShift& shift) { return (shift.after - shift.before) / shift.sd; }
+
+std::vector<SummaryLine> refine_story(const RefineResult& result,
+                                      const std::vector<std::string>& model_files) {
+  std::vector<SummaryLine> lines;
+  if (result.verdict != Verdict::none) lines = where_lines(result);
+  lines.push_back(verdict_line(result));
+  add_effect_lines(result, lines);
+  if (result.torque.known) lines.push_back(gap_line(result));
+  if (result.simulation.known) lines.push_back(simulation_line(result));
+  lines.push_back(remainder_line(result));
+  if (!result.effects.empty()) lines.push_back(shifts_line(result));
+  if (!result.next_experiment.empty()) lines.push_back({"next run", result.next_experiment});
+  if (!model_files.empty())
+    lines.push_back({"model", fmt::format("{}", fmt::join(model_files, ", "))});
+  return lines;
+}
+
+}  // namespace cablefit
