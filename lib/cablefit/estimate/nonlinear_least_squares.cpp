@@ -133,6 +133,7 @@ ceres::Solver::Options ceres_options(const NonlinearOptions& options, double fir
   ceres.max_num_consecutive_invalid_steps = 20;
   ceres.function_tolerance = options.function_tolerance;
   ceres.parameter_tolerance = options.parameter_tolerance;
+  if (!options.thorough) ceres.max_num_line_search_step_size_iterations = 0;
   ceres.gradient_tolerance = 0;  // has a unit; the two others say it all
   return ceres;
 }
@@ -173,15 +174,18 @@ std::vector<bool> on_bound(const ScaledProblem& scaled, const Eigen::VectorXd& u
   return on;
 }
 
-/// Releases the held parameter that would lower |r|^2 most, by its gradient, if any would.
-bool release_one(const ScaledProblem& scaled, const Eigen::VectorXd& u, std::vector<bool>& held) {
+/// Releases the held parameter that would lower |r|^2 most, by its gradient, if any would; by no
+/// less than `least` as far as the problem is linear in it.
+bool release_one(const ScaledProblem& scaled, const Eigen::VectorXd& u, double least,
+                 std::vector<bool>& held) {
   const Eigen::VectorXd gradient = scaled.jacobian().transpose() * scaled.residual();
   Eigen::Index best = -1;
   double most = 0;
   for (Eigen::Index k = 0; k < u.size(); ++k) {
     if (!held[static_cast<std::size_t>(k)]) continue;
     const double inward = u(k) <= scaled.lower(k) ? -gradient(k) : gradient(k);
-    if (inward <= most) continue;
+    if (inward <= most || inward * inward < least * scaled.jacobian().col(k).squaredNorm())
+      continue;
     most = inward;
     best = k;
   }
@@ -202,7 +206,8 @@ void minimise_on_bounds(ScaledProblem& scaled, const NonlinearProblem& problem,
       held = on;
       continue;
     }
-    if (!scaled.evaluate(u, true) || !release_one(scaled, u, held)) return;
+    if (!scaled.evaluate(u, true) || !release_one(scaled, u, options.decrement_tolerance, held))
+      return;
   }
 }
 
@@ -293,7 +298,7 @@ NonlinearSolution solve(const NonlinearProblem& problem, const NonlinearOptions&
     const NonlinearSolution found = solve_with(scaled, problem, options, radius);
     if (is_first || found.rss < best.rss) best = found;
     is_first = false;
-    if (ended_well(best)) break;
+    if (!options.thorough || ended_well(best)) break;
   }
   best.n_evaluations = scaled.n_evaluations();
   return best;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -40,12 +41,6 @@ std::vector<ModelParameter> fitted_parameters(const Model& model,
   return fitted;
 }
 
-bool is_inertia(const Model& model, const ModelParameter& p) {
-  if (p.kind != ParameterKind::effect) return false;
-  const JointModel& joint = model.joints[static_cast<std::size_t>(p.joint)];
-  return (p.on_link ? joint.link : joint.motor)[p.effect].effect->inertia != nullptr;
-}
-
 /// The fit of one log: windows, noise, gains and what is accumulated over them.
 class Fit {
  public:
@@ -78,6 +73,9 @@ class Fit {
   Eigen::MatrixXd prior_rows(const Eigen::VectorXd& x) const;
   void set_parameters(const Eigen::VectorXd& x);
   void fill(OutputErrorFit& fit, const NonlinearSolution& solution);
+  Eigen::MatrixXd all_rows(const Eigen::VectorXd& x) const;
+  void set_on_bound(std::size_t k, const OutputErrorFit& fit, const NonlinearSolution& solution,
+                    Estimate& e) const;
   void fill_covariance(OutputErrorFit& fit, const NonlinearSolution& solution);
   Estimate estimate(std::size_t k, const OutputErrorFit& fit,
                     const NonlinearSolution& solution) const;
@@ -204,6 +202,14 @@ Eigen::MatrixXd Fit::prior_rows(const Eigen::VectorXd& x) const {
   return prior.covariance.llt().matrixL().solve(rows);
 }
 
+/// Those of the logs and of the prior, compressed.
+Eigen::MatrixXd Fit::all_rows(const Eigen::VectorXd& x) const {
+  StreamingQr all(x.size() + 1);
+  all.add(statistics_.r());
+  if (!options_.prior.names.empty()) all.add(prior_rows(x));
+  return all.r();
+}
+
 NonlinearSolution Fit::minimise(double step) {
   NonlinearProblem problem;
   const Eigen::Index p = x_.size();
@@ -222,15 +228,14 @@ NonlinearSolution Fit::minimise(double step) {
   problem.jacobian_is_cheap = true;
   problem.evaluate = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
     if (!accumulate(x)) return false;
-    StreamingQr all(p + 1);
-    all.add(statistics_.r());
-    if (!options_.prior.names.empty()) all.add(prior_rows(x));
-    r = all.r().col(p);
-    if (jacobian) *jacobian = all.r().leftCols(p);
+    const Eigen::MatrixXd rows = all_rows(x);
+    r = rows.col(p);
+    if (jacobian) *jacobian = rows.leftCols(p);
     return true;
   };
   NonlinearOptions options;
   options.max_iterations = options_.max_iterations;
+  options.thorough = false;
   options.decrement_tolerance = step * step * static_cast<double>(p);
   return solve(problem, options);
 }
@@ -293,6 +298,31 @@ void Fit::fill_covariance(OutputErrorFit& fit, const NonlinearSolution& solution
   if (n > 0) fit.effective_rows *= n / ratio;
 }
 
+/// One-sided: where the parameter would go if it were free, as far as the fit is linear there. With
+/// its column last among those that are free, the last row of R says that alone.
+void Fit::set_on_bound(std::size_t k, const OutputErrorFit& fit, const NonlinearSolution& solution,
+                       Estimate& e) const {
+  std::vector<Eigen::Index> columns;
+  for (std::size_t j = 0; j < parameters_.size(); ++j)
+    if (!solution.at_bound[j] && solution.not_identifiable[j].empty())
+      columns.push_back(static_cast<Eigen::Index>(j));
+  columns.push_back(static_cast<Eigen::Index>(k));
+  columns.push_back(x_.size());
+  const auto last = static_cast<Eigen::Index>(columns.size()) - 2;
+  const Eigen::MatrixXd rows = all_rows(x_)(Eigen::all, columns);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows);
+  const double slope = qr.matrixQR()(last, last);
+  Estimate free = e;
+  free.sd_white = fit.residual_rms / std::abs(slope);
+  free.sd = free.sd_white * std::sqrt(static_cast<double>(fit.n_rows) / fit.effective_rows);
+  free.value = e.value + std::max(0.0, -qr.matrixQR()(last, last + 1) / slope);
+  set_interval(free, fit.degrees_of_freedom);
+  e.sd = free.sd;
+  e.sd_white = free.sd_white;
+  e.ci_low = e.value;
+  e.ci_high = free.ci_high;
+}
+
 Estimate Fit::estimate(std::size_t k, const OutputErrorFit& fit,
                        const NonlinearSolution& solution) const {
   const ModelParameter& p = parameters_[k];
@@ -304,8 +334,14 @@ Estimate Fit::estimate(std::size_t k, const OutputErrorFit& fit,
   e.not_identifiable = solution.not_identifiable[k];
   if (!e.not_identifiable.empty()) return e;
   e.value = x_[i];
+  if (solution.at_bound[k] && is_inertia(model_, p)) {
+    e.not_identifiable = fmt::format("the fit drives it towards 0: it stopped at {:.3g}", e.value);
+    e.value = std::numeric_limits<double>::quiet_NaN();
+    return e;
+  }
   if (solution.at_bound[k]) {
     e.active_bound = fmt::format("{} >= {:g}", p.name, p.lower);
+    set_on_bound(k, fit, solution, e);
     return e;
   }
   e.sd_white = std::sqrt(fit.covariance_white(i, i));

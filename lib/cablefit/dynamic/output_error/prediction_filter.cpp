@@ -227,12 +227,8 @@ SmoothedMotion smooth_motion(SensitivePlant& plant, const OutputErrorWindow& win
     }
     if (!smooth) continue;
     motion.state.col(static_cast<Eigen::Index>(row + 1)) = x;
-    rows[row] = {model.transition,
-                 model.input,
-                 covariance.gain(),
-                 covariance.covariance(),
-                 weighted_innovation,
-                 model.force_sd,
+    rows[row] = {model.transition,          model.input,         covariance.gain(),
+                 covariance.covariance(),   weighted_innovation, model.force_sd,
                  settings.compares(row + 1)};
   }
   motion.minus_log_likelihood = sum;
