@@ -98,27 +98,40 @@ class Cost final : public ceres::CostFunction {
   ScaledProblem* problem_;
 };
 
-/// |r|^2 that a Gauss-Newton step from where the problem was evaluated last would take away.
-double decrement(const ScaledProblem& scaled) {
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(scaled.jacobian());
+std::vector<Eigen::Index> free_parameters(const std::vector<bool>& held) {
+  std::vector<Eigen::Index> free;
+  for (std::size_t k = 0; k < held.size(); ++k)
+    if (!held[k]) free.push_back(static_cast<Eigen::Index>(k));
+  return free;
+}
+
+/// |r|^2 that a Gauss-Newton step of the parameters that are not held, from where the problem was
+/// evaluated last, would take away.
+double decrement(const ScaledProblem& scaled, const std::vector<bool>& held) {
+  const std::vector<Eigen::Index> free = free_parameters(held);
+  if (free.empty()) return 0;
+  const Eigen::MatrixXd columns = scaled.jacobian()(Eigen::all, free);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
   const Eigen::VectorXd projected = qr.householderQ().transpose() * scaled.residual();
-  return projected.head(std::min(scaled.jacobian().rows(), scaled.jacobian().cols())).squaredNorm();
+  return projected.head(std::min(columns.rows(), columns.cols())).squaredNorm();
 }
 
 class StopAtSmallDecrement final : public ceres::IterationCallback {
  public:
-  StopAtSmallDecrement(const ScaledProblem& scaled, double tolerance)
-      : scaled_(scaled), tolerance_(tolerance) {}
+  StopAtSmallDecrement(const ScaledProblem& scaled, const std::vector<bool>& held, double tolerance)
+      : scaled_(scaled), held_(held), tolerance_(tolerance) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
     failed_ = summary.step_is_successful ? 0 : failed_ + 1;
-    const bool done = failed_ == 0 ? decrement(scaled_) < tolerance_ : failed_ >= kMostFailedSteps;
+    const bool done =
+        failed_ == 0 ? decrement(scaled_, held_) < tolerance_ : failed_ >= kMostFailedSteps;
     return done ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
 
  private:
   static constexpr int kMostFailedSteps = 4;
   const ScaledProblem& scaled_;
+  const std::vector<bool>& held_;
   double tolerance_;
   int failed_ = 0;
 };
@@ -157,7 +170,7 @@ void minimise(ScaledProblem& scaled, const NonlinearProblem& problem,
     ceres_problem.SetManifold(u.data(), new ceres::SubsetManifold(static_cast<int>(p), constant));
   ceres::Solver::Summary summary;
   ceres::Solver::Options ceres = ceres_options(options, first_radius);
-  StopAtSmallDecrement stop(scaled, options.decrement_tolerance);
+  StopAtSmallDecrement stop(scaled, held, options.decrement_tolerance);
   if (options.decrement_tolerance > 0) ceres.callbacks.push_back(&stop);
   ceres::Solve(ceres, &ceres_problem, &summary);
   out.converged = summary.termination_type == ceres::CONVERGENCE ||
@@ -218,13 +231,6 @@ bool is_flat(const ScaledProblem& scaled, const Eigen::VectorXd& u) {
   return u.size() > 0 && effect.minCoeff() < kFlat * effect.maxCoeff();
 }
 
-std::vector<Eigen::Index> free_parameters(const std::vector<bool>& at_bound) {
-  std::vector<Eigen::Index> free;
-  for (std::size_t k = 0; k < at_bound.size(); ++k)
-    if (!at_bound[k]) free.push_back(static_cast<Eigen::Index>(k));
-  return free;
-}
-
 void judge_minimum(const ScaledProblem& scaled, const NonlinearProblem& problem,
                    NonlinearSolution& out) {
   const std::vector<Eigen::Index> free = free_parameters(out.at_bound);
@@ -270,7 +276,7 @@ NonlinearSolution solve_with(ScaledProblem& scaled, const NonlinearProblem& prob
   out.at_bound = on_bound(scaled, u);
   judge_minimum(scaled, problem, out);
   out.is_flat = is_flat(scaled, u);
-  out.decrement = decrement(scaled);
+  out.decrement = decrement(scaled, out.at_bound);
   return out;
 }
 

@@ -19,10 +19,15 @@ namespace cablefit {
 namespace {
 
 constexpr double kFirstForceNoise = 0.05;  // of the rms torque, where nothing is known
-constexpr std::size_t kNoiseRows = 4000;   // looked at for the noise levels
-constexpr double kSettled = 3;             // sd: what a round may still move a parameter
+// Looked at for the noise levels, which are then within 3 %.
+constexpr std::size_t kNoisePieces = 8, kNoiseRows = 400;
+// Of the logarithm of a noise level: how far it may be off at first, and from round to round.
+constexpr double kFirstGuess = 0.7, kNextGuess = 0.25;
+constexpr double kSettled = 3;  // sd: what a round may still move a parameter
 constexpr double kFirstSteps = 0.3, kLastStep = 0.02,
                  kCloseEnough = 0.2;         // sd: at which a round ends
+constexpr double kNearer = 0.7;              // of the decrement: what a step at last must leave
+constexpr double kInwards = 1e-9;            // from a bound, to be free
 constexpr double kLeastInertiaShare = 0.05;  // of where it starts; J > 0
 
 bool is_fitted(const ModelParameter& p, const OutputErrorOptions& options) {
@@ -55,7 +60,9 @@ class Fit {
     const OutputErrorWindow& last = windows_.back();
     n_numbers_ = static_cast<Eigen::Index>(last.first_number + last.n_rows);
     settings_.compare_every = static_cast<std::size_t>(options.first_compare_every);
-    settings_.steps = std::max(1, static_cast<int>(std::ceil(last.period / options.step - 1e-6)));
+    settings_.steps = settings_.smoothing_steps = steps_of(options.first_step);
+    every_ = std::max<std::size_t>(
+        1, static_cast<std::size_t>(static_cast<double>(n_numbers_) / options.first_rows));
     x_.resize(static_cast<Eigen::Index>(parameters_.size()));
     for (Eigen::Index k = 0; k < x_.size(); ++k)
       x_[k] = parameter_value(model, parameters_[static_cast<std::size_t>(k)]);
@@ -65,11 +72,17 @@ class Fit {
   OutputErrorFit run();
 
  private:
+  int steps_of(double longest) const {
+    return std::max(1, static_cast<int>(std::ceil(windows_.front().period / longest - 1e-6)));
+  }
+  void look_closely();
   void set_first_noise();
-  void update_noise(int max_evaluations);
+  void update_noise(double first_step, int max_evaluations);
   bool accumulate(const Eigen::VectorXd& x);
   /// Until a step is shorter than so many sd.
-  NonlinearSolution minimise(double step);
+  NonlinearSolution minimise(int max_iterations, double step);
+  NonlinearSolution score();
+  bool leave_bounds(const NonlinearSolution& solution, const Eigen::VectorXd& gradient);
   Eigen::MatrixXd prior_rows(const Eigen::VectorXd& x) const;
   void set_parameters(const Eigen::VectorXd& x);
   void fill(OutputErrorFit& fit, const NonlinearSolution& solution);
@@ -86,8 +99,11 @@ class Fit {
   std::vector<OutputErrorWindow> windows_;
   NoiseLevels noise_;
   Eigen::Index n_numbers_ = 0;
+  std::size_t every_ = 1;  ///< window is looked at
   FilterSettings settings_;
   int n_passes_ = 0;
+  bool settled_ = false;
+  bool is_valid_ = false;  ///< what was accumulated last: nothing diverged
   Eigen::VectorXd x_;
   RowStatistics statistics_;
   double lag_product_ = 0, lag_square_ = 0;
@@ -111,20 +127,28 @@ void Fit::set_first_noise() {
       Eigen::VectorXd::Constant(n_axes, std::max(1e-9, kFirstForceNoise * std::sqrt(squares / n)));
 }
 
+/// With the steps and as often as the result deserves.
+void Fit::look_closely() {
+  settings_.compare_every = static_cast<std::size_t>(options_.compare_every);
+  settings_.steps = steps_of(options_.step);
+  settings_.smoothing_steps = steps_of(2 * options_.step);
+}
+
 void Fit::set_parameters(const Eigen::VectorXd& x) {
   for (std::size_t k = 0; k < parameters_.size(); ++k)
     set_parameter_value(model_, parameters_[k], x[static_cast<Eigen::Index>(k)]);
 }
 
-/// From windows spread over the log.
-void Fit::update_noise(int max_evaluations) {
+/// From pieces spread over the logs.
+void Fit::update_noise(double first_step, int max_evaluations) {
   if (options_.force_sd.size() > 0) return;
-  const std::size_t wanted =
-      std::clamp<std::size_t>(kNoiseRows / windows_.front().n_rows, 1, windows_.size());
-  std::vector<OutputErrorWindow> some;
-  for (std::size_t i = 0; i < wanted; ++i)
-    some.push_back(windows_[(2 * i + 1) * windows_.size() / (2 * wanted)]);
-  noise_ = likeliest_noise(model_, some, noise_, settings_, max_evaluations);
+  const std::size_t n_pieces = std::min(kNoisePieces, windows_.size());
+  std::vector<OutputErrorWindow> pieces;
+  for (std::size_t i = 0; i < n_pieces; ++i) {
+    pieces.push_back(windows_[(2 * i + 1) * windows_.size() / (2 * n_pieces)]);
+    pieces.back().n_rows = std::min(pieces.back().n_rows, kNoiseRows);
+  }
+  noise_ = likeliest_noise(model_, pieces, noise_, settings_, first_step, max_evaluations);
 }
 
 /// Rows of a window and what they add up to.
@@ -148,11 +172,11 @@ bool Fit::accumulate(const Eigen::VectorXd& x) {
   const RowStatistics empty(n_columns, n_numbers_);
   statistics_ = empty.empty_copy();
   lag_product_ = lag_square_ = 0;
-  bool valid = true;
+  is_valid_ = true;
   ordered_pipeline<std::size_t>(
       options_.threads,
       [&](auto emit) {
-        for (std::size_t k = 0; k < windows_.size(); ++k) emit(std::size_t{k});
+        for (std::size_t k = every_ / 2; k < windows_.size(); k += every_) emit(std::size_t{k});
       },
       [&](std::size_t k) {
         WindowPart part;
@@ -176,13 +200,13 @@ bool Fit::accumulate(const Eigen::VectorXd& x) {
         return part;
       },
       [&](WindowPart&& part) {
-        valid = valid && part.valid;
+        is_valid_ = is_valid_ && part.valid;
         if (!part.valid) return;
         statistics_.add(*part.statistics);
         lag_product_ += part.lag_product;
         lag_square_ += part.lag_square;
       });
-  return valid;
+  return is_valid_;
 }
 
 /// Whitened rows: their columns are the parameters, then the residual.
@@ -210,7 +234,7 @@ Eigen::MatrixXd Fit::all_rows(const Eigen::VectorXd& x) const {
   return all.r();
 }
 
-NonlinearSolution Fit::minimise(double step) {
+NonlinearSolution Fit::minimise(int max_iterations, double step) {
   NonlinearProblem problem;
   const Eigen::Index p = x_.size();
   problem.start = x_;
@@ -234,31 +258,79 @@ NonlinearSolution Fit::minimise(double step) {
     return true;
   };
   NonlinearOptions options;
-  options.max_iterations = options_.max_iterations;
+  options.max_iterations = max_iterations;
   options.thorough = false;
   options.decrement_tolerance = step * step * static_cast<double>(p);
   return solve(problem, options);
 }
 
-/// Noise levels and fit in turn. Far from the solution the noise levels are too high, and all that
-/// is wanted is to come nearer.
+/// Moves parameters a little inwards from bounds at which |r|^2 falls inwards. False: there are
+/// none.
+bool Fit::leave_bounds(const NonlinearSolution& solution, const Eigen::VectorXd& gradient) {
+  bool any = false;
+  for (std::size_t k = 0; k < parameters_.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    if (!solution.at_bound[k] || !(gradient[i] < 0) || is_inertia(model_, parameters_[k])) continue;
+    x_[i] += kInwards * std::max(1.0, std::abs(x_[i]));
+    any = true;
+  }
+  return any;
+}
+
+/// Near the solution: Gauss-Newton steps as they are (Fisher's scoring). Rows that come to rest or
+/// leave it make |r|^2 jump by more than the last steps lower it, while J'r = 0 is met all the
+/// same.
+NonlinearSolution Fit::score() {
+  const double enough = kLastStep * kLastStep * static_cast<double>(x_.size());
+  const Eigen::VectorXd start = x_;
+  NonlinearSolution best = minimise(0, 0);
+  for (int i = 0; is_valid_ && i < options_.max_iterations; ++i) {
+    const Eigen::MatrixXd rows = all_rows(best.x);
+    const Eigen::VectorXd gradient = rows.leftCols(x_.size()).transpose() * rows.col(x_.size());
+    x_ = best.x - best.inverse * gradient;
+    const bool any = leave_bounds(best, gradient);
+    if (!any && !(best.decrement > enough)) break;
+    const NonlinearSolution next = minimise(0, 0);
+    if (!is_valid_ || (!any && !(next.decrement < kNearer * best.decrement))) {
+      accumulate(best.x);
+      break;
+    }
+    best = next;
+  }
+  x_ = start;
+  // Rows that come to rest leave a little even where no step helps any more.
+  best.converged =
+      is_valid_ && best.decrement < kCloseEnough * kCloseEnough * static_cast<double>(x_.size());
+  best.message =
+      best.converged ? "converged"
+      : is_valid_
+          ? fmt::format("no convergence: another step would lower |r|^2 by {:.3g}", best.decrement)
+          : "the simulation diverges where the fit starts";
+  return best;
+}
+
+/// Noise levels and fit in turn: a few windows, simulated coarsely, until the fit has settled; the
+/// same windows simulated finely, so that the error of coarse steps does not count as noise; all
+/// windows. Far from the solution the noise levels are too high, and all that is wanted is to come
+/// nearer.
 OutputErrorFit Fit::run() {
   OutputErrorFit fit;
-  NonlinearSolution solution;
-  bool settled = false;
-  for (int round = 1; round <= options_.max_rounds; ++round) {
-    const bool is_last = settled || round == options_.max_rounds;
-    if (is_last) settings_.compare_every = static_cast<std::size_t>(options_.compare_every);
-    update_noise(round == 1 ? 40 : 25);
-    solution = minimise(is_last ? kLastStep : kFirstSteps);
-    fit.n_rounds = round;
+  const auto round = [&](bool is_last) {
+    const bool is_first = ++fit.n_rounds == 1;
+    update_noise(is_first ? kFirstGuess : kNextGuess, is_first ? 40 : 25);
+    const NonlinearSolution solution =
+        is_last ? score() : minimise(options_.max_iterations, kFirstSteps);
     const Eigen::VectorXd moved = (solution.x - x_).cwiseAbs();
     x_ = solution.x;
     set_parameters(x_);
-    if (is_last) break;
-    settled = (moved.array() <= kSettled * solution.inverse.diagonal().array().sqrt()).all();
-  }
-  fill(fit, solution);
+    settled_ = (moved.array() <= kSettled * solution.inverse.diagonal().array().sqrt()).all();
+    return solution;
+  };
+  while (!settled_ && fit.n_rounds < options_.max_rounds) round(false);
+  look_closely();
+  if (every_ > 1) round(false);
+  every_ = 1;
+  fill(fit, round(true));
   return fit;
 }
 
@@ -356,11 +428,9 @@ void Fit::fill(OutputErrorFit& fit, const NonlinearSolution& solution) {
   fit.noise = noise_;
   fit.n_rows = static_cast<std::size_t>(statistics_.n_rows());
   fit.n_passes = n_passes_;
-  // Rows that come to rest or leave it make |r|^2 jump a little, so that no step may lower it.
-  fit.converged = solution.converged ||
-                  solution.decrement < kCloseEnough * kCloseEnough * static_cast<double>(p);
+  fit.converged = solution.converged;
   fit.message = solution.message;
-  if (statistics_.n_columns() != p + 1 || statistics_.n_rows() <= p) return;
+  if (!is_valid_ || statistics_.n_columns() != p + 1 || statistics_.n_rows() <= p) return;
   fit.residual_rms =
       statistics_.r().col(p).norm() / std::sqrt(static_cast<double>(statistics_.n_rows() - p));
   fit.correlation = lag_square_ > 0 ? lag_product_ / lag_square_ : 0;
