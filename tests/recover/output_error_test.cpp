@@ -153,4 +153,34 @@ TEST_CASE("a prior counts by its covariance", "[recover]") {
   CHECK_THAT(value[1], Catch::WithinAbs(1367.7, 1.0));
 }
 
+TEST_CASE("output error that cannot be simulated says so and has no estimates", "[recover]") {
+  Model stiff = true_model("low");
+  for (Cable& cable : stiff.transmission.cables) cable.coefficients[0] *= 1e6;  // 5 h omega
+  std::vector<MeasuredStretch> logs = low_logs(7);
+  logs.pop_back();
+  const OutputErrorFit fit = fit_output_error(stiff, logs, options_of_low());
+  CHECK_FALSE(fit.converged);
+  CHECK(fit.parameters.empty());
+  CHECK(fit.message == "the simulation diverges where the fit starts");
+}
+
+/// Where the last rounds begin must not be where they end: all rows tell more than those that the
+/// first rounds look at.
+TEST_CASE("output error ends at the same estimates wherever it begins", "[recover]") {
+  const Model truth = true_model("low");
+  const std::vector<MeasuredStretch> logs = low_logs(1);
+  OutputErrorOptions few = options_of_low();
+  few.first_rows = 6000;
+  const OutputErrorFit a = fit_output_error(off(truth), logs, options_of_low());
+  const OutputErrorFit b = fit_output_error(truth, logs, few);
+  REQUIRE(a.parameters.size() == b.parameters.size());
+  for (std::size_t k = 0; k < a.parameters.size(); ++k) {
+    const Estimate &x = a.parameters[k], &y = b.parameters[k];
+    INFO(x.name << " " << x.value << " and " << y.value << " +- " << x.sd);
+    // A round may end 0.2 sd from its minimum, and the noise levels are told from it.
+    CHECK(std::abs(x.value - y.value) < 0.3 * x.sd);
+    CHECK_THAT(x.sd, Catch::WithinRel(y.sd, 0.1));
+  }
+}
+
 }  // namespace

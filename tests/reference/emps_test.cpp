@@ -99,7 +99,8 @@ Bench emps_bench(Emps& emps) {
   return bench;
 }
 
-TEST_CASE("EMPS: ols and iv side by side with the published estimates", "[reference]") {
+TEST_CASE("EMPS: ols, iv and output error side by side with the published estimates",
+          "[reference]") {
   const std::string path = shared_file("emps/emps_ident.csv");
   if (path.empty()) return;
   Emps emps = read_emps(path);
@@ -108,17 +109,27 @@ TEST_CASE("EMPS: ols and iv side by side with the published estimates", "[refere
   const DynamicFit ols = fit_dynamic(bench.logs(), {}, options).preloads.at(0).fits.at(0);
   options.estimator = "iv";
   const DynamicFit iv = fit_dynamic(bench.logs(), {}, options).preloads.at(0).fits.at(0);
-  std::printf("  EMPS    published (sd)      ols (sd, white)              iv (sd, white)\n");
+  options.estimator = "output-error";
+  const DynamicFit oe = fit_dynamic(bench.logs(), {}, options).preloads.at(0).fits.at(0);
+  CHECK(oe.estimator == "output-error");
+  std::printf(
+      "  EMPS    published (sd)      ols (sd, white)              iv (sd, white)              "
+      "output error (sd, white)\n");
   for (const Published& p : kPublished) {
     const Estimate& a = estimate(ols.parameters, p.name);
     const Estimate& b = estimate(iv.parameters, p.name);
-    std::printf("  %-7s %9.4f (%.4f)  %9.4f (%.4f, %.4f)  %9.4f (%.4f, %.4f)\n", p.name, p.value,
-                p.sd_white, a.value, a.sd, a.sd_white, b.value, b.sd, b.sd_white);
+    const Estimate& c = estimate(oe.parameters, p.name);
+    std::printf("  %-7s %9.4f (%.4f)  %9.4f (%.4f, %.4f)  %9.4f (%.4f, %.4f)  %9.4f (%.4f, %.4f)\n",
+                p.name, p.value, p.sd_white, a.value, a.sd, a.sd_white, b.value, b.sd, b.sd_white,
+                c.value, c.sd, c.sd_white);
     INFO(p.name);
     // The position sensor is fine and the motion slow against the band: what instruments change is
     // far below an honest sd.
     CHECK(std::abs(b.value - p.value) < b.sd);
     CHECK(std::abs(b.value - a.value) < 0.2 * b.sd);
+    // Another criterion, of positions instead of forces, on the same drive.
+    CHECK(std::abs(c.value - p.value) < c.sd);
+    CHECK(c.sd > 2 * c.sd_white);
     // The residual is coloured: white standard deviations are too small (2.2 to 3 times here).
     CHECK(b.sd > 2 * b.sd_white);
   }

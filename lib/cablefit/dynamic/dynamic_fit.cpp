@@ -73,7 +73,7 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
     DynamicFit& fit = estimation.fit;
     fit.model = job.models[m];
     if (fit.estimator.empty()) fit.estimator = estimator.name;
-    if (!job.rigid) fit.elastic = *job.elastic[m];
+    if (!job.rigid && !fit.elastic) fit.elastic = *job.elastic[m];
     add_largest_errors(job, equations, estimation.solutions, m, fit);
     add_cad(fit, job.rig());
     if (job.options.sweep) fit.sweep = sweep_settings(job, estimator, m, fit);

@@ -84,16 +84,8 @@ void judge_inertia(const RowStatistics& rows, const DynamicColumns& c, const Lin
                    std::vector<std::string>& warnings) {
   if (!e.not_identifiable.empty()) return;
   const MotionColumn column = motion_column(c, static_cast<std::size_t>(k), linear_motion);
-  const double explained = explained_by_position(rows, c, k);
-  if (explained > kPositionAlias) {
-    refuse(
-        e,
-        fmt::format(
-            "the acceleration is {:.1f} % a function of position, speed and direction (one sine?): "
-            "inertia cannot be told from stiffness or gravity; {}",
-            100 * explained, separating_motion(column, 0, {MotionPart::position}, 0)));
-    return;
-  }
+  if (const std::string alias = inertia_alias(rows, c, k, linear_motion); !alias.empty())
+    return refuse(e, alias);
   const double inertia = std::max(std::abs(s.unbounded_x(k)), std::abs(e.value));
   const double acceleration =
       rows.r().col(k).norm() /
@@ -143,6 +135,17 @@ void take_chosen(const ChosenSd& chosen, Eigen::Index k, double extra_variance, 
 }
 
 }  // namespace
+
+std::string inertia_alias(const RowStatistics& rows, const DynamicColumns& c, Eigen::Index k,
+                          bool linear_motion) {
+  const double explained = explained_by_position(rows, c, k);
+  if (!(explained > kPositionAlias)) return "";
+  const MotionColumn column = motion_column(c, static_cast<std::size_t>(k), linear_motion);
+  return fmt::format(
+      "the acceleration is {:.1f} % a function of position, speed and direction (one sine?): "
+      "inertia cannot be told from stiffness or gravity; {}",
+      100 * explained, separating_motion(column, 0, {MotionPart::position}, 0));
+}
 
 void add_estimates(const RowStatistics& rows, const DynamicColumns& c, const LinearSolution& s,
                    const ElasticFit* stage1, std::size_t which, bool linear_motion, bool honest,

@@ -16,6 +16,11 @@ void add_estimates(const RowStatistics& rows, const DynamicColumns& columns,
                    const LinearSolution& solution, const ElasticFit* stage1, std::size_t which,
                    bool linear_motion, bool honest, DynamicFit& fit);
 
+/// Why the motion of these rows cannot tell the inertia of column `k` from a torque that depends on
+/// position, whatever the estimator; empty when it can.
+std::string inertia_alias(const RowStatistics& rows, const DynamicColumns& columns, Eigen::Index k,
+                          bool linear_motion);
+
 /// Which sd the parameters of these rows have, and why: "HAC: residuals are correlated over 14 ms,
 /// effective rows 812 of 12639". `row_seconds`: between rows.
 std::string sd_reason(const RowStatistics& rows, const DynamicColumns& columns,

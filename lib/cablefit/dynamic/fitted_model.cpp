@@ -11,9 +11,11 @@ std::vector<EffectInstance> effects_of(const DynamicColumns& columns, const Line
     EffectInstance& instance = result.emplace_back();
     instance.effect = effect;
     for (std::size_t k = 0; k < effect->parameters.size(); ++k) {
+      const DynamicParameter& parameter = columns.parameters[static_cast<std::size_t>(next)];
       Estimate& e = instance.parameters.emplace_back();
-      e.name = columns.parameters[static_cast<std::size_t>(next)].name;
-      e.value = s.x(next++);
+      e.name = parameter.name;
+      e.value = parameter.given ? *parameter.given : s.x(next);
+      ++next;
     }
   }
   return result;

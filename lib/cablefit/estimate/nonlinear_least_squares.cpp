@@ -98,27 +98,40 @@ class Cost final : public ceres::CostFunction {
   ScaledProblem* problem_;
 };
 
-/// |r|^2 that a Gauss-Newton step from where the problem was evaluated last would take away.
-double decrement(const ScaledProblem& scaled) {
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(scaled.jacobian());
+std::vector<Eigen::Index> free_parameters(const std::vector<bool>& held) {
+  std::vector<Eigen::Index> free;
+  for (std::size_t k = 0; k < held.size(); ++k)
+    if (!held[k]) free.push_back(static_cast<Eigen::Index>(k));
+  return free;
+}
+
+/// |r|^2 that a Gauss-Newton step of the parameters that are not held, from where the problem was
+/// evaluated last, would take away.
+double decrement(const ScaledProblem& scaled, const std::vector<bool>& held) {
+  const std::vector<Eigen::Index> free = free_parameters(held);
+  if (free.empty()) return 0;
+  const Eigen::MatrixXd columns = scaled.jacobian()(Eigen::all, free);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
   const Eigen::VectorXd projected = qr.householderQ().transpose() * scaled.residual();
-  return projected.head(std::min(scaled.jacobian().rows(), scaled.jacobian().cols())).squaredNorm();
+  return projected.head(std::min(columns.rows(), columns.cols())).squaredNorm();
 }
 
 class StopAtSmallDecrement final : public ceres::IterationCallback {
  public:
-  StopAtSmallDecrement(const ScaledProblem& scaled, double tolerance)
-      : scaled_(scaled), tolerance_(tolerance) {}
+  StopAtSmallDecrement(const ScaledProblem& scaled, const std::vector<bool>& held, double tolerance)
+      : scaled_(scaled), held_(held), tolerance_(tolerance) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
     failed_ = summary.step_is_successful ? 0 : failed_ + 1;
-    const bool done = failed_ == 0 ? decrement(scaled_) < tolerance_ : failed_ >= kMostFailedSteps;
+    const bool done =
+        failed_ == 0 ? decrement(scaled_, held_) < tolerance_ : failed_ >= kMostFailedSteps;
     return done ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
 
  private:
   static constexpr int kMostFailedSteps = 4;
   const ScaledProblem& scaled_;
+  const std::vector<bool>& held_;
   double tolerance_;
   int failed_ = 0;
 };
@@ -133,6 +146,7 @@ ceres::Solver::Options ceres_options(const NonlinearOptions& options, double fir
   ceres.max_num_consecutive_invalid_steps = 20;
   ceres.function_tolerance = options.function_tolerance;
   ceres.parameter_tolerance = options.parameter_tolerance;
+  if (!options.thorough) ceres.max_num_line_search_step_size_iterations = 0;
   ceres.gradient_tolerance = 0;  // has a unit; the two others say it all
   return ceres;
 }
@@ -156,7 +170,7 @@ void minimise(ScaledProblem& scaled, const NonlinearProblem& problem,
     ceres_problem.SetManifold(u.data(), new ceres::SubsetManifold(static_cast<int>(p), constant));
   ceres::Solver::Summary summary;
   ceres::Solver::Options ceres = ceres_options(options, first_radius);
-  StopAtSmallDecrement stop(scaled, options.decrement_tolerance);
+  StopAtSmallDecrement stop(scaled, held, options.decrement_tolerance);
   if (options.decrement_tolerance > 0) ceres.callbacks.push_back(&stop);
   ceres::Solve(ceres, &ceres_problem, &summary);
   out.converged = summary.termination_type == ceres::CONVERGENCE ||
@@ -173,15 +187,18 @@ std::vector<bool> on_bound(const ScaledProblem& scaled, const Eigen::VectorXd& u
   return on;
 }
 
-/// Releases the held parameter that would lower |r|^2 most, by its gradient, if any would.
-bool release_one(const ScaledProblem& scaled, const Eigen::VectorXd& u, std::vector<bool>& held) {
+/// Releases the held parameter that would lower |r|^2 most, by its gradient, if any would; by no
+/// less than `least` as far as the problem is linear in it.
+bool release_one(const ScaledProblem& scaled, const Eigen::VectorXd& u, double least,
+                 std::vector<bool>& held) {
   const Eigen::VectorXd gradient = scaled.jacobian().transpose() * scaled.residual();
   Eigen::Index best = -1;
   double most = 0;
   for (Eigen::Index k = 0; k < u.size(); ++k) {
     if (!held[static_cast<std::size_t>(k)]) continue;
     const double inward = u(k) <= scaled.lower(k) ? -gradient(k) : gradient(k);
-    if (inward <= most) continue;
+    if (inward <= most || inward * inward < least * scaled.jacobian().col(k).squaredNorm())
+      continue;
     most = inward;
     best = k;
   }
@@ -202,7 +219,8 @@ void minimise_on_bounds(ScaledProblem& scaled, const NonlinearProblem& problem,
       held = on;
       continue;
     }
-    if (!scaled.evaluate(u, true) || !release_one(scaled, u, held)) return;
+    if (!scaled.evaluate(u, true) || !release_one(scaled, u, options.decrement_tolerance, held))
+      return;
   }
 }
 
@@ -211,13 +229,6 @@ bool is_flat(const ScaledProblem& scaled, const Eigen::VectorXd& u) {
   const Eigen::VectorXd effect =
       scaled.jacobian().colwise().norm().transpose().cwiseProduct(u.cwiseAbs().cwiseMax(1.0));
   return u.size() > 0 && effect.minCoeff() < kFlat * effect.maxCoeff();
-}
-
-std::vector<Eigen::Index> free_parameters(const std::vector<bool>& at_bound) {
-  std::vector<Eigen::Index> free;
-  for (std::size_t k = 0; k < at_bound.size(); ++k)
-    if (!at_bound[k]) free.push_back(static_cast<Eigen::Index>(k));
-  return free;
 }
 
 void judge_minimum(const ScaledProblem& scaled, const NonlinearProblem& problem,
@@ -265,7 +276,7 @@ NonlinearSolution solve_with(ScaledProblem& scaled, const NonlinearProblem& prob
   out.at_bound = on_bound(scaled, u);
   judge_minimum(scaled, problem, out);
   out.is_flat = is_flat(scaled, u);
-  out.decrement = decrement(scaled);
+  out.decrement = decrement(scaled, out.at_bound);
   return out;
 }
 
@@ -293,7 +304,7 @@ NonlinearSolution solve(const NonlinearProblem& problem, const NonlinearOptions&
     const NonlinearSolution found = solve_with(scaled, problem, options, radius);
     if (is_first || found.rss < best.rss) best = found;
     is_first = false;
-    if (ended_well(best)) break;
+    if (!options.thorough || ended_well(best)) break;
   }
   best.n_evaluations = scaled.n_evaluations();
   return best;

@@ -37,6 +37,10 @@ struct NonlinearOptions {
   /// Stops when a Gauss-Newton step would lower |r|^2 by less than this, or four steps in a row
   /// have not lowered it; with r whitened, d^2 p is a step of d sd. 0: never.
   double decrement_tolerance = 0;
+  /// Searches along steps that bounds cut short, and begins again with shorter first steps where it
+  /// ends at a point that is flat or without rank: right far from the minimum, and a waste of
+  /// costly evaluations near it.
+  bool thorough = true;
 };
 
 struct NonlinearSolution {
@@ -57,9 +61,7 @@ struct NonlinearSolution {
 };
 
 /// Levenberg-Marquardt in a trust region (Ceres; More 1978), parameters scaled, one thread, the
-/// same bits every time; from the start again with shorter first steps where it ends at a point
-/// that is flat or without rank. Not to converge is a result, told in `message`. Throws nothing of
-/// its own.
+/// same bits every time. Not to converge is a result, told in `message`. Throws nothing of its own.
 NonlinearSolution solve(const NonlinearProblem& problem, const NonlinearOptions& options = {});
 
 }  // namespace cablefit

@@ -108,6 +108,12 @@ std::vector<ModelParameter> model_parameters(const Model& model) {
   return out;
 }
 
+bool is_inertia(const Model& model, const ModelParameter& p) {
+  if (p.kind != ParameterKind::effect) return false;
+  const JointModel& joint = model.joints[static_cast<std::size_t>(p.joint)];
+  return (p.on_link ? joint.link : joint.motor)[p.effect].effect->inertia != nullptr;
+}
+
 double parameter_value(const Model& model, const ModelParameter& parameter) {
   if (parameter.kind == ParameterKind::encoder_zero && model.transmission.theta_0.size() == 0)
     return 0;

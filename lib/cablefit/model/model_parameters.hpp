@@ -26,6 +26,9 @@ struct ModelParameter {
 /// every cable, l_o of every cable, theta_0 of every joint. A rigid drive has effects only.
 std::vector<ModelParameter> model_parameters(const Model& model);
 
+/// Of an effect that adds to an axis' inertia.
+bool is_inertia(const Model& model, const ModelParameter& parameter);
+
 double parameter_value(const Model& model, const ModelParameter& parameter);
 void set_parameter_value(Model& model, const ModelParameter& parameter, double value);
 

@@ -10,6 +10,7 @@ Estimator wls();
 Estimator robust();
 Estimator recursive();
 Estimator iv();
+Estimator output_error();
 Estimator automatic();
 
 }  // namespace cablefit::estimation

@@ -6,7 +6,6 @@
 namespace cablefit {
 namespace {
 
-constexpr double kFirstStep = 0.7;  // of a logarithm: a factor of two
 constexpr double kPrecision =
     0.03;  // 3 %: the sd of a level from 1000 rows, and of no effect on a fit
 
@@ -17,11 +16,12 @@ struct Vertex {
 
 /// Nelder & Mead's simplex for few unknowns.
 template <typename Function>
-Eigen::VectorXd descend(const Eigen::VectorXd& start, int max_evaluations, const Function& f) {
+Eigen::VectorXd descend(const Eigen::VectorXd& start, double first_step, int max_evaluations,
+                        const Function& f) {
   std::vector<Vertex> simplex{{start, f(start)}};
   for (Eigen::Index k = 0; k < start.size(); ++k) {
     Eigen::VectorXd at = start;
-    at[k] += kFirstStep;
+    at[k] += first_step;
     simplex.push_back({at, f(at)});
   }
   const auto better = [](const Vertex& a, const Vertex& b) { return a.value < b.value; };
@@ -65,7 +65,7 @@ Eigen::VectorXd descend(const Eigen::VectorXd& start, int max_evaluations, const
 
 NoiseLevels likeliest_noise(const Model& model, std::span<const OutputErrorWindow> windows,
                             const NoiseLevels& start, const FilterSettings& settings,
-                            int max_evaluations) {
+                            double first_step, int max_evaluations) {
   SensitivePlant plant(model, {}, true);
   const auto levels = [&](const Eigen::VectorXd& logs) {
     return NoiseLevels{start.position, logs.array().exp().matrix()};
@@ -76,7 +76,8 @@ NoiseLevels likeliest_noise(const Model& model, std::span<const OutputErrorWindo
       sum += smooth_motion(plant, window, levels(logs), settings, false).minus_log_likelihood;
     return std::isnan(sum) ? std::numeric_limits<double>::infinity() : sum;
   };
-  return levels(descend(start.force.array().log().matrix(), max_evaluations, minus_log_likelihood));
+  return levels(descend(start.force.array().log().matrix(), first_step, max_evaluations,
+                        minus_log_likelihood));
 }
 
 }  // namespace cablefit

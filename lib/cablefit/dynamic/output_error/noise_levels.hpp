@@ -9,9 +9,10 @@ namespace cablefit {
 
 /// The force noise of every axis that makes the predictions of `windows` most likely under this
 /// model (Schweppe 1965; Nelder & Mead 1965 on its logarithms), from `start` on. Position noise is
-/// known and stays. Model error counts as force noise.
+/// known and stays. Model error counts as force noise. `first_step`: of the logarithms, about how
+/// far off the start is.
 NoiseLevels likeliest_noise(const Model& model, std::span<const OutputErrorWindow> windows,
                             const NoiseLevels& start, const FilterSettings& settings,
-                            int max_evaluations);
+                            double first_step, int max_evaluations);
 
 }  // namespace cablefit

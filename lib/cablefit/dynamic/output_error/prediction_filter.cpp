@@ -8,11 +8,22 @@ namespace cablefit {
 namespace {
 
 constexpr double kLargestState = 1e6;
-constexpr Eigen::Index kMost = 12;  // axes x 2: rigs of three joints without allocation per row
 
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMost, kMost>;
-using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMost, 1>;
-using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+/// Types for N axes; one joint has N = 1 or 2, which the compiler then unrolls. Any number:
+/// Dynamic.
+template <int N>
+struct Of {
+  static constexpr int kStates = N == Eigen::Dynamic ? Eigen::Dynamic : 2 * N;
+  using PerAxis = Eigen::Matrix<double, N, 1>;
+  using PerState = Eigen::Matrix<double, kStates, 1>;
+  using Transition = Eigen::Matrix<double, kStates, kStates>;
+  using Input = Eigen::Matrix<double, kStates, N>;  ///< of forces; gains are as large
+  using Output = Eigen::Matrix<double, N, kStates>;
+  using Axes = Eigen::Matrix<double, N, N>;
+  using Table = Eigen::Matrix<double, N, Eigen::Dynamic, Eigen::RowMajor>;
+  using StateColumns = Eigen::Matrix<double, kStates, Eigen::Dynamic>;
+  using AxisColumns = Eigen::Matrix<double, N, Eigen::Dynamic>;
+};
 
 /// The initial position is that of the first row, and of its noise; the velocity is all but
 /// unknown.
@@ -48,16 +59,19 @@ class RowStepper {
 };
 
 /// What a row does: state by state and by force, read off the plant's inputs.
+template <int N>
 struct RowModel {
-  Matrix transition, input;
-  Vector force_sd;  ///< N m
+  typename Of<N>::Transition transition;
+  typename Of<N>::Input input;
+  typename Of<N>::PerAxis force_sd;  ///< N m
 };
 
 /// Dry friction tells of an axis at rest, or turning round, nothing but an inequality, which the
 /// noise of the force breaks one way only: there friction counts as unknown.
+template <int N, typename Before>
 void loosen_at_rest(const SensitivePlant& plant, const OutputErrorWindow& window,
-                    const NoiseLevels& noise, const Eigen::Ref<const Eigen::VectorXd>& before,
-                    const SensitiveState& state, RowModel& model) {
+                    const NoiseLevels& noise, const Before& before, const SensitiveState& state,
+                    RowModel<N>& model) {
   const auto n = static_cast<Eigen::Index>(plant.n_axes());
   model.force_sd = noise.force;
   for (Eigen::Index a = 0; a < n; ++a) {
@@ -72,8 +86,10 @@ void loosen_at_rest(const SensitivePlant& plant, const OutputErrorWindow& window
   }
 }
 
+template <int N>
 void read_model(const SensitivePlant& plant, const SensitiveState& state, double period,
-                RowModel& model) {
+                RowModel<N>& model) {
+  using Table = typename Of<N>::Table;
   const auto n = static_cast<Eigen::Index>(plant.n_axes());
   const auto columns = static_cast<Eigen::Index>(plant.n_columns());
   const auto first = static_cast<Eigen::Index>(plant.first_input());
@@ -93,46 +109,50 @@ void read_model(const SensitivePlant& plant, const SensitiveState& state, double
 }
 
 /// Covariance of a filter, gain and whitener of each row.
+template <int N>
 class Covariance {
  public:
   Covariance(const OutputErrorWindow& window, const NoiseLevels& noise)
       : n_(static_cast<Eigen::Index>(window.n_axes)), noise_(noise) {
-    covariance_ = Matrix::Zero(2 * n_, 2 * n_);
+    covariance_ = Of<N>::Transition::Zero(2 * n_, 2 * n_);
     covariance_.diagonal().head(n_) = noise.position.cwiseAbs2();
     covariance_.diagonal().tail(n_) =
         (kVelocityUncertainty / window.period * noise.position).cwiseAbs2();
   }
 
   /// Over a row.
-  void advance(const RowModel& model) {
-    const Matrix scaled = model.input * model.force_sd.asDiagonal();
-    const Matrix moved = model.transition * covariance_;
+  void advance(const RowModel<N>& model) {
+    const typename Of<N>::Input scaled = model.input * model.force_sd.asDiagonal();
+    const typename Of<N>::Transition moved = model.transition * covariance_;
     covariance_.noalias() = moved * model.transition.transpose();
     covariance_.noalias() += scaled * scaled.transpose();
   }
 
   /// By what was measured at its end.
   void compare() {
-    Matrix innovation = covariance_.topLeftCorner(n_, n_);
+    typename Of<N>::Axes innovation = covariance_.topLeftCorner(n_, n_);
     innovation.diagonal() += noise_.position.cwiseAbs2();
-    const Eigen::LLT<Matrix> llt(innovation);
-    whitener_ = llt.matrixL().solve(Matrix::Identity(n_, n_));
-    const Matrix half = whitener_ * covariance_.topRows(n_);
+    const Eigen::LLT<typename Of<N>::Axes> llt(innovation);
+    whitener_ = llt.matrixL().solve(Of<N>::Axes::Identity(n_, n_));
+    const typename Of<N>::Output half = whitener_ * covariance_.topRows(n_);
     gain_ = half.transpose() * whitener_;
     covariance_.noalias() -= half.transpose() * half;
   }
 
-  const Matrix& gain() const { return gain_; }
-  const Matrix& whitener() const { return whitener_; }
-  const Matrix& covariance() const { return covariance_; }
+  const typename Of<N>::Input& gain() const { return gain_; }
+  const typename Of<N>::Axes& whitener() const { return whitener_; }
+  const typename Of<N>::Transition& covariance() const { return covariance_; }
 
  private:
   Eigen::Index n_;
   const NoiseLevels& noise_;
-  Matrix covariance_, gain_, whitener_;
+  typename Of<N>::Transition covariance_;
+  typename Of<N>::Input gain_;
+  typename Of<N>::Axes whitener_;
 };
 
-void set_state(const Eigen::Ref<const Eigen::VectorXd>& from, SensitiveState& state) {
+template <typename States>
+void set_state(const States& from, SensitiveState& state) {
   const std::size_t n = state.position.size();
   for (std::size_t a = 0; a < n; ++a) {
     state.position[a] = from[static_cast<Eigen::Index>(a)];
@@ -140,46 +160,54 @@ void set_state(const Eigen::Ref<const Eigen::VectorXd>& from, SensitiveState& st
   }
 }
 
-Vector state_vector(const SensitiveState& state) {
+template <int N>
+typename Of<N>::PerState state_vector(const SensitiveState& state) {
   const auto n = static_cast<Eigen::Index>(state.position.size());
-  Vector x(2 * n);
+  typename Of<N>::PerState x(2 * n);
   x.head(n) = Eigen::Map<const Eigen::VectorXd>(state.position.data(), n);
   x.tail(n) = Eigen::Map<const Eigen::VectorXd>(state.velocity.data(), n);
   return x;
 }
 
-Vector start_of(const OutputErrorWindow& window) {
+template <int N>
+typename Of<N>::PerState start_of(const OutputErrorWindow& window) {
   const auto n = static_cast<Eigen::Index>(window.n_axes);
-  Vector x(2 * n);
+  typename Of<N>::PerState x(2 * n);
   x.head(n) = Eigen::Map<const Eigen::VectorXd>(window.position.data(), n);
   x.tail(n) = Eigen::Map<const Eigen::VectorXd>(window.start_velocity.data(), n);
   return x;
 }
 
-Eigen::Map<const Eigen::VectorXd> measured(const OutputErrorWindow& window, std::size_t row) {
-  return Eigen::Map<const Eigen::VectorXd>(window.position.data() + row * window.n_axes,
-                                           static_cast<Eigen::Index>(window.n_axes));
+template <int N>
+Eigen::Map<const typename Of<N>::PerAxis> measured(const OutputErrorWindow& window,
+                                                   std::size_t row) {
+  return Eigen::Map<const typename Of<N>::PerAxis>(window.position.data() + row * window.n_axes,
+                                                   static_cast<Eigen::Index>(window.n_axes));
 }
 
 /// What the smoother needs of a row on its way back.
+template <int N>
 struct RowMemory {
-  Matrix transition, input, gain, covariance;
-  Vector weighted_innovation;  ///< S^-1 times it
-  Vector force_sd;             ///< N m
+  typename Of<N>::Transition transition;
+  typename Of<N>::Input input, gain;
+  typename Of<N>::Transition covariance;
+  typename Of<N>::PerAxis weighted_innovation;  ///< S^-1 times it
+  typename Of<N>::PerAxis force_sd;             ///< N m
   bool compared = false;
 };
 
 /// Bryson & Frazier 1963: the adjoint of the filter; needs no inverse but that of the innovation.
-void smooth_back(const std::vector<RowMemory>& rows, const Matrix& start_covariance,
-                 SmoothedMotion& motion) {
+template <int N>
+void smooth_back(const std::vector<RowMemory<N>>& rows,
+                 const typename Of<N>::Transition& start_covariance, SmoothedMotion& motion) {
   const Eigen::Index n = start_covariance.rows() / 2;
   motion.correction.resize(n, static_cast<Eigen::Index>(rows.size()));
-  Vector after = Vector::Zero(2 * n);
+  typename Of<N>::PerState after = Of<N>::PerState::Zero(2 * n);
   for (std::size_t i = rows.size(); i-- > 0;) {
-    const RowMemory& row = rows[i];
+    const RowMemory<N>& row = rows[i];
     const auto at = static_cast<Eigen::Index>(i);
     motion.state.col(at + 1) -= row.covariance * after;
-    Vector before = after;
+    typename Of<N>::PerState before = after;
     if (row.compared) before.head(n) -= row.gain.transpose() * after + row.weighted_innovation;
     motion.correction.col(at) =
         -row.force_sd.cwiseAbs2().cwiseProduct(row.input.transpose() * before);
@@ -188,51 +216,47 @@ void smooth_back(const std::vector<RowMemory>& rows, const Matrix& start_covaria
   motion.state.col(0) -= start_covariance * after;
 }
 
-}  // namespace
-
-SmoothedMotion smooth_motion(SensitivePlant& plant, const OutputErrorWindow& window,
-                             const NoiseLevels& noise, const FilterSettings& settings,
-                             bool smooth) {
+template <int N>
+SmoothedMotion smoothed(SensitivePlant& plant, const OutputErrorWindow& window,
+                        const NoiseLevels& noise, const FilterSettings& settings, bool smooth) {
+  using PerAxis = typename Of<N>::PerAxis;
+  using PerState = typename Of<N>::PerState;
   const auto n = static_cast<Eigen::Index>(window.n_axes);
   SmoothedMotion motion;
   motion.minus_log_likelihood = std::numeric_limits<double>::infinity();
   if (smooth) motion.state.resize(2 * n, static_cast<Eigen::Index>(window.n_rows));
   SensitiveState state = plant.blank_state();
-  RowStepper stepper(window, settings.steps);
-  Covariance covariance(window, noise);
-  const Matrix start_covariance = covariance.covariance();
-  RowModel model;
-  std::vector<RowMemory> rows(smooth ? window.n_rows - 1 : 0);
-  Vector x = start_of(window);
+  RowStepper stepper(window, settings.smoothing_steps);
+  Covariance<N> covariance(window, noise);
+  const typename Of<N>::Transition start_covariance = covariance.covariance();
+  RowModel<N> model;
+  std::vector<RowMemory<N>> rows(smooth ? window.n_rows - 1 : 0);
+  PerState x = start_of<N>(window);
   if (smooth) motion.state.col(0) = x;
   double sum = 0;
   for (std::size_t row = 0; row + 1 < window.n_rows; ++row) {
     set_state(x, state);
     plant.reset_sensitivities(state);
     stepper.step(plant, state, row, nullptr);
-    const Vector before = x;
-    x = state_vector(state);
+    const PerState before = x;
+    x = state_vector<N>(state);
     if (!(x.cwiseAbs().maxCoeff() < kLargestState)) return motion;
     read_model(plant, state, window.period, model);
     loosen_at_rest(plant, window, noise, before, state, model);
     covariance.advance(model);
-    Vector weighted_innovation = Vector::Zero(n);
+    PerAxis weighted_innovation = PerAxis::Zero(n);
     if (settings.compares(row + 1)) {
       covariance.compare();
-      const Vector innovation = measured(window, row + 1) - x.head(n);
-      const Vector white = covariance.whitener() * innovation;
+      const PerAxis innovation = measured<N>(window, row + 1) - x.head(n);
+      const PerAxis white = covariance.whitener() * innovation;
       weighted_innovation = covariance.whitener().transpose() * white;
       sum += white.squaredNorm() - 2 * covariance.whitener().diagonal().array().log().sum();
       x += covariance.gain() * innovation;
     }
     if (!smooth) continue;
     motion.state.col(static_cast<Eigen::Index>(row + 1)) = x;
-    rows[row] = {model.transition,
-                 model.input,
-                 covariance.gain(),
-                 covariance.covariance(),
-                 weighted_innovation,
-                 model.force_sd,
+    rows[row] = {model.transition,          model.input,         covariance.gain(),
+                 covariance.covariance(),   weighted_innovation, model.force_sd,
                  settings.compares(row + 1)};
   }
   motion.minus_log_likelihood = sum;
@@ -241,9 +265,12 @@ SmoothedMotion smooth_motion(SensitivePlant& plant, const OutputErrorWindow& win
   return motion;
 }
 
-Eigen::MatrixXd window_residuals(SensitivePlant& plant, const OutputErrorWindow& window,
-                                 const NoiseLevels& noise, const SmoothedMotion& motion,
-                                 const FilterSettings& settings) {
+template <int N>
+Eigen::MatrixXd residuals(SensitivePlant& plant, const OutputErrorWindow& window,
+                          const NoiseLevels& noise, const SmoothedMotion& motion,
+                          const FilterSettings& settings) {
+  using Table = typename Of<N>::Table;
+  using PerState = typename Of<N>::PerState;
   const auto n = static_cast<Eigen::Index>(window.n_axes);
   const auto p = static_cast<Eigen::Index>(plant.first_input());
   const auto n_columns = static_cast<Eigen::Index>(plant.n_columns());
@@ -252,23 +279,24 @@ Eigen::MatrixXd window_residuals(SensitivePlant& plant, const OutputErrorWindow&
   Eigen::Index next = 0;
   SensitiveState state = plant.blank_state();
   RowStepper stepper(window, settings.steps);
-  Covariance covariance(window, noise);
-  RowModel model;
+  Covariance<N> covariance(window, noise);
+  RowModel<N> model;
   // Deviation from the smoothed motion, by each parameter and (last) as it is.
-  Eigen::MatrixXd deviation = Eigen::MatrixXd::Zero(2 * n, p + 1), moved(2 * n, p + 1);
-  deviation.col(p) = start_of(window) - motion.state.col(0);
-  Eigen::MatrixXd error(n, p + 1);
+  typename Of<N>::StateColumns deviation = Of<N>::StateColumns::Zero(2 * n, p + 1),
+                               moved = deviation;
+  deviation.col(p) = start_of<N>(window) - motion.state.col(0);
+  typename Of<N>::AxisColumns error(n, p + 1);
   for (std::size_t row = 0; row + 1 < window.n_rows; ++row) {
     const auto at = static_cast<Eigen::Index>(row);
     set_state(motion.state.col(at), state);
     plant.reset_sensitivities(state);
     stepper.step(plant, state, row, motion.correction.col(at).data());
-    const Vector x = state_vector(state);
+    const PerState x = state_vector<N>(state);
     if (!(x.cwiseAbs().maxCoeff() < kLargestState)) return {};
     read_model(plant, state, window.period, model);
     loosen_at_rest(plant, window, noise, motion.state.col(at), state, model);
     covariance.advance(model);
-    moved.noalias() = model.transition * deviation;
+    moved = model.transition.lazyProduct(deviation);
     moved.topLeftCorner(n, p) +=
         Eigen::Map<const Table>(state.by_position.data(), n, n_columns).leftCols(p);
     moved.bottomLeftCorner(n, p) +=
@@ -278,12 +306,30 @@ Eigen::MatrixXd window_residuals(SensitivePlant& plant, const OutputErrorWindow&
     if (!settings.compares(row + 1)) continue;
     covariance.compare();
     error = moved.topRows(n);
-    error.col(p) -= measured(window, row + 1) - motion.state.col(at + 1).head(n);
-    rows.middleRows(next, n).noalias() = covariance.whitener() * error;
+    error.col(p) -= measured<N>(window, row + 1) - motion.state.col(at + 1).head(n);
+    rows.middleRows(next, n) = covariance.whitener().lazyProduct(error);
     next += n;
-    deviation.noalias() -= covariance.gain() * error;
+    deviation -= covariance.gain().lazyProduct(error);
   }
   return rows;
+}
+
+}  // namespace
+
+SmoothedMotion smooth_motion(SensitivePlant& plant, const OutputErrorWindow& window,
+                             const NoiseLevels& noise, const FilterSettings& settings,
+                             bool smooth) {
+  if (window.n_axes == 1) return smoothed<1>(plant, window, noise, settings, smooth);
+  if (window.n_axes == 2) return smoothed<2>(plant, window, noise, settings, smooth);
+  return smoothed<Eigen::Dynamic>(plant, window, noise, settings, smooth);
+}
+
+Eigen::MatrixXd window_residuals(SensitivePlant& plant, const OutputErrorWindow& window,
+                                 const NoiseLevels& noise, const SmoothedMotion& motion,
+                                 const FilterSettings& settings) {
+  if (window.n_axes == 1) return residuals<1>(plant, window, noise, motion, settings);
+  if (window.n_axes == 2) return residuals<2>(plant, window, noise, motion, settings);
+  return residuals<Eigen::Dynamic>(plant, window, noise, motion, settings);
 }
 
 }  // namespace cablefit

@@ -28,7 +28,10 @@ struct NoiseLevels {
 
 /// How a window is stepped through and looked at.
 struct FilterSettings {
-  int steps = 4;  ///< of the simulation per row
+  int steps = 4;  ///< per row, of the simulation that is held against the log
+  /// Of the one that motions are smoothed with, and likelihoods made of. Residuals are exact
+  /// whatever motion they are linear about, as long as it is near.
+  int smoothing_steps = 4;
   /// Every so many rows positions are compared. Where force noise moves an axis less than the
   /// position noise from row to row, the fastest differences say nothing of the parameters but
   /// depend on how well the position noise is known.

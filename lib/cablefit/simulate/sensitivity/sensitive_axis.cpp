@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kMaxNewton = 30;
 // Of the step in velocity: the next correction is its square, rounding for any friction.
-constexpr double kNewtonTolerance = 1e-9;
+constexpr double kNewtonTolerance = 1e-7;
 
 }  // namespace
 

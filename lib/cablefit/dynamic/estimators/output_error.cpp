@@ -1,0 +1,270 @@
+// Output error: the motion that the fitted model would make of the measured torque, held against
+// the measured positions themselves. No filter, no derivatives, no rest threshold; stage 1 takes
+// part with what it knows.
+#include "cablefit/dynamic/output_error/output_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/dynamic/estimates.hpp"
+#include "cablefit/dynamic/estimators/least_squares_fit.hpp"
+#include "cablefit/dynamic/estimators/rows.hpp"
+#include "cablefit/dynamic/fitted_model.hpp"
+#include "cablefit/dynamic/log_copy.hpp"
+#include "cablefit/dynamic/output_error/log_stretches.hpp"
+#include "cablefit/dynamic/output_error/stage1_prior.hpp"
+#include "cablefit/estimate/parameter_estimate.hpp"
+
+namespace cablefit::estimation {
+namespace {
+
+// Every row is simulated some thirty times, 20 us a time. More rows than this are looked at in
+// evenly spaced stretches, which leaves J_motor of the paper's rig 0.02 % uncertain.
+constexpr double kMostRows = 600000;
+constexpr double kFarFromStage1 = 3;  // sd of stage 1
+constexpr double kWrongNoise = 1.5;   // whitened rms, 1 when the noise levels are right
+// Of whitened residuals from row to row, 0 when the model is right and the torque noise white.
+constexpr double kWrongModel = 0.3;
+
+std::string label(const EstimationTask& task, const char* what) {
+  if (task.job.models.size() < 2) return what;
+  return fmt::format("{}, {}", what, task.job.models[task.model]);
+}
+
+/// Why these logs cannot be fitted by output error; empty when they can.
+std::string obstacle(const EstimationTask& task, const Model& start) {
+  const DynamicJob& job = task.job;
+  if (job.arm != nullptr && job.arm->is_coupled())
+    return "links that move each other are not simulated yet";
+  for (const LogSurvey& log : job.logs) {
+    if (std::none_of(log.parts.begin(), log.parts.end(), job.wanted)) continue;
+    for (int joint = 0; joint < job.n_joints(); ++joint)
+      if (!log.plan.has(Channel::theta, joint) || (!job.rigid && !log.plan.has(Channel::q, joint)))
+        return fmt::format("{} has no positions to compare with", log.plan.path);
+  }
+  for (const ModelParameter& p : model_parameters(start))
+    if (is_inertia(start, p) && !(parameter_value(start, p) > 0))
+      return fmt::format("weighted least squares, from which it starts, finds no positive {}",
+                         p.name);
+  return "";
+}
+
+Estimation stay_with_least_squares(const EstimationTask& task, Estimation start,
+                                   const std::string& why) {
+  start.fit.estimator = "wls";
+  start.decisions.push_back({label(task, "estimator"), "wls", "no output error: " + why});
+  return start;
+}
+
+/// The wanted rows of the job, or of many evenly spaced stretches.
+struct FittedRows {
+  std::vector<MeasuredStretch> stretches;
+  std::string note;
+};
+
+FittedRows rows_of(const DynamicJob& job) {
+  double all = 0;
+  for (const LogSurvey& log : job.logs)
+    for (const PartSurvey& part : log.parts)
+      if (job.wanted(part)) all += static_cast<double>(part.n_rows);
+  if (all <= kMostRows) return {measured_stretches(job, job.logs), ""};
+  const double share = kMostRows / all;
+  const double bridge = bridge_seconds(job.settings.rows.signal);
+  return {measured_stretches(job, stretches_of(job.logs, job.wanted, share, bridge)),
+          fmt::format(", on {:.2g} % of the rows in evenly spaced stretches", 100 * share)};
+}
+
+OutputErrorOptions options_of(const EstimationTask& task, const Model& start) {
+  OutputErrorOptions options;
+  options.position_sd = position_noise_of(task.job);
+  options.threads = task.job.options.samples.threads;
+  for (const EquationRows& e : task.equations)
+    for (const DynamicParameter& p : e.columns.parameters)
+      if (p.given) options.held.push_back(p.name);
+  if (const ElasticFit* stage1 = task.stage1()) {
+    Stage1Prior prior = stage1_prior(start, *stage1);
+    options.prior = std::move(prior.prior);
+    options.held.insert(options.held.end(), prior.held.begin(), prior.held.end());
+  }
+  return options;
+}
+
+double lower_of(const EquationRows& e, Eigen::Index k) {
+  return e.columns.parameters[static_cast<std::size_t>(k)].info.lower;
+}
+
+/// Why this estimate is none that one can stand behind; empty when it is.
+std::string doubt(const EstimationTask& task, const EquationRows& e, Eigen::Index k,
+                  const OutputErrorFit& oe, const Estimate& found) {
+  if (!found.not_identifiable.empty()) return found.not_identifiable;
+  if (!oe.converged)
+    return fmt::format("output error stopped at {:.4g} without converging", found.value);
+  if (!e.columns.parameters[static_cast<std::size_t>(k)].is_inertia) return "";
+  if (!(found.ci_low > 0))
+    return fmt::format("the 95 % interval of {:.3g} reaches 0; accelerate more", found.value);
+  return inertia_alias(*e.rows, e.columns, k, task.job.rig().linear_motion);
+}
+
+Estimate estimate_of(const EstimationTask& task, const EquationRows& equation, Eigen::Index k,
+                     const OutputErrorFit& oe) {
+  const std::string& name = equation.columns.parameters[static_cast<std::size_t>(k)].name;
+  Estimate e = *find_estimate(oe.parameters, name);
+  if (!task.job.options.honest_sd && std::isfinite(e.sd)) {
+    e.sd = e.sd_white;
+    if (e.active_bound.empty())
+      cablefit::set_interval(e, oe.degrees_of_freedom, lower_of(equation, k));
+  }
+  const std::string why = doubt(task, equation, k, oe, e);
+  if (why.empty()) return e;
+  Estimate refused;
+  refused.name = e.name;
+  refused.symbol = e.symbol;
+  refused.unit = e.unit;
+  refused.not_identifiable = why;
+  return refused;
+}
+
+/// Residuals of the equation's rows, filtered as ever, with the parameters of output error: what
+/// figures, tests of residuals and torque errors are made of.
+LinearSolution solution_of(const EstimationTask& task, const EquationRows& e,
+                           const OutputErrorFit& oe, const ElasticFit* stage1,
+                           LinearSolution solution) {
+  std::vector<const ElasticFit*> elastic = task.job.elastic;
+  if (stage1 != nullptr) elastic[task.model] = stage1;
+  solution.residual_combination = dynamic_response(e.columns, elastic, task.model);
+  for (std::size_t k = 0; k < e.columns.parameters.size(); ++k) {
+    const DynamicParameter& parameter = e.columns.parameters[k];
+    const auto i = static_cast<Eigen::Index>(k);
+    if (!parameter.given) solution.x(i) = find_estimate(oe.parameters, parameter.name)->value;
+    solution.residual_combination(i) = -(parameter.given ? *parameter.given : solution.x(i));
+  }
+  solution.rss = (e.rows->r() * solution.residual_combination).squaredNorm();
+  solution.effective_rows = oe.effective_rows / static_cast<double>(oe.noise.position.size());
+  return solution;
+}
+
+std::string sd_reason_of(const EstimationTask& task, const OutputErrorFit& oe) {
+  if (!task.job.options.honest_sd) return "white: as asked for";
+  return fmt::format(
+      "HAC of the scores: whitened residuals are correlated {:.2f} from row to row, effective rows "
+      "{:.0f} of {}",
+      oe.correlation, oe.effective_rows, oe.n_rows);
+}
+
+/// "link 0.0012, motor 0.49"
+std::string per_axis(const EstimationTask& task, const Eigen::VectorXd& values) {
+  const int n_joints = task.job.n_joints();
+  std::string text;
+  for (Eigen::Index a = 0; a < values.size(); ++a) {
+    const char* side = task.job.rigid ? "rigid" : a < n_joints ? "link" : "motor";
+    text += fmt::format("{}{} {:.2g}", text.empty() ? "" : ", ",
+                        joint_parameter_name(side, static_cast<int>(a) % n_joints + 1, n_joints),
+                        values[a]);
+  }
+  return text;
+}
+
+void note_fit(const EstimationTask& task, const FittedRows& rows, const OutputErrorFit& oe,
+              Estimation& out) {
+  const bool linear = task.job.rig().linear_motion;
+  out.decisions.push_back(
+      {label(task, "output error"),
+       fmt::format("{} rounds, {} simulations", oe.n_rounds, oe.n_passes),
+       fmt::format(
+           "from the wls fit on; torque noise {} {} by maximum likelihood, encoder noise {} "
+           "{}; whitened residual {:.3g}{}",
+           per_axis(task, oe.noise.force), linear ? "N" : "N m", per_axis(task, oe.noise.position),
+           linear ? "m" : "rad", oe.residual_rms, rows.note)});
+  out.fit.warnings.insert(out.fit.warnings.end(), oe.warnings.begin(), oe.warnings.end());
+  if (oe.residual_rms > kWrongNoise)
+    out.fit.warnings.push_back(fmt::format(
+        "output error leaves {:.2g} times the encoders' noise: the model or the rig's sensors are "
+        "wrong",
+        oe.residual_rms));
+  if (std::abs(oe.correlation) > kWrongModel)
+    out.fit.warnings.push_back(fmt::format(
+        "what output error leaves is correlated from row to row ({:.2f}): the model is wrong, or "
+        "the torque noise far from white, and the estimates make up for it",
+        oe.correlation));
+}
+
+void note_stage1(const EstimationTask& task, const OutputErrorOptions& options,
+                 const OutputErrorFit& oe, Estimation& out) {
+  if (task.job.rigid) return;
+  const Stage1Shift shift = largest_shift(options.prior, oe);
+  if (shift.name.empty()) {
+    out.decisions.push_back({label(task, "elastic coefficients"), "held", "stage 1 gives no sd"});
+    return;
+  }
+  out.decisions.push_back(
+      {label(task, "elastic coefficients"), "fitted",
+       fmt::format(
+           "with stage 1 and its honest covariance as prior; l_o and theta_0 held; {} moves "
+           "furthest, by {:+.2f} sd of stage 1",
+           shift.name, shift.in_sd)});
+  if (std::abs(shift.in_sd) > kFarFromStage1)
+    out.fit.warnings.push_back(fmt::format(
+        "the moving logs disagree with stage 1: they pull {} from {:.5g} to {:.5g}, {:.2g} "
+        "sd of stage 1",
+        shift.name, shift.from, shift.to, std::abs(shift.in_sd)));
+}
+
+/// Everything but decisions and notes.
+void fill(const EstimationTask& task, const OutputErrorFit& oe, const Estimation& start,
+          Estimation& out) {
+  const bool honest = task.job.options.honest_sd;
+  if (const ElasticFit* stage1 = task.stage1())
+    out.fit.elastic = refined_stage1(*stage1, oe, honest);
+  const ElasticFit* elastic = out.fit.elastic ? &*out.fit.elastic : nullptr;
+  for (std::size_t k = 0; k < task.equations.size(); ++k) {
+    const EquationRows& e = task.equations[k];
+    const std::string& name = e.equation.name;
+    for (Eigen::Index i = 0; i < e.columns.n_effects; ++i) {
+      const DynamicParameter& parameter = e.columns.parameters[static_cast<std::size_t>(i)];
+      out.fit.parameters.push_back(parameter.given
+                                       ? *find_estimate(start.fit.parameters, parameter.name)
+                                       : estimate_of(task, e, i, oe));
+      out.fit.verdicts[parameter.name] = parameter.given ? "given"
+                                         : out.fit.parameters.back().not_identifiable.empty()
+                                             ? "identified"
+                                             : "not identifiable";
+    }
+    out.solutions.push_back(solution_of(task, e, oe, elastic, start.solutions[k]));
+    add_errors(*e.rows, name, out.solutions.back(), out.fit);
+    out.fit.sd_reason[name] = sd_reason_of(task, oe);
+  }
+}
+
+Estimation estimate(const EstimationTask& task) {
+  Estimation start = least_squares_fit(task, Weighting::by_residual);
+  const DynamicJob& job = task.job;
+  const bool coupled = job.arm != nullptr && job.arm->is_coupled();
+  const Model model =
+      coupled ? Model{} : fitted_model(job, task.equations, start.solutions, task.model);
+  const std::string why = obstacle(task, model);
+  if (!why.empty()) return stay_with_least_squares(task, std::move(start), why);
+  const FittedRows rows = rows_of(job);
+  if (rows.stretches.empty())
+    return stay_with_least_squares(task, std::move(start), "no stretch of 16 rows without a gap");
+  const OutputErrorOptions options = options_of(task, model);
+  const OutputErrorFit oe = fit_output_error(model, rows.stretches, options);
+  if (oe.parameters.empty()) return stay_with_least_squares(task, std::move(start), oe.message);
+  Estimation out;
+  fill(task, oe, start, out);
+  note_fit(task, rows, oe, out);
+  note_stage1(task, options, oe, out);
+  return out;
+}
+
+}  // namespace
+
+Estimator output_error() {
+  return {
+      "output-error",
+      "simulated positions follow the measured ones, torque noise and stage 1's errors as unknowns",
+      "Jazwinski 1970, 5.3; Ljung 1999, 7.2", estimate};
+}
+
+}  // namespace cablefit::estimation

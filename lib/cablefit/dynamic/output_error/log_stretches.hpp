@@ -1,0 +1,22 @@
+// The rows of logs as output error takes them: unfiltered, on an even grid, gap by gap.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cablefit/dynamic/dynamic_job.hpp"
+#include "cablefit/dynamic/output_error/measured_stretch.hpp"
+
+namespace cablefit {
+
+/// Gapless rows of the wanted parts of `logs`, in their order, as they were measured: no filter, no
+/// decimation. The torque is held between rows or not as the job's settings say. Every wanted part
+/// must have theta, and q unless the drive is rigid.
+std::vector<MeasuredStretch> measured_stretches(const DynamicJob& job,
+                                                std::span<const LogSurvey> logs);
+
+/// sd of the white noise on every axis' position (position_noise(), the largest of all wanted
+/// parts): links, then motors; of rigid drives one each. rad, > 0.
+Eigen::VectorXd position_noise_of(const DynamicJob& job);
+
+}  // namespace cablefit

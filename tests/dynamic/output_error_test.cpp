@@ -1,0 +1,152 @@
+// The row `output-error`: what it says when the logs do not let it, what it takes from stage 1,
+// what it makes of a parameter on its bound.
+#include "tests/support/columns.hpp"
+#include "tests/support/recorded_log.hpp"
+#include "tests/support/recover.hpp"
+
+namespace {
+
+using namespace cablefit;
+using namespace cablefit::test;
+
+const MultiSine kMotion = {{{0.31, 0.6, 0.4}, {1.1, 0.3, 1.9}, {2.7, 0.12, 5.1}, {5.3, 0.05, 3.3}}};
+const MultiSine kOneSine = {{{0.2, 0.7, 0.3}}};
+
+/// 10 s of a rigid drive at 500 Hz, its torque written with noise.
+std::string drive_log(const MultiSine& motion, double viscous, const char* motion_column) {
+  Columns log;
+  log.columns = {{"t", {}}, {motion_column, {}}, {"tau", {}}};
+  Normal normal(4100);
+  const int derivative = std::string(motion_column) == "w" ? 1 : 0;
+  for (int i = 0; i < 5000; ++i) {
+    const double t = 2e-3 * i, v = motion.at(t, 1);
+    log.columns[0].second.push_back(t);
+    log.columns[1].second.push_back(motion.at(t, derivative));
+    log.columns[2].second.push_back(0.02 * motion.at(t, 2) + viscous * v + 0.9 * sign(v) + 0.12 +
+                                    0.1 * normal());
+  }
+  return log.csv();
+}
+
+DynamicPreload fit_drive(const MultiSine& motion, double viscous, const char* column,
+                         const std::string& estimator) {
+  Bench bench;
+  bench.add_text(drive_log(motion, viscous, column));
+  DynamicOptions options;
+  options.models = {"rigid"};
+  options.estimator = estimator;
+  options.samples.torque_hold = TorqueHold::none;
+  return fit_dynamic(bench.logs(), {}, options).preloads.at(0);
+}
+
+std::string reason(const DynamicPreload& preload, const std::string& name) {
+  for (const Decision& d : preload.decisions)
+    if (d.name == name) return d.value + ": " + d.reason;
+  return "none";
+}
+
+TEST_CASE("output error without positions stays with wls and says why", "[dynamic]") {
+  const DynamicPreload preload = fit_drive(kMotion, 0.35, "w", "output-error");
+  CHECK(preload.fits.at(0).estimator == "wls");
+  const std::string why = reason(preload, "estimator");
+  INFO(why);
+  CHECK(why.rfind("wls: no output error: ", 0) == 0);
+  CHECK(why.find("has no positions to compare with") != std::string::npos);
+}
+
+TEST_CASE("output error of a rigid drive agrees with the truth", "[dynamic]") {
+  const DynamicPreload preload = fit_drive(kMotion, 0.35, "theta", "output-error");
+  const DynamicFit& fit = preload.fits.at(0);
+  CHECK(fit.estimator == "output-error");
+  // Four normal deviates beyond 3.5 sd: 0.2 %.
+  check_recovered(fit.parameters, {{"J", 0.02}, {"f_v", 0.35}, {"f_s", 0.9}, {"offset", 0.12}},
+                  3.5);
+  CHECK(reason(preload, "output error").find("torque noise rigid 0.1 N m") != std::string::npos);
+}
+
+// Acceleration is -omega^2 times position whatever the estimator makes of it.
+TEST_CASE("output error refuses the inertia of one sine as wls does", "[dynamic]") {
+  const DynamicFit fit = fit_drive(kOneSine, 0.35, "theta", "output-error").fits.at(0);
+  const Estimate& inertia = estimate(fit.parameters, "J");
+  INFO(inertia.not_identifiable);
+  CHECK(inertia.not_identifiable.find("cannot be told from stiffness") != std::string::npos);
+  CHECK(std::isnan(inertia.value));
+  CHECK(std::isnan(inertia.sd));
+  CHECK(fit.verdicts.at("J") == "not identifiable");
+}
+
+// True viscous friction 2 sd below 0: the parameter stands on its bound, and its interval is t sd
+// long with the sd that the same motion and noise give where the bound is far away. The two sd have
+// noise levels of their own, 1 % apart.
+TEST_CASE("output error gives an interval at an active bound", "[dynamic]") {
+  const Estimate away =
+      estimate(fit_drive(kMotion, 0.35, "theta", "output-error").fits.at(0).parameters, "f_v");
+  const Estimate e =
+      estimate(fit_drive(kMotion, -2e-3, "theta", "output-error").fits.at(0).parameters, "f_v");
+  CHECK(e.active_bound == "f_v >= 0");
+  CHECK(e.value == 0);
+  CHECK(e.ci_low == 0);
+  CHECK_THAT(e.sd_white, Catch::WithinRel(away.sd_white, 0.05));
+  CHECK_THAT(e.ci_high, Catch::WithinRel(1.96 * e.sd, 0.01));
+}
+
+struct ElasticCase {
+  ElasticResult stage1;
+  std::vector<LogSurvey> logs;
+};
+
+/// 8 s of the low rig, stage 1 of the shipped log with its covariance times `factor`.
+ElasticCase low_case(double factor) {
+  const std::vector<LogSurvey> blocked = {shipped("low/blocked.csv")};
+  ElasticCase out{fit_elastic(blocked, {}), {}};
+  out.stage1.preloads.at(0).name = "default";
+  for (ElasticFit& fit : out.stage1.preloads.at(0).fits) fit.covariance *= factor;
+  Rig rig = default_rig();
+  rig.torque_hold = TorqueHold::zoh;
+  std::uint64_t seed = 4200;
+  for (const double load : {-30.0, 30.0}) {
+    truth::MovingOptions options;
+    options.duration = 8;
+    options.load = load;
+    options.seed = seed++;
+    out.logs.push_back(survey_of(truth::simulate_moving(truth::Rig::low(), options), rig));
+  }
+  return out;
+}
+
+DynamicFit fit_low(const ElasticCase& c) {
+  DynamicOptions options;
+  options.estimator = "output-error";
+  return fit_dynamic(c.logs, c.stage1, options).preloads.at(0).fits.at(0);
+}
+
+TEST_CASE("what stage 1 knows exactly output error leaves alone", "[dynamic]") {
+  const ElasticCase c = low_case(0);
+  const DynamicFit fit = fit_low(c);
+  REQUIRE(fit.estimator == "output-error");
+  const ElasticFit& before = *c.stage1.preloads.at(0).find("poly");
+  for (std::size_t i = 0; i < before.transmission.cables.size(); ++i)
+    CHECK(fit.elastic->transmission.cables[i].coefficients ==
+          before.transmission.cables[i].coefficients);
+}
+
+/// The two experiments say more together than each alone; a vague stage 1 is overruled.
+TEST_CASE("output error takes stage 1 with its covariance", "[dynamic]") {
+  const ElasticCase sharp = low_case(1), vague = low_case(1e6);
+  const ElasticFit& before = *sharp.stage1.preloads.at(0).find("poly");
+  const DynamicFit with_sharp = fit_low(sharp), with_vague = fit_low(vague);
+  for (const auto& [name, value] : elastic_truth(truth::Rig::low())) {
+    INFO(name);
+    const Estimate& e = estimate(with_sharp.elastic->parameters, name);
+    const Estimate& alone = estimate(with_vague.elastic->parameters, name);
+    CHECK(e.sd < estimate(before.parameters, name).sd);
+    CHECK(e.sd < 1.02 * alone.sd);  // both are estimates of an sd
+    CHECK(std::abs(alone.value - value) < 3.5 * alone.sd);
+  }
+  // What the report carries on as covariance is that of the values beside it.
+  const double variance = with_sharp.elastic->covariance(0, 0);
+  CHECK_THAT(std::sqrt(variance),
+             Catch::WithinRel(estimate(with_sharp.elastic->parameters, "K1_0").sd, 1e-12));
+}
+
+}  // namespace
