@@ -12,6 +12,7 @@
 #include "cablefit/refine/confirm.hpp"
 #include "cablefit/refine/levels.hpp"
 #include "cablefit/refine/null_draws.hpp"
+#include "cablefit/refine/refine_figures.hpp"
 #include "cablefit/refine/refined_model.hpp"
 #include "cablefit/refine/regimes.hpp"
 #include "cablefit/refine/remainder.hpp"
@@ -318,6 +319,11 @@ RefineResult refine(std::span<const Model> models, const RefineLogs& logs,
   tell_gaps(bench, first, state, result);
   tell_remainder(fit.rms, bench.floor, result);
   conclude(result);
+  if (options.figures)
+    result.figures = refine_figures(
+        result, {bench.logs, first.design, first.x, state.design, fit.x},
+        {logs.test.empty() ? bench.logs : logs.test, first.test, first.x, state.test, fit.x},
+        bench.floor);
   return result;
 }
 

@@ -86,6 +86,12 @@ std::vector<std::pair<std::size_t, double>> dates(const Design& design, double s
   return all;
 }
 
+/// What lasts changes all rows after it, so that its date is known from far; what passes does not.
+double date_step(const Refinement& row, const ScanSettings& settings) {
+  constexpr double kCoarser = 4;
+  return (row.shape.empty() ? kCoarser : 1.0) * settings.event_step;
+}
+
 std::vector<Variant> variants_of(const Refinement& row, const Design& design, double event_step) {
   std::vector<Variant> all;
   for (const auto& shape : grid_points(row, design.scale)) {
@@ -108,7 +114,7 @@ bool is_better(const Candidate& a, const Candidate& b) {
 std::optional<Candidate> best_variant(const ScanStart& start, const ScanSettings& settings,
                                       const Refinement& row) {
   std::optional<Candidate> best;
-  for (Variant& variant : variants_of(row, start.design, settings.event_step)) {
+  for (Variant& variant : variants_of(row, start.design, date_step(row, settings))) {
     auto candidate = try_variant(start, settings, std::move(variant));
     if (candidate && (!best || is_better(*candidate, *best))) best = std::move(candidate);
   }
@@ -186,12 +192,13 @@ Candidate refined_shape(const ScanStart& start, const ScanSettings& settings, Ca
       });
     }
     if (!row.is_event) continue;
-    variant.event_time = golden(variant.event_time - settings.event_step,
-                                variant.event_time + settings.event_step, [&](double time) {
-                                  Variant other = variant;
-                                  other.event_time = time;
-                                  return error_with(other);
-                                });
+    const double step = date_step(row, settings);
+    variant.event_time =
+        golden(variant.event_time - step, variant.event_time + step, [&](double time) {
+          Variant other = variant;
+          other.event_time = time;
+          return error_with(other);
+        });
   }
   const auto better = try_variant(start, settings, variant);
   return better && better->refused.empty() && better->gain >= candidate.gain ? *better : candidate;
