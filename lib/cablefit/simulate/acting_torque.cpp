@@ -9,29 +9,41 @@ namespace cablefit {
 namespace {
 
 constexpr double kLongestDelay = 0.02;  // s, see refinements.hpp
+constexpr double kFinest = 125e-6;      // s
+constexpr int kMostParts = 8;
 
 }  // namespace
 
 ActingTorque::ActingTorque(const Model& model, double period)
-    : period_(period), is_needed_(corrects(model)), commands_(model.joints.size()) {
+    : is_needed_(corrects(model)),
+      n_parts_(std::clamp(static_cast<int>(std::lround(period / kFinest)), 1, kMostParts)),
+      part_(period / static_cast<double>(n_parts_)),
+      held_(model.joints.size()),
+      parts_(n_parts_, static_cast<Eigen::Index>(model.joints.size())),
+      acting_(model.joints.size()) {
   for (const JointModel& joint : model.joints) refinements_.push_back(joint.refinements);
 }
 
-const std::vector<double>& ActingTorque::after(const std::vector<double>& command) {
-  if (!is_needed_) return command;
-  acting_ = command;
-  for (std::size_t k = 0; k < command.size(); ++k) {
-    Eigen::ArrayXd& last = commands_[k];
-    if (last.size() == 0) {
-      const auto rows = static_cast<Eigen::Index>(std::ceil(kLongestDelay / period_)) + 4;
-      last.setConstant(std::min(rows, kCorrectionHalo), command[k]);
+void ActingTorque::command(const std::vector<double>& tau) {
+  for (std::size_t k = 0; k < tau.size(); ++k) {
+    Eigen::ArrayXd& held = held_[k];
+    if (held.size() == 0) {
+      const auto before = static_cast<Eigen::Index>(std::ceil(kLongestDelay / part_));
+      held.setConstant(before + n_parts_ + 2, tau[k]);
     }
-    std::copy(last.begin() + 1, last.end(), last.begin());
-    last[last.size() - 1] = command[k];
-    Recording recording{period_, {}, {}, last, {}};
+    std::copy(held.begin() + n_parts_, held.end(), held.begin());
+    held.tail(n_parts_).setConstant(tau[k]);
+    Recording recording{part_, {}, {}, held, {}};
     correct(refinements_[k], recording);
-    acting_[k] = recording.tau[last.size() - 1];
+    parts_.col(static_cast<Eigen::Index>(k)) = recording.tau.tail(n_parts_);
   }
+}
+
+const std::vector<double>& ActingTorque::at(double fraction) {
+  const auto part = static_cast<Eigen::Index>(fraction * static_cast<double>(n_parts_));
+  for (std::size_t k = 0; k < acting_.size(); ++k)
+    acting_[k] =
+        parts_(std::clamp<Eigen::Index>(part, 0, n_parts_ - 1), static_cast<Eigen::Index>(k));
   return acting_;
 }
 

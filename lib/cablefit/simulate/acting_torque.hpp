@@ -13,15 +13,20 @@ class ActingTorque {
   /// `period`: between commands, s.
   ActingTorque(const Model& model, double period);
 
-  /// The torque per joint (N m) that acts after this command. The next command being unknown, a
-  /// delay below two periods is that of a command that stays.
-  const std::vector<double>& after(const std::vector<double>& command);
+  /// False: every command acts as it is, and there is nothing to ask.
+  bool is_needed() const { return is_needed_; }
+  /// A command per joint (N m), held over the period that begins now.
+  void command(const std::vector<double>& tau);
+  /// The torque per joint that acts a `fraction` (0 .. 1) of the period later.
+  const std::vector<double>& at(double fraction);
 
  private:
-  double period_;
   bool is_needed_;
+  Eigen::Index n_parts_;  ///< of a period, in which delays are resolved
+  double part_;           ///< s
   std::vector<std::vector<RefinementInstance>> refinements_;  ///< per joint
-  std::vector<Eigen::ArrayXd> commands_;                      ///< per joint, the latest last
+  std::vector<Eigen::ArrayXd> held_;  ///< per joint: commands by parts, to the period's end
+  Eigen::ArrayXXd parts_;             ///< parts of the period x joints: what acts
   std::vector<double> acting_;
 };
 

@@ -100,7 +100,9 @@ const std::vector<double>& PdDrive::torque(Eigen::Index row, Eigen::Index step,
   const double now =
       (rows_before_ + static_cast<double>(row)) * steps_per_row_ + static_cast<double>(step);
   if (now >= std::round(n_commands_ * steps_per_command_)) command(row, step, theta);
-  return acting_;
+  if (!drive_.is_needed()) return tau_;
+  const double middle = now + 0.5 - (n_commands_ - 1) * steps_per_command_;
+  return drive_.at(middle / steps_per_command_);
 }
 
 void PdDrive::end(Eigen::Index n_rows) {
@@ -120,7 +122,7 @@ void PdDrive::command(Eigen::Index row, Eigen::Index step, const std::vector<dou
     const double tau = controller_.kp * error + controller_.kd * rate;
     tau_[k] = std::clamp(tau, -controller_.limit, controller_.limit);
   }
-  acting_ = drive_.after(tau_);
+  if (drive_.is_needed()) drive_.command(tau_);
 }
 
 }  // namespace cablefit

@@ -87,7 +87,6 @@ class PdDrive final : public Drive {
   std::vector<double> previous_error_;  ///< rad, at the last command
   std::vector<double> tau_;
   ActingTorque drive_;
-  std::vector<double> acting_;  ///< what it makes of tau_
 };
 
 }  // namespace cablefit
