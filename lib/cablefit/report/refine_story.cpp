@@ -16,6 +16,7 @@ constexpr int kDigits = 3;
 constexpr std::size_t kPlaces = 2;  // where the gap is, in the story
 constexpr double kLeastP = 1e-6;    // smaller ones are a matter of the fitted tail
 constexpr double kMovedSd = 2;
+constexpr double kMovedShare = 0.02;  // where there is no sd
 
 std::string number(double value) { return significant(value, kDigits); }
 
@@ -152,14 +153,25 @@ SummaryLine remainder_line(const RefineResult& result) {
                                           number(result.remainder_motor), unit)};
 }
 
+/// Whether it is worth a word: by its sd, or where that is not known by its size.
+bool is_shifted(const ParameterShift& shift) {
+  const double moved = moved_sd(shift);
+  if (std::isfinite(moved)) return std::abs(moved) > kMovedSd;
+  return std::abs(shift.after - shift.before) > kMovedShare * std::abs(shift.before);
+}
+
+std::string shift_text(const ParameterShift& shift) {
+  const double moved = moved_sd(shift);
+  const std::string text =
+      fmt::format("{} {} -> {} {}", shift.name, value_text(shift.before, shift.sd),
+                  value_with_sd(shift.after, shift.sd), shift.unit);
+  return std::isfinite(moved) ? fmt::format("{} ({:+.0f} sd)", text, moved) : text;
+}
+
 SummaryLine shifts_line(const RefineResult& result) {
   std::string text;
-  for (const ParameterShift& shift : result.shifts) {
-    if (!(std::abs(moved_sd(shift)) > kMovedSd)) continue;
-    text += fmt::format("{}{} {} -> {} {} ({:+.0f} sd)", text.empty() ? "" : ", ", shift.name,
-                        value_text(shift.before, shift.sd), value_with_sd(shift.after, shift.sd),
-                        shift.unit, moved_sd(shift));
-  }
+  for (const ParameterShift& shift : result.shifts)
+    if (is_shifted(shift)) text += (text.empty() ? "" : ", ") + shift_text(shift);
   if (text.empty()) text = fmt::format("no parameter moved by more than {:g} sd", kMovedSd);
   return {"shifts", text};
 }
