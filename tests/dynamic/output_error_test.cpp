@@ -87,7 +87,7 @@ TEST_CASE("output error gives an interval at an active bound", "[dynamic]") {
   CHECK(e.value == 0);
   CHECK(e.ci_low == 0);
   CHECK_THAT(e.sd_white, Catch::WithinRel(away.sd_white, 0.05));
-  CHECK_THAT(e.ci_high, Catch::WithinRel(1.96 * e.sd, 0.01));
+  CHECK_THAT(e.ci_high, Catch::WithinRel(2.0 * e.sd, 0.05));  // t of 40 degrees of freedom or more
 }
 
 struct ElasticCase {
