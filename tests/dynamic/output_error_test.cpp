@@ -87,7 +87,7 @@ TEST_CASE("output error gives an interval at an active bound", "[dynamic]") {
   CHECK(e.value == 0);
   CHECK(e.ci_low == 0);
   CHECK_THAT(e.sd_white, Catch::WithinRel(away.sd_white, 0.05));
-  CHECK_THAT(e.ci_high, Catch::WithinRel(1.96 * e.sd, 0.01));
+  CHECK_THAT(e.ci_high, Catch::WithinRel(2.0 * e.sd, 0.05));  // t of 40 degrees of freedom or more
 }
 
 struct ElasticCase {
@@ -130,17 +130,21 @@ TEST_CASE("what stage 1 knows exactly output error leaves alone", "[dynamic]") {
           before.transmission.cables[i].coefficients);
 }
 
-/// The two experiments say more together than each alone; a vague stage 1 is overruled.
+/// A stage 1 ten times sharper than the moving logs rules, a vague one is overruled.
 TEST_CASE("output error takes stage 1 with its covariance", "[dynamic]") {
-  const ElasticCase sharp = low_case(1), vague = low_case(1e6);
+  const ElasticCase sharp = low_case(1e-4), vague = low_case(1e6);
   const ElasticFit& before = *sharp.stage1.preloads.at(0).find("poly");
   const DynamicFit with_sharp = fit_low(sharp), with_vague = fit_low(vague);
+  Eigen::Index k = 0;
   for (const auto& [name, value] : elastic_truth(truth::Rig::low())) {
     INFO(name);
     const Estimate& e = estimate(with_sharp.elastic->parameters, name);
     const Estimate& alone = estimate(with_vague.elastic->parameters, name);
-    CHECK(e.sd < estimate(before.parameters, name).sd);
-    CHECK(e.sd < 1.02 * alone.sd);  // both are estimates of an sd
+    const double sd_before = std::sqrt(before.covariance(k, k));
+    ++k;
+    CHECK(e.sd <= 1.001 * sd_before);
+    CHECK(alone.sd > 3 * e.sd);
+    CHECK(std::abs(e.value - estimate(before.parameters, name).value) < 3.5 * sd_before);
     CHECK(std::abs(alone.value - value) < 3.5 * alone.sd);
   }
   // What the report carries on as covariance is that of the values beside it.

@@ -53,7 +53,8 @@ Eigen::MatrixXd kernel_sum(const Eigen::MatrixXd& v, double bandwidth) {
 
 }  // namespace
 
-LongRunCovariance long_run_covariance(const Eigen::Ref<const Eigen::MatrixXd>& series) {
+LongRunCovariance long_run_covariance(const Eigen::Ref<const Eigen::MatrixXd>& series,
+                                      double least_share) {
   const Eigen::Index n = series.rows();
   const Eigen::Index p = series.cols();
   LongRunCovariance result;
@@ -70,8 +71,8 @@ LongRunCovariance long_run_covariance(const Eigen::Ref<const Eigen::MatrixXd>& s
     white.col(k) = series.col(k).tail(n - 1) - rho(k) * series.col(k).head(n - 1);
   }
   const double n_white = static_cast<double>(n - 1);
-  result.bandwidth =
-      std::clamp(1.3221 * std::pow(andrews_alpha2(white) * n_white, 0.2), 1.0, n_white / 4);
+  result.bandwidth = std::clamp(1.3221 * std::pow(andrews_alpha2(white) * n_white, 0.2),
+                                std::max(1.0, least_share * n_white), n_white / 4);
   const Eigen::VectorXd recolour = (1 - rho.array()).inverse();
   const double scale = static_cast<double>(n) / n_white;
   result.covariance =

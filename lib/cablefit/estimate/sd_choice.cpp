@@ -8,9 +8,10 @@
 namespace cablefit {
 namespace {
 
-constexpr double kWhiteEnough = 1.1;  // HAC variance over the white one
-constexpr double kFewRows = 100;      // effective: below it HAC's intervals are too short
-constexpr double kBlockLengths = 5;   // correlation lengths in a block: 10 % of the variance lost
+// HAC variance over the white one, less 1: at least, and in sd of the HAC variance.
+constexpr double kLeastExcess = 0.1, kExcessSds = 2;
+constexpr double kFewRows = 100;     // effective: below it HAC's intervals are too short
+constexpr double kBlockLengths = 5;  // correlation lengths in a block: 10 % of the variance lost
 constexpr Eigen::Index kLeastBlocks = 5;
 constexpr Eigen::Index kLeastCells = 40;
 
@@ -42,14 +43,17 @@ ChosenSd choose_sd(const RowStatistics& rows, const LinearSolution& s) {
   out.variance = s.covariance.diagonal();
   out.degrees_of_freedom = Eigen::VectorXd::Constant(p, s.degrees_of_freedom);
   out.effective_rows = n;
+  // A variance with nu degrees of freedom has a relative sd of sqrt(2 / nu).
+  const double white_enough =
+      1 + std::max(kLeastExcess, kExcessSds * std::sqrt(2 / s.degrees_of_freedom));
   double slowest = 1;
   for (Eigen::Index k = 0; k < p; ++k) {
     const double white = s.covariance_white(k, k);
     const double inflation = white > 0 ? std::max(1.0, out.variance(k) / white) : 1;
     out.effective_rows = std::min(out.effective_rows, n / inflation);
-    const bool is_slow = inflation > kWhiteEnough && n / inflation < kFewRows;
+    const bool is_slow = inflation > white_enough && n / inflation < kFewRows;
     if (is_slow) slowest = std::max(slowest, inflation);
-    out.kind.push_back(inflation < kWhiteEnough ? SdKind::white
+    out.kind.push_back(inflation < white_enough ? SdKind::white
                        : is_slow                ? SdKind::block_bootstrap
                                                 : SdKind::hac);
   }

@@ -19,10 +19,11 @@ struct ChosenSd {
   SdKind worst() const;
 };
 
-/// Per parameter: white, sigma^2 (W'W)^-1, when the HAC variance is within 10 % of it; HAC as long
-/// as at least 100 rows count as independent; else the noise is too slow for a kernel, whose
-/// prewhitening ends at a correlation of 0.97 a cell, and the block bootstrap of the cells'
-/// influences with blocks of five correlation lengths takes its place (never below HAC).
+/// Per parameter: white when the HAC variance, which is never below sigma^2 (W'W)^-1, is above it
+/// by no more than it scatters itself (2 sd, at least 10 %); HAC as long as at least 100 rows count
+/// as independent; else the noise is too slow for a kernel, whose prewhitening ends at a
+/// correlation of 0.97 a cell, and the block bootstrap of the cells' influences with blocks of five
+/// correlation lengths takes its place (never below HAC).
 ChosenSd choose_sd(const RowStatistics& rows, const LinearSolution& solution);
 
 }  // namespace cablefit

@@ -261,10 +261,9 @@ Estimation estimate(const EstimationTask& task) {
 }  // namespace
 
 Estimator output_error() {
-  return {
-      "output-error",
-      "simulated positions follow the measured ones, torque noise and stage 1's errors as unknowns",
-      "Jazwinski 1970, 5.3; Ljung 1999, 7.2", estimate};
+  return {"output-error",
+          "simulated positions follow the measured ones, torque noise and stiffness as unknowns",
+          "Jazwinski 1970, 5.3; Ljung 1999, 7.2", estimate};
 }
 
 }  // namespace cablefit::estimation

@@ -3,17 +3,14 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
-#include "cablefit/base/parallel.hpp"
+#include "cablefit/dynamic/output_error/fit_estimates.hpp"
 #include "cablefit/dynamic/output_error/noise_levels.hpp"
-#include "cablefit/estimate/long_run.hpp"
+#include "cablefit/dynamic/output_error/window_pass.hpp"
 #include "cablefit/estimate/nonlinear_least_squares.hpp"
-#include "cablefit/estimate/parameter_estimate.hpp"
-#include "cablefit/estimate/row_statistics.hpp"
 
 namespace cablefit {
 namespace {
@@ -54,15 +51,15 @@ class Fit {
       : options_(options),
         model_(model),
         parameters_(fitted_parameters(model, options)),
-        windows_(cut_windows(model, stretches, options.window, options.position_sd)),
-        statistics_(1, 1, false) {
+        windows_(cut_windows(model, stretches, options.window, options.position_sd)) {
     assert(!windows_.empty());
     const OutputErrorWindow& last = windows_.back();
-    n_numbers_ = static_cast<Eigen::Index>(last.first_number + last.n_rows);
-    settings_.compare_every = static_cast<std::size_t>(options.first_compare_every);
-    settings_.steps = settings_.smoothing_steps = steps_of(options.first_step);
-    every_ = std::max<std::size_t>(
-        1, static_cast<std::size_t>(static_cast<double>(n_numbers_) / options.first_rows));
+    const auto n_rows = static_cast<double>(last.first_number + last.n_rows);
+    settings_.threads = options.threads;
+    settings_.filter.compare_every = static_cast<std::size_t>(options.first_compare_every);
+    settings_.filter.steps = settings_.filter.smoothing_steps = steps_of(options.first_step);
+    settings_.every = std::clamp<std::size_t>(static_cast<std::size_t>(n_rows / options.first_rows),
+                                              1, windows_.size());
     x_.resize(static_cast<Eigen::Index>(parameters_.size()));
     for (Eigen::Index k = 0; k < x_.size(); ++k)
       x_[k] = parameter_value(model, parameters_[static_cast<std::size_t>(k)]);
@@ -72,8 +69,11 @@ class Fit {
   OutputErrorFit run();
 
  private:
+  /// Per row of the slowest log.
   int steps_of(double longest) const {
-    return std::max(1, static_cast<int>(std::ceil(windows_.front().period / longest - 1e-6)));
+    double period = 0;
+    for (const OutputErrorWindow& window : windows_) period = std::max(period, window.period);
+    return std::max(1, static_cast<int>(std::ceil(period / longest - 1e-6)));
   }
   void look_closely();
   void set_first_noise();
@@ -87,26 +87,17 @@ class Fit {
   void set_parameters(const Eigen::VectorXd& x);
   void fill(OutputErrorFit& fit, const NonlinearSolution& solution);
   Eigen::MatrixXd all_rows(const Eigen::VectorXd& x) const;
-  void set_on_bound(std::size_t k, const OutputErrorFit& fit, const NonlinearSolution& solution,
-                    Estimate& e) const;
-  void fill_covariance(OutputErrorFit& fit, const NonlinearSolution& solution);
-  Estimate estimate(std::size_t k, const OutputErrorFit& fit,
-                    const NonlinearSolution& solution) const;
 
   const OutputErrorOptions& options_;
   Model model_;
   std::vector<ModelParameter> parameters_;
   std::vector<OutputErrorWindow> windows_;
   NoiseLevels noise_;
-  Eigen::Index n_numbers_ = 0;
-  std::size_t every_ = 1;  ///< window is looked at
-  FilterSettings settings_;
+  PassSettings settings_;
   int n_passes_ = 0;
   bool settled_ = false;
-  bool is_valid_ = false;  ///< what was accumulated last: nothing diverged
   Eigen::VectorXd x_;
-  RowStatistics statistics_;
-  double lag_product_ = 0, lag_square_ = 0;
+  WindowPass pass_;  ///< the last one
 };
 
 void Fit::set_first_noise() {
@@ -129,9 +120,9 @@ void Fit::set_first_noise() {
 
 /// With the steps and as often as the result deserves.
 void Fit::look_closely() {
-  settings_.compare_every = static_cast<std::size_t>(options_.compare_every);
-  settings_.steps = steps_of(options_.step);
-  settings_.smoothing_steps = steps_of(2 * options_.step);
+  settings_.filter.compare_every = static_cast<std::size_t>(options_.compare_every);
+  settings_.filter.steps = steps_of(options_.step);
+  settings_.filter.smoothing_steps = steps_of(2 * options_.step);
 }
 
 void Fit::set_parameters(const Eigen::VectorXd& x) {
@@ -148,65 +139,13 @@ void Fit::update_noise(double first_step, int max_evaluations) {
     pieces.push_back(windows_[(2 * i + 1) * windows_.size() / (2 * n_pieces)]);
     pieces.back().n_rows = std::min(pieces.back().n_rows, kNoiseRows);
   }
-  noise_ = likeliest_noise(model_, pieces, noise_, settings_, first_step, max_evaluations);
-}
-
-/// Rows of a window and what they add up to.
-struct WindowPart {
-  bool valid = false;
-  std::optional<RowStatistics> statistics;
-  double lag_product = 0, lag_square = 0;
-};
-
-/// Product of each whitened residual with the one a row later, and of each with itself.
-void add_lags(const Eigen::MatrixXd& rows, Eigen::Index n_axes, WindowPart& part) {
-  const auto residual = rows.rightCols<1>();
-  const Eigen::Index n = residual.rows() - n_axes;
-  part.lag_product = residual.topRows(n).cwiseProduct(residual.bottomRows(n)).sum();
-  part.lag_square = residual.topRows(n).squaredNorm();
+  noise_ = likeliest_noise(model_, pieces, noise_, settings_.filter, first_step, max_evaluations);
 }
 
 bool Fit::accumulate(const Eigen::VectorXd& x) {
   ++n_passes_;
-  const Eigen::Index n_columns = x.size() + 1;
-  const RowStatistics empty(n_columns, n_numbers_);
-  statistics_ = empty.empty_copy();
-  lag_product_ = lag_square_ = 0;
-  is_valid_ = true;
-  ordered_pipeline<std::size_t>(
-      options_.threads,
-      [&](auto emit) {
-        for (std::size_t k = every_ / 2; k < windows_.size(); k += every_) emit(std::size_t{k});
-      },
-      [&](std::size_t k) {
-        WindowPart part;
-        SensitivePlant plant(model_, parameters_, true);
-        if (!plant.set_parameters(x.data())) return part;
-        const OutputErrorWindow& window = windows_[k];
-        SensitivePlant bare(plant.model(), {}, true);
-        const SmoothedMotion motion = smooth_motion(bare, window, noise_, settings_);
-        if (!motion.valid) return part;
-        const Eigen::MatrixXd rows = window_residuals(plant, window, noise_, motion, settings_);
-        if (rows.rows() == 0) return part;
-        std::vector<Eigen::Index> numbers;
-        for (std::size_t row = settings_.compare_every; row < window.n_rows;
-             row += settings_.compare_every)
-          numbers.insert(numbers.end(), window.n_axes,
-                         static_cast<Eigen::Index>(window.first_number + row));
-        part.statistics = empty.empty_copy();
-        part.statistics->add(rows, numbers);
-        add_lags(rows, static_cast<Eigen::Index>(window.n_axes), part);
-        part.valid = true;
-        return part;
-      },
-      [&](WindowPart&& part) {
-        is_valid_ = is_valid_ && part.valid;
-        if (!part.valid) return;
-        statistics_.add(*part.statistics);
-        lag_product_ += part.lag_product;
-        lag_square_ += part.lag_square;
-      });
-  return is_valid_;
+  pass_ = pass_over(windows_, model_, parameters_, x, noise_, settings_);
+  return pass_.valid;
 }
 
 /// Whitened rows: their columns are the parameters, then the residual.
@@ -229,7 +168,7 @@ Eigen::MatrixXd Fit::prior_rows(const Eigen::VectorXd& x) const {
 /// Those of the logs and of the prior, compressed.
 Eigen::MatrixXd Fit::all_rows(const Eigen::VectorXd& x) const {
   StreamingQr all(x.size() + 1);
-  all.add(statistics_.r());
+  all.add(pass_.statistics.r());
   if (!options_.prior.names.empty()) all.add(prior_rows(x));
   return all.r();
 }
@@ -284,14 +223,14 @@ NonlinearSolution Fit::score() {
   const double enough = kLastStep * kLastStep * static_cast<double>(x_.size());
   const Eigen::VectorXd start = x_;
   NonlinearSolution best = minimise(0, 0);
-  for (int i = 0; is_valid_ && i < options_.max_iterations; ++i) {
+  for (int i = 0; pass_.valid && i < options_.max_iterations; ++i) {
     const Eigen::MatrixXd rows = all_rows(best.x);
     const Eigen::VectorXd gradient = rows.leftCols(x_.size()).transpose() * rows.col(x_.size());
     x_ = best.x - best.inverse * gradient;
     const bool any = leave_bounds(best, gradient);
     if (!any && !(best.decrement > enough)) break;
     const NonlinearSolution next = minimise(0, 0);
-    if (!is_valid_ || (!any && !(next.decrement < kNearer * best.decrement))) {
+    if (!pass_.valid || (!any && !(next.decrement < kNearer * best.decrement))) {
       accumulate(best.x);
       break;
     }
@@ -300,10 +239,10 @@ NonlinearSolution Fit::score() {
   x_ = start;
   // Rows that come to rest leave a little even where no step helps any more.
   best.converged =
-      is_valid_ && best.decrement < kCloseEnough * kCloseEnough * static_cast<double>(x_.size());
+      pass_.valid && best.decrement < kCloseEnough * kCloseEnough * static_cast<double>(x_.size());
   best.message =
       best.converged ? "converged"
-      : is_valid_
+      : pass_.valid
           ? fmt::format("no convergence: another step would lower |r|^2 by {:.3g}", best.decrement)
           : "the simulation diverges where the fit starts";
   return best;
@@ -328,115 +267,21 @@ OutputErrorFit Fit::run() {
   };
   while (!settled_ && fit.n_rounds < options_.max_rounds) round(false);
   look_closely();
-  if (every_ > 1) round(false);
-  every_ = 1;
+  if (settings_.every > 1) round(false);
+  settings_.every = 1;
   fill(fit, round(true));
   return fit;
 }
 
-/// With r whitened, J'J is the information; the honest covariance puts the long-run covariance of
-/// the scores, cell by cell, in its middle (see least_squares.hpp).
-void Fit::fill_covariance(OutputErrorFit& fit, const NonlinearSolution& solution) {
-  const Eigen::Index p = x_.size();
-  const double variance = fit.residual_rms * fit.residual_rms;
-  const Eigen::MatrixXd prior = prior_rows(x_).leftCols(p);
-  const Eigen::MatrixXd& inverse = solution.inverse;
-  const Eigen::MatrixXd of_prior = inverse * (prior.transpose() * prior) * inverse;
-  fit.covariance_white = variance * (inverse - of_prior) + of_prior;
-  fit.covariance = fit.covariance_white;
-  fit.degrees_of_freedom = static_cast<double>(statistics_.n_rows() - p);
-  fit.effective_rows = static_cast<double>(statistics_.n_rows());
-  const auto n_cells = static_cast<Eigen::Index>(statistics_.cells().size());
-  if (n_cells < 8) return;
-  Eigen::MatrixXd scores(n_cells, p);
-  for (Eigen::Index c = 0; c < n_cells; ++c)
-    scores.row(c) =
-        statistics_.cells()[static_cast<std::size_t>(c)].gram.col(p).head(p).transpose();
-  const LongRunCovariance hac = long_run_covariance(scores * inverse);
-  fit.covariance = hac.covariance + of_prior;
-  fit.degrees_of_freedom = hac.degrees_of_freedom;
-  double ratio = 0, n = 0;
-  for (Eigen::Index k = 0; k < p; ++k) {  // no credit for anti-correlated residuals
-    const double white = fit.covariance_white(k, k), honest = fit.covariance(k, k);
-    if (!(white > 0)) continue;
-    if (honest < white) {
-      fit.covariance.row(k) *= honest > 0 ? std::sqrt(white / honest) : 0;
-      fit.covariance.col(k) *= honest > 0 ? std::sqrt(white / honest) : 0;
-      fit.covariance(k, k) = white;
-    }
-    ratio += fit.covariance(k, k) / white;
-    ++n;
-  }
-  if (n > 0) fit.effective_rows *= n / ratio;
-}
-
-/// One-sided: where the parameter would go if it were free, as far as the fit is linear there. With
-/// its column last among those that are free, the last row of R says that alone.
-void Fit::set_on_bound(std::size_t k, const OutputErrorFit& fit, const NonlinearSolution& solution,
-                       Estimate& e) const {
-  std::vector<Eigen::Index> columns;
-  for (std::size_t j = 0; j < parameters_.size(); ++j)
-    if (!solution.at_bound[j] && solution.not_identifiable[j].empty())
-      columns.push_back(static_cast<Eigen::Index>(j));
-  columns.push_back(static_cast<Eigen::Index>(k));
-  columns.push_back(x_.size());
-  const auto last = static_cast<Eigen::Index>(columns.size()) - 2;
-  const Eigen::MatrixXd rows = all_rows(x_)(Eigen::all, columns);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows);
-  const double slope = qr.matrixQR()(last, last);
-  Estimate free = e;
-  free.sd_white = fit.residual_rms / std::abs(slope);
-  free.sd = free.sd_white * std::sqrt(static_cast<double>(fit.n_rows) / fit.effective_rows);
-  free.value = e.value + std::max(0.0, -qr.matrixQR()(last, last + 1) / slope);
-  set_interval(free, fit.degrees_of_freedom);
-  e.sd = free.sd;
-  e.sd_white = free.sd_white;
-  e.ci_low = e.value;
-  e.ci_high = free.ci_high;
-}
-
-Estimate Fit::estimate(std::size_t k, const OutputErrorFit& fit,
-                       const NonlinearSolution& solution) const {
-  const ModelParameter& p = parameters_[k];
-  const auto i = static_cast<Eigen::Index>(k);
-  Estimate e;
-  e.name = p.name;
-  e.symbol = p.symbol;
-  e.unit = p.unit;
-  e.not_identifiable = solution.not_identifiable[k];
-  if (!e.not_identifiable.empty()) return e;
-  e.value = x_[i];
-  if (solution.at_bound[k] && is_inertia(model_, p)) {
-    e.not_identifiable = fmt::format("the fit drives it towards 0: it stopped at {:.3g}", e.value);
-    e.value = std::numeric_limits<double>::quiet_NaN();
-    return e;
-  }
-  if (solution.at_bound[k]) {
-    e.active_bound = fmt::format("{} >= {:g}", p.name, p.lower);
-    set_on_bound(k, fit, solution, e);
-    return e;
-  }
-  e.sd_white = std::sqrt(fit.covariance_white(i, i));
-  e.sd = std::sqrt(fit.covariance(i, i));
-  set_interval(e, fit.degrees_of_freedom, p.lower);
-  return e;
-}
-
 void Fit::fill(OutputErrorFit& fit, const NonlinearSolution& solution) {
-  const Eigen::Index p = x_.size();
   fit.model = model_;
   fit.noise = noise_;
-  fit.n_rows = static_cast<std::size_t>(statistics_.n_rows());
+  fit.n_rows = static_cast<std::size_t>(pass_.statistics.n_rows());
   fit.n_passes = n_passes_;
   fit.converged = solution.converged;
   fit.message = solution.message;
-  if (!is_valid_ || statistics_.n_columns() != p + 1 || statistics_.n_rows() <= p) return;
-  fit.residual_rms =
-      statistics_.r().col(p).norm() / std::sqrt(static_cast<double>(statistics_.n_rows() - p));
-  fit.correlation = lag_square_ > 0 ? lag_product_ / lag_square_ : 0;
-  fill_covariance(fit, solution);
-  for (std::size_t k = 0; k < parameters_.size(); ++k)
-    fit.parameters.push_back(estimate(k, fit, solution));
+  if (!pass_.valid || pass_.statistics.n_rows() <= x_.size()) return;
+  fill_estimates({parameters_, pass_, prior_rows(x_), solution}, fit);
   if (!fit.converged) fit.warnings.push_back("output error: " + fit.message);
 }
 
