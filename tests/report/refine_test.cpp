@@ -229,7 +229,9 @@ TEST_CASE("look-alikes and the run that separates them, in the story") {
   const Document document = refine_document(ambiguous(), kFiles);
   std::string story;
   for (const SummaryLine& line : document.summary) story += line.label + ": " + line.text + "\n";
-  CHECK(story == R"(where: motor equation, thetad from -0.386 to 0.208 rad/s: 76 % of its squared gap in 41 % of its rows; 0.117 N m rms there, noise floor 0.0854
+  CHECK(
+      story ==
+      R"(where: motor equation, thetad from -0.386 to 0.208 rad/s: 76 % of its squared gap in 41 % of its rows; 0.117 N m rms there, noise floor 0.0854
 and: link equation, sgn(qd) = -1: 90 % of its squared gap in 50 % of its rows; 0.0500 N m rms there, noise floor 0.0360
 verdict: ambiguous: stribeck (motor) or a look-alike; 93 % of the squared gap above the noise floor closed
 effect: stribeck: a exp(-|thetad / v_s|^s) sgn(thetad); amplitude = 0.1821 +- 0.0077 N m, v_s = 0.1358 +- 0.0068 rad/s, exponent = 1.88 +- 0.21; carries 0.0930 N m rms
@@ -260,7 +262,8 @@ TEST_CASE("the story in Markdown and its numbers as CSV") {
   const std::string markdown = write_markdown(document);
   CHECK(markdown.find("- **model**: refined.json\n\n## Where the gap is") != std::string::npos);
   const std::string csv = write_csv(document);
-  CHECK(csv.find(",refined,stribeck.motor,amplitude,amplitude,N m,0.1821,0.0077,") != std::string::npos);
+  CHECK(csv.find(",refined,stribeck.motor,amplitude,amplitude,N m,0.1821,0.0077,") !=
+        std::string::npos);
   CHECK(csv.find(",refined,refine,gap_torque_test_after,,N m,0.1016,") != std::string::npos);
 }
 
