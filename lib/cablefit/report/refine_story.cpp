@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/refine/null_draws.hpp"
 #include "cablefit/refine/regime_variables.hpp"
 #include "cablefit/report/document_parts.hpp"
 #include "cablefit/report/numbers.hpp"
@@ -14,7 +15,6 @@ namespace {
 
 constexpr int kDigits = 3;
 constexpr std::size_t kPlaces = 2;  // where the gap is, in the story
-constexpr double kLeastP = 1e-6;    // smaller ones are a matter of the fitted tail
 constexpr double kMovedSd = 2;
 constexpr double kMovedShare = 0.02;  // where there is no sd
 
@@ -65,7 +65,7 @@ std::string parameters_text(const NamedEffect& effect) {
 }
 
 std::string p_text(double p) {
-  return p < kLeastP ? fmt::format("p < {:g}", kLeastP) : fmt::format("p = {:.1g}", p);
+  return p <= kLeastTail ? fmt::format("p < {:g}", kLeastTail) : fmt::format("p = {:.1g}", p);
 }
 
 SummaryLine evidence_line(const RefineEvidence& evidence) {
