@@ -78,6 +78,23 @@ void add_model(const PreloadFacts& facts, IdentifyResult& result, IdentifyPreloa
   if (!why_not.empty()) preload.warnings.push_back("no model file: " + why_not);
 }
 
+/// The bounds that hold the solution; where a cable would push, that this was refused.
+void note_active_bounds(const JointFit& fit, const JointPoint& point, IdentifyResult& result) {
+  const PhysicalBounds bounds = physical_bounds(fit, point.l_o);
+  std::string pushing;
+  for (const Eigen::Index i : point.solution.active) {
+    const auto k = static_cast<std::size_t>(i);
+    result.active_bounds.push_back(bounds.texts[k]);
+    if (bounds.parameters[k] < 0) pushing += (pushing.empty() ? "" : ", ") + bounds.texts[k];
+  }
+  if (pushing.empty()) return;
+  result.warnings.push_back(fmt::format(
+      "refused: plain least squares lets a cable push; a cable only pulls, (5) and (16) of the "
+      "paper, so {} is imposed and the sd are given the active bounds; --unconstrained gives the "
+      "plain fit",
+      pushing));
+}
+
 }  // namespace
 
 void describe(const JointFit& fit, const JudgedPoint& judged,
@@ -106,9 +123,7 @@ void describe(const JointFit& fit, const JudgedPoint& judged,
     for (std::string& warning : misfit_warnings(fit, judged, j, preload))
       preload.warnings.push_back(std::move(warning));
   }
-  const PhysicalBounds bounds = physical_bounds(fit, judged.point.l_o);
-  for (const Eigen::Index i : judged.point.solution.active)
-    result.active_bounds.push_back(bounds.texts[static_cast<std::size_t>(i)]);
+  note_active_bounds(fit, judged.point, result);
   result.condition = judged.linearised.condition_scaled;
   const Eigen::Index n = fit.layout.n_coefficients;
   result.coefficient_covariance =
