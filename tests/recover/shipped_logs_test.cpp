@@ -53,6 +53,20 @@ TEST_CASE("stage 2 recovers the shipped low logs", "[recover]") {
   report(result.preloads.at(0));
 }
 
+/// What rounded positions leave, whose noise is not quite white: below it no sd is to be trusted.
+constexpr double kRoundingFloor = 1e-4;  // relative
+
+void check_recovered_but_for_rounding(const std::vector<Estimate>& estimates,
+                                      const NamedValues& truth) {
+  for (const auto& [name, value] : truth) {
+    const Estimate& e = estimate(estimates, name);
+    std::printf("    %-8s true %12.6g  found %12.6g  sd %9.3g  off by %+6.2f sd\n", name.c_str(),
+                value, e.value, e.sd, (e.value - value) / e.sd);
+    INFO(name << " found " << e.value << " +- " << e.sd << ", true " << value);
+    CHECK(std::abs(e.value - value) < kSds * e.sd + kRoundingFloor * std::abs(value));
+  }
+}
+
 TEST_CASE("output error recovers the shipped low logs, cables and all", "[recover]") {
   DynamicOptions options;
   options.estimator = "output-error";
@@ -61,8 +75,8 @@ TEST_CASE("output error recovers the shipped low logs, cables and all", "[recove
   const DynamicFit& fit = result.preloads.at(0).fits.at(0);
   CHECK(fit.estimator == "output-error");
   std::printf("output error, shipped low logs\n");
-  check_recovered(fit.parameters, dynamic_truth(truth::Rig::low()), kSds);
-  check_recovered(fit.elastic->parameters, elastic_truth(truth::Rig::low()), kSds);
+  check_recovered_but_for_rounding(fit.parameters, dynamic_truth(truth::Rig::low()));
+  check_recovered_but_for_rounding(fit.elastic->parameters, elastic_truth(truth::Rig::low()));
   // No filter throws information away: inertia and friction of the link several times as well
   // determined as by least squares.
   options.estimator = "wls";

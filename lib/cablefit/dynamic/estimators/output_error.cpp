@@ -99,12 +99,16 @@ double lower_of(const EquationRows& e, Eigen::Index k) {
 std::string doubt(const EstimationTask& task, const EquationRows& e, Eigen::Index k,
                   const OutputErrorFit& oe, const Estimate& found) {
   if (!found.not_identifiable.empty()) return found.not_identifiable;
+  const bool is_inertia = e.columns.parameters[static_cast<std::size_t>(k)].is_inertia;
+  if (is_inertia) {
+    const std::string alias = inertia_alias(*e.rows, e.columns, k, task.job.rig().linear_motion);
+    if (!alias.empty()) return alias;
+  }
   if (!oe.converged)
     return fmt::format("output error stopped at {:.4g} without converging", found.value);
-  if (!e.columns.parameters[static_cast<std::size_t>(k)].is_inertia) return "";
-  if (!(found.ci_low > 0))
+  if (is_inertia && !(found.ci_low > 0))
     return fmt::format("the 95 % interval of {:.3g} reaches 0; accelerate more", found.value);
-  return inertia_alias(*e.rows, e.columns, k, task.job.rig().linear_motion);
+  return "";
 }
 
 Estimate estimate_of(const EstimationTask& task, const EquationRows& equation, Eigen::Index k,
@@ -178,11 +182,12 @@ void note_fit(const EstimationTask& task, const FittedRows& rows, const OutputEr
            per_axis(task, oe.noise.force), linear ? "N" : "N m", per_axis(task, oe.noise.position),
            linear ? "m" : "rad", oe.residual_rms, rows.note)});
   out.fit.warnings.insert(out.fit.warnings.end(), oe.warnings.begin(), oe.warnings.end());
-  if (oe.residual_rms > kWrongNoise)
-    out.fit.warnings.push_back(fmt::format(
-        "output error leaves {:.2g} times the encoders' noise: the model or the rig's sensors are "
-        "wrong",
-        oe.residual_rms));
+  if (oe.residual_rms > kWrongNoise || oe.residual_rms < 1 / kWrongNoise)
+    out.fit.warnings.push_back(
+        fmt::format("output error leaves {:.2g} times the noise that it supposes: the model or the "
+                    "rig's sensors "
+                    "are wrong",
+                    oe.residual_rms));
   if (std::abs(oe.correlation) > kWrongModel)
     out.fit.warnings.push_back(fmt::format(
         "what output error leaves is correlated from row to row ({:.2f}): the model is wrong, or "
