@@ -48,6 +48,7 @@ RefineResult named() {
   r.reason = "93 % of the squared gap above the noise floor closed";
   r.where = {{"motor", "speed", "thetad", -0.3862, 0.2081, 0.76, 0.41, 0.117, 0.0854},
              {"motor", "speed", "thetad", 0.2081, 0.3, 0.2, 0.1, 0.117, 0.0854},
+             {"motor", "position", "theta", -0.3862, 0.2081, 0.76, 0.41, 0.117, 0.0854},
              {"link", "direction", "sgn(qd)", -1, 0, 0.9, 0.5, 0.05, 0.036}};
   r.effects = {stribeck()};
   r.league = {rival("stribeck", "motor", 0.89, 1), rival("quadratic_drag", "motor", 0.44, 0),
@@ -189,6 +190,7 @@ equation  by         where                              squared gap  rows     rm
 ----------------------------------------------------------------------------------------------
 motor     speed      thetad from -0.386 to 0.208 rad/s           76    41   0.117       0.0854
 motor     speed      thetad from 0.208 to 0.300 rad/s            20    10   0.117       0.0854
+motor     position   theta from -0.386 to 0.208 rad              76    41   0.117       0.0854
 link      direction  sgn(qd) = -1                                90    50  0.0500       0.0360
 before anything was added; a share may pass 100 % where other rows lie below the floor
 
@@ -229,7 +231,9 @@ TEST_CASE("look-alikes and the run that separates them, in the story") {
   const Document document = refine_document(ambiguous(), kFiles);
   std::string story;
   for (const SummaryLine& line : document.summary) story += line.label + ": " + line.text + "\n";
-  CHECK(story == R"(where: motor equation, thetad from -0.386 to 0.208 rad/s: 76 % of its squared gap in 41 % of its rows; 0.117 N m rms there, noise floor 0.0854
+  CHECK(
+      story ==
+      R"(where: motor equation, thetad from -0.386 to 0.208 rad/s: 76 % of its squared gap in 41 % of its rows; 0.117 N m rms there, noise floor 0.0854
 and: link equation, sgn(qd) = -1: 90 % of its squared gap in 50 % of its rows; 0.0500 N m rms there, noise floor 0.0360
 verdict: ambiguous: stribeck (motor) or a look-alike; 93 % of the squared gap above the noise floor closed
 effect: stribeck: a exp(-|thetad / v_s|^s) sgn(thetad); amplitude = 0.1821 +- 0.0077 N m, v_s = 0.1358 +- 0.0068 rad/s, exponent = 1.88 +- 0.21; carries 0.0930 N m rms
@@ -260,7 +264,8 @@ TEST_CASE("the story in Markdown and its numbers as CSV") {
   const std::string markdown = write_markdown(document);
   CHECK(markdown.find("- **model**: refined.json\n\n## Where the gap is") != std::string::npos);
   const std::string csv = write_csv(document);
-  CHECK(csv.find(",refined,stribeck.motor,amplitude,amplitude,N m,0.1821,0.0077,") != std::string::npos);
+  CHECK(csv.find(",refined,stribeck.motor,amplitude,amplitude,N m,0.1821,0.0077,") !=
+        std::string::npos);
   CHECK(csv.find(",refined,refine,gap_torque_test_after,,N m,0.1016,") != std::string::npos);
 }
 

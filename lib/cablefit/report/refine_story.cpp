@@ -24,14 +24,26 @@ std::string percent(double share) {
   return fmt::format("{:.0f} %", 100 * std::clamp(share, 0.0, 1.0));
 }
 
+/// Whether it says nothing new: the same kind of variable, or (theta, and theta - q of a blocked
+/// link) the same stretch.
+bool is_told(const Regime& regime, const std::vector<Regime>& told) {
+  return std::any_of(told.begin(), told.end(), [&](const Regime& other) {
+    constexpr double kSame = 1e-3;
+    const double slack = kSame * (regime.to - regime.from);
+    return other.regime == regime.regime ||
+           (other.equation == regime.equation && std::abs(other.from - regime.from) < slack &&
+            std::abs(other.to - regime.to) < slack);
+  });
+}
+
 /// The places that stand out most, each by another kind of variable.
 std::vector<SummaryLine> where_lines(const RefineResult& result) {
   std::vector<SummaryLine> lines;
-  std::vector<std::string> told;
+  std::vector<Regime> told;
   for (const Regime& r : result.where) {
     if (told.size() == kPlaces) break;
-    if (std::find(told.begin(), told.end(), r.regime) != told.end()) continue;
-    told.push_back(r.regime);
+    if (is_told(r, told)) continue;
+    told.push_back(r);
     lines.push_back(
         {lines.empty() ? "where" : "and",
          fmt::format("{} equation, {}: {} of its squared gap in {} of its rows; {} {} rms "
