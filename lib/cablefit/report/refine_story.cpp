@@ -76,16 +76,18 @@ std::string parameters_text(const NamedEffect& effect) {
   return text;
 }
 
-std::string p_text(double p) {
-  return p < kLeastP ? fmt::format("p < {:g}", kLeastP) : fmt::format("p = {:.1g}", p);
-}
+std::string p_text(double p) { return p < kLeastP ? "p < 1e-6" : fmt::format("p = {:.1g}", p); }
 
-SummaryLine evidence_line(const RefineEvidence& evidence) {
-  return {"evidence",
-          fmt::format("removes {} of the squared gap above the noise floor on unseen data; by "
-                      "chance {} ({} simulated data sets); the best in {} of resamples",
-                      percent(evidence.gain), p_text(evidence.p_value), evidence.n_draws,
-                      percent(evidence.inclusion))};
+/// An event is in one log only: no unseen data can show it.
+SummaryLine evidence_line(const RefineEvidence& evidence, bool is_event) {
+  const std::string gain =
+      is_event ? "dated, so judged on the log that it is in"
+               : fmt::format("removes {} of the squared gap above the noise floor on unseen data",
+                             percent(evidence.gain));
+  return {
+      "evidence",
+      fmt::format("{}; by chance {} ({} simulated data sets); the best in {} of resamples", gain,
+                  p_text(evidence.p_value), evidence.n_draws, percent(evidence.inclusion))};
 }
 
 std::string rival_text(const Rival& rival) {
@@ -119,7 +121,7 @@ void add_effect_lines(const RefineResult& result, std::vector<SummaryLine>& line
       text += fmt::format("; carries {} {} rms", number(effect.torque_rms),
                           torque_unit(result.linear_motion));
     lines.push_back({"effect", text});
-    lines.push_back(evidence_line(effect.evidence));
+    lines.push_back(evidence_line(effect.evidence, row.is_event));
     // Further ones were chosen from another league.
     const bool is_first = &effect == &result.effects.front();
     if (is_first || !effect.rivals.empty())
