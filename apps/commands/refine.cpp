@@ -142,7 +142,6 @@ std::vector<Model> read_all_models(const RefineCommand& command, std::string& ch
       choice += (choice.empty() ? "" : "; ") + taken;
     });
   problems.throw_if_any();
-  require_model_set(models);
   return models;
 }
 
@@ -177,6 +176,7 @@ RefineInput read_input(RefineCommand& command) {
   std::vector<LogSurvey> fitted = input.logs.train;
   fitted.insert(fitted.end(), input.logs.blocked.begin(), input.logs.blocked.end());
   input.models = models_with_logs(std::move(input.models), fitted);
+  require_model_set(input.models);
   return input;
 }
 

@@ -26,6 +26,7 @@ Document hostile(const std::string& text) {
   d.title = text;
   d.tables = {{text, {{text, text, text, true}}, {{text}}, {text}}};
   d.paragraphs = d.warnings = {text};
+  d.summary = {{text, text}};
   d.decisions = {{{text}, text, text, text}};
   Figure figure;
   figure.section = figure.group = figure.title = figure.caption = text;
@@ -52,6 +53,8 @@ TEST_CASE("the JSON of the page says what the document says") {
   CHECK(data["title"] == "<b>&\"");
   CHECK(data["tables"][0]["columns"][0]["unit"] == "<b>&\"");
   CHECK(data["tables"][0]["rows"][0][0] == "<b>&\"");
+  CHECK(data["summary"][0]["label"] == "<b>&\"");
+  CHECK(data["summary"][0]["text"] == "<b>&\"");
   CHECK(data["decisions"][0]["reason"] == "<b>&\"");
   CHECK(data["figures"][0]["traces"][0]["style"] == "interval");
   CHECK(data["figures"][0]["traces"][0]["labels"][0] == "<b>&\"");

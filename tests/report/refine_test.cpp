@@ -48,6 +48,7 @@ RefineResult named() {
   r.reason = "93 % of the squared gap above the noise floor closed";
   r.where = {{"motor", "speed", "thetad", -0.3862, 0.2081, 0.76, 0.41, 0.117, 0.0854},
              {"motor", "speed", "thetad", 0.2081, 0.3, 0.2, 0.1, 0.117, 0.0854},
+             {"motor", "position", "theta", -0.3862, 0.2081, 0.76, 0.41, 0.117, 0.0854},
              {"link", "direction", "sgn(qd)", -1, 0, 0.9, 0.5, 0.05, 0.036}};
   r.effects = {stribeck()};
   r.league = {rival("stribeck", "motor", 0.89, 1), rival("quadratic_drag", "motor", 0.44, 0),
@@ -173,7 +174,7 @@ and        link equation, sgn(qd) = -1: 90 % of its squared gap in 50 % of its r
 verdict    named: stribeck (motor); 93 % of the squared gap above the noise floor closed
 effect     stribeck: a exp(-|thetad / v_s|^s) sgn(thetad); amplitude = 0.1821 +- 0.0077 N m, v_s = 0.1358 +-
            0.0068 rad/s, exponent = 1.88 +- 0.21; carries 0.0930 N m rms
-evidence   removes 24 % of the squared gap above the noise floor on unseen data; by chance p < 0.0001 (24
+evidence   removes 24 % of the squared gap above the noise floor on unseen data; by chance p < 1e-4 (24
            simulated data sets); the best in 100 % of resamples
 rivals     none; the next best, quadratic_drag (motor), removes 44 % alone
 gap        torque, N m rms: train 0.0977 -> 0.0864, unseen 0.106 -> 0.102, noise floor 0.0854
@@ -189,6 +190,7 @@ equation  by         where                              squared gap  rows     rm
 ----------------------------------------------------------------------------------------------
 motor     speed      thetad from -0.386 to 0.208 rad/s           76    41   0.117       0.0854
 motor     speed      thetad from 0.208 to 0.300 rad/s            20    10   0.117       0.0854
+motor     position   theta from -0.386 to 0.208 rad              76    41   0.117       0.0854
 link      direction  sgn(qd) = -1                                90    50  0.0500       0.0360
 before anything was added; a share may pass 100 % where other rows lie below the floor
 
@@ -235,7 +237,7 @@ TEST_CASE("look-alikes and the run that separates them, in the story") {
 and: link equation, sgn(qd) = -1: 90 % of its squared gap in 50 % of its rows; 0.0500 N m rms there, noise floor 0.0360
 verdict: ambiguous: stribeck (motor) or a look-alike; 93 % of the squared gap above the noise floor closed
 effect: stribeck: a exp(-|thetad / v_s|^s) sgn(thetad); amplitude = 0.1821 +- 0.0077 N m, v_s = 0.1358 +- 0.0068 rad/s, exponent = 1.88 +- 0.21; carries 0.0930 N m rms
-evidence: removes 24 % of the squared gap above the noise floor on unseen data; by chance p < 0.0001 (24 simulated data sets); the best in 100 % of resamples
+evidence: removes 24 % of the squared gap above the noise floor on unseen data; by chance p < 1e-4 (24 simulated data sets); the best in 100 % of resamples
 rivals: quadratic_drag (motor) removes 85 %, 1.3 sd behind; asymmetric_coulomb (motor) is the same in any log of the usual kind
 gap: torque, N m rms: train 0.0977 -> 0.0864, unseen 0.106 -> 0.102, noise floor 0.0854; unseen: the last third of every moving log
 simulation: of unseen logs, mrad rms: 0.910 -> 0.120 (0.110 .. 0.130), noise floor 0.100
@@ -244,6 +246,16 @@ shifts: f_vm 1.0606 -> 1.1439 +- 0.0043 N m s/rad (+19 sd), f_sm 2.8757 -> 2.768
 next run: slow sweeps through several speeds
 model: refined.json
 )");
+}
+
+TEST_CASE("an event has its date, and no gain on unseen data") {
+  RefineResult r = named();
+  r.effects.front().instance.refinement = &find_refinement("slip", Site::transmission);
+  r.effects.front().instance.event_time = 7.25;
+  std::string story;
+  for (const SummaryLine& line : refine_document(r, kFiles).summary) story += line.text + "\n";
+  CHECK_THAT(story, Catch::Matchers::Contains("; at 7.25 s of slow.csv; carries"));
+  CHECK_THAT(story, Catch::Matchers::Contains("dated, so judged on the log that it is in; by"));
 }
 
 TEST_CASE("a story without an effect") {

@@ -50,6 +50,19 @@ TEST_CASE("a document as text") {
         "warning: look\\x1b here\n");
 }
 
+TEST_CASE("a summary stands before the tables, its texts beside their labels") {
+  Document d;
+  d.title = "A title";
+  const std::string word(60, 'x');
+  d.summary = {{"gap", word + " " + word + " end"}, {"verdict", "named\x1b"}};
+  d.tables = {{"Numbers", {{"", "x", ""}}, {{"1"}}, {}}};
+  CHECK(write_text(d) == "A title\n\ngap      " + word + "\n         " + word +
+                             " end\nverdict  named\\x1b\n\nNumbers\n\nx\n-\n1\n");
+  CHECK_THAT(write_markdown(d),
+             Catch::Matchers::StartsWith("# A title\n\n- **gap**: " + word + " " + word +
+                                         " end\n- **verdict**: named\\\\x1b\n\n## Numbers\n"));
+}
+
 TEST_CASE("details are for files") {
   CHECK_THAT(write_text(document()), Catch::Matchers::Contains("Details\n\nx\n-\n1\n"));
 }

@@ -194,7 +194,7 @@ std::vector<std::size_t> revealing(const Pair& pair) {
         rows.begin(), rows.end(),
         [v](const Seen& a, const Seen& b) { return a.variables[v] < b.variables[v]; });
     if (is_plotted(all[v]) && high->variables[v] > low->variables[v])
-      ranked.push_back({-explained(pair.before, v), v});
+      ranked.emplace_back(-explained(pair.before, v), v);
   }
   std::sort(ranked.begin(), ranked.end());
   std::vector<std::size_t> chosen;

@@ -24,14 +24,26 @@ std::string percent(double share) {
   return fmt::format("{:.0f} %", 100 * std::clamp(share, 0.0, 1.0));
 }
 
+/// Whether it says nothing new: the same kind of variable, or (theta, and theta - q of a blocked
+/// link) the same stretch.
+bool is_told(const Regime& regime, const std::vector<Regime>& told) {
+  return std::any_of(told.begin(), told.end(), [&](const Regime& other) {
+    constexpr double kSame = 1e-3;
+    const double slack = kSame * (regime.to - regime.from);
+    return other.regime == regime.regime ||
+           (other.equation == regime.equation && std::abs(other.from - regime.from) < slack &&
+            std::abs(other.to - regime.to) < slack);
+  });
+}
+
 /// The places that stand out most, each by another kind of variable.
 std::vector<SummaryLine> where_lines(const RefineResult& result) {
   std::vector<SummaryLine> lines;
-  std::vector<std::string> told;
+  std::vector<Regime> told;
   for (const Regime& r : result.where) {
     if (told.size() == kPlaces) break;
-    if (std::find(told.begin(), told.end(), r.regime) != told.end()) continue;
-    told.push_back(r.regime);
+    if (is_told(r, told)) continue;
+    told.push_back(r);
     lines.push_back(
         {lines.empty() ? "where" : "and",
          fmt::format("{} equation, {}: {} of its squared gap in {} of its rows; {} {} rms "
@@ -64,16 +76,19 @@ std::string parameters_text(const NamedEffect& effect) {
   return text;
 }
 
-std::string p_text(double p) {
-  return p <= kLeastTail ? fmt::format("p < {:g}", kLeastTail) : fmt::format("p = {:.1g}", p);
-}
+static_assert(kLeastTail == 1e-4);
+std::string p_text(double p) { return p <= kLeastTail ? "p < 1e-4" : fmt::format("p = {:.1g}", p); }
 
-SummaryLine evidence_line(const RefineEvidence& evidence) {
-  return {"evidence",
-          fmt::format("removes {} of the squared gap above the noise floor on unseen data; by "
-                      "chance {} ({} simulated data sets); the best in {} of resamples",
-                      percent(evidence.gain), p_text(evidence.p_value), evidence.n_draws,
-                      percent(evidence.inclusion))};
+/// An event is in one log only: no unseen data can show it.
+SummaryLine evidence_line(const RefineEvidence& evidence, bool is_event) {
+  const std::string gain =
+      is_event ? "dated, so judged on the log that it is in"
+               : fmt::format("removes {} of the squared gap above the noise floor on unseen data",
+                             percent(evidence.gain));
+  return {
+      "evidence",
+      fmt::format("{}; by chance {} ({} simulated data sets); the best in {} of resamples", gain,
+                  p_text(evidence.p_value), evidence.n_draws, percent(evidence.inclusion))};
 }
 
 std::string rival_text(const Rival& rival) {
@@ -107,7 +122,7 @@ void add_effect_lines(const RefineResult& result, std::vector<SummaryLine>& line
       text += fmt::format("; carries {} {} rms", number(effect.torque_rms),
                           torque_unit(result.linear_motion));
     lines.push_back({"effect", text});
-    lines.push_back(evidence_line(effect.evidence));
+    lines.push_back(evidence_line(effect.evidence, row.is_event));
     // Further ones were chosen from another league.
     const bool is_first = &effect == &result.effects.front();
     if (is_first || !effect.rivals.empty())

@@ -81,6 +81,7 @@ class Figures(unittest.TestCase):
             score.removed({"test_before": math.sqrt(5), "test_after": math.sqrt(1.25), "noise_floor": 1}),
             0.9375)
         self.assertIsNone(score.removed({"test_before": 1.1, "test_after": 1, "noise_floor": 1}))
+        self.assertIsNone(score.removed({"test_before": None, "test_after": None, "noise_floor": None}))
 
     def test_coefficients_by_name_then_by_unit(self):
         one = result([effect("cogging")], said("named", ("cogging", "motor"), parameters=[

@@ -67,9 +67,9 @@ def both_named(result):
 
 def removed(gap):
     """Share of the squared gap above the floor that the effect removed on unseen logs; None when the
-    gap before was hardly above it."""
+    gap is not known, or before was hardly above it."""
     before, after, floor = gap["test_before"], gap["test_after"], gap["noise_floor"]
-    if before <= 1.1 * floor:
+    if None in (before, after, floor) or before <= 1.1 * floor:
         return None
     return 1 - (after ** 2 - floor ** 2) / (before ** 2 - floor ** 2)
 
