@@ -62,6 +62,7 @@ struct ShapeGrid {
   int n_values = 1;
   bool is_geometric = true;  ///< even in its logarithm
   GridUnit unit = GridUnit::si;
+  bool is_whole = false;  ///< values are whole numbers, and nothing lies between them
 
   /// Value i = 0 .. n_values-1, in SI.
   double value(int i, const LogScale& scale) const;
@@ -122,6 +123,8 @@ struct Refinement {
                                         const double* shape) = nullptr;
 
   std::size_t n_linear() const { return parameters.size() - shape.size(); }
+  /// An event after which the joint is another one, and not one that passes.
+  bool lasts() const { return is_event && shape.empty(); }
 };
 
 /// All rows, in the order of the contract's list.

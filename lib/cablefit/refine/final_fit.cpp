@@ -60,6 +60,7 @@ BlockGrams with_shape_columns(const Design& undone, const Design& design, const 
   std::vector<StretchRows> rows = design.rows;
   for (std::size_t k = 0; k < design.added.size(); ++k)
     for (std::size_t i = 0; i < design.added[k].shape.size(); ++i) {
+      if (design.added[k].refinement->shape[i].is_whole) continue;
       const VariantColumns column = shape_column(undone, design, x, k, i);
       for (std::size_t s = 0; s < rows.size(); ++s)
         for (std::size_t kind = 0; kind < rows[s].kinds.size(); ++kind) {

@@ -7,7 +7,7 @@
 namespace cablefit {
 
 /// Values and covariance of all linear columns of a design, then of every nonlinear parameter of
-/// what was added, in order.
+/// what was added that is no whole number, in order.
 struct FinalFit {
   Eigen::VectorXd x;              ///< linear columns
   Eigen::MatrixXd covariance;     ///< of x and the nonlinear ones; sandwich over blocks

@@ -33,6 +33,7 @@ bool any_part(const PartSurvey&) { return true; }
 struct Bench {
   const RefineOptions& options;
   ScanSettings scan = {};
+  std::vector<LogSurvey> all = {};     ///< blocked, training, test: by Stretch::log
   std::vector<LogSurvey> logs = {};    ///< blocked, then training
   std::vector<LogSurvey> unseen = {};  ///< simulated for the last word; the training logs when none
   Smoothing smoothing = {};
@@ -191,8 +192,12 @@ bool add_next_effect(Bench& bench, State& state, RefineResult& result) {
   auto next = with_candidate(bench, state, found, winner);
   if (!next) return false;
   const Refinement& row = *winner.variant.refinement;
-  RefineStep step{std::string(row.name), std::string(to_string(row.site)), false, "",
-                  std::sqrt(next->rho),  std::sqrt(next->unseen.rho)};
+  const double unit = bench.floor[static_cast<std::size_t>(RowKind::motor)];
+  RefineStep step;
+  step.added = row.name;
+  step.side = to_string(row.site);
+  step.gap_train = unit * std::sqrt(next->rho);
+  step.gap_test = unit * std::sqrt(next->unseen.rho);
   step.reason = why_not_added({row, state.unseen.rho, next->unseen.rho, state.simulated,
                                next->simulated, bench.simulation_floor});
   step.accepted = step.reason.empty();
@@ -259,6 +264,7 @@ State prepare(Bench& bench, std::span<const Model> models, const RefineLogs& log
   if (train.empty())
     throw input_error({}, "no log to refine with", "give moving logs with --train");
   std::vector<Stretch> test = read_stretches(logs.test, models, any_part);
+  for (Stretch& stretch : test) stretch.log += bench.logs.size();  // recorded after what they test
   if (test.empty()) test = hold_out(train, kHeldOutShare);
   result.held_out_blocks = logs.test.empty();
   const Smoothing wanted = smoothing_for(train.front().recording.period);
@@ -297,6 +303,8 @@ RefineResult refine(std::span<const Model> models, const RefineLogs& logs,
   bench.scan.threads = options.threads;
   bench.logs = logs.blocked;
   bench.logs.insert(bench.logs.end(), logs.train.begin(), logs.train.end());
+  bench.all = bench.logs;
+  bench.all.insert(bench.all.end(), logs.test.begin(), logs.test.end());
   const State first = prepare(bench, models, logs, result);
   result.where = find_regimes(first.design, first.x, bench.floor);
 
@@ -312,7 +320,7 @@ RefineResult refine(std::span<const Model> models, const RefineLogs& logs,
     result.effects[k].derived = named[k].derived;
     result.effects[k].torque_rms = named[k].torque_rms;
   }
-  result.shifts = parameter_shifts(state.design, fit, first.x);
+  result.shifts = parameter_shifts(first.design, first.x, state.design, fit);
   result.models = refined_models(state.design, fit);
   result.rho_before = first.rho;
   result.rho_after = state.rho;
@@ -320,10 +328,9 @@ RefineResult refine(std::span<const Model> models, const RefineLogs& logs,
   tell_remainder(fit.rms, bench.floor, result);
   conclude(result);
   if (options.figures)
-    result.figures = refine_figures(
-        result, {bench.logs, first.design, first.x, state.design, fit.x},
-        {logs.test.empty() ? bench.logs : logs.test, first.test, first.x, state.test, fit.x},
-        bench.floor);
+    result.figures =
+        refine_figures(result, {bench.all, first.design, first.x, state.design, fit.x},
+                       {bench.all, first.test, first.x, state.test, fit.x}, bench.floor);
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "cablefit/estimate/long_run.hpp"
 
@@ -84,6 +85,40 @@ void set_elastic_estimates(const Design& design, const FinalFit& fit, Model& mod
   model.elastic = std::move(elastic);
 }
 
+/// Names of the base's columns.
+std::vector<std::string> base_names(const Design& design) {
+  std::vector<std::string> names;
+  for (const ParameterInfo& info : design.layout.effects) names.emplace_back(info.name);
+  const Model& model = design.models.front();
+  if (model.rigid) return names;
+  if (model.transmission.cables.empty()) names.emplace_back("K");
+  for (const Cable& cable : model.transmission.cables)
+    for (int i = 0; i < cable.n_coefficients(); ++i)
+      names.push_back(coefficient_name(cable, i, model.rig.cables_given));
+  return names;
+}
+
+std::string base_unit(const Design& design, std::size_t column) {
+  const auto& effects = design.layout.effects;
+  if (column < effects.size()) return std::string(effects[column].unit);
+  const Model& model = design.models.front();
+  std::size_t next = effects.size();
+  for (const Cable& cable : model.transmission.cables)
+    for (int i = 0; i < cable.n_coefficients(); ++i)
+      if (next++ == column) return coefficient_unit(*cable.law, i, model.rig.cables_given);
+  return "N m/rad";
+}
+
+/// What a model holds of an effect: other cables it has already, what passed is over, and what
+/// lasts has happened before any log to come.
+std::optional<RefinementInstance> as_state(RefinementInstance instance) {
+  const Refinement& row = *instance.refinement;
+  if (row.change != nullptr || (row.is_event && !row.lasts())) return {};
+  instance.event_log = 0;
+  instance.event_time = 0;
+  return instance;
+}
+
 }  // namespace
 
 std::vector<NamedEffect> named_effects(const Design& design, const FinalFit& fit) {
@@ -103,23 +138,25 @@ std::vector<NamedEffect> named_effects(const Design& design, const FinalFit& fit
                                                        sd_at(fit, column), fit.degrees_of_freedom));
     };
     for (Eigen::Index p = 0; p < n; ++p)
-      add(static_cast<std::size_t>(p), fit.x(first[k] + p), first[k] + p);
+      add(static_cast<std::size_t>(p), fit.x(first[k] + p), sd_at(fit, first[k] + p));
     for (std::size_t p = 0; p < variant.shape.size(); ++p)
-      add(row.n_linear() + p, variant.shape[p], shape_at++);
+      add(row.n_linear() + p, variant.shape[p], row.shape[p].is_whole ? 0 : sd_at(fit, shape_at++));
     effect.derived = amplitudes(row, fit, first[k]);
     if (n > 0) effect.torque_rms = carried_torque(design, fit.x, first[k], n);
   }
   return effects;
 }
 
-std::vector<ParameterShift> parameter_shifts(const Design& design, const FinalFit& fit,
-                                             const Eigen::VectorXd& before) {
+std::vector<ParameterShift> parameter_shifts(const Design& first, const Eigen::VectorXd& before,
+                                             const Design& design, const FinalFit& fit) {
+  const std::vector<std::string> old_names = base_names(first), names = base_names(design);
   std::vector<ParameterShift> shifts;
-  for (std::size_t i = 0; i < design.layout.effects.size(); ++i) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto same = std::find(old_names.begin(), old_names.end(), names[i]);
+    if (same == old_names.end()) continue;  // the effect brought it
     const auto at = static_cast<Eigen::Index>(i);
-    const ParameterInfo& info = design.layout.effects[i];
-    shifts.push_back(
-        {std::string(info.name), std::string(info.unit), before(at), fit.x(at), sd_at(fit, at)});
+    shifts.push_back({names[i], base_unit(design, i), before(same - old_names.begin()), fit.x(at),
+                      sd_at(fit, at)});
   }
   return shifts;
 }
@@ -135,8 +172,8 @@ std::vector<Model> models_with(const Design& design, const Eigen::VectorXd& x) {
   for (Model& model : models) {
     set_base_values(x.head(design.layout.n()), model);
     for (const NamedEffect& effect : effects)
-      if (effect.instance.refinement->change == nullptr)
-        model.joints.front().refinements.push_back(effect.instance);
+      if (auto instance = as_state(effect.instance))
+        model.joints.front().refinements.push_back(std::move(*instance));
   }
   return models;
 }
@@ -154,7 +191,7 @@ std::vector<Model> refined_models(const Design& design, const FinalFit& fit) {
     auto& instances = model.joints.front().refinements;
     std::size_t next = 0;
     for (const NamedEffect& effect : effects)
-      if (effect.instance.refinement->change == nullptr) instances[next++] = effect.instance;
+      if (auto instance = as_state(effect.instance)) instances[next++] = std::move(*instance);
   }
   return models;
 }

@@ -89,7 +89,7 @@ std::vector<std::pair<std::size_t, double>> dates(const Design& design, double s
 /// What lasts changes all rows after it, so that its date is known from far; what passes does not.
 double date_step(const Refinement& row, const ScanSettings& settings) {
   constexpr double kCoarser = 4;
-  return (row.shape.empty() ? kCoarser : 1.0) * settings.event_step;
+  return (row.lasts() ? kCoarser : 1.0) * settings.event_step;
 }
 
 std::vector<Variant> variants_of(const Refinement& row, const Design& design, double event_step) {
@@ -184,6 +184,7 @@ Candidate refined_shape(const ScanStart& start, const ScanSettings& settings, Ca
   Variant variant = candidate.variant;
   for (int round = 0; round < kRounds; ++round) {
     for (std::size_t i = 0; i < variant.shape.size(); ++i) {
+      if (row.shape[i].is_whole) continue;
       const auto [low, high] = around(row.shape[i], variant.shape[i], start.design.scale);
       variant.shape[i] = golden(low, high, [&](double value) {
         Variant other = variant;

@@ -10,6 +10,7 @@
 namespace cablefit {
 namespace {
 
+constexpr double kNextShare = 0.3;         // of the gap that is left
 constexpr double kNextMateriality = 0.02;  // of what is left: imperfect first terms leave crumbs
 constexpr double kLookAlikeSd = 2;         // paired blocks' difference
 constexpr double kLookAlikeShare = 0.25;   // of the gap: more than that apart is not alike
@@ -126,6 +127,7 @@ Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGa
     const double chance = largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
     const double least =
         is_first ? options.materiality : std::max(kNextMateriality, options.materiality);
+    if (!is_first && c.gain * gap.total < kNextShare * gap.above()) return false;
     return c.gain >= least && c.gain > kSafety * chance && p <= options.significance;
   };
   for (std::size_t k = 0; k < able.size(); ++k) {
@@ -198,7 +200,10 @@ void conclude(RefineResult& result) {
     result.reason = fmt::format("it closes {:.0f} % of the squared gap above the noise floor",
                                 100 * std::clamp(closed, 0.0, 1.0));
     if (result.rho_after > kRemainder) result.reason += "; a remainder is unexplained";
-    if (!rivals.empty()) result.next_experiment = rivals.front().experiment;
+    const auto other = std::find_if(rivals.begin(), rivals.end(),
+                                    [](const Rival& rival) { return !rival.by_rule; });
+    if (!rivals.empty())
+      result.next_experiment = (other != rivals.end() ? *other : rivals.front()).experiment;
     return;
   }
   const bool refused = !result.steps.empty();

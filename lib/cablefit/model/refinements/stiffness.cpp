@@ -8,7 +8,8 @@ namespace {
 
 constexpr ParameterInfo kOrder[] = {
     {"order", "n", "", "orders more than the model's cables have", 1, 2}};
-constexpr ShapeGrid kOrders[] = {{.low = 1, .high = 2, .n_values = 2, .is_geometric = false}};
+constexpr ShapeGrid kOrders[] = {
+    {.low = 1, .high = 2, .n_values = 2, .is_geometric = false, .is_whole = true}};
 
 bool can_rise(const Cable& cable, int orders) {
   return cable.order + orders <= cable.law->max_order;
