@@ -393,7 +393,7 @@ Recording sines() {
   const Eigen::ArrayXd t = Eigen::ArrayXd::LinSpaced(500, 0, 0.499);
   recording.q = (20 * t).sin();
   recording.theta = (20 * t + 0.01).sin();
-  recording.tau = kScale * (15 * t).sin();
+  recording.tau = kScale.peak * (15 * t).sin();
   recording.tau_load = 3 * (5 * t).cos();
   return recording;
 }
