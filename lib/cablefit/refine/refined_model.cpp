@@ -133,9 +133,9 @@ std::vector<NamedEffect> named_effects(const Design& design, const FinalFit& fit
     effect.instance.refinement = &row;
     effect.instance.event_log = variant.event_log;
     effect.instance.event_time = variant.event_time;
-    const auto add = [&](std::size_t parameter, double value, Eigen::Index column) {
-      effect.instance.parameters.push_back(estimate_of(row.parameters[parameter], value,
-                                                       sd_at(fit, column), fit.degrees_of_freedom));
+    const auto add = [&](std::size_t parameter, double value, double sd) {
+      effect.instance.parameters.push_back(
+          estimate_of(row.parameters[parameter], value, sd, fit.degrees_of_freedom));
     };
     for (Eigen::Index p = 0; p < n; ++p)
       add(static_cast<std::size_t>(p), fit.x(first[k] + p), sd_at(fit, first[k] + p));
