@@ -59,6 +59,8 @@ TEST_CASE("a hidden Stribeck friction is named, sized and closes the gap", "[ref
   const Estimate& amplitude = parameter(result, "amplitude");
   CHECK(std::abs(amplitude.value - truth(hidden, "amplitude")) <
         4 * amplitude.sd + 0.05 * amplitude.value);
+  CHECK(amplitude.sd > 0.002 * amplitude.value);
+  CHECK(amplitude.sd < 0.1 * amplitude.value);
   CHECK(result.rho_after < 1.2);
   CHECK(result.torque.test_after < result.torque.test_before);
   CHECK(result.simulation.test_after < result.simulation.test_before);
