@@ -53,8 +53,8 @@ bool same_class(const Refinement& a, const Refinement& b) {
 
 /// Share of resamples of the blocks in which each candidate has the least error.
 std::vector<double> inclusions(const std::vector<const Candidate*>& candidates) {
-  std::vector<double> share(candidates.size(), 0.0);
-  if (candidates.empty()) return share;
+  std::vector<int> wins(candidates.size(), 0);
+  if (candidates.empty()) return {};
   const Eigen::Index n = candidates.front()->error.size();
   Random random(1, 21);
   for (int resample = 0; resample < kResamples; ++resample) {
@@ -70,8 +70,10 @@ std::vector<double> inclusions(const std::vector<const Candidate*>& candidates) 
         best = k;
       }
     }
-    share[best] += 1.0 / kResamples;
+    ++wins[best];
   }
+  std::vector<double> share;
+  for (const int won : wins) share.push_back(static_cast<double>(won) / kResamples);
   return share;
 }
 
