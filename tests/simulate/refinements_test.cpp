@@ -26,7 +26,8 @@ std::string label(const Refinement& row) {
 /// The shape in the middle of the grids.
 Values middle_shape(const Refinement& row) {
   Values shape;
-  for (const ShapeGrid& grid : row.shape) shape.push_back(grid.value(grid.n_values / 2, {.peak = 1, .travel = 0.4}));
+  for (const ShapeGrid& grid : row.shape)
+    shape.push_back(grid.value(grid.n_values / 2, {.peak = 1, .travel = 0.4}));
   return shape;
 }
 
