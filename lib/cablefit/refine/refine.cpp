@@ -262,7 +262,8 @@ State prepare(Bench& bench, std::span<const Model> models, const RefineLogs& log
               RefineResult& result) {
   std::vector<Stretch> train = read_stretches(bench.logs, models, any_part);
   if (train.empty())
-    throw input_error({}, "no log to refine with", "give moving logs with --train");
+    throw input_error({}, "no stretch of evenly spaced rows is long enough to refine with",
+                      "give logs of at least a few seconds with --train");
   std::vector<Stretch> test = read_stretches(logs.test, models, any_part);
   for (Stretch& stretch : test) stretch.log += bench.logs.size();  // recorded after what they test
   if (test.empty()) test = hold_out(train, kHeldOutShare);

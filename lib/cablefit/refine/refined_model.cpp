@@ -85,6 +85,11 @@ void set_elastic_estimates(const Design& design, const FinalFit& fit, Model& mod
   model.elastic = std::move(elastic);
 }
 
+/// A unit of the tables on the model's axis.
+std::string unit_in(const Model& model, std::string_view rotary) {
+  return model.rig.linear_motion ? linear_unit(rotary) : std::string(rotary);
+}
+
 /// Names of the base's columns.
 std::vector<std::string> base_names(const Design& design) {
   std::vector<std::string> names;
@@ -100,13 +105,14 @@ std::vector<std::string> base_names(const Design& design) {
 
 std::string base_unit(const Design& design, std::size_t column) {
   const auto& effects = design.layout.effects;
-  if (column < effects.size()) return std::string(effects[column].unit);
   const Model& model = design.models.front();
+  if (column < effects.size()) return unit_in(model, effects[column].unit);
   std::size_t next = effects.size();
   for (const Cable& cable : model.transmission.cables)
     for (int i = 0; i < cable.n_coefficients(); ++i)
-      if (next++ == column) return coefficient_unit(*cable.law, i, model.rig.cables_given);
-  return "N m/rad";
+      if (next++ == column)
+        return unit_in(model, coefficient_unit(*cable.law, i, model.rig.cables_given));
+  return unit_in(model, "N m/rad");
 }
 
 /// What a model holds of an effect: other cables it has already, what passed is over, and what
@@ -122,6 +128,7 @@ std::optional<RefinementInstance> as_state(RefinementInstance instance) {
 }  // namespace
 
 std::vector<NamedEffect> named_effects(const Design& design, const FinalFit& fit) {
+  const Model& model = design.models.front();
   std::vector<NamedEffect> effects;
   const auto first = first_columns(design);
   Eigen::Index shape_at = design.n_columns();
@@ -136,12 +143,15 @@ std::vector<NamedEffect> named_effects(const Design& design, const FinalFit& fit
     const auto add = [&](std::size_t parameter, double value, double sd) {
       effect.instance.parameters.push_back(
           estimate_of(row.parameters[parameter], value, sd, fit.degrees_of_freedom));
+      Estimate& e = effect.instance.parameters.back();
+      e.unit = unit_in(model, e.unit);
     };
     for (Eigen::Index p = 0; p < n; ++p)
       add(static_cast<std::size_t>(p), fit.x(first[k] + p), sd_at(fit, first[k] + p));
     for (std::size_t p = 0; p < variant.shape.size(); ++p)
       add(row.n_linear() + p, variant.shape[p], row.shape[p].is_whole ? 0 : sd_at(fit, shape_at++));
     effect.derived = amplitudes(row, fit, first[k]);
+    for (Estimate& e : effect.derived) e.unit = unit_in(model, e.unit);
     if (n > 0) effect.torque_rms = carried_torque(design, fit.x, first[k], n);
   }
   return effects;
