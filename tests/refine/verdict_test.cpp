@@ -137,6 +137,10 @@ TEST_CASE("the simulation of unseen logs has the last word", "[refine]") {
         "the equations of unseen logs do not fit better with it");
   CHECK(why_not_added({row, 1.5, 1.2, before, failed, floor}) ==
         "with it the simulation fails: diverged");
+  // These logs do not show the effect: what they show already is their floor.
+  CHECK(why_not_added({row, 1.01, 1.015, floor, floor, floor}).empty());
+  CHECK_FALSE(why_not_added({row, 1.01, 1.1, floor, floor, floor}).empty());
+  CHECK_FALSE(why_not_added({row, 1.01, 1.0, floor, before, floor}).empty());
   const Refinement& event = find_refinement("contact", Site::link);
   CHECK(why_not_added({event, 1.5, 1.6, before, worse, floor}).empty());  // is over in other logs
 }

@@ -182,13 +182,25 @@ Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGa
   return judgement;
 }
 
+namespace {
+
+/// Of squared gaps on unseen logs. Where these show no gap in the first place, as when a drive
+/// never saturates in them, nothing can shrink: it is enough that nothing grows.
+bool is_better(double before, double after, double floor) {
+  constexpr double kAsGood = 1.02;
+  return before > kVisibleGap * floor ? after < before : after < kAsGood * before;
+}
+
+}  // namespace
+
 std::string why_not_added(const UnseenChange& change) {
   if (change.row.is_event) return "";
-  if (!(change.rho_after < change.rho_before))
+  if (!is_better(change.rho_before, change.rho_after, 1))
     return "the equations of unseen logs do not fit better with it";
   if (!change.before.known() || !change.floor.known()) return "";
   if (!change.after.known()) return "with it the simulation fails: " + change.after.failure;
-  if (!(in_floors(change.after, change.floor) < in_floors(change.before, change.floor)))
+  if (!is_better(in_floors(change.before, change.floor), in_floors(change.after, change.floor),
+                 in_floors(change.floor, change.floor)))
     return "unseen logs are not simulated better with it";
   return "";
 }
