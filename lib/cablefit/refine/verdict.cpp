@@ -186,21 +186,23 @@ namespace {
 
 /// Of squared gaps on unseen logs. Where these show no gap in the first place, as when a drive
 /// never saturates in them, nothing can shrink: it is enough that nothing grows.
-bool is_better(double before, double after, double floor) {
+bool is_better(double before, double after, double visible) {
   constexpr double kAsGood = 1.02;
-  return before > kVisibleGap * floor ? after < before : after < kAsGood * before;
+  return before > visible ? after < before : after < kAsGood * before;
 }
 
 }  // namespace
 
 std::string why_not_added(const UnseenChange& change) {
   if (change.row.is_event) return "";
-  if (!is_better(change.rho_before, change.rho_after, 1))
+  if (!is_better(change.rho_before, change.rho_after, kVisibleGap))
     return "the equations of unseen logs do not fit better with it";
   if (!change.before.known() || !change.floor.known()) return "";
   if (!change.after.known()) return "with it the simulation fails: " + change.after.failure;
+  // Parameters from other logs leave a simulation more than sensors do.
+  constexpr double kVisibleSimulated = 1.5;
   if (!is_better(in_floors(change.before, change.floor), in_floors(change.after, change.floor),
-                 in_floors(change.floor, change.floor)))
+                 kVisibleSimulated * in_floors(change.floor, change.floor)))
     return "unseen logs are not simulated better with it";
   return "";
 }
