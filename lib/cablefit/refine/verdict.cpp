@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "cablefit/base/random.hpp"
 
@@ -35,6 +36,7 @@ std::vector<double> largest_gains(const std::vector<NullDraw>& draws, bool event
 /// Difference of two candidates' errors over the blocks, and its standard error.
 struct Paired {
   double sum = 0, se = 0;
+  double in_sd() const { return se > 0 ? sum / se : sum > 0 ? kUnbounded : 0; }
 };
 Paired paired(const Eigen::ArrayXd& a, const Eigen::ArrayXd& b) {
   const Eigen::ArrayXd d = a - b;
@@ -97,6 +99,124 @@ Rival rival_of(const Candidate& c, const SquaredGap& gap) {
   return rival;
 }
 
+/// What decides whether a gain is beyond chance. An event may not win by what any date would have
+/// won: each kind has its own null.
+class Significance {
+ public:
+  Significance(const std::vector<NullDraw>& draws, const SquaredGap& gap,
+               const RefineOptions& options, bool is_first)
+      : lasting_(largest_gains(draws, false)),
+        events_(largest_gains(draws, true)),
+        gap_(gap),
+        options_(options),
+        is_first_(is_first) {}
+
+  double p_value(const Candidate& c) const { return tail_of_largest(chance_of(c), c.gain); }
+
+  bool holds(const Candidate& c) const {
+    const std::vector<double>& chance = chance_of(c);
+    const double most = chance.empty() ? 0 : *std::max_element(chance.begin(), chance.end());
+    const double least =
+        is_first_ ? options_.materiality : std::max(kNextMateriality, options_.materiality);
+    if (!is_first_ && c.gain * gap_.total < kNextShare * gap_.above()) return false;
+    return c.gain >= least && c.gain > kSafety * most && p_value(c) <= options_.significance;
+  }
+
+ private:
+  const std::vector<double>& chance_of(const Candidate& c) const {
+    return c.variant.refinement->is_event ? events_ : lasting_;
+  }
+
+  std::vector<double> lasting_, events_;
+  const SquaredGap& gap_;
+  const RefineOptions& options_;
+  bool is_first_;
+};
+
+/// Physical candidates with a gain, the largest first.
+std::vector<const Candidate*> ranked(const std::vector<Candidate>& candidates) {
+  std::vector<const Candidate*> able;
+  for (const Candidate& c : candidates)
+    if (may_be_named(c)) able.push_back(&c);
+  std::stable_sort(able.begin(), able.end(),
+                   [](const Candidate* a, const Candidate* b) { return a->gain > b->gain; });
+  return able;
+}
+
+/// Place of the significant candidate with the largest gain; of those that do as well, the one with
+/// the fewest parameters. Nothing: none is significant.
+std::optional<std::size_t> best_of(const std::vector<const Candidate*>& able,
+                                   const Significance& significance, const SquaredGap& gap) {
+  std::optional<std::size_t> best;
+  for (std::size_t k = 0; k < able.size(); ++k) {
+    if (!significance.holds(*able[k])) continue;
+    if (!best || (is_tie(*able[k], *able[*best], gap) &&
+                  n_parameters(*able[k]) < n_parameters(*able[*best])))
+      best = k;
+  }
+  return best;
+}
+
+/// Whether the data leave it open which of the two it is. More parameters that do no better are no
+/// other explanation.
+bool is_alike(const Candidate& c, const Candidate& best, const Paired& difference,
+              const SquaredGap& gap) {
+  if (c.variant.refinement->is_event != best.variant.refinement->is_event) return false;
+  if (n_parameters(c) > n_parameters(best) && difference.sum >= 0) return false;
+  const double apart = gap.above() > 0 ? difference.sum / gap.above() : kUnbounded;
+  return apart < kTieShare ||
+         (difference.sum < kLookAlikeSd * difference.se && apart < kLookAlikeShare);
+}
+
+/// Aliases are listed by rule, also where their columns vanished beside each other.
+void add_aliases(const Refinement& named, std::vector<Rival>& rivals) {
+  for (const Refinement& row : refinements()) {
+    if (&row == &named || !same_class(row, named)) continue;
+    const bool there = std::any_of(rivals.begin(), rivals.end(), [&](const Rival& r) {
+      return r.name == row.name && r.side == to_string(row.site);
+    });
+    if (there) continue;
+    Rival& rival = rivals.emplace_back();
+    rival.name = row.name;
+    rival.side = to_string(row.site);
+    rival.by_rule = true;
+    rival.experiment = row.experiment;
+  }
+}
+
+std::vector<Rival> rivals_of(const Candidate& best, const std::vector<const Candidate*>& able,
+                             const std::vector<double>& share, const SquaredGap& gap) {
+  const Refinement& named = *best.variant.refinement;
+  std::vector<Rival> rivals;
+  for (std::size_t k = 0; k < able.size(); ++k) {
+    const Refinement& row = *able[k]->variant.refinement;
+    if (&row == &named) continue;
+    const Paired difference = paired(able[k]->error, best.error);
+    const bool by_rule = same_class(row, named);
+    if (!by_rule && !is_alike(*able[k], best, difference, gap)) continue;
+    Rival& rival = rivals.emplace_back(rival_of(*able[k], gap));
+    rival.inclusion = share[k];
+    rival.by_rule = by_rule;
+    rival.difference = difference.in_sd();
+  }
+  add_aliases(named, rivals);
+  return rivals;
+}
+
+/// All rows, those that were refused last.
+std::vector<Rival> league_of(const std::vector<Candidate>& candidates,
+                             const std::vector<const Candidate*>& able,
+                             const std::vector<double>& share, const SquaredGap& gap) {
+  std::vector<Rival> league;
+  for (std::size_t k = 0; k < able.size(); ++k) {
+    league.push_back(rival_of(*able[k], gap));
+    league.back().inclusion = share[k];
+  }
+  for (const Candidate& c : candidates)
+    if (!may_be_named(c)) league.push_back(rival_of(c, gap));
+  return league;
+}
+
 }  // namespace
 
 bool anything_material(const std::vector<Candidate>& candidates, const RefineOptions& options) {
@@ -108,77 +228,18 @@ bool anything_material(const std::vector<Candidate>& candidates, const RefineOpt
 Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGap& gap,
                        const std::vector<NullDraw>& draws, const RefineOptions& options,
                        bool is_first) {
-  Judgement judgement;
-  std::vector<const Candidate*> able;
-  for (const Candidate& c : candidates)
-    if (may_be_named(c)) able.push_back(&c);
-  std::stable_sort(able.begin(), able.end(),
-                   [](const Candidate* a, const Candidate* b) { return a->gain > b->gain; });
+  const std::vector<const Candidate*> able = ranked(candidates);
   const std::vector<double> share = inclusions(able);
-  for (std::size_t k = 0; k < able.size(); ++k) {
-    judgement.league.push_back(rival_of(*able[k], gap));
-    judgement.league.back().inclusion = share[k];
-  }
-  for (const Candidate& c : candidates)
-    if (!may_be_named(c)) judgement.league.push_back(rival_of(c, gap));
-
-  // An event may not win by what any date would have won: each kind has its own null.
-  const auto significant = [&](const Candidate& c, double& p) {
-    const auto largest = largest_gains(draws, c.variant.refinement->is_event);
-    p = tail_of_largest(largest, c.gain);
-    const double chance = largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
-    const double least =
-        is_first ? options.materiality : std::max(kNextMateriality, options.materiality);
-    if (!is_first && c.gain * gap.total < kNextShare * gap.above()) return false;
-    return c.gain >= least && c.gain > kSafety * chance && p <= options.significance;
-  };
-  for (std::size_t k = 0; k < able.size(); ++k) {
-    double p = 1;
-    if (!significant(*able[k], p)) continue;
-    // Of those that do as well, the one with the fewest parameters.
-    const bool ties = judgement.best != nullptr && is_tie(*able[k], *judgement.best, gap) &&
-                      n_parameters(*able[k]) < n_parameters(*judgement.best);
-    if (judgement.best != nullptr && !ties) continue;
-    judgement.best = able[k];
-    judgement.p_value = p;
-    judgement.inclusion = share[k];
-    judgement.is_named = true;
-  }
-  if (judgement.best == nullptr) return judgement;
-  const Candidate& best = *judgement.best;
-  const Refinement& named = *best.variant.refinement;
-  for (std::size_t k = 0; k < able.size(); ++k) {
-    const Candidate& c = *able[k];
-    const Refinement& row = *c.variant.refinement;
-    if (&row == &named) continue;
-    Rival rival = rival_of(c, gap);
-    rival.inclusion = share[k];
-    rival.by_rule = same_class(row, named);
-    const Paired d = paired(c.error, best.error);
-    rival.difference = d.se > 0 ? d.sum / d.se : d.sum > 0 ? kUnbounded : 0;
-    const bool comparable = row.is_event == named.is_event;
-    const double apart = gap.above() > 0 ? d.sum / gap.above() : kUnbounded;
-    // More parameters that do no better are no other explanation.
-    const bool richer = n_parameters(c) > n_parameters(best) && d.sum >= 0;
-    const bool alike =
-        comparable && !richer &&
-        ((rival.difference < kLookAlikeSd && apart < kLookAlikeShare) || apart < kTieShare);
-    if (alike || rival.by_rule) judgement.rivals.push_back(rival);
-  }
-  // Aliases are listed by rule, also where their columns vanished beside each other.
-  for (const Refinement& row : refinements()) {
-    if (&row == &named || !same_class(row, named)) continue;
-    const bool there = std::any_of(
-        judgement.rivals.begin(), judgement.rivals.end(),
-        [&](const Rival& r) { return r.name == row.name && r.side == to_string(row.site); });
-    if (there) continue;
-    Rival rival;
-    rival.name = row.name;
-    rival.side = to_string(row.site);
-    rival.by_rule = true;
-    rival.experiment = row.experiment;
-    judgement.rivals.push_back(rival);
-  }
+  Judgement judgement;
+  judgement.league = league_of(candidates, able, share, gap);
+  const Significance significance(draws, gap, options, is_first);
+  const auto best = best_of(able, significance, gap);
+  if (!best) return judgement;
+  judgement.is_named = true;
+  judgement.best = able[*best];
+  judgement.p_value = significance.p_value(*judgement.best);
+  judgement.inclusion = share[*best];
+  judgement.rivals = rivals_of(*judgement.best, able, share, gap);
   return judgement;
 }
 

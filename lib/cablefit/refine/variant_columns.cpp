@@ -1,0 +1,123 @@
+// Columns of a variant: torques and levels along the smooth motion, or what a small error of a
+// sensor changes in the equations.
+#include <algorithm>
+
+#include "cablefit/refine/design.hpp"
+
+namespace cablefit {
+namespace {
+
+/// How long ago a dated effect happened; negative before.
+double since_event(const Variant& variant, const Stretch& stretch, double t) {
+  if (stretch.log == variant.event_log) return t - variant.event_time;
+  return stretch.log > variant.event_log ? 1e9 : -1e9;
+}
+
+/// Torque per unit of each linear parameter at every sample, on link and motor.
+struct FullTorques {
+  Eigen::MatrixXd link, motor;  ///< samples x n_linear
+};
+
+/// At every `every`-th sample.
+FullTorques full_torques(const Variant& variant, const Stretch& stretch,
+                         const std::vector<JointState>& states, Eigen::Index every) {
+  const Refinement& row = *variant.refinement;
+  const std::size_t n = row.n_linear();
+  const auto rows = (static_cast<Eigen::Index>(states.size()) + every - 1) / every;
+  FullTorques out{Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(n)),
+                  Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(n))};
+  if (row.is_event && stretch.log < variant.event_log) return out;
+  std::vector<double> z(row.n_states), link(n), motor(n), level(n);
+  const bool on_link = row.site == Site::link;
+  const double h = static_cast<double>(every) * stretch.recording.period;
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    JointState state = states[static_cast<std::size_t>(i * every)];
+    if (row.is_event) {
+      state.since_event = since_event(variant, stretch, state.t);
+      if (state.since_event < 0) continue;
+    }
+    if (row.advance != nullptr) row.advance(state, variant.shape.data(), h, z.data());
+    std::fill(link.begin(), link.end(), 0.0);
+    std::fill(motor.begin(), motor.end(), 0.0);
+    if (row.torque != nullptr)
+      row.torque(state, variant.shape.data(), z.data(), link.data(), motor.data());
+    if (row.level != nullptr) {
+      std::fill(level.begin(), level.end(), 0.0);
+      const double speed = on_link ? state.qd : state.thetad;
+      const double direction = speed > 0 ? 1.0 : speed < 0 ? -1.0 : 0.0;
+      row.level(state, direction, variant.shape.data(), z.data(), level.data());
+      std::vector<double>& own = on_link ? link : motor;
+      for (std::size_t p = 0; p < n; ++p) own[p] += direction * level[p];
+    }
+    for (std::size_t p = 0; p < n; ++p) {
+      out.link(i, static_cast<Eigen::Index>(p)) = link[p];
+      out.motor(i, static_cast<Eigen::Index>(p)) = motor[p];
+    }
+  }
+  return out;
+}
+
+std::vector<Eigen::MatrixXd> torque_columns(const Design& design, const Variant& variant,
+                                            std::size_t k) {
+  const Eigen::Index every = design.smoothing.every;
+  const FullTorques full = full_torques(variant, design.stretches[k], design.states[k], every);
+  const Kernel filter = gaussian(design.smoothing.columns,
+                                 static_cast<double>(every) * design.stretches[k].recording.period);
+  std::vector<Eigen::MatrixXd> columns;
+  for (const KindRows& kind : design.rows[k].kinds) {
+    const Eigen::MatrixXd& own = kind.kind == RowKind::link ? full.link : full.motor;
+    const auto n_rows = static_cast<Eigen::Index>(kind.at.size());
+    if ((own.array() == 0).all()) {
+      columns.emplace_back(Eigen::MatrixXd::Zero(n_rows, own.cols()));
+      continue;
+    }
+    std::vector<Eigen::Index> at = kind.at;
+    for (Eigen::Index& i : at) i /= every;
+    columns.push_back(apply_at(filter, own, at));
+  }
+  return columns;
+}
+
+std::vector<double> parameters_of(const Variant& variant, double linear) {
+  std::vector<double> all(variant.refinement->n_linear(), linear);
+  all.insert(all.end(), variant.shape.begin(), variant.shape.end());
+  return all;
+}
+
+StretchRows corrected_rows(const Design& design, std::size_t k, const Refinement& row,
+                           const std::vector<double>& parameters) {
+  Stretch stretch = design.stretches[k];
+  row.correct(parameters.data(), stretch.recording);
+  return base_rows(stretch, design.models[stretch.model], design.layout, design.smoothing,
+                   &design.rows[k]);
+}
+
+/// What a small error of a sensor changes in what the equations leave.
+std::vector<Eigen::MatrixXd> sensor_columns(const Design& design, const Variant& variant,
+                                            const Eigen::VectorXd& values, std::size_t k) {
+  const Refinement& row = *variant.refinement;
+  const StretchRows corrected = corrected_rows(design, k, row, parameters_of(variant, row.step));
+  const Eigen::VectorXd own = values.head(design.layout.n());
+  std::vector<Eigen::MatrixXd> columns;
+  for (std::size_t i = 0; i < corrected.kinds.size(); ++i) {
+    const KindRows &after = corrected.kinds[i], &before = design.rows[k].kinds[i];
+    columns.push_back(((after.base * own - after.response) -
+                       (before.base.leftCols(own.size()) * own - before.response)) /
+                      row.step);
+  }
+  return columns;
+}
+
+}  // namespace
+
+VariantColumns variant_columns(const Design& design, const Variant& variant,
+                               const Eigen::VectorXd& values) {
+  VariantColumns columns;
+  for (std::size_t k = 0; k < design.stretches.size(); ++k)
+    columns.push_back(variant.refinement->correct != nullptr
+                          ? sensor_columns(design, variant, values, k)
+                          : torque_columns(design, variant, k));
+  return columns;
+}
+
+}  // namespace cablefit
