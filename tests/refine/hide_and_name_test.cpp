@@ -10,10 +10,10 @@ using namespace cablefit::test;
 
 namespace {
 
-RefineResult refined(const HiddenLogs& hidden) {
+RefineResult refined(const HiddenLogs& hidden, int threads = 2) {
   RefineOptions options;
   options.n_draws = 8;
-  options.threads = 2;
+  options.threads = threads;
   return refine(hidden.models, hidden.logs, options);
 }
 
@@ -64,6 +64,22 @@ TEST_CASE("a hidden Stribeck friction is named, sized and closes the gap", "[ref
   CHECK(result.rho_after < 1.2);
   CHECK(result.torque.test_after < result.torque.test_before);
   CHECK(result.simulation.test_after < result.simulation.test_before);
+}
+
+TEST_CASE("a refinement has the same bits for any number of threads", "[refine][slow]") {
+  const HiddenLogs hidden = hidden_logs({"cogging.motor=1"});
+  const RefineResult one = refined(hidden, 1), three = refined(hidden, 3);
+  REQUIRE(first_name(one) == "cogging");
+  REQUIRE(first_name(three) == "cogging");
+  const auto& a = one.effects[0].instance.parameters;
+  const auto& b = three.effects[0].instance.parameters;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    CHECK(a[k].value == b[k].value);
+    CHECK(a[k].sd == b[k].sd);
+  }
+  CHECK(one.rho_after == three.rho_after);
+  CHECK(one.simulation.test_after == three.simulation.test_after);
+  CHECK(one.effects[0].evidence.p_value == three.effects[0].evidence.p_value);
 }
 
 TEST_CASE("what is not in the catalogue is unexplained", "[refine][slow]") {

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "cablefit/refine/null_draws.hpp"
-#include "cablefit/refine/search.hpp"
+#include "cablefit/refine/scan.hpp"
 #include "tests/refine/hidden_logs.hpp"
 
 using namespace cablefit;
@@ -83,17 +83,6 @@ TEST_CASE("a frozen base shrinks what is found", "[refine][trap]") {
   const double truth = hidden.truth.effects[0].coefficients[0].value;
   CHECK(joint->x(joint->x.size() - 1) == Approx(truth).epsilon(0.1));
   CHECK(along / squared < 0.5 * truth);
-}
-
-/// One load leaves gain and scale, and what follows the load, apart by nothing.
-TEST_CASE("with one load the data say what they cannot tell apart", "[refine][trap]") {
-  const HiddenLogs one = hidden_logs({}, 1, "one_load");
-  const HiddenLogs several = hidden_logs({}, 1, "short");
-  const auto n_apart = [](const HiddenLogs& hidden) {
-    const BaseFit base = fit_base(design_of(hidden, hidden.models), 2, nullptr);
-    return not_separable(search(base.design, base.levels, {})).size();
-  };
-  CHECK(n_apart(one) >= n_apart(several));
 }
 
 /// A sensor's column is the derivative of what the equations leave.
