@@ -31,11 +31,10 @@ TEST_CASE("derivative kernels have the moments of derivatives", "[refine]") {
 
 TEST_CASE("a kernel at chosen rows is the kernel at all rows", "[refine]") {
   const Eigen::ArrayXd x = (40 * times(200)).sin();
-  const Kernel both = convolved(gaussian(kSd, kPeriod), gaussian_slope(kSd, kPeriod));
-  const Eigen::ArrayXd twice =
-      apply(gaussian(kSd, kPeriod), apply(gaussian_slope(kSd, kPeriod), x));
+  const Kernel slope = gaussian_slope(kSd, kPeriod);
+  const Eigen::ArrayXd everywhere = apply(slope, x);
   const std::vector<Eigen::Index> rows = {40, 41, 99, 150};
-  const Eigen::MatrixXd at = apply_at(both, x.matrix(), rows);
+  const Eigen::MatrixXd at = apply_at(slope, x.matrix(), rows);
   for (std::size_t i = 0; i < rows.size(); ++i)
-    CHECK(at(static_cast<Eigen::Index>(i), 0) == Approx(twice(rows[i])).epsilon(1e-12));
+    CHECK(at(static_cast<Eigen::Index>(i), 0) == Approx(everywhere(rows[i])).epsilon(1e-12));
 }

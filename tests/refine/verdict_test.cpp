@@ -15,7 +15,7 @@ constexpr Eigen::Index kBlocks = 20;
 Candidate candidate(std::string_view name, Site site, double share, double unevenness = 0) {
   Candidate c;
   c.variant.refinement = &find_refinement(name, site);
-  c.gain = c.gain_in = share;
+  c.gain = share;
   c.error = Eigen::ArrayXd::Constant(kBlocks, 1000 * (1 - share) / kBlocks);
   for (Eigen::Index b = 0; b < kBlocks; ++b) c.error(b) += (b % 2 == 0 ? 1 : -1) * unevenness;
   return c;

@@ -100,7 +100,6 @@ BlockGrams block_grams(const std::vector<StretchRows>& rows, const std::vector<S
       for_each_block(kind, stretches[s].recording.period, block_seconds,
                      [&](std::size_t b, Eigen::Index from, Eigen::Index n) {
                        BlockGrams::Block& block = grams.blocks[first[s] + b];
-                       block.log = stretches[s].log;
                        const auto k = static_cast<std::size_t>(kind.kind);
                        block.gram[k] =
                            all.middleRows(from, n).transpose() * all.middleRows(from, n);

@@ -1,6 +1,6 @@
 // How well a design explains the data: block Gram matrices, held-out blocks, the evidence for one
 // more column. Gram matrices serve the scan, where thousands of small fits are compared; the
-// numbers that are reported come from a QR of the rows. Internal to refine/.
+// values that are reported come from a QR of the rows (final_fit.hpp). Internal to refine/.
 #pragma once
 
 #include <array>
@@ -18,7 +18,6 @@ using KindLevels = std::array<double, kRowKinds>;
 struct BlockGrams {
   Eigen::Index n_columns = 0;
   struct Block {
-    std::size_t log = 0;
     std::array<Eigen::MatrixXd, kRowKinds> gram;  ///< (1 + n_columns)^2; empty: no row of the kind
     std::array<Eigen::Index, kRowKinds> n_rows{};
   };

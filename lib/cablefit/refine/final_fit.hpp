@@ -1,4 +1,4 @@
-// The numbers that are reported: a QR of the weighted rows, covariance by blocks of time, the
+// The values that are reported: a QR of the weighted rows; covariance by blocks of time, the
 // nonlinear parameters beside the linear ones. Internal to refine/.
 #pragma once
 

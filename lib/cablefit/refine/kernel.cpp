@@ -38,13 +38,6 @@ Kernel gaussian_curvature(double sd, double period) {
   return {2 * weights / (weights * t.square()).sum()};
 }
 
-Kernel convolved(const Kernel& a, const Kernel& b) {
-  Kernel out{Eigen::ArrayXd::Zero(a.weights.size() + b.weights.size() - 1)};
-  for (Eigen::Index i = 0; i < a.weights.size(); ++i)
-    out.weights.segment(i, b.weights.size()) += a.weights(i) * b.weights;
-  return out;
-}
-
 Eigen::ArrayXd apply(const Kernel& kernel, const Eigen::Ref<const Eigen::ArrayXd>& x) {
   const Eigen::Index n = x.size(), reach = kernel.reach();
   if (n == 0) return {};

@@ -21,9 +21,6 @@ Kernel gaussian(double sd, double period);
 Kernel gaussian_slope(double sd, double period);
 Kernel gaussian_curvature(double sd, double period);
 
-/// Both applied one after the other, as one.
-Kernel convolved(const Kernel& a, const Kernel& b);
-
 /// sum_j weights[j] x[i + j] for every i; at the ends the first and last value go on.
 Eigen::ArrayXd apply(const Kernel& kernel, const Eigen::Ref<const Eigen::ArrayXd>& x);
 

@@ -35,8 +35,6 @@ std::optional<BlockGrams> grams_with(const ScanStart& start, const ScanSettings&
                   variant_columns(design, variant, start.fit.x), settings.block_seconds);
 }
 
-double sum_of(const Eigen::ArrayXd& per_block) { return per_block.sum(); }
-
 /// No candidate where the columns are not there or cannot be told from the others'.
 std::optional<Candidate> try_variant(const ScanStart& start, const ScanSettings& settings,
                                      Variant variant) {
@@ -50,9 +48,9 @@ std::optional<Candidate> try_variant(const ScanStart& start, const ScanSettings&
   c.variant = std::move(variant);
   c.x = fit->x;
   c.rms = fit->rms();
-  c.gain_in = 1 - sum_of(fit->in_sample) / sum_of(start.fit.in_sample);
   c.error = row.is_event ? fit->in_sample : fit->held_out;
-  c.gain = row.is_event ? c.gain_in : 1 - sum_of(c.error) / sum_of(start.fit.held_out);
+  const Eigen::ArrayXd& before = row.is_event ? start.fit.in_sample : start.fit.held_out;
+  c.gain = 1 - c.error.sum() / before.sum();
   const Eigen::Index first = fit->x.size() - static_cast<Eigen::Index>(row.n_linear());
   if (is_out_of_bounds(row, fit->x, first)) c.refused = "beyond its physical bound";
   return c;

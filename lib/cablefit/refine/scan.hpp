@@ -13,7 +13,6 @@ namespace cablefit {
 struct Candidate {
   Variant variant;
   double gain = 0;       ///< share of the squared held-out error that it removes; may be negative
-  double gain_in = 0;    ///< the same in sample
   Eigen::ArrayXd error;  ///< per block: weighted squared error, held out (events: in sample)
   Eigen::VectorXd x;     ///< all columns, the candidate's last
   KindLevels rms{};      ///< N m, left

@@ -14,7 +14,7 @@ struct Search {
 
 /// Every row but those already named and their aliases. Rows are weighted by the floor first, then
 /// by what the best candidate leaves: a large unexplained part of one equation would drown the
-/// other (unweighted, 26 % of effects under clutter are named, so 89 %: refine's own trials).
+/// other.
 /// Throws Error(not_identifiable) when the design itself is singular.
 Search search(const Design& design, const KindLevels& floor, const ScanSettings& settings);
 
