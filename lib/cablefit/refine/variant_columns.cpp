@@ -30,12 +30,16 @@ FullTorques full_torques(const Variant& variant, const Stretch& stretch,
   std::vector<double> z(row.n_states), link(n), motor(n), level(n);
   const bool on_link = row.site == Site::link;
   const double h = static_cast<double>(every) * stretch.recording.period;
+  JointState dated;  // of an event, whose age is not the state's own
   for (Eigen::Index i = 0; i < rows; ++i) {
-    JointState state = states[static_cast<std::size_t>(i * every)];
+    const JointState* here = &states[static_cast<std::size_t>(i * every)];
     if (row.is_event) {
-      state.since_event = since_event(variant, stretch, state.t);
-      if (state.since_event < 0) continue;
+      dated = *here;
+      dated.since_event = since_event(variant, stretch, dated.t);
+      if (dated.since_event < 0) continue;
+      here = &dated;
     }
+    const JointState& state = *here;
     if (row.advance != nullptr) row.advance(state, variant.shape.data(), h, z.data());
     std::fill(link.begin(), link.end(), 0.0);
     std::fill(motor.begin(), motor.end(), 0.0);
