@@ -5,10 +5,6 @@
 namespace cablefit {
 namespace {
 
-std::string unit_on(const Rig& rig, std::string_view unit) {
-  return rig.linear_motion ? linear_unit(unit) : std::string(unit);
-}
-
 void add_effects(const Model& model, int joint, bool on_link, std::vector<ModelParameter>& out) {
   const JointModel& axes = model.joints[static_cast<std::size_t>(joint)];
   const std::vector<EffectInstance>& instances = on_link ? axes.link : axes.motor;
@@ -97,6 +93,10 @@ auto& number(SomeModel& model, const ModelParameter& p) {
 }
 
 }  // namespace
+
+std::string unit_on(const Rig& rig, std::string_view unit) {
+  return rig.linear_motion ? linear_unit(unit) : std::string(unit);
+}
 
 std::vector<ModelParameter> model_parameters(const Model& model) {
   std::vector<ModelParameter> out;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cablefit/model/model.hpp"
@@ -25,6 +26,9 @@ struct ModelParameter {
 /// In the order of the file: effects joint by joint (link, then motor), K or the coefficients of
 /// every cable, l_o of every cable, theta_0 of every joint. A rigid drive has effects only.
 std::vector<ModelParameter> model_parameters(const Model& model);
+
+/// A unit of the tables (of a rotary axis) on the rig's axes.
+std::string unit_on(const Rig& rig, std::string_view unit);
 
 /// Of an effect that adds to an axis' inertia.
 bool is_inertia(const Model& model, const ModelParameter& parameter);

@@ -13,23 +13,9 @@ Eigen::Index n_linear(const std::vector<EffectInstance>& effects) {
   return n;
 }
 
-void add_infos(const std::vector<EffectInstance>& effects, std::vector<ParameterInfo>& infos) {
-  for (const EffectInstance& instance : effects)
-    for (const ParameterInfo& info : instance.effect->parameters.first(instance.effect->n_linear()))
-      infos.push_back(info);
-}
-
 Eigen::Index n_elastic(const Model& model) {
   if (model.rigid) return 0;
   return model.transmission.cables.empty() ? 1 : n_elastic_columns(model.transmission);
-}
-
-template <typename Axes, typename Use>
-void for_each_value(Axes& axes, Use use) {
-  for (auto* effects : {&axes.link, &axes.motor})
-    for (auto& instance : *effects)
-      for (std::size_t i = 0; i < instance.effect->n_linear(); ++i)
-        use(instance.parameters[i].value);
 }
 
 void fill_effects(const std::vector<EffectInstance>& effects, const Motion& motion,
@@ -88,29 +74,24 @@ BaseLayout base_layout(const Model& model) {
   layout.n_link = n_linear(axes.link);
   layout.n_motor = n_linear(axes.motor);
   layout.n_elastic = n_elastic(model);
-  add_infos(axes.link, layout.effects);
-  add_infos(axes.motor, layout.effects);
+  for (ModelParameter& p : model_parameters(model)) {
+    const bool is_column = p.kind == ParameterKind::effect || p.kind == ParameterKind::stiffness ||
+                           p.kind == ParameterKind::coefficient;
+    if (is_column && !p.is_shape) layout.parameters.push_back(std::move(p));
+  }
   return layout;
 }
 
 Eigen::VectorXd base_values(const BaseLayout& layout, const Model& model) {
   Eigen::VectorXd values(layout.n());
-  Eigen::Index next = 0;
-  for_each_value(model.joints.front(), [&](double value) { values(next++) = value; });
-  if (model.rigid) return values;
-  if (model.transmission.cables.empty()) values(next) = model.transmission.linear_stiffness(0);
-  for (const Cable& cable : model.transmission.cables)
-    for (const double coefficient : cable.coefficients) values(next++) = coefficient;
+  for (std::size_t k = 0; k < layout.parameters.size(); ++k)
+    values(static_cast<Eigen::Index>(k)) = parameter_value(model, layout.parameters[k]);
   return values;
 }
 
-void set_base_values(const Eigen::VectorXd& values, Model& model) {
-  Eigen::Index next = 0;
-  for_each_value(model.joints.front(), [&](double& value) { value = values(next++); });
-  if (model.rigid) return;
-  if (model.transmission.cables.empty()) model.transmission.linear_stiffness(0) = values(next);
-  for (Cable& cable : model.transmission.cables)
-    for (double& coefficient : cable.coefficients) coefficient = values(next++);
+void set_base_values(const BaseLayout& layout, const Eigen::VectorXd& values, Model& model) {
+  for (std::size_t k = 0; k < layout.parameters.size(); ++k)
+    set_parameter_value(model, layout.parameters[k], values(static_cast<Eigen::Index>(k)));
 }
 
 StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayout& layout,

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/model/model_parameters.hpp"
 #include "cablefit/refine/motion.hpp"
 
 namespace cablefit {
@@ -16,14 +17,14 @@ namespace cablefit {
 /// Several preloads share all of them (Fichera & Grossard 2017, (26)-(28)).
 struct BaseLayout {
   Eigen::Index n_link = 0, n_motor = 0, n_elastic = 0;
-  std::vector<ParameterInfo> effects;  ///< link, then motor
+  std::vector<ModelParameter> parameters;  ///< one per column
   Eigen::Index n() const { return n_link + n_motor + n_elastic; }
 };
 BaseLayout base_layout(const Model& model);
 
 /// Values of the columns' parameters in a model, and back into it.
 Eigen::VectorXd base_values(const BaseLayout& layout, const Model& model);
-void set_base_values(const Eigen::VectorXd& values, Model& model);
+void set_base_values(const BaseLayout& layout, const Eigen::VectorXd& values, Model& model);
 
 /// Rows of one kind out of one stretch.
 struct KindRows {

@@ -153,7 +153,7 @@ Design with_variant(const Design& design, const Variant& variant, const Eigen::V
 
 Design relinearised(const Design& design, const Eigen::VectorXd& values) {
   Design out = design;
-  for (Model& model : out.models) set_base_values(values.head(out.layout.n()), model);
+  for (Model& model : out.models) set_base_values(out.layout, values, model);
   fill_rows(out, &design.rows);
   out.added.clear();
   for (const Variant& variant : design.added) {

@@ -85,36 +85,6 @@ void set_elastic_estimates(const Design& design, const FinalFit& fit, Model& mod
   model.elastic = std::move(elastic);
 }
 
-/// A unit of the tables on the model's axis.
-std::string unit_in(const Model& model, std::string_view rotary) {
-  return model.rig.linear_motion ? linear_unit(rotary) : std::string(rotary);
-}
-
-/// Names of the base's columns.
-std::vector<std::string> base_names(const Design& design) {
-  std::vector<std::string> names;
-  for (const ParameterInfo& info : design.layout.effects) names.emplace_back(info.name);
-  const Model& model = design.models.front();
-  if (model.rigid) return names;
-  if (model.transmission.cables.empty()) names.emplace_back("K");
-  for (const Cable& cable : model.transmission.cables)
-    for (int i = 0; i < cable.n_coefficients(); ++i)
-      names.push_back(coefficient_name(cable, i, model.rig.cables_given));
-  return names;
-}
-
-std::string base_unit(const Design& design, std::size_t column) {
-  const auto& effects = design.layout.effects;
-  const Model& model = design.models.front();
-  if (column < effects.size()) return unit_in(model, effects[column].unit);
-  std::size_t next = effects.size();
-  for (const Cable& cable : model.transmission.cables)
-    for (int i = 0; i < cable.n_coefficients(); ++i)
-      if (next++ == column)
-        return unit_in(model, coefficient_unit(*cable.law, i, model.rig.cables_given));
-  return unit_in(model, "N m/rad");
-}
-
 /// What a model holds of an effect: other cables it has already, what passed is over, and what
 /// lasts has happened before any log to come.
 std::optional<RefinementInstance> as_state(RefinementInstance instance) {
@@ -144,14 +114,14 @@ std::vector<NamedEffect> named_effects(const Design& design, const FinalFit& fit
       effect.instance.parameters.push_back(
           estimate_of(row.parameters[parameter], value, sd, fit.degrees_of_freedom));
       Estimate& e = effect.instance.parameters.back();
-      e.unit = unit_in(model, e.unit);
+      e.unit = unit_on(model.rig, e.unit);
     };
     for (Eigen::Index p = 0; p < n; ++p)
       add(static_cast<std::size_t>(p), fit.x(first[k] + p), sd_at(fit, first[k] + p));
     for (std::size_t p = 0; p < variant.shape.size(); ++p)
       add(row.n_linear() + p, variant.shape[p], row.shape[p].is_whole ? 0 : sd_at(fit, shape_at++));
     effect.derived = amplitudes(row, fit, first[k]);
-    for (Estimate& e : effect.derived) e.unit = unit_in(model, e.unit);
+    for (Estimate& e : effect.derived) e.unit = unit_on(model.rig, e.unit);
     if (n > 0) effect.torque_rms = carried_torque(design, fit.x, first[k], n);
   }
   return effects;
@@ -159,14 +129,16 @@ std::vector<NamedEffect> named_effects(const Design& design, const FinalFit& fit
 
 std::vector<ParameterShift> parameter_shifts(const Design& first, const Eigen::VectorXd& before,
                                              const Design& design, const FinalFit& fit) {
-  const std::vector<std::string> old_names = base_names(first), names = base_names(design);
+  const std::vector<ModelParameter>& old = first.layout.parameters;
+  const std::vector<ModelParameter>& now = design.layout.parameters;
   std::vector<ParameterShift> shifts;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto same = std::find(old_names.begin(), old_names.end(), names[i]);
-    if (same == old_names.end()) continue;  // the effect brought it
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const auto same = std::find_if(old.begin(), old.end(),
+                                   [&](const ModelParameter& p) { return p.name == now[i].name; });
+    if (same == old.end()) continue;  // the effect brought it
     const auto at = static_cast<Eigen::Index>(i);
-    shifts.push_back({names[i], base_unit(design, i), before(same - old_names.begin()), fit.x(at),
-                      sd_at(fit, at)});
+    shifts.push_back(
+        {now[i].name, now[i].unit, before(same - old.begin()), fit.x(at), sd_at(fit, at)});
   }
   return shifts;
 }
@@ -180,7 +152,7 @@ std::vector<Model> models_with(const Design& design, const Eigen::VectorXd& x) {
   const std::vector<NamedEffect> effects = named_effects(design, fit);
   std::vector<Model> models = design.models;
   for (Model& model : models) {
-    set_base_values(x.head(design.layout.n()), model);
+    set_base_values(design.layout, x, model);
     for (const NamedEffect& effect : effects)
       if (auto instance = as_state(effect.instance))
         model.joints.front().refinements.push_back(std::move(*instance));
