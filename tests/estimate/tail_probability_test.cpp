@@ -20,6 +20,14 @@ constexpr double kF[][4] = {
     {1, 40, 40, 0.50000000000000044},    {900, 2, 1000, 2.6362362579932034e-224},
 };
 
+// R 4.2.2, qt(p / 2, dof, lower.tail = FALSE): {p, dof, x}.
+constexpr double kT[][3] = {
+    {0.05, 10, 2.2281388519862744},
+    {0.01, 3, 5.8409093097333562},
+    {0.05 / 14, 200.5, 2.948583550593515},
+    {1e-6, 60, 5.4489478322860689},
+};
+
 // lgamma of 500 loses three of sixteen digits as the exponent of its result: 1e-10 leaves room.
 TEST_CASE("tails of chi-squared are those of R", "[estimate]") {
   for (const auto& [x, dof, p] : kChiSquared)
@@ -31,6 +39,13 @@ TEST_CASE("tails of F are those of R", "[estimate]") {
   for (const auto& [x, dof_1, dof_2, p] : kF)
     CHECK_THAT(f_tail(x, dof_1, dof_2), Catch::WithinRel(p, 1e-10));
   CHECK(f_tail(-1, 3, 5) == 1);
+}
+
+TEST_CASE("quantiles of Student's t are those of R", "[estimate]") {
+  for (const auto& [p, dof, x] : kT) {
+    CHECK_THAT(t_quantile(p, dof), Catch::WithinRel(x, 1e-10));
+    CHECK_THAT(t_tail(x, dof), Catch::WithinRel(p, 1e-8));
+  }
 }
 
 }  // namespace

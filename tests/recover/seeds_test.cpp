@@ -1,5 +1,6 @@
 // Both stages on simulated logs of many seeds, counted up from one base: bias, and sd against the
 // scatter that really occurs.
+#include "tests/recover/both_stages.hpp"
 #include "tests/support/monte_carlo.hpp"
 #include "tests/support/recover.hpp"
 
@@ -10,35 +11,12 @@ using namespace cablefit::test;
 
 constexpr std::uint64_t kBaseSeed = 1000;
 
-/// Stage 1 on a blocked log and stage 2 on two moving ones. Every log has a seed of its own: equal
-/// seeds would give both moving logs the same noise.
-std::vector<Estimate> one_run(const truth::Rig& rig, std::uint64_t& seed) {
-  truth::BlockedOptions blocked;
-  blocked.seed = seed++;
-  Bench stage1;
-  stage1.add(truth::simulate_blocked(rig, blocked));
-  const ElasticResult elastic = fit_elastic(stage1.logs(), {});
-  Bench stage2;
-  for (const double load : {30.0, -40.0}) {
-    truth::MovingOptions moving;
-    moving.seed = seed++;
-    moving.duration = 8;
-    moving.load = load;
-    stage2.add(truth::simulate_moving(rig, moving));
-  }
-  std::vector<Estimate> all =
-      fit_dynamic(stage2.logs(), elastic, {}).preloads.at(0).fits.at(0).parameters;
-  for (const Estimate& e : elastic.preloads.at(0).find("poly")->parameters)
-    if (e.name.front() == 'K') all.push_back(e);
-  return all;
-}
-
 std::vector<RunTable> many_runs(const truth::Rig& rig, const NamedValues& truth, int n_runs) {
   std::vector<RunTable> tables;
   for (const auto& [name, value] : truth) tables.push_back({name, value, {}, {}, 0, 0});
   std::uint64_t seed = kBaseSeed;
   for (int run = 0; run < n_runs; ++run) {
-    const std::vector<Estimate> found = one_run(rig, seed);
+    const std::vector<Estimate> found = both_stages(rig, seed);
     for (RunTable& table : tables) table.add(estimate(found, table.name));
   }
   return tables;

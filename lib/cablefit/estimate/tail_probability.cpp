@@ -74,4 +74,16 @@ double f_tail(double x, double dof_1, double dof_2) {
   return incomplete_beta(dof_2 / 2, dof_1 / 2, dof_2 / total, dof_1 * x / total);
 }
 
+double t_tail(double x, double dof) { return f_tail(x * x, 1, dof); }
+
+double t_quantile(double probability, double dof) {
+  double low = 0, high = 1;
+  while (t_tail(high, dof) > probability) high *= 2;
+  while (high - low > 1e-13 * high) {
+    const double middle = low + (high - low) / 2;
+    (t_tail(middle, dof) > probability ? low : high) = middle;
+  }
+  return high;
+}
+
 }  // namespace cablefit

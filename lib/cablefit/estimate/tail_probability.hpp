@@ -12,4 +12,9 @@ double chi_squared_tail(double x, double dof);
 /// incomplete beta function by its continued fraction (Abramowitz & Stegun 26.5.8). 1 for x <= 0.
 double f_tail(double x, double dof_1, double dof_2);
 
+/// P(|X| > x) for Student's t with `dof` > 0 degrees of freedom (a real number).
+double t_tail(double x, double dof);
+/// The x at which t_tail() is `probability`, in (0, 1). Relative error below 1e-12.
+double t_quantile(double probability, double dof);
+
 }  // namespace cablefit

@@ -1,0 +1,207 @@
+#include "cablefit/campaign/compare.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/campaign/compared_pairs.hpp"
+#include "cablefit/estimate/tail_probability.hpp"
+
+namespace cablefit {
+namespace {
+
+/// With so many, Student's t is the normal distribution to five digits.
+constexpr double kMostDof = 1e5;
+
+/// The degrees of freedom that an interval was made with: its half width is t sd.
+double dof_of(const Estimate& e) {
+  constexpr double kTail = 0.05;
+  const double t = (e.ci_high - e.value) / e.sd;
+  if (!e.active_bound.empty() || !(t > t_quantile(kTail, kMostDof))) return kMostDof;
+  double low = 1, high = kMostDof;
+  while (high - low > 1e-6 * high) {
+    const double middle = std::sqrt(low * high);
+    (t_quantile(kTail, middle) > t ? low : high) = middle;
+  }
+  return high;
+}
+
+double welch_dof(double variance_1, double dof_1, double variance_2, double dof_2) {
+  const double sum = variance_1 + variance_2;
+  return sum * sum / (variance_1 * variance_1 / dof_1 + variance_2 * variance_2 / dof_2);
+}
+
+/// Why two estimates of one name cannot be compared; empty: they can.
+std::string why_not(const Estimate& first, const Estimate& second) {
+  for (const Estimate* e : {&first, &second})
+    if (!e->not_identifiable.empty()) return "not identifiable: " + e->not_identifiable;
+  if (first.unit != second.unit)
+    return fmt::format("in {} here, in {} there", first.unit, second.unit);
+  for (const Estimate* e : {&first, &second})
+    if (!std::isfinite(e->value) || !std::isfinite(e->sd)) return "without a standard deviation";
+  return {};
+}
+
+ComparedParameter parameter_of(const EstimatePair& pair, const CompareOptions& options) {
+  const auto both = [](const std::string& first, const std::string& second) {
+    return first == second ? first : fmt::format("{} / {}", first, second);
+  };
+  ComparedParameter p;
+  p.stage = both(pair.first_set->stage, pair.second_set->stage);
+  p.preload = both(pair.first_set->preload, pair.second_set->preload);
+  p.model = both(pair.first_set->model, pair.second_set->model);
+  p.name = pair.first->name;
+  p.unit = pair.first->unit;
+  p.first = pair.first->value;
+  p.first_sd = pair.first->sd;
+  p.second = pair.second->value;
+  p.second_sd = pair.second->sd;
+  const double scale = scale_of_zero(*pair.first_set, *pair.first);
+  p.is_relative = !is_ideally_zero(p.name);
+  p.margin = options.margin * (p.is_relative ? std::abs(p.first) : scale);
+  return p;
+}
+
+std::vector<std::string> hashes(const RecordedResult& result) {
+  std::vector<std::string> all;
+  for (const InputFile& input : result.inputs) all.push_back(input.sha256);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+/// "estimator: iv, then wls"
+void tell_change(std::string_view what, const std::set<std::string>& first,
+                 const std::set<std::string>& second, std::vector<std::string>& out) {
+  if (first != second && !first.empty() && !second.empty())
+    out.push_back(fmt::format("{}: {}, then {}", what, fmt::join(first, " and "),
+                              fmt::join(second, " and ")));
+}
+
+void tell_settings(const std::vector<EstimatePair>& pairs, CompareResult& result) {
+  tell_change("made by", {"cablefit " + result.first.version},
+              {"cablefit " + result.second.version}, result.settings);
+  tell_change("command", {result.first.command}, {result.second.command}, result.settings);
+  std::set<std::string> preloads[2], models[2], estimators[2];
+  for (const EstimatePair& pair : pairs)
+    for (const int i : {0, 1}) {
+      const EstimateSet& set = i == 0 ? *pair.first_set : *pair.second_set;
+      preloads[i].insert(set.preload);
+      models[i].insert(set.model);
+      if (!set.estimator.empty()) estimators[i].insert(set.estimator);
+    }
+  tell_change("preload", preloads[0], preloads[1], result.settings);
+  tell_change("model", models[0], models[1], result.settings);
+  tell_change("estimator", estimators[0], estimators[1], result.settings);
+}
+
+/// How many logs went into both.
+std::size_t n_shared(const RecordedResult& first, const RecordedResult& second) {
+  const std::vector<std::string> a = hashes(first), b = hashes(second);
+  std::vector<std::string> both;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+  return both.size();
+}
+
+/// Two preloads of one result share its list of logs, not their logs.
+bool are_same_preloads(const std::vector<EstimatePair>& pairs) {
+  return std::all_of(pairs.begin(), pairs.end(), [](const EstimatePair& pair) {
+    return pair.first_set->preload == pair.second_set->preload;
+  });
+}
+
+}  // namespace
+
+std::string_view to_string(Sameness sameness) {
+  constexpr std::array<std::string_view, 3> kNames{"equal", "different", "undecided"};
+  return kNames[static_cast<std::size_t>(sameness)];
+}
+
+double ComparedParameter::percent() const {
+  return is_relative && first != 0 ? 100 * difference / std::abs(first)
+                                   : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::size_t CompareResult::count(Sameness wanted) const {
+  return static_cast<std::size_t>(
+      std::count_if(parameters.begin(), parameters.end(),
+                    [wanted](const ComparedParameter& p) { return p.sameness == wanted; }));
+}
+
+Sameness CompareResult::sameness() const {
+  if (count(Sameness::different) > 0) return Sameness::different;
+  return count(Sameness::undecided) > 0 ? Sameness::undecided : Sameness::equal;
+}
+
+void judge_difference(ComparedParameter& p, double first_dof, double second_dof,
+                      std::size_t n_tests, bool same_logs, const CompareOptions& options) {
+  p.difference = p.second - p.first;
+  const double size = std::abs(p.difference);
+  if (same_logs || (p.first_sd == 0 && p.second_sd == 0)) {
+    p.low = p.high = p.difference;
+    p.is_within_margin = size <= p.margin;
+    p.p_value = p.p_together = size == 0 ? 1 : 0;
+    p.sameness = p.is_within_margin || size == 0 ? Sameness::equal : Sameness::different;
+    return;
+  }
+  const double variance_1 = p.first_sd * p.first_sd, variance_2 = p.second_sd * p.second_sd;
+  p.sd = std::sqrt(variance_1 + variance_2);
+  p.dof = std::min(kMostDof, welch_dof(variance_1, first_dof, variance_2, second_dof));
+  const auto n = static_cast<double>(n_tests);
+  p.p_value = t_tail(size / p.sd, p.dof);
+  p.p_together = -std::expm1(n * std::log1p(-p.p_value));
+  const double reach = t_quantile(-std::expm1(std::log1p(-options.significance) / n), p.dof) * p.sd;
+  p.low = p.difference - reach;
+  p.high = p.difference + reach;
+  const double one_sided = t_quantile(2 * options.significance, p.dof) * p.sd;
+  p.is_within_margin = size + one_sided < p.margin;
+  p.sameness = size > reach         ? Sameness::different
+               : p.is_within_margin ? Sameness::equal
+                                    : Sameness::undecided;
+  p.more_data = one_sided * one_sided / (p.margin * p.margin);
+}
+
+CompareResult compare(RecordedResult first, RecordedResult second, const CompareOptions& options) {
+  CompareResult result;
+  result.options = options;
+  std::vector<EstimatePair> pairs = estimate_pairs(first, second, options, result.not_compared);
+  std::erase_if(pairs, [&](const EstimatePair& pair) {
+    std::string reason = why_not(*pair.first, *pair.second);
+    if (reason.empty()) return false;
+    result.not_compared.push_back({pair.first_set->preload, pair.first->name, std::move(reason)});
+    return true;
+  });
+  if (pairs.empty())
+    throw input_error({second.path}, fmt::format("no parameter to compare with {}", first.path),
+                      "compare two results of one stage and preload; --preload FIRST SECOND "
+                      "names two preloads");
+  result.first = first;
+  result.second = second;
+  tell_settings(pairs, result);
+  const std::size_t shared = are_same_preloads(pairs) ? n_shared(first, second) : 0;
+  const bool same_logs = shared > 0 && hashes(first) == hashes(second);
+  if (same_logs) {
+    result.warnings.emplace_back(
+        "both results are of the same logs: what differs is how they were made, and is judged by "
+        "the margin alone");
+  } else if (shared > 0) {
+    result.warnings.push_back(
+        fmt::format("{} of {} logs went into both results: these differ less by chance than "
+                    "results of different logs, so fewer differences are found",
+                    shared, std::min(first.inputs.size(), second.inputs.size())));
+  }
+  for (const EstimatePair& pair : pairs) {
+    result.parameters.push_back(parameter_of(pair, options));
+    judge_difference(result.parameters.back(), dof_of(*pair.first), dof_of(*pair.second),
+                     pairs.size(), same_logs, options);
+  }
+  result.first.sets.clear();
+  result.second.sets.clear();
+  return result;
+}
+
+}  // namespace cablefit

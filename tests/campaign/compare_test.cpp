@@ -1,0 +1,171 @@
+// The rule that tells two estimates apart, and which of two results' estimates it is given.
+#include "cablefit/campaign/compare.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdio>
+
+#include "tests/support/columns.hpp"
+#include "tests/support/message.hpp"
+
+namespace cablefit {
+namespace {
+
+/// With the interval that 20 degrees of freedom make: t = 2.0859634472658648 (R: qt(.975, 20)).
+Estimate estimate(const std::string& name, double value, double sd) {
+  Estimate e;
+  e.name = name;
+  e.unit = "N m";
+  e.value = value;
+  e.sd = sd;
+  e.ci_low = value - 2.0859634472658648 * sd;
+  e.ci_high = value + 2.0859634472658648 * sd;
+  return e;
+}
+
+RecordedResult result(const std::string& log, std::vector<Estimate> estimates,
+                      const std::string& preload = "low") {
+  RecordedResult r;
+  r.path = log + ".json";
+  r.command = "dynamic";
+  r.inputs = {{log + ".csv", log, 10}};
+  EstimateSet set{"stage 2", preload, "poly", "wls"};
+  set.torque_scale = 10;
+  set.estimates = std::move(estimates);
+  r.sets = {set};
+  return r;
+}
+
+ComparedParameter compared(double first, double second, double sd, std::size_t n_others = 0) {
+  std::vector<Estimate> a{estimate("f_s", first, sd)}, b{estimate("f_s", second, sd)};
+  for (std::size_t k = 0; k < n_others; ++k) {
+    a.push_back(estimate("x" + std::to_string(k), 1, 1));
+    b.push_back(estimate("x" + std::to_string(k), 1, 1));
+  }
+  return compare(result("a", a), result("b", b), {}).parameters.front();
+}
+
+// Welch: two equal variances of 20 degrees of freedom each make 40; R: 2 * pt(-2, 40) =
+// 0.0523223398.
+TEST_CASE("a difference is judged by Welch's t test", "[compare]") {
+  const ComparedParameter p = compared(10, 10 + 2 * std::sqrt(2.0), 1);
+  CHECK(p.sd == Approx(std::sqrt(2.0)));
+  CHECK(p.dof == Approx(40).epsilon(1e-5));
+  CHECK(p.p_value == Approx(0.0523223398).epsilon(1e-6));
+  CHECK(p.percent() == Approx(20 * std::sqrt(2.0)));
+}
+
+// 1 - (1 - p)^7; the same difference that one parameter alone would call different.
+TEST_CASE("all parameters are judged together", "[compare]") {
+  const double second = 10 + 2.3 * std::sqrt(2.0);
+  CHECK(compared(10, second, 1).sameness == Sameness::different);
+  const ComparedParameter together = compared(10, second, 1, 6);
+  CHECK(together.sameness == Sameness::undecided);
+  CHECK(together.p_together == Approx(1 - std::pow(1 - together.p_value, 7)));
+  CHECK(together.low < 0);
+}
+
+TEST_CASE("equal is shown, not assumed", "[compare]") {
+  CHECK(compared(10, 10.1, 0.1).sameness == Sameness::equal);
+  const ComparedParameter few = compared(10, 10.1, 1);
+  CHECK(few.sameness == Sameness::undecided);
+  // (t sd / margin)^2 with t(90 %, 40) = 1.68385, sd^2 = 2, margin 0.5.
+  CHECK(few.more_data == Approx(1.68385 * 1.68385 * 2 / 0.25).epsilon(1e-4));
+}
+
+TEST_CASE("a difference may be certain and of no importance", "[compare]") {
+  const ComparedParameter p = compared(10, 10.2, 0.01);
+  CHECK(p.sameness == Sameness::different);
+  CHECK(p.is_within_margin);
+}
+
+TEST_CASE("an offset is measured by the torque, not by itself", "[compare]") {
+  const CompareResult r = compare(result("a", {estimate("offset", 0.001, 0.01)}),
+                                  result("b", {estimate("offset", -0.001, 0.01)}), {});
+  CHECK(r.parameters.front().margin == Approx(0.5));
+  CHECK(r.parameters.front().sameness == Sameness::equal);
+  CHECK(std::isnan(r.parameters.front().percent()));
+}
+
+// Correlated or not: Sidak's bound holds, and independent estimates reach it.
+TEST_CASE("5 % of pairs without a change are different somewhere", "[compare]") {
+  constexpr int kPairs = 4000, kParameters = 7;
+  test::Normal normal(77);
+  int different = 0;
+  for (int k = 0; k < kPairs; ++k) {
+    std::vector<Estimate> a, b;
+    for (int i = 0; i < kParameters; ++i) {
+      // The sd that was estimated from 20 residuals.
+      const auto sd = [&] {
+        double sum = 0;
+        for (int j = 0; j < 20; ++j) sum += std::pow(normal(), 2);
+        return std::sqrt(sum / 20);
+      };
+      const std::string name = "x" + std::to_string(i);
+      a.push_back(estimate(name, 100 + normal(), sd()));
+      b.push_back(estimate(name, 100 + normal(), sd()));
+    }
+    different += compare(result("a", a), result("b", b), {}).count(Sameness::different) > 0;
+  }
+  const double share = static_cast<double>(different) / kPairs;
+  std::printf("    different somewhere: %.2f %%\n", 100 * share);
+  CHECK(std::abs(share - 0.05) < 3.29 * std::sqrt(0.05 * 0.95 / kPairs));
+}
+
+TEST_CASE("results of the same logs differ by method, not by chance", "[compare]") {
+  const CompareResult r =
+      compare(result("a", {estimate("f_s", 10, 1)}), result("a", {estimate("f_s", 11, 1)}), {});
+  CHECK(r.parameters.front().sameness == Sameness::different);
+  CHECK(r.warnings.size() == 1);
+}
+
+TEST_CASE("two preloads of one result are not the same logs", "[compare]") {
+  RecordedResult both = result("a", {estimate("f_s", 10, 1)});
+  both.sets.push_back(both.sets.front());
+  both.sets.back().preload = "high";
+  both.sets.back().estimates = {estimate("f_s", 11, 1)};
+  CompareOptions options;
+  options.first_preload = "low";
+  options.second_preload = "high";
+  const CompareResult r = compare(both, both, options);
+  CHECK(r.parameters.front().preload == "low / high");
+  CHECK(r.parameters.front().sameness == Sameness::undecided);
+  CHECK(r.warnings.empty());
+}
+
+TEST_CASE("what only one result has is told", "[compare]") {
+  const CompareResult r =
+      compare(result("a", {estimate("f_s", 10, 1), estimate("f_v", 1, 1)}),
+              result("b", {estimate("f_s", 10, 1), estimate("J_link", 1, 1)}), {});
+  REQUIRE(r.not_compared.size() == 2);
+  CHECK(r.not_compared[0].reason == "only in the first result");
+  CHECK(r.not_compared[1].name == "J_link");
+}
+
+TEST_CASE("coefficients of another order are another thing", "[compare]") {
+  const auto elastic = [](const std::string& log, int order) {
+    RecordedResult r = result(log, {estimate("K", 10, 1)});
+    r.sets.front() = EstimateSet{"stage 1", "low", "linear", ""};
+    r.sets.front().order = 1;
+    r.sets.front().estimates = {estimate("K", 10, 1)};
+    EstimateSet poly{"stage 1", "low", "poly", ""};
+    poly.order = order;
+    poly.is_selected = true;
+    poly.estimates = {estimate("K1_0", 10, 1)};
+    r.sets.push_back(poly);
+    return r;
+  };
+  CHECK(compare(elastic("a", 2), elastic("b", 2), {}).parameters.front().name == "K1_0");
+  CHECK(compare(elastic("a", 2), elastic("b", 6), {}).parameters.front().name == "K");
+}
+
+TEST_CASE("a preload that is not there", "[compare]") {
+  CompareOptions options;
+  options.first_preload = options.second_preload = "hgih";
+  const RecordedResult a = result("a", {estimate("f_s", 10, 1)}, "high");
+  CHECK(test::message_of([&] { compare(a, a, options); }) ==
+        "no preload 'hgih' in a.json; did you mean 'high'?");
+}
+
+}  // namespace
+}  // namespace cablefit
