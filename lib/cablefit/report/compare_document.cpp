@@ -32,6 +32,12 @@ bool has_several(const CompareResult& result, std::string ComparedParameter::*te
                      [&](const ComparedParameter& p) { return p.*text != all.front().*text; });
 }
 
+/// "low: " where there are several.
+std::string preload_of(const CompareResult& result, const ComparedParameter& p) {
+  const bool several = has_several(result, &ComparedParameter::preload) && !p.preload.empty();
+  return several ? p.preload + ": " : "";
+}
+
 std::string place_of(const CompareResult& result, const ComparedParameter& p) {
   std::string place;
   if (has_several(result, &ComparedParameter::preload) && !p.preload.empty()) place = p.preload;
@@ -51,14 +57,28 @@ std::string margin_text(const CompareResult& result) {
   return fmt::format("{:.4g} %", 100 * result.options.margin);
 }
 
-std::string verdict_text(const CompareResult& result, const ComparedParameter& p) {
+std::string verdict_text(const ComparedParameter& p) {
   if (p.sameness == Sameness::undecided && std::isfinite(p.more_data))
-    return fmt::format("undecided: equal would need {} times the data",
-                       significant(std::max(1.1, p.more_data), 2));
+    return fmt::format("undecided: {} times the data", significant(std::max(1.1, p.more_data), 2));
   if (p.sameness == Sameness::different && p.is_within_margin)
-    return fmt::format("different, but by less than {}",
-                       p.is_relative ? margin_text(result) : "the margin");
+    return "different, within the margin";
   return std::string(to_string(p.sameness));
+}
+
+std::vector<std::string> notes_of(const CompareResult& result) {
+  const std::string margin = margin_text(result);
+  std::vector<std::string> notes = {fmt::format(
+      "different: with all {} in mind, p < {} (t test of every difference, Sidak); equal: within "
+      "{} by two one-sided tests; undecided: neither, and how many times the data would show "
+      "that they are equal, if they are",
+      result.parameters.size(), result.options.significance, margin)};
+  if (std::any_of(result.parameters.begin(), result.parameters.end(),
+                  [](const ComparedParameter& p) { return !p.is_relative; }))
+    notes.push_back(fmt::format(
+        "margin of an offset: {} of the rms torque, of an encoder's zero: {} of half the range of "
+        "deflections",
+        margin, margin));
+  return notes;
 }
 
 Table table_of(const CompareResult& result) {
@@ -70,25 +90,18 @@ Table table_of(const CompareResult& result) {
                    {"B", "sd", ""},           {"B - A", "", "%"},
                    {"B - A", "in sd", ""},    {"", "p", ""},
                    {"", "verdict", "", true}};
-  for (const ComparedParameter& p : result.parameters)
+  const bool several = has_several(result, &ComparedParameter::preload);
+  if (!several) table.columns.erase(table.columns.begin());
+  for (const ComparedParameter& p : result.parameters) {
     table.rows.push_back({p.preload, p.name, p.unit, value_text(p.first, p.first_sd),
                           sd_text(p.first, p.first_sd), value_text(p.second, p.second_sd),
                           sd_text(p.second, p.second_sd), significant(p.percent(), kPercentDigits),
                           p.sd > 0 ? significant(p.difference / p.sd, kSdDigits) : kNoNumber,
                           p.sd > 0 ? significant(p.p_together, kSdDigits) : kNoNumber,
-                          verdict_text(result, p)});
-  table.notes.push_back(fmt::format(
-      "different: with all {} in mind, p < {} (t test of every difference, Sidak); equal: within "
-      "{} "
-      "by two one-sided tests; undecided: neither, the data are too few",
-      result.parameters.size(), result.options.significance, margin_text(result)));
-  const bool has_zero = std::any_of(result.parameters.begin(), result.parameters.end(),
-                                    [](const ComparedParameter& p) { return !p.is_relative; });
-  if (has_zero)
-    table.notes.push_back(fmt::format(
-        "an offset is equal within {} of the rms torque, an encoder's zero within {} of half the "
-        "range of deflections",
-        margin_text(result), margin_text(result)));
+                          verdict_text(p)});
+    if (!several) table.rows.back().erase(table.rows.back().begin());
+  }
+  table.notes = notes_of(result);
   return table;
 }
 
@@ -165,13 +178,8 @@ Document compare_document(const CompareResult& result) {
   document.summary.push_back({"verdict", conclusion(result)});
   for (const ComparedParameter& p : result.parameters)
     if (p.sameness == Sameness::different)
-      document.summary.push_back(
-          {"changed",
-           fmt::format("{}{}",
-                       has_several(result, &ComparedParameter::preload) && !p.preload.empty()
-                           ? p.preload + ": "
-                           : "",
-                       change_text(p))});
+      document.summary.push_back({p.is_within_margin ? "changed a little" : "changed",
+                                  fmt::format("{}{}", preload_of(result, p), change_text(p))});
   if (result.count(Sameness::equal) > 0)
     document.summary.push_back(
         {fmt::format("equal within {}", margin_text(result)), names_of(result, Sameness::equal)});
