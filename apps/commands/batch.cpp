@@ -141,7 +141,7 @@ std::vector<ResultFile> files_of(const BatchCommand& command, const BatchResult&
                                    {"elastic.json", elastic_json(result.all_elastic())},
                                    {"dynamic.json", dynamic_json(result.all_dynamic())}};
   if (!command.junit.empty())
-    files.push_back({std::filesystem::absolute(command.junit).string(), junit_xml(result)});
+    files.push_back({command.junit, junit_xml(result), true});
   return files;
 }
 

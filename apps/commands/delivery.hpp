@@ -12,6 +12,7 @@ namespace cablefit::apps {
 struct ResultFile {
   std::string name;  ///< below --out: "elastic.json"; empty: only on request by --json
   std::string content;
+  bool has_own_path = false;  ///< `name` is the path, not below --out
 };
 
 /// Prints the document (warnings to stderr under --quiet or --json -), then writes the result files

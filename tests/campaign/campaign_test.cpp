@@ -66,21 +66,21 @@ TEST_CASE("a bad campaign is refused with its place") {
        "merge the two"},
       {R"({"schema": "cablefit/campaign/1", "estimator": "wsl",
  "cells": [{"preload": "p", "blocked": ["b.csv"]}]})",
-       ":1:52: unknown estimator 'wsl'; did you mean 'wls'?"},
+       ":1:48: unknown estimator 'wsl'; did you mean 'wls'?"},
       {R"({"schema": "cablefit/campaign/1",
  "cells": [{"preload": "p", "blocked": ["b.csv"], "moving": ["*.csv"]}]})",
        ":2:62: 'FOLDER/b.csv' is a log of 'blocked' already; name each log of a cell once"},
       {R"({"schema": "cablefit/campaign/1",
  "cells": [{"preload": "p", "blocked": ["b.csv"], "refine": true}]})",
-       ":2:60: 'refine' has no model to start from; give the cell 'moving' logs: stage 2 makes the "
+       ":2:61: 'refine' has no model to start from; give the cell 'moving' logs: stage 2 makes the "
        "model"},
       {R"({"schema": "cablefit/campaign/1",
  "cells": [{"preload": "p", "blocked": ["b.csv"], "moving": ["c.csv"], "refine": 3}]})",
-       ":2:81: 'refine' is neither true nor an object; write true, or {\"train\": "
+       ":2:82: 'refine' is neither true nor an object; write true, or {\"train\": "
        "[\"low/moving*.csv\"], \"test\": [..]}"},
       {R"({"schema": "cablefit/campaign/1",
  "cells": [{"preload": "p", "blocked": ["b.csv"], "moving": ["c.csv"], "refine": {"draws": 3}}]})",
-       ":2:91: 'draws' is 3; give a whole number from 4 to 100000"},
+       ":2:92: 'draws' is 3; give a whole number from 4 to 100000"},
       {R"({"schema": "cablefit/campaign/1", "limits": {"rsd_percent": -1},
  "cells": [{"preload": "p", "blocked": ["b.csv"]}]})",
        ":1:61: 'limits.rsd_percent' is -1, not positive; give a number above 0"},

@@ -13,7 +13,7 @@ namespace cablefit {
 namespace {
 
 constexpr int kFormat = 1;  // of the cells' files; to be raised when they change
-constexpr std::size_t kMostCellsWithFigures = 12;
+constexpr std::size_t kMostCellsWithFigures = 6;
 
 template <class T>
 std::string given(const std::optional<T>& value) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cablefit/base/base64.hpp"
+#include "cablefit/report/batch_figures.hpp"
 #include "cablefit/report/escape.hpp"
 #include "cablefit/version.hpp"
 
@@ -35,7 +36,9 @@ Json numbers(const std::vector<double>& values) {
 }
 
 Json axis_json(const Axis& axis) {
-  return {{"title", printable(axis.title)}, {"unit", printable(axis.unit)}};
+  return {{"title", printable(axis.title)},
+          {"unit", printable(axis.unit)},
+          {"dates", axis.title == kDateAxis}};
 }
 
 Json trace_json(const Trace& trace) {
