@@ -140,8 +140,7 @@ std::vector<ResultFile> files_of(const BatchCommand& command, const BatchResult&
   std::vector<ResultFile> files = {{"batch.json", batch_json(result)},
                                    {"elastic.json", elastic_json(result.all_elastic())},
                                    {"dynamic.json", dynamic_json(result.all_dynamic())}};
-  if (!command.junit.empty())
-    files.push_back({command.junit, junit_xml(result), true});
+  if (!command.junit.empty()) files.push_back({command.junit, junit_xml(result), true});
   return files;
 }
 

@@ -25,6 +25,8 @@ constexpr std::array kCommands{
             "where model and logs disagree, which effect is missing, and does adding it help",
             run_refine},
     Command{"batch", "all preloads of a campaign side by side, with gates for CI", run_batch},
+    Command{"init", "a campaign file and rig files to begin with, from the logs in a folder",
+            run_init},
     Command{"list", "effects, models, estimators and formats that cablefit knows", run_list},
 };
 
