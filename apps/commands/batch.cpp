@@ -183,6 +183,7 @@ int run_batch(const Arguments& arguments) {
   if (!command.cell.empty()) return fit_one_cell(command, campaign);
   share_threads(campaign, batch);
   options.more_inputs = files_of(campaign);
+  refuse_collisions(options, files_of(command, BatchResult{}));
   const BatchResult result = fit_all(command, campaign);
   Problems problems;
   problems.collect([&] { tell_kept(command, result); });

@@ -35,7 +35,18 @@ std::vector<std::string> targets(const CommonOptions& options,
   return paths;
 }
 
-/// A result never replaces what it was made from, nor another result of the same run.
+void print(const CommonOptions& options, const Document& document) {
+  if (!options.quiet && !is_stdout(options.json)) {
+    write_whole("-", write_text(options.verbose ? document : without_details(document)));
+    return;
+  }
+  for (const std::string& warning : document.warnings) {
+    complain(fmt::format("warning: {}\n", printable(warning)));
+  }
+}
+
+}  // namespace
+
 void refuse_collisions(const CommonOptions& options, const std::vector<ResultFile>& results) {
   const std::vector<std::string> paths = targets(options, results);
   const auto same = [](const std::string& a, const std::string& b) {
@@ -58,18 +69,6 @@ void refuse_collisions(const CommonOptions& options, const std::vector<ResultFil
                           "give each result a file of its own");
   }
 }
-
-void print(const CommonOptions& options, const Document& document) {
-  if (!options.quiet && !is_stdout(options.json)) {
-    write_whole("-", write_text(options.verbose ? document : without_details(document)));
-    return;
-  }
-  for (const std::string& warning : document.warnings) {
-    complain(fmt::format("warning: {}\n", printable(warning)));
-  }
-}
-
-}  // namespace
 
 void deliver(const CommonOptions& options, const Document& document,
              const std::vector<ResultFile>& results) {

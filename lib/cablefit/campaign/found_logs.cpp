@@ -64,7 +64,8 @@ std::vector<fs::path> candidates(const std::string& folder) {
 std::vector<std::string> column_names(const std::string& path) {
   std::vector<std::string> names;
   try {
-    for (const ColumnHeader& column : open_log(path)->header().columns)
+    const auto log = open_log(path);
+    for (const ColumnHeader& column : log->header().columns)
       names.push_back(column.unit.empty() ? column.name : column.name + " [" + column.unit + "]");
   } catch (const Error&) {  // its problem is told already
   }
