@@ -4,14 +4,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
+#include "cablefit/base/output_file.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/report/batch_document.hpp"
+#include "cablefit/report/batch_json.hpp"
 #include "cablefit/report/dynamic_json.hpp"
 #include "cablefit/report/elastic_json.hpp"
+#include "cablefit/report/junit.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
+#include "commands/problems.hpp"
+#include "commands/progress.hpp"
+#include "commands/progress_line.hpp"
 #include "process.hpp"
 
 namespace cablefit::apps {
@@ -19,18 +26,24 @@ namespace {
 
 constexpr const char* kExample =
     "Example:\n"
-    "  cablefit batch data/campaign.json --report summary.md\n"
+    "  cablefit batch data/campaign.json --report summary.md --junit gates.xml\n"
+    "Finished cells are kept in OUT/cells: a run that was interrupted goes on where it was.\n"
     "Exit code 1: a limit of the campaign was passed; each failed gate is one line.\n";
 
 constexpr int kGateFailed = 1;
+
+struct BatchCommand {
+  CommonOptions common;
+  BatchOptions batch;
+  std::string campaign, cell, junit;
+  bool lists_cells = false;
+};
 
 /// The gravest of what went wrong: 5, 3, 4, 1 in that order.
 int exit_code(const BatchResult& result) {
   int code = 0;
   // A mistake in the campaign (2) that only shows when a cell is fitted counts as bad input does.
-  const auto rank = [](int c) {
-    return c == 5 ? 4 : c == 3 || c == 2 ? 3 : c == 4 ? 2 : c == 1 ? 1 : 0;
-  };
+  const auto rank = [](int c) { return c == 5 ? 4 : c == 3 || c == 2 ? 3 : c == 4 ? 2 : 0; };
   for (const BatchCell& cell : result.cells)
     if (rank(cell.exit_code) > rank(code)) code = cell.exit_code;
   const bool failed = std::any_of(result.gates.begin(), result.gates.end(),
@@ -46,45 +59,137 @@ std::vector<std::string> files_of(const Campaign& campaign) {
     if (!cell.rig.empty()) files.push_back(cell.rig);
     for (const auto* logs : {&cell.blocked, &cell.moving, &cell.validation})
       files.insert(files.end(), logs->begin(), logs->end());
+    if (!cell.refine) continue;
+    for (const auto* logs : {&cell.refine->train, &cell.refine->test})
+      files.insert(files.end(), logs->begin(), logs->end());
   }
   return files;
 }
 
-/// A failed gate is never silent.
-void print_failed_gates(const BatchResult& result) {
+/// What failed is never silent, and stands last.
+void complain_about(const BatchResult& result) {
+  for (const BatchCell& cell : result.cells)
+    if (!cell.error.empty())
+      complain(printable(fmt::format("FAILED: {}: {}", cell.name, cell.error)) + "\n");
   for (const Gate& gate : result.gates)
-    if (!gate.passed) complain(fmt::format("{}\n", printable(gate.text)));
+    if (!gate.passed && gate.name != kFittedGate) complain(printable(gate.text) + "\n");
+}
+
+std::string progress_text(const BatchProgress& now) {
+  std::string text = fmt::format("fitting cells: {} of {}", now.n_done, now.n_cells);
+  if (now.n_failed > 0) text += fmt::format(", {} failed", now.n_failed);
+  if (now.seconds_left >= 0)
+    text += fmt::format(", {} left", ProgressLine::duration(now.seconds_left));
+  return text;
+}
+
+void add_batch_options(CLI::App& app, BatchCommand& command) {
+  app.add_option("campaign", command.campaign, "campaign file (cablefit/campaign/1)")
+      ->required()
+      ->type_name("CAMPAIGN");
+  command.batch.jobs = 0;
+  add_whole(
+      app, "--jobs", "N", {1, 1024},
+      [&command](long n) { command.batch.jobs = static_cast<int>(n); },
+      "cells at a time [as many as --threads]; the result does not depend on it");
+  app.add_option("--cell", command.cell,
+                 "only this cell, and of it only the file in OUT/cells: for engines that run cells "
+                 "on many machines")
+      ->type_name("NAME");
+  app.add_flag("--list-cells", command.lists_cells, "print the names of the cells, fit nothing");
+  app.add_option("--junit", command.junit, "cells and gates as JUnit XML, for CI servers")
+      ->type_name("FILE");
+  app.add_flag("--unconstrained", command.batch.elastic.unconstrained,
+               "stage 1 by plain least squares: let cables push, with a warning");
+}
+
+/// Threads are shared out: cells need nothing of each other, so more of them at a time come first.
+void share_threads(const Campaign& campaign, BatchOptions& batch) {
+  const int threads = batch.samples.threads;
+  if (batch.jobs == 0)
+    batch.jobs =
+        std::min(threads, static_cast<int>(std::min<std::size_t>(campaign.cells.size(), 1024)));
+  batch.samples.threads = std::max(1, threads / batch.jobs);
+}
+
+int fit_one_cell(const BatchCommand& command, const Campaign& campaign) {
+  const CommonOptions& options = command.common;
+  if (!options.json.empty() || !options.reports.empty() || !command.junit.empty())
+    throw usage_error("--cell writes only the cell's own file",
+                      "leave out --json, --report and --junit; a run without --cell has them all");
+  const BatchCell cell = [&] {
+    const Progress progress(options.quiet, "fitting " + printable(command.cell));
+    return run_cell(campaign, command.cell, command.batch);
+  }();
+  if (!cell.error.empty())
+    complain(printable(fmt::format("FAILED: {}: {}", cell.name, cell.error)) + "\n");
+  else if (!options.quiet)
+    write_whole("-", printable(cell.name) + ": fitted\n");
+  return cell.exit_code;
+}
+
+BatchResult fit_all(BatchCommand& command, const Campaign& campaign) {
+  Progress display(command.common.quiet, "fitting cells", campaign.cells.size() == 1);
+  command.batch.progress = [&display](const BatchProgress& now) {
+    display.rename(progress_text(now));
+  };
+  return cablefit::run_batch(campaign, command.batch);
+}
+
+std::vector<ResultFile> files_of(const BatchCommand& command, const BatchResult& result) {
+  std::vector<ResultFile> files = {{"batch.json", batch_json(result)},
+                                   {"elastic.json", elastic_json(result.all_elastic())},
+                                   {"dynamic.json", dynamic_json(result.all_dynamic())}};
+  if (!command.junit.empty()) files.push_back({command.junit, junit_xml(result), true});
+  return files;
+}
+
+void tell_kept(const BatchCommand& command, const BatchResult& result) {
+  const CommonOptions& options = command.common;
+  if (result.n_kept == 0 || options.quiet || options.json == "-") return;
+  write_whole("-", fmt::format("{} of {} cells were in {} already\n\n", result.n_kept,
+                               result.cells.size(), printable(command.batch.folder)));
+}
+
+void list_cells(const Campaign& campaign) {
+  std::string names;
+  for (const CampaignCell& cell : campaign.cells) names += printable(cell.name) + "\n";
+  write_whole("-", names);
 }
 
 }  // namespace
 
 int run_batch(const Arguments& arguments) {
   CLI::App app("Fit every preload of a campaign and judge its limits.", "batch");
-  CommonOptions options;
-  BatchOptions batch;
-  std::string path;
-  app.add_option("campaign", path, "campaign file (cablefit/campaign/1)")
-      ->required()
-      ->type_name("CAMPAIGN");
-  app.add_flag("--unconstrained", batch.elastic.unconstrained,
-               "stage 1 by plain least squares: let cables push, with a warning");
+  BatchCommand command;
+  CommonOptions& options = command.common;
+  add_batch_options(app, command);
   add_sd_option(app, options);
   add_sample_options(app, options);
   add_output_options(app, options);
   app.footer(kExample);
   if (!parse(app, arguments)) return 0;
 
+  const Campaign campaign = read_campaign(command.campaign);
+  BatchOptions& batch = command.batch;
   batch.samples = options.samples;
-  batch.figures = wants_figures(options);
-  batch.honest_sd = batch.elastic.honest_sd = options.honest_sd;
-  const Campaign campaign = read_campaign(path);
+  batch.honest_sd = options.honest_sd;
+  batch.seed = options.seed;
+  batch.folder = (std::filesystem::path(options.out) / "cells").string();
+  if (command.lists_cells) {
+    list_cells(campaign);
+    return 0;
+  }
+  if (!command.cell.empty()) return fit_one_cell(command, campaign);
+  share_threads(campaign, batch);
   options.more_inputs = files_of(campaign);
-  const BatchResult result = cablefit::run_batch(campaign, batch);
-  deliver(options, batch_document(result),
-          {{"batch.json", batch_json(result)},
-           {"elastic.json", elastic_json(result.all_elastic())},
-           {"dynamic.json", dynamic_json(result.all_dynamic())}});
-  if (options.quiet || options.json == "-") print_failed_gates(result);
+  refuse_collisions(options, files_of(command, BatchResult{}));
+  const BatchResult result = fit_all(command, campaign);
+  Problems problems;
+  problems.collect([&] { tell_kept(command, result); });
+  problems.collect([&] { deliver(options, batch_document(result), files_of(command, result)); });
+  complain_about(result);
+  problems.throw_if_any();
   return exit_code(result);
 }
 

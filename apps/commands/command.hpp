@@ -31,6 +31,7 @@ int run_simulate(const Arguments& arguments);
 int run_refine(const Arguments& arguments);
 int run_compare(const Arguments& arguments);
 int run_batch(const Arguments& arguments);
+int run_init(const Arguments& arguments);
 int run_list(const Arguments& arguments);
 
 }  // namespace cablefit::apps

@@ -27,6 +27,8 @@ constexpr std::array kCommands{
     Command{"compare", "whether two results differ by more than their uncertainty, and in what",
             run_compare},
     Command{"batch", "all preloads of a campaign side by side, with gates for CI", run_batch},
+    Command{"init", "a campaign file and rig files to begin with, from the logs in a folder",
+            run_init},
     Command{"list", "effects, models, estimators and formats that cablefit knows", run_list},
 };
 

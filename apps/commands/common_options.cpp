@@ -19,10 +19,6 @@ namespace {
 
 constexpr unsigned kMostThreads = 8;  // beyond, reading the log is what takes the time
 
-int default_threads() {
-  return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads));
-}
-
 /// "zoh" and "none"; "auto" overrides what a rig file says.
 TorqueHold torque_hold(const std::string& name) {
   return name == "zoh"    ? TorqueHold::zoh
@@ -65,6 +61,10 @@ void require_preload(const std::vector<LogSurvey>& logs, const std::string& want
 }
 
 }  // namespace
+
+int default_threads() {
+  return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads));
+}
 
 void add_log_options(CLI::App& app, CommonOptions& options) {
   app.add_option("LOG", options.logs, "logs: CSV or JSON, also .gz and .zst")->type_name("");

@@ -26,6 +26,8 @@ struct CommonOptions {
   unsigned long seed = 1;  ///< of random numbers, for commands that draw any
 };
 
+/// One per core, at most 8.
+int default_threads();
 /// LOG..., --rig, --preload.
 void add_log_options(CLI::App& app, CommonOptions& options);
 /// --out, --json, --report, --threads, --quiet, --verbose, --seed.

@@ -20,18 +20,33 @@ std::string quoted_path(const std::string& path) { return cablefit::quoted(path)
 
 bool is_stdout(const std::string& path) { return path == "-"; }
 
+std::string path_of(const CommonOptions& options, const ResultFile& result) {
+  if (result.has_own_path) return result.name;
+  return (std::filesystem::path(options.out) / result.name).string();
+}
+
 /// Every file this run writes.
 std::vector<std::string> targets(const CommonOptions& options,
                                  const std::vector<ResultFile>& results) {
   std::vector<std::string> paths = options.reports;
   for (const ResultFile& result : results)
-    if (!result.name.empty())
-      paths.push_back((std::filesystem::path(options.out) / result.name).string());
+    if (!result.name.empty()) paths.push_back(path_of(options, result));
   if (!options.json.empty() && !is_stdout(options.json)) paths.push_back(options.json);
   return paths;
 }
 
-/// A result never replaces what it was made from, nor another result of the same run.
+void print(const CommonOptions& options, const Document& document) {
+  if (!options.quiet && !is_stdout(options.json)) {
+    write_whole("-", write_text(options.verbose ? document : without_details(document)));
+    return;
+  }
+  for (const std::string& warning : document.warnings) {
+    complain(fmt::format("warning: {}\n", printable(warning)));
+  }
+}
+
+}  // namespace
+
 void refuse_collisions(const CommonOptions& options, const std::vector<ResultFile>& results) {
   const std::vector<std::string> paths = targets(options, results);
   const auto same = [](const std::string& a, const std::string& b) {
@@ -55,18 +70,6 @@ void refuse_collisions(const CommonOptions& options, const std::vector<ResultFil
   }
 }
 
-void print(const CommonOptions& options, const Document& document) {
-  if (!options.quiet && !is_stdout(options.json)) {
-    write_whole("-", write_text(options.verbose ? document : without_details(document)));
-    return;
-  }
-  for (const std::string& warning : document.warnings) {
-    complain(fmt::format("warning: {}\n", printable(warning)));
-  }
-}
-
-}  // namespace
-
 void deliver(const CommonOptions& options, const Document& document,
              const std::vector<ResultFile>& results) {
   refuse_collisions(options, results);
@@ -76,9 +79,7 @@ void deliver(const CommonOptions& options, const Document& document,
   };
   problems.collect([&] { print(options, document); });
   for (const ResultFile& result : results) {
-    if (!result.name.empty()) {
-      write((std::filesystem::path(options.out) / result.name).string(), result.content);
-    }
+    if (!result.name.empty()) write(path_of(options, result), result.content);
   }
   if (!options.json.empty()) write(options.json, results.front().content);
   for (const std::string& path : options.reports) {

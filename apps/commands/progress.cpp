@@ -36,7 +36,8 @@ void clear_progress_line() noexcept {
   if (is_shown != 0 && ::write(STDERR_FILENO, kClearLine.data(), kClearLine.size()) < 0) return;
 }
 
-Progress::Progress(bool quiet, std::string what) : what_(std::move(what)) {
+Progress::Progress(bool quiet, std::string what, bool tells_reading)
+    : what_(std::move(what)), tells_reading_(tells_reading) {
   if (quiet || ::isatty(STDERR_FILENO) == 0) return;
   try {
     thread_ = std::thread([this] { show(); });
@@ -68,7 +69,8 @@ void Progress::show() {
     is_shown = 1;
     line.rename(what_);
     say(fmt::format("{}{}", kClearLine,
-                    line.at(steady_seconds(), read_progress(), terminal_width())));
+                    line.at(steady_seconds(), tells_reading_ ? read_progress() : ReadProgress{},
+                            terminal_width())));
   }
   if (is_shown != 0) say(kClearLine);
   is_shown = 0;

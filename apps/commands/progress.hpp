@@ -12,7 +12,8 @@ namespace cablefit::apps {
 /// Lives as long as the work; the line is gone afterwards. Silent when stderr is no terminal.
 class Progress {
  public:
-  Progress(bool quiet, std::string what);
+  /// `tells_reading`: of several pieces of work at a time no single log is worth telling.
+  Progress(bool quiet, std::string what, bool tells_reading = true);
   ~Progress();
   /// What it says from now on; from any thread.
   void rename(std::string what);
@@ -26,6 +27,7 @@ class Progress {
   std::mutex mutex_;
   std::condition_variable done_;
   bool is_done_ = false;
+  bool tells_reading_;
   std::thread thread_;
 };
 

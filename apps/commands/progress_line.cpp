@@ -19,13 +19,6 @@ std::string bar(double share) {
   return fmt::format("[{}{}]", std::string(n_full, '#'), std::string(kBarWidth - n_full, '.'));
 }
 
-std::string duration(double seconds) {
-  const long whole = std::lround(std::ceil(seconds));
-  if (whole < 60) return fmt::format("{} s", whole);
-  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
-  return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
-}
-
 /// Never cuts a character in two.
 std::string at_most(std::size_t width, const std::string& text) {
   std::size_t end = 0;
@@ -38,6 +31,13 @@ std::string at_most(std::size_t width, const std::string& text) {
 }
 
 }  // namespace
+
+std::string ProgressLine::duration(double seconds) {
+  const long whole = std::lround(std::ceil(seconds));
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+  return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+}
 
 std::string ProgressLine::at(double seconds, const ReadProgress& now, std::size_t width) {
   if (now.n_passes != latest_.n_passes || now.n_bytes != latest_.n_bytes) latest_read_ = seconds;

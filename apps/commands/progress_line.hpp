@@ -19,6 +19,8 @@ class ProgressLine {
   /// "reading logs: big.csv [####....]  45 %, 230 MB/s, 3 s left" once a pass takes longer than a
   /// second, "fitting stage 1 ... 12 s" while nothing is read; at most `width` characters.
   std::string at(double seconds, const ReadProgress& now, std::size_t width);
+  /// "12 s", "3 min 5 s".
+  static std::string duration(double seconds);
   void rename(const std::string& what) { what_ = what; }
 
  private:

@@ -1,10 +1,11 @@
 // Gates: what passes, what fails, and that a baseline 20 % off fails every drift gate.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "cablefit/campaign/batch.hpp"
-#include "cablefit/report/batch_document.hpp"
+#include "cablefit/report/batch_json.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace cablefit {
@@ -85,6 +86,74 @@ TEST_CASE("a cell that cannot be fitted does not stop the others") {
   CHECK(result.cells[0].error.find("broken.csv:2:7") != std::string::npos);
   CHECK(result.cells[1].error.empty());
   CHECK(result.cells[1].dynamic.has_value());
+}
+
+BatchCell refined(const CellRefine& refine) {
+  BatchCell cell = shipped().cells.front();
+  cell.refine = refine;
+  return cell;
+}
+
+TEST_CASE("a new effect fails its gate only where the campaign forbids it") {
+  CellRefine named, none, unknown;
+  named.verdict = "ambiguous";
+  named.effects = {{"stribeck", "motor", 0.5, 0.0012, 1, {}}};
+  none.verdict = "none";
+  unknown.error = "too short";
+  const std::vector<BatchCell> cells = {refined(named), refined(none), refined(unknown),
+                                        shipped().cells.front()};
+  Campaign campaign = with_baseline("");
+  CHECK(judge(campaign, cells).empty());
+  campaign.limits.new_effect = false;
+  const auto gates = judge(campaign, cells);
+  REQUIRE(gates.size() == 3);
+  CHECK(gates[0].text ==
+        "FAILED: low: new_effect: refine names stribeck (motor side, p = 0.0012), verdict "
+        "'ambiguous'");
+  CHECK(gates[1].text == "passed: low: new_effect: refine names none, verdict 'none'");
+  CHECK(gates[2].text == "FAILED: low: new_effect: refine has no verdict: too short");
+  CHECK((!gates[0].passed && gates[1].passed && !gates[2].passed));
+}
+
+TEST_CASE("drift is against the cell of the same name, else the latest of the same robot") {
+  const TempFolder folder;
+  auto json = nlohmann::json::parse(batch_json(shipped()));
+  const auto cell = json["cells"][0];
+  json["cells"].clear();
+  const auto add = [&](const char* name, const char* robot, const char* date, double factor) {
+    auto copy = cell;
+    copy["name"] = name;
+    copy["robot"] = robot;
+    copy["date"] = date;
+    for (auto& fit : copy["elastic"]["preloads"][0]["fits"])
+      for (auto& parameter : fit["parameters"])
+        parameter["value"] = parameter["value"].get<double>() * factor;
+    json["cells"].push_back(copy);
+  };
+  add("spring", "a", "2026-03-01", 2);
+  add("autumn", "a", "2026-09-01", 4);
+  add("summer", "a", "2026-06-01", 8);
+  add("other", "b", "2027-01-01", 16);
+  const std::string path = folder.write("baseline.json", json.dump());
+  const auto drift_of_K = [&](const char* name, const char* robot) {
+    BatchCell now = shipped().cells.front();
+    now.name = name;
+    now.robot = robot;
+    return judge(with_baseline(path), {now}).front().value;
+  };
+  CHECK(drift_of_K("spring", "a") == Approx(50));
+  CHECK(drift_of_K("winter", "a") == Approx(75));
+  CHECK(drift_of_K("winter", "b") == Approx(100 * 15. / 16));
+  CHECK(std::isnan(drift_of_K("winter", "c")));
+}
+
+TEST_CASE("parameters of several joints have gates too") {
+  BatchCell cell = shipped().cells.front();
+  for (DynamicFit& fit : cell.dynamic->preloads.front().fits)
+    for (Estimate& e : fit.parameters) e.name += "[2]";
+  Campaign campaign = with_baseline("");
+  campaign.limits.rsd_percent = 1e-9;
+  CHECK(judge(campaign, {cell}).size() == 6);
 }
 
 }  // namespace

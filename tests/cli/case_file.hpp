@@ -7,7 +7,8 @@
 //   exit 3                  exit code
 //   stdout | stderr         the exact text, indented by two blanks; missing: nothing is printed
 //   says                    lines that stdout contains (then `stdout` is not looked at)
-//   creates                 files that appear, one per line; missing: none does
+//   creates                 files that appear, one per line; missing: none does; a cell's file is
+//                           cablefit-out/cells/KEY.json
 //
 // `bounded` in a command is cablefit on one thread within 400 MB of address space, {data} stands
 // for the repository's data folder, in commands and in texts.

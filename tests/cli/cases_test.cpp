@@ -31,6 +31,8 @@ TEST_CASE("rig files, results and targets that cannot be used") { check_file("ba
 TEST_CASE("logs and files made to do harm") { check_file("hostile.txt"); }
 TEST_CASE("what works") { check_file("works.txt"); }
 TEST_CASE("refine") { check_file("refine.txt"); }
+TEST_CASE("campaigns") { check_file("batch.txt"); }
+TEST_CASE("a campaign to begin with") { check_file("init.txt"); }
 
 TEST_CASE("every case file is run") {
   std::set<std::string> names;
@@ -38,8 +40,8 @@ TEST_CASE("every case file is run") {
        std::filesystem::directory_iterator(CABLEFIT_SOURCE "/tests/cli/cases")) {
     names.insert(entry.path().filename().string());
   }
-  CHECK(names == std::set<std::string>{"bad_files.txt", "bad_logs.txt", "hostile.txt", "refine.txt",
-                                       "usage.txt", "works.txt"});
+  CHECK(names == std::set<std::string>{"bad_files.txt", "bad_logs.txt", "batch.txt", "hostile.txt",
+                                       "init.txt", "refine.txt", "usage.txt", "works.txt"});
 }
 
 }  // namespace

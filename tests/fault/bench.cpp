@@ -1,15 +1,9 @@
 #include "tests/fault/bench.hpp"
 
-#include <fcntl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
-#include <chrono>
-#include <csignal>
 #include <sstream>
-#include <thread>
 
+#include "tests/fault/program.hpp"
 #include "tests/support/low_model.hpp"
 
 namespace cablefit::test {
@@ -17,9 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kCampaign = R"({"schema": "cablefit/campaign/1", "name": "bench",
-  "cells": [{"rig": "rig.json", "preload": "low", "blocked": ["log.csv"],
-             "moving": ["moving.csv"]}]})";
+}  // namespace
 
 std::string first_lines(const std::string& text, int n_lines) {
   std::size_t end = 0;
@@ -27,41 +19,12 @@ std::string first_lines(const std::string& text, int n_lines) {
   return text.substr(0, end);
 }
 
-[[noreturn]] void become_program(const std::string& folder, const Arguments& arguments,
-                                 const Environment& environment) {
-  if (::chdir(folder.c_str()) != 0) ::_exit(99);
-  const int err = ::open("err", O_WRONLY | O_CREAT | O_TRUNC, 0666);
-  const int out = ::open("/dev/null", O_WRONLY);
-  ::dup2(out, STDOUT_FILENO);
-  ::dup2(err, STDERR_FILENO);
-  for (const auto& [name, value] : environment) ::setenv(name.c_str(), value.c_str(), 1);
-  ::setenv("LD_PRELOAD", CABLEFIT_FAILING_CALLS, 1);
-  ::setenv("ASAN_OPTIONS", "verify_asan_link_order=0", 1);
-  std::vector<char*> argv{const_cast<char*>(CABLEFIT_PROGRAM)};
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
-  ::execv(CABLEFIT_PROGRAM, argv.data());
-  ::_exit(99);
-}
-
-Ended end_of(pid_t process) {
-  int status = 0;
-  ::waitpid(process, &status, 0);
-  Ended ended;
-  if (WIFEXITED(status)) ended.exit_code = WEXITSTATUS(status);
-  if (WIFSIGNALED(status)) ended.signal = WTERMSIG(status);
-  return ended;
-}
-
-}  // namespace
-
 FaultBench::FaultBench() {
   restore_log();
   folder_.write("moving.csv",
                 first_lines(content_of(CABLEFIT_DATA "/low/moving_load30.csv"), 4000));
   fs::copy_file(CABLEFIT_DATA "/low/rig.json", path("rig.json"));
   folder_.write("model.json", kLowModel);
-  folder_.write("campaign.json", kCampaign);
 }
 
 void FaultBench::restore_log() const {
@@ -70,23 +33,7 @@ void FaultBench::restore_log() const {
 }
 
 Ended FaultBench::run(const Arguments& arguments, const Environment& environment, Blow blow) const {
-  // A signal must not find the child before it is the program, with the handlers of the test in it.
-  sigset_t all, usual;
-  sigfillset(&all);
-  ::sigprocmask(SIG_BLOCK, &all, &usual);
-  const pid_t process = ::fork();
-  if (process == 0) {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
-  }
-  ::sigprocmask(SIG_SETMASK, &usual, nullptr);
-  if (process == 0) become_program(folder_.path().string(), arguments, environment);
-  if (blow.signal != 0) {
-    std::this_thread::sleep_for(std::chrono::microseconds(blow.after_us));
-    ::kill(process, blow.signal);
-  }
-  Ended ended = end_of(process);
-  ended.err = content_of(path("err"));
-  return ended;
+  return run_program(folder_.path().string(), arguments, environment, blow);
 }
 
 FaultBench::Calls FaultBench::count(const Arguments& arguments, const Environment& more) const {
@@ -100,9 +47,10 @@ FaultBench::Calls FaultBench::count(const Arguments& arguments, const Environmen
   return calls;
 }
 
-std::map<std::string, std::string> FaultBench::files() const {
+std::map<std::string, std::string> FaultBench::files() const { return files_below(path("out")); }
+
+std::map<std::string, std::string> files_below(const std::filesystem::path& out) {
   std::map<std::string, std::string> files;
-  const fs::path out = path("out");
   if (!fs::exists(out)) return files;
   for (const auto& entry : fs::recursive_directory_iterator(out)) {
     if (entry.is_directory()) continue;
@@ -130,9 +78,6 @@ std::vector<Writer> writers() {
       {"simulate",
        {"simulate", "model.json", "moving.csv", "--out", "out", "--trajectories", "out/rows.csv"},
        {"simulate.json", "rows.csv"}},
-      {"batch",
-       {"batch", "campaign.json", "--out", "out", "--report", "out/a.txt"},
-       {"batch.json", "elastic.json", "dynamic.json", "a.txt"}},
       {"check", {"check", "log.csv", "--json", "out/check.json"}, {"check.json"}},
       {"identify",
        {"identify", "log.csv", "moving.csv", "--l_o", "known", "--recursive", "--out", "out"},

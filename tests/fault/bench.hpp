@@ -2,30 +2,14 @@
 // fails or a signal comes. See failing_calls.cpp for the environment.
 #pragma once
 
-#include <sys/types.h>
-
 #include <map>
 #include <string>
 #include <vector>
 
+#include "tests/fault/program.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace cablefit::test {
-
-using Arguments = std::vector<std::string>;
-using Environment = std::map<std::string, std::string>;
-
-struct Ended {
-  int exit_code = -1;  ///< -1: by a signal
-  int signal = 0;
-  std::string err;
-};
-
-/// What a run is killed by, and when.
-struct Blow {
-  int signal = 0;
-  long after_us = 0;
-};
 
 /// A command that writes files: what it is called with, and what it writes.
 struct Writer {
@@ -56,6 +40,11 @@ class FaultBench {
  private:
   TempFolder folder_;
 };
+
+/// The first lines of a text, all of them when there are fewer.
+std::string first_lines(const std::string& text, int n_lines);
+/// Contents of the files below a folder, by path below it; none when there is no such folder.
+std::map<std::string, std::string> files_below(const std::filesystem::path& folder);
 
 /// The commands that write, each with all the ways it has.
 std::vector<Writer> writers();

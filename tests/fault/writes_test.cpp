@@ -75,8 +75,7 @@ TEST_CASE("values of a JSON log that find no room are told with what to do") {
 TEST_CASE("elastic while a write fails") { fail_all(writers().at(0)); }
 TEST_CASE("dynamic while a write fails") { fail_all(writers().at(1)); }
 TEST_CASE("simulate while a write fails") { fail_all(writers().at(2)); }
-TEST_CASE("batch while a write fails") { fail_all(writers().at(3)); }
-TEST_CASE("check while a write fails") { fail_all(writers().at(4)); }
-TEST_CASE("identify while a write fails") { fail_all(writers().at(5)); }
+TEST_CASE("check while a write fails") { fail_all(writers().at(3)); }
+TEST_CASE("identify while a write fails") { fail_all(writers().at(4)); }
 
 }  // namespace

@@ -33,8 +33,22 @@ const kCommands = {
   identify: () => ["identify", "--recursive", "--out", "identify-out",
                    ...at("low/blocked.csv", "low/moving_load30.csv", "high/blocked.csv", "high/moving_load30.csv")],
   simulate: () => ["simulate", "cablefit-out/dynamic.json", ...at("low/moving_load30.csv", "low/blocked.csv")],
-  batch: () => ["batch", ...at("campaign_strict.json")]
+  batch: () => ["batch", ...at("campaign_strict.json")],
+  fleet: () => ["batch", fleet(), "--out", "fleet-out"]
 };
+
+/** A campaign of two robots at four dates: the shipped logs, a different choice of them for each cell. */
+function fleet() {
+  const cells = [];
+  for (const preload of ["low", "high"])
+    ["2026-01-12", "2026-02-03T09:30", "2026-06-20", "2026-07-01"].forEach((date, k) => {
+      const moving = [["load30"], ["load-40"], ["load30", "load-40"], ["load-40", "load30"]][k];
+      cells.push({preload, date, robot: "arm " + (1 + k % 2), rig: at(preload + "/rig.json")[0],
+                  blocked: at(preload + "/blocked.csv"), moving: at(...moving.map((load) => `${preload}/moving_${load}.csv`))});
+    });
+  writeFileSync(inFolder("fleet.json"), JSON.stringify({schema: "cablefit/campaign/1", name: "fleet", estimator: "wls", cells}));
+  return "fleet.json";
+}
 
 /** Titles (with how often they occur) that the reports must have. */
 const kResidualTitles = ["Torque error over time", "Distribution of the torque error",
@@ -52,7 +66,8 @@ const kWanted = {
   rigid: {"Measured and predicted": 1, ...counted(kResidualTitles, 1)},
   identify: {"Elastic torque of each cable": 2, "Force closure and disclosure over q and θ": 2, "Profile likelihood of l_o[1]": 2, "Profile likelihood of l_o[2]": 2, K1_0: 1, J_link: 2},
   simulate: {"Measured and simulated q": 2, "Measured and simulated q, close-up": 2, "Measured and simulated θ": 2, "Gap of q": 2, "Gap of θ": 2},
-  batch: {K: 1, J_link: 1, "Torque against deflection": 2, "Torque error over time": 6}
+  batch: {K: 1, J_link: 1, "Torque against deflection": 2, "Torque error over time": 6},
+  fleet: {K: 2, J_link: 2, "f_v": 2}
 };
 
 function counted(titles, times) {
@@ -257,6 +272,24 @@ test("a map names its regions, readable in light and dark", async () => {
     assert.deepEqual(await page.evaluate(kComplaints), []);
     assertQuiet(page);
   }
+});
+
+test("dates stand as far apart as they are, each bar at its own", async () => {
+  const page = await open("fleet.html");
+  await page.evaluate("cablefitReport.drawAll().then(() => true)");
+  const axis = await page.evaluate(`(() => {
+    const plot = cablefitReport.plots.find(({figure}) => figure.x.dates && figure.title === "J_link");
+    return {type: plot.place.layout.xaxis.type, range: plot.place.layout.xaxis.range,
+            names: plot.figure.traces.map((trace) => trace.name),
+            x: plot.place.data[0].x, label: plot.place.data[0].customdata};
+  })()`);
+  assert.equal(axis.type, "date");
+  assert.ok(axis.range[0] < "2026-01-12" && axis.range[1] > "2026-07-01");
+  assert.deepEqual(axis.label, ["2026-01-12", "2026-06-20"]);
+  const days = (Date.parse(axis.x[1] + "Z") - Date.parse(axis.x[0] + "Z")) / 86.4e6;
+  assert.ok(Math.abs(days - 159) < 1e-3, `${days} days`);
+  assert.ok(axis.names.includes("poly, high, arm 2"));
+  assertQuiet(page);
 });
 
 /** A shipped log with a column, a preload and a name that would like to run. */

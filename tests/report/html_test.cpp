@@ -61,12 +61,6 @@ TEST_CASE("the JSON of the page says what the document says") {
 }
 
 TEST_CASE("numbers are packed as little-endian floats in base64") {
-  // RFC 4648, section 10.
-  CHECK(base64("") == "");
-  CHECK(base64("f") == "Zg==");
-  CHECK(base64("fo") == "Zm8=");
-  CHECK(base64("foo") == "Zm9v");
-  CHECK(base64("foobar") == "Zm9vYmFy");
   CHECK(packed({1.0}, 0) == "AACAPw==");           // 0x3F800000
   CHECK(packed({1e9 + 0.5}, 1e9) == "AAAAPw==");   // 0x3F000000: nothing lost beside a base
   CHECK(packed({std::nan("")}, 0) == "AADAfw==");  // quiet NaN, 0x7FC00000

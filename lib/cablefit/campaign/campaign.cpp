@@ -3,23 +3,16 @@
 #include <fmt/format.h>
 #include <glob.h>
 
-#include <filesystem>
-#include <set>
-
+#include "cablefit/base/catalog.hpp"
 #include "cablefit/base/json_document.hpp"
 #include "cablefit/base/quote.hpp"
+#include "cablefit/campaign/campaign_cell.hpp"
+#include "cablefit/dynamic/estimators.hpp"
 
 namespace cablefit {
 namespace {
 
 constexpr std::string_view kSchema = "cablefit/campaign/1";
-constexpr std::size_t kMaxPathBytes = 4096;
-
-std::string beside(const std::string& campaign, const std::string& path) {
-  const std::filesystem::path p(path);
-  if (p.is_absolute()) return path;
-  return (std::filesystem::path(campaign).parent_path() / p).lexically_normal().string();
-}
 
 std::vector<std::string> files_on_disk(const std::string& pattern) {
   glob_t found{};
@@ -30,50 +23,12 @@ std::vector<std::string> files_on_disk(const std::string& pattern) {
   return paths;
 }
 
-std::vector<std::string> matches(const JsonNode& node, const FindFiles& find_files) {
-  const std::string& named = node.text();
-  // glob() calls itself for every folder of the pattern, and ends at a NUL.
-  if (named.size() > kMaxPathBytes || named.find('\0') != std::string::npos)
-    throw node.error(fmt::format("{} is no path", cablefit::quoted(named)),
-                     "name a file, or a pattern as in \"low/moving*.csv\"");
-  std::vector<std::string> paths = find_files(beside(node.place.file, named));
-  if (!paths.empty()) return paths;
-  throw node.error(fmt::format("no file matches {}", cablefit::quoted(node.text())),
-                   "paths are relative to the campaign file");
-}
-
-std::vector<std::string> logs(const JsonNode& cell, std::string_view key,
-                              const FindFiles& find_files) {
-  std::vector<std::string> paths;
-  const JsonNode* list = cell.find(key);
-  if (list == nullptr) return paths;
-  if (!list->is_array())
-    throw list->error(fmt::format("'{}' is no list", list->path), "write [\"low/blocked*.csv\"]");
-  for (const JsonNode& item : list->items)
-    for (std::string& path : matches(item, find_files)) paths.push_back(std::move(path));
-  return paths;
-}
-
-CampaignCell read_cell(const JsonNode& node, const FindFiles& find_files) {
-  node.allow_only({"rig", "preload", "blocked", "moving", "validation"});
-  CampaignCell cell;
-  if (const JsonNode* rig = node.find("rig")) cell.rig = matches(*rig, find_files).front();
-  cell.preload = node.at("preload").text();
-  cell.blocked = logs(node, "blocked", find_files);
-  cell.moving = logs(node, "moving", find_files);
-  cell.validation = logs(node, "validation", find_files);
-  if (cell.blocked.empty())
-    throw node.error("the cell has no blocked logs", "stage 1 needs a log with the link blocked");
-  return cell;
-}
-
 CampaignLimits read_limits(const JsonNode& node, const FindFiles& find_files) {
   node.allow_only({"rsd_percent", "torque_error", "drift", "new_effect"});
   CampaignLimits limits;
   if (const JsonNode* rsd = node.find("rsd_percent")) limits.rsd_percent = rsd->positive();
   if (const JsonNode* error = node.find("torque_error")) limits.torque_error = error->positive();
-  if (const JsonNode* effect = node.find("new_effect"); effect != nullptr && effect->boolean())
-    throw effect->error("'new_effect' cannot be gated yet", "leave it out or write false");
+  if (const JsonNode* effect = node.find("new_effect")) limits.new_effect = effect->boolean();
   if (const JsonNode* drift = node.find("drift")) {
     drift->allow_only({"baseline", "percent"});
     limits.drift_baseline = matches(drift->at("baseline"), find_files).front();
@@ -95,6 +50,16 @@ void read_models(const JsonNode& node, Campaign& campaign) {
     throw node.error("'models' is empty", "write [\"linear\", \"poly\"]");
 }
 
+std::string read_estimator(const JsonNode& node) {
+  std::vector<std::string_view> known;
+  for (const Estimator& estimator : estimators()) {
+    if (estimator.name == node.text()) return node.text();
+    known.push_back(estimator.name);
+  }
+  throw node.error(fmt::format("unknown estimator {}", cablefit::quoted(node.text())),
+                   suggestion(node.text(), known));
+}
+
 }  // namespace
 
 Campaign read_campaign(const std::string& path) {
@@ -112,21 +77,11 @@ Campaign parse_campaign(const JsonNode& root, const FindFiles& find_files) {
   campaign.path = root.place.file;
   if (const JsonNode* name = root.find("name")) campaign.name = name->text();
   if (const JsonNode* models = root.find("models")) read_models(*models, campaign);
-  if (const JsonNode* estimator = root.find("estimator")) campaign.estimator = estimator->text();
+  if (const JsonNode* estimator = root.find("estimator"))
+    campaign.estimator = read_estimator(*estimator);
   if (const JsonNode* limits = root.find("limits"))
     campaign.limits = read_limits(*limits, find_files);
-  const JsonNode& cells = root.at("cells");
-  if (!cells.is_array() || cells.items.empty())
-    throw cells.error("'cells' is empty",
-                      "a cell is {\"rig\", \"preload\", \"blocked\", \"moving\"}");
-  std::set<std::string> seen;
-  for (const JsonNode& node : cells.items) {
-    campaign.cells.push_back(read_cell(node, find_files));
-    const CampaignCell& cell = campaign.cells.back();
-    if (!seen.insert(cell.preload).second)
-      throw node.error(fmt::format("a second cell of preload {}", cablefit::quoted(cell.preload)),
-                       "merge the two, or name the preloads differently");
-  }
+  campaign.cells = read_cells(root.at("cells"), find_files);
   return campaign;
 }
 

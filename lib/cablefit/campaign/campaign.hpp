@@ -9,12 +9,23 @@
 
 namespace cablefit {
 
-/// One preload of one rig. Paths are as found: relative ones relative to the campaign file's
-/// folder, patterns ("low/moving*.csv") expanded and sorted.
+/// Logs of a cell that `refine` looks at. Without `train` the cell's moving logs; without `test`
+/// the last third of each is held out.
+struct CampaignRefine {
+  std::vector<std::string> train, test;
+  std::size_t n_draws = 24;  ///< simulated data sets, see RefineOptions
+};
+
+/// One preload of one rig at one date. Paths are as found: relative ones relative to the campaign
+/// file's folder, patterns ("low/moving*.csv") expanded and sorted.
 struct CampaignCell {
-  std::string rig;  ///< empty: rig.json beside the logs, else the default rig
+  std::string name;   ///< no two cells have the same
+  std::string robot;  ///< which one of several; may be empty
+  std::string date;   ///< ISO 8601, "2026-03-14" or "2026-03-14T09:30"; may be empty
+  std::string rig;    ///< empty: rig.json beside the logs, else the default rig
   std::string preload;
   std::vector<std::string> blocked, moving, validation;
+  std::optional<CampaignRefine> refine;
 };
 
 struct CampaignLimits {
@@ -22,6 +33,7 @@ struct CampaignLimits {
   std::optional<double> torque_error;  ///< largest rms of an equation's residual, N m
   std::string drift_baseline;          ///< an earlier batch result; empty: no drift gate
   double drift_percent = 0;
+  bool new_effect = true;  ///< whether `refine` may name one
 };
 
 struct Campaign {
@@ -32,8 +44,9 @@ struct Campaign {
   CampaignLimits limits;
 };
 
-/// Throws Error(input) at file:line:column: unknown keys, no cells, two cells of one preload and
-/// rig, a pattern without a match.
+/// Throws Error(input) at file:line:column: unknown keys, no cells, two cells of one name, a
+/// pattern without a match, a log twice in a cell. A cell without a name is called by its preload,
+/// where several have that preload "robot, preload, date".
 Campaign read_campaign(const std::string& path);
 
 /// The files that match a pattern, sorted.

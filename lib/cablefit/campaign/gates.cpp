@@ -7,6 +7,7 @@
 #include "cablefit/base/json_document.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/campaign/batch.hpp"
+#include "cablefit/campaign/cell_fit.hpp"
 #include "cablefit/model/effects.hpp"
 
 namespace cablefit {
@@ -16,20 +17,11 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Whether a percentage of the parameter's value says anything.
 bool is_physical(std::string_view name) {
+  name = name.substr(0, name.find('['));  // of one of several joints
   for (const Effect& effect : effects())
     for (const ParameterInfo& info : effect.parameters)
       if (info.name == name) return std::isfinite(info.lower);
   return false;
-}
-
-/// The fit that the gates look at: stage 1's choice when it was fitted, else the last (richest).
-const DynamicFit* gated_fit(const BatchCell& cell, const DynamicPreload& preload) {
-  if (preload.fits.empty()) return nullptr;
-  for (const ElasticPreload& stage1 : cell.elastic->preloads)
-    if (stage1.name == preload.name)
-      for (const DynamicFit& fit : preload.fits)
-        if (fit.model == stage1.selected) return &fit;
-  return &preload.fits.back();
 }
 
 Gate gate(std::string name, const BatchCell& cell, double limit, double value,
@@ -54,23 +46,39 @@ void judge_error(const BatchCell& cell, const DynamicPreload& preload, const Dyn
                          preload.linear_motion ? "N" : "N m"));
 }
 
-/// value of parameter `name` in the fit of `model` for `preload` of a batch result, NaN when not
-/// there.
-double baseline_value(const JsonNode& cells, std::string_view stage, const std::string& preload,
-                      const std::string& model, const std::string& name) {
-  for (const JsonNode& cell : cells.items) {
-    const JsonNode* result = cell.find(stage);
-    if (result == nullptr || !result->is_object()) continue;
-    for (const JsonNode& p : result->at("preloads").items) {
-      if (p.at("name").text() != preload) continue;
-      for (const JsonNode& fit : p.at("fits").items) {
-        if (fit.at("model").text() != model) continue;
-        for (const JsonNode& parameter : fit.at("parameters").items)
-          if (parameter.at("name").text() == name && parameter.at("value").is_number())
-            return parameter.at("value").number();
-      }
-    }
+std::string text_or(const JsonNode& object, std::string_view key, const std::string& otherwise) {
+  const JsonNode* node = object.find(key);
+  return node != nullptr && node->is_string() ? node->string_value : otherwise;
+}
+
+/// The cell of the baseline that `cell` is held against: of the same name, else the latest one of
+/// the same robot and preload; nullptr when there is none.
+const JsonNode* baseline_cell(const JsonNode& cells, const BatchCell& cell) {
+  const JsonNode* latest = nullptr;
+  for (const JsonNode& other : cells.items) {
+    const std::string& name = other.at("name").text();
+    if (name == cell.name) return &other;
+    if (text_or(other, "preload", name) != cell.preload ||
+        text_or(other, "robot", "") != cell.robot)
+      continue;
+    if (latest == nullptr || text_or(other, "date", "") >= text_or(*latest, "date", ""))
+      latest = &other;
   }
+  return latest;
+}
+
+/// Value of parameter `name` in the fit of `model`, NaN when not there.
+double baseline_value(const JsonNode* cell, std::string_view stage, const std::string& model,
+                      const std::string& name) {
+  const JsonNode* result = cell == nullptr ? nullptr : cell->find(stage);
+  if (result == nullptr || !result->is_object()) return kNone;
+  for (const JsonNode& preload : result->at("preloads").items)
+    for (const JsonNode& fit : preload.at("fits").items) {
+      if (fit.at("model").text() != model) continue;
+      for (const JsonNode& parameter : fit.at("parameters").items)
+        if (parameter.at("name").text() == name && parameter.at("value").is_number())
+          return parameter.at("value").number();
+    }
   return kNone;
 }
 
@@ -90,28 +98,46 @@ Gate drift_gate(const BatchCell& cell, const std::string& name, double value, do
 
 void judge_drift(const Campaign& campaign, const JsonNode& baseline, const BatchCell& cell,
                  std::vector<Gate>& gates) {
-  const JsonNode& cells = baseline.at("cells");
+  const JsonNode* before = baseline_cell(baseline.at("cells"), cell);
   const double limit = campaign.limits.drift_percent;
   for (const ElasticPreload& preload : cell.elastic->preloads)
     if (const ElasticFit* line = preload.find("linear"))
       if (const Estimate* k = find_estimate(line->parameters, "K"))
-        gates.push_back(
-            drift_gate(cell, k->name, k->value,
-                       baseline_value(cells, "elastic", preload.name, "linear", k->name), limit));
+        gates.push_back(drift_gate(cell, k->name, k->value,
+                                   baseline_value(before, "elastic", "linear", k->name), limit));
   if (!cell.dynamic) return;
   for (const DynamicPreload& preload : cell.dynamic->preloads)
-    if (const DynamicFit* fit = gated_fit(cell, preload))
+    if (const DynamicFit* fit = chosen_fit(*cell.elastic, preload))
       for (const Estimate& e : fit->parameters)
         if (is_physical(e.name))
-          gates.push_back(drift_gate(
-              cell, e.name, e.value,
-              baseline_value(cells, "dynamic", preload.name, fit->model, e.name), limit));
+          gates.push_back(drift_gate(cell, e.name, e.value,
+                                     baseline_value(before, "dynamic", fit->model, e.name), limit));
+}
+
+/// Fails when refine named an effect, or could not say.
+Gate refine_gate(const BatchCell& cell, const CellRefine& refine) {
+  Gate g{"new_effect", cell.name, 0, static_cast<double>(refine.effects.size()), false, ""};
+  g.passed = refine.error.empty() && refine.effects.empty();
+  if (!refine.error.empty()) {
+    g.value = kNone;
+    g.text =
+        fmt::format("FAILED: {}: new_effect: refine has no verdict: {}", cell.name, refine.error);
+  } else if (!refine.effects.empty()) {
+    const CellEffect& first = refine.effects.front();
+    g.text =
+        fmt::format("FAILED: {}: new_effect: refine names {} ({} side, p = {:.2g}), verdict '{}'",
+                    cell.name, first.name, first.side, first.p_value, refine.verdict);
+  } else {
+    g.text = fmt::format("passed: {}: new_effect: refine names none, verdict '{}'", cell.name,
+                         refine.verdict);
+  }
+  return g;
 }
 
 /// What could not be fitted has not met its limits.
 Gate missing_gate(const BatchCell& cell) {
-  return {"fitted", cell.name, kNone,
-          kNone,    false,     fmt::format("FAILED: {}: could not be fitted", cell.name)};
+  return {kFittedGate, cell.name, kNone,
+          kNone,       false,     fmt::format("FAILED: {}: could not be fitted", cell.name)};
 }
 
 JsonNode read_baseline(const std::string& path) {
@@ -143,12 +169,13 @@ std::vector<Gate> judge(const Campaign& campaign, const std::vector<BatchCell>& 
     }
     if (cell.dynamic)
       for (const DynamicPreload& preload : cell.dynamic->preloads) {
-        const DynamicFit* fit = gated_fit(cell, preload);
+        const DynamicFit* fit = chosen_fit(*cell.elastic, preload);
         if (fit == nullptr) continue;
         if (limits.rsd_percent) judge_rsd(cell, *fit, *limits.rsd_percent, gates);
         if (limits.torque_error) judge_error(cell, preload, *fit, *limits.torque_error, gates);
       }
     if (!limits.drift_baseline.empty()) judge_drift(campaign, baseline, cell, gates);
+    if (!limits.new_effect && cell.refine) gates.push_back(refine_gate(cell, *cell.refine));
   }
   return gates;
 }

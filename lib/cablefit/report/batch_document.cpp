@@ -3,19 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "cablefit/report/batch_figures.hpp"
 #include "cablefit/report/document_parts.hpp"
 #include "cablefit/report/dynamic_document.hpp"
-#include "cablefit/report/dynamic_json.hpp"
 #include "cablefit/report/elastic_document.hpp"
-#include "cablefit/report/elastic_json.hpp"
-#include "cablefit/report/json_parts.hpp"
 #include "cablefit/report/numbers.hpp"
 
 namespace cablefit {
 namespace {
+
+constexpr int kDigits = 3;
+constexpr const char* kFailed = "FAILED";
 
 void append(Document& all, const Document& part) {
   all.tables.insert(all.tables.end(), part.tables.begin(), part.tables.end());
@@ -30,10 +29,33 @@ void append(Document& all, const Document& part) {
   }
 }
 
+template <class Items, class Is>
+std::size_t n_with(const Items& items, Is is) {
+  return static_cast<std::size_t>(std::count_if(items.begin(), items.end(), is));
+}
+
+/// What a reader in a hurry wants: how much was done, and everything that failed.
+std::vector<SummaryLine> summary_of(const BatchResult& result) {
+  const std::size_t n_failed =
+      n_with(result.cells, [](const BatchCell& cell) { return !cell.error.empty(); });
+  std::vector<SummaryLine> lines = {
+      {"Cells", fmt::format("{} fitted, {} failed", result.cells.size() - n_failed, n_failed)}};
+  for (const BatchCell& cell : result.cells)
+    if (!cell.error.empty()) lines.push_back({kFailed, cell.name + ": " + cell.error});
+  if (result.gates.empty()) return lines;
+  lines.push_back(
+      {"Gates", fmt::format("{} checked, {} failed", result.gates.size(),
+                            n_with(result.gates, [](const Gate& gate) { return !gate.passed; }))});
+  for (const Gate& gate : result.gates)
+    if (!gate.passed && gate.name != kFittedGate)
+      lines.push_back({kFailed, gate.text.substr(gate.text.find(' ') + 1)});
+  return lines;
+}
+
 Table gate_table(const BatchResult& result) {
   Table table;
   table.title = "Gates";
-  table.columns = {{"", "preload", "", true},
+  table.columns = {{"", "cell", "", true},
                    {"", "gate", "", true},
                    {"", "limit", "", false},
                    {"", "value", "", false},
@@ -45,21 +67,35 @@ Table gate_table(const BatchResult& result) {
   return table;
 }
 
-std::string gate_summary(const BatchResult& result) {
-  const auto failed = std::count_if(result.gates.begin(), result.gates.end(),
-                                    [](const Gate& gate) { return !gate.passed; });
-  return fmt::format("Gates: {} checked, {} failed.", result.gates.size(), failed);
+std::string effects_text(const CellRefine& refine) {
+  std::string text;
+  for (const CellEffect& effect : refine.effects)
+    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", effect.name, effect.side);
+  return text.empty() ? kNoNumber : text;
 }
 
-nlohmann::ordered_json gates_json(const BatchResult& result) {
-  auto gates = nlohmann::ordered_json::array();
-  for (const Gate& gate : result.gates)
-    gates.push_back({{"name", gate.name},
-                     {"cell", gate.cell},
-                     {"limit", gate.limit},
-                     {"value", gate.value},
-                     {"passed", gate.passed}});
-  return gates;
+/// The missing effects of every cell that was refined; no rows where none was.
+Table refine_table(const BatchResult& result) {
+  Table table;
+  table.title = "Missing effects";
+  table.columns = {{"", "cell", "", true},
+                   {"", "verdict", "", true},
+                   {"", "effects", "", true},
+                   {"torque gap, unseen", "before", ""},
+                   {"torque gap, unseen", "after", ""},
+                   {"torque gap, unseen", "floor", ""}};
+  for (const BatchCell& cell : result.cells) {
+    if (!cell.refine) continue;
+    const CellRefine& refine = *cell.refine;
+    const auto gap = [&](double value) {
+      return refine.torque.known ? significant(value, kDigits) : kNoNumber;
+    };
+    table.rows.push_back({cell.name, refine.error.empty() ? refine.verdict : "none possible",
+                          effects_text(refine), gap(refine.torque.test_before),
+                          gap(refine.torque.test_after), gap(refine.torque.noise_floor)});
+    table.notes.push_back(cell.name + ": " + (refine.error.empty() ? refine.reason : refine.error));
+  }
+  return table;
 }
 
 }  // namespace
@@ -67,40 +103,15 @@ nlohmann::ordered_json gates_json(const BatchResult& result) {
 Document batch_document(const BatchResult& result) {
   Document document;
   document.title = result.campaign_name.empty() ? "Campaign" : result.campaign_name;
-  const ElasticResult elastic = result.all_elastic();
-  const DynamicResult dynamic = result.all_dynamic();
-  document.figures = parameter_figures(elastic, dynamic);
-  append(document, elastic_document(elastic));
-  append(document, dynamic_document(dynamic));
-  for (const BatchCell& cell : result.cells)
-    if (!cell.error.empty())
-      document.warnings.push_back(fmt::format("{}: {}", cell.name, cell.error));
-  if (result.gates.empty()) return document;
-  document.tables.push_back(gate_table(result));
-  document.paragraphs.push_back(gate_summary(result));
-  for (const Gate& gate : result.gates)
-    if (!gate.passed) document.paragraphs.push_back(gate.text);
+  document.summary = summary_of(result);
+  document.warnings = result.warnings;
+  document.figures = parameter_figures(result);
+  append(document, elastic_document(result.all_elastic()));
+  append(document, dynamic_document(result.all_dynamic()));
+  if (Table refine = refine_table(result); !refine.rows.empty())
+    document.tables.push_back(std::move(refine));
+  if (!result.gates.empty()) document.tables.push_back(gate_table(result));
   return document;
-}
-
-std::string batch_json(const BatchResult& result) {
-  using report_json::Json;
-  const ElasticResult elastic = result.all_elastic();
-  const DynamicResult dynamic = result.all_dynamic();
-  std::vector<InputFile> inputs = elastic.inputs;
-  inputs.insert(inputs.end(), dynamic.inputs.begin(), dynamic.inputs.end());
-  Json json = report_json::header("batch", inputs, {});
-  json["campaign"] = {{"path", result.campaign_path}, {"name", result.campaign_name}};
-  json["cells"] = Json::array();
-  for (const BatchCell& cell : result.cells) {
-    Json entry = {{"name", cell.name}};
-    entry["error"] = cell.error.empty() ? Json(nullptr) : Json(cell.error);
-    entry["elastic"] = cell.elastic ? Json::parse(elastic_json(*cell.elastic)) : Json(nullptr);
-    entry["dynamic"] = cell.dynamic ? Json::parse(dynamic_json(*cell.dynamic)) : Json(nullptr);
-    json["cells"].push_back(std::move(entry));
-  }
-  json["gates"] = gates_json(result);
-  return report_json::text(json);
 }
 
 }  // namespace cablefit

@@ -1,4 +1,4 @@
-// A campaign as a report: both tables over all preloads, what failed, the gates.
+// A campaign: Tables 1 and 2 over all cells, what failed, gates, and what refine said.
 #pragma once
 
 #include "cablefit/campaign/batch.hpp"
@@ -7,8 +7,5 @@
 namespace cablefit {
 
 Document batch_document(const BatchResult& result);
-
-/// cablefit/batch/1: the elastic and dynamic results of every cell, and the gates.
-std::string batch_json(const BatchResult& result);
 
 }  // namespace cablefit

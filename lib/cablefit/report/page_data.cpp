@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
+#include "cablefit/base/base64.hpp"
+#include "cablefit/report/batch_figures.hpp"
 #include "cablefit/report/escape.hpp"
 #include "cablefit/version.hpp"
 
@@ -34,7 +36,9 @@ Json numbers(const std::vector<double>& values) {
 }
 
 Json axis_json(const Axis& axis) {
-  return {{"title", printable(axis.title)}, {"unit", printable(axis.unit)}};
+  return {{"title", printable(axis.title)},
+          {"unit", printable(axis.unit)},
+          {"dates", axis.title == kDateAxis}};
 }
 
 Json trace_json(const Trace& trace) {
@@ -109,22 +113,6 @@ std::string for_script(const std::string& json) {
 }
 
 }  // namespace
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t word = 0;
-    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
-    for (std::size_t k = 0; k < 3; ++k)
-      word = word << 8u | (k < n ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += k <= n ? kDigits[word >> (18u - 6u * static_cast<unsigned>(k)) & 63u] : '=';
-  }
-  return text;
-}
 
 std::string packed(const std::vector<double>& values, double base) {
   std::string bytes;

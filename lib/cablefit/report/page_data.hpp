@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "cablefit/report/document.hpp"
@@ -16,7 +15,5 @@ std::string page_data(const Document& document);
 /// Base64 of the values as little-endian 32-bit floats, relative to `base`. A plot needs no more
 /// digits, and six characters a value keep pages small. NaN stays NaN.
 std::string packed(const std::vector<double>& values, double base);
-
-std::string base64(std::string_view bytes);
 
 }  // namespace cablefit

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "cablefit/base/base64.hpp"
 #include "cablefit/base/digest.hpp"
 #include "cablefit/base/error.hpp"
 #include "cablefit/report/page_data.hpp"

@@ -131,10 +131,28 @@
     }
   }
 
-  /** Names along the x axis, in the order in which they come. */
-  const labelsOf = (figure) => [...new Set(figure.traces.flatMap((trace) => trace.labels || []))];
+  /** Milliseconds of an ISO date, with or without a time of day. */
+  const time = (date) => Date.parse(date + (date.length > 10 ? "Z" : ""));
+  const isoTime = (milliseconds) => new Date(milliseconds).toISOString().slice(0, 19);
+
+  /** All dates, with some room beside the first and the last, which bars need. */
+  function dateRange(figure) {
+    const times = figure.traces.flatMap((trace) => trace.labels).map(time);
+    const [from, to] = [Math.min(...times), Math.max(...times)];
+    const room = 0.06 * (to - from);
+    return [isoTime(from - room), isoTime(to + room)];
+  }
+
+  /** Names along the x axis, in the order in which they come; dates have places of their own. */
+  const labelsOf = (figure) => figure.x.dates ? [] :
+      [...new Set(figure.traces.flatMap((trace) => trace.labels || []))];
 
   function labelPlaces(figure, trace, k) {
+    if (figure.x.dates) {  // a little beside each other, so that bars of one day can be told apart
+      const [from, to] = dateRange(figure).map(time);
+      const apart = 0.01 * (k - (figure.traces.length - 1) / 2) * (to - from);
+      return trace.labels.map((date) => isoTime(time(date) + apart));
+    }
     const labels = labelsOf(figure);
     const aside = (k - (figure.traces.length - 1) / 2) * 0.12;
     return trace.labels.map((label) => labels.indexOf(label) + aside);
@@ -152,7 +170,8 @@
       type: "scatter", name: withIndices(plain(prettySymbols(trace.name))), y, connectgaps: false,
       x: trace.labels ? labelPlaces(figure, trace, k) : numbers(trace.x),
       showlegend: trace.name !== "",
-      hovertemplate: (trace.labels ? "" : "%{x:.6g} " + plain(prettyUnit(figure.x.unit)) + "<br>") + "%{y:.5g} " +
+      customdata: trace.labels,
+      hovertemplate: (figure.x.dates ? "%{customdata}<br>" : trace.labels ? "" : "%{x:.6g} " + plain(prettyUnit(figure.x.unit)) + "<br>") + "%{y:.5g} " +
           plain(prettyUnit(figure.y.unit)) + "<extra>%{fullData.name}</extra>",
       ...drawnLook(trace, colour, colours.grid, y.length > 400, y.length < 16)
     };
@@ -208,6 +227,7 @@
       Object.assign(layout.xaxis, {tickvals: labels.map((_, k) => k), ticktext: labels.map(plain),
                                    range: [-0.5, labels.length - 0.5], zeroline: false});
     }
+    if (figure.x.dates) Object.assign(layout.xaxis, {type: "date", range: dateRange(figure)});
     return layout;
   }
 
@@ -244,7 +264,8 @@
 
   function resetZoom(plot) {
     const labels = labelsOf(plot.figure);
-    const x = labels.length ? {"xaxis.range": [-0.5, labels.length - 0.5]} : {"xaxis.autorange": true};
+    const x = labels.length ? {"xaxis.range": [-0.5, labels.length - 0.5]}
+        : plot.figure.x.dates ? {"xaxis.range": dateRange(plot.figure)} : {"xaxis.autorange": true};
     return Plotly.relayout(plot.place, {...x, "yaxis.autorange": true});
   }
 

@@ -1,0 +1,134 @@
+// cablefit init: a campaign file and rig files to begin with.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/base/output_file.hpp"
+#include "cablefit/base/quote.hpp"
+#include "cablefit/campaign/campaign.hpp"
+#include "cablefit/campaign/templates.hpp"
+#include "commands/command.hpp"
+#include "commands/command_line.hpp"
+#include "commands/common_options.hpp"
+#include "commands/problems.hpp"
+#include "commands/progress.hpp"
+#include "process.hpp"
+
+namespace cablefit::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kExample =
+    "Example:\n"
+    "  cablefit init data --dry-run\n"
+    "Writes FOLDER/campaign.json, and a rig.json into every folder of logs that has none. A "
+    "rig.json\n"
+    "that is there is never touched, a campaign.json only with --force.\n";
+
+struct InitCommand {
+  std::string folder = ".";
+  bool force = false, dry_run = false, quiet = false;
+};
+
+std::string below(const InitCommand& command, const std::string& name) {
+  return (fs::path(command.folder) / name).lexically_normal().string();
+}
+
+void refuse_to_overwrite(const InitCommand& command, const std::string& campaign) {
+  std::error_code ignored;
+  if (!fs::is_directory(command.folder, ignored))
+    throw input_error({command.folder, 0, 0}, "no such folder", "name a folder with logs");
+  if (fs::exists(campaign, ignored) && !command.force && !command.dry_run)
+    throw usage_error(fmt::format("{} is there already", cablefit::quoted(campaign)),
+                      "move it away, or let --force replace it");
+}
+
+std::string campaign_name(const InitCommand& command) {
+  fs::path folder = fs::absolute(command.folder).lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();
+  return folder.filename().string();
+}
+
+std::string found_text(const FoundLogs& found) {
+  std::string text;
+  for (const FoundCell& cell : found.cells)
+    text += fmt::format("{}: {} blocked, {} moving{}\n", printable(cell.preload),
+                        cell.blocked.size(), cell.moving.size(),
+                        is_complete(cell) ? "" : "; left out: stage 1 needs a blocked log");
+  for (const UnreadLog& log : found.unread)
+    text += fmt::format("not read: {}\n", printable(log.problem));
+  return text;
+}
+
+void say(const InitCommand& command, const std::string& text) {
+  if (!command.quiet) write_whole("-", text);
+}
+
+/// What was found, and the rig files that were missing.
+void write_rigs(const InitCommand& command, const FoundLogs& found) {
+  say(command, found_text(found));
+  Problems problems;
+  for (const FolderWithoutRig& folder : found.without_rig)
+    problems.collect([&] {
+      const std::string path = below(command, folder.path + "/rig.json");
+      write_whole(path, rig_template(folder));
+      say(command, "wrote " + printable(path) + "\n");
+    });
+  problems.throw_if_any();
+}
+
+/// Cells whose rig file was made just now name it too.
+void add_new_rigs(const FoundLogs& found, std::vector<FoundCell>& cells) {
+  for (FoundCell& cell : cells) {
+    if (!cell.rig.empty()) continue;
+    const std::string& log = cell.blocked.empty() ? cell.moving.front() : cell.blocked.front();
+    const std::string folder = fs::path(log).parent_path().generic_string();
+    for (const FolderWithoutRig& made : found.without_rig)
+      if (made.path == (folder.empty() ? "." : folder))
+        cell.rig = folder.empty() ? "rig.json" : folder + "/rig.json";
+  }
+}
+
+}  // namespace
+
+int run_init(const Arguments& arguments) {
+  CLI::App app("Write a campaign file and rig files to begin with, from the logs in a folder.",
+               "init");
+  InitCommand command;
+  app.add_option("FOLDER", command.folder, "where the logs are, also in folders below [.]")
+      ->type_name("");
+  app.add_flag("--force", command.force, "replace a campaign.json that is there");
+  app.add_flag("--dry-run", command.dry_run, "print the campaign file, write nothing");
+  app.add_flag("--quiet", command.quiet, "print problems only");
+  app.footer(kExample);
+  if (!parse(app, arguments)) return 0;
+
+  const std::string campaign = below(command, "campaign.json");
+  refuse_to_overwrite(command, campaign);
+  FoundLogs found = [&] {
+    const Progress progress(command.quiet, "looking at logs");
+    return find_logs(command.folder, default_threads());
+  }();
+  if (found.cells.empty() && found.unread.empty())
+    throw input_error({command.folder, 0, 0}, "no logs here, nor up to three folders below",
+                      "a log is .csv, .tsv, .txt or .json, also .gz or .zst");
+  if (!command.dry_run) write_rigs(command, found);
+  add_new_rigs(found, found.cells);
+  if (std::none_of(found.cells.begin(), found.cells.end(), is_complete))
+    throw input_error({command.folder, 0, 0}, "no campaign yet: no log with the link blocked",
+                      found.unread.empty()
+                          ? "record one: the link held, the motor swept slowly up and down"
+                          : "map the columns in the rig files, then run this again");
+  const std::string text = campaign_template(campaign_name(command), found);
+  write_whole(command.dry_run ? "-" : campaign, text);
+  if (command.dry_run) return 0;
+  (void)read_campaign(campaign);  // what is written here is read there
+  say(command,
+      fmt::format("wrote {}\nnext: cablefit batch {}\n", printable(campaign), printable(campaign)));
+  return 0;
+}
+
+}  // namespace cablefit::apps
