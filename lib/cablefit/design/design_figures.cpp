@@ -12,7 +12,7 @@
 namespace cablefit {
 namespace {
 
-constexpr int kSteps = 160;  // of a curve
+constexpr int kSteps = 60;  // of a curve, between two changes of a cable
 constexpr const char* kSection = "The preload's sweep";
 
 std::string torque_unit_of(const DesignResult& result) {
@@ -60,6 +60,17 @@ Trace sampled(const std::string& name, int series, const std::vector<double>& ph
   return trace;
 }
 
+/// Over the range, and on either side of every jump of the stiffness.
+std::vector<double> sample_points(const JointCurve& curve, const WorkingRange& range) {
+  const double hair = 1e-9 * (range.high - range.low);
+  std::vector<double> phi;
+  const std::vector<double> ends = smooth_pieces(curve, range.low, range.high);
+  for (std::size_t k = 1; k < ends.size(); ++k)
+    for (int i = 0; i <= kSteps; ++i)
+      phi.push_back(ends[k - 1] + hair + (ends[k] - ends[k - 1] - 2 * hair) * i / kSteps);
+  return phi;
+}
+
 /// The curves of one joint, each in its figure.
 void add_joint_curves(const JointCurve& curve, const DesignJoint& joint, const std::string& name,
                       const DesignOptions& options, DesignResult& result) {
@@ -67,11 +78,8 @@ void add_joint_curves(const JointCurve& curve, const DesignJoint& joint, const s
   const Axis torque = {"elastic torque", torque_unit_of(result)};
   const Axis error = {"model minus cables", torque_unit_of(result)};
   const WorkingRange range{joint.low, joint.high};
-  std::vector<double> phi, tau;
-  for (int i = 0; i <= kSteps; ++i)
-    phi.push_back(range.low + (range.high - range.low) * i / kSteps);
-  for (const double at : smooth_pieces(curve, range.low, range.high)) phi.push_back(at);
-  std::sort(phi.begin(), phi.end());
+  const std::vector<double> phi = sample_points(curve, range);
+  std::vector<double> tau;
   for (const double at : phi) tau.push_back(curve.torque(at));
   const auto series = static_cast<int>(result.points.size());
   figure_of(result, joint, "Elastic torque", "Over the working range, from -torque to torque.",
