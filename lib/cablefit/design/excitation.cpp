@@ -93,12 +93,12 @@ class Judge {
         [&](double value) { candidates[done++].objective = value; });
   }
 
-  /// The shape's plain sines, if it has any.
-  std::vector<Eigen::ArrayXXd> sines() const {
+  /// Where the shape wants to start, every joint alike.
+  std::vector<Eigen::ArrayXXd> starts() const {
     std::vector<Eigen::ArrayXXd> all;
-    for (int k = 0; shape_.like_sine != nullptr && k < kSineFrequencies; ++k)
-      all.emplace_back(shape_.like_sine(static_cast<double>(k) / (kSineFrequencies - 1))
-                           .replicate(1, static_cast<Eigen::Index>(model_.joints.size())));
+    if (shape_.starts == nullptr) return all;
+    for (const Eigen::ArrayXd& numbers : shape_.starts())
+      all.emplace_back(numbers.replicate(1, static_cast<Eigen::Index>(model_.joints.size())));
     return all;
   }
 
@@ -189,7 +189,7 @@ Excitation search_excitation(const Model& model, const ExcitationOptions& option
   Random random(options.seed);
   std::vector<Candidate> drawn(static_cast<std::size_t>(options.n_random));
   for (Candidate& candidate : drawn) candidate.numbers = judge.draw(random);
-  for (const Eigen::ArrayXXd& numbers : judge.sines()) drawn.push_back({numbers});
+  for (const Eigen::ArrayXXd& numbers : judge.starts()) drawn.push_back({numbers});
   judge.judge(drawn);
   Candidate best = best_of(drawn);
   double step = kFirstStep;

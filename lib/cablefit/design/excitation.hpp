@@ -32,11 +32,11 @@ struct Excitation {
   double hz = 0;  ///< of a sine
 };
 
-/// Draws motions at random, takes plain sines among them, and then changes the best one at random,
-/// by steps that grow when they help and shrink when not (an evolution strategy with a 1/5 rule,
-/// Rechenberg 1973). The same seed gives the same motion. `model` has a controller (excitable()).
-/// Throws Error(not_identifiable) when none of the motions drawn stays within the limits or is of
-/// use.
+/// Draws motions at random, adds those the shape starts from, and then changes the best one at
+/// random, by steps that grow when they help and shrink when not (an evolution strategy with a 1/5
+/// rule, Rechenberg 1973). The same seed gives the same motion. `model` has a controller
+/// (excitable()). Throws Error(not_identifiable) when none of the motions drawn stays within the
+/// limits or is of use.
 Excitation search_excitation(const Model& model, const ExcitationOptions& options,
                              const ExcitationObjective& objective);
 

@@ -17,24 +17,24 @@ struct ExcitationPlan {
   ExcitationLimits limits;
   bool linear_motion = false;
   std::vector<std::string> joints;
-  std::vector<PlannedParameter> parameters;
-  double worst = 0;  ///< relative sd
+  PlannedFit fit;
   /// The same of one sine over all of the range at full speed, and of one of the best frequency.
   struct Sine {
-    double hz = 0, worst = 0;
-    std::vector<PlannedParameter> parameters;  ///< none when it does not show them all
+    double hz = 0;
+    PlannedFit fit;    ///< without parameters where there is no such sine
+    double worst = 0;  ///< infinite then
   };
   Sine plain, best;
   ExcitedMotion motion;
   int n_tried = 0;
   std::vector<Decision> decisions;
   std::vector<Figure> figures;
-  /// How much larger the worst relative sd of a plain sine is; infinite: it does not show all.
-  double factor() const { return plain.worst / worst; }
-  double factor_of_best() const { return best.worst / worst; }
+  /// How much larger the worst relative error of a plain sine is; infinite: it does not show all.
+  double factor() const { return plain.worst / fit.worst(); }
+  double factor_of_best() const { return best.worst / fit.worst(); }
 };
 
-/// Minimises the worst relative sd of FitPlanner. Throws as excitable(), FitPlanner and
+/// Minimises the worst relative error of FitPlanner. Throws as excitable(), FitPlanner and
 /// search_excitation() do.
 ExcitationPlan plan_excitation(const Model& model, const ExcitationOptions& options, bool figures);
 

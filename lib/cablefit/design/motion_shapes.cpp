@@ -56,12 +56,22 @@ Eigen::ArrayXd multi_sine(const ShapeFrame& frame, const Eigen::ArrayXd& numbers
   return faded(sum, t);
 }
 
-Eigen::ArrayXd one_of_multi_sine(double frequency) {
-  Eigen::ArrayXd numbers = Eigen::ArrayXd::Zero(kPerSine * kSines + 1);
-  for (Eigen::Index k = 0; k < kSines; ++k) numbers(kPerSine * k) = frequency;
-  numbers(1) = 1;
-  numbers(kPerSine * kSines) = 1;
-  return numbers;
+/// A strong sine and a weaker, faster one: alone, its acceleration would follow its position.
+std::vector<Eigen::ArrayXd> pairs_of_sines() {
+  std::vector<Eigen::ArrayXd> all;
+  for (const double strong : {0.05, 0.15, 0.25, 0.35, 0.45, 0.55, 0.65})
+    for (const double faster : {0.2, 0.4})
+      for (const double share : {0.15, 0.4}) {
+        Eigen::ArrayXd numbers = Eigen::ArrayXd::Zero(kPerSine * kSines + 1);
+        numbers(0) = strong;
+        numbers(1) = 1;
+        numbers(kPerSine) = std::min(1.0, strong + faster);
+        numbers(kPerSine + 1) = std::sqrt(share);
+        for (Eigen::Index k = 2; k < kSines; ++k) numbers(kPerSine * k) = strong;
+        numbers(kPerSine * kSines) = 1;
+        all.push_back(numbers);
+      }
+  return all;
 }
 
 double multi_sine_share(const Eigen::ArrayXd& numbers) {
@@ -123,7 +133,7 @@ Eigen::ArrayXd trapezoids(const ShapeFrame& frame, const Eigen::ArrayXd& numbers
 constexpr std::array kShapes{
     MotionShape{"multisine", "five sines of any frequency, amplitude and phase at once",
                 "Swevers et al. 1997", kPerSine* kSines + 1, multi_sine, multi_sine_share,
-                one_of_multi_sine},
+                pairs_of_sines},
     MotionShape{"trapezoid", "ten moves with trapezoids of speed, again and again",
                 "Khalil & Dombre 2004, ch. 13", kPerMove* kMoves, trapezoids, whole},
 };

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace cablefit {
 
@@ -26,9 +27,8 @@ struct MotionShape {
   Eigen::ArrayXd (*position)(const ShapeFrame& frame, const Eigen::ArrayXd& numbers);
   /// Share of the limits that is wanted, 0 to 1.
   double (*share)(const Eigen::ArrayXd& numbers);
-  /// Numbers from which a search should start besides those drawn at random: one sine of that
-  /// frequency (0: the lowest, 1: the highest). nullptr: the shape has none.
-  Eigen::ArrayXd (*like_sine)(double frequency) = nullptr;
+  /// Numbers from which a search should start besides those drawn at random. nullptr: none.
+  std::vector<Eigen::ArrayXd> (*starts)() = nullptr;
 };
 
 std::span<const MotionShape> motion_shapes();
