@@ -29,6 +29,7 @@ int run_dynamic(const Arguments& arguments);
 int run_identify(const Arguments& arguments);
 int run_simulate(const Arguments& arguments);
 int run_refine(const Arguments& arguments);
+int run_design(const Arguments& arguments);
 int run_compare(const Arguments& arguments);
 int run_batch(const Arguments& arguments);
 int run_init(const Arguments& arguments);

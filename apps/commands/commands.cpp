@@ -24,6 +24,8 @@ constexpr std::array kCommands{
     Command{"refine",
             "where model and logs disagree, which effect is missing, and does adding it help",
             run_refine},
+    Command{"design", "what a preload buys, what simpler models cost, which motion to record",
+            run_design},
     Command{"compare", "whether two results differ by more than their uncertainty, and in what",
             run_compare},
     Command{"batch", "all preloads of a campaign side by side, with gates for CI", run_batch},

@@ -75,6 +75,7 @@ Json cables_json(const Rig& rig) {
               {"law", cable.law->name},
               {"order", cable.order}};
     if (cable.law->has_toe) json["toe"] = cable.toe;
+    if (!cable.coefficients.empty()) json["coefficients"] = cable.coefficients;
     if (rig.search_elongation[list.size()]) {
       json["initial_elongation"] = "search";
     } else {

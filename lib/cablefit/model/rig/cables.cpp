@@ -81,6 +81,22 @@ const CableLaw& read_law(const JsonNode& cable) {
   return at_place_of(*node, [&]() -> const CableLaw& { return find_cable_law(node->text()); });
 }
 
+/// "coefficients", for those who design with known cables; no fit looks at them. Their number is
+/// the order's.
+void read_coefficients(const JsonNode& node, Cable* cable) {
+  const JsonNode* given = node.find("coefficients");
+  if (!given) return;
+  cable->coefficients = given->numbers();
+  if (node.find("order") == nullptr)
+    for (int order = 1; order <= cable->law->max_order; ++order)
+      if (static_cast<std::size_t>(cable->law->n_coefficients(order)) == cable->coefficients.size())
+        cable->order = order;
+  if (cable->coefficients.size() == static_cast<std::size_t>(cable->n_coefficients())) return;
+  throw given->error(fmt::format("{} coefficient(s) of a {} cable of order {}",
+                                 cable->coefficients.size(), cable->law->name, cable->order),
+                     fmt::format("give {}", cable->n_coefficients()));
+}
+
 /// "initial_elongation": a number (below 0: dead travel) or "search".
 bool read_elongation(const JsonNode& cable, double* elongation) {
   const JsonNode* node = cable.find("initial_elongation");
@@ -95,14 +111,15 @@ bool read_elongation(const JsonNode& cable, double* elongation) {
 }
 
 Cable read_cable(const JsonNode& node, int n_joints, bool* search) {
-  node.allow_only(
-      {"name", "motor_radius", "link_radius", "law", "order", "toe", "initial_elongation"});
+  node.allow_only({"name", "motor_radius", "link_radius", "law", "order", "toe", "coefficients",
+                   "initial_elongation"});
   Cable cable;
   cable.motor_map = read_maps(node.at("motor_radius"), n_joints);
   cable.link_map = read_maps(node.at("link_radius"), n_joints);
   cable.law = &read_law(node);
   cable.order = read_order(node, *cable.law);
   cable.toe = read_toe(node, *cable.law);
+  read_coefficients(node, &cable);
   *search = read_elongation(node, &cable.initial_elongation);
   return cable;
 }

@@ -1,0 +1,175 @@
+// cablefit design: what a preload buys, and which motion to record.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "cablefit/base/digest.hpp"
+#include "cablefit/base/error.hpp"
+#include "cablefit/base/quote.hpp"
+#include "cablefit/design/design_sweep.hpp"
+#include "cablefit/report/design_document.hpp"
+#include "cablefit/report/design_json.hpp"
+#include "commands/command.hpp"
+#include "commands/command_line.hpp"
+#include "commands/delivery.hpp"
+#include "commands/progress.hpp"
+
+namespace cablefit::apps {
+namespace {
+
+constexpr const char* kExample =
+    "Example, after 'cablefit elastic' and 'cablefit dynamic':\n"
+    "  cablefit design cablefit-out/dynamic.json --preload low --torque 40 --l-o 0,0.00512\n"
+    "A rig file does as well, when its cables have \"coefficients\".\n";
+
+constexpr const char* kResultFile = "design.json";
+constexpr std::size_t kMostValues = 200;
+
+struct DesignCommand {
+  CommonOptions common;
+  DesignOptions design;
+  std::vector<std::string> models;
+  std::string model;  ///< --model
+};
+
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, at);) parts.push_back(part);
+  if (text.empty() || text.back() == at) parts.emplace_back();
+  return parts;
+}
+
+/// "0,0.002,0.005" or "0:0.01:11", from, to and how many.
+std::vector<double> parse_list(const std::string& option, const std::string& text, Range range) {
+  std::vector<double> values;
+  if (text.find(':') == std::string::npos) {
+    for (const std::string& part : split(text, ','))
+      values.push_back(parse_number(option, part, range));
+    if (values.size() <= kMostValues) return values;
+    throw usage_error(fmt::format("{} has {} values", option, values.size()),
+                      fmt::format("give at most {}", kMostValues));
+  }
+  const std::vector<std::string> parts = split(text, ':');
+  if (parts.size() != 3)
+    throw usage_error(fmt::format("{} cannot be {}", option, cablefit::quoted(text)),
+                      "give FROM:TO:N, how many values from where to where, or a list A,B,C");
+  const double from = parse_number(option, parts[0], range);
+  const double to = parse_number(option, parts[1], range);
+  const long n = parse_whole(option, parts[2], {2, static_cast<double>(kMostValues)});
+  for (long i = 0; i < n; ++i)
+    values.push_back(from + (to - from) * static_cast<double>(i) / static_cast<double>(n - 1));
+  return values;
+}
+
+void add_list(CLI::App& app, const std::string& name, const std::string& unit, Range range,
+              std::vector<double>& values, const std::string& help) {
+  app.add_option_function<std::string>(
+         name,
+         [&values, name, range](const std::string& text) {
+           values = parse_list(name, text, range);
+         },
+         help)
+      ->type_name(unit);
+}
+
+void add_model_options(CLI::App& app, DesignCommand& command) {
+  app.add_option("MODEL", command.models,
+                 "model file, result of 'cablefit dynamic' or 'identify', or rig file whose cables "
+                 "have coefficients")
+      ->type_name("");
+  app.add_option("--model", command.model,
+                 "which fit of a result [the only one, else poly, else the first]")
+      ->type_name("NAME");
+  app.add_option("--preload", command.common.preload,
+                 "which preload of a result [the only one, else the first]")
+      ->type_name("NAME");
+}
+
+void add_sweep_options(CLI::App& app, DesignOptions& design) {
+  add_number(
+      app, "--torque", "N_M", {1e-9}, [&design](double torque) { design.torque = torque; },
+      "the joint works from -torque to torque");
+  add_list(app, "--l-o", "L,L,..|FROM:TO:N", {0}, design.l_o,
+           "initial elongations of the first cable, m (rad in joint space); the others are kept in "
+           "equilibrium [none, and around what --torque needs]");
+  add_list(app, "--radius", "X,X,..|FROM:TO:N", {1e-6}, design.radius_factors,
+           "pulley radii, times the rig's [1]");
+  app.add_option_function<std::string>(
+         "--order",
+         [&design](const std::string& text) {
+           design.orders.clear();
+           for (const std::string& part : split(text, ','))
+             design.orders.push_back(
+                 static_cast<int>(parse_whole("--order", part, {1, kMaxCableOrder})));
+         },
+         "orders of the cables of simpler models; 1: piecewise linear [1]")
+      ->type_name("N,N,..");
+  add_number(
+      app, "--tension-friction", "MU", {0}, [&design](double mu) { design.tension_friction = mu; },
+      "dry friction per cable force at the motor's pulleys, N m per N m, beside the model's");
+}
+
+void add_collision_options(CLI::App& app, DesignOptions& design) {
+  add_number(
+      app, "--noise", "N_M", {0}, [&design](double noise) { design.noise = noise; },
+      "sd of the torque from row to row, for collisions [the rig's sensor tau]");
+  add_number(
+      app, "--window", "S", {1e-4, 60}, [&design](double seconds) { design.window = seconds; },
+      "over which a collision detector averages [0.05]");
+  add_number(
+      app, "--rate", "HZ", {1e-3}, [&design](double rate) { design.rate = rate; },
+      "rows a second [1000]");
+  add_number(
+      app, "--false-alarms", "PER_HOUR", {1e-9, 3600},
+      [&design](double n) { design.false_alarms_per_hour = n; }, "of the collision detector [1]");
+  add_number(
+      app, "--detection-rate", "P", {0.5, 0.999999},
+      [&design](double p) { design.detection_rate = p; },
+      "probability that it sees the smallest collision [0.99]");
+}
+
+std::string take_model(const DesignCommand& command) {
+  if (command.models.size() == 1) return command.models.front();
+  throw usage_error(command.models.empty() ? "no model given" : "more than one model given",
+                    "name one model file, result or rig file");
+}
+
+DesignResult run_sweep(DesignCommand& command) {
+  const std::string path = take_model(command);
+  command.common.more_inputs.push_back(path);
+  if (!(command.design.torque > 0))
+    throw usage_error("no --torque given", "say which torque the joint has to carry, in N m");
+  if (false_alarm_rate_of(command.design.false_alarms_per_hour, command.design.window) >=
+      command.design.detection_rate)
+    throw usage_error("so many false alarms that every window is one",
+                      "lower --false-alarms or --window");
+  std::string choice;
+  const Model model = read_design_model(path, command.common.preload, command.model, choice);
+  command.design.figures = wants_figures(command.common);
+  const Progress progress(command.common.quiet, "sweeping the preload");
+  DesignResult result = sweep_design(model, command.design);
+  result.model_path = path;
+  result.model_choice = choice;
+  result.inputs = {{path, sha256_of_file(path), 0}};
+  return result;
+}
+
+}  // namespace
+
+int run_design(const Arguments& arguments) {
+  CLI::App app("What a preload buys, and what simpler models cost.", "design");
+  DesignCommand command;
+  add_model_options(app, command);
+  add_sweep_options(app, command.design);
+  add_collision_options(app, command.design);
+  add_output_options(app, command.common);
+  app.footer(kExample);
+  if (!parse(app, arguments)) return 0;
+  const DesignResult result = run_sweep(command);
+  deliver(command.common, design_document(result), {{kResultFile, design_json(result)}});
+  return 0;
+}
+
+}  // namespace cablefit::apps

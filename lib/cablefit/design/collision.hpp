@@ -1,0 +1,45 @@
+// Smallest collision torque that a model's residual can tell from nothing.
+//
+// The detector: the residual of the link's equation, r = J_link qdd + friction - tau_elas(phi) -
+// tau_load (minus the contact's torque when model and sensors are perfect), is averaged over
+// windows of n = rate * window rows, one after the other; a window with |mean r| above a threshold
+// is a collision (generalised momentum and direct residuals: De Luca & Mattone 2003, Haddadin, De
+// Luca & Albu-Schaeffer 2017; window and threshold: likelihood ratio of a mean, Kay 1998, ch. 3).
+//
+// What the mean consists of: white noise of sd `noise`, averaged, s = noise / sqrt(n); an error of
+// which only a bound is known, the model's, |e| <= model_error; and the contact's torque, of either
+// sign, constant over at least one whole window. Rates are guaranteed for the worst e within its
+// bound: e = +-model_error against false alarms, and against the contact for detection.
+#pragma once
+
+namespace cablefit {
+
+struct CollisionDetector {
+  double noise = 0;              ///< N m, sd of the residual from row to row, white
+  double rate = 1000;            ///< Hz, rows
+  double window = 0.05;          ///< s
+  double model_error = 0;        ///< N m, bound of |model - truth|
+  double false_alarm_rate = 0;   ///< of windows without contact, above 0 and below 1
+  double detection_rate = 0.99;  ///< of windows in contact, above false_alarm_rate and below 1
+};
+
+struct CollisionThreshold {
+  int n_rows = 1;         ///< that are averaged, at least 1
+  double mean_noise = 0;  ///< N m, sd of the mean
+  double threshold = 0;   ///< N m, of |mean r|
+  double torque = 0;      ///< N m, smallest contact that is detected at the detection rate
+  double delay = 0;       ///< s, after which it is at the latest: two windows
+};
+
+/// Exact for Gaussian noise (to 1e-12 of the noise). About 2 model_error + (z_fa + z_d) s, where
+/// z_fa is the normal quantile of 1 - false_alarm_rate (of 1 - false_alarm_rate / 2 without model
+/// error) and z_d that of the detection rate.
+CollisionThreshold collision_threshold(const CollisionDetector& detector);
+
+/// Rate of windows that makes so many false alarms an hour.
+double false_alarm_rate_of(double alarms_per_hour, double window);
+
+/// P(|e + s g| > threshold) of a standard normal g.
+double exceedance(double e, double s, double threshold);
+
+}  // namespace cablefit

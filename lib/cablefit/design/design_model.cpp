@@ -1,0 +1,52 @@
+#include <fmt/format.h>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/quote.hpp"
+#include "cablefit/design/design_sweep.hpp"
+
+namespace cablefit {
+namespace {
+
+bool is_rig(const JsonNode& root) {
+  const JsonNode* schema = root.find("schema");
+  if (schema != nullptr && schema->is_string()) return schema->text() == "cablefit/rig/1";
+  return root.find("cables") != nullptr && root.find("transmission") == nullptr;
+}
+
+Model model_of_rig(const JsonNode& root, std::string& choice) {
+  Model model;
+  model.rig = parse_rig(root);
+  model.preload = model.rig.preload;
+  model.transmission = model.rig.transmission;
+  if (!model.rig.cables_given)
+    throw input_error(root.place, "a rig file without cables says nothing of a preload",
+                      "give \"cables\" with \"coefficients\", or a model file or a result");
+  for (std::size_t k = 0; k < model.transmission.cables.size(); ++k)
+    if (model.transmission.cables[k].coefficients.empty())
+      throw input_error(root.at("cables").items[k].place,
+                        fmt::format("cable {} has no coefficients",
+                                    cablefit::quoted(model.transmission.cables[k].name)),
+                        "give \"coefficients\": [N/m, N/m^2, ...], or a fitted model");
+  choice = fmt::format("the cables of rig {}", root.place.file);
+  return model;
+}
+
+}  // namespace
+
+Model read_design_model(const std::string& path, const std::string& preload,
+                        const std::string& model, std::string& choice) {
+  const JsonNode root = read_json_file(path);
+  if (is_rig(root)) return model_of_rig(root, choice);
+  Model found = parse_model(root, preload, model, choice);
+  if (found.rigid)
+    throw input_error({path}, "a rigid drive has no cables to design",
+                      "give a model of the elastic drive (--model poly)");
+  if (found.transmission.cables.empty())
+    throw input_error(
+        {path}, fmt::format("model {} is one spring, without cables", cablefit::quoted(found.name)),
+        "choose one with cables, --model poly");
+  return found;
+}
+
+}  // namespace cablefit

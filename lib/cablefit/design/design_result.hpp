@@ -1,0 +1,94 @@
+// What a sweep of the preload found, as plain data for reports. SI; on a linear axis read N for N m
+// and m for rad.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cablefit/design/collision.hpp"
+#include "cablefit/figure/figure.hpp"
+#include "cablefit/samples/input_file.hpp"
+#include "cablefit/samples/settings.hpp"
+
+namespace cablefit {
+
+inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+
+/// What a user pays for a model of the elastic torque that is simpler than the cables.
+struct ModelCost {
+  std::string model;                 ///< "linear", "piecewise linear", "order 3", "cables"
+  std::vector<double> coefficients;  ///< K (N m/rad), or those of every cable
+  double max_error = 0;              ///< N m, largest on the working range
+  double rms_error = 0;              ///< N m
+  double at = 0;                     ///< rad, deflection of the largest error
+  double static_error = 0;           ///< rad, error of the joint's position under load
+  /// Hz, what the model tells of the resonance on the range; NaN without inertias.
+  double resonance_low = kNotKnown, resonance_high = kNotKnown;
+  std::optional<CollisionThreshold> collision;  ///< nothing without a noise of the torque
+};
+
+/// Dry friction and what it costs, at one torque.
+struct DesignFriction {
+  double at_rest = 0;              ///< N m, with no load
+  double driving = 0, driven = 0;  ///< N m, at the torque: lifting it, and giving way to it
+  double efficiency_driving = 0;   ///< torque / (torque + friction)
+  double efficiency_driven = 0;    ///< (torque - friction) / torque, 0: it locks
+};
+
+struct TensionRange {
+  std::string cable;
+  double preload = 0;             ///< N (joint space: N m), without load
+  double least = 0, largest = 0;  ///< on the working range
+};
+
+struct DesignJoint {
+  std::string name;
+  double low = 0, high = 0;  ///< rad, working range: deflections at -torque and +torque
+  double closure_low = 0, closure_high = 0;  ///< rad, all cables taut between; may be infinite
+  double closure_torque_low = 0, closure_torque_high = 0;  ///< N m
+  double closure_torque = 0;  ///< N m, up to which all are taut in both directions
+  std::string slack_first;    ///< the cable that goes slack first; empty: none does
+  double stiffness_zero = 0;  ///< N m/rad, without load; of slack cables the mean of both sides
+  double stiffness_low = 0, stiffness_high = 0;    ///< at -torque and +torque
+  double stiffness_least = 0, stiffness_most = 0;  ///< on the range
+  std::vector<TensionRange> tensions;
+  std::vector<ModelCost> models;           ///< linear, piecewise linear, ..., cables
+  std::optional<DesignFriction> friction;  ///< nothing when the model has none
+  const ModelCost& model(const std::string& which) const;
+};
+
+/// One design: a preload, and pulleys.
+struct DesignPoint {
+  double l_o = 0;                           ///< of the first cable
+  double radius_factor = 1;                 ///< times the rig's radii
+  std::vector<double> initial_elongations;  ///< per cable, balanced (8c)
+  std::vector<DesignJoint> joints;
+  bool is_own = false;  ///< the preload that the model has
+};
+
+/// The smallest preload that keeps all cables taut up to the torque, in both directions.
+struct NeededPreload {
+  double radius_factor = 1;
+  double l_o = kNotKnown;                   ///< of the first cable; NaN: no preload does
+  std::vector<double> initial_elongations;  ///< per cable
+  std::vector<double> tensions;             ///< per cable, without load
+};
+
+struct DesignResult {
+  std::vector<InputFile> inputs;
+  std::string model_path, model_choice, model_name, preload;
+  bool linear_motion = false, cable_space = false;
+  std::vector<std::string> cables;
+  double torque = 0;                          ///< N m, the working range is -torque .. torque
+  std::optional<CollisionDetector> detector;  ///< model_error left 0
+  double false_alarms_per_hour = 0;
+  std::vector<DesignPoint> points;
+  std::vector<NeededPreload> needed;  ///< one per radius factor
+  std::vector<Decision> decisions;
+  std::vector<std::string> warnings;
+  std::vector<Figure> figures;
+};
+
+}  // namespace cablefit

@@ -1,0 +1,179 @@
+#include "cablefit/design/design_sweep.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/base/quote.hpp"
+#include "cablefit/design/design_figures.hpp"
+#include "cablefit/design/equilibrium_preload.hpp"
+#include "cablefit/design/joint_curve.hpp"
+#include "cablefit/design/root.hpp"
+#include "cablefit/model/modes.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr double kFirstPreload = 1e-6;  // m (rad), of the search for the one that is needed
+constexpr double kLargestPreload = 10;
+constexpr int kChosenSteps = 5;     // up to this many quarters of what is needed
+constexpr double kFallback = 0.01;  // m (rad), when nothing is needed or nothing helps
+constexpr double kSoftens = 0.9;    // of its stiffness at first
+
+/// The least closure threshold of all joints.
+double closure_torque(const Transmission& transmission) {
+  double least = kUnbounded;
+  for (int joint = 0; joint < transmission.n_joints; ++joint)
+    least = std::min(least, closure_range(JointCurve(transmission, joint)).threshold());
+  return least;
+}
+
+std::vector<double> elongations_of(const Transmission& transmission) {
+  std::vector<double> all;
+  for (const Cable& cable : transmission.cables) all.push_back(cable.initial_elongation);
+  return all;
+}
+
+NeededPreload what_is_needed(const Transmission& transmission, double factor, double torque) {
+  NeededPreload needed;
+  needed.radius_factor = factor;
+  needed.l_o = needed_preload(transmission, torque);
+  if (!std::isfinite(needed.l_o)) return needed;
+  const Transmission preloaded = with_preload(transmission, needed.l_o);
+  needed.initial_elongations = elongations_of(preloaded);
+  for (const Cable& cable : preloaded.cables)
+    needed.tensions.push_back(cable.force(cable.initial_elongation));
+  return needed;
+}
+
+/// What to sweep when nobody said: none, quarters of what is needed, and a little more.
+std::vector<double> chosen_preloads(const NeededPreload& needed) {
+  const double unit = std::isfinite(needed.l_o) && needed.l_o > 0 ? needed.l_o : kFallback;
+  std::vector<double> all;
+  for (int i = 0; i <= kChosenSteps; ++i) all.push_back(unit * i / 4);
+  return all;
+}
+
+DesignPoint describe_point(const Model& model, const Transmission& preloaded, double factor,
+                           const DesignOptions& options) {
+  DesignPoint point;
+  point.l_o = preloaded.cables.front().initial_elongation;
+  point.radius_factor = factor;
+  point.initial_elongations = elongations_of(preloaded);
+  for (int joint = 0; joint < preloaded.n_joints; ++joint)
+    point.joints.push_back(describe_joint(model, preloaded, joint, options));
+  return point;
+}
+
+std::optional<double> noise_of(const Model& model, const DesignOptions& options,
+                               DesignResult& result) {
+  if (options.noise) {
+    result.decisions.push_back({"noise", fmt::format("{:g}", *options.noise), "given"});
+    return options.noise;
+  }
+  const auto found = model.rig.sensors.find("tau");
+  if (found == model.rig.sensors.end() || !found->second.noise) {
+    result.decisions.push_back(
+        {"noise", "none",
+         "no sensor \"tau\" with \"noise\" in the rig, no --noise: no collision "
+         "torques"});
+    return std::nullopt;
+  }
+  result.decisions.push_back(
+      {"noise", fmt::format("{:g}", *found->second.noise), "of the rig's sensor tau"});
+  return found->second.noise;
+}
+
+/// A curve fitted to preloaded cables as if they had no preload bends the wrong way.
+void warn_of_soft_cables(const Model& model, double torque, DesignResult& result) {
+  if (is_preloaded(model.transmission)) return;
+  const JointCurve curve(model.transmission, 0);
+  const auto high = curve.deflection_at(torque);
+  if (!high) return;
+  for (const Cable& cable : model.transmission.cables)
+    if (cable.stiffness(0.2 * std::abs(*high)) < kSoftens * cable.stiffness(1e-6 * *high))
+      result.warnings.push_back(fmt::format(
+          "cable {} gives way as it is stretched, with l_o = 0: a fit to cables that were "
+          "preloaded describes their curve, not them; design from a fit without preload, or one "
+          "of `identify`, which finds l_o",
+          quoted(cable.name)));
+}
+
+void tell_needed(const DesignResult& result, std::vector<std::string>& warnings) {
+  for (const NeededPreload& needed : result.needed)
+    if (!std::isfinite(needed.l_o))
+      warnings.push_back(fmt::format(
+          "no preload up to {:g} keeps all cables taut up to {:g}, with radii times {:g}",
+          kLargestPreload, result.torque, needed.radius_factor));
+}
+
+DesignResult blank_result(const Model& model, const DesignOptions& options) {
+  DesignResult result;
+  result.model_name = model.name;
+  result.preload = model.preload;
+  result.linear_motion = model.rig.linear_motion;
+  result.cable_space = model.rig.cables_given;
+  for (const Cable& cable : model.transmission.cables) result.cables.push_back(cable.name);
+  result.torque = options.torque;
+  result.false_alarms_per_hour = options.false_alarms_per_hour;
+  return result;
+}
+
+}  // namespace
+
+double needed_preload(const Transmission& transmission, double torque) {
+  const auto missing = [&](double l_o) {
+    return closure_torque(with_preload(transmission, l_o)) - torque;
+  };
+  double from = 0;
+  for (double to = kFirstPreload; to <= kLargestPreload; from = to, to *= 2) {
+    double gap = 0;
+    try {
+      gap = missing(to);
+    } catch (const Error&) {  // a cable that cannot be stretched so far
+      return kNotKnown;
+    }
+    if (gap >= 0) return root_between(missing, from, to);
+  }
+  return kNotKnown;
+}
+
+DesignResult sweep_design(const Model& model, const DesignOptions& given) {
+  DesignResult result = blank_result(model, given);
+  DesignOptions options = given;
+  options.noise = noise_of(model, given, result);
+  if (options.noise)
+    result.detector =
+        CollisionDetector{*options.noise,
+                          options.rate,
+                          options.window,
+                          0,
+                          false_alarm_rate_of(options.false_alarms_per_hour, options.window),
+                          options.detection_rate};
+  warn_of_soft_cables(model, options.torque, result);
+  for (const double factor : options.radius_factors) {
+    const Transmission base = with_radii(model.transmission, factor);
+    (void)balanced_tensions(base);  // or say at once that there are none
+    result.needed.push_back(what_is_needed(base, factor, options.torque));
+    const std::vector<double> sweep =
+        options.l_o.empty() ? chosen_preloads(result.needed.back()) : options.l_o;
+    if (is_preloaded(base)) {
+      result.points.push_back(describe_point(model, base, factor, options));
+      result.points.back().is_own = true;
+      add_curves(model, base, result.points.back(), options, result);
+    }
+    for (const double l_o : sweep) {
+      const Transmission preloaded = with_preload(base, l_o);
+      result.points.push_back(describe_point(model, preloaded, factor, options));
+      add_curves(model, preloaded, result.points.back(), options, result);
+    }
+  }
+  tell_needed(result, result.warnings);
+  if (options.figures) finish_figures(options, result);
+  return result;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,45 @@
+// What a preload buys: torque curve, closure, stiffness, tensions, friction, and what simpler
+// models of it cost, over a sweep of the initial elongation (Fichera & Grossard 2017: l_o kept in
+// equilibrium (8c); sections 2.4 and 4).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cablefit/design/design_result.hpp"
+#include "cablefit/model/model.hpp"
+
+namespace cablefit {
+
+struct DesignOptions {
+  double torque = 0;        ///< N m, above 0: the joint works from -torque to torque
+  std::vector<double> l_o;  ///< of the first cable; empty: chosen around what is needed
+  std::vector<double> radius_factors = {1};
+  std::vector<int> orders = {1};           ///< of the cables of simpler models; 1: piecewise linear
+  std::optional<double> tension_friction;  ///< N m per N m, on the motor, beside the model's
+  std::optional<double> noise;             ///< N m, of the torque; nothing: the rig's sensor "tau"
+  double window = 0.05;                    ///< s, of the collision detector
+  double rate = 1000;                      ///< Hz, of the same
+  double false_alarms_per_hour = 1;
+  double detection_rate = 0.99;
+  bool figures = false;
+};
+
+/// A model to design with: a model file or a result, as read_model() takes it, or a rig file
+/// (cablefit/rig/1) whose cables have "coefficients"; then the joints have no inertias. Throws
+/// Error(input) for anything without cables.
+Model read_design_model(const std::string& path, const std::string& preload,
+                        const std::string& model, std::string& choice);
+
+/// Throws Error(input) when the cables cannot be preloaded or never give the torque.
+DesignResult sweep_design(const Model& model, const DesignOptions& options);
+
+/// Initial elongation of the first cable at which all cables are just taut at -torque and torque on
+/// every joint (each for itself), to 1e-12 of it. NaN when no preload does.
+double needed_preload(const Transmission& transmission, double torque);
+
+/// What is known of one joint of cables that are preloaded already.
+DesignJoint describe_joint(const Model& model, const Transmission& preloaded, int joint,
+                           const DesignOptions& options);
+
+}  // namespace cablefit

@@ -1,0 +1,103 @@
+#include "cablefit/design/equilibrium_preload.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <cmath>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/base/quote.hpp"
+#include "cablefit/design/root.hpp"
+#include "cablefit/model/modes.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr double kNoForce = 1e-9;  // of the largest tension: no tension at all
+constexpr double kLongest = 1000;  // m; no cable comes near
+
+/// Rows of S, then of P, in the reference pose: (8c) is this times f_o = 0.
+Eigen::MatrixXd couplings(const Transmission& transmission) {
+  const auto n = static_cast<Eigen::Index>(transmission.n_joints);
+  Eigen::MatrixXd both(2 * n, static_cast<Eigen::Index>(transmission.cables.size()));
+  both.topRows(n) =
+      transmission.motor_coupling(transmission.reference_theta() + transmission.encoder_zero());
+  both.bottomRows(n) = transmission.link_coupling(transmission.reference_q());
+  return both;
+}
+
+/// The part of `f` that is in equilibrium.
+Eigen::VectorXd projected(const Eigen::MatrixXd& couplings, const Eigen::VectorXd& f) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(couplings, Eigen::ComputeFullV);
+  const Eigen::Index n_free = couplings.cols() - svd.rank();
+  const Eigen::MatrixXd basis = svd.matrixV().rightCols(n_free);
+  return basis * (basis.transpose() * f);
+}
+
+bool all_pull(const Eigen::VectorXd& f) {
+  return f.size() > 0 && f.minCoeff() > kNoForce * f.cwiseAbs().maxCoeff();
+}
+
+double elongation_with(const Cable& cable, double force) {
+  if (!(force > 0)) return 0;
+  const auto l = root_outward([&](double at) { return cable.force(at) - force; }, 1e-9, kLongest);
+  if (l) return *l;
+  throw Error(ErrorKind::input,
+              fmt::format("cable {} never pulls with {:.3g} N; give it coefficients that grow with "
+                          "its elongation",
+                          quoted(cable.name), force));
+}
+
+}  // namespace
+
+Eigen::VectorXd balanced_tensions(const Transmission& transmission) {
+  const Eigen::MatrixXd both = couplings(transmission);
+  const Eigen::VectorXd now = transmission.tensions(
+      transmission.reference_q(), transmission.reference_theta() + transmission.encoder_zero());
+  Eigen::VectorXd f = projected(both, now);
+  if (!all_pull(f)) f = projected(both, Eigen::VectorXd::Ones(both.cols()));
+  if (!all_pull(f))
+    throw Error(
+        ErrorKind::input,
+        "no tensions of these cables hold each other, (8c): they cannot be preloaded; route "
+        "them so that each joint is pulled in both directions (n joints need n + 1 cables "
+        "or more), or check the signs of the radii");
+  return f / f.maxCoeff();
+}
+
+Transmission with_preload(const Transmission& transmission, double l_o) {
+  const Eigen::VectorXd direction = balanced_tensions(transmission);
+  Transmission preloaded = transmission;
+  const double scale = preloaded.cables.front().force(l_o) / direction(0);
+  if (l_o > 0 && !(scale > 0))
+    throw Error(ErrorKind::input,
+                fmt::format("cable {} does not pull when it is stretched by {:g}; a preload needs "
+                            "coefficients above 0",
+                            quoted(preloaded.cables.front().name), l_o));
+  for (std::size_t k = 0; k < preloaded.cables.size(); ++k)
+    preloaded.cables[k].initial_elongation =
+        k == 0
+            ? l_o
+            : elongation_with(preloaded.cables[k], scale * direction(static_cast<Eigen::Index>(k)));
+  return preloaded;
+}
+
+Transmission with_radii(const Transmission& transmission, double factor) {
+  // A map times a factor: every kind is linear in its coefficients, or in its displacements.
+  const auto scale = [factor](std::vector<DisplacementMap>& maps) {
+    for (DisplacementMap& map : maps)
+      for (std::vector<double>* values :
+           {&map.parameters.coefficients, &map.parameters.displacement, &map.parameters.curvature})
+        for (double& value : *values) value *= factor;
+  };
+  Transmission scaled = transmission;
+  for (Cable& cable : scaled.cables) {
+    scale(cable.motor_map);
+    scale(cable.link_map);
+    cable.reference_displacement *= factor;
+  }
+  return scaled;
+}
+
+}  // namespace cablefit
