@@ -65,6 +65,28 @@ void fill_rows(Design& design, const std::vector<StretchRows>* kept) {
   }
 }
 
+bool same_positions(const Recording& a, const Recording& b) {
+  return (a.q == b.q).all() && (a.theta == b.theta).all() && (a.tau_load == b.tau_load).all();
+}
+
+/// What was added before stays as it is.
+StretchRows rows_of_correction(const Design& design, const Variant& variant, std::size_t k) {
+  Stretch stretch = design.stretches[k];
+  variant.refinement->correct(variant.shape.data(), stretch.recording);
+  const Model& model = design.models[stretch.model];
+  if (same_positions(stretch.recording, design.stretches[k].recording))
+    return rows_of_torque(design.rows[k], stretch, model, design.smoothing);
+  StretchRows rows = base_rows(stretch, model, design.layout, design.smoothing, &design.rows[k]);
+  for (std::size_t i = 0; i < rows.kinds.size(); ++i) {
+    Eigen::MatrixXd& base = rows.kinds[i].base;
+    const Eigen::MatrixXd& old = design.rows[k].kinds[i].base;
+    const Eigen::Index own = base.cols(), more = old.cols() - design.layout.n();
+    base.conservativeResize(Eigen::NoChange, own + more);
+    base.rightCols(more) = old.rightCols(more);
+  }
+  return rows;
+}
+
 }  // namespace
 
 Eigen::Index Design::n_columns() const {
@@ -108,18 +130,10 @@ std::vector<StretchRows> replaced_rows(const Design& design, const Variant& vari
   }
   std::vector<StretchRows> rows;
   for (std::size_t k = 0; k < design.stretches.size(); ++k) {
-    Stretch stretch = design.stretches[k];
-    if (row.correct != nullptr) row.correct(variant.shape.data(), stretch.recording);
-    rows.push_back(
-        base_rows(stretch, models[stretch.model], layout, design.smoothing, &design.rows[k]));
-    // What was added before stays as it is.
-    for (std::size_t i = 0; i < rows.back().kinds.size(); ++i) {
-      Eigen::MatrixXd& base = rows.back().kinds[i].base;
-      const Eigen::MatrixXd& old = design.rows[k].kinds[i].base;
-      const Eigen::Index own = base.cols(), more = old.cols() - design.layout.n();
-      base.conservativeResize(Eigen::NoChange, own + more);
-      base.rightCols(more) = old.rightCols(more);
-    }
+    const Model& model = models[design.stretches[k].model];
+    rows.push_back(row.change != nullptr ? rows_of_cables(design.rows[k], design.layout, model,
+                                                          layout, design.smoothing)
+                                         : rows_of_correction(design, variant, k));
   }
   return rows;
 }

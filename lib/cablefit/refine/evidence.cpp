@@ -138,6 +138,13 @@ BlockGrams extended(const BlockGrams& base, const std::vector<StretchRows>& rows
   return grams;
 }
 
+Eigen::MatrixXd weighted_sum(const BlockGrams& grams, const KindLevels& levels) {
+  const Eigen::Index n = 1 + grams.n_columns;
+  Eigen::MatrixXd total = Eigen::MatrixXd::Zero(n, n);
+  for (const BlockGrams::Block& block : grams.blocks) total += weighted(block, levels, n);
+  return total;
+}
+
 KindLevels BlockFit::rms() const {
   KindLevels out{};
   for (std::size_t k = 0; k < kRowKinds; ++k)

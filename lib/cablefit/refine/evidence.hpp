@@ -33,6 +33,9 @@ BlockGrams extended(const BlockGrams& base, const std::vector<StretchRows>& rows
                     const std::vector<Stretch>& stretches, const VariantColumns& columns,
                     double block_seconds);
 
+/// All blocks and kinds of rows in one, rows weighted by 1/level^2 of their kind.
+Eigen::MatrixXd weighted_sum(const BlockGrams& grams, const KindLevels& levels);
+
 /// A weighted fit, rows weighted by 1/level^2 of their kind.
 struct BlockFit {
   Eigen::VectorXd x;                        ///< n_columns

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cablefit/base/parallel.hpp"
+#include "cablefit/refine/quick_look.hpp"
 
 namespace cablefit {
 namespace {
@@ -109,10 +110,43 @@ bool is_better(const Candidate& a, const Candidate& b) {
   return a.gain > b.gain;
 }
 
+/// Squared error in sample, and whether it is physical; nothing where it cannot be told apart.
+struct Looked {
+  double error = 0;
+  bool is_physical = false;
+};
+std::optional<Looked> look_at(const ScanStart& start, const QuickLook& look,
+                              const Variant& variant) {
+  const auto glance = look.with(variant_columns(start.design, variant, start.fit.x), kTolerance);
+  if (!glance) return {};
+  return Looked{glance->error, !is_out_of_bounds(*variant.refinement, glance->x, 0)};
+}
+
+/// Of variants with as many parameters, all fitted, the one that fits best.
+std::optional<Candidate> best_fitting(const ScanStart& start, const ScanSettings& settings,
+                                      const QuickLook& look, std::vector<Variant> variants) {
+  std::optional<Looked> best;
+  Variant* chosen = nullptr;
+  for (Variant& variant : variants) {
+    const auto looked = look_at(start, look, variant);
+    if (!looked) continue;
+    const bool better =
+        !best || (looked->is_physical != best->is_physical ? looked->is_physical
+                                                           : looked->error < best->error);
+    if (!better) continue;
+    best = looked;
+    chosen = &variant;
+  }
+  if (chosen == nullptr) return {};
+  return try_variant(start, settings, std::move(*chosen));
+}
+
 std::optional<Candidate> best_variant(const ScanStart& start, const ScanSettings& settings,
-                                      const Refinement& row) {
+                                      const QuickLook& look, const Refinement& row) {
+  std::vector<Variant> variants = variants_of(row, start.design, date_step(row, settings));
+  if (!replaces_rows(row)) return best_fitting(start, settings, look, std::move(variants));
   std::optional<Candidate> best;
-  for (Variant& variant : variants_of(row, start.design, date_step(row, settings))) {
+  for (Variant& variant : variants) {
     auto candidate = try_variant(start, settings, std::move(variant));
     if (candidate && (!best || is_better(*candidate, *best))) best = std::move(candidate);
   }
@@ -157,6 +191,7 @@ std::pair<double, double> around(const ShapeGrid& grid, double value, const LogS
 
 std::vector<Candidate> scan(const ScanStart& start, const ScanSettings& settings,
                             const std::vector<const Refinement*>& without) {
+  const QuickLook look(start.design, start.grams, start.levels);
   std::vector<Candidate> found;
   ordered_pipeline<const Refinement*>(
       settings.threads,
@@ -165,7 +200,7 @@ std::vector<Candidate> scan(const ScanStart& start, const ScanSettings& settings
           if (std::find(without.begin(), without.end(), &row) == without.end())
             emit(static_cast<const Refinement*>(&row));
       },
-      [&](const Refinement* row) { return best_variant(start, settings, *row); },
+      [&](const Refinement* row) { return best_variant(start, settings, look, *row); },
       [&](std::optional<Candidate> candidate) {
         if (candidate) found.push_back(std::move(*candidate));
       });
@@ -175,7 +210,12 @@ std::vector<Candidate> scan(const ScanStart& start, const ScanSettings& settings
 Candidate refined_shape(const ScanStart& start, const ScanSettings& settings, Candidate candidate) {
   constexpr int kRounds = 2;
   const Refinement& row = *candidate.variant.refinement;
+  const QuickLook look(start.design, start.grams, start.levels);
   const auto error_with = [&](const Variant& variant) {
+    if (!replaces_rows(row)) {
+      const auto looked = look_at(start, look, variant);
+      return looked && looked->is_physical ? looked->error : kUnbounded;
+    }
     const auto tried = try_variant(start, settings, variant);
     return tried && tried->refused.empty() ? tried->error.sum() : kUnbounded;
   };

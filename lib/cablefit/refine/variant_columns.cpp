@@ -1,6 +1,7 @@
 // Columns of a variant: torques and levels along the smooth motion, or what a small error of a
 // sensor changes in the equations.
 #include <algorithm>
+#include <cmath>
 
 #include "cablefit/refine/design.hpp"
 
@@ -18,6 +19,18 @@ struct FullTorques {
   Eigen::MatrixXd link, motor;  ///< samples x n_linear
 };
 
+/// From which sample on an event may have done something; none (n) where it has not happened yet or
+/// is over.
+Eigen::Index first_sample(const Variant& variant, const Stretch& stretch, double step,
+                          Eigen::Index n) {
+  const Refinement& row = *variant.refinement;
+  if (!row.is_event) return 0;
+  if (stretch.log < variant.event_log) return n;
+  if (stretch.log > variant.event_log) return row.lasts() ? 0 : n;
+  const double samples = std::floor((variant.event_time - stretch.t0) / step);
+  return std::clamp<Eigen::Index>(static_cast<Eigen::Index>(samples), 0, n);
+}
+
 /// At every `every`-th sample.
 FullTorques full_torques(const Variant& variant, const Stretch& stretch,
                          const std::vector<JointState>& states, Eigen::Index every) {
@@ -26,12 +39,11 @@ FullTorques full_torques(const Variant& variant, const Stretch& stretch,
   const auto rows = (static_cast<Eigen::Index>(states.size()) + every - 1) / every;
   FullTorques out{Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(n)),
                   Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(n))};
-  if (row.is_event && stretch.log < variant.event_log) return out;
   std::vector<double> z(row.n_states), link(n), motor(n), level(n);
   const bool on_link = row.site == Site::link;
   const double h = static_cast<double>(every) * stretch.recording.period;
   JointState dated;  // of an event, whose age is not the state's own
-  for (Eigen::Index i = 0; i < rows; ++i) {
+  for (Eigen::Index i = first_sample(variant, stretch, h, rows); i < rows; ++i) {
     const JointState* here = &states[static_cast<std::size_t>(i * every)];
     if (row.is_event) {
       dated = *here;
