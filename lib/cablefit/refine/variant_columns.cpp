@@ -16,7 +16,7 @@ double since_event(const Variant& variant, const Stretch& stretch, double t) {
 
 /// Torque per unit of each linear parameter at every sample, on link and motor.
 struct FullTorques {
-  Eigen::MatrixXd link, motor;  ///< samples x n_linear
+  Eigen::MatrixXd link, motor;  ///< n_linear x samples
 };
 
 /// From which sample on an event may have done something; none (n) where it has not happened yet or
@@ -31,43 +31,62 @@ Eigen::Index first_sample(const Variant& variant, const Stretch& stretch, double
   return std::clamp<Eigen::Index>(static_cast<Eigen::Index>(samples), 0, n);
 }
 
+/// Adds what a level of dry friction does in motion to its own side's torques.
+void add_level(const Refinement& row, const JointState& state, const double* shape, const double* z,
+               std::vector<double>& level, double* link, double* motor) {
+  const bool on_link = row.site == Site::link;
+  const double speed = on_link ? state.qd : state.thetad;
+  const double direction = speed > 0 ? 1.0 : speed < 0 ? -1.0 : 0.0;
+  std::fill(level.begin(), level.end(), 0.0);
+  row.level(state, direction, shape, z, level.data());
+  double* own = on_link ? link : motor;
+  for (std::size_t p = 0; p < level.size(); ++p) own[p] += direction * level[p];
+}
+
 /// At every `every`-th sample.
 FullTorques full_torques(const Variant& variant, const Stretch& stretch,
                          const std::vector<JointState>& states, Eigen::Index every) {
   const Refinement& row = *variant.refinement;
-  const std::size_t n = row.n_linear();
-  const auto rows = (static_cast<Eigen::Index>(states.size()) + every - 1) / every;
-  FullTorques out{Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(n)),
-                  Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(n))};
-  std::vector<double> z(row.n_states), link(n), motor(n), level(n);
-  const bool on_link = row.site == Site::link;
+  const auto n = static_cast<Eigen::Index>(row.n_linear());
+  const auto samples = (static_cast<Eigen::Index>(states.size()) + every - 1) / every;
   const double h = static_cast<double>(every) * stretch.recording.period;
+  const Eigen::Index first = first_sample(variant, stretch, h, samples);
+  FullTorques out{Eigen::MatrixXd(n, samples), Eigen::MatrixXd(n, samples)};
+  out.link.leftCols(first).setZero();
+  out.motor.leftCols(first).setZero();
+  std::vector<double> z(row.n_states), level(row.n_linear());
   JointState dated;  // of an event, whose age is not the state's own
-  for (Eigen::Index i = first_sample(variant, stretch, h, rows); i < rows; ++i) {
-    const JointState* here = &states[static_cast<std::size_t>(i * every)];
+  for (Eigen::Index i = first; i < samples; ++i) {
+    const JointState* state = &states[static_cast<std::size_t>(i * every)];
+    double* link = out.link.col(i).data();
+    double* motor = out.motor.col(i).data();
+    std::fill(link, link + n, 0.0);
+    std::fill(motor, motor + n, 0.0);
     if (row.is_event) {
-      dated = *here;
+      dated = *state;
       dated.since_event = since_event(variant, stretch, dated.t);
       if (dated.since_event < 0) continue;
-      here = &dated;
+      state = &dated;
     }
-    const JointState& state = *here;
-    if (row.advance != nullptr) row.advance(state, variant.shape.data(), h, z.data());
-    std::fill(link.begin(), link.end(), 0.0);
-    std::fill(motor.begin(), motor.end(), 0.0);
-    if (row.torque != nullptr)
-      row.torque(state, variant.shape.data(), z.data(), link.data(), motor.data());
-    if (row.level != nullptr) {
-      std::fill(level.begin(), level.end(), 0.0);
-      const double speed = on_link ? state.qd : state.thetad;
-      const double direction = speed > 0 ? 1.0 : speed < 0 ? -1.0 : 0.0;
-      row.level(state, direction, variant.shape.data(), z.data(), level.data());
-      std::vector<double>& own = on_link ? link : motor;
-      for (std::size_t p = 0; p < n; ++p) own[p] += direction * level[p];
-    }
-    for (std::size_t p = 0; p < n; ++p) {
-      out.link(i, static_cast<Eigen::Index>(p)) = link[p];
-      out.motor(i, static_cast<Eigen::Index>(p)) = motor[p];
+    if (row.advance != nullptr) row.advance(*state, variant.shape.data(), h, z.data());
+    if (row.torque != nullptr) row.torque(*state, variant.shape.data(), z.data(), link, motor);
+    if (row.level != nullptr)
+      add_level(row, *state, variant.shape.data(), z.data(), level, link, motor);
+  }
+  return out;
+}
+
+/// The filtered samples at `at`, of `every`-th samples that are columns.
+Eigen::MatrixXd filtered(const Kernel& filter, const Eigen::MatrixXd& samples,
+                         const std::vector<Eigen::Index>& at, Eigen::Index every) {
+  const Eigen::Index n = samples.rows(), width = filter.weights.size();
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(at.size()), n);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const double* around = samples.data() + n * (at[i] / every - filter.reach());
+    for (Eigen::Index p = 0; p < n; ++p) {
+      double sum = 0;
+      for (Eigen::Index j = 0; j < width; ++j) sum += filter.weights(j) * around[n * j + p];
+      out(static_cast<Eigen::Index>(i), p) = sum;
     }
   }
   return out;
@@ -82,14 +101,10 @@ std::vector<Eigen::MatrixXd> torque_columns(const Design& design, const Variant&
   std::vector<Eigen::MatrixXd> columns;
   for (const KindRows& kind : design.rows[k].kinds) {
     const Eigen::MatrixXd& own = kind.kind == RowKind::link ? full.link : full.motor;
-    const auto n_rows = static_cast<Eigen::Index>(kind.at.size());
-    if ((own.array() == 0).all()) {
-      columns.emplace_back(Eigen::MatrixXd::Zero(n_rows, own.cols()));
-      continue;
-    }
-    std::vector<Eigen::Index> at = kind.at;
-    for (Eigen::Index& i : at) i /= every;
-    columns.push_back(apply_at(filter, own, at));
+    const bool is_zero = (own.array() == 0).all();
+    columns.push_back(
+        is_zero ? Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(kind.at.size()), own.rows())
+                : filtered(filter, own, kind.at, every));
   }
   return columns;
 }
