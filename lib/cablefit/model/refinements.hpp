@@ -63,6 +63,7 @@ struct ShapeGrid {
   bool is_geometric = true;  ///< even in its logarithm
   GridUnit unit = GridUnit::si;
   bool is_whole = false;  ///< values are whole numbers, and nothing lies between them
+  double canonical = 0;   ///< the value of the textbooks, an exponent of 2; 0: none is special
 
   /// Value i = 0 .. n_values-1, in SI.
   double value(int i, const LogScale& scale) const;

@@ -89,10 +89,25 @@ StretchRows rows_of_correction(const Design& design, const Variant& variant, std
 
 }  // namespace
 
+bool has_plain_form(const Refinement& row) {
+  return row.n_harmonics > 1 || std::any_of(row.shape.begin(), row.shape.end(),
+                                            [](const ShapeGrid& g) { return g.canonical > 0; });
+}
+
+Eigen::Index n_linear(const Variant& variant) {
+  const Refinement& row = *variant.refinement;
+  if (variant.is_plain && row.n_harmonics > 1) return 2;
+  return static_cast<Eigen::Index>(row.n_linear());
+}
+
+bool is_free(const Variant& variant, std::size_t shape) {
+  const ShapeGrid& grid = variant.refinement->shape[shape];
+  return !grid.is_whole && !(variant.is_plain && grid.canonical > 0);
+}
+
 Eigen::Index Design::n_columns() const {
   Eigen::Index n = layout.n();
-  for (const Variant& variant : added)
-    n += static_cast<Eigen::Index>(variant.refinement->n_linear());
+  for (const Variant& variant : added) n += n_linear(variant);
   return n;
 }
 

@@ -16,7 +16,17 @@ struct Variant {
   std::vector<double> shape;
   std::size_t event_log = 0;  ///< events only
   double event_time = 0;      ///< s
+  bool is_plain = false;      ///< the row's plain form, see has_plain_form
 };
+
+/// Some rows have more parameters than the law of the textbooks, so that they also name what is
+/// like it: a second harmonic, an exponent. Their plain form has one harmonic and the canonical
+/// exponents.
+bool has_plain_form(const Refinement& row);
+/// How many of the row's linear parameters the variant has.
+Eigen::Index n_linear(const Variant& variant);
+/// Whether a nonlinear parameter was looked for on a continuous range.
+bool is_free(const Variant& variant, std::size_t shape);
 
 /// Everything that a fit of linear parameters needs. Columns: those of the layout, then those of
 /// `added`, in order.

@@ -60,7 +60,7 @@ BlockGrams with_shape_columns(const Design& undone, const Design& design, const 
   std::vector<StretchRows> rows = design.rows;
   for (std::size_t k = 0; k < design.added.size(); ++k)
     for (std::size_t i = 0; i < design.added[k].shape.size(); ++i) {
-      if (design.added[k].refinement->shape[i].is_whole) continue;
+      if (!is_free(design.added[k], i)) continue;
       const VariantColumns column = shape_column(undone, design, x, k, i);
       for (std::size_t s = 0; s < rows.size(); ++s)
         for (std::size_t kind = 0; kind < rows[s].kinds.size(); ++kind) {
@@ -79,7 +79,7 @@ std::vector<Eigen::Index> first_columns(const Design& design) {
   Eigen::Index next = design.layout.n();
   for (const Variant& variant : design.added) {
     first.push_back(next);
-    next += static_cast<Eigen::Index>(variant.refinement->n_linear());
+    next += n_linear(variant);
   }
   return first;
 }

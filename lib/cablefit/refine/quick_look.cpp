@@ -5,11 +5,6 @@
 namespace cablefit {
 namespace {
 
-/// [response, base]' C and C' C of the rows that C is not zero in.
-struct Products {
-  Eigen::MatrixXd cross, own;
-};
-
 /// Rows [from, from + n) outside of which all columns are zero.
 struct Extent {
   Eigen::Index from = 0, n = 0;
@@ -28,7 +23,7 @@ Extent extent_of(const Eigen::MatrixXd& columns) {
 }
 
 void add_products(const KindRows& rows, const Eigen::MatrixXd& columns, double weight,
-                  Products& sum) {
+                  QuickLook::Products& sum) {
   const Extent extent = extent_of(columns);
   if (extent.n == 0) return;
   const Eigen::MatrixXd c = weight * columns.middleRows(extent.from, extent.n);
@@ -62,29 +57,33 @@ QuickLook::QuickLook(const Design& design, const BlockGrams& grams, const KindLe
   error_ = total(0, 0) - response_.squaredNorm();
 }
 
-std::optional<QuickLook::Glance> QuickLook::with(const VariantColumns& columns,
-                                                 double least) const {
-  Products sum;
+QuickLook::Products QuickLook::products(const VariantColumns& columns) const {
   const Eigen::Index n = columns.front().front().cols();
-  sum.cross = Eigen::MatrixXd::Zero(1 + scale_.size(), n);
-  sum.own = Eigen::MatrixXd::Zero(n, n);
+  Products sum{Eigen::MatrixXd::Zero(1 + scale_.size(), n), Eigen::MatrixXd::Zero(n, n)};
   for (std::size_t s = 0; s < columns.size(); ++s)
     for (std::size_t k = 0; k < columns[s].size(); ++k) {
       const KindRows& rows = design_.rows[s].kinds[k];
       add_products(rows, columns[s][k], weight_of(levels_, rows.kind), sum);
     }
-  const Eigen::VectorXd norms = sum.own.diagonal();
+  return sum;
+}
+
+std::optional<QuickLook::Glance> QuickLook::with(const Products& products, Eigen::Index n,
+                                                 double least) const {
+  const Eigen::MatrixXd cross = products.cross.leftCols(n);
+  const Eigen::MatrixXd own = products.own.topLeftCorner(n, n);
+  const Eigen::VectorXd norms = own.diagonal();
   if (!(norms.minCoeff() > 0)) return {};
   const Eigen::VectorXd scale = norms.cwiseSqrt().cwiseInverse();
   // What the base explains of the columns goes out of them (Frisch & Waugh 1933).
   const Eigen::MatrixXd in_base =
-      llt_.matrixL().solve(scale_.asDiagonal() * sum.cross.bottomRows(scale_.size()));
-  const Eigen::LLT<Eigen::MatrixXd> llt(
-      scale.asDiagonal() * (sum.own - in_base.transpose() * in_base) * scale.asDiagonal());
+      llt_.matrixL().solve(scale_.asDiagonal() * cross.bottomRows(scale_.size()));
+  const Eigen::LLT<Eigen::MatrixXd> llt(scale.asDiagonal() * (own - in_base.transpose() * in_base) *
+                                        scale.asDiagonal());
   if (llt.info() != Eigen::Success) return {};
   const Eigen::VectorXd left = Eigen::MatrixXd(llt.matrixL()).diagonal().cwiseAbs2();
   if (!(left.minCoeff() >= least)) return {};
-  const Eigen::VectorXd along = sum.cross.row(0).transpose() - in_base.transpose() * response_;
+  const Eigen::VectorXd along = cross.row(0).transpose() - in_base.transpose() * response_;
   Glance glance;
   glance.x = scale.cwiseProduct(llt.solve(scale.cwiseProduct(along)));
   glance.error = error_ - along.dot(glance.x);

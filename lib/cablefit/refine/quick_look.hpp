@@ -14,13 +14,19 @@ class QuickLook {
   /// `grams`: of the design as it is. Throws Error(not_identifiable) when it is singular.
   QuickLook(const Design& design, const BlockGrams& grams, const KindLevels& levels);
 
+  /// Weighted products of further columns C, in sample: [response, base]' C and C' C.
+  struct Products {
+    Eigen::MatrixXd cross, own;
+  };
+  Products products(const VariantColumns& columns) const;
+
   struct Glance {
     double error = 0;   ///< weighted and squared, in sample
     Eigen::VectorXd x;  ///< of the further columns
   };
-  /// Nothing where less than `least` (squared, of unit norm) of one of the columns is its own: see
-  /// OwnPart.
-  std::optional<Glance> with(const VariantColumns& columns, double least) const;
+  /// With the first `n` of the further columns. Nothing where less than `least` (squared, of unit
+  /// norm) of one of them is its own: see OwnPart.
+  std::optional<Glance> with(const Products& products, Eigen::Index n, double least) const;
 
  private:
   const Design& design_;

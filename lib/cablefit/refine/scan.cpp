@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cablefit/base/parallel.hpp"
+#include "cablefit/refine/levels.hpp"
 #include "cablefit/refine/quick_look.hpp"
 
 namespace cablefit {
@@ -16,10 +17,11 @@ constexpr double kTolerance = 1e-4;
 constexpr double kEventMargin = 1.0;  // s, to the ends of a log
 constexpr int kGoldenSteps = 9;       // 0.618^9 = 1 % of a cell
 
-bool is_out_of_bounds(const Refinement& row, const Eigen::VectorXd& x, Eigen::Index first) {
-  for (std::size_t p = 0; p < row.n_linear(); ++p) {
-    const double value = x(first + static_cast<Eigen::Index>(p));
-    if (value < row.parameters[p].lower || value > row.parameters[p].upper) return true;
+/// `x`: of the variant's own columns.
+bool is_out_of_bounds(const Refinement& row, const Eigen::VectorXd& x) {
+  for (Eigen::Index p = 0; p < x.size(); ++p) {
+    const ParameterInfo& bounds = row.parameters[static_cast<std::size_t>(p)];
+    if (x(p) < bounds.lower || x(p) > bounds.upper) return true;
   }
   return false;
 }
@@ -42,8 +44,8 @@ std::optional<Candidate> try_variant(const ScanStart& start, const ScanSettings&
   const auto grams = grams_with(start, settings, variant);
   if (!grams) return {};
   const Refinement& row = *variant.refinement;
-  const auto fit = fit_blocks(*grams, start.levels, !row.is_event,
-                              {kTolerance, static_cast<Eigen::Index>(row.n_linear())});
+  const Eigen::Index n = n_linear(variant);
+  const auto fit = fit_blocks(*grams, start.levels, !row.is_event, {kTolerance, n});
   if (!fit) return {};
   Candidate c;
   c.variant = std::move(variant);
@@ -52,8 +54,7 @@ std::optional<Candidate> try_variant(const ScanStart& start, const ScanSettings&
   c.error = row.is_event ? fit->in_sample : fit->held_out;
   const Eigen::ArrayXd& before = row.is_event ? start.fit.in_sample : start.fit.held_out;
   c.gain = 1 - c.error.sum() / before.sum();
-  const Eigen::Index first = fit->x.size() - static_cast<Eigen::Index>(row.n_linear());
-  if (is_out_of_bounds(row, fit->x, first)) c.refused = "beyond its physical bound";
+  if (is_out_of_bounds(row, fit->x.tail(n))) c.refused = "beyond its physical bound";
   return c;
 }
 
@@ -95,11 +96,11 @@ std::vector<Variant> variants_of(const Refinement& row, const Design& design, do
   std::vector<Variant> all;
   for (const auto& shape : grid_points(row, design.scale)) {
     if (!row.is_event) {
-      all.push_back({&row, shape, 0, 0});
+      all.push_back({&row, shape, 0, 0, false});
       continue;
     }
     for (const auto& [log, time] : dates(design, event_step))
-      all.push_back({&row, shape, log, time});
+      all.push_back({&row, shape, log, time, false});
   }
   return all;
 }
@@ -110,44 +111,72 @@ bool is_better(const Candidate& a, const Candidate& b) {
   return a.gain > b.gain;
 }
 
-/// Squared error in sample, and whether it is physical; nothing where it cannot be told apart.
+/// A variant with its squared error in sample, and whether it is physical.
 struct Looked {
+  Variant variant;
   double error = 0;
   bool is_physical = false;
 };
-std::optional<Looked> look_at(const ScanStart& start, const QuickLook& look,
-                              const Variant& variant) {
-  const auto glance = look.with(variant_columns(start.design, variant, start.fit.x), kTolerance);
+
+/// Nothing where it cannot be told apart. `products`: of the columns of the variant, and perhaps
+/// more.
+std::optional<Looked> looked_at(const QuickLook& look, const QuickLook::Products& products,
+                                const Variant& variant) {
+  const auto glance = look.with(products, n_linear(variant), kTolerance);
   if (!glance) return {};
-  return Looked{glance->error, !is_out_of_bounds(*variant.refinement, glance->x, 0)};
+  return Looked{variant, glance->error, !is_out_of_bounds(*variant.refinement, glance->x)};
 }
 
-/// Of variants with as many parameters, all fitted, the one that fits best.
+void keep_better(std::optional<Looked>& best, std::optional<Looked> other) {
+  if (!other) return;
+  if (!best ||
+      (other->is_physical != best->is_physical ? other->is_physical : other->error < best->error))
+    best = std::move(other);
+}
+
+/// The plain form at the same shape; nothing where the shape is another one.
+std::optional<Variant> plain_of(Variant variant) {
+  const Refinement& row = *variant.refinement;
+  if (!has_plain_form(row)) return {};
+  variant.is_plain = true;
+  for (std::size_t i = 0; i < row.shape.size(); ++i)
+    if (!is_free(variant, i) && row.shape[i].canonical > 0 &&
+        variant.shape[i] != row.shape[i].canonical)
+      return {};
+  return variant;
+}
+
+/// Of two forms of one law the plain one, unless the held-out blocks agree on the other.
+std::optional<Candidate> simpler(std::optional<Candidate> plain, std::optional<Candidate> full) {
+  constexpr double kAgree = 2;  // sd of the paired blocks' difference
+  if (!plain || !full) return plain ? plain : full;
+  if (plain->refused.empty() != full->refused.empty()) return full->refused.empty() ? full : plain;
+  const Paired difference = paired(plain->error, full->error);
+  return difference.sum > kAgree * difference.se ? full : plain;
+}
+
+/// Of variants with as many parameters, all fitted, the one that fits best; the plain form apart.
 std::optional<Candidate> best_fitting(const ScanStart& start, const ScanSettings& settings,
-                                      const QuickLook& look, std::vector<Variant> variants) {
-  std::optional<Looked> best;
-  Variant* chosen = nullptr;
-  for (Variant& variant : variants) {
-    const auto looked = look_at(start, look, variant);
-    if (!looked) continue;
-    const bool better =
-        !best || (looked->is_physical != best->is_physical ? looked->is_physical
-                                                           : looked->error < best->error);
-    if (!better) continue;
-    best = looked;
-    chosen = &variant;
+                                      const QuickLook& look, const std::vector<Variant>& variants) {
+  std::optional<Looked> plain, full;
+  for (const Variant& variant : variants) {
+    const auto products = look.products(variant_columns(start.design, variant, start.fit.x));
+    keep_better(full, looked_at(look, products, variant));
+    if (const auto same = plain_of(variant)) keep_better(plain, looked_at(look, products, *same));
   }
-  if (chosen == nullptr) return {};
-  return try_variant(start, settings, std::move(*chosen));
+  const auto tried = [&](const std::optional<Looked>& looked) {
+    return looked ? try_variant(start, settings, looked->variant) : std::nullopt;
+  };
+  return simpler(tried(plain), tried(full));
 }
 
 std::optional<Candidate> best_variant(const ScanStart& start, const ScanSettings& settings,
                                       const QuickLook& look, const Refinement& row) {
-  std::vector<Variant> variants = variants_of(row, start.design, date_step(row, settings));
-  if (!replaces_rows(row)) return best_fitting(start, settings, look, std::move(variants));
+  const std::vector<Variant> variants = variants_of(row, start.design, date_step(row, settings));
+  if (!replaces_rows(row)) return best_fitting(start, settings, look, variants);
   std::optional<Candidate> best;
-  for (Variant& variant : variants) {
-    auto candidate = try_variant(start, settings, std::move(variant));
+  for (const Variant& variant : variants) {
+    auto candidate = try_variant(start, settings, variant);
     if (candidate && (!best || is_better(*candidate, *best))) best = std::move(candidate);
   }
   return best;
@@ -187,6 +216,51 @@ std::pair<double, double> around(const ShapeGrid& grid, double value, const LogS
   return {std::max(low, value - step), std::min(high, value + step)};
 }
 
+/// The variant with its nonlinear parameters (and date) where its squared error is least.
+Variant moved_shape(const ScanStart& start, const ScanSettings& settings, const QuickLook& look,
+                    Variant variant) {
+  constexpr int kRounds = 2;
+  const Refinement& row = *variant.refinement;
+  const auto error_with = [&](const Variant& other) {
+    if (!replaces_rows(row)) {
+      const auto looked =
+          looked_at(look, look.products(variant_columns(start.design, other, start.fit.x)), other);
+      return looked && looked->is_physical ? looked->error : kUnbounded;
+    }
+    const auto tried = try_variant(start, settings, other);
+    return tried && tried->refused.empty() ? tried->error.sum() : kUnbounded;
+  };
+  for (int round = 0; round < kRounds; ++round) {
+    for (std::size_t i = 0; i < variant.shape.size(); ++i) {
+      if (!is_free(variant, i)) continue;
+      const auto [low, high] = around(row.shape[i], variant.shape[i], start.design.scale);
+      variant.shape[i] = golden(low, high, [&](double value) {
+        Variant other = variant;
+        other.shape[i] = value;
+        return error_with(other);
+      });
+    }
+    if (!row.is_event) continue;
+    const double step = date_step(row, settings);
+    variant.event_time =
+        golden(variant.event_time - step, variant.event_time + step, [&](double time) {
+          Variant other = variant;
+          other.event_time = time;
+          return error_with(other);
+        });
+  }
+  return variant;
+}
+
+/// The other form of the same law, to begin with at the same shape.
+Variant other_form(Variant variant) {
+  const Refinement& row = *variant.refinement;
+  variant.is_plain = !variant.is_plain;
+  for (std::size_t i = 0; variant.is_plain && i < row.shape.size(); ++i)
+    if (row.shape[i].canonical > 0) variant.shape[i] = row.shape[i].canonical;
+  return variant;
+}
+
 }  // namespace
 
 std::vector<Candidate> scan(const ScanStart& start, const ScanSettings& settings,
@@ -208,39 +282,16 @@ std::vector<Candidate> scan(const ScanStart& start, const ScanSettings& settings
 }
 
 Candidate refined_shape(const ScanStart& start, const ScanSettings& settings, Candidate candidate) {
-  constexpr int kRounds = 2;
-  const Refinement& row = *candidate.variant.refinement;
   const QuickLook look(start.design, start.grams, start.levels);
-  const auto error_with = [&](const Variant& variant) {
-    if (!replaces_rows(row)) {
-      const auto looked = look_at(start, look, variant);
-      return looked && looked->is_physical ? looked->error : kUnbounded;
-    }
-    const auto tried = try_variant(start, settings, variant);
-    return tried && tried->refused.empty() ? tried->error.sum() : kUnbounded;
+  const auto moved = [&](const Variant& variant) {
+    return try_variant(start, settings, moved_shape(start, settings, look, variant));
   };
-  Variant variant = candidate.variant;
-  for (int round = 0; round < kRounds; ++round) {
-    for (std::size_t i = 0; i < variant.shape.size(); ++i) {
-      if (row.shape[i].is_whole) continue;
-      const auto [low, high] = around(row.shape[i], variant.shape[i], start.design.scale);
-      variant.shape[i] = golden(low, high, [&](double value) {
-        Variant other = variant;
-        other.shape[i] = value;
-        return error_with(other);
-      });
-    }
-    if (!row.is_event) continue;
-    const double step = date_step(row, settings);
-    variant.event_time =
-        golden(variant.event_time - step, variant.event_time + step, [&](double time) {
-          Variant other = variant;
-          other.event_time = time;
-          return error_with(other);
-        });
-  }
-  const auto better = try_variant(start, settings, variant);
-  return better && better->refused.empty() && better->gain >= candidate.gain ? *better : candidate;
+  auto better = moved(candidate.variant);
+  if (!better || !better->refused.empty()) return candidate;
+  if (!has_plain_form(*candidate.variant.refinement)) return *better;
+  auto other = moved(other_form(candidate.variant));
+  const bool is_plain = candidate.variant.is_plain;
+  return *simpler(is_plain ? better : other, is_plain ? other : better);
 }
 
 }  // namespace cablefit

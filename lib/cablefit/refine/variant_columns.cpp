@@ -76,16 +76,16 @@ FullTorques full_torques(const Variant& variant, const Stretch& stretch,
   return out;
 }
 
-/// The filtered samples at `at`, of `every`-th samples that are columns.
-Eigen::MatrixXd filtered(const Kernel& filter, const Eigen::MatrixXd& samples,
+/// The first `n` rows of `every`-th samples, filtered, at `at`.
+Eigen::MatrixXd filtered(const Kernel& filter, const Eigen::MatrixXd& samples, Eigen::Index n,
                          const std::vector<Eigen::Index>& at, Eigen::Index every) {
-  const Eigen::Index n = samples.rows(), width = filter.weights.size();
+  const Eigen::Index all = samples.rows(), width = filter.weights.size();
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(at.size()), n);
   for (std::size_t i = 0; i < at.size(); ++i) {
-    const double* around = samples.data() + n * (at[i] / every - filter.reach());
+    const double* around = samples.data() + all * (at[i] / every - filter.reach());
     for (Eigen::Index p = 0; p < n; ++p) {
       double sum = 0;
-      for (Eigen::Index j = 0; j < width; ++j) sum += filter.weights(j) * around[n * j + p];
+      for (Eigen::Index j = 0; j < width; ++j) sum += filter.weights(j) * around[all * j + p];
       out(static_cast<Eigen::Index>(i), p) = sum;
     }
   }
@@ -98,13 +98,13 @@ std::vector<Eigen::MatrixXd> torque_columns(const Design& design, const Variant&
   const FullTorques full = full_torques(variant, design.stretches[k], design.states[k], every);
   const Kernel filter = gaussian(design.smoothing.columns,
                                  static_cast<double>(every) * design.stretches[k].recording.period);
+  const Eigen::Index n = n_linear(variant);
   std::vector<Eigen::MatrixXd> columns;
   for (const KindRows& kind : design.rows[k].kinds) {
     const Eigen::MatrixXd& own = kind.kind == RowKind::link ? full.link : full.motor;
     const bool is_zero = (own.array() == 0).all();
-    columns.push_back(
-        is_zero ? Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(kind.at.size()), own.rows())
-                : filtered(filter, own, kind.at, every));
+    columns.push_back(is_zero ? Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(kind.at.size()), n)
+                              : filtered(filter, own, n, kind.at, every));
   }
   return columns;
 }

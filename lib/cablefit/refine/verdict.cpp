@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "cablefit/base/random.hpp"
+#include "cablefit/refine/levels.hpp"
 
 namespace cablefit {
 namespace {
@@ -31,19 +32,6 @@ std::vector<double> largest_gains(const std::vector<NullDraw>& draws, bool event
     largest.push_back(most);
   }
   return largest;
-}
-
-/// Difference of two candidates' errors over the blocks, and its standard error.
-struct Paired {
-  double sum = 0, se = 0;
-  double in_sd() const { return se > 0 ? sum / se : sum > 0 ? kUnbounded : 0; }
-};
-Paired paired(const Eigen::ArrayXd& a, const Eigen::ArrayXd& b) {
-  const Eigen::ArrayXd d = a - b;
-  const auto n = static_cast<double>(d.size());
-  const double sum = d.sum();
-  const double variance = (d - sum / n).square().sum() * n / std::max(1.0, n - 1);
-  return {sum, std::sqrt(variance)};
 }
 
 /// The same law on the link and on the motor is two.
@@ -80,7 +68,12 @@ std::vector<double> inclusions(const std::vector<const Candidate*>& candidates) 
 }
 
 std::size_t n_parameters(const Candidate& c) {
-  return c.variant.refinement->parameters.size() + (c.variant.refinement->is_event ? 1 : 0);
+  const Variant& variant = c.variant;
+  const Refinement& row = *variant.refinement;
+  std::size_t n = static_cast<std::size_t>(n_linear(variant)) + (row.is_event ? 1 : 0);
+  for (std::size_t i = 0; i < row.shape.size(); ++i)
+    n += row.shape[i].is_whole || is_free(variant, i) ? 1 : 0;
+  return n;
 }
 
 bool is_tie(const Candidate& a, const Candidate& b, const SquaredGap& gap) {
