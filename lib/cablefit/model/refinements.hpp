@@ -123,6 +123,10 @@ struct Refinement {
   std::optional<Transmission> (*change)(const Transmission& transmission,
                                         const double* shape) = nullptr;
 
+  /// The only linear parameter is a share of the dry friction of its axis: all of it in the plain
+  /// form of the law, more than all of it never.
+  bool takes_dry_friction = false;
+
   std::size_t n_linear() const { return parameters.size() - shape.size(); }
   /// An event after which the joint is another one, and not one that passes.
   bool lasts() const { return is_event && shape.empty(); }

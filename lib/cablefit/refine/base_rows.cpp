@@ -82,7 +82,12 @@ BaseLayout base_layout(const Model& model) {
   for (ModelParameter& p : model_parameters(model)) {
     const bool is_column = p.kind == ParameterKind::effect || p.kind == ParameterKind::stiffness ||
                            p.kind == ParameterKind::coefficient;
-    if (is_column && !p.is_shape) layout.parameters.push_back(std::move(p));
+    if (!is_column || p.is_shape) continue;
+    const bool is_effect = p.kind == ParameterKind::effect;
+    if (is_effect && (p.on_link ? axes.link : axes.motor)[p.effect].effect->dry != nullptr)
+      (p.on_link ? layout.dry_link : layout.dry_motor) =
+          static_cast<Eigen::Index>(layout.parameters.size());
+    layout.parameters.push_back(std::move(p));
   }
   return layout;
 }

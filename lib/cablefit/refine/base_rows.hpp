@@ -17,7 +17,8 @@ namespace cablefit {
 /// Several preloads share all of them (Fichera & Grossard 2017, (26)-(28)).
 struct BaseLayout {
   Eigen::Index n_link = 0, n_motor = 0, n_elastic = 0;
-  std::vector<ModelParameter> parameters;  ///< one per column
+  std::vector<ModelParameter> parameters;      ///< one per column
+  Eigen::Index dry_link = -1, dry_motor = -1;  ///< columns of dry friction; -1: the axis has none
   Eigen::Index n() const { return n_link + n_motor + n_elastic; }
 };
 BaseLayout base_layout(const Model& model);

@@ -87,15 +87,30 @@ StretchRows rows_of_correction(const Design& design, const Variant& variant, std
   return rows;
 }
 
+/// The column of dry friction with what the row does to all of it.
+std::vector<StretchRows> rows_of_dry_friction(const Design& design, Variant variant) {
+  const Eigen::Index dry = dry_column(design, *variant.refinement);
+  if (dry < 0) return {};
+  variant.is_plain = false;
+  const VariantColumns columns = variant_columns(design, variant, {});
+  std::vector<StretchRows> rows = design.rows;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    for (std::size_t i = 0; i < rows[k].kinds.size(); ++i)
+      rows[k].kinds[i].base.col(dry) += columns[k][i].col(0);
+  return rows;
+}
+
 }  // namespace
 
 bool has_plain_form(const Refinement& row) {
-  return row.n_harmonics > 1 || std::any_of(row.shape.begin(), row.shape.end(),
-                                            [](const ShapeGrid& g) { return g.canonical > 0; });
+  return row.n_harmonics > 1 || row.takes_dry_friction ||
+         std::any_of(row.shape.begin(), row.shape.end(),
+                     [](const ShapeGrid& g) { return g.canonical > 0; });
 }
 
 Eigen::Index n_linear(const Variant& variant) {
   const Refinement& row = *variant.refinement;
+  if (variant.is_plain && row.takes_dry_friction) return 0;
   if (variant.is_plain && row.n_harmonics > 1) return 2;
   return static_cast<Eigen::Index>(row.n_linear());
 }
@@ -128,10 +143,15 @@ Design make_design(std::span<const Model> models, std::vector<Stretch> stretches
   return design;
 }
 
-bool replaces_rows(const Refinement& refinement) { return refinement.n_linear() == 0; }
+bool replaces_rows(const Variant& variant) { return n_linear(variant) == 0; }
+
+Eigen::Index dry_column(const Design& design, const Refinement& row) {
+  return row.site == Site::link ? design.layout.dry_link : design.layout.dry_motor;
+}
 
 std::vector<StretchRows> replaced_rows(const Design& design, const Variant& variant) {
   const Refinement& row = *variant.refinement;
+  if (row.takes_dry_friction) return rows_of_dry_friction(design, variant);
   std::vector<Model> models = design.models;
   BaseLayout layout = design.layout;
   if (row.change != nullptr) {
@@ -156,7 +176,7 @@ std::vector<StretchRows> replaced_rows(const Design& design, const Variant& vari
 Design with_variant(const Design& design, const Variant& variant, const Eigen::VectorXd& values) {
   Design out = design;
   const Refinement& row = *variant.refinement;
-  if (replaces_rows(row)) {
+  if (replaces_rows(variant)) {
     out.rows = replaced_rows(design, variant);
     if (row.change != nullptr)
       for (Model& model : out.models)
@@ -187,7 +207,8 @@ Design relinearised(const Design& design, const Eigen::VectorXd& values) {
   out.added.clear();
   for (const Variant& variant : design.added) {
     // Cables and recordings are those of the effect already.
-    if (replaces_rows(*variant.refinement))
+    const Refinement& row = *variant.refinement;
+    if (row.change != nullptr || (row.correct != nullptr && replaces_rows(variant)))
       out.added.push_back(variant);
     else
       out = with_variant(out, variant, values);

@@ -58,6 +58,12 @@ struct OwnPart {
 std::optional<BlockFit> fit_blocks(const BlockGrams& grams, const KindLevels& levels,
                                    bool with_held_out = true, const OwnPart& own = {});
 
+/// Covariance of x by leaving out each block in turn, which no block can hide that has a pull of
+/// its own (jackknife; Efron & Stein 1981: on average not too small). Nothing where the rest of a
+/// block does not determine all columns.
+std::optional<Eigen::MatrixXd> jackknife_covariance(const BlockGrams& grams,
+                                                    const KindLevels& levels);
+
 /// Squared error of given values, per block, weighted.
 Eigen::ArrayXd errors_of(const BlockGrams& grams, const KindLevels& levels,
                          const Eigen::VectorXd& x);

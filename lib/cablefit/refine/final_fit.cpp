@@ -101,10 +101,10 @@ FinalFit final_fit(const Design& undone, const Design& design, const KindLevels&
   fit.x = solve_scaled(a, b).x;
   fit.rms = rms_of(block_grams(design.rows, design.stretches, block_seconds), fit.x);
   const BlockGrams grams = with_shape_columns(undone, design, fit.x, block_seconds);
-  const auto all = fit_blocks(grams, levels, false);
   const Eigen::Index q = grams.n_columns;
-  fit.covariance = all ? all->covariance
-                       : Eigen::MatrixXd::Constant(q, q, std::numeric_limits<double>::quiet_NaN());
+  fit.covariance =
+      jackknife_covariance(grams, levels)
+          .value_or(Eigen::MatrixXd::Constant(q, q, std::numeric_limits<double>::quiet_NaN()));
   fit.degrees_of_freedom =
       std::max(1.0, static_cast<double>(grams.blocks.size()) - static_cast<double>(q));
   return fit;

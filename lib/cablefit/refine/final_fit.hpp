@@ -10,7 +10,7 @@ namespace cablefit {
 /// what was added that is no whole number, in order.
 struct FinalFit {
   Eigen::VectorXd x;              ///< linear columns
-  Eigen::MatrixXd covariance;     ///< of x and the nonlinear ones; sandwich over blocks
+  Eigen::MatrixXd covariance;     ///< of x and the nonlinear ones; jackknife over blocks
   double degrees_of_freedom = 1;  ///< blocks less parameters, for t quantiles
   KindLevels rms{};
 };

@@ -120,7 +120,9 @@ std::vector<NamedEffect> named_effects(const Design& design, const FinalFit& fit
     };
     for (Eigen::Index p = 0; p < n; ++p)
       add(static_cast<std::size_t>(p), fit.x(first[k] + p), sd_at(fit, first[k] + p));
-    for (auto p = static_cast<std::size_t>(n); p < row.n_linear(); ++p) add(p, 0, 0);
+    const Eigen::Index dry = n == 0 && row.takes_dry_friction ? dry_column(design, row) : -1;
+    for (auto p = static_cast<std::size_t>(n); p < row.n_linear(); ++p)
+      add(p, dry >= 0 ? fit.x(dry) : 0, dry >= 0 ? sd_at(fit, dry) : 0);
     for (std::size_t p = 0; p < variant.shape.size(); ++p)
       add(row.n_linear() + p, variant.shape[p], is_free(variant, p) ? sd_at(fit, shape_at++) : 0);
     effect.derived = amplitudes(variant, fit, first[k]);

@@ -29,7 +29,7 @@ bool is_out_of_bounds(const Refinement& row, const Eigen::VectorXd& x) {
 std::optional<BlockGrams> grams_with(const ScanStart& start, const ScanSettings& settings,
                                      const Variant& variant) {
   const Design& design = start.design;
-  if (replaces_rows(*variant.refinement)) {
+  if (replaces_rows(variant)) {
     const auto rows = replaced_rows(design, variant);
     if (rows.empty()) return {};
     return block_grams(rows, design.stretches, settings.block_seconds);
@@ -54,7 +54,9 @@ std::optional<Candidate> try_variant(const ScanStart& start, const ScanSettings&
   c.error = row.is_event ? fit->in_sample : fit->held_out;
   const Eigen::ArrayXd& before = row.is_event ? start.fit.in_sample : start.fit.held_out;
   c.gain = 1 - c.error.sum() / before.sum();
-  if (is_out_of_bounds(row, fit->x.tail(n))) c.refused = "beyond its physical bound";
+  const Eigen::Index dry = row.takes_dry_friction ? dry_column(start.design, row) : -1;
+  const bool too_dry = dry >= 0 && n > 0 && fit->x(fit->x.size() - n) > fit->x(dry);
+  if (too_dry || is_out_of_bounds(row, fit->x.tail(n))) c.refused = "beyond its physical bound";
   return c;
 }
 
@@ -139,6 +141,7 @@ std::optional<Variant> plain_of(Variant variant) {
   const Refinement& row = *variant.refinement;
   if (!has_plain_form(row)) return {};
   variant.is_plain = true;
+  if (replaces_rows(variant)) return {};  // no columns of its own: see best_replacing
   for (std::size_t i = 0; i < row.shape.size(); ++i)
     if (!is_free(variant, i) && row.shape[i].canonical > 0 &&
         variant.shape[i] != row.shape[i].canonical)
@@ -170,16 +173,26 @@ std::optional<Candidate> best_fitting(const ScanStart& start, const ScanSettings
   return simpler(tried(plain), tried(full));
 }
 
-std::optional<Candidate> best_variant(const ScanStart& start, const ScanSettings& settings,
-                                      const QuickLook& look, const Refinement& row) {
-  const std::vector<Variant> variants = variants_of(row, start.design, date_step(row, settings));
-  if (!replaces_rows(row)) return best_fitting(start, settings, look, variants);
+/// The same of variants that replace rows.
+std::optional<Candidate> best_replacing(const ScanStart& start, const ScanSettings& settings,
+                                        const std::vector<Variant>& variants) {
   std::optional<Candidate> best;
   for (const Variant& variant : variants) {
     auto candidate = try_variant(start, settings, variant);
     if (candidate && (!best || is_better(*candidate, *best))) best = std::move(candidate);
   }
   return best;
+}
+
+std::optional<Candidate> best_variant(const ScanStart& start, const ScanSettings& settings,
+                                      const QuickLook& look, const Refinement& row) {
+  std::vector<Variant> variants = variants_of(row, start.design, date_step(row, settings));
+  if (variants.empty()) return {};  // no log is long enough for a date
+  if (replaces_rows(variants.front())) return best_replacing(start, settings, variants);
+  auto best = best_fitting(start, settings, look, variants);
+  if (!row.takes_dry_friction) return best;
+  for (Variant& variant : variants) variant.is_plain = true;
+  return simpler(best_replacing(start, settings, variants), std::move(best));
 }
 
 /// Minimum of `error` over [low, high] by golden section (Kiefer 1953).
@@ -222,7 +235,7 @@ Variant moved_shape(const ScanStart& start, const ScanSettings& settings, const 
   constexpr int kRounds = 2;
   const Refinement& row = *variant.refinement;
   const auto error_with = [&](const Variant& other) {
-    if (!replaces_rows(row)) {
+    if (!replaces_rows(other)) {
       const auto looked =
           looked_at(look, look.products(variant_columns(start.design, other, start.fit.x)), other);
       return looked && looked->is_physical ? looked->error : kUnbounded;

@@ -19,6 +19,9 @@ constexpr double kLookAlikeShare = 0.25;   // of the gap: more than that apart i
 constexpr double kTieShare = 0.02;         // of the gap: closer than that is a tie at any sd
 constexpr double kSafety = 1.3;            // times the largest chance gain seen
 constexpr int kResamples = 200;
+// Growth of an invisible gap that is no worsening: of sums over thousands of rows, and of
+// simulations, whose gap is as much that of the parameters.
+constexpr double kAsGoodRows = 1.02, kAsGoodSimulated = 1.1;
 constexpr double kRemainder = 1.2;  // squared residual over floor: above, something is there
 
 bool may_be_named(const Candidate& c) { return c.refused.empty() && c.gain > 0; }
@@ -239,25 +242,32 @@ Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGa
 namespace {
 
 /// Of squared gaps on unseen logs. Where these show no gap in the first place, as when a drive
-/// never saturates in them, nothing can shrink: it is enough that nothing grows.
-bool is_better(double before, double after, double visible) {
-  constexpr double kAsGood = 1.02;
-  return before > visible ? after < before : after < kAsGood * before;
+/// never saturates in them, nothing can shrink: it is enough that nothing grows beyond `as_good`.
+bool is_better(double before, double after, double visible, double as_good) {
+  return before > visible ? after < before : after < as_good * before;
+}
+
+std::string in_words(double before, double after) {
+  return fmt::format("{:.3g} times the squared floor before, {:.3g} after", before, after);
 }
 
 }  // namespace
 
 std::string why_not_added(const UnseenChange& change) {
   if (change.row.is_event) return "";
-  if (!is_better(change.rho_before, change.rho_after, kVisibleGap))
-    return "the equations of unseen logs do not fit better with it";
+  if (!is_better(change.rho_before, change.rho_after, kVisibleGap, kAsGoodRows))
+    return fmt::format("the equations of unseen logs do not fit better with it ({})",
+                       in_words(change.rho_before, change.rho_after));
   if (!change.before.known() || !change.floor.known()) return "";
   if (!change.after.known()) return "with it the simulation fails: " + change.after.failure;
   // Parameters from other logs leave a simulation more than sensors do.
   constexpr double kVisibleSimulated = 1.5;
-  if (!is_better(in_floors(change.before, change.floor), in_floors(change.after, change.floor),
-                 kVisibleSimulated * in_floors(change.floor, change.floor)))
-    return "unseen logs are not simulated better with it";
+  const double floor = in_floors(change.floor, change.floor);
+  const double before = in_floors(change.before, change.floor);
+  const double after = in_floors(change.after, change.floor);
+  if (!is_better(before, after, kVisibleSimulated * floor, kAsGoodSimulated))
+    return fmt::format("unseen logs are not simulated better with it ({})",
+                       in_words(before / floor, after / floor));
   return "";
 }
 
