@@ -68,10 +68,12 @@ FullTorques full_torques(const Variant& variant, const Stretch& stretch,
       if (dated.since_event < 0) continue;
       state = &dated;
     }
-    if (row.advance != nullptr) row.advance(*state, variant.shape.data(), h, z.data());
+    // Half of the step before, half after: what they remember stands where the motion is.
+    if (row.advance != nullptr) row.advance(*state, variant.shape.data(), h / 2, z.data());
     if (row.torque != nullptr) row.torque(*state, variant.shape.data(), z.data(), link, motor);
     if (row.level != nullptr)
       add_level(row, *state, variant.shape.data(), z.data(), level, link, motor);
+    if (row.advance != nullptr) row.advance(*state, variant.shape.data(), h / 2, z.data());
   }
   return out;
 }

@@ -19,6 +19,9 @@ constexpr double kLookAlikeShare = 0.25;   // of the gap: more than that apart i
 constexpr double kTieShare = 0.02;         // of the gap: closer than that is a tie at any sd
 constexpr double kSafety = 1.3;            // times the largest chance gain seen
 constexpr int kResamples = 200;
+// Squared simulated gap over floor that is seen: parameters from other logs leave a simulation more
+// than sensors do.
+constexpr double kVisibleSimulated = 1.5;
 // Growth of an invisible gap that is no worsening: of sums over thousands of rows, and of
 // simulations, whose gap is as much that of the parameters.
 constexpr double kAsGoodRows = 1.02, kAsGoodSimulated = 1.1;
@@ -260,14 +263,32 @@ std::string why_not_added(const UnseenChange& change) {
                        in_words(change.rho_before, change.rho_after));
   if (!change.before.known() || !change.floor.known()) return "";
   if (!change.after.known()) return "with it the simulation fails: " + change.after.failure;
-  // Parameters from other logs leave a simulation more than sensors do.
-  constexpr double kVisibleSimulated = 1.5;
   const double floor = in_floors(change.floor, change.floor);
   const double before = in_floors(change.before, change.floor);
   const double after = in_floors(change.after, change.floor);
   if (!is_better(before, after, kVisibleSimulated * floor, kAsGoodSimulated))
     return fmt::format("unseen logs are not simulated better with it ({})",
                        in_words(before / floor, after / floor));
+  return "";
+}
+
+std::string why_not_both(const UnseenChange& change) {
+  if (change.row.is_event) return "one of two effects at once may not be an event";
+  std::string reason = why_not_added(change);
+  if (!reason.empty()) return reason;
+  if (change.rho_after > kRemainder)
+    return fmt::format(
+        "two effects at once should leave nothing in the equations of unseen logs "
+        "({})",
+        in_words(change.rho_before, change.rho_after));
+  if (!change.after.known() || !change.floor.known()) return "";
+  const double floor = in_floors(change.floor, change.floor);
+  const double after = in_floors(change.after, change.floor);
+  if (after > kVisibleSimulated * floor)
+    return fmt::format(
+        "two effects at once should leave nothing in the simulation of unseen logs "
+        "({})",
+        in_words(in_floors(change.before, change.floor) / floor, after / floor));
   return "";
 }
 
