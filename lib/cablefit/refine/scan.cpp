@@ -299,12 +299,13 @@ Candidate refined_shape(const ScanStart& start, const ScanSettings& settings, Ca
   const auto moved = [&](const Variant& variant) {
     return try_variant(start, settings, moved_shape(start, settings, look, variant));
   };
-  auto better = moved(candidate.variant);
-  if (!better || !better->refused.empty()) return candidate;
-  if (!has_plain_form(*candidate.variant.refinement)) return *better;
-  auto other = moved(other_form(candidate.variant));
-  const bool is_plain = candidate.variant.is_plain;
-  return *simpler(is_plain ? better : other, is_plain ? other : better);
+  auto best = moved(candidate.variant);
+  if (has_plain_form(*candidate.variant.refinement)) {
+    auto other = moved(other_form(candidate.variant));
+    const bool is_plain = candidate.variant.is_plain;
+    best = simpler(is_plain ? best : other, is_plain ? other : best);
+  }
+  return best && best->refused.empty() ? *best : candidate;
 }
 
 }  // namespace cablefit
