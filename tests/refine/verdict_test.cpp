@@ -131,10 +131,13 @@ TEST_CASE("the simulation of unseen logs has the last word", "[refine]") {
   const SimulatedGap floor{1e-5, 0.1, ""}, before{2e-5, 0.2, ""}, worse{3e-5, 0.2, ""},
       better{1.5e-5, 0.2, ""}, failed{0, 0, "diverged"};
   CHECK(why_not_added({row, 1.5, 1.2, before, better, floor}).empty());
-  CHECK(why_not_added({row, 1.5, 1.2, before, worse, floor}) ==
-        "unseen logs are not simulated better with it");
+  CHECK(
+      why_not_added({row, 1.5, 1.2, before, worse, floor}) ==
+      "unseen logs are not simulated better with it (4 times the squared floor before, 6.5 after)");
   CHECK(why_not_added({row, 1.5, 1.6, before, better, floor}) ==
-        "the equations of unseen logs do not fit better with it");
+        "the equations of unseen logs do not fit better with it (1.5 times the squared floor "
+        "before, 1.6 "
+        "after)");
   CHECK(why_not_added({row, 1.5, 1.2, before, failed, floor}) ==
         "with it the simulation fails: diverged");
   // These logs do not show the effect: what they show already is their floor.

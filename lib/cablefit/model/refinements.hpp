@@ -63,6 +63,7 @@ struct ShapeGrid {
   bool is_geometric = true;  ///< even in its logarithm
   GridUnit unit = GridUnit::si;
   bool is_whole = false;  ///< values are whole numbers, and nothing lies between them
+  double canonical = 0;   ///< the value of the textbooks, an exponent of 2; 0: none is special
 
   /// Value i = 0 .. n_values-1, in SI.
   double value(int i, const LogScale& scale) const;
@@ -121,6 +122,10 @@ struct Refinement {
   /// makes no sense for it or is there already. Coefficients are then fitted anew.
   std::optional<Transmission> (*change)(const Transmission& transmission,
                                         const double* shape) = nullptr;
+
+  /// The only linear parameter is a share of the dry friction of its axis: all of it in the plain
+  /// form of the law, more than all of it never.
+  bool takes_dry_friction = false;
 
   std::size_t n_linear() const { return parameters.size() - shape.size(); }
   /// An event after which the joint is another one, and not one that passes.

@@ -43,6 +43,11 @@ void fill_elastic(const Model& model, const SmoothMotion& m, bool link,
   if (link) out = -out;
 }
 
+Eigen::ArrayXd response_of(RowKind kind, const SmoothMotion& m, const Model& model) {
+  if (kind == RowKind::link) return m.tau_load;
+  return model.rigid ? Eigen::ArrayXd(m.tau + m.tau_load) : m.tau;
+}
+
 /// All columns and the response of one kind at the full rate.
 Eigen::MatrixXd full_columns(RowKind kind, const SmoothMotion& m, const Model& model,
                              const BaseLayout& c) {
@@ -56,7 +61,7 @@ Eigen::MatrixXd full_columns(RowKind kind, const SmoothMotion& m, const Model& m
                  all.middleCols(c.n_link, c.n_motor));
   }
   fill_elastic(model, m, link, all.middleCols(c.n_link + c.n_motor, c.n_elastic));
-  all.col(c.n()) = (link ? m.tau_load : model.rigid ? m.tau + m.tau_load : m.tau).matrix();
+  all.col(c.n()) = response_of(kind, m, model).matrix();
   return all;
 }
 
@@ -77,7 +82,12 @@ BaseLayout base_layout(const Model& model) {
   for (ModelParameter& p : model_parameters(model)) {
     const bool is_column = p.kind == ParameterKind::effect || p.kind == ParameterKind::stiffness ||
                            p.kind == ParameterKind::coefficient;
-    if (is_column && !p.is_shape) layout.parameters.push_back(std::move(p));
+    if (!is_column || p.is_shape) continue;
+    const bool is_effect = p.kind == ParameterKind::effect;
+    if (is_effect && (p.on_link ? axes.link : axes.motor)[p.effect].effect->dry != nullptr)
+      (p.on_link ? layout.dry_link : layout.dry_motor) =
+          static_cast<Eigen::Index>(layout.parameters.size());
+    layout.parameters.push_back(std::move(p));
   }
   return layout;
 }
@@ -113,6 +123,33 @@ StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayo
         apply_at(filter, full_columns(kind, rows.motion, model, layout), k.at);
     k.base = all.leftCols(layout.n());
     k.response = all.col(layout.n());
+  }
+  return rows;
+}
+
+StretchRows rows_of_torque(const StretchRows& kept, const Stretch& changed, const Model& model,
+                           const Smoothing& smoothing) {
+  StretchRows rows = kept;
+  const Recording& r = changed.recording;
+  rows.motion.tau = smooth_torque(r, model.rig.torque_hold != TorqueHold::none, smoothing);
+  const Kernel filter = gaussian(smoothing.columns, r.period);
+  for (KindRows& k : rows.kinds)
+    k.response = apply_at(filter, response_of(k.kind, rows.motion, model).matrix(), k.at);
+  return rows;
+}
+
+StretchRows rows_of_cables(const StretchRows& kept, const BaseLayout& before, const Model& model,
+                           const BaseLayout& layout, const Smoothing& smoothing) {
+  StretchRows rows = kept;
+  const Kernel filter = gaussian(smoothing.columns, kept.motion.period);
+  const Eigen::Index effects = before.n_link + before.n_motor;
+  for (KindRows& k : rows.kinds) {
+    Eigen::MatrixXd elastic(kept.motion.size(), layout.n_elastic);
+    fill_elastic(model, kept.motion, k.kind == RowKind::link, elastic);
+    const Eigen::MatrixXd old = std::move(k.base);
+    const Eigen::Index more = old.cols() - before.n();
+    k.base.resize(old.rows(), layout.n() + more);
+    k.base << old.leftCols(effects), apply_at(filter, elastic, k.at), old.rightCols(more);
   }
   return rows;
 }

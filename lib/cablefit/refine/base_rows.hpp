@@ -17,7 +17,8 @@ namespace cablefit {
 /// Several preloads share all of them (Fichera & Grossard 2017, (26)-(28)).
 struct BaseLayout {
   Eigen::Index n_link = 0, n_motor = 0, n_elastic = 0;
-  std::vector<ModelParameter> parameters;  ///< one per column
+  std::vector<ModelParameter> parameters;      ///< one per column
+  Eigen::Index dry_link = -1, dry_motor = -1;  ///< columns of dry friction; -1: the axis has none
   Eigen::Index n() const { return n_link + n_motor + n_elastic; }
 };
 BaseLayout base_layout(const Model& model);
@@ -44,5 +45,12 @@ struct StretchRows {
 /// row by row.
 StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayout& layout,
                       const Smoothing& smoothing, const StretchRows* kept = nullptr);
+
+/// The rows of a stretch again where positions are as they were: of another torque, or of a model
+/// with other cables. `kept`: rows with the columns of `before`, and what was added to them.
+StretchRows rows_of_torque(const StretchRows& kept, const Stretch& changed, const Model& model,
+                           const Smoothing& smoothing);
+StretchRows rows_of_cables(const StretchRows& kept, const BaseLayout& before, const Model& model,
+                           const BaseLayout& layout, const Smoothing& smoothing);
 
 }  // namespace cablefit

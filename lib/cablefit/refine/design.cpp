@@ -65,12 +65,64 @@ void fill_rows(Design& design, const std::vector<StretchRows>* kept) {
   }
 }
 
+bool same_positions(const Recording& a, const Recording& b) {
+  return (a.q == b.q).all() && (a.theta == b.theta).all() && (a.tau_load == b.tau_load).all();
+}
+
+/// What was added before stays as it is.
+StretchRows rows_of_correction(const Design& design, const Variant& variant, std::size_t k) {
+  Stretch stretch = design.stretches[k];
+  variant.refinement->correct(variant.shape.data(), stretch.recording);
+  const Model& model = design.models[stretch.model];
+  if (same_positions(stretch.recording, design.stretches[k].recording))
+    return rows_of_torque(design.rows[k], stretch, model, design.smoothing);
+  StretchRows rows = base_rows(stretch, model, design.layout, design.smoothing, &design.rows[k]);
+  for (std::size_t i = 0; i < rows.kinds.size(); ++i) {
+    Eigen::MatrixXd& base = rows.kinds[i].base;
+    const Eigen::MatrixXd& old = design.rows[k].kinds[i].base;
+    const Eigen::Index own = base.cols(), more = old.cols() - design.layout.n();
+    base.conservativeResize(Eigen::NoChange, own + more);
+    base.rightCols(more) = old.rightCols(more);
+  }
+  return rows;
+}
+
+/// The column of dry friction with what the row does to all of it.
+std::vector<StretchRows> rows_of_dry_friction(const Design& design, Variant variant) {
+  const Eigen::Index dry = dry_column(design, *variant.refinement);
+  if (dry < 0) return {};
+  variant.is_plain = false;
+  const VariantColumns columns = variant_columns(design, variant, {});
+  std::vector<StretchRows> rows = design.rows;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    for (std::size_t i = 0; i < rows[k].kinds.size(); ++i)
+      rows[k].kinds[i].base.col(dry) += columns[k][i].col(0);
+  return rows;
+}
+
 }  // namespace
+
+bool has_plain_form(const Refinement& row) {
+  return row.n_harmonics > 1 || row.takes_dry_friction ||
+         std::any_of(row.shape.begin(), row.shape.end(),
+                     [](const ShapeGrid& g) { return g.canonical > 0; });
+}
+
+Eigen::Index n_linear(const Variant& variant) {
+  const Refinement& row = *variant.refinement;
+  if (variant.is_plain && row.takes_dry_friction) return 0;
+  if (variant.is_plain && row.n_harmonics > 1) return 2;
+  return static_cast<Eigen::Index>(row.n_linear());
+}
+
+bool is_free(const Variant& variant, std::size_t shape) {
+  const ShapeGrid& grid = variant.refinement->shape[shape];
+  return !grid.is_whole && !(variant.is_plain && grid.canonical > 0);
+}
 
 Eigen::Index Design::n_columns() const {
   Eigen::Index n = layout.n();
-  for (const Variant& variant : added)
-    n += static_cast<Eigen::Index>(variant.refinement->n_linear());
+  for (const Variant& variant : added) n += n_linear(variant);
   return n;
 }
 
@@ -91,10 +143,15 @@ Design make_design(std::span<const Model> models, std::vector<Stretch> stretches
   return design;
 }
 
-bool replaces_rows(const Refinement& refinement) { return refinement.n_linear() == 0; }
+bool replaces_rows(const Variant& variant) { return n_linear(variant) == 0; }
+
+Eigen::Index dry_column(const Design& design, const Refinement& row) {
+  return row.site == Site::link ? design.layout.dry_link : design.layout.dry_motor;
+}
 
 std::vector<StretchRows> replaced_rows(const Design& design, const Variant& variant) {
   const Refinement& row = *variant.refinement;
+  if (row.takes_dry_friction) return rows_of_dry_friction(design, variant);
   std::vector<Model> models = design.models;
   BaseLayout layout = design.layout;
   if (row.change != nullptr) {
@@ -108,18 +165,10 @@ std::vector<StretchRows> replaced_rows(const Design& design, const Variant& vari
   }
   std::vector<StretchRows> rows;
   for (std::size_t k = 0; k < design.stretches.size(); ++k) {
-    Stretch stretch = design.stretches[k];
-    if (row.correct != nullptr) row.correct(variant.shape.data(), stretch.recording);
-    rows.push_back(
-        base_rows(stretch, models[stretch.model], layout, design.smoothing, &design.rows[k]));
-    // What was added before stays as it is.
-    for (std::size_t i = 0; i < rows.back().kinds.size(); ++i) {
-      Eigen::MatrixXd& base = rows.back().kinds[i].base;
-      const Eigen::MatrixXd& old = design.rows[k].kinds[i].base;
-      const Eigen::Index own = base.cols(), more = old.cols() - design.layout.n();
-      base.conservativeResize(Eigen::NoChange, own + more);
-      base.rightCols(more) = old.rightCols(more);
-    }
+    const Model& model = models[design.stretches[k].model];
+    rows.push_back(row.change != nullptr ? rows_of_cables(design.rows[k], design.layout, model,
+                                                          layout, design.smoothing)
+                                         : rows_of_correction(design, variant, k));
   }
   return rows;
 }
@@ -127,7 +176,7 @@ std::vector<StretchRows> replaced_rows(const Design& design, const Variant& vari
 Design with_variant(const Design& design, const Variant& variant, const Eigen::VectorXd& values) {
   Design out = design;
   const Refinement& row = *variant.refinement;
-  if (replaces_rows(row)) {
+  if (replaces_rows(variant)) {
     out.rows = replaced_rows(design, variant);
     if (row.change != nullptr)
       for (Model& model : out.models)
@@ -158,7 +207,8 @@ Design relinearised(const Design& design, const Eigen::VectorXd& values) {
   out.added.clear();
   for (const Variant& variant : design.added) {
     // Cables and recordings are those of the effect already.
-    if (replaces_rows(*variant.refinement))
+    const Refinement& row = *variant.refinement;
+    if (row.change != nullptr || (row.correct != nullptr && replaces_rows(variant)))
       out.added.push_back(variant);
     else
       out = with_variant(out, variant, values);

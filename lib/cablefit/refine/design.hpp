@@ -16,7 +16,17 @@ struct Variant {
   std::vector<double> shape;
   std::size_t event_log = 0;  ///< events only
   double event_time = 0;      ///< s
+  bool is_plain = false;      ///< the row's plain form, see has_plain_form
 };
+
+/// Some rows have more parameters than the law of the textbooks, so that they also name what is
+/// like it: a second harmonic, an exponent, a share. Their plain form has one harmonic, the
+/// canonical exponents, all of the dry friction.
+bool has_plain_form(const Refinement& row);
+/// How many of the row's linear parameters the variant has.
+Eigen::Index n_linear(const Variant& variant);
+/// Whether a nonlinear parameter was looked for on a continuous range.
+bool is_free(const Variant& variant, std::size_t shape);
 
 /// Everything that a fit of linear parameters needs. Columns: those of the layout, then those of
 /// `added`, in order.
@@ -37,6 +47,9 @@ struct Design {
 Design make_design(std::span<const Model> models, std::vector<Stretch> stretches,
                    Smoothing smoothing);
 
+/// Column of the dry friction of the axis that the row acts on; -1: there is none.
+Eigen::Index dry_column(const Design& design, const Refinement& row);
+
 /// Columns of a variant, per stretch and kind of row (n_rows x n_linear). Rows that a variant
 /// replaces are not its business, see replaced_rows.
 using VariantColumns = std::vector<std::vector<Eigen::MatrixXd>>;
@@ -45,7 +58,7 @@ VariantColumns variant_columns(const Design& design, const Variant& variant,
 
 /// Whether a variant has no columns but other base columns or responses (other cables, a clipped
 /// torque), and these. Empty: it makes no sense for this model.
-bool replaces_rows(const Refinement& refinement);
+bool replaces_rows(const Variant& variant);
 std::vector<StretchRows> replaced_rows(const Design& design, const Variant& variant);
 
 /// The design with a variant in it. `values`: of the columns so far.

@@ -138,6 +138,13 @@ BlockGrams extended(const BlockGrams& base, const std::vector<StretchRows>& rows
   return grams;
 }
 
+Eigen::MatrixXd weighted_sum(const BlockGrams& grams, const KindLevels& levels) {
+  const Eigen::Index n = 1 + grams.n_columns;
+  Eigen::MatrixXd total = Eigen::MatrixXd::Zero(n, n);
+  for (const BlockGrams::Block& block : grams.blocks) total += weighted(block, levels, n);
+  return total;
+}
+
 KindLevels BlockFit::rms() const {
   KindLevels out{};
   for (std::size_t k = 0; k < kRowKinds; ++k)
@@ -176,6 +183,28 @@ std::optional<BlockFit> fit_blocks(const BlockGrams& grams, const KindLevels& le
   fit.covariance = all->inverse * meat * all->inverse;
   add_kind_sums(grams, fit);
   return fit;
+}
+
+std::optional<Eigen::MatrixXd> jackknife_covariance(const BlockGrams& grams,
+                                                    const KindLevels& levels) {
+  const Eigen::Index n = 1 + grams.n_columns;
+  const Eigen::MatrixXd total = weighted_sum(grams, levels);
+  std::vector<Eigen::VectorXd> without;
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(n - 1);
+  for (const BlockGrams::Block& block : grams.blocks) {
+    const Eigen::MatrixXd own = weighted(block, levels, n);
+    if (!(own(0, 0) > 0)) continue;
+    const auto others = solve_normal(total - own, false, {});
+    if (!others) return {};
+    without.push_back(others->x);
+    mean += others->x;
+  }
+  const auto blocks = static_cast<double>(without.size());
+  if (blocks < 2) return {};
+  mean /= blocks;
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n - 1, n - 1);
+  for (const Eigen::VectorXd& x : without) covariance += (x - mean) * (x - mean).transpose();
+  return (blocks - 1) / blocks * covariance;
 }
 
 Eigen::ArrayXd errors_of(const BlockGrams& grams, const KindLevels& levels,

@@ -33,6 +33,9 @@ BlockGrams extended(const BlockGrams& base, const std::vector<StretchRows>& rows
                     const std::vector<Stretch>& stretches, const VariantColumns& columns,
                     double block_seconds);
 
+/// All blocks and kinds of rows in one, rows weighted by 1/level^2 of their kind.
+Eigen::MatrixXd weighted_sum(const BlockGrams& grams, const KindLevels& levels);
+
 /// A weighted fit, rows weighted by 1/level^2 of their kind.
 struct BlockFit {
   Eigen::VectorXd x;                        ///< n_columns
@@ -54,6 +57,12 @@ struct OwnPart {
 /// None where the columns cannot be told apart.
 std::optional<BlockFit> fit_blocks(const BlockGrams& grams, const KindLevels& levels,
                                    bool with_held_out = true, const OwnPart& own = {});
+
+/// Covariance of x by leaving out each block in turn, which no block can hide that has a pull of
+/// its own (jackknife; Efron & Stein 1981: on average not too small). Nothing where the rest of a
+/// block does not determine all columns.
+std::optional<Eigen::MatrixXd> jackknife_covariance(const BlockGrams& grams,
+                                                    const KindLevels& levels);
 
 /// Squared error of given values, per block, weighted.
 Eigen::ArrayXd errors_of(const BlockGrams& grams, const KindLevels& levels,

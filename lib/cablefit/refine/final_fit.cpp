@@ -1,5 +1,6 @@
 #include "cablefit/refine/final_fit.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -9,6 +10,7 @@ namespace cablefit {
 namespace {
 
 constexpr double kShapeStep = 0.02;  // of a nonlinear parameter, for a central difference
+constexpr double kDateStep = 5e-3;   // s, of an event
 
 Eigen::Index count_rows(const std::vector<StretchRows>& rows) {
   Eigen::Index n = 0;
@@ -27,25 +29,21 @@ VariantColumns residuals(const std::vector<StretchRows>& rows, const Eigen::Vect
   return all;
 }
 
-/// The design with all variants again, one of their shapes moved.
-Design with_shape(const Design& undone, const Design& design, const Eigen::VectorXd& x,
-                  std::size_t which, std::size_t shape, double value) {
+/// The design with all variants again, one of them another.
+Design with_other(const Design& undone, const Design& design, const Eigen::VectorXd& x,
+                  std::size_t which, const Variant& other) {
   Design out = undone;
-  for (std::size_t k = 0; k < design.added.size(); ++k) {
-    Variant variant = design.added[k];
-    if (k == which) variant.shape[shape] = value;
-    out = with_variant(out, variant, x.head(out.n_columns()));
-  }
+  for (std::size_t k = 0; k < design.added.size(); ++k)
+    out = with_variant(out, k == which ? other : design.added[k], x.head(out.n_columns()));
   return out;
 }
 
-/// Derivative of the residuals by one nonlinear parameter.
-VariantColumns shape_column(const Design& undone, const Design& design, const Eigen::VectorXd& x,
-                            std::size_t which, std::size_t shape) {
-  const double value = design.added[which].shape[shape];
-  const double step = kShapeStep * std::abs(value);
-  const Design more = with_shape(undone, design, x, which, shape, value + step);
-  const Design less = with_shape(undone, design, x, which, shape, value - step);
+/// Derivative of the residuals by something nonlinear of one variant, central, from the variant
+/// with `step` more and less of it.
+VariantColumns derivative(const Design& undone, const Design& design, const Eigen::VectorXd& x,
+                          std::size_t which, const std::array<Variant, 2>& less_more, double step) {
+  const Design less = with_other(undone, design, x, which, less_more[0]);
+  const Design more = with_other(undone, design, x, which, less_more[1]);
   VariantColumns column = residuals(more.rows, x);
   const VariantColumns low = residuals(less.rows, x);
   for (std::size_t s = 0; s < column.size(); ++s)
@@ -54,21 +52,34 @@ VariantColumns shape_column(const Design& undone, const Design& design, const Ei
   return column;
 }
 
-/// Grams of the linear columns and one column per nonlinear parameter.
+void append(std::vector<StretchRows>& rows, const VariantColumns& column) {
+  for (std::size_t s = 0; s < rows.size(); ++s)
+    for (std::size_t k = 0; k < rows[s].kinds.size(); ++k) {
+      Eigen::MatrixXd& base = rows[s].kinds[k].base;
+      base.conservativeResize(Eigen::NoChange, base.cols() + 1);
+      base.rightCols(1) = column[s][k];
+    }
+}
+
+/// Grams of the linear columns, one column per nonlinear parameter, and one per date, which is not
+/// reported but blurs the rest.
 BlockGrams with_shape_columns(const Design& undone, const Design& design, const Eigen::VectorXd& x,
                               double block_seconds) {
   std::vector<StretchRows> rows = design.rows;
+  const auto add = [&](std::size_t k, double step, auto move) {
+    std::array<Variant, 2> less_more{design.added[k], design.added[k]};
+    move(less_more[0], -step);
+    move(less_more[1], step);
+    append(rows, derivative(undone, design, x, k, less_more, step));
+  };
   for (std::size_t k = 0; k < design.added.size(); ++k)
-    for (std::size_t i = 0; i < design.added[k].shape.size(); ++i) {
-      if (design.added[k].refinement->shape[i].is_whole) continue;
-      const VariantColumns column = shape_column(undone, design, x, k, i);
-      for (std::size_t s = 0; s < rows.size(); ++s)
-        for (std::size_t kind = 0; kind < rows[s].kinds.size(); ++kind) {
-          Eigen::MatrixXd& base = rows[s].kinds[kind].base;
-          base.conservativeResize(Eigen::NoChange, base.cols() + 1);
-          base.rightCols(1) = column[s][kind];
-        }
-    }
+    for (std::size_t i = 0; i < design.added[k].shape.size(); ++i)
+      if (is_free(design.added[k], i))
+        add(k, kShapeStep * std::abs(design.added[k].shape[i]),
+            [i](Variant& variant, double by) { variant.shape[i] += by; });
+  for (std::size_t k = 0; k < design.added.size(); ++k)
+    if (design.added[k].refinement->is_event)
+      add(k, kDateStep, [](Variant& variant, double by) { variant.event_time += by; });
   return block_grams(rows, design.stretches, block_seconds);
 }
 
@@ -79,7 +90,7 @@ std::vector<Eigen::Index> first_columns(const Design& design) {
   Eigen::Index next = design.layout.n();
   for (const Variant& variant : design.added) {
     first.push_back(next);
-    next += static_cast<Eigen::Index>(variant.refinement->n_linear());
+    next += n_linear(variant);
   }
   return first;
 }
@@ -101,10 +112,10 @@ FinalFit final_fit(const Design& undone, const Design& design, const KindLevels&
   fit.x = solve_scaled(a, b).x;
   fit.rms = rms_of(block_grams(design.rows, design.stretches, block_seconds), fit.x);
   const BlockGrams grams = with_shape_columns(undone, design, fit.x, block_seconds);
-  const auto all = fit_blocks(grams, levels, false);
   const Eigen::Index q = grams.n_columns;
-  fit.covariance = all ? all->covariance
-                       : Eigen::MatrixXd::Constant(q, q, std::numeric_limits<double>::quiet_NaN());
+  fit.covariance =
+      jackknife_covariance(grams, levels)
+          .value_or(Eigen::MatrixXd::Constant(q, q, std::numeric_limits<double>::quiet_NaN()));
   fit.degrees_of_freedom =
       std::max(1.0, static_cast<double>(grams.blocks.size()) - static_cast<double>(q));
   return fit;

@@ -7,10 +7,10 @@
 namespace cablefit {
 
 /// Values and covariance of all linear columns of a design, then of every nonlinear parameter of
-/// what was added that is no whole number, in order.
+/// what was added that was looked for on a range, in order; then of the dates of events.
 struct FinalFit {
   Eigen::VectorXd x;              ///< linear columns
-  Eigen::MatrixXd covariance;     ///< of x and the nonlinear ones; sandwich over blocks
+  Eigen::MatrixXd covariance;     ///< of x and the nonlinear ones; jackknife over blocks
   double degrees_of_freedom = 1;  ///< blocks less parameters, for t quantiles
   KindLevels rms{};
 };

@@ -27,6 +27,14 @@ KindLevels rms_over(const std::vector<KindLevels>& several) {
   return out;
 }
 
+Paired paired(const Eigen::ArrayXd& a, const Eigen::ArrayXd& b) {
+  const Eigen::ArrayXd d = a - b;
+  const auto n = static_cast<double>(d.size());
+  const double sum = d.sum();
+  const double variance = (d - sum / n).square().sum() * n / std::max(1.0, n - 1);
+  return {sum, std::sqrt(variance)};
+}
+
 double rho_of(const BlockFit& fit, const KindLevels& floor) {
   double sum = 0, n = 0;
   for (std::size_t k = 0; k < kRowKinds; ++k) {

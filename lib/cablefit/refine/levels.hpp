@@ -11,6 +11,13 @@ KindLevels at_least(KindLevels levels, const KindLevels& floor);
 /// Root of the mean square over several.
 KindLevels rms_over(const std::vector<KindLevels>& several);
 
+/// Difference of two fits' errors over the blocks, and its standard error.
+struct Paired {
+  double sum = 0, se = 0;
+  double in_sd() const { return se > 0 ? sum / se : sum > 0 ? kUnbounded : 0; }
+};
+Paired paired(const Eigen::ArrayXd& a, const Eigen::ArrayXd& b);
+
 /// rho: mean over all rows of the squared residual in units of its floor.
 double rho_of(const BlockFit& fit, const KindLevels& floor);
 /// The same of given values on other rows; per block too, for a bootstrap.

@@ -73,13 +73,17 @@ SmoothMotion smooth_motion_of(const Recording& r, double t0, bool held,
   m.thetad = apply(slope, r.theta);
   m.thetadd = apply(curvature, r.theta);
   m.tau_load = apply(smooth, r.tau_load);
-  Eigen::ArrayXd tau = r.tau;
-  if (held)
-    for (Eigen::Index i = tau.size() - 1; i > 0; --i) tau(i) = 0.5 * (tau(i) + tau(i - 1));
-  m.tau = apply(smooth, tau);
+  m.tau = smooth_torque(r, held, smoothing);
   m.q_direction = m.qd.sign();
   m.theta_direction = m.thetad.sign();
   return m;
+}
+
+Eigen::ArrayXd smooth_torque(const Recording& r, bool held, const Smoothing& smoothing) {
+  Eigen::ArrayXd tau = r.tau;
+  if (held)
+    for (Eigen::Index i = tau.size() - 1; i > 0; --i) tau(i) = 0.5 * (tau(i) + tau(i - 1));
+  return apply(gaussian(smoothing.signals, r.period), tau);
 }
 
 std::vector<Eigen::Index> moving_rows(const Eigen::ArrayXd& speed, double least_speed,

@@ -42,6 +42,9 @@ struct SmoothMotion {
 SmoothMotion smooth_motion_of(const Recording& recording, double t0, bool held,
                               const Smoothing& smoothing);
 
+/// Only its tau.
+Eigen::ArrayXd smooth_torque(const Recording& recording, bool held, const Smoothing& smoothing);
+
 /// Samples at which an equation has a row: far enough from the ends, and no rest of the own axis
 /// within reach of the kernel.
 std::vector<Eigen::Index> moving_rows(const Eigen::ArrayXd& speed, double least_speed,

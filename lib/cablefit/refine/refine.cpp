@@ -175,40 +175,125 @@ RefineEvidence evidence_of(const Bench& bench, const State& before, const State&
   return e;
 }
 
-/// One round: search, judge, confirm, add. False: nothing was added.
-bool add_next_effect(Bench& bench, State& state, RefineResult& result) {
-  const bool is_first = result.effects.empty();
+/// What a search names, added on trial.
+struct Trial {
+  Judgement judgement;
+  Candidate winner;
+  State after;
+};
+
+/// Nothing: nothing is named.
+std::optional<Trial> try_next(Bench& bench, const State& state, bool is_first,
+                              RefineResult* first_result) {
   tell(bench.options, "search", 0);
   const Search found = search(state.design, bench.floor, bench.scan);
-  if (is_first) result.not_separable = not_separable(found);
   need_draws(bench, state, found);
   const SquaredGap gap{found.fit.held_out.sum(), floor_error(found.fit, bench.floor, found.levels)};
-  const Judgement judgement =
-      judge_search(found.candidates, gap, bench.draws, bench.options, is_first);
-  if (is_first) result.league = judgement.league;
-  if (!judgement.is_named) return false;
-  const Candidate winner = refined_shape({state.design, found.grams, found.fit, found.levels},
-                                         bench.scan, *judgement.best);
-  auto next = with_candidate(bench, state, found, winner);
-  if (!next) return false;
-  const Refinement& row = *winner.variant.refinement;
+  Trial trial;
+  trial.judgement = judge_search(found.candidates, gap, bench.draws, bench.options, is_first);
+  if (first_result != nullptr) {
+    first_result->not_separable = not_separable(found);
+    first_result->league = trial.judgement.league;
+  }
+  if (!trial.judgement.is_named) return {};
+  trial.winner = refined_shape({state.design, found.grams, found.fit, found.levels}, bench.scan,
+                               *trial.judgement.best);
+  trial.judgement.best = nullptr;  // of the search, which ends here
+  auto next = with_candidate(bench, state, found, trial.winner);
+  if (!next) return {};
+  trial.after = std::move(*next);
+  return trial;
+}
+
+/// `reason`: of a refusal.
+RefineStep step_of(const Bench& bench, const Trial& trial, const std::string& reason) {
+  const Refinement& row = *trial.winner.variant.refinement;
   const double unit = bench.floor[static_cast<std::size_t>(RowKind::motor)];
   RefineStep step;
   step.added = row.name;
   step.side = to_string(row.site);
-  step.gap_train = unit * std::sqrt(next->rho);
-  step.gap_test = unit * std::sqrt(next->unseen.rho);
-  step.reason = why_not_added({row, state.unseen.rho, next->unseen.rho, state.simulated,
-                               next->simulated, bench.simulation_floor});
-  step.accepted = step.reason.empty();
-  result.steps.push_back(step);
-  if (!step.accepted) return false;
+  step.gap_train = unit * std::sqrt(trial.after.rho);
+  step.gap_test = unit * std::sqrt(trial.after.unseen.rho);
+  step.reason = reason;
+  step.accepted = reason.empty();
+  return step;
+}
+
+UnseenChange change_of(const Bench& bench, const Refinement& row, const State& before,
+                       const State& after) {
+  return {row,
+          before.unseen.rho,
+          after.unseen.rho,
+          before.simulated,
+          after.simulated,
+          bench.simulation_floor};
+}
+
+NamedEffect effect_of(const Bench& bench, const State& before, const State& after,
+                      const Judgement& judgement) {
   NamedEffect effect;
-  effect.evidence = evidence_of(bench, state, *next, judgement);
+  effect.evidence = evidence_of(bench, before, after, judgement);
   effect.rivals = judgement.rivals;
-  result.effects.push_back(std::move(effect));
-  state = std::move(*next);
+  return effect;
+}
+
+/// What was refused alone may be half of the truth: with the next best beside it, both are judged
+/// together. Two names at once need more evidence than one.
+bool add_both(Bench& bench, State& state, const Trial& one, RefineResult& result) {
+  auto two = try_next(bench, one.after, false, nullptr);
+  if (!two) return false;
+  const UnseenChange change = change_of(bench, *two->winner.variant.refinement, state, two->after);
+  const std::string reason = why_not_both(change);
+  result.steps.push_back(step_of(bench, *two, reason));
+  if (!reason.empty()) return false;
+  for (RefineStep& step : result.steps) step.accepted = true;
+  result.effects.push_back(effect_of(bench, state, one.after, one.judgement));
+  result.effects.push_back(effect_of(bench, one.after, two->after, two->judgement));
+  state = std::move(two->after);
   return true;
+}
+
+/// One round: search, judge, confirm, add. False: nothing was added.
+bool add_next_effect(Bench& bench, State& state, RefineResult& result) {
+  const bool is_first = result.effects.empty();
+  auto trial = try_next(bench, state, is_first, is_first ? &result : nullptr);
+  if (!trial) return false;
+  const Refinement& row = *trial->winner.variant.refinement;
+  const std::string reason = why_not_added(change_of(bench, row, state, trial->after));
+  result.steps.push_back(step_of(bench, *trial, reason));
+  if (!reason.empty()) return is_first && add_both(bench, state, *trial, result);
+  result.effects.push_back(effect_of(bench, state, trial->after, trial->judgement));
+  state = std::move(trial->after);
+  return true;
+}
+
+/// The first of two was named while the second was missing: named again beside it, it may be
+/// another.
+void name_first_again(Bench& bench, const State& first, State& state, RefineResult& result) {
+  Search found;
+  found.levels = state.levels;
+  found.fit.x = first.x;
+  Candidate second;
+  second.variant = state.design.added[1];
+  const auto alone = with_candidate(bench, first, found, second);
+  if (!alone) return;
+  const auto trial = try_next(bench, *alone, false, nullptr);
+  if (!trial) return;
+  const Refinement& row = *trial->winner.variant.refinement;
+  NamedEffect& named = result.effects.front();
+  if (&row == state.design.added.front().refinement) {
+    named.rivals = trial->judgement.rivals;  // fewer: the second no longer blurs it
+    return;
+  }
+  if (trial->after.rho >= state.rho || trial->after.unseen.rho >= state.unseen.rho ||
+      !why_not_added(change_of(bench, row, *alone, trial->after)).empty())
+    return;
+  result.steps.front() = step_of(bench, *trial, "");
+  named = effect_of(bench, first, trial->after, trial->judgement);
+  State other = trial->after;
+  std::swap(result.effects[0], result.effects[1]);  // in the order of the design
+  std::swap(result.steps[0], result.steps[1]);
+  state = std::move(other);
 }
 
 /// Torques of rows weighted so that every equation has the motor's floor.
@@ -310,8 +395,10 @@ RefineResult refine(std::span<const Model> models, const RefineLogs& logs,
   result.where = find_regimes(first.design, first.x, bench.floor);
 
   State state = first;
-  while (result.effects.size() < options.most_effects && add_next_effect(bench, state, result))
+  while (result.effects.size() < options.most_effects && add_next_effect(bench, state, result)) {
+    if (result.effects.size() == 2) name_first_again(bench, first, state, result);
     if (state.rho < kNoGap) break;
+  }
 
   const FinalFit fit =
       final_fit(first.design, state.design, state.levels, bench.scan.block_seconds);

@@ -34,10 +34,12 @@ Estimate estimate_of(const ParameterInfo& info, double value, double sd, double 
 double sd_at(const FinalFit& fit, Eigen::Index i) { return std::sqrt(fit.covariance(i, i)); }
 
 /// Amplitude of each harmonic from its sine and cosine, by the delta method.
-std::vector<Estimate> amplitudes(const Refinement& row, const FinalFit& fit, Eigen::Index first) {
+std::vector<Estimate> amplitudes(const Variant& variant, const FinalFit& fit, Eigen::Index first) {
   constexpr std::array<std::string_view, 3> kNames{"amplitude", "amplitude_2", "amplitude_3"};
   std::vector<Estimate> out;
-  for (int h = 0; h < std::min(row.n_harmonics, 3); ++h) {
+  const Refinement& row = *variant.refinement;
+  const int n_harmonics = std::min<int>(row.n_harmonics, static_cast<int>(n_linear(variant)) / 2);
+  for (int h = 0; h < std::min(n_harmonics, 3); ++h) {
     const Eigen::Index at = first + 2 * h;
     const double a = std::hypot(fit.x(at), fit.x(at + 1));
     if (!(a > 0)) continue;
@@ -105,7 +107,7 @@ std::vector<NamedEffect> named_effects(const Design& design, const FinalFit& fit
   for (std::size_t k = 0; k < design.added.size(); ++k) {
     const Variant& variant = design.added[k];
     const Refinement& row = *variant.refinement;
-    const auto n = static_cast<Eigen::Index>(row.n_linear());
+    const Eigen::Index n = n_linear(variant);
     NamedEffect& effect = effects.emplace_back();
     effect.instance.refinement = &row;
     effect.instance.event_log = variant.event_log;
@@ -118,9 +120,12 @@ std::vector<NamedEffect> named_effects(const Design& design, const FinalFit& fit
     };
     for (Eigen::Index p = 0; p < n; ++p)
       add(static_cast<std::size_t>(p), fit.x(first[k] + p), sd_at(fit, first[k] + p));
+    const Eigen::Index dry = n == 0 && row.takes_dry_friction ? dry_column(design, row) : -1;
+    for (auto p = static_cast<std::size_t>(n); p < row.n_linear(); ++p)
+      add(p, dry >= 0 ? fit.x(dry) : 0, dry >= 0 ? sd_at(fit, dry) : 0);
     for (std::size_t p = 0; p < variant.shape.size(); ++p)
-      add(row.n_linear() + p, variant.shape[p], row.shape[p].is_whole ? 0 : sd_at(fit, shape_at++));
-    effect.derived = amplitudes(row, fit, first[k]);
+      add(row.n_linear() + p, variant.shape[p], is_free(variant, p) ? sd_at(fit, shape_at++) : 0);
+    effect.derived = amplitudes(variant, fit, first[k]);
     for (Estimate& e : effect.derived) e.unit = unit_on(model.rig, e.unit);
     if (n > 0) effect.torque_rms = carried_torque(design, fit.x, first[k], n);
   }

@@ -5,6 +5,8 @@
 #include <optional>
 
 #include "cablefit/base/parallel.hpp"
+#include "cablefit/refine/levels.hpp"
+#include "cablefit/refine/quick_look.hpp"
 
 namespace cablefit {
 namespace {
@@ -15,10 +17,11 @@ constexpr double kTolerance = 1e-4;
 constexpr double kEventMargin = 1.0;  // s, to the ends of a log
 constexpr int kGoldenSteps = 9;       // 0.618^9 = 1 % of a cell
 
-bool is_out_of_bounds(const Refinement& row, const Eigen::VectorXd& x, Eigen::Index first) {
-  for (std::size_t p = 0; p < row.n_linear(); ++p) {
-    const double value = x(first + static_cast<Eigen::Index>(p));
-    if (value < row.parameters[p].lower || value > row.parameters[p].upper) return true;
+/// `x`: of the variant's own columns.
+bool is_out_of_bounds(const Refinement& row, const Eigen::VectorXd& x) {
+  for (Eigen::Index p = 0; p < x.size(); ++p) {
+    const ParameterInfo& bounds = row.parameters[static_cast<std::size_t>(p)];
+    if (x(p) < bounds.lower || x(p) > bounds.upper) return true;
   }
   return false;
 }
@@ -26,7 +29,7 @@ bool is_out_of_bounds(const Refinement& row, const Eigen::VectorXd& x, Eigen::In
 std::optional<BlockGrams> grams_with(const ScanStart& start, const ScanSettings& settings,
                                      const Variant& variant) {
   const Design& design = start.design;
-  if (replaces_rows(*variant.refinement)) {
+  if (replaces_rows(variant)) {
     const auto rows = replaced_rows(design, variant);
     if (rows.empty()) return {};
     return block_grams(rows, design.stretches, settings.block_seconds);
@@ -41,8 +44,8 @@ std::optional<Candidate> try_variant(const ScanStart& start, const ScanSettings&
   const auto grams = grams_with(start, settings, variant);
   if (!grams) return {};
   const Refinement& row = *variant.refinement;
-  const auto fit = fit_blocks(*grams, start.levels, !row.is_event,
-                              {kTolerance, static_cast<Eigen::Index>(row.n_linear())});
+  const Eigen::Index n = n_linear(variant);
+  const auto fit = fit_blocks(*grams, start.levels, !row.is_event, {kTolerance, n});
   if (!fit) return {};
   Candidate c;
   c.variant = std::move(variant);
@@ -51,8 +54,9 @@ std::optional<Candidate> try_variant(const ScanStart& start, const ScanSettings&
   c.error = row.is_event ? fit->in_sample : fit->held_out;
   const Eigen::ArrayXd& before = row.is_event ? start.fit.in_sample : start.fit.held_out;
   c.gain = 1 - c.error.sum() / before.sum();
-  const Eigen::Index first = fit->x.size() - static_cast<Eigen::Index>(row.n_linear());
-  if (is_out_of_bounds(row, fit->x, first)) c.refused = "beyond its physical bound";
+  const Eigen::Index dry = row.takes_dry_friction ? dry_column(start.design, row) : -1;
+  const bool too_dry = dry >= 0 && n > 0 && fit->x(fit->x.size() - n) > fit->x(dry);
+  if (too_dry || is_out_of_bounds(row, fit->x.tail(n))) c.refused = "beyond its physical bound";
   return c;
 }
 
@@ -94,11 +98,11 @@ std::vector<Variant> variants_of(const Refinement& row, const Design& design, do
   std::vector<Variant> all;
   for (const auto& shape : grid_points(row, design.scale)) {
     if (!row.is_event) {
-      all.push_back({&row, shape, 0, 0});
+      all.push_back({&row, shape, 0, 0, false});
       continue;
     }
     for (const auto& [log, time] : dates(design, event_step))
-      all.push_back({&row, shape, log, time});
+      all.push_back({&row, shape, log, time, false});
   }
   return all;
 }
@@ -109,14 +113,86 @@ bool is_better(const Candidate& a, const Candidate& b) {
   return a.gain > b.gain;
 }
 
-std::optional<Candidate> best_variant(const ScanStart& start, const ScanSettings& settings,
-                                      const Refinement& row) {
+/// A variant with its squared error in sample, and whether it is physical.
+struct Looked {
+  Variant variant;
+  double error = 0;
+  bool is_physical = false;
+};
+
+/// Nothing where it cannot be told apart. `products`: of the columns of the variant, and perhaps
+/// more.
+std::optional<Looked> looked_at(const QuickLook& look, const QuickLook::Products& products,
+                                const Variant& variant) {
+  const auto glance = look.with(products, n_linear(variant), kTolerance);
+  if (!glance) return {};
+  return Looked{variant, glance->error, !is_out_of_bounds(*variant.refinement, glance->x)};
+}
+
+void keep_better(std::optional<Looked>& best, std::optional<Looked> other) {
+  if (!other) return;
+  if (!best ||
+      (other->is_physical != best->is_physical ? other->is_physical : other->error < best->error))
+    best = std::move(other);
+}
+
+/// The plain form at the same shape; nothing where the shape is another one.
+std::optional<Variant> plain_of(Variant variant) {
+  const Refinement& row = *variant.refinement;
+  if (!has_plain_form(row)) return {};
+  variant.is_plain = true;
+  if (replaces_rows(variant)) return {};  // no columns of its own: see best_replacing
+  for (std::size_t i = 0; i < row.shape.size(); ++i)
+    if (!is_free(variant, i) && row.shape[i].canonical > 0 &&
+        variant.shape[i] != row.shape[i].canonical)
+      return {};
+  return variant;
+}
+
+/// Of two forms of one law the plain one, unless the held-out blocks agree on the other.
+std::optional<Candidate> simpler(std::optional<Candidate> plain, std::optional<Candidate> full) {
+  constexpr double kAgree = 2;  // sd of the paired blocks' difference
+  if (!plain || !full) return plain ? plain : full;
+  if (plain->refused.empty() != full->refused.empty()) return full->refused.empty() ? full : plain;
+  const Paired difference = paired(plain->error, full->error);
+  return difference.sum > kAgree * difference.se ? full : plain;
+}
+
+/// Of variants with as many parameters, all fitted, the one that fits best; the plain form apart.
+std::optional<Candidate> best_fitting(const ScanStart& start, const ScanSettings& settings,
+                                      const QuickLook& look, const std::vector<Variant>& variants) {
+  std::optional<Looked> plain, full;
+  for (const Variant& variant : variants) {
+    const auto products = look.products(variant_columns(start.design, variant, start.fit.x));
+    keep_better(full, looked_at(look, products, variant));
+    if (const auto same = plain_of(variant)) keep_better(plain, looked_at(look, products, *same));
+  }
+  const auto tried = [&](const std::optional<Looked>& looked) {
+    return looked ? try_variant(start, settings, looked->variant) : std::nullopt;
+  };
+  return simpler(tried(plain), tried(full));
+}
+
+/// The same of variants that replace rows.
+std::optional<Candidate> best_replacing(const ScanStart& start, const ScanSettings& settings,
+                                        const std::vector<Variant>& variants) {
   std::optional<Candidate> best;
-  for (Variant& variant : variants_of(row, start.design, date_step(row, settings))) {
-    auto candidate = try_variant(start, settings, std::move(variant));
+  for (const Variant& variant : variants) {
+    auto candidate = try_variant(start, settings, variant);
     if (candidate && (!best || is_better(*candidate, *best))) best = std::move(candidate);
   }
   return best;
+}
+
+std::optional<Candidate> best_variant(const ScanStart& start, const ScanSettings& settings,
+                                      const QuickLook& look, const Refinement& row) {
+  std::vector<Variant> variants = variants_of(row, start.design, date_step(row, settings));
+  if (variants.empty()) return {};  // no log is long enough for a date
+  if (replaces_rows(variants.front())) return best_replacing(start, settings, variants);
+  auto best = best_fitting(start, settings, look, variants);
+  if (!row.takes_dry_friction) return best;
+  for (Variant& variant : variants) variant.is_plain = true;
+  return simpler(best_replacing(start, settings, variants), std::move(best));
 }
 
 /// Minimum of `error` over [low, high] by golden section (Kiefer 1953).
@@ -153,36 +229,23 @@ std::pair<double, double> around(const ShapeGrid& grid, double value, const LogS
   return {std::max(low, value - step), std::min(high, value + step)};
 }
 
-}  // namespace
-
-std::vector<Candidate> scan(const ScanStart& start, const ScanSettings& settings,
-                            const std::vector<const Refinement*>& without) {
-  std::vector<Candidate> found;
-  ordered_pipeline<const Refinement*>(
-      settings.threads,
-      [&](auto emit) {
-        for (const Refinement& row : refinements())
-          if (std::find(without.begin(), without.end(), &row) == without.end())
-            emit(static_cast<const Refinement*>(&row));
-      },
-      [&](const Refinement* row) { return best_variant(start, settings, *row); },
-      [&](std::optional<Candidate> candidate) {
-        if (candidate) found.push_back(std::move(*candidate));
-      });
-  return found;
-}
-
-Candidate refined_shape(const ScanStart& start, const ScanSettings& settings, Candidate candidate) {
+/// The variant with its nonlinear parameters (and date) where its squared error is least.
+Variant moved_shape(const ScanStart& start, const ScanSettings& settings, const QuickLook& look,
+                    Variant variant) {
   constexpr int kRounds = 2;
-  const Refinement& row = *candidate.variant.refinement;
-  const auto error_with = [&](const Variant& variant) {
-    const auto tried = try_variant(start, settings, variant);
+  const Refinement& row = *variant.refinement;
+  const auto error_with = [&](const Variant& other) {
+    if (!replaces_rows(other)) {
+      const auto looked =
+          looked_at(look, look.products(variant_columns(start.design, other, start.fit.x)), other);
+      return looked && looked->is_physical ? looked->error : kUnbounded;
+    }
+    const auto tried = try_variant(start, settings, other);
     return tried && tried->refused.empty() ? tried->error.sum() : kUnbounded;
   };
-  Variant variant = candidate.variant;
   for (int round = 0; round < kRounds; ++round) {
     for (std::size_t i = 0; i < variant.shape.size(); ++i) {
-      if (row.shape[i].is_whole) continue;
+      if (!is_free(variant, i)) continue;
       const auto [low, high] = around(row.shape[i], variant.shape[i], start.design.scale);
       variant.shape[i] = golden(low, high, [&](double value) {
         Variant other = variant;
@@ -199,8 +262,50 @@ Candidate refined_shape(const ScanStart& start, const ScanSettings& settings, Ca
           return error_with(other);
         });
   }
-  const auto better = try_variant(start, settings, variant);
-  return better && better->refused.empty() && better->gain >= candidate.gain ? *better : candidate;
+  return variant;
+}
+
+/// The other form of the same law, to begin with at the same shape.
+Variant other_form(Variant variant) {
+  const Refinement& row = *variant.refinement;
+  variant.is_plain = !variant.is_plain;
+  for (std::size_t i = 0; variant.is_plain && i < row.shape.size(); ++i)
+    if (row.shape[i].canonical > 0) variant.shape[i] = row.shape[i].canonical;
+  return variant;
+}
+
+}  // namespace
+
+std::vector<Candidate> scan(const ScanStart& start, const ScanSettings& settings,
+                            const std::vector<const Refinement*>& without) {
+  const QuickLook look(start.design, start.grams, start.levels);
+  std::vector<Candidate> found;
+  ordered_pipeline<const Refinement*>(
+      settings.threads,
+      [&](auto emit) {
+        for (const Refinement& row : refinements())
+          if (std::find(without.begin(), without.end(), &row) == without.end())
+            emit(static_cast<const Refinement*>(&row));
+      },
+      [&](const Refinement* row) { return best_variant(start, settings, look, *row); },
+      [&](std::optional<Candidate> candidate) {
+        if (candidate) found.push_back(std::move(*candidate));
+      });
+  return found;
+}
+
+Candidate refined_shape(const ScanStart& start, const ScanSettings& settings, Candidate candidate) {
+  const QuickLook look(start.design, start.grams, start.levels);
+  const auto moved = [&](const Variant& variant) {
+    return try_variant(start, settings, moved_shape(start, settings, look, variant));
+  };
+  auto best = moved(candidate.variant);
+  if (has_plain_form(*candidate.variant.refinement)) {
+    auto other = moved(other_form(candidate.variant));
+    const bool is_plain = candidate.variant.is_plain;
+    best = simpler(is_plain ? best : other, is_plain ? other : best);
+  }
+  return best && best->refused.empty() ? *best : candidate;
 }
 
 }  // namespace cablefit

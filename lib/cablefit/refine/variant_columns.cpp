@@ -1,6 +1,7 @@
 // Columns of a variant: torques and levels along the smooth motion, or what a small error of a
 // sensor changes in the equations.
 #include <algorithm>
+#include <cmath>
 
 #include "cablefit/refine/design.hpp"
 
@@ -15,47 +16,79 @@ double since_event(const Variant& variant, const Stretch& stretch, double t) {
 
 /// Torque per unit of each linear parameter at every sample, on link and motor.
 struct FullTorques {
-  Eigen::MatrixXd link, motor;  ///< samples x n_linear
+  Eigen::MatrixXd link, motor;  ///< n_linear x samples
 };
+
+/// From which sample on an event may have done something; none (n) where it has not happened yet or
+/// is over.
+Eigen::Index first_sample(const Variant& variant, const Stretch& stretch, double step,
+                          Eigen::Index n) {
+  const Refinement& row = *variant.refinement;
+  if (!row.is_event) return 0;
+  if (stretch.log < variant.event_log) return n;
+  if (stretch.log > variant.event_log) return row.lasts() ? 0 : n;
+  const double samples = std::floor((variant.event_time - stretch.t0) / step);
+  return std::clamp<Eigen::Index>(static_cast<Eigen::Index>(samples), 0, n);
+}
+
+/// Adds what a level of dry friction does in motion to its own side's torques.
+void add_level(const Refinement& row, const JointState& state, const double* shape, const double* z,
+               std::vector<double>& level, double* link, double* motor) {
+  const bool on_link = row.site == Site::link;
+  const double speed = on_link ? state.qd : state.thetad;
+  const double direction = speed > 0 ? 1.0 : speed < 0 ? -1.0 : 0.0;
+  std::fill(level.begin(), level.end(), 0.0);
+  row.level(state, direction, shape, z, level.data());
+  double* own = on_link ? link : motor;
+  for (std::size_t p = 0; p < level.size(); ++p) own[p] += direction * level[p];
+}
 
 /// At every `every`-th sample.
 FullTorques full_torques(const Variant& variant, const Stretch& stretch,
                          const std::vector<JointState>& states, Eigen::Index every) {
   const Refinement& row = *variant.refinement;
-  const std::size_t n = row.n_linear();
-  const auto rows = (static_cast<Eigen::Index>(states.size()) + every - 1) / every;
-  FullTorques out{Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(n)),
-                  Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(n))};
-  if (row.is_event && stretch.log < variant.event_log) return out;
-  std::vector<double> z(row.n_states), link(n), motor(n), level(n);
-  const bool on_link = row.site == Site::link;
+  const auto n = static_cast<Eigen::Index>(row.n_linear());
+  const auto samples = (static_cast<Eigen::Index>(states.size()) + every - 1) / every;
   const double h = static_cast<double>(every) * stretch.recording.period;
+  const Eigen::Index first = first_sample(variant, stretch, h, samples);
+  FullTorques out{Eigen::MatrixXd(n, samples), Eigen::MatrixXd(n, samples)};
+  out.link.leftCols(first).setZero();
+  out.motor.leftCols(first).setZero();
+  std::vector<double> z(row.n_states), level(row.n_linear());
   JointState dated;  // of an event, whose age is not the state's own
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    const JointState* here = &states[static_cast<std::size_t>(i * every)];
+  for (Eigen::Index i = first; i < samples; ++i) {
+    const JointState* state = &states[static_cast<std::size_t>(i * every)];
+    double* link = out.link.col(i).data();
+    double* motor = out.motor.col(i).data();
+    std::fill(link, link + n, 0.0);
+    std::fill(motor, motor + n, 0.0);
     if (row.is_event) {
-      dated = *here;
+      dated = *state;
       dated.since_event = since_event(variant, stretch, dated.t);
       if (dated.since_event < 0) continue;
-      here = &dated;
+      state = &dated;
     }
-    const JointState& state = *here;
-    if (row.advance != nullptr) row.advance(state, variant.shape.data(), h, z.data());
-    std::fill(link.begin(), link.end(), 0.0);
-    std::fill(motor.begin(), motor.end(), 0.0);
-    if (row.torque != nullptr)
-      row.torque(state, variant.shape.data(), z.data(), link.data(), motor.data());
-    if (row.level != nullptr) {
-      std::fill(level.begin(), level.end(), 0.0);
-      const double speed = on_link ? state.qd : state.thetad;
-      const double direction = speed > 0 ? 1.0 : speed < 0 ? -1.0 : 0.0;
-      row.level(state, direction, variant.shape.data(), z.data(), level.data());
-      std::vector<double>& own = on_link ? link : motor;
-      for (std::size_t p = 0; p < n; ++p) own[p] += direction * level[p];
-    }
-    for (std::size_t p = 0; p < n; ++p) {
-      out.link(i, static_cast<Eigen::Index>(p)) = link[p];
-      out.motor(i, static_cast<Eigen::Index>(p)) = motor[p];
+    // Half of the step before, half after: what they remember stands where the motion is.
+    if (row.advance != nullptr) row.advance(*state, variant.shape.data(), h / 2, z.data());
+    if (row.torque != nullptr) row.torque(*state, variant.shape.data(), z.data(), link, motor);
+    if (row.level != nullptr)
+      add_level(row, *state, variant.shape.data(), z.data(), level, link, motor);
+    if (row.advance != nullptr) row.advance(*state, variant.shape.data(), h / 2, z.data());
+  }
+  return out;
+}
+
+/// The first `n` rows of `every`-th samples, filtered, at `at`.
+Eigen::MatrixXd filtered(const Kernel& filter, const Eigen::MatrixXd& samples, Eigen::Index n,
+                         const std::vector<Eigen::Index>& at, Eigen::Index every) {
+  const Eigen::Index all = samples.rows(), width = filter.weights.size();
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(at.size()), n);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const double* around = samples.data() + all * (at[i] / every - filter.reach());
+    for (Eigen::Index p = 0; p < n; ++p) {
+      double sum = 0;
+      for (Eigen::Index j = 0; j < width; ++j) sum += filter.weights(j) * around[all * j + p];
+      out(static_cast<Eigen::Index>(i), p) = sum;
     }
   }
   return out;
@@ -67,17 +100,13 @@ std::vector<Eigen::MatrixXd> torque_columns(const Design& design, const Variant&
   const FullTorques full = full_torques(variant, design.stretches[k], design.states[k], every);
   const Kernel filter = gaussian(design.smoothing.columns,
                                  static_cast<double>(every) * design.stretches[k].recording.period);
+  const Eigen::Index n = n_linear(variant);
   std::vector<Eigen::MatrixXd> columns;
   for (const KindRows& kind : design.rows[k].kinds) {
     const Eigen::MatrixXd& own = kind.kind == RowKind::link ? full.link : full.motor;
-    const auto n_rows = static_cast<Eigen::Index>(kind.at.size());
-    if ((own.array() == 0).all()) {
-      columns.emplace_back(Eigen::MatrixXd::Zero(n_rows, own.cols()));
-      continue;
-    }
-    std::vector<Eigen::Index> at = kind.at;
-    for (Eigen::Index& i : at) i /= every;
-    columns.push_back(apply_at(filter, own, at));
+    const bool is_zero = (own.array() == 0).all();
+    columns.push_back(is_zero ? Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(kind.at.size()), n)
+                              : filtered(filter, own, n, kind.at, every));
   }
   return columns;
 }

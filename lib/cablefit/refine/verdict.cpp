@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "cablefit/base/random.hpp"
+#include "cablefit/refine/levels.hpp"
 
 namespace cablefit {
 namespace {
@@ -18,6 +19,12 @@ constexpr double kLookAlikeShare = 0.25;   // of the gap: more than that apart i
 constexpr double kTieShare = 0.02;         // of the gap: closer than that is a tie at any sd
 constexpr double kSafety = 1.3;            // times the largest chance gain seen
 constexpr int kResamples = 200;
+// Squared simulated gap over floor that is seen: parameters from other logs leave a simulation more
+// than sensors do.
+constexpr double kVisibleSimulated = 1.5;
+// Growth of an invisible gap that is no worsening: of sums over thousands of rows, and of
+// simulations, whose gap is as much that of the parameters.
+constexpr double kAsGoodRows = 1.02, kAsGoodSimulated = 1.1;
 constexpr double kRemainder = 1.2;  // squared residual over floor: above, something is there
 
 bool may_be_named(const Candidate& c) { return c.refused.empty() && c.gain > 0; }
@@ -31,19 +38,6 @@ std::vector<double> largest_gains(const std::vector<NullDraw>& draws, bool event
     largest.push_back(most);
   }
   return largest;
-}
-
-/// Difference of two candidates' errors over the blocks, and its standard error.
-struct Paired {
-  double sum = 0, se = 0;
-  double in_sd() const { return se > 0 ? sum / se : sum > 0 ? kUnbounded : 0; }
-};
-Paired paired(const Eigen::ArrayXd& a, const Eigen::ArrayXd& b) {
-  const Eigen::ArrayXd d = a - b;
-  const auto n = static_cast<double>(d.size());
-  const double sum = d.sum();
-  const double variance = (d - sum / n).square().sum() * n / std::max(1.0, n - 1);
-  return {sum, std::sqrt(variance)};
 }
 
 /// The same law on the link and on the motor is two.
@@ -80,7 +74,12 @@ std::vector<double> inclusions(const std::vector<const Candidate*>& candidates) 
 }
 
 std::size_t n_parameters(const Candidate& c) {
-  return c.variant.refinement->parameters.size() + (c.variant.refinement->is_event ? 1 : 0);
+  const Variant& variant = c.variant;
+  const Refinement& row = *variant.refinement;
+  std::size_t n = static_cast<std::size_t>(n_linear(variant)) + (row.is_event ? 1 : 0);
+  for (std::size_t i = 0; i < row.shape.size(); ++i)
+    n += row.shape[i].is_whole || is_free(variant, i) ? 1 : 0;
+  return n;
 }
 
 bool is_tie(const Candidate& a, const Candidate& b, const SquaredGap& gap) {
@@ -246,25 +245,50 @@ Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGa
 namespace {
 
 /// Of squared gaps on unseen logs. Where these show no gap in the first place, as when a drive
-/// never saturates in them, nothing can shrink: it is enough that nothing grows.
-bool is_better(double before, double after, double visible) {
-  constexpr double kAsGood = 1.02;
-  return before > visible ? after < before : after < kAsGood * before;
+/// never saturates in them, nothing can shrink: it is enough that nothing grows beyond `as_good`.
+bool is_better(double before, double after, double visible, double as_good) {
+  return before > visible ? after < before : after < as_good * before;
+}
+
+std::string in_words(double before, double after) {
+  return fmt::format("{:.3g} times the squared floor before, {:.3g} after", before, after);
 }
 
 }  // namespace
 
 std::string why_not_added(const UnseenChange& change) {
   if (change.row.is_event) return "";
-  if (!is_better(change.rho_before, change.rho_after, kVisibleGap))
-    return "the equations of unseen logs do not fit better with it";
+  if (!is_better(change.rho_before, change.rho_after, kVisibleGap, kAsGoodRows))
+    return fmt::format("the equations of unseen logs do not fit better with it ({})",
+                       in_words(change.rho_before, change.rho_after));
   if (!change.before.known() || !change.floor.known()) return "";
   if (!change.after.known()) return "with it the simulation fails: " + change.after.failure;
-  // Parameters from other logs leave a simulation more than sensors do.
-  constexpr double kVisibleSimulated = 1.5;
-  if (!is_better(in_floors(change.before, change.floor), in_floors(change.after, change.floor),
-                 kVisibleSimulated * in_floors(change.floor, change.floor)))
-    return "unseen logs are not simulated better with it";
+  const double floor = in_floors(change.floor, change.floor);
+  const double before = in_floors(change.before, change.floor);
+  const double after = in_floors(change.after, change.floor);
+  if (!is_better(before, after, kVisibleSimulated * floor, kAsGoodSimulated))
+    return fmt::format("unseen logs are not simulated better with it ({})",
+                       in_words(before / floor, after / floor));
+  return "";
+}
+
+std::string why_not_both(const UnseenChange& change) {
+  if (change.row.is_event) return "one of two effects at once may not be an event";
+  std::string reason = why_not_added(change);
+  if (!reason.empty()) return reason;
+  if (change.rho_after > kRemainder)
+    return fmt::format(
+        "two effects at once should leave nothing in the equations of unseen logs "
+        "({})",
+        in_words(change.rho_before, change.rho_after));
+  if (!change.after.known() || !change.floor.known()) return "";
+  const double floor = in_floors(change.floor, change.floor);
+  const double after = in_floors(change.after, change.floor);
+  if (after > kVisibleSimulated * floor)
+    return fmt::format(
+        "two effects at once should leave nothing in the simulation of unseen logs "
+        "({})",
+        in_words(in_floors(change.before, change.floor) / floor, after / floor));
   return "";
 }
 

@@ -44,6 +44,10 @@ struct UnseenChange {
 /// not. Events are judged on their own log.
 std::string why_not_added(const UnseenChange& change);
 
+/// The same of two effects at once, of which the first was refused alone. A pair of the catalogue
+/// may mimic what is not in it, so both together have to leave nothing that is seen.
+std::string why_not_both(const UnseenChange& change);
+
 /// Verdict, reason and next experiment of a result whose effects stand.
 void conclude(RefineResult& result);
 

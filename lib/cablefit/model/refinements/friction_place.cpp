@@ -16,7 +16,7 @@ constexpr ParameterInfo kPresliding[] = {
 
 constexpr ShapeGrid kOrder[] = {
     {.low = 0.3, .high = 6, .n_values = 16, .is_geometric = false, .unit = GridUnit::per_travel}};
-constexpr ShapeGrid kDistance[] = {{.low = 0.5e-3, .high = 20e-3, .n_values = 8}};
+constexpr ShapeGrid kDistance[] = {{.low = 0.2e-3, .high = 20e-3, .n_values = 9}};
 
 template <Site kSide>
 void position_level(const JointState& state, double /*direction*/, const double* shape,
@@ -79,7 +79,8 @@ Refinement presliding(Site side) {
           .n_states = 1,
           .advance = side == Site::link ? slide<Site::link> : slide<Site::motor>,
           .torque = side == Site::link ? spring<Site::link> : spring<Site::motor>,
-          .level = less_dry};
+          .level = less_dry,
+          .takes_dry_friction = true};
 }
 
 }  // namespace cablefit::rows

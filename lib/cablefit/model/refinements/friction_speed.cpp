@@ -20,9 +20,9 @@ constexpr ParameterInfo kNonlinear[] = {
     {"exponent", "p", "", "below 1: thins with speed", 0.25, 0.75}};
 
 constexpr ShapeGrid kStribeckShape[] = {{.low = 0.02, .high = 0.8, .n_values = 8},
-                                        {.low = 1, .high = 2, .n_values = 2}};
+                                        {.low = 1, .high = 2, .n_values = 2, .canonical = 2}};
 constexpr ShapeGrid kDragShape[] = {
-    {.low = 1.5, .high = 2.5, .n_values = 5, .is_geometric = false}};
+    {.low = 1.5, .high = 2.5, .n_values = 5, .is_geometric = false, .canonical = 2}};
 constexpr ShapeGrid kNonlinearShape[] = {
     {.low = 0.25, .high = 0.75, .n_values = 3, .is_geometric = false}};
 
