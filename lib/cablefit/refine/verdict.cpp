@@ -18,7 +18,6 @@ constexpr double kLookAlikeShare = 0.25;   // of the gap: more than that apart i
 constexpr double kTieShare = 0.02;         // of the gap: closer than that is a tie at any sd
 constexpr double kSafety = 1.3;            // times the largest chance gain seen
 constexpr int kResamples = 200;
-constexpr double kRemainder = 1.2;  // squared residual over floor: above, something is there
 
 bool may_be_named(const Candidate& c) { return c.refused.empty() && c.gain > 0; }
 
