@@ -10,6 +10,7 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/model/read_models.hpp"
 #include "cablefit/refine/model_set.hpp"
+#include "cablefit/report/elastic_models.hpp"
 #include "cablefit/report/refine_document.hpp"
 #include "cablefit/report/refine_json.hpp"
 #include "cablefit/simulate/experiment.hpp"
@@ -19,6 +20,7 @@
 #include "commands/file_names.hpp"
 #include "commands/problems.hpp"
 #include "commands/progress.hpp"
+#include "commands/stage1_logs.hpp"
 #include "process.hpp"
 
 namespace cablefit::apps {
@@ -47,12 +49,13 @@ struct RefineInput {
   std::vector<Model> models;
   std::string choice;
   RefineLogs logs;
+  std::vector<Decision> decisions;
 };
 
 void add_file_options(CLI::App& app, RefineCommand& command) {
   app.add_option("MODEL", command.models,
                  "model file, or result of 'cablefit identify' or 'dynamic'; several for several "
-                 "preloads")
+                 "preloads. A result of 'cablefit elastic': blocked logs alone")
       ->type_name("");
   const auto add_logs = [&app](const char* name, std::vector<std::string>& logs, const char* help) {
     app.add_option(name, logs, help)->type_name("LOG");
@@ -123,11 +126,16 @@ void require_distinct(const RefineCommand& command) {
   add("--blocked", command.blocked);
 }
 
+Error no_log() { return usage_error("no log given", "name the logs to fit after --train"); }
+
 void require_files(const RefineCommand& command) {
   if (command.models.empty())
     throw usage_error("no model given", "name a model file, or a result of 'cablefit identify'");
-  if (command.train.empty() && command.blocked.empty())
-    throw usage_error("no log given", "name the logs to fit after --train");
+  std::error_code ignored;
+  const bool may_name_logs =
+      std::any_of(command.models.begin(), command.models.end(),
+                  [&](const std::string& path) { return std::filesystem::exists(path, ignored); });
+  if (command.train.empty() && command.blocked.empty() && !may_name_logs) throw no_log();
   require_distinct(command);
 }
 
@@ -137,7 +145,8 @@ std::vector<Model> read_all_models(const RefineCommand& command, std::string& ch
   for (const std::string& path : command.models)
     problems.collect([&] {
       std::string taken;
-      for (Model& model : read_models(path, command.common.preload, command.model, taken))
+      const auto read = is_elastic_result(path) ? read_elastic_models : read_models;
+      for (Model& model : read(path, command.common.preload, command.model, taken))
         models.push_back(std::move(model));
       choice += (choice.empty() ? "" : "; ") + taken;
     });
@@ -159,6 +168,51 @@ LogSurvey read_log_for(const std::string& path, const std::string& rig_option,
   return survey_for_simulation(path, rig_option, model);
 }
 
+bool has_blocked(const std::vector<LogSurvey>& logs) {
+  return std::any_of(logs.begin(), logs.end(), [](const LogSurvey& log) {
+    return std::any_of(log.parts.begin(), log.parts.end(),
+                       [](const PartSurvey& part) { return part.phase == Phase::blocked; });
+  });
+}
+
+/// Blocked, and of a preload that there is a model of.
+bool is_wanted(const LogSurvey& log, const std::vector<Model>& models) {
+  return std::all_of(log.parts.begin(), log.parts.end(), [&](const PartSurvey& part) {
+    return part.phase == Phase::blocked &&
+           std::any_of(models.begin(), models.end(),
+                       [&](const Model& model) { return model.preload == part.preload; });
+  });
+}
+
+bool is_given(const std::string& path, const CommonOptions& common) {
+  std::error_code ignored;
+  return std::any_of(common.logs.begin(), common.logs.end(), [&](const std::string& given) {
+    return std::filesystem::equivalent(given, path, ignored);
+  });
+}
+
+/// Blocked logs of stage 1 say what the cables do: they are used again unless others are given.
+void add_stage1_logs(RefineCommand& command, RefineInput& input) {
+  if (has_blocked(input.logs.train) || has_blocked(input.logs.blocked)) return;
+  for (const std::string& model : command.models) {
+    const Stage1Logs logs = stage1_logs(model);
+    std::string used;
+    for (const std::string& path : logs.paths) {
+      if (is_given(path, command.common)) continue;
+      LogSurvey log = read_log_for(path, command.common.rig, input.models);
+      if (!is_wanted(log, input.models)) continue;
+      input.logs.blocked.push_back(std::move(log));
+      command.common.logs.push_back(path);
+      used += (used.empty() ? "" : ", ") + path;
+    }
+    if (!used.empty())
+      input.decisions.push_back(
+          {"blocked logs", used, "of stage 1, by " + logs.source + "; --blocked gives others"});
+    for (const std::string& gone : logs.gone)
+      input.decisions.push_back({"blocked logs", "not all of stage 1's", gone});
+  }
+}
+
 RefineInput read_input(RefineCommand& command) {
   RefineInput input;
   input.models = read_all_models(command, input.choice);
@@ -173,6 +227,8 @@ RefineInput read_input(RefineCommand& command) {
   read(command.test, input.logs.test);
   read(command.blocked, input.logs.blocked);
   problems.throw_if_any();
+  add_stage1_logs(command, input);
+  if (input.logs.train.empty() && input.logs.blocked.empty()) throw no_log();
   std::vector<LogSurvey> fitted = input.logs.train;
   fitted.insert(fitted.end(), input.logs.blocked.begin(), input.logs.blocked.end());
   input.models = models_with_logs(std::move(input.models), fitted);
@@ -181,10 +237,10 @@ RefineInput read_input(RefineCommand& command) {
 }
 
 RefineResult run(RefineCommand& command) {
-  const RefineInput input = read_input(command);
   CommonOptions& common = command.common;
   for (const auto* some : {&command.train, &command.test, &command.blocked})
     common.logs.insert(common.logs.end(), some->begin(), some->end());
+  const RefineInput input = read_input(command);
   common.more_inputs = command.models;
   command.refine.seed = common.seed;
   command.refine.threads = common.samples.threads;
@@ -196,6 +252,7 @@ RefineResult run(RefineCommand& command) {
   RefineResult result = refine(input.models, input.logs, command.refine);
   result.model_path = fmt::format("{}", fmt::join(command.models, ", "));
   result.model_choice = input.choice;
+  result.decisions.insert(result.decisions.begin(), input.decisions.begin(), input.decisions.end());
   for (const std::string& path : command.models)
     result.inputs.push_back({path, sha256_of_file(path), 0});
   return result;

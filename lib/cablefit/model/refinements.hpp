@@ -98,6 +98,8 @@ struct Refinement {
   int n_harmonics = 0;
   /// Dated: since_event counts from a time that is looked for.
   bool is_event = false;
+  /// Blocked logs alone can show it, and tell it from the others that they can show.
+  bool is_static = false;
 
   /// Internal states z[0 .. n_states), 0 at the start. `advance` takes them over the time h (s), in
   /// which the state is that of the middle; it must be stable for any h.

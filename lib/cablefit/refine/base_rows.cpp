@@ -119,6 +119,7 @@ StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayo
                : moving_rows(link ? rows.motion.qd : rows.motion.thetad,
                              link ? smoothing.least_speed_q : smoothing.least_speed_theta,
                              stretch.recording.period, smoothing);
+    std::erase_if(k.at, [&](Eigen::Index i) { return i < stretch.rows_from; });
     const Eigen::MatrixXd all =
         apply_at(filter, full_columns(kind, rows.motion, model, layout), k.at);
     k.base = all.leftCols(layout.n());

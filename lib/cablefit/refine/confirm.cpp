@@ -55,6 +55,7 @@ SimulatedGap simulated_gap(std::span<const Model> models, std::span<const LogSur
       gap.failure = error.what();
     }
   }
+  if (gap.known() && deflection.n == 0) gap.failure = "no log has a moving part";
   gap.deflection = deflection.rms();
   gap.tau = tau.rms();
   return gap;

@@ -6,6 +6,8 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/prove/twin.hpp"
+#include "cablefit/refine/blocked_twin.hpp"
+#include "cablefit/refine/elastic_stage.hpp"
 #include "cablefit/refine/levels.hpp"
 
 namespace cablefit {
@@ -40,6 +42,7 @@ struct PreloadTwin {
 struct NullBench::Parts {
   std::vector<Model> models;
   std::vector<PreloadTwin> twins;
+  BlockedTwin blocked;  ///< of logs that are all blocked; then there are no other twins
   Smoothing smoothing;
   TwinDisturbance disturbance;
 };
@@ -49,6 +52,10 @@ NullBench::NullBench(std::span<const Model> models, std::span<const LogSurvey> l
     : parts_(std::make_unique<Parts>()) {
   parts_->models.assign(models.begin(), models.end());
   parts_->smoothing = smoothing;
+  if (std::vector<Stretch> all = read_stretches(logs, models, wanted); is_blocked_only(all)) {
+    parts_->blocked = make_blocked_twin(parts_->models, std::move(all), smoothing);
+    return;
+  }
   for (std::size_t m = 0; m < models.size(); ++m) {
     const Model& model = models[m];
     const PartFilter of_model = [&](const PartSurvey& part) {
@@ -84,6 +91,10 @@ std::vector<NullBench::Recorded> NullBench::record(std::uint64_t seed) const {
 }
 
 std::vector<Stretch> NullBench::draw(std::uint64_t seed) const {
+  if (parts_->twins.empty()) {
+    const auto& motor = parts_->disturbance.motor;
+    return cablefit::record(parts_->blocked, motor.empty() ? ArModel{} : motor.front(), seed);
+  }
   std::vector<Stretch> all;
   const std::vector<Recorded> recorded = record(seed);
   for (std::size_t k = 0; k < recorded.size(); ++k) {

@@ -10,6 +10,7 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/parallel.hpp"
 #include "cablefit/refine/confirm.hpp"
+#include "cablefit/refine/elastic_stage.hpp"
 #include "cablefit/refine/levels.hpp"
 #include "cablefit/refine/null_draws.hpp"
 #include "cablefit/refine/refine_figures.hpp"
@@ -17,6 +18,7 @@
 #include "cablefit/refine/regimes.hpp"
 #include "cablefit/refine/remainder.hpp"
 #include "cablefit/refine/search.hpp"
+#include "cablefit/refine/unexplained.hpp"
 #include "cablefit/refine/verdict.hpp"
 
 namespace cablefit {
@@ -27,11 +29,11 @@ constexpr std::size_t kFloorDraws = 4;  // the floor is then known to about 1 %
 constexpr int kRelinearisations = 3;
 constexpr double kHeldOutShare = 1.0 / 3;
 
-bool any_part(const PartSurvey&) { return true; }
-
 /// What every step needs.
 struct Bench {
   const RefineOptions& options;
+  PartFilter wanted = {};
+  bool elastic_only = false;
   ScanSettings scan = {};
   std::vector<LogSurvey> all = {};     ///< blocked, training, test: by Stretch::log
   std::vector<LogSurvey> logs = {};    ///< blocked, then training
@@ -74,19 +76,28 @@ auto run_draws(const Bench& bench, std::size_t n, std::uint64_t first, std::stri
   return draws;
 }
 
+/// The floor of the motor rows is the unit of gaps over all equations; of blocked logs alone
+/// theirs.
+KindLevels common_unit(const Bench& bench, KindLevels floor) {
+  if (bench.elastic_only)
+    floor[static_cast<std::size_t>(RowKind::motor)] =
+        floor[static_cast<std::size_t>(RowKind::blocked)];
+  return floor;
+}
+
 KindLevels fitted_floor(const Bench& bench) {
   std::vector<KindLevels> levels;
   for (const NullDraw& draw :
        run_draws(bench, kFloorDraws, bench.options.seed, "noise floor",
                  [&](std::uint64_t seed) { return bench.null->base_only(seed, nullptr); }))
     levels.push_back(draw.floor);
-  return positive(rms_over(levels));
+  return common_unit(bench, positive(rms_over(levels)));
 }
 
 /// Floors of the unseen logs: equations, and simulation beside what it was simulated from.
 void find_unseen_floors(Bench& bench, const std::vector<Model>& models, const RefineLogs& logs) {
   bench.unseen = logs.test.empty() ? logs.train : logs.test;
-  const NullBench unseen(models, bench.unseen, any_part, bench.smoothing);
+  const NullBench unseen(models, bench.unseen, bench.wanted, bench.smoothing);
   bench.test_floor = logs.test.empty()
                          ? bench.floor
                          : positive(rms_over(run_draws(
@@ -120,7 +131,7 @@ void disturb_null(Bench& bench, const State& state, const Search& found) {
     const double ratio = (left[k] * left[k] - floor) / std::max(1e-12, seen[k] * seen[k] - floor);
     factors[k] = std::sqrt(std::clamp(ratio, 0.1, 10.0));
   }
-  bench.null->disturb(scaled(wanted, factors));
+  bench.null->disturb(scaled(wanted, common_unit(bench, factors)));
 }
 
 /// Simulated data sets are searched only once something is worth it.
@@ -317,7 +328,11 @@ void tell_gaps(const Bench& bench, const State& first, const State& last, Refine
   simulation.test_after = last.simulated.deflection;
   simulation.noise_floor = bench.simulation_floor.deflection;
   for (const SimulatedGap* gap : {&first.simulated, &last.simulated})
-    if (!gap->known()) result.warnings.push_back("not simulated: " + gap->failure);
+    if (!gap->known() && !bench.elastic_only)
+      result.warnings.push_back("not simulated: " + gap->failure);
+  if (first.simulated.failure == last.simulated.failure && !result.warnings.empty() &&
+      !simulation.known && !bench.elastic_only)
+    result.warnings.pop_back();
 }
 
 void tell_remainder(const KindLevels& rms, const KindLevels& floor, RefineResult& result) {
@@ -325,6 +340,9 @@ void tell_remainder(const KindLevels& rms, const KindLevels& floor, RefineResult
     const auto k = static_cast<std::size_t>(kind);
     return std::sqrt(std::max(0.0, rms[k] * rms[k] - floor[k] * floor[k]));
   };
+  result.remainder_blocked = above(RowKind::blocked);
+  result.floor_blocked = floor[static_cast<std::size_t>(RowKind::blocked)];
+  if (result.elastic_only) return;
   result.remainder_motor = above(RowKind::motor);
   result.floor_motor = floor[static_cast<std::size_t>(RowKind::motor)];
   if (result.rigid) return;
@@ -345,20 +363,27 @@ void tell_inputs(std::span<const Model> models, const RefineLogs& logs, RefineRe
 /// The base fit, floors and unseen rows.
 State prepare(Bench& bench, std::span<const Model> models, const RefineLogs& logs,
               RefineResult& result) {
-  std::vector<Stretch> train = read_stretches(bench.logs, models, any_part);
+  std::vector<Stretch> train = read_stretches(bench.logs, models, bench.wanted);
   if (train.empty())
     throw input_error({}, "no stretch of evenly spaced rows is long enough to refine with",
                       "give logs of at least a few seconds with --train");
-  std::vector<Stretch> test = read_stretches(logs.test, models, any_part);
+  std::vector<Stretch> test = read_stretches(logs.test, models, bench.wanted);
   for (Stretch& stretch : test) stretch.log += bench.logs.size();  // recorded after what they test
-  if (test.empty()) test = hold_out(train, kHeldOutShare);
+  if (test.empty())
+    test = bench.elastic_only ? hold_out_blocked(train, kHeldOutShare)
+                              : hold_out(train, kHeldOutShare);
   result.held_out_blocks = logs.test.empty();
-  const Smoothing wanted = smoothing_for(train.front().recording.period);
+  const Smoothing wanted = bench.elastic_only ? blocked_smoothing(models, train)
+                                              : smoothing_for(train.front().recording.period);
+  const std::vector<Model> bases = bench.elastic_only
+                                       ? with_visible_effects({models.begin(), models.end()}, train,
+                                                              wanted, bench.scan.block_seconds)
+                                       : std::vector<Model>(models.begin(), models.end());
   BaseFit base =
-      fit_base(make_design(models, std::move(train), wanted), bench.scan.block_seconds, nullptr);
+      fit_base(make_design(bases, std::move(train), wanted), bench.scan.block_seconds, nullptr);
   bench.smoothing = base.design.smoothing;
   std::vector<Model> fitted = models_with(base.design, base.fit.x);
-  bench.null.emplace(fitted, bench.logs, any_part, bench.smoothing);
+  bench.null.emplace(fitted, bench.logs, bench.wanted, bench.smoothing);
   bench.floor = fitted_floor(bench);
   base = fit_base(std::move(base.design), bench.scan.block_seconds, &bench.floor);
   fitted = models_with(base.design, base.fit.x);
@@ -381,11 +406,15 @@ std::string_view to_string(Verdict verdict) {
   return kNames[static_cast<std::size_t>(verdict)];
 }
 
-RefineResult refine(std::span<const Model> models, const RefineLogs& logs,
+RefineResult refine(std::span<const Model> given, const RefineLogs& logs,
                     const RefineOptions& options) {
   RefineResult result;
+  const RefineStage stage = stage_of(given, logs);
+  const std::span<const Model> models = stage.models;
   tell_inputs(models, logs, result);
-  Bench bench{options};
+  result.elastic_only = stage.elastic_only;
+  result.warnings = stage.warnings;
+  Bench bench{options, stage.wanted, stage.elastic_only};
   bench.scan.threads = options.threads;
   bench.logs = logs.blocked;
   bench.logs.insert(bench.logs.end(), logs.train.begin(), logs.train.end());
@@ -414,6 +443,9 @@ RefineResult refine(std::span<const Model> models, const RefineLogs& logs,
   result.rho_after = state.rho;
   tell_gaps(bench, first, state, result);
   tell_remainder(fit.rms, bench.floor, result);
+  if (state.rho > kRemainder)
+    result.unexplained =
+        describe_remainder(state.design, fit.x, bench.floor, bench.scan.block_seconds);
   conclude(result);
   if (options.figures)
     result.figures =

@@ -74,12 +74,24 @@ struct ParameterShift {
   double before = 0, after = 0, sd = 0;
 };
 
+/// What is left in the end, described where nothing of the catalogue explains it.
+struct Unexplained {
+  std::string kind;      ///< "mode": something swings along; "hum": a line; "wandering"
+  std::string equation;  ///< "link", "motor", "blocked"
+  double frequency = 0, damping = 0;  ///< Hz, ratio; of a mode; of a hum the frequency
+  double inertia = 0;                 ///< kg m^2, of what swings
+  double correlation_time = 0;        ///< s, of wandering
+  double share_of_squared_gap = 0;    ///< of the equation's, that it describes
+  double rms = 0;                     ///< N m, of the equation above its floor
+};
+
 struct RefineResult {
   std::vector<InputFile> inputs;
   std::string model_path, model_choice;
   std::vector<std::string> preloads;
   std::string rig_path;
   bool linear_motion = false, rigid = false, held_out_blocks = false;
+  bool elastic_only = false;  ///< blocked logs alone
   Verdict verdict = Verdict::none;
   std::string reason;  ///< one sentence
   std::vector<Regime> where;
@@ -87,6 +99,8 @@ struct RefineResult {
   std::vector<Rival> league;               ///< of the first step
   std::vector<std::string> not_separable;  ///< said before the residual was looked at
   double remainder_link = 0, remainder_motor = 0, floor_link = 0, floor_motor = 0;  ///< N m rms
+  std::optional<Unexplained> unexplained;
+  double remainder_blocked = 0, floor_blocked = 0;  ///< N m rms
   double rho_before = 0, rho_after = 0;
   std::vector<RefineStep> steps;
   GapStory torque, simulation;

@@ -1,6 +1,9 @@
 #include "cablefit/refine/remainder.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "cablefit/refine/residual_spectrum.hpp"
 
 namespace cablefit {
 namespace {
@@ -10,27 +13,13 @@ constexpr double kVisible = 1.05;  // squared residual over floor; floors are kn
 
 /// Residuals of one kind on the grid of its rows, as an autoregressive torque.
 ArModel colour_of(const Design& design, const Eigen::VectorXd& x, RowKind wanted, double floor) {
-  Autocovariance sums(kLags);
-  Eigen::Index offset = 0;
-  double period = 0;
-  for (std::size_t s = 0; s < design.rows.size(); ++s) {
-    for (const KindRows& kind : design.rows[s].kinds) {
-      if (kind.kind != wanted) continue;
-      std::vector<Eigen::Index> numbers;
-      for (const Eigen::Index at : kind.at)
-        numbers.push_back(offset + at / design.smoothing.stride);
-      sums.add(numbers, kind.response - kind.base * x);
-    }
-    const Recording& r = design.stretches[s].recording;
-    period = static_cast<double>(design.smoothing.stride) * r.period;
-    offset += r.theta.size() / design.smoothing.stride + static_cast<Eigen::Index>(kLags) + 1;
-  }
-  if (sums.n_values() == 0) return {};
-  Eigen::VectorXd covariance = sums.values();
+  const ResidualMemory memory = residual_memory(design, x, wanted, kLags);
+  if (memory.n_values == 0) return {};
+  Eigen::VectorXd covariance = memory.covariance;
   const double excess = covariance(0) - floor * floor;
   if (!(covariance(0) > kVisible * floor * floor)) return {};
   covariance *= excess / covariance(0);
-  return fit_ar(covariance, period, sums.n_values());
+  return fit_ar(covariance, memory.period, memory.n_values);
 }
 
 }  // namespace
@@ -40,7 +29,10 @@ TwinDisturbance remainder_of(const Design& design, const Eigen::VectorXd& x,
   const auto of = [&](RowKind kind) {
     return colour_of(design, x, kind, floor[static_cast<std::size_t>(kind)]);
   };
-  return {{of(RowKind::motor)}, {of(RowKind::link)}};
+  // Blocked logs alone have no rows of the motor in motion.
+  const bool moves = std::any_of(design.stretches.begin(), design.stretches.end(),
+                                 [](const Stretch& stretch) { return !stretch.blocked; });
+  return {{of(moves ? RowKind::motor : RowKind::blocked)}, {of(RowKind::link)}};
 }
 
 TwinDisturbance scaled(TwinDisturbance disturbance, const KindLevels& factors) {

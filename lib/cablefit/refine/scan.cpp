@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cablefit/base/parallel.hpp"
+#include "cablefit/refine/elastic_stage.hpp"
 #include "cablefit/refine/levels.hpp"
 #include "cablefit/refine/quick_look.hpp"
 
@@ -284,7 +285,8 @@ std::vector<Candidate> scan(const ScanStart& start, const ScanSettings& settings
       settings.threads,
       [&](auto emit) {
         for (const Refinement& row : refinements())
-          if (std::find(without.begin(), without.end(), &row) == without.end())
+          if (is_candidate(row, start.design) &&
+              std::find(without.begin(), without.end(), &row) == without.end())
             emit(static_cast<const Refinement*>(&row));
       },
       [&](const Refinement* row) { return best_variant(start, settings, look, *row); },

@@ -7,6 +7,7 @@ namespace cablefit {
 
 struct Search {
   KindLevels levels{};  ///< weights that decided
+  bool elastic_only = false;
   BlockGrams grams;
   BlockFit fit;  ///< of the design as it is
   std::vector<Candidate> candidates;

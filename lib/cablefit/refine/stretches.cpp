@@ -10,6 +10,9 @@ namespace cablefit {
 namespace {
 
 constexpr Eigen::Index kLeastRows = 64;  // a shorter stretch is all edge
+// s: holes of an uneven log that are interpolated over where nothing moves fast, a quarter period
+// of the 10 Hz that stage 1 looks at.
+constexpr double kBlockedBridge = 0.025;
 constexpr std::string_view kWhy = "comparing the model's equations with the log";
 
 std::size_t model_of(std::span<const Model> models, const LogPlan& plan, const PartSurvey& part) {
@@ -63,7 +66,11 @@ void read_log(const LogSurvey& log, std::size_t number, std::span<const Model> m
               const PartFilter& wanted, std::vector<Stretch>& stretches) {
   const std::size_t first = stretches.size();
   std::vector<double> part_began(log.parts.size(), kUnbounded);
-  for_each_window(log, wanted, 0, kLeastRows, 0, [&](Window&& window) {
+  const bool blocked = std::all_of(log.parts.begin(), log.parts.end(), [&](const PartSurvey& p) {
+    return !wanted(p) || p.phase == Phase::blocked;
+  });
+  const double bridge = blocked ? kBlockedBridge : 0;
+  for_each_window(log, wanted, 0, kLeastRows, bridge, [&](Window&& window) {
     const PartSurvey& part = log.parts[window.part];
     if (window.starts_segment && window.begin == 0) {
       Stretch& stretch = stretches.emplace_back();

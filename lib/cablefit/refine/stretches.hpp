@@ -17,7 +17,8 @@ struct Stretch {
   std::size_t model = 0;  ///< which of the models its preload is
   double t0 = 0;          ///< s, since the part began
   bool blocked = false;
-  Recording recording;  ///< tau_load complete: what the rig's law says is in it
+  Eigen::Index rows_from = 0;  ///< samples before this are history, and give no rows
+  Recording recording;         ///< tau_load complete: what the rig's law says is in it
 };
 
 /// The wanted parts of the logs, whose preloads are those of `models` (one per preload; a single

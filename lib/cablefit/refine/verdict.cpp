@@ -25,7 +25,6 @@ constexpr double kVisibleSimulated = 1.5;
 // Growth of an invisible gap that is no worsening: of sums over thousands of rows, and of
 // simulations, whose gap is as much that of the parameters.
 constexpr double kAsGoodRows = 1.02, kAsGoodSimulated = 1.1;
-constexpr double kRemainder = 1.2;  // squared residual over floor: above, something is there
 
 bool may_be_named(const Candidate& c) { return c.refused.empty() && c.gain > 0; }
 

@@ -31,6 +31,8 @@ Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGa
 
 /// Squared residual over floor that a base of no fault reaches: floors are known to some per cent.
 inline constexpr double kNoGap = 1.07;
+/// Above this something is there that was not named.
+inline constexpr double kRemainder = 1.2;
 /// Squared gap over floor that is seen on unseen rows.
 inline constexpr double kVisibleGap = 1.1;
 

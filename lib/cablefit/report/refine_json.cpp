@@ -103,12 +103,30 @@ Json gap_json(const GapStory& gap, const std::string& unit, bool with_train) {
 }
 
 Json remainder_json(const RefineResult& result) {
-  const auto link = [&](double value) { return result.rigid ? Json() : Json(value); };
+  const bool moves = !result.elastic_only;
+  const auto if_there = [](bool there, double value) { return there ? Json(value) : Json(); };
+  const bool has_link = moves && !result.rigid, has_blocked = result.floor_blocked > 0;
   return Json{{"unit", torque_unit(result.linear_motion)},
-              {"link", link(result.remainder_link)},
-              {"motor", result.remainder_motor},
-              {"noise_floor_link", link(result.floor_link)},
-              {"noise_floor_motor", result.floor_motor}};
+              {"link", if_there(has_link, result.remainder_link)},
+              {"motor", if_there(moves, result.remainder_motor)},
+              {"blocked", if_there(has_blocked, result.remainder_blocked)},
+              {"noise_floor_link", if_there(has_link, result.floor_link)},
+              {"noise_floor_motor", if_there(moves, result.floor_motor)},
+              {"noise_floor_blocked", if_there(has_blocked, result.floor_blocked)}};
+}
+
+Json unexplained_json(const std::optional<Unexplained>& found, bool linear_motion) {
+  if (!found) return nullptr;
+  const auto if_there = [](double value) { return value > 0 ? Json(value) : Json(); };
+  return Json{{"kind", found->kind},
+              {"equation", found->equation},
+              {"frequency", if_there(found->frequency)},
+              {"damping", if_there(found->damping)},
+              {"inertia", if_there(found->inertia)},
+              {"correlation_time", if_there(found->correlation_time)},
+              {"share_of_squared_gap", found->share_of_squared_gap},
+              {"rms", found->rms},
+              {"unit", torque_unit(linear_motion)}};
 }
 
 Json shift_json(const ParameterShift& shift) {
@@ -133,6 +151,7 @@ std::string refine_json(const RefineResult& result, std::span<const std::string>
   json["base_model"] = {{"path", result.model_path}, {"choice", result.model_choice}};
   json["verdict"] = to_string(result.verdict);
   json["reason"] = result.reason;
+  json["unexplained"] = unexplained_json(result.unexplained, result.linear_motion);
   json["preloads"] = result.preloads;
   json["where"] = list_of(result.where, regime_json);
   json["effects"] = list_of(result.effects,

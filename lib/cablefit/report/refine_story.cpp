@@ -147,11 +147,15 @@ SummaryLine gap_line(const RefineResult& result) {
                       before_after(gap.train_before, gap.train_after, changed),
                       before_after(gap.test_before, gap.test_after, changed),
                       interval_text(gap.test_after_ci), number(gap.noise_floor)) +
-              (result.held_out_blocks ? "; unseen: the last third of every moving log" : "")};
+              (result.held_out_blocks ? fmt::format("; unseen: the last third of every {} log",
+                                                    result.elastic_only ? "blocked" : "moving")
+                                      : "")};
 }
 
 SummaryLine simulation_line(const RefineResult& result) {
   const GapStory& gap = result.simulation;
+  if (result.elastic_only)
+    return {"simulation", "none: a blocked link does not move; unseen torques have the last word"};
   return {"simulation",
           fmt::format(
               "of unseen logs, {} rms: {}{}, noise floor {}", result.linear_motion ? "mm" : "mrad",
@@ -163,9 +167,29 @@ SummaryLine simulation_line(const RefineResult& result) {
 SummaryLine remainder_line(const RefineResult& result) {
   const std::string unit = torque_unit(result.linear_motion);
   std::string text;
+  if (result.elastic_only)
+    return {"remainder", fmt::format("blocked {} {} rms above the noise floor",
+                                     number(result.remainder_blocked), unit)};
   if (!result.rigid) text = fmt::format("link {} {}, ", number(result.remainder_link), unit);
   return {"remainder", text + fmt::format("motor {} {} rms above the noise floor",
                                           number(result.remainder_motor), unit)};
+}
+
+std::string unexplained_text(const Unexplained& found, bool linear_motion) {
+  const std::string size =
+      fmt::format("{} {} rms above the noise floor", number(found.rms), torque_unit(linear_motion));
+  const std::string share = percent(found.share_of_squared_gap);
+  if (found.kind == "mode")
+    return fmt::format(
+        "{} equation, {}: like a mode of {} Hz and damping ratio {}, {} {} that "
+        "the motion shakes ({} of it)",
+        found.equation, size, number(found.frequency), significant(found.damping, 2),
+        significant(found.inertia, 2), linear_motion ? "kg" : "kg m^2", share);
+  if (found.kind == "hum")
+    return fmt::format("{} equation, {}: like a hum of {} Hz, whatever the motion ({} of it)",
+                       found.equation, size, number(found.frequency), share);
+  return fmt::format("{} equation, {}: wanders with a correlation time of {} s; no line, no mode",
+                     found.equation, size, significant(found.correlation_time, 2));
 }
 
 /// Whether it is worth a word: by its sd, or where that is not known by its size.
@@ -214,8 +238,10 @@ std::vector<SummaryLine> refine_story(const RefineResult& result,
   lines.push_back(verdict_line(result));
   add_effect_lines(result, lines);
   if (result.torque.known) lines.push_back(gap_line(result));
-  if (result.simulation.known) lines.push_back(simulation_line(result));
+  if (result.simulation.known || result.elastic_only) lines.push_back(simulation_line(result));
   lines.push_back(remainder_line(result));
+  if (result.unexplained)
+    lines.push_back({"left over", unexplained_text(*result.unexplained, result.linear_motion)});
   if (!result.effects.empty()) lines.push_back(shifts_line(result));
   if (!result.next_experiment.empty()) lines.push_back({"next run", result.next_experiment});
   if (!model_files.empty())

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "cablefit/base/error.hpp"
 #include "cablefit/dynamic/output_error/fit_estimates.hpp"
 #include "cablefit/dynamic/output_error/noise_levels.hpp"
 #include "cablefit/dynamic/output_error/window_pass.hpp"
@@ -287,10 +288,21 @@ void Fit::fill(OutputErrorFit& fit, const NonlinearSolution& solution) {
   if (!fit.converged) fit.warnings.push_back("output error: " + fit.message);
 }
 
+/// What refinements do to a simulation has no sensitivities.
+void require_no_refinements(const Model& model) {
+  for (const JointModel& joint : model.joints)
+    for (const RefinementInstance& instance : joint.refinements)
+      throw usage_error(
+          fmt::format("output error cannot fit a model with '{}' ({}) in it",
+                      instance.refinement->name, to_string(instance.refinement->site)),
+          "it fits the paper's model; `cablefit refine` fits a model with refinements");
+}
+
 }  // namespace
 
 OutputErrorFit fit_output_error(const Model& model, const std::vector<MeasuredStretch>& stretches,
                                 const OutputErrorOptions& options) {
+  require_no_refinements(model);
   return Fit(model, stretches, options).run();
 }
 

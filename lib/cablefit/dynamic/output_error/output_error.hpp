@@ -57,7 +57,7 @@ struct OutputErrorFit {
 };
 
 /// Starts from the parameters of `model`; the result does not depend on `threads`. Not to converge
-/// is a result.
+/// is a result. Throws Error(usage) for a model with refinements.
 OutputErrorFit fit_output_error(const Model& model, const std::vector<MeasuredStretch>& stretches,
                                 const OutputErrorOptions& options);
 

@@ -66,6 +66,7 @@ Refinement cable_hysteresis() {
           .source = "Bouc 1967; Wen 1976; Do, Tjahjowidodo et al. 2015",
           .parameters = kHysteresis,
           .shape = kYield,
+          .is_static = true,
           .n_states = 1,
           .advance = yield,
           .torque = hold};
@@ -82,6 +83,7 @@ Refinement creep() {
           .source = "Zener 1948 (standard linear solid)",
           .parameters = kCreep,
           .shape = kTime,
+          .is_static = true,
           .n_states = 1,
           .advance = settle,
           .torque = give_way};

@@ -101,6 +101,7 @@ Refinement dead_zone() {
           .source = "Fichera & Grossard 2017, (4)",
           .parameters = kHalfWidth,
           .shape = kSlack,
+          .is_static = true,
           .change = slacken};
 }
 
@@ -116,6 +117,7 @@ Refinement preload() {
           .source = "Fichera & Grossard 2017, (8c), (19e)",
           .parameters = kElongation,
           .shape = kStretch,
+          .is_static = true,
           .change = stretch};
 }
 

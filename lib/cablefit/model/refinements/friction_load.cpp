@@ -35,6 +35,7 @@ Refinement tension_friction(Site side) {
           .experiment = "the same motion under two loads or at two preloads",
           .source = "Miyasaka et al. 2015; Kaneko et al. 1991",
           .parameters = kMu,
+          .is_static = side == Site::motor,
           .level = tension_level};
 }
 

@@ -60,6 +60,7 @@ Refinement encoder_offset() {
           .experiment = "both cables loaded in turn",
           .source = "a reference run that ended elsewhere",
           .parameters = kOffset,
+          .is_static = true,
           .torque = shifted};
 }
 

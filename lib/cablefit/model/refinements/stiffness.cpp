@@ -54,6 +54,7 @@ Refinement stiffness_order() {
           .source = "Fichera & Grossard 2017, (16)",
           .parameters = kOrder,
           .shape = kOrders,
+          .is_static = true,
           .change = raise_order};
 }
 
@@ -64,6 +65,7 @@ Refinement stiffness_asymmetry() {
           .signature = "another slope for either sign of the load; poly models have it already",
           .experiment = "blocked link, loads of both signs",
           .source = "Fichera & Grossard 2017, Table 1",
+          .is_static = true,
           .change = two_cables};
 }
 

@@ -1,0 +1,76 @@
+#include "commands/stage1_logs.hpp"
+
+#include <filesystem>
+
+#include "cablefit/base/digest.hpp"
+#include "cablefit/base/json_document.hpp"
+
+namespace cablefit::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string schema_of(const JsonNode& root) {
+  const JsonNode* schema = root.is_object() ? root.find("schema") : nullptr;
+  return schema != nullptr && schema->is_string() ? schema->text() : "";
+}
+
+/// Empty: it is at neither place.
+std::string locate(const std::string& named, const std::string& inside) {
+  std::error_code ignored;
+  if (fs::exists(named, ignored)) return named;
+  const fs::path beside = fs::path(inside).parent_path() / named;
+  return fs::exists(beside, ignored) ? beside.string() : "";
+}
+
+/// The input where it is still what it was; else why it is not.
+std::string same_file(const JsonNode& input, const std::string& inside, std::string& why) {
+  const std::string& named = input.at("path").text();
+  const std::string path = locate(named, inside);
+  if (path.empty()) {
+    why = named + " is not there";
+    return "";
+  }
+  if (sha256_of_file(path) == input.at("sha256").text()) return path;
+  why = path + " has changed since";
+  return "";
+}
+
+void take_inputs(const JsonNode& root, const std::string& path, Stage1Logs& logs) {
+  logs.source = path;
+  for (const JsonNode& input : root.at("inputs").items) {
+    const std::string& name = input.at("path").text();
+    if (fs::path(name).extension() == ".json" && input.at("rows").number() == 0) continue;
+    std::string why;
+    std::string found = same_file(input, path, why);
+    if (found.empty())
+      logs.gone.push_back(why);
+    else
+      logs.paths.push_back(std::move(found));
+  }
+}
+
+}  // namespace
+
+Stage1Logs stage1_logs(const std::string& result_path) {
+  Stage1Logs logs;
+  const JsonNode root = read_json_file(result_path);
+  const std::string schema = schema_of(root);
+  if (schema == "cablefit/elastic/1" || schema == "cablefit/identify/1")
+    take_inputs(root, result_path, logs);
+  if (schema != "cablefit/dynamic/1") return logs;
+  for (const JsonNode& input : root.at("inputs").items) {
+    if (input.at("rows").number() != 0) continue;  // a log
+    std::string why;
+    const std::string path = same_file(input, result_path, why);
+    if (path.empty()) {
+      if (fs::path(input.at("path").text()).extension() == ".json") logs.gone.push_back(why);
+      continue;
+    }
+    const JsonNode elastic = read_json_file(path);
+    if (schema_of(elastic) == "cablefit/elastic/1") take_inputs(elastic, path, logs);
+  }
+  return logs;
+}
+
+}  // namespace cablefit::apps

@@ -1,0 +1,21 @@
+// The blocked logs that a model was made from: where they are still the same, they are used again.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cablefit::apps {
+
+struct Stage1Logs {
+  std::vector<std::string> paths;  ///< of those that are there, with the bytes they had
+  std::string source;              ///< the result that names them: "cablefit-out/elastic.json"
+  std::vector<std::string> gone;   ///< "low/blocked.csv is not there", "... has changed since"
+};
+
+/// Logs of stage 1 behind a result: those of the elastic.json that a result of `dynamic` names (if
+/// it is still the same), those of a result of `elastic` or `identify` itself. Model files name
+/// none. Paths are from the current folder, else from the folder of the result.
+Stage1Logs stage1_logs(const std::string& result_path);
+
+}  // namespace cablefit::apps

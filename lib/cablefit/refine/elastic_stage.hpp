@@ -1,0 +1,48 @@
+// Refining stage 1 alone: blocked logs have no link equation, hardly a speed, and show only what
+// cables and the motor's dry friction do. Internal to refine/.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cablefit/refine/design.hpp"
+#include "cablefit/refine/refine.hpp"
+
+namespace cablefit {
+
+/// What a refinement looks at.
+struct RefineStage {
+  bool elastic_only = false;
+  std::vector<Model> models;
+  PartFilter wanted;  ///< parts of the logs
+  std::vector<std::string> warnings;
+};
+
+/// The elastic stage alone when the models know nothing of the link (stage 1's) or no log moves;
+/// the models then have the motor's effects that blocked logs may show, and no link. Throws
+/// Error(input) when stage 1's models meet no blocked part.
+RefineStage stage_of(std::span<const Model> models, const RefineLogs& logs);
+
+/// Whether all rows come from blocked links.
+bool is_blocked_only(std::span<const Stretch> stretches);
+
+/// Widths of the kernels that suit the slow motion of blocked logs: as wide as it takes for the
+/// motion to stand out of the encoder's noise.
+Smoothing blocked_smoothing(std::span<const Model> models, const std::vector<Stretch>& stretches);
+
+/// The models without the motor's effects that these logs do not show: columns that cannot be told
+/// from the others, and inertias and frictions that are negative or lost in their sd.
+std::vector<Model> with_visible_effects(std::vector<Model> models,
+                                        const std::vector<Stretch>& stretches,
+                                        const Smoothing& smoothing, double block_seconds);
+
+/// The last `share` (0..1) of every blocked stretch, taken from it. What comes before stays its
+/// history: hysteresis and creep do not begin anew.
+std::vector<Stretch> hold_out_blocked(std::vector<Stretch>& stretches, double share);
+
+/// Whether a row of the catalogue may be named from these rows: any with moving logs, else those
+/// that a blocked link can tell apart.
+bool is_candidate(const Refinement& refinement, const Design& design);
+
+}  // namespace cablefit

@@ -1,0 +1,57 @@
+#include "cablefit/refine/residual_spectrum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace cablefit {
+
+ResidualMemory residual_memory(const Design& design, const Eigen::VectorXd& x, RowKind kind,
+                               std::size_t n_lags) {
+  Autocovariance sums(n_lags);
+  ResidualMemory memory;
+  Eigen::Index offset = 0;
+  for (std::size_t s = 0; s < design.rows.size(); ++s) {
+    for (const KindRows& rows : design.rows[s].kinds) {
+      if (rows.kind != kind) continue;
+      std::vector<Eigen::Index> numbers;
+      for (const Eigen::Index at : rows.at)
+        numbers.push_back(offset + at / design.smoothing.stride);
+      sums.add(numbers, rows.response - rows.base * x);
+    }
+    const Recording& r = design.stretches[s].recording;
+    memory.period = static_cast<double>(design.smoothing.stride) * r.period;
+    offset += r.theta.size() / design.smoothing.stride + static_cast<Eigen::Index>(n_lags) + 1;
+  }
+  memory.covariance = sums.values();
+  memory.n_values = sums.n_values();
+  if (memory.n_values == 0) memory.period = 0;
+  return memory;
+}
+
+Spectrum spectrum_of(const ResidualMemory& memory, Eigen::Index n_bands) {
+  const Eigen::Index n = memory.covariance.size();
+  Spectrum spectrum;
+  if (!(memory.period > 0) || n == 0) return spectrum;
+  spectrum.width = 0.5 / memory.period / static_cast<double>(n_bands);
+  spectrum.power.resize(n_bands);
+  const double pi = std::numbers::pi, bands = static_cast<double>(n_bands);
+  const auto integral = [&](Eigen::Index lag, double band) {  // of cos(2 pi f lag) up to its edge
+    const auto l = static_cast<double>(lag);
+    return lag == 0 ? band / bands : std::sin(pi * l * band / bands) / (pi * l);
+  };
+  for (Eigen::Index b = 0; b < n_bands; ++b) {
+    double power = 0;
+    for (Eigen::Index lag = 0; lag < n; ++lag) {
+      const double window =
+          0.5 + 0.5 * std::cos(pi * static_cast<double>(lag) / static_cast<double>(n));
+      const double twice = lag == 0 ? 1 : 2;
+      power += twice * window * memory.covariance(lag) *
+               (integral(lag, static_cast<double>(b) + 1) - integral(lag, static_cast<double>(b)));
+    }
+    spectrum.power(b) = std::max(0.0, power);
+  }
+  return spectrum;
+}
+
+}  // namespace cablefit
