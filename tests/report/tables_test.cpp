@@ -40,6 +40,23 @@ TEST_CASE("above order 3 every coefficient has a row of its own") {
   CHECK(table.rows[7][0] == "K2_0");
 }
 
+TEST_CASE("Table 1 of many preloads is cut into tables of readable width") {
+  ElasticResult result;
+  for (int k = 0; k < 20; ++k)
+    result.preloads.push_back(test::elastic_preload("preload " + std::to_string(k), 5, 4));
+  const std::vector<Table> tables = stiffness_tables(result);
+  REQUIRE(tables.size() > 2);
+  std::string seen;
+  for (const Table& table : tables) {
+    CHECK(text_table_width(table) <= kTextWidth);
+    CHECK(table.rows.size() == tables.front().rows.size());
+    for (std::size_t k = 2; k < table.columns.size(); k += 2) seen += table.columns[k].group + ";";
+  }
+  std::string expected;
+  for (int k = 0; k < 20; ++k) expected += "preload " + std::to_string(k) + ";";
+  CHECK(seen == expected);
+}
+
 TEST_CASE("Table 2 marks what is not identifiable and what stands at a bound") {
   const std::vector<Table> tables = parameter_tables(test::dynamic_result());
   REQUIRE(tables.size() == 1);

@@ -14,6 +14,7 @@ namespace cablefit {
 namespace {
 
 constexpr int kDigits = 3;
+constexpr std::size_t kMostCellsInFull = 12;
 constexpr const char* kFailed = "FAILED";
 
 void append(Document& all, const Document& part) {
@@ -98,6 +99,15 @@ Table refine_table(const BatchResult& result) {
   return table;
 }
 
+/// Of many cells what people read; GitHub takes a summary of 1 MB.
+Document in_short(Document document) {
+  document = without_details(std::move(document));
+  document.decisions.clear();
+  document.paragraphs = {
+      "Choices with their reasons, rows used and the paper's sd of every cell are in batch.json."};
+  return document;
+}
+
 }  // namespace
 
 Document batch_document(const BatchResult& result) {
@@ -111,7 +121,7 @@ Document batch_document(const BatchResult& result) {
   if (Table refine = refine_table(result); !refine.rows.empty())
     document.tables.push_back(std::move(refine));
   if (!result.gates.empty()) document.tables.push_back(gate_table(result));
-  return document;
+  return result.cells.size() > kMostCellsInFull ? in_short(std::move(document)) : document;
 }
 
 }  // namespace cablefit

@@ -224,10 +224,12 @@ Document elastic_document(const ElasticResult& result) {
     }
   }
   finish_decisions(document, result.preloads.size());
-  document.tables = {stiffness_table(result), fits_table(result), sd_table(result), counts};
-  if (Table slack = slack_table(result); !slack.rows.empty()) {
-    document.tables.insert(document.tables.begin() + 2, std::move(slack));
-  }
+  document.tables = stiffness_tables(result);
+  document.tables.push_back(fits_table(result));
+  if (Table slack = slack_table(result); !slack.rows.empty())
+    document.tables.push_back(std::move(slack));
+  document.tables.push_back(sd_table(result));
+  document.tables.push_back(counts);
   return document;
 }
 

@@ -12,5 +12,7 @@ Document elastic_document(const ElasticResult& result);
 /// and the coefficients of every cable. Preloads are rows; where that grows too wide, coefficients
 /// are.
 Table stiffness_table(const ElasticResult& result);
+/// The same in as many tables as it takes to stay within the width of a page.
+std::vector<Table> stiffness_tables(const ElasticResult& result);
 
 }  // namespace cablefit

@@ -162,8 +162,9 @@ std::vector<Table> parameter_tables(const DynamicResult& result) {
   std::vector<Table> tables;
   std::span<const DynamicPreload> rest = result.preloads;
   while (!rest.empty()) {
-    std::size_t n = rest.size();
-    while (n > 1 && text_table_width(parameter_table(rest.first(n))) > kTextWidth) --n;
+    std::size_t n = 1;
+    while (n < rest.size() && text_table_width(parameter_table(rest.first(n + 1))) <= kTextWidth)
+      ++n;
     tables.push_back(parameter_table(rest.first(n)));
     rest = rest.subspan(n);
   }

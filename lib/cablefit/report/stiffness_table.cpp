@@ -152,4 +152,26 @@ Table stiffness_table(const ElasticResult& result) {
   return table;
 }
 
+std::vector<Table> stiffness_tables(const ElasticResult& result) {
+  Table table = stiffness_table(result);
+  if (result.preloads.size() < 2 || text_table_width(table) <= kTextWidth) return {table};
+  std::vector<Table> tables;
+  ElasticResult some;
+  for (const ElasticPreload& preload : result.preloads) {
+    ElasticResult more = some;
+    more.preloads.push_back(preload);
+    more.preloads.back().figures.clear();  // they are large
+    Table next = stiffness_table(more);
+    if (!some.preloads.empty() && text_table_width(next) > kTextWidth) {
+      tables.push_back(std::move(table));
+      more.preloads.erase(more.preloads.begin(), more.preloads.end() - 1);
+      next = stiffness_table(more);
+    }
+    table = std::move(next);
+    some = std::move(more);
+  }
+  tables.push_back(std::move(table));
+  return tables;
+}
+
 }  // namespace cablefit
