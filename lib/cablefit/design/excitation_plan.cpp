@@ -84,11 +84,27 @@ void add_figures(ExcitationPlan& plan) {
       nullptr);
 }
 
+/// A link without a known load turns as stage 1's stiffness says: nothing else has a unit of
+/// torque.
+void require_load(const Model& model, const ExcitationLimits& limits) {
+  const Load& load = model.rig.load;
+  if (model.rigid || model.rig.arm.kind != nullptr || limits.load != 0) return;
+  for (const double way : {-1.0, 0.0, 1.0})
+    if (load.law != nullptr && !load.law->from_column &&
+        load.law->torque(load.parameters, limits.middle + way * limits.max_position) != 0)
+      return;
+  throw Error(ErrorKind::input,
+              "no known load acts on the link: its inertia would rest on the elastic stage alone, "
+              "and 'cablefit dynamic' would refuse it; hang a load on it and give --load, or the "
+              "rig a \"load\"");
+}
+
 }  // namespace
 
 ExcitationPlan plan_excitation(const Model& model, const ExcitationOptions& options, bool figures) {
   std::string controller;
   const Model moved = excitable(model, options.limits.rate, controller);
+  require_load(moved, options.limits);
   ExcitationPlan plan;
   plan.shape = options.shape;
   plan.limits = options.limits;
