@@ -1,11 +1,12 @@
 // cablefit design: what a preload buys, and which motion to record.
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <filesystem>
 #include <sstream>
 
 #include "cablefit/base/digest.hpp"
 #include "cablefit/base/error.hpp"
+#include "cablefit/base/output_file.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/design/design_sweep.hpp"
 #include "cablefit/report/design_document.hpp"
@@ -21,7 +22,9 @@ namespace {
 constexpr const char* kExample =
     "Example, after 'cablefit elastic' and 'cablefit dynamic':\n"
     "  cablefit design cablefit-out/dynamic.json --preload low --torque 40 --l-o 0,0.00512\n"
-    "A rig file does as well, when its cables have \"coefficients\".\n";
+    "A rig file does as well, when its cables have \"coefficients\". Which motion to record:\n"
+    "  cablefit design cablefit-out/dynamic.json --preload low --excite reference.csv \\\n"
+    "    --max-position 0.5 --max-speed 3 --max-torque 100 --load 30\n";
 
 constexpr const char* kResultFile = "design.json";
 constexpr std::size_t kMostValues = 200;
@@ -31,6 +34,8 @@ struct DesignCommand {
   DesignOptions design;
   std::vector<std::string> models;
   std::string model;  ///< --model
+  ExcitationOptions excitation;
+  std::string excite;  ///< file; empty: none
 };
 
 std::vector<std::string> split(const std::string& text, char at) {
@@ -120,7 +125,7 @@ void add_collision_options(CLI::App& app, DesignOptions& design) {
       "over which a collision detector averages [0.05]");
   add_number(
       app, "--rate", "HZ", {1e-3}, [&design](double rate) { design.rate = rate; },
-      "rows a second [1000]");
+      "rows a second, of collisions and of --excite [1000]");
   add_number(
       app, "--false-alarms", "PER_HOUR", {1e-9, 3600},
       [&design](double n) { design.false_alarms_per_hour = n; }, "of the collision detector [1]");
@@ -130,26 +135,109 @@ void add_collision_options(CLI::App& app, DesignOptions& design) {
       "probability that it sees the smallest collision [0.99]");
 }
 
+void add_excitation_options(CLI::App& app, DesignCommand& command) {
+  ExcitationOptions& excitation = command.excitation;
+  ExcitationLimits& limits = excitation.limits;
+  app.add_option("--excite", command.excite,
+                 "write a reference trajectory (CSV) that shows the parameters of stage 2 best, "
+                 "within the limits below")
+      ->type_name("FILE");
+  std::vector<std::string> shapes;
+  for (const MotionShape& shape : motion_shapes()) shapes.emplace_back(shape.name);
+  add_choice(
+      app, "--shape", "shape", shapes,
+      [&excitation](const std::string& name) { excitation.shape = name; }, "of it [multisine]");
+  add_number(
+      app, "--max-position", "RAD", {1e-9}, [&limits](double x) { limits.max_position = x; },
+      "on either side of --middle");
+  add_number(
+      app, "--max-speed", "RAD_S", {1e-9}, [&limits](double x) { limits.max_speed = x; },
+      "of motor and link");
+  add_number(
+      app, "--max-torque", "N_M", {1e-9}, [&limits](double x) { limits.max_torque = x; },
+      "of the motor");
+  add_number(
+      app, "--duration", "S", {0.5, 600}, [&limits](double x) { limits.duration = x; },
+      "of the reference [16]");
+  app.add_option_function<std::string>(
+         "--middle",
+         [&limits](const std::string& text) {
+           limits.middle = parse_number("--middle", text, {-kUnbounded, kUnbounded});
+         },
+         "position that the motion is around [0]")
+      ->type_name("RAD");
+  app.add_option_function<std::string>(
+         "--load",
+         [&limits](const std::string& text) {
+           limits.load = parse_number("--load", text, {-kUnbounded, kUnbounded});
+         },
+         "known torque on the link, where the rig has no law for it [0]")
+      ->type_name("N_M");
+}
+
 std::string take_model(const DesignCommand& command) {
   if (command.models.size() == 1) return command.models.front();
   throw usage_error(command.models.empty() ? "no model given" : "more than one model given",
                     "name one model file, result or rig file");
 }
 
-DesignResult run_sweep(DesignCommand& command) {
-  const std::string path = take_model(command);
-  command.common.more_inputs.push_back(path);
-  if (!(command.design.torque > 0))
-    throw usage_error("no --torque given", "say which torque the joint has to carry, in N m");
-  if (false_alarm_rate_of(command.design.false_alarms_per_hour, command.design.window) >=
-      command.design.detection_rate)
+void check_sweep(const DesignOptions& design) {
+  if (false_alarm_rate_of(design.false_alarms_per_hour, design.window) >= design.detection_rate)
     throw usage_error("so many false alarms that every window is one",
                       "lower --false-alarms or --window");
+}
+
+void check_limits(const DesignCommand& command) {
+  const ExcitationLimits& limits = command.excitation.limits;
+  if (limits.max_position > 0 && limits.max_speed > 0 && limits.max_torque > 0) return;
+  throw usage_error("--excite needs limits",
+                    "give --max-position, --max-speed and --max-torque of the joint");
+}
+
+/// The reference never replaces what it is made from, nor another result of the same run.
+void check_excite(const DesignCommand& command, const std::string& model) {
+  if (command.excite.empty()) return;
+  const CommonOptions& options = command.common;
+  std::vector<std::string> others = options.reports;
+  others.insert(others.end(),
+                {model, options.json, (std::filesystem::path(options.out) / kResultFile).string()});
+  const auto whole = [](const std::string& file) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(file));
+  };
+  for (const std::string& other : others)
+    if (!other.empty() && whole(other) == whole(command.excite))
+      throw usage_error(
+          fmt::format("the reference would take the place of {}", cablefit::quoted(other)),
+          "choose another --excite");
+}
+
+DesignResult run(DesignCommand& command) {
+  const std::string path = take_model(command);
+  command.common.more_inputs.push_back(path);
+  const bool sweep = command.design.torque > 0, excite = !command.excite.empty();
+  if (!sweep && !excite)
+    throw usage_error("neither --torque nor --excite given",
+                      "say which torque the joint has to carry, or which file the motion goes to");
+  if (sweep) check_sweep(command.design);
+  if (excite) check_limits(command);
+  check_excite(command, path);
   std::string choice;
   const Model model = read_design_model(path, command.common.preload, command.model, choice);
-  command.design.figures = wants_figures(command.common);
-  const Progress progress(command.common.quiet, "sweeping the preload");
-  DesignResult result = sweep_design(model, command.design);
+  const bool figures = wants_figures(command.common);
+  DesignResult result = blank_design(model);
+  if (sweep) {
+    const Progress progress(command.common.quiet, "sweeping the preload");
+    command.design.figures = figures;
+    result = sweep_design(model, command.design);
+  }
+  if (excite) {
+    const Progress progress(command.common.quiet, "looking for a motion");
+    command.excitation.limits.rate = command.design.rate;
+    command.excitation.seed = command.common.seed;
+    command.excitation.threads = command.common.samples.threads;
+    result.excitation = plan_excitation(model, command.excitation, figures);
+    result.excitation_path = command.excite;
+  }
   result.model_path = path;
   result.model_choice = choice;
   result.inputs = {{path, sha256_of_file(path), 0}};
@@ -159,15 +247,18 @@ DesignResult run_sweep(DesignCommand& command) {
 }  // namespace
 
 int run_design(const Arguments& arguments) {
-  CLI::App app("What a preload buys, and what simpler models cost.", "design");
+  CLI::App app("What a preload buys, what simpler models cost, and which motion to record.",
+               "design");
   DesignCommand command;
   add_model_options(app, command);
   add_sweep_options(app, command.design);
   add_collision_options(app, command.design);
+  add_excitation_options(app, command);
   add_output_options(app, command.common);
   app.footer(kExample);
   if (!parse(app, arguments)) return 0;
-  const DesignResult result = run_sweep(command);
+  const DesignResult result = run(command);
+  if (result.excitation) write_whole(command.excite, reference_csv(result.excitation->motion));
   deliver(command.common, design_document(result), {{kResultFile, design_json(result)}});
   return 0;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cablefit/design/collision.hpp"
+#include "cablefit/design/excitation_plan.hpp"
 #include "cablefit/figure/figure.hpp"
 #include "cablefit/samples/input_file.hpp"
 #include "cablefit/samples/settings.hpp"
@@ -86,6 +87,8 @@ struct DesignResult {
   double false_alarms_per_hour = 0;
   std::vector<DesignPoint> points;
   std::vector<NeededPreload> needed;  ///< one per radius factor
+  std::optional<ExcitationPlan> excitation;
+  std::string excitation_path;  ///< of its reference
   std::vector<Decision> decisions;
   std::vector<std::string> warnings;
   std::vector<Figure> figures;

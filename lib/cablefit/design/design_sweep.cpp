@@ -110,18 +110,6 @@ void tell_needed(const DesignResult& result, std::vector<std::string>& warnings)
           kLargestPreload, result.torque, needed.radius_factor));
 }
 
-DesignResult blank_result(const Model& model, const DesignOptions& options) {
-  DesignResult result;
-  result.model_name = model.name;
-  result.preload = model.preload;
-  result.linear_motion = model.rig.linear_motion;
-  result.cable_space = model.rig.cables_given;
-  for (const Cable& cable : model.transmission.cables) result.cables.push_back(cable.name);
-  result.torque = options.torque;
-  result.false_alarms_per_hour = options.false_alarms_per_hour;
-  return result;
-}
-
 }  // namespace
 
 double needed_preload(const Transmission& transmission, double torque) {
@@ -141,8 +129,20 @@ double needed_preload(const Transmission& transmission, double torque) {
   return kNotKnown;
 }
 
+DesignResult blank_design(const Model& model) {
+  DesignResult result;
+  result.model_name = model.name;
+  result.preload = model.preload;
+  result.linear_motion = model.rig.linear_motion;
+  result.cable_space = model.rig.cables_given;
+  for (const Cable& cable : model.transmission.cables) result.cables.push_back(cable.name);
+  return result;
+}
+
 DesignResult sweep_design(const Model& model, const DesignOptions& given) {
-  DesignResult result = blank_result(model, given);
+  DesignResult result = blank_design(model);
+  result.torque = given.torque;
+  result.false_alarms_per_hour = given.false_alarms_per_hour;
   DesignOptions options = given;
   options.noise = noise_of(model, given, result);
   if (options.noise)

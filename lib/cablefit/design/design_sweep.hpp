@@ -31,6 +31,9 @@ struct DesignOptions {
 Model read_design_model(const std::string& path, const std::string& preload,
                         const std::string& model, std::string& choice);
 
+/// What every result says of the model, and nothing else.
+DesignResult blank_design(const Model& model);
+
 /// Throws Error(input) when the cables cannot be preloaded or never give the torque.
 DesignResult sweep_design(const Model& model, const DesignOptions& options);
 

@@ -151,6 +151,7 @@ Excitation finished(const Judge& judge, const Candidate& best, const ExcitationO
   Excitation found;
   found.motion = std::move(*motion);
   found.objective = objective(found.motion);
+  found.numbers = best.numbers;
   found.n_tried = n_tried;
   return found;
 }
@@ -187,9 +188,13 @@ Excitation search_excitation(const Model& model, const ExcitationOptions& option
                              const ExcitationObjective& objective) {
   const Judge judge(model, options, find_motion_shape(options.shape), objective);
   Random random(options.seed);
-  std::vector<Candidate> drawn(static_cast<std::size_t>(options.n_random));
-  for (Candidate& candidate : drawn) candidate.numbers = judge.draw(random);
-  for (const Eigen::ArrayXXd& numbers : judge.starts()) drawn.push_back({numbers});
+  std::vector<Candidate> drawn;
+  if (options.from.size() > 0) {
+    drawn.push_back({options.from});
+  } else {
+    for (int i = 0; i < options.n_random; ++i) drawn.push_back({judge.draw(random)});
+    for (const Eigen::ArrayXXd& numbers : judge.starts()) drawn.push_back({numbers});
+  }
   judge.judge(drawn);
   Candidate best = best_of(drawn);
   double step = kFirstStep;

@@ -22,12 +22,14 @@ struct ExcitationOptions {
   int n_random = 24;       ///< motions drawn at random first
   int n_generations = 30;  ///< of changes to the best one
   int per_generation = 8;
-  int threads = 1;  ///< the result does not depend on it
+  int threads = 1;            ///< the result does not depend on it
+  Eigen::ArrayXXd from = {};  ///< numbers of an earlier search to go on from; nothing is drawn then
 };
 
 struct Excitation {
-  ExcitedMotion motion;  ///< simulated with the simulator's own step
-  double objective = 0;  ///< of that
+  ExcitedMotion motion;     ///< simulated with the simulator's own step
+  double objective = 0;     ///< of that
+  Eigen::ArrayXXd numbers;  ///< of the shape, a column per joint
   int n_tried = 0;
   double hz = 0;  ///< of a sine
 };

@@ -84,28 +84,65 @@ void add_figures(ExcitationPlan& plan) {
       nullptr);
 }
 
+/// The worst relative error; infinite where an inertia would be refused.
+ExcitationObjective objective_of(const FitPlanner& planner) {
+  return [&planner](const ExcitedMotion& motion) {
+    const PlannedFit fit = planner.fit(motion);
+    return fit.refused.empty() ? fit.worst() : kUnbounded;
+  };
+}
+
+/// A link without a known load turns as stage 1's stiffness says: nothing else has a unit of
+/// torque.
+void require_load(const Model& model, const ExcitationLimits& limits) {
+  const Load& load = model.rig.load;
+  if (model.rigid || model.rig.arm.kind != nullptr || limits.load != 0) return;
+  for (const double way : {-1.0, 0.0, 1.0})
+    if (load.law != nullptr && !load.law->from_column &&
+        load.law->torque(load.parameters, limits.middle + way * limits.max_position) != 0)
+      return;
+  throw Error(ErrorKind::input,
+              "no known load acts on the link: its inertia would rest on the elastic stage alone, "
+              "and 'cablefit dynamic' would refuse it; hang a load on it and give --load, or the "
+              "rig a \"load\"");
+}
+
 }  // namespace
 
 ExcitationPlan plan_excitation(const Model& model, const ExcitationOptions& options, bool figures) {
   std::string controller;
   const Model moved = excitable(model, options.limits.rate, controller);
+  require_load(moved, options.limits);
   ExcitationPlan plan;
   plan.shape = options.shape;
   plan.limits = options.limits;
   plan.linear_motion = model.rig.linear_motion;
   plan.joints = model.rig.joints;
+  // Once with the settings that some motion gets, and on with those of the motion found by that.
+  ExcitationOptions half = options;
+  half.n_generations = options.n_generations / 2;
   const FitPlanner roughly(moved, any_motion(moved, options), kSearchDraws, options.threads);
-  const ExcitationObjective error = [&](const ExcitedMotion& motion) {
-    return roughly.fit(motion).worst();
-  };
-  Excitation found = search_excitation(moved, options, [&](const ExcitedMotion& motion) {
-    const PlannedFit fit = roughly.fit(motion);
-    return fit.refused.empty() ? fit.worst() : kUnbounded;
-  });
-  plan.motion = std::move(found.motion);
+  Excitation found = search_excitation(moved, half, objective_of(roughly));
   plan.n_tried = found.n_tried;
+  const FitPlanner better(moved, found.motion, kSearchDraws, options.threads);
+  const ExcitationObjective objective = objective_of(better);
+  if (std::isfinite(objective(found.motion))) {
+    half.from = found.numbers;
+    half.seed = options.seed + 1;
+    found = search_excitation(moved, half, objective);
+    plan.n_tried += found.n_tried;
+  }
+  plan.motion = std::move(found.motion);
+  const ExcitationObjective error = [&](const ExcitedMotion& motion) {
+    return better.fit(motion).worst();
+  };
   const FitPlanner planner(moved, plan.motion, kFinalDraws, options.threads);
   plan.fit = planner.fit(plan.motion);
+  if (!plan.fit.refused.empty())
+    throw Error(ErrorKind::not_identifiable,
+                fmt::format("no motion found that shows every inertia: {}; raise a limit, or take "
+                            "longer",
+                            plan.fit.refused));
   plan.plain = compared(moved, options.threads, [&] { return plain_sine(moved, options, error); });
   plan.best = compared(moved, options.threads, [&] { return best_sine(moved, options, error); });
   plan.decisions = {{"controller", controller, "simulated in closed loop"},

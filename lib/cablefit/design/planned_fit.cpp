@@ -184,23 +184,31 @@ Window with_noise(Window window, const LogSurvey& log, std::uint64_t draw) {
   return window;
 }
 
+LogSurvey survey_of(const LogPlan& plan, const Eigen::MatrixXd& data, double period) {
+  RecordedPart part{"default", "", Phase::moving, true, {}};
+  part.rows.resize(data.rows(), data.cols() + 1);
+  part.rows.rightCols(data.cols()) = data;
+  for (Eigen::Index i = 0; i < data.rows(); ++i) part.rows(i, 0) = static_cast<double>(i) * period;
+  return survey_recorded(plan, {part});
+}
+
+/// As it will be recorded: settings are chosen by what the noise looks like.
+LogSurvey noisy_log(const Model& model, const ExcitedMotion& motion) {
+  const LogSurvey clean = planned_log(model, motion);
+  return survey_of(clean.plan, with_noise(window_of(motion, clean), clean, 0).data, motion.period);
+}
+
 }  // namespace
 
 LogSurvey planned_log(const Model& model, const ExcitedMotion& motion) {
   const LogPlan plan = plan_of(model);
-  RecordedPart part{"default", "", Phase::moving, true, {}};
-  const Eigen::MatrixXd data = slots_of(motion, plan.slots);
-  part.rows.resize(data.rows(), data.cols() + 1);
-  part.rows.rightCols(data.cols()) = data;
-  for (Eigen::Index i = 0; i < data.rows(); ++i)
-    part.rows(i, 0) = static_cast<double>(i) * motion.period;
-  return survey_recorded(plan, {part});
+  return survey_of(plan, slots_of(motion, plan.slots), motion.period);
 }
 
 struct FitPlanner::Settings {
   Settings(const Model& m, const ExcitedMotion& first, int n_draws, int threads)
       : model(m),
-        logs{planned_log(m, first)},
+        logs{noisy_log(m, first)},
         elastic(stage1_of(m, first)),
         job{logs,      options,
             "default", [](const PartSurvey&) { return true; },

@@ -200,7 +200,6 @@ void add_claim(const Words& words, Document& document) {
 }
 
 void add_tidy_rows(const Words& words, Document& document) {
-  document.tidy = tidy_table();
   for_each_joint(words.result, [&](const DesignPoint& point, const DesignJoint& joint) {
     const std::string where =
         fmt::format("l_o {} radii x {}{}", exact(point.l_o), exact(point.radius_factor),
@@ -230,12 +229,71 @@ void add_tidy_rows(const Words& words, Document& document) {
   });
 }
 
-}  // namespace
+Table excitation_table(const ExcitationPlan& plan) {
+  Table table;
+  table.title = "What the motion will tell";
+  table.columns = {{"", "equation", "", true}, {"", "parameter", "", true},
+                   {"", "unit", "", true},     {"", "value", ""},
+                   {"to expect", "error", ""}, {"to expect", "", "%"},
+                   {"of which", "sd", ""},     {"of which", "floor", ""},
+                   {"", "(25) will say", ""},  {"plain sine", "error", ""}};
+  for (std::size_t k = 0; k < plan.fit.parameters.size(); ++k) {
+    const PlannedParameter& p = plan.fit.parameters[k];
+    table.rows.push_back(
+        {p.equation, p.name, p.unit, significant(p.value, kDigits), significant(p.error(), 2),
+         significant(100 * p.error() / std::abs(p.value), 2), significant(p.sd, 2),
+         significant(std::abs(p.floor), 2), significant(p.sd_white, 2),
+         k < plan.plain.fit.parameters.size() ? significant(plan.plain.fit.parameters[k].error(), 2)
+                                              : std::string(kNoNumber)});
+  }
+  table.notes.push_back(
+      "error: root of sd^2 + floor^2; sd: scatter that the noise of the sensors makes; floor: what "
+      "filters and the kinks of slack cables add without any noise; errors of stage 1 and what the "
+      "model lacks come on top");
+  table.notes.push_back(fmt::format(
+      "plain sine: {} Hz, all of the range at full speed{}", significant(plan.plain.hz, kFewDigits),
+      plan.plain.fit.refused.empty()
+          ? std::string()
+          : "; 'cablefit dynamic' refuses it: " + plan.plain.fit.refused));
+  return table;
+}
 
-Document design_document(const DesignResult& result) {
+void add_excitation(const DesignResult& result, Document& document) {
+  const ExcitationPlan& plan = *result.excitation;
+  const std::string rad = result.linear_motion ? "m" : "rad";
+  document.summary.push_back(
+      {"reference",
+       fmt::format("{}: {} of {:g} s at {:g} Hz, best of {} simulated", result.excitation_path,
+                   plan.shape, plan.limits.duration, plan.limits.rate, plan.n_tried)});
+  document.summary.push_back(
+      {"worst error",
+       fmt::format(
+           "{} %, of a plain sine {} %: {} times as much", significant(100 * plan.fit.worst(), 2),
+           std::isfinite(plan.plain.worst) ? significant(100 * plan.plain.worst, 2) : "unknown",
+           std::isfinite(plan.factor()) ? significant(plan.factor(), 2) : "infinitely many")});
+  document.summary.push_back(
+      {"limits", fmt::format("{:.0f} % of {:g} {}, {:.0f} % of {:g} {}/s, {:.0f} % of {:g} {}",
+                             100 * plan.motion.position_share, plan.limits.max_position, rad,
+                             100 * plan.motion.speed_share, plan.limits.max_speed, rad,
+                             100 * plan.motion.torque_share, plan.limits.max_torque,
+                             torque_unit(result.linear_motion))});
+  document.tables.push_back(excitation_table(plan));
+  document.figures.insert(document.figures.end(), plan.figures.begin(), plan.figures.end());
+  add_decisions(document, result.preload, plan.decisions);
+  for (const PlannedParameter& p : plan.fit.parameters) {
+    const auto add = [&](const std::string& name, double value) {
+      add_tidy_number(document.tidy, "excitation", "cables", plan.shape, name + " of " + p.name,
+                      p.unit, value);
+    };
+    add("error", p.error());
+    add("sd", p.sd);
+    add("floor", p.floor);
+    add("sd_white", p.sd_white);
+  }
+}
+
+void add_sweep(const DesignResult& result, Document& document) {
   const Words words(result);
-  Document document;
-  document.title = "Design: what a preload buys, and what simpler models of it cost";
   for (const NeededPreload& needed : result.needed)
     document.summary.push_back({words.several_radii()
                                     ? fmt::format("preload, radii x {:g}", needed.radius_factor)
@@ -246,11 +304,24 @@ Document design_document(const DesignResult& result) {
   if (Table friction = friction_table(words); !friction.rows.empty())
     document.tables.push_back(std::move(friction));
   document.tables.push_back(tension_table(words));
-  add_decisions(document, result.preload, result.decisions);
-  finish_decisions(document, 1);
-  document.warnings = result.warnings;
   document.figures = result.figures;
   add_tidy_rows(words, document);
+}
+
+}  // namespace
+
+Document design_document(const DesignResult& result) {
+  Document document;
+  document.tidy = tidy_table();
+  const bool sweep = !result.points.empty();
+  document.title = !result.excitation ? "Design: what a preload buys, and what simpler models cost"
+                   : sweep            ? "Design: what a preload buys, and which motion to record"
+                                      : "Design: which motion to record";
+  if (sweep) add_sweep(result, document);
+  add_decisions(document, result.preload, result.decisions);
+  if (result.excitation) add_excitation(result, document);
+  finish_decisions(document, 1);
+  document.warnings = result.warnings;
   return document;
 }
 

@@ -82,6 +82,51 @@ Json needed_json(const NeededPreload& needed) {
               {"tensions", needed.tensions}};
 }
 
+Json planned_json(const PlannedParameter& p) {
+  return Json{{"equation", p.equation},
+              {"name", p.name},
+              {"unit", p.unit},
+              {"value", p.value},
+              {"sd", p.sd},
+              {"floor", p.floor},
+              {"error", p.error()},
+              {"sd_white", p.sd_white},
+              {"relative", p.relative}};
+}
+
+Json sine_json(const ExcitationPlan::Sine& sine, double factor) {
+  return Json{{"hz", sine.hz},
+              {"worst_relative_error", sine.worst},
+              {"factor", factor},
+              {"refused", sine.fit.refused.empty() ? Json() : Json(sine.fit.refused)},
+              {"parameters", list_of(sine.fit.parameters, planned_json)}};
+}
+
+Json excitation_json(const DesignResult& result) {
+  if (!result.excitation) return {};
+  const ExcitationPlan& plan = *result.excitation;
+  const ExcitationLimits& l = plan.limits;
+  return Json{{"reference", result.excitation_path},
+              {"shape", plan.shape},
+              {"limits",
+               {{"max_position", l.max_position},
+                {"max_speed", l.max_speed},
+                {"max_torque", l.max_torque},
+                {"duration", l.duration},
+                {"rate", l.rate},
+                {"middle", l.middle},
+                {"load", l.load}}},
+              {"shares",
+               {{"position", plan.motion.position_share},
+                {"speed", plan.motion.speed_share},
+                {"torque", plan.motion.torque_share}}},
+              {"motions_tried", plan.n_tried},
+              {"worst_relative_error", plan.fit.worst()},
+              {"parameters", list_of(plan.fit.parameters, planned_json)},
+              {"plain_sine", sine_json(plan.plain, plan.factor())},
+              {"best_sine", sine_json(plan.best, plan.factor_of_best())}};
+}
+
 Json detector_json(const DesignResult& result) {
   if (!result.detector) return {};
   return Json{{"noise", result.detector->noise},
@@ -106,6 +151,7 @@ std::string design_json(const DesignResult& result) {
   json["detector"] = detector_json(result);
   json["needed_preload"] = list_of(result.needed, needed_json);
   json["points"] = list_of(result.points, point_json);
+  json["excitation"] = excitation_json(result);
   json["decisions"] = report_json::decisions(result.decisions);
   return report_json::text(json);
 }

@@ -1,0 +1,99 @@
+// Designs as JSON, text, CSV and Markdown.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cablefit/design/design_sweep.hpp"
+#include "cablefit/report/design_document.hpp"
+#include "cablefit/report/design_json.hpp"
+#include "cablefit/report/writers.hpp"
+#include "tests/report/schema.hpp"
+
+namespace {
+
+using namespace cablefit;
+using test::schema_errors;
+
+/// A pair of linear cables on a rig, nothing else known.
+DesignResult sweep_of(std::optional<double> noise) {
+  Model model;
+  model.rig = default_rig();
+  model.transmission = antagonist_pair(1);
+  model.transmission.cables[0].coefficients = {1000};
+  model.transmission.cables[1].coefficients = {1000};
+  DesignOptions options;
+  options.torque = 20;
+  options.l_o = {0, 0.01};
+  options.noise = noise;
+  options.figures = true;
+  DesignResult result = sweep_design(model, options);
+  result.model_path = "rig.json";
+  result.inputs = {{"rig.json", std::string(64, 'a'), 0}};
+  return result;
+}
+
+ExcitationPlan plan() {
+  ExcitationPlan plan;
+  plan.shape = "multisine";
+  plan.limits.max_position = 0.5;
+  plan.limits.max_speed = 3;
+  plan.limits.max_torque = 100;
+  plan.joints = {"1"};
+  plan.fit.parameters = {{"link", "J_link", "kg m^2", 0.3, 0.003, 0.004, 0.006, 0.0167}};
+  plan.plain.hz = 0.95;
+  plan.plain.worst = 0.0333;
+  plan.plain.fit.parameters = {{"link", "J_link", "kg m^2", 0.3, 0.01, 0, 0.01, 0.0333}};
+  plan.plain.fit.refused = "J_link would rest on the elastic stage alone";
+  plan.best.worst = kUnbounded;
+  plan.motion.position_share = 0.5;
+  plan.motion.speed_share = 1;
+  plan.motion.torque_share = 0.25;
+  plan.n_tried = 200;
+  return plan;
+}
+
+TEST_CASE("a design is valid JSON, with and without each of its parts", "[report]") {
+  DesignResult result = sweep_of(0.3);
+  CHECK(schema_errors("design", design_json(result)) == "");
+  CHECK(schema_errors("design", design_json(sweep_of(std::nullopt))) == "");
+  result.excitation = plan();
+  result.excitation_path = "reference.csv";
+  CHECK(schema_errors("design", design_json(result)) == "");
+  result.points.clear();
+  const auto json = nlohmann::json::parse(design_json(result));
+  CHECK(schema_errors("design", json.dump()) == "");
+  CHECK(json["excitation"]["parameters"][0]["error"].get<double>() == Approx(0.005));
+  CHECK(json["excitation"]["best_sine"]["factor"].is_null());
+}
+
+// K_linear of l_o = 0.01 under 20 N m: both taut up to 2 k u = 20 N m, so 2000 N m/rad, no error.
+TEST_CASE("a design as text has the closed forms of linear cables", "[report]") {
+  const Document document = design_document(sweep_of(std::nullopt));
+  const std::string text = write_text(document);
+  for (const char* line :
+       {"l_o[1] = 10.00 mrad, l_o[2] = 10.00 mrad keeps all cables taut up to 20 N m",
+        "l_o 10.00 mrad: linear 0, piecewise linear 0 N m"}) {
+    INFO(text);
+    CHECK(text.find(line) != std::string::npos);
+  }
+  CHECK(text.find(" inf") == std::string::npos);
+  CHECK(text.find(" nan") == std::string::npos);
+  CHECK(write_csv(document).find("closure_torque") != std::string::npos);
+  CHECK(write_markdown(document).find("What the preload buys") != std::string::npos);
+  REQUIRE(document.figures.size() == 8);  // four curves, two along the sweep, cables of each point
+  CHECK(document.figures.back().section == "Cables at l_o = 10 mrad");
+}
+
+TEST_CASE("an excitation as text says what it beats, and why a sine would not do", "[report]") {
+  DesignResult result;
+  result.excitation = plan();
+  result.excitation_path = "reference.csv";
+  const std::string text = write_text(design_document(result));
+  INFO(text);
+  for (const char* line : {"worst error  1.7 %, of a plain sine 3.3 %: 2.0 times as much",
+                           "50 % of 0.5 rad, 100 % of 3 rad/s, 25 % of 100 N m",
+                           "'cablefit dynamic' refuses it: J_link would rest on the elastic stage "
+                           "alone"})
+    CHECK(text.find(line) != std::string::npos);
+}
+
+}  // namespace
