@@ -287,7 +287,9 @@ void name_first_again(Bench& bench, const State& first, State& state, RefineResu
     named.rivals = trial->judgement.rivals;  // fewer: the second no longer blurs it
     return;
   }
-  if (trial->after.rho >= state.rho || trial->after.unseen.rho >= state.unseen.rho ||
+  // A tie goes to what is named beside the other.
+  constexpr double kTie = 1.01;
+  if (trial->after.rho > kTie * state.rho || trial->after.unseen.rho > kTie * state.unseen.rho ||
       !why_not_added(change_of(bench, row, *alone, trial->after)).empty())
     return;
   result.steps.front() = step_of(bench, *trial, "");
