@@ -45,7 +45,8 @@ Values neutral_parameters(const Refinement& row) {
   Values values;
   for (std::size_t i = 0; i < row.parameters.size(); ++i) {
     const bool is_limit =
-        i >= row.n_linear() && row.shape[i - row.n_linear()].unit == GridUnit::peak;
+        i >= row.n_linear() && row.shape[i - row.n_linear()].unit == GridUnit::peak &&
+        row.shape[i - row.n_linear()].high > 0.5;  // up to the peak, unlike a band at zero
     values.push_back(is_limit ? kScale.peak : std::max(0.0, row.parameters[i].lower));
   }
   return values;

@@ -77,3 +77,28 @@ TEST_CASE("columns that cannot be told apart are no fit", "[refine]") {
   data.rows[0].kinds[0].base.col(3) = 2 * data.rows[0].kinds[0].base.col(0);
   CHECK_FALSE(fit_blocks(block_grams(data.rows, data.stretches, kBlock), {1, 1, 1}));
 }
+
+TEST_CASE("the jackknife's covariance is that of refits without each block", "[refine]") {
+  const Rowful data(200);
+  const auto covariance =
+      jackknife_covariance(block_grams(data.rows, data.stretches, kBlock), {1, 0.5, 1});
+  REQUIRE(covariance);
+  Eigen::MatrixXd without(4, 10);
+  for (Eigen::Index b = 0; b < 10; ++b) {
+    Eigen::MatrixXd a(180, 4);
+    Eigen::VectorXd y(180);
+    a << data.only().base.topRows(20 * b), data.only().base.bottomRows(180 - 20 * b);
+    y << data.only().response.head(20 * b), data.only().response.tail(180 - 20 * b);
+    without.col(b) = a.colPivHouseholderQr().solve(y);
+  }
+  without.colwise() -= without.rowwise().mean().eval();
+  const Eigen::MatrixXd expected = 0.9 * without * without.transpose();
+  for (Eigen::Index k = 0; k < 4; ++k)
+    CHECK((*covariance)(k, k) == Approx(expected(k, k)).epsilon(1e-3));
+}
+
+TEST_CASE("what lies in one block has no jackknife", "[refine]") {
+  Rowful data(100);
+  data.rows[0].kinds[0].base.col(3).head(80).setZero();
+  CHECK_FALSE(jackknife_covariance(block_grams(data.rows, data.stretches, kBlock), {1, 1, 1}));
+}

@@ -89,6 +89,17 @@ TEST_CASE("what is not in the catalogue is unexplained", "[refine][slow]") {
   CHECK(result.remainder_link > result.floor_link);
 }
 
+/// Neither alone makes the simulation of unseen logs better.
+TEST_CASE("two effects at once are judged together", "[refine][slow]") {
+  const HiddenLogs hidden = hidden_logs({"drive_dead_band.drive=0.2254", "presliding.link=0.1073"});
+  const RefineResult result = refined(hidden);
+  INFO(result.reason);
+  REQUIRE(result.effects.size() == 2);
+  CHECK(first_name(result) == "drive_dead_band");
+  CHECK(result.effects[1].instance.refinement->name == "presliding");
+  CHECK(result.rho_after < 1.2);
+}
+
 /// Table 2's link friction rises from 3.3 to 7.0 N m with preload, which (31) cannot explain: with
 /// a friction that follows the tension one coefficient serves both.
 TEST_CASE("one tension friction serves two preloads", "[refine][slow]") {

@@ -147,3 +147,24 @@ TEST_CASE("the simulation of unseen logs has the last word", "[refine]") {
   const Refinement& event = find_refinement("contact", Site::link);
   CHECK(why_not_added({event, 1.5, 1.6, before, worse, floor}).empty());  // is over in other logs
 }
+
+/// The trap: a pair of the catalogue mimics a third mass, 98.7 % of the gap closed.
+TEST_CASE("two at once have to leave nothing", "[refine]") {
+  const Refinement& row = find_refinement("stribeck", Site::link);
+  const SimulatedGap floor{1e-5, 0.1, ""}, before{1e-4, 1, ""}, most{2e-5, 0.2, ""},
+      all{1.1e-5, 0.11, ""};
+  CHECK(why_not_both({row, 56, 1.1, before, all, floor}).empty());
+  CHECK_FALSE(why_not_both({row, 56, 1.7, before, all, floor}).empty());
+  CHECK_FALSE(why_not_both({row, 56, 1.1, before, most, floor}).empty());
+  CHECK_FALSE(why_not_both({row, 1.5, 1.6, before, all, floor}).empty());
+  const Refinement& event = find_refinement("contact", Site::link);
+  CHECK_FALSE(why_not_both({event, 56, 1.1, before, all, floor}).empty());
+}
+
+TEST_CASE("a simulation that shows no gap may scatter a little", "[refine]") {
+  const Refinement& row = find_refinement("load_scale", Site::link);
+  const SimulatedGap floor{1e-5, 0.1, ""}, before{1.05e-5, 0.105, ""}, little{1.07e-5, 0.107, ""},
+      more{1.15e-5, 0.115, ""};
+  CHECK(why_not_added({row, 1.2, 1.05, before, little, floor}).empty());
+  CHECK_FALSE(why_not_added({row, 1.2, 1.05, before, more, floor}).empty());
+}

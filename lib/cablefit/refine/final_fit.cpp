@@ -1,5 +1,6 @@
 #include "cablefit/refine/final_fit.hpp"
 
+#include <Eigen/Cholesky>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -83,6 +84,26 @@ BlockGrams with_shape_columns(const Design& undone, const Design& design, const 
   return block_grams(rows, design.stretches, block_seconds);
 }
 
+/// Of an event that lies in one block no other block tells anything: by the noise of its rows.
+Eigen::MatrixXd noise_covariance(const BlockGrams& grams, const KindLevels& levels) {
+  const Eigen::Index q = grams.n_columns;
+  const Eigen::MatrixXd gram = weighted_sum(grams, levels).bottomRightCorner(q, q);
+  const Eigen::VectorXd scale = gram.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::LLT<Eigen::MatrixXd> llt(scale.asDiagonal() * gram * scale.asDiagonal());
+  if (!scale.allFinite() || llt.info() != Eigen::Success)
+    return Eigen::MatrixXd::Constant(q, q, std::numeric_limits<double>::quiet_NaN());
+  return scale.asDiagonal() * llt.solve(Eigen::MatrixXd::Identity(q, q)) * scale.asDiagonal();
+}
+
+/// How many neighbouring rows are worth one: sum of the autocorrelation of white noise behind the
+/// kernel of the columns.
+double rows_per_value(const Smoothing& smoothing, double period) {
+  const double step = static_cast<double>(smoothing.stride) * period / (2 * smoothing.columns);
+  double sum = 1;
+  for (int k = 1; k * step < 3; ++k) sum += 2 * std::exp(-(k * step) * (k * step));
+  return sum;
+}
+
 }  // namespace
 
 std::vector<Eigen::Index> first_columns(const Design& design) {
@@ -113,9 +134,11 @@ FinalFit final_fit(const Design& undone, const Design& design, const KindLevels&
   fit.rms = rms_of(block_grams(design.rows, design.stretches, block_seconds), fit.x);
   const BlockGrams grams = with_shape_columns(undone, design, fit.x, block_seconds);
   const Eigen::Index q = grams.n_columns;
-  fit.covariance =
-      jackknife_covariance(grams, levels)
-          .value_or(Eigen::MatrixXd::Constant(q, q, std::numeric_limits<double>::quiet_NaN()));
+  const auto jackknife = jackknife_covariance(grams, levels);
+  const double period = design.stretches.front().recording.period;
+  fit.covariance = jackknife
+                       ? *jackknife
+                       : noise_covariance(grams, levels) * rows_per_value(design.smoothing, period);
   fit.degrees_of_freedom =
       std::max(1.0, static_cast<double>(grams.blocks.size()) - static_cast<double>(q));
   return fit;

@@ -43,6 +43,7 @@ struct Bench {
   SimulatedGap simulation_floor = {};
   std::optional<NullBench> null = {};
   std::vector<NullDraw> draws = {};  ///< of searches; none until something is worth them
+  Search first_search = {};          ///< on the base alone
 };
 
 /// Where the workflow stands.
@@ -205,6 +206,7 @@ std::optional<Trial> try_next(Bench& bench, const State& state, bool is_first,
   if (first_result != nullptr) {
     first_result->not_separable = not_separable(found);
     first_result->league = trial.judgement.league;
+    bench.first_search = found;
   }
   if (!trial.judgement.is_named) return {};
   trial.winner = refined_shape({state.design, found.grams, found.fit, found.levels}, bench.scan,
@@ -296,7 +298,9 @@ void name_first_again(Bench& bench, const State& first, State& state, RefineResu
     named.rivals = trial->judgement.rivals;  // fewer: the second no longer blurs it
     return;
   }
-  if (trial->after.rho >= state.rho || trial->after.unseen.rho >= state.unseen.rho ||
+  // A tie goes to what is named beside the other.
+  constexpr double kTie = 1.01;
+  if (trial->after.rho > kTie * state.rho || trial->after.unseen.rho > kTie * state.unseen.rho ||
       !why_not_added(change_of(bench, row, *alone, trial->after)).empty())
     return;
   result.steps.front() = step_of(bench, *trial, "");
@@ -305,6 +309,34 @@ void name_first_again(Bench& bench, const State& first, State& state, RefineResu
   std::swap(result.effects[0], result.effects[1]);  // in the order of the design
   std::swap(result.steps[0], result.steps[1]);
   state = std::move(other);
+}
+
+/// Two effects together may look like a third, and what is best alone is then neither. Where two
+/// leave something, other beginnings are tried: each with what is best beside it.
+void begin_otherwise(Bench& bench, const State& first, State& state, RefineResult& result) {
+  constexpr std::size_t kBeginnings = 3;
+  const Search& found = bench.first_search;
+  const Refinement& taken = *state.design.added.front().refinement;
+  for (const Candidate* candidate : best_candidates(found.candidates, kBeginnings, taken)) {
+    Trial one;
+    one.winner =
+        refined_shape({first.design, found.grams, found.fit, found.levels}, bench.scan, *candidate);
+    auto after = with_candidate(bench, first, found, one.winner);
+    if (!after) continue;
+    one.after = std::move(*after);
+    auto two = try_next(bench, one.after, false, nullptr);
+    if (!two || two->after.rho >= state.rho || two->after.unseen.rho >= state.unseen.rho) continue;
+    const Refinement& row = *two->winner.variant.refinement;
+    if (!why_not_added(change_of(bench, row, first, two->after)).empty()) continue;
+    // Named beside each other, none alone.
+    const double p_value = result.effects.front().evidence.p_value;
+    one.judgement.p_value = p_value;
+    one.judgement.inclusion = result.effects.front().evidence.inclusion;
+    result.effects = {effect_of(bench, first, one.after, one.judgement),
+                      effect_of(bench, one.after, two->after, two->judgement)};
+    result.steps = {step_of(bench, one, ""), step_of(bench, *two, "")};
+    state = std::move(two->after);
+  }
 }
 
 /// Torques of rows weighted so that every equation has the motor's floor.
@@ -425,7 +457,13 @@ RefineResult refine(std::span<const Model> given, const RefineLogs& logs,
 
   State state = first;
   while (result.effects.size() < options.most_effects && add_next_effect(bench, state, result)) {
-    if (result.effects.size() == 2) name_first_again(bench, first, state, result);
+    if (result.effects.size() == 2) {
+      name_first_again(bench, first, state, result);
+      if (state.rho >= kNoGap) {
+        begin_otherwise(bench, first, state, result);
+        name_first_again(bench, first, state, result);
+      }
+    }
     if (state.rho < kNoGap) break;
   }
 

@@ -41,6 +41,26 @@ const Candidate* best_lasting(const std::vector<Candidate>& candidates) {
   return best;
 }
 
+std::vector<const Candidate*> best_candidates(const std::vector<Candidate>& candidates,
+                                              std::size_t most, const Refinement& but) {
+  const auto same_class = [](const Refinement& a, const Refinement& b) {
+    return &a == &b || (!a.alias_class.empty() && a.alias_class == b.alias_class);
+  };
+  std::vector<const Candidate*> all, best;
+  for (const Candidate& c : candidates)
+    if (c.refused.empty() && !c.variant.refinement->is_event && c.gain > 0) all.push_back(&c);
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Candidate* a, const Candidate* b) { return a->gain > b->gain; });
+  for (const Candidate* c : all) {
+    const Refinement& row = *c->variant.refinement;
+    const bool again = std::any_of(best.begin(), best.end(), [&](const Candidate* other) {
+      return same_class(row, *other->variant.refinement);
+    });
+    if (best.size() < most && !again && !same_class(row, but)) best.push_back(c);
+  }
+  return best;
+}
+
 Search search(const Design& design, const KindLevels& floor, const ScanSettings& settings) {
   constexpr int kPasses = 2;
   Search s;

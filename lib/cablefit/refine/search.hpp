@@ -22,6 +22,10 @@ Search search(const Design& design, const KindLevels& floor, const ScanSettings&
 /// The candidate with the largest gain that is physical and no event; nullptr: there is none.
 const Candidate* best_lasting(const std::vector<Candidate>& candidates);
 
+/// The `most` best of these, one of each alias class; not `but`, its aliases or events.
+std::vector<const Candidate*> best_candidates(const std::vector<Candidate>& candidates,
+                                              std::size_t most, const Refinement& but);
+
 /// The catalogue's rows that this design has no columns for, as "name (side)": the data do not tell
 /// them from the base, whatever the residual says.
 std::vector<std::string> not_separable(const Search& search);

@@ -12,7 +12,9 @@ constexpr ParameterInfo kBand[] = {{"band", "b", "N m", "largest command that do
 // Nearer to the peak a limit shows in a few rows only, further down it is no limit any more.
 constexpr ShapeGrid kLimits[] = {
     {.low = 0.4, .high = 0.99, .n_values = 13, .is_geometric = false, .unit = GridUnit::peak}};
-constexpr ShapeGrid kBands[] = {{.low = 0.05, .high = 3, .n_values = 9}};
+// A band near the peak leaves no torque to explain, which any model does.
+constexpr ShapeGrid kBands[] = {
+    {.low = 7e-4, .high = 0.05, .n_values = 10, .unit = GridUnit::peak}};
 
 void clip(const double* parameters, Recording& recording) {
   recording.tau = recording.tau.min(parameters[0]).max(-parameters[0]);
