@@ -7,7 +7,6 @@ namespace cablefit {
 
 struct Search {
   KindLevels levels{};  ///< weights that decided
-  bool elastic_only = false;
   BlockGrams grams;
   BlockFit fit;  ///< of the design as it is
   std::vector<Candidate> candidates;
@@ -21,9 +20,5 @@ Search search(const Design& design, const KindLevels& floor, const ScanSettings&
 
 /// The candidate with the largest gain that is physical and no event; nullptr: there is none.
 const Candidate* best_lasting(const std::vector<Candidate>& candidates);
-
-/// The catalogue's rows that this design has no columns for, as "name (side)": the data do not tell
-/// them from the base, whatever the residual says.
-std::vector<std::string> not_separable(const Search& search);
 
 }  // namespace cablefit
