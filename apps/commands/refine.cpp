@@ -11,6 +11,7 @@
 #include "cablefit/model/read_models.hpp"
 #include "cablefit/refine/model_set.hpp"
 #include "cablefit/report/elastic_models.hpp"
+#include "cablefit/report/excite_csv.hpp"
 #include "cablefit/report/refine_document.hpp"
 #include "cablefit/report/refine_json.hpp"
 #include "cablefit/simulate/experiment.hpp"
@@ -42,6 +43,7 @@ struct RefineCommand {
   std::string model;  ///< --model
   double most_gap = kUnbounded;
   bool gate_new_effect = false;
+  std::string excite;  ///< file of the next run's reference; empty: none
 };
 
 /// What the models and the logs are.
@@ -91,6 +93,12 @@ void add_search_options(CLI::App& app, RefineOptions& refine) {
       app, "--effects", "N", {1, kMostEffects},
       [&refine](long n) { refine.most_effects = static_cast<std::size_t>(n); },
       "most effects to add [3]");
+}
+
+void add_excite_option(CLI::App& app, RefineCommand& command) {
+  app.add_option("--excite", command.excite,
+                 "write the reference of the run to make next: t, theta_ref, tau_load")
+      ->type_name("FILE");
 }
 
 void add_gate_options(CLI::App& app, RefineCommand& command) {
@@ -288,6 +296,7 @@ int run_refine(const Arguments& arguments) {
   add_file_options(app, command);
   add_search_options(app, command.refine);
   add_gate_options(app, command);
+  add_excite_option(app, command);
   add_output_options(app, command.common);
   app.footer(kExample);
   if (!parse(app, arguments)) return 0;
@@ -298,7 +307,12 @@ int run_refine(const Arguments& arguments) {
   std::vector<ResultFile> files = {{kResultFile, refine_json(result, names)}};
   for (std::size_t k = 0; k < names.size(); ++k)
     files.push_back({names[k], model_json(result.models[k])});
+  if (!command.excite.empty() && result.next_run)
+    files.push_back(
+        {std::filesystem::absolute(command.excite).string(), excite_csv(*result.next_run)});
   deliver(command.common, refine_document(result, names), files);
+  if (!command.excite.empty() && !result.next_run)
+    complain(fmt::format("{} was not written: no motion would tell more\n", command.excite));
   const std::vector<std::string> failed = failed_gates(command, result);
   for (const std::string& gate : failed) complain(gate + "\n");
   return failed.empty() ? 0 : kGateFailed;

@@ -54,7 +54,12 @@ RefineResult named() {
   r.league = {rival("stribeck", "motor", 0.89, 1), rival("quadratic_drag", "motor", 0.44, 0),
               rival("stribeck", "link", -0.1, 0)};
   r.league.back().refused = "a negative friction";
-  r.not_separable = {"asymmetric_coulomb (motor)"};
+  r.not_separable = {{{"asymmetric_coulomb (motor)"}, true, false, "", -1, {}},
+                     {{"torque_delay (sensor)", "cable_damping (transmission)"},
+                      false,
+                      false,
+                      "at a load of +20 N m",
+                      2}};
   r.remainder_link = 0.0037;
   r.remainder_motor = 0.015;
   r.floor_link = 0.0363;

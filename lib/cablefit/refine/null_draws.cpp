@@ -141,6 +141,10 @@ NullDraw NullBench::base_only(std::uint64_t seed, const KindLevels* levels) cons
   return out;
 }
 
+BaseFit NullBench::fitted(std::uint64_t seed, const KindLevels& levels) const {
+  return fit_base(make_design(parts_->models, draw(seed), parts_->smoothing), 2, &levels);
+}
+
 KindLevels NullBench::unfitted(std::uint64_t seed) const {
   const Design design = make_design(parts_->models, draw(seed), parts_->smoothing);
   return rms_of(block_grams(design.rows, design.stretches, 2),

@@ -21,6 +21,15 @@ struct NullDraw {
   std::map<const Refinement*, double> gains;  ///< best of each row; events in sample
 };
 
+/// A base fit iterated twice: weights from its own residual (or `levels`), states from its values.
+struct BaseFit {
+  Design design;
+  BlockGrams grams;
+  BlockFit fit;
+  KindLevels levels{};
+};
+BaseFit fit_base(Design design, double block_seconds, const KindLevels* levels);
+
 class NullBench {
  public:
   /// `models`: fitted, one per preload. `logs`: as the search sees them. Throws
@@ -44,6 +53,8 @@ class NullBench {
   std::vector<Stretch> draw(std::uint64_t seed) const;
   /// Its base fit, without a search. `levels`: weights; nullptr: of its own residual.
   NullDraw base_only(std::uint64_t seed, const KindLevels* levels) const;
+  /// The same fit, whole: what noise alone leaves, row by row.
+  BaseFit fitted(std::uint64_t seed, const KindLevels& levels) const;
   /// What the models leave as they are, nothing fitted: the floor of logs that had no say.
   KindLevels unfitted(std::uint64_t seed) const;
   NullDraw searched(std::uint64_t seed, const KindLevels& levels,
@@ -59,14 +70,5 @@ class NullBench {
 /// kLeastTail: some tens of draws say nothing of what is rarer.
 inline constexpr double kLeastTail = 1e-4;
 double tail_of_largest(const std::vector<double>& largest, double gain);
-
-/// A base fit iterated twice: weights from its own residual (or `levels`), states from its values.
-struct BaseFit {
-  Design design;
-  BlockGrams grams;
-  BlockFit fit;
-  KindLevels levels{};
-};
-BaseFit fit_base(Design design, double block_seconds, const KindLevels* levels);
 
 }  // namespace cablefit

@@ -12,12 +12,14 @@
 #include "cablefit/refine/confirm.hpp"
 #include "cablefit/refine/elastic_stage.hpp"
 #include "cablefit/refine/levels.hpp"
+#include "cablefit/refine/next_run.hpp"
 #include "cablefit/refine/null_draws.hpp"
 #include "cablefit/refine/refine_figures.hpp"
 #include "cablefit/refine/refined_model.hpp"
 #include "cablefit/refine/regimes.hpp"
 #include "cablefit/refine/remainder.hpp"
 #include "cablefit/refine/search.hpp"
+#include "cablefit/refine/separability.hpp"
 #include "cablefit/refine/unexplained.hpp"
 #include "cablefit/refine/verdict.hpp"
 
@@ -204,7 +206,6 @@ std::optional<Trial> try_next(Bench& bench, const State& state, bool is_first,
   Trial trial;
   trial.judgement = judge_search(found.candidates, gap, bench.draws, bench.options, is_first);
   if (first_result != nullptr) {
-    first_result->not_separable = not_separable(found);
     first_result->league = trial.judgement.league;
     bench.first_search = found;
   }
@@ -453,7 +454,13 @@ RefineResult refine(std::span<const Model> given, const RefineLogs& logs,
   bench.all = bench.logs;
   bench.all.insert(bench.all.end(), logs.test.begin(), logs.test.end());
   const State first = prepare(bench, models, logs, result);
-  result.where = find_regimes(first.design, first.x, bench.floor);
+  const BaseFit noise = bench.null->fitted(options.seed, bench.floor);
+  result.where = ranked(find_regimes(first.design, first.x, bench.floor),
+                        find_bands(first.design, first.x, noise.design, noise.fit.x), first.design,
+                        first.x, bench.floor);
+  const std::vector<TrialRun> runs = trial_runs(first.design);
+  tell(options, "what can be told apart", 0);
+  result.not_separable = find_not_separable(first.design, first.x, bench.floor, runs);
 
   State state = first;
   while (result.effects.size() < options.most_effects && add_next_effect(bench, state, result)) {
@@ -485,6 +492,7 @@ RefineResult refine(std::span<const Model> given, const RefineLogs& logs,
     result.unexplained =
         describe_remainder(state.design, fit.x, bench.floor, bench.scan.block_seconds);
   conclude(result);
+  choose_next_run({first.design, first.x, bench.floor, bench.first_search.candidates, runs}, result);
   if (options.figures)
     result.figures =
         refine_figures(result, {bench.all, first.design, first.x, state.design, fit.x},

@@ -85,6 +85,25 @@ struct Unexplained {
   double rms = 0;                     ///< N m, of the equation above its floor
 };
 
+/// Effects that the logs cannot tell from each other, or one that they cannot tell from the model's
+/// own parameters: said before the residual is looked at.
+struct NotSeparable {
+  std::vector<std::string> effects;  ///< "stribeck (motor)"
+  bool from_base = false;
+  bool is_alias = false;  ///< no log of the usual kind would
+  std::string next_run;   ///< the cheapest that would, in words; empty: none of those tried
+  int run = -1;           ///< its number among those tried
+  std::vector<std::string> still_together;  ///< of the effects, after that run
+};
+
+/// A run to make next.
+struct NextRun {
+  double period = 0;  ///< s
+  double load = 0;    ///< N m
+  bool blocked = false;
+  Eigen::ArrayXd theta_ref;  ///< rad
+};
+
 struct RefineResult {
   std::vector<InputFile> inputs;
   std::string model_path, model_choice;
@@ -96,8 +115,8 @@ struct RefineResult {
   std::string reason;  ///< one sentence
   std::vector<Regime> where;
   std::vector<NamedEffect> effects;
-  std::vector<Rival> league;               ///< of the first step
-  std::vector<std::string> not_separable;  ///< said before the residual was looked at
+  std::vector<Rival> league;  ///< of the first step
+  std::vector<NotSeparable> not_separable;
   double remainder_link = 0, remainder_motor = 0, floor_link = 0, floor_motor = 0;  ///< N m rms
   std::optional<Unexplained> unexplained;
   double remainder_blocked = 0, floor_blocked = 0;  ///< N m rms
@@ -105,6 +124,7 @@ struct RefineResult {
   std::vector<RefineStep> steps;
   GapStory torque, simulation;
   std::string next_experiment;
+  std::optional<NextRun> next_run;  ///< of next_experiment, where it is a motion
   std::vector<ParameterShift> shifts;
   std::vector<Model> models;  ///< refined, one per preload
   std::vector<Decision> decisions;

@@ -9,7 +9,6 @@ namespace cablefit {
 namespace {
 
 constexpr int kCells = 12;
-constexpr std::size_t kMostRegimes = 8;
 constexpr double kStandsOut = 1.5;    // times its share of the rows
 constexpr double kLeastShare = 0.1;   // of the gap
 constexpr double kLeastExcess = 1.1;  // squared residual over floor: below, there is no gap
@@ -86,7 +85,6 @@ std::vector<Regime> find_regimes(const Design& design, const Eigen::VectorXd& x,
     return a.share_of_squared_gap / std::sqrt(a.share_of_rows) >
            b.share_of_squared_gap / std::sqrt(b.share_of_rows);
   });
-  if (all.size() > kMostRegimes) all.resize(kMostRegimes);
   return all;
 }
 

@@ -1,11 +1,8 @@
 #include "cablefit/refine/search.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/refine/elastic_stage.hpp"
 #include "cablefit/refine/levels.hpp"
 
 namespace cablefit {
@@ -65,7 +62,6 @@ Search search(const Design& design, const KindLevels& floor, const ScanSettings&
   constexpr int kPasses = 2;
   Search s;
   s.levels = floor;
-  s.elastic_only = is_blocked_only(design.stretches);
   s.grams = block_grams(design.rows, design.stretches, settings.block_seconds);
   const auto without = named_already(design);
   for (int pass = 0; pass < kPasses; ++pass) {
@@ -81,18 +77,6 @@ Search search(const Design& design, const KindLevels& floor, const ScanSettings&
     s.levels = left;
   }
   return s;
-}
-
-std::vector<std::string> not_separable(const Search& search) {
-  std::vector<std::string> out;
-  for (const Refinement& row : refinements()) {
-    const bool found =
-        std::any_of(search.candidates.begin(), search.candidates.end(),
-                    [&](const Candidate& c) { return c.variant.refinement == &row; });
-    if (!found && (row.is_static || !search.elastic_only))
-      out.push_back(fmt::format("{} ({})", row.name, to_string(row.site)));
-  }
-  return out;
 }
 
 }  // namespace cablefit

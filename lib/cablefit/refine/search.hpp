@@ -7,7 +7,6 @@ namespace cablefit {
 
 struct Search {
   KindLevels levels{};  ///< weights that decided
-  bool elastic_only = false;
   BlockGrams grams;
   BlockFit fit;  ///< of the design as it is
   std::vector<Candidate> candidates;
@@ -25,9 +24,5 @@ const Candidate* best_lasting(const std::vector<Candidate>& candidates);
 /// The `most` best of these, one of each alias class; not `but`, its aliases or events.
 std::vector<const Candidate*> best_candidates(const std::vector<Candidate>& candidates,
                                               std::size_t most, const Refinement& but);
-
-/// The catalogue's rows that this design has no columns for, as "name (side)": the data do not tell
-/// them from the base, whatever the residual says.
-std::vector<std::string> not_separable(const Search& search);
 
 }  // namespace cablefit

@@ -179,7 +179,7 @@ Mode strongest_mode(const Design& design, const Eigen::VectorXd& x, const Gap& g
   const Refinement& row = attached_mass(gap.kind == RowKind::link);
   const BlockGrams grams = block_grams(design.rows, design.stretches, block_seconds);
   const auto try_at = [&](double frequency, double damping) {
-    const Variant variant{&row, {frequency, damping}, 0, 0};
+    const Variant variant{&row, {frequency, damping}, 0, 0, false};
     const auto fit = fit_blocks(extended(grams, design.rows, design.stretches,
                                          variant_columns(design, variant, x), block_seconds),
                                 floor, false);

@@ -54,9 +54,28 @@ Table league_table(const RefineResult& result) {
   if (result.league.size() > n)
     table.notes.push_back(
         fmt::format("{} more candidates did no better", result.league.size() - n));
-  if (!result.not_separable.empty())
-    table.notes.push_back(fmt::format("these logs cannot tell from the model's own parameters: {}",
-                                      fmt::join(result.not_separable, ", ")));
+  return table;
+}
+
+std::string next_run_text(const NotSeparable& group) {
+  if (group.is_alias) return "no log of the usual kind";
+  if (group.next_run.empty()) return "none of those tried";
+  if (group.still_together.empty()) return group.next_run;
+  return fmt::format("{}, all but {}", group.next_run, fmt::join(group.still_together, ", "));
+}
+
+Table separability_table(const RefineResult& result) {
+  Table table;
+  table.title = "What these logs cannot tell apart";
+  table.detail = result.verdict == Verdict::none || result.verdict == Verdict::named;
+  table.columns = {{"", "effects", "", true}, {"", "from", "", true}, {"", "what would", "", true}};
+  for (const NotSeparable& group : result.not_separable)
+    table.rows.push_back({fmt::format("{}", fmt::join(group.effects, ", ")),
+                          group.from_base ? "the model's own parameters" : "each other",
+                          next_run_text(group)});
+  table.notes = {
+      "from the equations alone, whatever the residual: of a size that matters, one "
+      "explains the other to within the noise"};
   return table;
 }
 
@@ -133,8 +152,8 @@ Document refine_document(const RefineResult& result, const std::vector<std::stri
   Document document;
   document.title = "What the model lacks";
   document.summary = refine_story(result, model_files);
-  for (Table table :
-       {where_table(result), league_table(result), step_table(result), shift_table(result)})
+  for (Table table : {where_table(result), league_table(result), separability_table(result),
+                      step_table(result), shift_table(result)})
     if (!table.rows.empty()) document.tables.push_back(std::move(table));
   if (!result.model_choice.empty())
     document.paragraphs.push_back(

@@ -137,6 +137,14 @@ Json shift_json(const ParameterShift& shift) {
               {"sd", shift.sd}};
 }
 
+Json not_separable_json(const NotSeparable& group) {
+  return Json{{"effects", group.effects},
+              {"from", group.from_base ? "model" : "each other"},
+              {"alias", group.is_alias},
+              {"next_run", text_or_null(group.next_run)},
+              {"still_together", group.still_together}};
+}
+
 Json models_json(const RefineResult& result, std::span<const std::string> files) {
   Json list = Json::array();
   for (std::size_t k = 0; k < files.size(); ++k)
@@ -164,7 +172,7 @@ std::string refine_json(const RefineResult& result, std::span<const std::string>
       {"simulation", gap_json(result.simulation, result.linear_motion ? "m" : "rad", false)}};
   json["test_held_out_of_train"] = result.held_out_blocks;
   json["league"] = list_of(result.league, league_json);
-  json["not_separable"] = result.not_separable;
+  json["not_separable"] = list_of(result.not_separable, not_separable_json);
   json["parameter_shifts"] = list_of(result.shifts, shift_json);
   json["next_experiment"] = text_or_null(result.next_experiment);
   json["model"] = model_files.empty() ? Json() : Json(model_files.front());

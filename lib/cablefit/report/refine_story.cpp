@@ -14,7 +14,8 @@ namespace cablefit {
 namespace {
 
 constexpr int kDigits = 3;
-constexpr std::size_t kPlaces = 2;  // where the gap is, in the story
+constexpr std::string_view kFrequency = "frequency";  // whose variable is Hz
+constexpr std::size_t kPlaces = 2;                    // where the gap is, in the story
 constexpr double kMovedSd = 2;
 constexpr double kMovedShare = 0.02;  // where there is no sd
 
@@ -46,10 +47,11 @@ std::vector<SummaryLine> where_lines(const RefineResult& result) {
     told.push_back(r);
     lines.push_back(
         {lines.empty() ? "where" : "and",
-         fmt::format("{} equation, {}: {} of its squared gap in {} of its rows; {} {} rms "
+         fmt::format("{} equation, {}: {} of its squared gap in {} of its {}; {} {} rms "
                      "there, noise floor {}",
                      r.equation, regime_text(r, result.linear_motion),
-                     percent(r.share_of_squared_gap), percent(r.share_of_rows), number(r.rms),
+                     percent(r.share_of_squared_gap), percent(r.share_of_rows),
+                     r.regime == kFrequency ? "band" : "rows", number(r.rms),
                      torque_unit(result.linear_motion), number(r.noise))});
   }
   return lines;
@@ -224,6 +226,8 @@ std::string effect_text(std::string_view name, std::string_view side) {
 std::string regime_text(const Regime& regime, bool linear_motion) {
   if (regime.regime == "direction")
     return fmt::format("{} = {}", regime.variable, regime.from < -0.5 ? -1 : 1);
+  if (regime.regime == kFrequency)
+    return fmt::format("from {} to {} Hz", number(regime.from), number(regime.to));
   const std::string unit = regime_unit(regime.regime, linear_motion);
   return fmt::format("{} from {} to {}{}{}", regime.variable, number(regime.from),
                      number(regime.to), unit.empty() ? "" : " ", unit);

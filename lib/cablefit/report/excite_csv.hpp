@@ -1,0 +1,13 @@
+// The run that `refine` asks for, as a reference to feed a controller.
+#pragma once
+
+#include <string>
+
+#include "cablefit/refine/refine_result.hpp"
+
+namespace cablefit {
+
+/// "t,theta_ref,tau_load" in SI, one row per sample; of a run with the link held a comment says so.
+std::string excite_csv(const NextRun& run);
+
+}  // namespace cablefit
