@@ -3,6 +3,7 @@
 #include "cablefit/estimate/profile_interval.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 #include <cmath>
 

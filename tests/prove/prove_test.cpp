@@ -182,7 +182,8 @@ TEST_CASE("stage 1 is proved on its own motion") {
     CHECK(p.n_covered >= 33);
     CHECK(std::abs(p.bias) < 4 * p.standard_error + 0.5 * p.mean_sd);
     // The honest sd is never below the white one, and noise of positions is not white after the
-    // low-pass: it may be twice too wide, not too narrow (40 runs: a scatter within 11 % of its own).
+    // low-pass: it may be twice too wide, not too narrow (40 runs: a scatter within 11 % of its
+    // own).
     CHECK(p.scatter > 0.3 * p.mean_sd);
     CHECK(p.scatter < 1.4 * p.mean_sd);
   }

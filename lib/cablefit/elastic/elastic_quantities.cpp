@@ -39,7 +39,11 @@ double slack_value(const Transmission& transmission, const UsedDeflections& used
 
 double rest_stiffness(const Transmission& transmission) {
   if (transmission.cables.empty()) return transmission.linear_stiffness(0);
-  return 0.5 * (slope_at(transmission, -kBeside) + slope_at(transmission, kBeside));
+  // Each side's slope as it goes towards the pose, by the straight line through two of its points.
+  const auto towards = [&](double side) {
+    return 2 * slope_at(transmission, side * kBeside) - slope_at(transmission, 2 * side * kBeside);
+  };
+  return 0.5 * (towards(-1) + towards(1));
 }
 
 TransmissionOf transmission_of(const Transmission& transmission, bool cable_space,

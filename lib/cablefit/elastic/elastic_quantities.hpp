@@ -15,7 +15,7 @@ struct UsedDeflections {
 };
 
 /// Slope of the elastic torque of a one-joint rig in its reference pose, N m/rad: df/dl summed over
-/// the taut cables times the radii of both sides; the mean of the slopes 20 urad to either side.
+/// the taut cables times the radii of both sides; the mean of both sides' slopes, from 20 urad on.
 double rest_stiffness(const Transmission& transmission);
 
 /// `transmission` with the coefficients and initial elongations (coefficient_name(),

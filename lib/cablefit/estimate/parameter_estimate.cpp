@@ -25,6 +25,7 @@ void set_profile(Estimate& e, const ProfileInterval& profile, double extra, doub
   if (!std::isfinite(profile.low) || !std::isfinite(profile.high)) return;
   const double stretch = std::sqrt(1 + extra);
   e.ci_low = std::max(lower, e.value - stretch * (e.value - profile.low));
+  if (e.value == lower) e.ci_low = lower;  // not what rounding makes of it
   e.ci_high = e.value + stretch * (profile.high - e.value);
   e.profiled = true;
 }

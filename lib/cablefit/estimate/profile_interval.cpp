@@ -100,35 +100,6 @@ ProfileInterval profile_interval(const Eigen::MatrixXd& a, const Eigen::VectorXd
   return {crossing(profile, threshold, -1), crossing(profile, threshold, 1)};
 }
 
-namespace {
-
-/// Diagonal of the covariance as if no inequality held anything, of residuals of unit variance.
-struct FreeVariance {
-  Eigen::VectorXd white;  ///< (W'W)^-1
-  Eigen::VectorXd scale;  ///< honest variance over the white one of this residual, at least 1
-};
-
-FreeVariance free_variance(const RowStatistics& rows, const LinearSolution& s,
-                           const Eigen::MatrixXd& a, const std::vector<Eigen::Index>& free,
-                           double variance) {
-  const Eigen::MatrixXd inverse = solve_scaled(a, Eigen::VectorXd::Zero(a.rows())).inverse;
-  FreeVariance out{inverse.diagonal(), Eigen::VectorXd::Ones(inverse.rows())};
-  const auto n_cells = static_cast<Eigen::Index>(rows.cells().size());
-  if (n_cells < 8) return out;
-  Eigen::MatrixXd scores(n_cells, inverse.rows());
-  for (Eigen::Index c = 0; c < n_cells; ++c) {
-    const Eigen::VectorXd all =
-        rows.cells()[static_cast<std::size_t>(c)].gram * s.residual_combination;
-    scores.row(c) = (s.score_columns.transpose() * all)(free);
-  }
-  const Eigen::MatrixXd honest = interval_covariance(scores * inverse).covariance;
-  for (Eigen::Index k = 0; k < inverse.rows(); ++k)
-    if (inverse(k, k) > 0) out.scale(k) = std::max(1.0, honest(k, k) / (variance * inverse(k, k)));
-  return out;
-}
-
-}  // namespace
-
 std::vector<ProfileInterval> profile_intervals(const RowStatistics& rows,
                                                const LinearProblem& problem,
                                                const LinearSolution& s, bool honest) {
@@ -147,16 +118,21 @@ std::vector<ProfileInterval> profile_intervals(const RowStatistics& rows,
   const Eigen::MatrixXd a = seen.project(rows.r()(Eigen::all, columns));
   const Eigen::VectorXd b = seen.project(rows.r() * problem.response);
   const Eigen::MatrixXd g = inequality_rows(problem, free);
-  const double dof = static_cast<double>(std::max<Eigen::Index>(1, s.n_rows - s.n_params));
-  const double variance = s.rss / dof;
-  const FreeVariance spread = free_variance(rows, s, a, free, variance);
-  const double t = t_quantile_975(s.degrees_of_freedom);
+  // The scale comes from the fit without inequalities: what holds a parameter at its bound pulls at
+  // the residual, which is no noise.
+  LinearProblem plain = problem;
+  plain.lower.clear();
+  plain.constraints.resize(0, 0);
+  const LinearSolution unheld = solve(rows, plain);
+  const Eigen::MatrixXd& covariance = honest ? unheld.covariance : unheld.covariance_white;
+  const double t = t_quantile_975(unheld.degrees_of_freedom);
   for (std::size_t i = 0; i < free.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    const auto at = static_cast<std::size_t>(free[i]);
-    if (!s.not_identifiable[at].empty() || !(spread.white(k) > 0)) continue;
-    all[at] = profile_interval(a, b, g, Eigen::RowVectorXd::Unit(a.cols(), k),
-                               t * t * variance * (honest ? spread.scale(k) : 1));
+    const Eigen::Index k = free[i];
+    const auto at = static_cast<std::size_t>(k);
+    if (!s.not_identifiable[at].empty() || !(unheld.solve_operator(k, k) > 0)) continue;
+    all[at] =
+        profile_interval(a, b, g, Eigen::RowVectorXd::Unit(a.cols(), static_cast<Eigen::Index>(i)),
+                         t * t * covariance(k, k) / unheld.solve_operator(k, k));
   }
   return all;
 }

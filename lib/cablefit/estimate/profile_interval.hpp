@@ -21,9 +21,9 @@ ProfileInterval profile_interval(const Eigen::MatrixXd& a, const Eigen::VectorXd
                                  double threshold);
 
 /// 95 % intervals of the parameters of a solution that bounds or constraints hold, for
-/// LinearSolution::profile; empty where none does. The threshold is t^2 times the residual variance
-/// times how much larger the honest variance of the parameter is than the white one, both as if it
-/// were free; of the white variance alone unless `honest`. NaN: not determined.
+/// LinearSolution::profile; empty where none does. The threshold is t^2 times the honest variance
+/// (the white one unless `honest`) that the parameter has without them, in units of its (W'W)^-1.
+/// NaN: not determined.
 std::vector<ProfileInterval> profile_intervals(const RowStatistics& rows,
                                                const LinearProblem& problem,
                                                const LinearSolution& solution, bool honest);
