@@ -1,8 +1,11 @@
 // cablefit elastic: stage 1.
 #include "cablefit/elastic/elastic_fit.hpp"
 
+#include <fmt/format.h>
+
 #include "cablefit/base/error.hpp"
 #include "cablefit/identify/elastic_search.hpp"
+#include "cablefit/prove/prove.hpp"
 #include "cablefit/report/elastic_document.hpp"
 #include "cablefit/report/elastic_json.hpp"
 #include "commands/command.hpp"
@@ -65,6 +68,20 @@ void require_searchable(const ElasticOptions& elastic, bool order_auto) {
                       "give the order, or leave it at 2");
 }
 
+/// --prove: fills in what simulated logs say of the fits.
+void prove(const CommonOptions& common, const std::vector<LogSurvey>& logs,
+           const ElasticOptions& elastic, std::size_t n_runs, ElasticResult& result) {
+  Progress display(common.quiet, "proving");
+  ProveOptions options;
+  options.n_runs = n_runs;
+  options.seed = common.seed;
+  options.threads = common.samples.threads;
+  options.progress = [&display](std::size_t done, std::size_t of) {
+    display.rename(fmt::format("proving: run {} of {}", done, of));
+  };
+  prove_elastic(logs, elastic, options, result);
+}
+
 }  // namespace
 
 int run_elastic(const Arguments& arguments) {
@@ -73,7 +90,12 @@ int run_elastic(const Arguments& arguments) {
   ElasticOptions elastic;
   add_log_options(app, options);
   bool search = false, order_auto = false;
+  std::size_t n_prove = 0;
   add_elastic_options(app, elastic, search, order_auto);
+  add_whole(
+      app, "--prove", "N", {20, 100000},
+      [&n_prove](long n) { n_prove = static_cast<std::size_t>(n); },
+      "rerun the fit on N simulated logs of its own model: do the intervals cover?");
   add_sd_option(app, options);
   add_sample_options(app, options);
   add_output_options(app, options);
@@ -92,12 +114,16 @@ int run_elastic(const Arguments& arguments) {
       logs, [&](const PartSurvey& part) { return elastic.still || part.phase == Phase::blocked; });
   const bool searches = !blocked.empty() && !elastic.still && (search || wants_search(blocked));
   if (searches) require_searchable(elastic, order_auto);
+  if (searches && n_prove > 0)
+    throw usage_error("--prove and a search of l_o cannot be combined",
+                      "the intervals of l_o are profile likelihoods; prove a fit with l_o given");
   // Without any blocked log the fit says what to do, for the logs that were given.
-  const ElasticResult result = [&] {
+  ElasticResult result = [&] {
     const Progress progress(options.quiet, "fitting stage 1");
     if (searches) return fit_elastic_with_search(blocked, elastic, search);
     return fit_elastic(blocked.empty() ? logs : blocked, elastic);
   }();
+  if (n_prove > 0) prove(options, blocked, elastic, n_prove, result);
   deliver(options, elastic_document(result), {{"elastic.json", elastic_json(result)}});
   return 0;
 }

@@ -175,4 +175,31 @@ TEST_CASE("weak instruments are named", "[estimate]") {
   CHECK(strong.first_stage(1) > 0.8);
 }
 
+LinearSolution solution_at(double x, double sd) {
+  LinearSolution s;
+  s.x = Eigen::Vector2d(x, 5);
+  s.covariance = Eigen::Matrix2d::Zero();
+  s.covariance(0, 0) = sd * sd;
+  return s;
+}
+
+// However small p is: below half an sd least squares stands, above it but below half a per cent
+// the difference is told as small.
+TEST_CASE("what instruments change is judged by its size too", "[estimate]") {
+  const auto judged = [](double plain, double with, double sd) {
+    return judge_difference(largest_difference(solution_at(plain, sd), solution_at(with, sd)));
+  };
+  CHECK(judged(1.0, 1.0049, 0.01) == Difference::none);    // 0.49 sd
+  CHECK(judged(0.01, 0.0149, 0.01) == Difference::none);   // a third of itself, but badly known
+  CHECK(judged(1.0, 1.0049, 0.001) == Difference::small);  // 4.9 sd, 0.49 %
+  CHECK(judged(1.0, 1.0061, 0.001) == Difference::material);
+  CHECK(judged(1.0, 0.994, 0.01) == Difference::material);  // -0.6 sd, -0.6 %
+  const EstimateDifference d = largest_difference(solution_at(1, 0.01), solution_at(0.98, 0.01));
+  CHECK(d.parameter == 0);
+  CHECK(d.in_sd == Approx(-2));
+  CHECK(d.relative == Approx(-0.02 / 0.98));
+  CHECK(largest_difference(solution_at(1, 0), solution_at(2, 0)).parameter == -1);
+  CHECK(judge_difference({}) == Difference::none);
+}
+
 }  // namespace

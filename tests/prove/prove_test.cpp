@@ -153,4 +153,55 @@ TEST_CASE("both stages are proved, stage 1 rerun or drawn") {
   }
 }
 
+FitProof prove_blocked(bool honest, std::size_t n_runs, int threads) {
+  const std::vector<LogSurvey> logs = {shipped("low/blocked.csv")};
+  ElasticOptions options;
+  options.order = 2;
+  options.honest_sd = honest;
+  ElasticResult result = fit_elastic(logs, options);
+  ProveOptions prove;
+  prove.n_runs = n_runs;
+  prove.threads = threads;
+  prove_elastic(logs, options, prove, result);
+  const ElasticFit& fit = *result.preloads.at(0).find("poly");
+  REQUIRE(fit.proof);
+  return *fit.proof;
+}
+
+// The twin follows the log's motion with the fit's torque: what it finds lies about the fit itself.
+// 40 runs at 95 % miss two; fewer than 33 inside has a chance of 1e-3 per parameter, a mean beyond
+// 4 standard errors one of 6e-5 but for what the filter leaves, which is allowed half an sd.
+TEST_CASE("stage 1 is proved on its own motion") {
+  const FitProof proof = prove_blocked(true, 40, 2);
+  print(proof);
+  INFO(proof.first_failure);
+  CHECK(proof.n_failed == 0);
+  REQUIRE(proof.parameters.size() == 6);  // K1_0, K1_1, K2_0, K2_1, offset, f_sm
+  for (const ProvedParameter& p : proof.parameters) {
+    INFO(p.name);
+    CHECK(p.n_covered >= 33);
+    CHECK(std::abs(p.bias) < 4 * p.standard_error + 0.5 * p.mean_sd);
+    // The honest sd is never below the white one, and noise of positions is not white after the
+    // low-pass: it may be twice too wide, not too narrow (40 runs: a scatter within 11 % of its
+    // own).
+    CHECK(p.scatter > 0.3 * p.mean_sd);
+    CHECK(p.scatter < 1.4 * p.mean_sd);
+  }
+  const FitProof again = prove_blocked(true, 20, 3), one = prove_blocked(true, 20, 1);
+  for (std::size_t k = 0; k < one.parameters.size(); ++k)
+    CHECK(one.parameters[k].bias == again.parameters[k].bias);
+}
+
+TEST_CASE("stage 1 of several joints is not proved, and says so") {
+  const std::vector<LogSurvey> logs = {shipped("two_joints/finger/blocked.csv")};
+  ElasticResult result = fit_elastic(logs, {});
+  ProveOptions prove;
+  prove.n_runs = 2;
+  prove_elastic(logs, {}, prove, result);
+  const ElasticFit& fit = result.preloads.at(0).fits.back();
+  CHECK(!fit.proof);
+  CHECK(std::find(fit.warnings.begin(), fit.warnings.end(),
+                  "not proved: --prove of stage 1 is made for one joint") != fit.warnings.end());
+}
+
 }  // namespace

@@ -132,8 +132,11 @@ TEST_CASE("a disturbance in a soft loop: wls is biased, iv is not", "[recover][m
   CHECK(table_of(c.wls, "J_link").bias() < -0.004 * table_of(c.wls, "J_link").truth);
   check_unbiased(c);
   check_coverage(c);
-  for (const std::string& verdict : c.verdicts)
-    CHECK(verdict == "correlated with the residual (p < 0.001): the iv estimates are used");
+  for (const std::string& verdict : c.verdicts) {
+    INFO(verdict);
+    CHECK(verdict.find("correlated with the residual (p < 0.001)") == 0);
+    CHECK(verdict.find(": the iv estimates are used") != std::string::npos);
+  }
 }
 
 // A band twice as wide as the noise of 16 bits allows: encoder noise in the acceleration.

@@ -5,6 +5,7 @@
 #include "cablefit/dynamic/dynamic_fit.hpp"
 #include "cablefit/elastic/elastic_fit.hpp"
 #include "cablefit/model/rig.hpp"
+#include "cablefit/report/check_document.hpp"
 #include "cablefit/report/check_json.hpp"
 #include "cablefit/report/dynamic_json.hpp"
 #include "cablefit/report/elastic_json.hpp"
@@ -79,6 +80,20 @@ TEST_CASE("a check of real logs is as its schema says") {
   threads.threads = 4;
   CHECK(check_json(result, predict_estimates(logs, result, threads)) ==
         check_json(result, predictions));
+  const Document document = check_document(result, predictions);
+  std::size_t predicted = 0;
+  for (const std::vector<std::string>& row : document.tidy.rows) {
+    REQUIRE(row.size() == document.tidy.columns.size());
+    if (row[15] != "J_motor") continue;  // log, preload, ..., equation, parameter, sd_at_best, ...
+    ++predicted;
+    CHECK(row[14] == "motor");
+    CHECK(row[7] == "kg m^2");
+    CHECK(std::stod(row[16]) > 0);
+    CHECK(std::stod(row[18]) >= std::stod(row[16]));
+    CHECK(row[21] != "not identifiable");
+  }
+  CHECK(document.tidy.columns[15].title == "parameter");
+  CHECK(predicted == 1);
   CHECK(result.logs[0].parts[0].identifies == std::vector<std::string>{"elastic"});
   CHECK(result.logs[1].parts[0].identifies == std::vector<std::string>{"dynamic", "rigid"});
   CHECK(result.logs[1].parts[0].excitation.speed_bands > 3);

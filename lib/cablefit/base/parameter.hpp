@@ -37,6 +37,9 @@ struct Estimate {
   double cad = std::numeric_limits<double>::quiet_NaN();  ///< information, never fitted to
   std::string not_identifiable;  ///< why there is no sd; empty when there is one
   std::string active_bound;      ///< "f_sm >= 0" when the fit stands on it
+  /// The interval is that of the profile likelihood, which need not lie evenly about the value;
+  /// else it is value -+ t sd.
+  bool profiled = false;
 
   /// 100 sd / |value|, NaN when either is missing or the value is 0.
   double rsd_percent() const;

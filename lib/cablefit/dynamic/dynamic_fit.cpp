@@ -10,6 +10,7 @@
 #include "cablefit/dynamic/dynamic_job.hpp"
 #include "cablefit/dynamic/dynamic_notes.hpp"
 #include "cablefit/dynamic/estimators.hpp"
+#include "cablefit/dynamic/joint_estimates.hpp"
 #include "cablefit/dynamic/ratios.hpp"
 #include "cablefit/dynamic/requirements.hpp"
 #include "cablefit/dynamic/sweep.hpp"
@@ -76,6 +77,9 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
     if (!job.rigid && !fit.elastic) fit.elastic = *job.elastic[m];
     add_largest_errors(job, equations, estimation.solutions, m, fit);
     add_cad(fit, job.rig());
+    if (estimation.joint && fit.elastic)
+      fit.derived = drive_quantities(*estimation.joint, &fit.elastic->transmission,
+                                     job.rig().cables_given, job.rig().linear_motion);
     if (job.options.sweep) fit.sweep = sweep_settings(job, estimator, m, fit);
     preload.fits.push_back(std::move(fit));
     solutions.push_back(std::move(estimation.solutions));

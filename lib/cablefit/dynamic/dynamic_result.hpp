@@ -62,6 +62,7 @@ struct DynamicFit {
   std::vector<SuspectSpan> suspects = {};             ///< of a robust fit
   std::optional<RecursiveTrace> trace = {};           ///< of a recursive one
   std::optional<Sweep> sweep = {};                    ///< when asked for
+  std::vector<Estimate> derived = {};  ///< stiffness, resonance, damping: of several parameters
 };
 
 /// How long the measured torque is before its effect, and what was made of it.

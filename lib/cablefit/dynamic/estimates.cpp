@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/estimate/long_run.hpp"
 #include "cablefit/estimate/parameter_estimate.hpp"
 #include "cablefit/estimate/sd_choice.hpp"
 
@@ -126,12 +127,17 @@ Estimate given_estimate(const DynamicParameter& parameter, bool linear_motion) {
 }
 
 /// The chosen sd and its quantile, where they are not those of the solution.
-void take_chosen(const ChosenSd& chosen, Eigen::Index k, double extra_variance, double lower,
-                 Estimate& e) {
+void take_chosen(const ChosenSd& chosen, const LinearSolution& s, Eigen::Index k,
+                 double extra_variance, double lower, Estimate& e) {
   const bool has_sd = e.not_identifiable.empty() && e.active_bound.empty();
   if (!has_sd || chosen.kind[static_cast<std::size_t>(k)] != SdKind::block_bootstrap) return;
   e.sd = std::sqrt(chosen.variance(k) + extra_variance);
   set_interval(e, chosen.degrees_of_freedom(k), lower);
+  if (!e.profiled) return;
+  const double t =
+      t_quantile_975(chosen.degrees_of_freedom(k)) / t_quantile_975(s.degrees_of_freedom);
+  const double wider = t * t * e.sd * e.sd / s.covariance(k, k);
+  set_profile(e, s.profile[static_cast<std::size_t>(k)], wider - 1, lower);
 }
 
 }  // namespace
@@ -158,7 +164,8 @@ void add_estimates(const RowStatistics& rows, const DynamicColumns& c, const Lin
     Estimate e = parameter.given
                      ? given_estimate(parameter, linear_motion)
                      : estimate_of(parameter.info, linear_motion, s, k, {honest, extra(k, k)});
-    if (chosen && !parameter.given) take_chosen(*chosen, k, extra(k, k), parameter.info.lower, e);
+    if (chosen && !parameter.given)
+      take_chosen(*chosen, s, k, extra(k, k), parameter.info.lower, e);
     e.name = parameter.name;
     if (!e.active_bound.empty() && parameter.info.lower == 0)
       e.active_bound = fmt::format("{} >= 0", e.name);

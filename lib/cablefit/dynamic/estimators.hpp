@@ -2,11 +2,13 @@
 // estimators.cpp.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "cablefit/dynamic/dynamic_job.hpp"
+#include "cablefit/estimate/derived_quantity.hpp"
 
 namespace cablefit {
 
@@ -25,7 +27,8 @@ struct Estimation {
   /// Per equation: what rows * residual_combination = residual is needed for, largest errors and
   /// plots.
   std::vector<LinearSolution> solutions;
-  std::vector<Decision> decisions;  ///< what was chosen on the way, with the reason
+  std::vector<Decision> decisions;           ///< what was chosen on the way, with the reason
+  std::optional<JointEstimates> joint = {};  ///< for derived quantities, where they are known
 };
 
 /// A row of the table (`cablefit list estimators`).

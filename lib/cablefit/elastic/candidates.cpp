@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "cablefit/estimate/profile_interval.hpp"
 #include "cablefit/model/model.hpp"
 
 namespace cablefit {
@@ -118,6 +119,14 @@ LinearSolution solve_candidate(const BlockedRows& rows, const ElasticCandidate& 
   if (!breaks_constraints(candidate, plain.x)) return plain;
   return solve(*rows.rows, {candidate.regressors, candidate.names, candidate.lower,
                             rows.torque_response(), candidate.held, constraint_rows(candidate)});
+}
+
+void add_profiles(const BlockedRows& rows, const ElasticCandidate& candidate, bool honest,
+                  LinearSolution& solution) {
+  LinearProblem problem{candidate.regressors, candidate.names, candidate.lower,
+                        rows.torque_response(), candidate.held};
+  if (!solution.active_constraints.empty()) problem.constraints = constraint_rows(candidate);
+  solution.profile = profile_intervals(*rows.rows, problem, solution, honest);
 }
 
 LinearSolution solve_given(const BlockedRows& rows, const ElasticCandidate& candidate,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "cablefit/elastic/elastic_quantities.hpp"
 #include "cablefit/estimate/parameter_estimate.hpp"
 #include "cablefit/model/model.hpp"
 
@@ -131,6 +132,30 @@ void note_active_bounds(const ElasticJob& job, const ElasticCandidate& candidate
   }
 }
 
+/// Of the coefficients that have an sd; l_o is given here.
+std::vector<Estimate> derived_of(const ElasticJob& job, const LinearSolution& s,
+                                 const BlockedRows& rows, const ElasticFit& fit) {
+  JointEstimates from;
+  const Eigen::Index n = fit.covariance.rows();
+  from.value.resize(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Estimate& e = fit.parameters[static_cast<std::size_t>(k)];
+    if (!e.not_identifiable.empty()) return {};
+    from.names.push_back(e.name);
+    from.value(k) = e.value;
+  }
+  from.covariance = fit.covariance;
+  from.degrees_of_freedom = s.degrees_of_freedom;
+  std::vector<Estimate> all;
+  for (const DerivedQuantity& quantity :
+       elastic_quantities(fit.transmission, job.rig().cables_given, job.rig().linear_motion,
+                          {rows.deflection_low, rows.deflection_high}, from)) {
+    all.push_back(derive(quantity, from));
+    if (!std::isfinite(all.back().value) || !(all.back().sd > 0)) all.pop_back();
+  }
+  return all;
+}
+
 /// The motor's viscous friction, of whichever joint.
 bool is_speed(const ElasticCandidate& candidate, std::size_t k) {
   return k >= candidate.n_elastic && without_index(candidate.names[k]) == "f_vm";
@@ -183,6 +208,7 @@ ElasticFit make_fit(const ElasticJob& job, const ElasticCandidate& candidate,
     if (e.name == "offset") fit.offset = e.value;
     fit.parameters.push_back(std::move(e));
   }
+  fit.derived = derived_of(job, s, rows, fit);
   if (!s.active_constraints.empty()) note_active_bounds(job, candidate, s, rows, fit);
   return fit;
 }

@@ -144,6 +144,8 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
     solutions.push_back(candidate.model == "linear" || given.empty()
                             ? solve_candidate(stage.rows, candidate)
                             : solve_given(stage.rows, candidate, given));
+    if (candidate.model == "linear" || given.empty())
+      add_profiles(stage.rows, candidate, stage.job.options.honest_sd, solutions.back());
     preload.fits.push_back(
         make_fit(stage.job, candidate, solutions.back(), stage.rows, stage.nuisances()));
     if (!preload.both_branches)

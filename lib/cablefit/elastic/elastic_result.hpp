@@ -3,10 +3,12 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cablefit/base/parameter.hpp"
+#include "cablefit/estimate/fit_proof.hpp"
 #include "cablefit/figure/figure.hpp"
 #include "cablefit/model/cables.hpp"
 #include "cablefit/samples/input_file.hpp"
@@ -36,6 +38,8 @@ struct ElasticFit {
   double condition = 0;  ///< scaled condition number
   double effective_rows = 0;
   std::vector<std::string> warnings;
+  std::vector<Estimate> derived = {};  ///< stiffness at rest, ...: of the coefficients
+  std::optional<FitProof> proof = {};  ///< of a rerun on simulated logs, when it was asked for
 };
 
 /// Rows by functioning mode, (12)-(13). Of several joints: rows of all their equations.

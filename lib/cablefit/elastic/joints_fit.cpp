@@ -157,6 +157,7 @@ ElasticPreload fit_joints(ElasticJob job, const std::string& name) {
   const std::vector<double> longest = longest_of(stage.all.elongations);
   for (const ElasticCandidate& candidate : candidates) {
     solutions.push_back(solve_candidate(stage.all, candidate));
+    add_profiles(stage.all, candidate, stage.job.options.honest_sd, solutions.back());
     ElasticFit& fit = preload.fits.emplace_back(
         make_fit(stage.job, candidate, solutions.back(), stage.all, stage.nuisance));
     for (int joint = 0; joint < stage.n_joints(); ++joint)

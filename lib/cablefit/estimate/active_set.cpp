@@ -64,6 +64,11 @@ Freedom freedom_under(const Eigen::MatrixXd& ties, const Eigen::MatrixXd& a,
 
 }  // namespace
 
+Eigen::MatrixXd inequality_rows(const LinearProblem& problem,
+                                const std::vector<Eigen::Index>& free) {
+  return inequalities(problem, free).g;
+}
+
 int Freedom::n_tied() const { return basis ? static_cast<int>(basis->rows() - basis->cols()) : 0; }
 
 ActiveSet find_active_set(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,

@@ -24,6 +24,10 @@ struct ActiveSet {
   Freedom freedom;                        ///< once active constraints and bounds are equalities
 };
 
+/// All inequalities on the free parameters as rows: g x(free) >= 0; bounds first.
+Eigen::MatrixXd inequality_rows(const LinearProblem& problem,
+                                const std::vector<Eigen::Index>& free);
+
 /// Of min |a x(free) - b| under the bounds and constraints of `problem`; empty when `x`, the
 /// solution without them, satisfies them all.
 ActiveSet find_active_set(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,

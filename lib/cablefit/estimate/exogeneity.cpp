@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 
 #include "cablefit/estimate/instruments.hpp"
 #include "cablefit/estimate/tail_probability.hpp"
@@ -75,6 +76,23 @@ ExogeneityTest test_exogeneity(const RowStatistics& rows, const LinearProblem& p
   test.statistic = distance.sum / distance.rank;
   test.p_value = f_tail(test.statistic, test.dof_numerator, test.dof_denominator);
   return test;
+}
+
+EstimateDifference largest_difference(const LinearSolution& plain, const LinearSolution& with) {
+  EstimateDifference most;
+  for (Eigen::Index k = 0; k < with.x.size(); ++k) {
+    const double sd = std::sqrt(plain.covariance(k, k));
+    if (!(sd > 0) || !(with.covariance(k, k) > 0)) continue;
+    const double difference = with.x(k) - plain.x(k);
+    if (most.parameter >= 0 && std::abs(difference / sd) <= std::abs(most.in_sd)) continue;
+    most = {k, difference / sd, difference / std::abs(with.x(k))};
+  }
+  return most;
+}
+
+Difference judge_difference(const EstimateDifference& difference, const Materiality& limits) {
+  if (difference.parameter < 0 || std::abs(difference.in_sd) < limits.sd) return Difference::none;
+  return std::abs(difference.relative) < limits.relative ? Difference::small : Difference::material;
 }
 
 bool has_weak_instruments(const LinearSolution& s) {

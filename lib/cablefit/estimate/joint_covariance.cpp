@@ -81,7 +81,7 @@ LongRunCovariance honest_of(const JointProblem& problem, const JointSolution& s,
   Eigen::MatrixXd series(static_cast<Eigen::Index>(influence.size()), s.x.size());
   Eigen::Index row = 0;
   for (const auto& [id, value] : influence) series.row(row++) = value;
-  return long_run_covariance(series);
+  return interval_covariance(series);
 }
 
 /// Never below the white variance, as for one equation (solution_covariance.cpp).

@@ -2,9 +2,12 @@
 
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "cablefit/estimate/constrained_least_squares.hpp"
+#include "cablefit/estimate/long_run.hpp"
 #include "cablefit/estimate/null_space.hpp"
+#include "cablefit/estimate/profile_interval.hpp"
 #include "cablefit/estimate/scaled_solve.hpp"
 
 namespace cablefit {
@@ -120,6 +123,31 @@ JointSolution solve(const JointProblem& problem) {
   }
   finish(problem, stack, z, out);
   return out;
+}
+
+std::vector<ProfileInterval> joint_profiles(const JointProblem& problem) {
+  JointProblem free = problem;
+  free.inequalities.resize(0, 0);
+  const JointSolution s = solve(free);
+  const JointCovariance covariance = joint_covariance(free, s);
+  const Stack stack = stack_of(problem);
+  const auto unscale = stack.norm.cwiseInverse().asDiagonal();
+  Eigen::MatrixXd equalities(0, problem.n_params());
+  if (problem.equalities.rows() > 0) equalities = problem.equalities * unscale;
+  const Eigen::MatrixXd z = free_directions(equalities);
+  const Eigen::MatrixXd a = stack.a * z, g = problem.inequalities * unscale * z;
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::vector<ProfileInterval> all(static_cast<std::size_t>(problem.n_params()), {kNone, kNone});
+  for (Eigen::Index k = 0; k < problem.n_params(); ++k) {
+    const double plain = s.solve_operator(k, k), honest = covariance.covariance(k, k);
+    if (!s.determines(Eigen::VectorXd::Unit(problem.n_params(), k)) || !(plain > 0)) continue;
+    const double t = t_quantile_975(covariance.degrees_of_freedom(k));
+    ProfileInterval& interval = all[static_cast<std::size_t>(k)];
+    interval = profile_interval(a, stack.b, g, z.row(k), t * t * honest / plain);
+    interval.low /= stack.norm(k);
+    interval.high /= stack.norm(k);
+  }
+  return all;
 }
 
 }  // namespace cablefit

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/estimate/least_squares.hpp"
 #include "cablefit/estimate/row_statistics.hpp"
 
 namespace cablefit {
@@ -60,6 +61,10 @@ void reweigh(JointProblem& problem, const JointSolution& solution);
 /// the same size, on average over the directions that the block determines; at least 1. A block
 /// of n correlated rows weighs as much as n / inflation independent ones.
 double residual_inflation(const JointBlock& block, const Eigen::VectorXd& combination);
+
+/// 95 % intervals per parameter by the profile of the weighted rss under all equalities and
+/// inequalities, with the honest scale (profile_interval.hpp); NaN where nothing is determined.
+std::vector<ProfileInterval> joint_profiles(const JointProblem& problem);
 
 struct JointCovariance {
   /// Honest: HAC over the cells of each record, summed over records; never below the white one.

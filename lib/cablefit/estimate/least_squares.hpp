@@ -37,6 +37,11 @@ struct LinearProblem {
   std::vector<Eigen::Index> instruments = {};
 };
 
+/// Ends of an interval; infinite where the profile stays low, NaN where there is none.
+struct ProfileInterval {
+  double low = 0, high = 0;
+};
+
 struct LinearSolution {
   Eigen::VectorXd x;                 ///< estimates; 0 where not determined
   Eigen::MatrixXd covariance_white;  ///< the paper's (25), sigma^2 (W'W)^-1
@@ -55,8 +60,10 @@ struct LinearSolution {
   /// Rows of problem.constraints that hold the solution. Then covariances are conditional on them:
   /// as if constraints * x = 0 were known for these rows, with n_tied directions fewer.
   std::vector<Eigen::Index> active_constraints;
-  Eigen::VectorXd unbounded_x,
-      unbounded_sd;                      ///< of the fit without bounds, for the interval at one
+  Eigen::VectorXd unbounded_x, unbounded_sd;  ///< of the fit without bounds; honest
+  /// Where bounds or constraints hold the solution: 95 % intervals per parameter from the profile
+  /// of |residual|^2 under them, with the honest scale (profile_interval.hpp). Else empty.
+  std::vector<ProfileInterval> profile;
   Eigen::VectorXd residual_combination;  ///< n_columns: rows * this = residual
   double rss = 0;                        ///< sum of squared residuals
   Eigen::Index n_rows = 0;

@@ -87,6 +87,10 @@ LongRunCovariance long_run_covariance(const Eigen::Ref<const Eigen::MatrixXd>& s
   return result;
 }
 
+LongRunCovariance interval_covariance(const Eigen::Ref<const Eigen::MatrixXd>& series) {
+  return long_run_covariance(series, kIntervalKernel);
+}
+
 double t_quantile_975(double dof) {
   // Cornish-Fisher expansion about the normal quantile (Abramowitz & Stegun 26.7.5); error below
   // 1 % for dof >= 3, exact forms below.

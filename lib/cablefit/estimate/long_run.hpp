@@ -27,6 +27,9 @@ LongRunCovariance long_run_covariance(const Eigen::Ref<const Eigen::MatrixXd>& s
 /// at all are better off without.
 inline constexpr double kIntervalKernel = 1.0 / 64;
 
+/// The one rule for sd and intervals: long_run_covariance() with that kernel.
+LongRunCovariance interval_covariance(const Eigen::Ref<const Eigen::MatrixXd>& series);
+
 /// Quantile of Student's t at probability 0.975, for 95 % intervals. dof >= 1; large dof -> 1.96.
 double t_quantile_975(double dof);
 

@@ -20,8 +20,12 @@ void set_interval(Estimate& e, double degrees_of_freedom, double lower = -kUnbou
 /// bounds, whose value is `unbounded`: one-sided, and never shorter than t sd.
 void set_on_bound(Estimate& e, double unbounded, double degrees_of_freedom);
 
-/// Parameter `k` of the solution. On its bound, 0, see set_on_bound(). Held at 0 by constraints
-/// instead, it has neither.
+/// The interval of a profile, never below `lower`, both ends further off by sqrt(1 + extra), the
+/// relative variance that the profile does not know of. An interval without an end stays as it is.
+void set_profile(Estimate& e, const ProfileInterval& profile, double extra, double lower);
+
+/// Parameter `k` of the solution, its interval by profile where the solution has profiles. On its
+/// bound, 0, see set_on_bound(). Held at 0 by constraints instead, it has no sd.
 Estimate estimate_of(const ParameterInfo& info, bool linear_motion, const LinearSolution& solution,
                      Eigen::Index k, const SdChoice& choice);
 

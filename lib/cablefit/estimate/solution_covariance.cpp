@@ -26,7 +26,7 @@ void honest_covariance(const RowStatistics& rows, LinearSolution& out) {
   // Rotate into the parameters before choosing a bandwidth: what counts is the correlation of each
   // estimate's own influence, not of the raw columns.
   const Eigen::MatrixXd influence = scores * out.solve_operator;
-  const LongRunCovariance hac = long_run_covariance(influence, kIntervalKernel);
+  const LongRunCovariance hac = interval_covariance(influence);
   const double n = static_cast<double>(out.n_rows);
   const double small_sample = n / std::max(1.0, n - out.n_params);
   out.covariance = small_sample * hac.covariance;

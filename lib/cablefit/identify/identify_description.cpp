@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "cablefit/dynamic/joint_estimates.hpp"
+#include "cablefit/elastic/elastic_quantities.hpp"
 #include "cablefit/elastic/passivity.hpp"
 #include "cablefit/identify/identify_checks.hpp"
 #include "cablefit/identify/identify_model.hpp"
@@ -95,6 +97,43 @@ void note_active_bounds(const JointFit& fit, const JointPoint& point, IdentifyRe
       pushing));
 }
 
+/// What the preload's linear and shared parameters are known together as.
+JointEstimates known_together(const JointFit& fit, const JudgedPoint& judged,
+                              const std::vector<Estimate>& estimates, std::size_t job,
+                              bool honest) {
+  JointEstimates from;
+  std::vector<Eigen::Index> kept;
+  std::vector<double> values;
+  for (std::size_t k = 0; k < estimates.size(); ++k) {
+    const Estimate& e = estimates[k];
+    const int preload = fit.layout.parameters[k].preload;
+    const bool is_its = preload == kShared || static_cast<std::size_t>(preload) == job;
+    if (!is_its || !e.not_identifiable.empty() || !e.active_bound.empty() || !(e.sd >= 0)) continue;
+    const double load =
+        preload == kShared && under_several_loads(fit, k) ? fit.jobs[job].load_inertia : 0;
+    from.names.push_back(e.name);
+    values.push_back(e.value + load);
+    kept.push_back(static_cast<Eigen::Index>(k));
+  }
+  from.value =
+      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  from.covariance = (honest ? judged.covariance.covariance : judged.covariance.white)(kept, kept);
+  from.degrees_of_freedom = judged.covariance.degrees_of_freedom(kept).minCoeff();
+  return from;
+}
+
+void add_derived(const PreloadJob& job, const JointEstimates& from, IdentifyPreload& preload) {
+  preload.derived =
+      drive_quantities(from, &preload.transmission, job.cable_space, job.linear_motion);
+  for (const DerivedQuantity& quantity :
+       elastic_quantities(preload.transmission, job.cable_space, job.linear_motion,
+                          {preload.deflection_low, preload.deflection_high}, from)) {
+    const Estimate e = derive(quantity, from);
+    if (find_estimate(preload.derived, e.name) == nullptr && std::isfinite(e.value) && e.sd > 0)
+      preload.derived.push_back(e);
+  }
+}
+
 }  // namespace
 
 void describe(const JointFit& fit, const JudgedPoint& judged,
@@ -118,6 +157,9 @@ void describe(const JointFit& fit, const JudgedPoint& judged,
     IdentifyPreload& preload = result.preloads[j];
     add_cad(facts[j].rig, preload.parameters);
     add_slack_points(preload);
+    if (preload.knows_elongations())
+      add_derived(fit.jobs[j], known_together(fit, judged, estimates, j, options.honest_sd),
+                  preload);
     add_model(facts[j], result, preload);
     note_pushing(fit, preload, result);
     for (std::string& warning : misfit_warnings(fit, judged, j, preload))

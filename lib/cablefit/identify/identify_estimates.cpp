@@ -56,6 +56,13 @@ void add_known(double part, Estimate& e) {
   e.ci_high += part;
 }
 
+/// Of a linear parameter, where bounds hold the solution.
+void take_profile(const JudgedPoint& judged, Eigen::Index k, bool honest, double lower,
+                  Estimate& e) {
+  const auto at = static_cast<std::size_t>(k);
+  if (honest && at < judged.profile.size()) set_profile(e, judged.profile[at], 0, lower);
+}
+
 Estimate estimate_at(const JointFit& fit, const JudgedPoint& judged,
                      const ElongationProfile* profile, Eigen::Index k, bool honest) {
   const JointParameter& p = fit.layout.parameters[static_cast<std::size_t>(k)];
@@ -73,6 +80,7 @@ Estimate estimate_at(const JointFit& fit, const JudgedPoint& judged,
     e.sd = sd_at(chosen(judged.unbounded->covariance, honest), k);
     e.sd_white = sd_at(judged.unbounded->covariance.white, k);
     set_on_bound(e, judged.unbounded->x(k), degrees_of_freedom);
+    take_profile(judged, k, honest, p.lower, e);
     add_known(p.known, e);
     return e;
   }
@@ -82,9 +90,11 @@ Estimate estimate_at(const JointFit& fit, const JudgedPoint& judged,
   e.sd = sd_at(chosen(judged.covariance, honest), k);
   e.sd_white = sd_at(judged.covariance.white, k);
   set_interval(e, degrees_of_freedom, p.lower);
+  take_profile(judged, k, honest, p.lower, e);
   if (profile != nullptr) {
     e.ci_low = known(profile->low);
     e.ci_high = known(profile->high);
+    e.profiled = true;
   }
   add_known(p.known, e);
   return e;

@@ -43,6 +43,7 @@ struct IdentifyPreload {
   std::string name;
   std::string rig_path;
   std::vector<Estimate> parameters;          ///< of this preload alone: l_o, friction, offset, ...
+  std::vector<Estimate> derived;             ///< stiffness, resonance, ...: of several parameters
   Transmission transmission;                 ///< fitted
   std::vector<ElongationRange> elongations;  ///< that each cable reached
   /// Deflections that reach them with the link in its reference position.

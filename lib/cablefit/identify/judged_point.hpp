@@ -19,6 +19,7 @@ struct JudgedPoint {
   JointSolution linearised;               ///< of that problem
   JointCovariance covariance;             ///< of all parameters
   std::optional<UnboundedFit> unbounded;  ///< where inequalities hold the solution
+  std::vector<ProfileInterval> profile;   ///< of all linear parameters, where they do
 };
 
 /// Problem, solution and covariance at the point (evaluated with cells).

@@ -1,13 +1,12 @@
 #include "cablefit/prove/prove.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <optional>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/base/parallel.hpp"
 #include "cablefit/prove/fitted_model.hpp"
+#include "cablefit/prove/proof_runs.hpp"
 #include "cablefit/prove/residual_colour.hpp"
 #include "cablefit/prove/stage1_draw.hpp"
 #include "cablefit/prove/twin.hpp"
@@ -26,12 +25,6 @@ struct Plan {
   DynamicOptions options;  ///< of the fit in each run
   const ProveStage1* stage1 = nullptr;
   const ElasticFit* elastic = nullptr;
-};
-
-/// What a run found; a complaint instead when there is nothing.
-struct Run {
-  std::vector<Estimate> parameters;
-  std::string failure;
 };
 
 /// What noise and rounding do not explain of the residuals is a disturbance.
@@ -58,8 +51,8 @@ TwinDisturbance disturbances_of(const std::map<std::string, ResidualColour>& mea
   return disturbance;
 }
 
-Run run_once(const Plan& plan, std::uint64_t seed) {
-  Run run;
+ProofRun run_once(const Plan& plan, std::uint64_t seed) {
+  ProofRun run;
   try {
     Random disturbances(seed, kDisturbances), sensors(seed, kSensors), draws(seed, kStage1);
     ElasticResult elastic;
@@ -140,52 +133,6 @@ Plan make_plan(std::span<const LogSurvey> logs, const ProveStage1& stage1,
   return plan;
 }
 
-std::string verdict_of(const FitProof& proof) {
-  std::vector<std::string> narrow, biased;
-  for (const ProvedParameter& p : proof.parameters) {
-    if (p.factor > 1) narrow.push_back(p.name);
-    if (p.verdict.find("biased") != std::string::npos) biased.push_back(p.name);
-  }
-  std::string text = narrow.empty()
-                         ? "the 95 % intervals cover"
-                         : fmt::format("the intervals of {} are too narrow and were widened",
-                                       fmt::join(narrow, ", "));
-  if (!biased.empty())
-    text += fmt::format("; {} off by more than half an sd on average", fmt::join(biased, ", "));
-  return text;
-}
-
-FitProof prove_fit(const Plan& plan, const ProveOptions& prove, const DynamicFit& fit) {
-  FitProof proof;
-  proof.n_runs = prove.n_runs;
-  proof.seed = prove.seed;
-  proof.notes = plan.moving.notes;
-  std::vector<Run> runs;
-  ordered_pipeline<std::uint64_t>(
-      prove.threads,
-      [&](auto emit) {
-        for (std::size_t k = 0; k < prove.n_runs; ++k) emit(std::uint64_t{prove.seed + k});
-      },
-      [&](std::uint64_t seed) { return run_once(plan, seed); },
-      [&](Run run) {
-        runs.push_back(std::move(run));
-        if (prove.progress) prove.progress(runs.size(), prove.n_runs);
-      });
-  for (const Run& run : runs) {
-    if (run.failure.empty()) continue;
-    if (proof.n_failed++ == 0) proof.first_failure = run.failure;
-  }
-  for (const Estimate& e : fit.parameters) {
-    if (!e.not_identifiable.empty() || !(e.sd > 0)) continue;
-    std::vector<Estimate> found;
-    for (const Run& run : runs)
-      if (const Estimate* same = find_estimate(run.parameters, e.name)) found.push_back(*same);
-    proof.parameters.push_back(judge_runs(e, found));
-  }
-  proof.verdict = verdict_of(proof);
-  return proof;
-}
-
 const LogSurvey& log_of(std::span<const LogSurvey> logs, const std::string& preload) {
   return first_log_with(logs, parts_of(Phase::moving, preload));
 }
@@ -205,7 +152,8 @@ void prove_dynamic(std::span<const LogSurvey> logs, const ProveStage1& stage1,
         continue;
       }
       const Plan plan = make_plan(logs, stage1, options, prove, model, preload, fit);
-      fit.proof = prove_fit(plan, prove, fit);
+      fit.proof = prove_by_runs(fit.parameters, prove, plan.moving.notes,
+                                [&plan](std::uint64_t seed) { return run_once(plan, seed); });
       widen(fit.parameters, *fit.proof);
     }
   }

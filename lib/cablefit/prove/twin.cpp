@@ -25,23 +25,6 @@ void append(TwinStretch& stretch, const Window& window) {
   stretch.measured.bottomRows(window.data.rows()) = window.data;
 }
 
-std::vector<TwinStretch> read_stretches(const LogSurvey& log, std::size_t number,
-                                        const PartFilter& wanted) {
-  std::vector<TwinStretch> stretches;
-  for_each_window(log, wanted, 0, kLeastRows, 0, [&](Window&& window) {
-    if (window.starts_segment && window.begin == 0) {
-      stretches.emplace_back();
-      stretches.back().log = number;
-      stretches.back().part = window.part;
-      stretches.back().t0 = window.t0;
-      stretches.back().input.period = window.period;
-    }
-    append(stretches.back(), window);
-    return true;
-  });
-  return stretches;
-}
-
 void set_start(const LogSurvey& log, TwinStretch& stretch) {
   const PartSurvey& part = log.parts[stretch.part];
   const int n_joints = log.plan.rig.n_joints();
@@ -73,6 +56,23 @@ void set_load(const LogPlan& plan, TwinStretch& stretch) {
 }
 
 }  // namespace
+
+std::vector<TwinStretch> read_stretches(const LogSurvey& log, std::size_t number,
+                                        const PartFilter& wanted) {
+  std::vector<TwinStretch> stretches;
+  for_each_window(log, wanted, 0, kLeastRows, 0, [&](Window&& window) {
+    if (window.starts_segment && window.begin == 0) {
+      stretches.emplace_back();
+      stretches.back().log = number;
+      stretches.back().part = window.part;
+      stretches.back().t0 = window.t0;
+      stretches.back().input.period = window.period;
+    }
+    append(stretches.back(), window);
+    return true;
+  });
+  return stretches;
+}
 
 Twin make_twin(const Model& model, std::span<const LogSurvey> logs, const PartFilter& wanted,
                const TwinDrive& drive) {

@@ -56,6 +56,11 @@ struct TwinDrive {
 Twin make_twin(const Model& model, std::span<const LogSurvey> logs, const PartFilter& wanted,
                const TwinDrive& drive);
 
+/// Stretches of the wanted parts of one log with what was measured, without a controller.
+/// `number`: of the log.
+std::vector<TwinStretch> read_stretches(const LogSurvey& log, std::size_t number,
+                                        const PartFilter& wanted);
+
 /// The true motion of every stretch. Throws Error(not_identifiable) when it diverges.
 std::vector<SimulationResult> run_twin(const Twin& twin, const TwinDisturbance& disturbance,
                                        Random& random);

@@ -49,7 +49,7 @@ std::vector<Family> families_of(const Design& design) {
     }
     Family& family = all.emplace_back();
     family.row = &row;
-    for (auto& shape : shapes) family.variants.push_back({&row, std::move(shape), 0, 0});
+    for (auto& shape : shapes) family.variants.push_back({&row, std::move(shape), 0, 0, false});
   }
   return all;
 }

@@ -79,22 +79,87 @@ Table channels_table(const CheckedLog& log) {
 
 Table tidy_check_table() {
   Table table;
-  for (const char* name : {"log", "preload", "run", "phase", "rows", "rate", "channel", "unit",
-                           "min", "max", "quantum", "noise", "share_at_limits", "good_for"}) {
+  for (const char* name : {"log",
+                           "preload",
+                           "run",
+                           "phase",
+                           "rows",
+                           "rate",
+                           "channel",
+                           "unit",
+                           "min",
+                           "max",
+                           "quantum",
+                           "noise",
+                           "share_at_limits",
+                           "good_for",
+                           "equation",
+                           "parameter",
+                           "sd_at_best",
+                           "size_first_look",
+                           "sd_first_look",
+                           "closest",
+                           "correlation",
+                           "verdict"}) {
     table.columns.push_back({"", name, ""});
   }
   return table;
+}
+
+/// A row per predicted parameter, of all the logs that stage 2 would fit together.
+void add_tidy_rows(Table& table, const Prediction& p) {
+  for (const PredictedEquation& e : p.equations)
+    for (const PredictedParameter& parameter : e.parameters)
+      table.rows.push_back({fmt::format("{}", fmt::join(p.logs, " ")),
+                            p.preload,
+                            "",
+                            "moving",
+                            fmt::format("{}", e.rows),
+                            "",
+                            "",
+                            parameter.unit,
+                            "",
+                            "",
+                            "",
+                            "",
+                            "",
+                            "",
+                            e.name,
+                            parameter.name,
+                            exact(parameter.sd_best),
+                            exact(parameter.size),
+                            exact(parameter.sd_first_look),
+                            parameter.closest,
+                            parameter.closest.empty() ? "" : exact(parameter.correlation),
+                            std::string(to_string(parameter.determined))});
 }
 
 void add_tidy_rows(Table& table, const CheckedLog& log, const CheckedPart& part) {
   const PartSurvey& p = part.survey;
   for (const CheckedChannel& channel : part.channels) {
     const ChannelSurvey& s = channel.survey;
-    table.rows.push_back({log.path, p.preload, p.run, std::string(to_string(p.phase)),
-                          fmt::format("{}", p.n_rows), exact(1 / p.period), channel.name,
-                          channel.unit, exact(s.min), exact(s.max), exact(s.quantum),
-                          exact(s.noise), exact(s.at_limits),
-                          fmt::format("{}", fmt::join(part.identifies, " "))});
+    table.rows.push_back({log.path,
+                          p.preload,
+                          p.run,
+                          std::string(to_string(p.phase)),
+                          fmt::format("{}", p.n_rows),
+                          exact(1 / p.period),
+                          channel.name,
+                          channel.unit,
+                          exact(s.min),
+                          exact(s.max),
+                          exact(s.quantum),
+                          exact(s.noise),
+                          exact(s.at_limits),
+                          fmt::format("{}", fmt::join(part.identifies, " ")),
+                          "",
+                          "",
+                          "",
+                          "",
+                          "",
+                          "",
+                          "",
+                          ""});
   }
 }
 
@@ -179,7 +244,10 @@ Document check_document(const CheckResult& result, const std::vector<Prediction>
       for (const std::string& warning : part.warnings) document.warnings.push_back(where + warning);
     }
   }
-  for (const Prediction& p : predictions) add_prediction(p, document);
+  for (const Prediction& p : predictions) {
+    add_prediction(p, document);
+    add_tidy_rows(document.tidy, p);
+  }
   const bool any = std::any_of(predictions.begin(), predictions.end(),
                                [](const Prediction& p) { return p.none.empty(); });
   if (any) document.tables.back().notes.emplace_back(kHowPredicted);

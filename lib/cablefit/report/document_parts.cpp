@@ -115,6 +115,22 @@ void add_tidy_number(Table& table, const std::string& preload, const std::string
       {preload, model, method, name, "", unit, exact(value), "", "", "", "", "", "", "", ""});
 }
 
+Table derived_table() {
+  Table table;
+  table.title = "Derived quantities";
+  table.columns = {{"", "fit", "", true},      {"", "quantity", "", true},
+                   {"", "unit", "", true},     {"", "value", ""},
+                   {"", "sd", "delta method"}, {"95 % interval", "from", ""},
+                   {"95 % interval", "to", ""}};
+  return table;
+}
+
+void add_derived(Table& table, const std::string& where, const std::vector<Estimate>& derived) {
+  for (const Estimate& e : derived)
+    table.rows.push_back({where, e.name, e.unit, value_text(e.value, e.sd), sd_text(e.value, e.sd),
+                          value_text(e.ci_low, e.sd), value_text(e.ci_high, e.sd)});
+}
+
 std::string torque_unit(bool linear_motion) { return linear_motion ? "N" : "N m"; }
 
 }  // namespace cablefit

@@ -46,6 +46,10 @@ void add_tidy_number(Table& table, const std::string& preload, const std::string
                      const std::string& method, const std::string& name, const std::string& unit,
                      double value);
 
+/// Columns and rows of the table of derived quantities; `where`: preload, or preload and model.
+Table derived_table();
+void add_derived(Table& table, const std::string& where, const std::vector<Estimate>& derived);
+
 /// "N m" or "N".
 std::string torque_unit(bool linear_motion);
 

@@ -190,6 +190,7 @@ void add_tidy_rows(Table& table, const DynamicPreload& preload, const DynamicFit
   for (const Estimate& e : fit.parameters) {
     add_tidy(table, preload.name, fit.model, fit.estimator, e);
   }
+  for (const Estimate& e : fit.derived) add_tidy(table, preload.name, fit.model, fit.estimator, e);
   const std::string torque = torque_unit(preload.linear_motion);
   for (const auto& [equation, error] : fit.torque_error) {
     const auto add = [&, name = equation](const char* what, const std::string& unit, double value) {
@@ -208,7 +209,7 @@ Document dynamic_document(const DynamicResult& result) {
   Document document;
   document.title = "Stage 2, link moving: inertias, friction and offset";
   document.tidy = tidy_table();
-  Table counts = counts_table();
+  Table counts = counts_table(), derived = derived_table();
   add_warnings(document, "", result.warnings);
   for (const DynamicPreload& preload : result.preloads) {
     for (const auto& [equation, rows] : preload.counts) {
@@ -221,6 +222,7 @@ Document dynamic_document(const DynamicResult& result) {
       add_warnings(document, preload.name + ", " + fit.model, fit.warnings);
       add_warnings(document, preload.name + ", " + fit.model, sweep_warnings(fit));
       add_tidy_rows(document.tidy, preload, fit);
+      add_derived(derived, preload.name + ", " + fit.model, fit.derived);
     }
     add_validation_rows(document.tidy, preload);
     add_warnings(document, preload.name, validation_warnings(preload));
@@ -246,6 +248,7 @@ Document dynamic_document(const DynamicResult& result) {
             fmt::format("{}, {} by {}", preload.name, fit.model, fit.estimator), *fit.proof));
   if (Table reasons = sd_reason_table(result); !reasons.rows.empty())
     document.tables.push_back(std::move(reasons));
+  if (!derived.rows.empty()) document.tables.push_back(std::move(derived));
   document.tables.push_back(sd_table(result));
   document.tables.push_back(conditioning_table(result));
   document.tables.push_back(counts);

@@ -63,6 +63,7 @@ Json fit_json(const DynamicFit& fit) {
   Json json{{"model", fit.model},
             {"estimator", fit.estimator},
             {"parameters", report_json::parameters(fit.parameters)},
+            {"derived", report_json::parameters(fit.derived)},
             {"torque_error", errors_json(fit.torque_error)},
             {"weight", by_name(fit.weight)},
             {"condition", by_name(fit.condition)},

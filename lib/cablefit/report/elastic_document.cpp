@@ -9,6 +9,7 @@
 #include "cablefit/model/modes.hpp"
 #include "cablefit/report/document_parts.hpp"
 #include "cablefit/report/numbers.hpp"
+#include "cablefit/report/proof_report.hpp"
 
 namespace cablefit {
 namespace {
@@ -186,6 +187,7 @@ Table sd_table(const ElasticResult& result) {
 void add_tidy_rows(Table& table, const ElasticPreload& preload, const ElasticFit& fit) {
   const std::string method = fmt::format("order {}", fit.order);
   for (const Estimate& e : fit.parameters) add_tidy(table, preload.name, fit.model, method, e);
+  for (const Estimate& e : fit.derived) add_tidy(table, preload.name, fit.model, method, e);
   const auto add = [&](const char* name, const std::string& unit, double value) {
     add_tidy_number(table, preload.name, fit.model, method, name, unit, value);
   };
@@ -204,7 +206,7 @@ Document elastic_document(const ElasticResult& result) {
   Document document;
   document.title = "Stage 1, link blocked: elastic torque against deflection theta - q";
   document.tidy = tidy_table();
-  Table counts = counts_table();
+  Table counts = counts_table(), derived = derived_table();
   add_warnings(document, "", result.warnings);
   for (const ElasticPreload& preload : result.preloads) {
     add_counts(counts, preload.name, "blocked", preload.counts, preload.windows);
@@ -221,6 +223,7 @@ Document elastic_document(const ElasticResult& result) {
         document.paragraphs.push_back(balance_text(preload, fit));
       add_warnings(document, preload.name + ", " + fit.model, fit.warnings);
       add_tidy_rows(document.tidy, preload, fit);
+      add_derived(derived, preload.name + ", " + fit.model, fit.derived);
     }
   }
   finish_decisions(document, result.preloads.size());
@@ -228,6 +231,12 @@ Document elastic_document(const ElasticResult& result) {
   document.tables.push_back(fits_table(result));
   if (Table slack = slack_table(result); !slack.rows.empty())
     document.tables.push_back(std::move(slack));
+  for (const ElasticPreload& preload : result.preloads)
+    for (const ElasticFit& fit : preload.fits)
+      if (fit.proof)
+        document.tables.push_back(
+            proof_table(fmt::format("{}, {}", preload.name, fit.model), *fit.proof));
+  if (!derived.rows.empty()) document.tables.push_back(std::move(derived));
   document.tables.push_back(sd_table(result));
   document.tables.push_back(counts);
   return document;

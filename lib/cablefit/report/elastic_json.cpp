@@ -4,6 +4,7 @@
 
 #include "cablefit/model/modes.hpp"
 #include "cablefit/report/json_parts.hpp"
+#include "cablefit/report/proof_report.hpp"
 
 namespace cablefit {
 namespace {
@@ -61,6 +62,7 @@ Json fit_json(const ElasticPreload& preload, const ElasticFit& fit) {
   Json json{{"model", fit.model},
             {"order", fit.order},
             {"parameters", report_json::parameters(fit.parameters)},
+            {"derived", report_json::parameters(fit.derived)},
             {"rms_error", fit.rms_error},
             {"max_abs_error", fit.max_abs_error},
             {"held_out_rms", fit.held_out_rms},
@@ -74,6 +76,7 @@ Json fit_json(const ElasticPreload& preload, const ElasticFit& fit) {
             {"effective_rows", fit.effective_rows},
             {"condition", fit.condition},
             {"warnings", fit.warnings}};
+  if (fit.proof) json["prove"] = proof_json(*fit.proof);
   if (!fit.joints.empty()) json["joints"] = list_of(fit.joints, joint_errors_json);
   return json;
 }

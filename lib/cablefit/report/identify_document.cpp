@@ -266,19 +266,23 @@ Document identify_document(const IdentifyResult& result) {
   document.tidy = tidy_table();
   add_warnings(document, "", result.warnings);
   add_tidy_rows(document, "all", result.parameters);
+  Table derived = derived_table();
   for (const IdentifyPreload& preload : result.preloads) {
     add_decisions(document, preload.name, preload.decisions);
     add_decisions(document, preload.name, result.decisions);
     add_warnings(document, preload.name, preload.warnings);
     add_tidy_rows(document, preload.name, preload.parameters);
+    add_tidy_rows(document, preload.name, preload.derived);
+    add_derived(derived, preload.name, preload.derived);
   }
   add_figures(document, result.figures);
   finish_decisions(document, result.preloads.size());
   for (const std::string& bound : result.active_bounds)
     document.paragraphs.push_back("held by its bound: " + bound);
-  for (Table& table : std::vector<Table>{
-           shared_table(result), elongation_table(result), dynamics_table(result),
-           line_table(result), slack_table(result), equation_table(result), sd_table(result)})
+  for (Table& table :
+       std::vector<Table>{shared_table(result), elongation_table(result), dynamics_table(result),
+                          line_table(result), slack_table(result), derived, equation_table(result),
+                          sd_table(result)})
     if (!table.rows.empty()) document.tables.push_back(std::move(table));
   return document;
 }

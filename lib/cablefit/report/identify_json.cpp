@@ -65,6 +65,7 @@ Json preload_json(const IdentifyPreload& preload) {
   return Json{{"name", preload.name},
               {"rig", report_json::rig(preload.rig_path)},
               {"parameters", report_json::parameters(preload.parameters)},
+              {"derived", report_json::parameters(preload.derived)},
               {"cables", cables_json(preload)},
               {"deflection_range", {preload.deflection_low, preload.deflection_high}},
               {"equilibrium_torque", preload.equilibrium},

@@ -30,6 +30,7 @@ Json parameter(const Estimate& e) {
             {"rsd_percent", known ? e.rsd_percent() : kNone},
             {"sd_white", known ? e.sd_white : kNone},
             {"ci95", known ? interval(e.ci_low, e.ci_high) : Json()}};
+  if (known && e.profiled) json["interval"] = "profile";
   if (!std::isnan(e.cad)) json["cad"] = e.cad;
   if (!known) json["not_identifiable"] = e.not_identifiable;
   if (!e.active_bound.empty()) json["active_bound"] = e.active_bound;

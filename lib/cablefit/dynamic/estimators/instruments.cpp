@@ -8,7 +8,9 @@
 #include "cablefit/dynamic/estimators/least_squares_fit.hpp"
 #include "cablefit/dynamic/estimators/rows.hpp"
 #include "cablefit/dynamic/instrumental_variables.hpp"
+#include "cablefit/dynamic/joint_estimates.hpp"
 #include "cablefit/dynamic/log_copy.hpp"
+#include "cablefit/estimate/profile_interval.hpp"
 
 namespace cablefit::estimation {
 namespace {
@@ -87,13 +89,20 @@ std::vector<LinearSolution> least_squares_of(const EstimationTask& task) {
 }
 
 void add_equation(const EstimationTask& task, std::size_t k, const RowStatistics& rows,
-                  const LinearSolution& solution, Estimation& out) {
+                  LinearSolution solution, std::vector<EquationInfluence>& influences,
+                  Estimation& out) {
   const EquationRows& e = task.equations[k];
+  const LinearProblem problem = solution.instruments.empty()
+                                    ? problem_of(e.columns, task.job.elastic, task.model)
+                                    : instrumented_problem(task.job, e, task.model);
+  solution.profile = profile_intervals(rows, problem, solution, task.job.options.honest_sd);
   add_estimates(rows, e.columns, solution, task.stage1(), task.model, task.job.rig().linear_motion,
                 task.job.options.honest_sd, out.fit);
+  influences.push_back(influence_of(rows, e.columns, solution, task.stage1(), task.model));
   out.fit.sd_reason[e.equation.name] = reason_for_sd(task, rows, e.columns, solution);
-  LinearSolution own = solution;  // without the instruments' columns, which it does not use
-  own.residual_combination = solution.residual_combination.head(e.columns.count).eval();
+  LinearSolution own =
+      std::move(solution);  // without the instruments' columns, which it does not use
+  own.residual_combination = own.residual_combination.head(e.columns.count).eval();
   add_errors(*e.rows, e.equation.name, own, out.fit);
   out.solutions.push_back(std::move(own));
 }
@@ -102,12 +111,53 @@ bool is_rejected(const ExogeneityTest& test) {
   return test.possible && test.p_value < kSignificant;
 }
 
-std::string verdict(const ExogeneityTest& test) {
-  if (!test.possible) return "not tested: no instrument differs from its regressor";
-  if (is_rejected(test))
-    return fmt::format("correlated with the residual ({}): the iv estimates are used",
-                       test.p_text());
-  return fmt::format("regressors are exogenous: wls stands ({})", test.p_text());
+/// What the test and the two fits of one equation say together.
+struct Judgement {
+  ExogeneityTest test;
+  EstimateDifference difference;
+  std::string name;  ///< of the parameter that differs most
+
+  bool wants_instruments() const {
+    return is_rejected(test) && judge_difference(difference) != Difference::none;
+  }
+};
+
+Judgement judge(const EquationRows& e, const LinearSolution& plain, const LinearSolution& with,
+                const ExogeneityTest& test) {
+  Judgement j{test, largest_difference(plain, with), ""};
+  if (j.difference.parameter >= 0)
+    j.name = e.columns.parameters[static_cast<std::size_t>(j.difference.parameter)].name;
+  return j;
+}
+
+std::vector<Judgement> judge_all(const EstimationTask& task,
+                                 const std::vector<LinearSolution>& plain, const IvFit& fit) {
+  std::vector<Judgement> all;
+  for (std::size_t k = 0; k < task.equations.size(); ++k)
+    all.push_back(judge(task.equations[k], plain[k], fit.solutions[k], fit.tests[k]));
+  return all;
+}
+
+/// "J_link differs most, by -0.31 sd or -0.02 %". `stands`, `used`: what becomes of least squares.
+std::string verdict(const Judgement& j, const char* stands, const char* used) {
+  if (!j.test.possible) return "not tested: no instrument differs from its regressor";
+  const std::string p = j.test.p_text();
+  if (!is_rejected(j.test)) return fmt::format("regressors are exogenous: {} ({})", stands, p);
+  if (j.name.empty()) return fmt::format("correlated with the residual ({}): {}", p, used);
+  const std::string difference = fmt::format("{} differs most, by {:+.2g} sd or {:+.2g} %", j.name,
+                                             j.difference.in_sd, 100 * j.difference.relative);
+  switch (judge_difference(j.difference)) {
+    case Difference::none:
+      return fmt::format("correlated with the residual ({}), but that does not matter: {}: {}", p,
+                         difference, stands);
+    case Difference::small:
+      return fmt::format(
+          "correlated with the residual ({}), a little: {}, more than intervals allow: {}", p,
+          difference, used);
+    case Difference::material:
+      break;
+  }
+  return fmt::format("correlated with the residual ({}): {}: {}", p, difference, used);
 }
 
 std::string verdict_key(const EquationRows& e) { return e.equation.name + " equation"; }
@@ -126,29 +176,34 @@ Estimation estimate_iv(const EstimationTask& task) {
   const DynamicJob& job = task.job;
   const LoopPlan plan = plan_loop(job, job.logs);
   if (plan.kind == LoopKind::none) return stay_with_least_squares(task, plan.reason);
-  const IvFit fit =
-      fit_by_instruments(job, job.logs, task.equations, least_squares_of(task), task.model, plan);
+  const std::vector<LinearSolution> plain = least_squares_of(task);
+  const IvFit fit = fit_by_instruments(job, job.logs, task.equations, plain, task.model, plan);
   if (!fit.failure.empty()) return stay_with_least_squares(task, fit.failure);
   Estimation out;
+  std::vector<EquationInfluence> influences;
   for (std::size_t k = 0; k < task.equations.size(); ++k) {
-    add_equation(task, k, fit.rows[k].rows, fit.solutions[k], out);
-    const bool rejected = is_rejected(fit.tests[k]);
+    add_equation(task, k, fit.rows[k].rows, fit.solutions[k], influences, out);
+    const Judgement j = judge(task.equations[k], plain[k], fit.solutions[k], fit.tests[k]);
     out.fit.verdicts[verdict_key(task.equations[k])] =
-        rejected || !fit.tests[k].possible
-            ? verdict(fit.tests[k])
-            : fmt::format("regressors are exogenous: wls would do ({})", fit.tests[k].p_text());
+        verdict(j, "wls would do", "the iv estimates are used");
   }
+  if (job.n_joints() == 1) out.joint = join_estimates(out.fit, influences, task.stage1());
   note_instruments(task, plan, fit, out);
   return out;
 }
 
 /// "motor p = 0.4, link p < 0.001"
-std::string all_p(const EstimationTask& task, const std::vector<ExogeneityTest>& tests) {
+std::string all_p(const EstimationTask& task, const std::vector<Judgement>& judgements) {
   std::string text;
   for (std::size_t k = 0; k < task.equations.size(); ++k)
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", task.equations[k].equation.name,
-                        tests[k].possible ? tests[k].p_text() : "not tested");
+                        judgements[k].test.possible ? judgements[k].test.p_text() : "not tested");
   return text;
+}
+
+bool any_wants(const std::vector<Judgement>& judgements) {
+  return std::any_of(judgements.begin(), judgements.end(),
+                     [](const Judgement& j) { return j.wants_instruments(); });
 }
 
 Estimation estimate_automatically(const EstimationTask& task) {
@@ -162,29 +217,35 @@ Estimation estimate_automatically(const EstimationTask& task) {
   for (const LinearSolution& solution : fit.solutions)
     if (has_weak_instruments(solution))
       return stay_with_least_squares(task, "the simulated loop does not move as the robot did");
-  const std::vector<ExogeneityTest> tests = fit.tests;
-  const bool any = std::any_of(tests.begin(), tests.end(), is_rejected);
-  if (any && !test.stretches.empty()) {
-    // Settled on the stretches; the same once more with all rows.
+  std::vector<Judgement> judgements = judge_all(task, plain, fit);
+  if (any_wants(judgements) && !test.stretches.empty()) {
+    // Settled on the stretches; the same once more with all rows, whose differences count.
     IvFit all =
         fit_by_instruments(job, job.logs, task.equations, fit.solutions, task.model, plan, 1);
     if (!all.failure.empty()) return stay_with_least_squares(task, all.failure);
     all.n_simulations += fit.n_simulations;
     all.last_change = fit.last_change;
+    all.tests = std::move(fit.tests);
     fit = std::move(all);
+    judgements = judge_all(task, plain, fit);
   }
+  const bool any = any_wants(judgements);
   Estimation out;
   out.fit.estimator = any ? "iv" : "wls";
-  out.decisions.push_back({label(task, "estimator"), any ? "iv" : "wls",
-                           fmt::format("Durbin-Wu-Hausman: {}{}", all_p(task, tests), test.note)});
+  out.decisions.push_back(
+      {label(task, "estimator"), any ? "iv" : "wls",
+       fmt::format("Durbin-Wu-Hausman: {}{}", all_p(task, judgements), test.note)});
+  std::vector<EquationInfluence> influences;
   for (std::size_t k = 0; k < task.equations.size(); ++k) {
-    if (is_rejected(tests[k])) {
-      add_equation(task, k, fit.rows[k].rows, fit.solutions[k], out);
+    if (judgements[k].wants_instruments()) {
+      add_equation(task, k, fit.rows[k].rows, fit.solutions[k], influences, out);
     } else {
-      add_equation(task, k, *task.equations[k].rows, plain[k], out);
+      add_equation(task, k, *task.equations[k].rows, plain[k], influences, out);
     }
-    out.fit.verdicts[verdict_key(task.equations[k])] = verdict(tests[k]);
+    out.fit.verdicts[verdict_key(task.equations[k])] =
+        verdict(judgements[k], "wls stands", "the iv estimates are used");
   }
+  if (job.n_joints() == 1) out.joint = join_estimates(out.fit, influences, task.stage1());
   note_instruments(task, plan, fit, out);
   return out;
 }

@@ -3,6 +3,8 @@
 #include "cablefit/dynamic/estimates.hpp"
 #include "cablefit/dynamic/estimators/least_squares_fit.hpp"
 #include "cablefit/dynamic/estimators/rows.hpp"
+#include "cablefit/dynamic/joint_estimates.hpp"
+#include "cablefit/estimate/profile_interval.hpp"
 
 namespace cablefit::estimation {
 
@@ -17,16 +19,20 @@ Estimation least_squares_fit(const EstimationTask& task, Weighting weighting) {
   const DynamicJob& job = task.job;
   Estimation out;
   out.solutions.resize(task.equations.size());
+  std::vector<EquationInfluence> influences;
   for (const std::vector<std::size_t>& system : systems_of(task.equations)) {
     const EquationRows& first = task.equations[system.front()];
     std::optional<RowStatistics> stacked;
     if (system.size() > 1)
       stacked = stacked_rows(task.equations, system, job.elastic, task.model, weighting);
     const RowStatistics& rows = stacked ? *stacked : *first.rows;
-    const LinearSolution solution =
-        solve_rows(rows, first.columns, job.elastic, task.model, job.rig().linear_motion);
+    const LinearProblem problem =
+        problem_of(first.columns, job.elastic, task.model, job.rig().linear_motion);
+    LinearSolution solution = solve(rows, problem);
+    solution.profile = profile_intervals(rows, problem, solution, job.options.honest_sd);
     add_estimates(rows, first.columns, solution, task.stage1(), task.model, job.rig().linear_motion,
                   job.options.honest_sd, out.fit);
+    influences.push_back(influence_of(rows, first.columns, solution, task.stage1(), task.model));
     const std::string reason = reason_for_sd(task, rows, first.columns, solution);
     for (const std::size_t k : system) {
       add_errors(*task.equations[k].rows, task.equations[k].equation.name, solution, out.fit);
@@ -34,6 +40,7 @@ Estimation least_squares_fit(const EstimationTask& task, Weighting weighting) {
       out.solutions[k] = solution;
     }
   }
+  if (job.n_joints() == 1) out.joint = join_estimates(out.fit, influences, task.stage1());
   return out;
 }
 

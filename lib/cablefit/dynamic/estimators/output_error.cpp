@@ -13,6 +13,7 @@
 #include "cablefit/dynamic/estimators/rows.hpp"
 #include "cablefit/dynamic/fitted_model.hpp"
 #include "cablefit/dynamic/log_copy.hpp"
+#include "cablefit/dynamic/noise_free_loop.hpp"
 #include "cablefit/dynamic/output_error/log_stretches.hpp"
 #include "cablefit/dynamic/output_error/stage1_prior.hpp"
 #include "cablefit/estimate/parameter_estimate.hpp"
@@ -62,6 +63,7 @@ Estimation stay_with_least_squares(const EstimationTask& task, Estimation start,
 struct FittedRows {
   std::vector<MeasuredStretch> stretches;
   std::string note;
+  std::vector<LogSurvey> parts = {};  ///< the logs' rows that are fitted; empty: all
 };
 
 FittedRows rows_of(const DynamicJob& job) {
@@ -72,8 +74,27 @@ FittedRows rows_of(const DynamicJob& job) {
   if (all <= kMostRows) return {measured_stretches(job, job.logs), ""};
   const double share = kMostRows / all;
   const double bridge = bridge_seconds(job.settings.rows.signal);
-  return {measured_stretches(job, stretches_of(job.logs, job.wanted, share, bridge)),
-          fmt::format(", on {:.2g} % of the rows in evenly spaced stretches", 100 * share)};
+  std::vector<LogSurvey> parts = stretches_of(job.logs, job.wanted, share, bridge);
+  std::vector<MeasuredStretch> stretches = measured_stretches(job, parts);
+  return {std::move(stretches),
+          fmt::format(", on {:.2g} % of the rows in evenly spaced stretches", 100 * share),
+          std::move(parts)};
+}
+
+/// A stand-in, which follows what was measured, would keep out no disturbance: only the loop that
+/// is known makes instruments that the fit itself does not have.
+void add_noise_free_loop(const DynamicJob& job, const FittedRows& rows,
+                         OutputErrorOptions& options) {
+  const std::span<const LogSurvey> logs =
+      rows.parts.empty() ? job.logs : std::span<const LogSurvey>(rows.parts);
+  const LoopPlan plan = plan_loop(job, logs);
+  if (plan.kind != LoopKind::known) return;
+  options.noise_free_loop = [&job, logs, plan](const Model& model) {
+    const SimulatedLogs simulated = simulate_loops(job, logs, model, plan);
+    if (!simulated.failure.empty()) return NoiseFreeLogs{{}, {}, simulated.failure};
+    return NoiseFreeLogs{measured_stretches(job, simulated.logs),
+                         measured_stretches(job, simulated.logs, true), ""};
+  };
 }
 
 OutputErrorOptions options_of(const EstimationTask& task, const Model& start) {
@@ -181,6 +202,12 @@ void note_fit(const EstimationTask& task, const FittedRows& rows, const OutputEr
            "{}; whitened residual {:.3g}{}",
            per_axis(task, oe.noise.force), linear ? "N" : "N m", per_axis(task, oe.noise.position),
            linear ? "m" : "rad", oe.residual_rms, rows.note)});
+  if (!oe.instruments.empty())
+    out.decisions.push_back({label(task, "instruments"),
+                             oe.instrumented
+                                 ? "noise-free loop of the rig's controller and the log's reference"
+                                 : "none",
+                             oe.instruments});
   out.fit.warnings.insert(out.fit.warnings.end(), oe.warnings.begin(), oe.warnings.end());
   if (oe.residual_rms > kWrongNoise || oe.residual_rms < 1 / kWrongNoise)
     out.fit.warnings.push_back(
@@ -242,6 +269,27 @@ void fill(const EstimationTask& task, const OutputErrorFit& oe, const Estimation
   }
 }
 
+/// All that was fitted together and stands on no bound.
+JointEstimates joint_estimates_of(const OutputErrorFit& oe, const DynamicFit& fit) {
+  JointEstimates joint;
+  std::vector<Eigen::Index> kept;
+  for (std::size_t k = 0; k < oe.parameters.size(); ++k) {
+    const Estimate& e = oe.parameters[k];
+    const Estimate* told = find_estimate(fit.parameters, e.name);
+    if (!e.not_identifiable.empty() || !e.active_bound.empty()) continue;
+    if (told != nullptr && !told->not_identifiable.empty()) continue;
+    joint.names.push_back(e.name);
+    kept.push_back(static_cast<Eigen::Index>(k));
+  }
+  joint.value.resize(static_cast<Eigen::Index>(kept.size()));
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    joint.value(static_cast<Eigen::Index>(i)) =
+        oe.parameters[static_cast<std::size_t>(kept[i])].value;
+  joint.covariance = oe.covariance(kept, kept);
+  joint.degrees_of_freedom = oe.degrees_of_freedom;
+  return joint;
+}
+
 Estimation estimate(const EstimationTask& task) {
   Estimation start = least_squares_fit(task, Weighting::by_residual);
   const DynamicJob& job = task.job;
@@ -253,11 +301,13 @@ Estimation estimate(const EstimationTask& task) {
   const FittedRows rows = rows_of(job);
   if (rows.stretches.empty())
     return stay_with_least_squares(task, std::move(start), "no stretch of 16 rows without a gap");
-  const OutputErrorOptions options = options_of(task, model);
+  OutputErrorOptions options = options_of(task, model);
+  add_noise_free_loop(job, rows, options);
   const OutputErrorFit oe = fit_output_error(model, rows.stretches, options);
   if (oe.parameters.empty()) return stay_with_least_squares(task, std::move(start), oe.message);
   Estimation out;
   fill(task, oe, start, out);
+  if (job.n_joints() == 1) out.joint = joint_estimates_of(oe, out.fit);
   note_fit(task, rows, oe, out);
   note_stage1(task, options, oe, out);
   return out;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -30,7 +31,7 @@ void fill_covariance(const FinalRows& last, OutputErrorFit& fit) {
   Eigen::MatrixXd scores(n_cells, p);
   for (Eigen::Index c = 0; c < n_cells; ++c)
     scores.row(c) = statistics.cells()[static_cast<std::size_t>(c)].gram.col(p).head(p).transpose();
-  const LongRunCovariance hac = long_run_covariance(scores * inverse, kIntervalKernel);
+  const LongRunCovariance hac = interval_covariance(scores * inverse);
   fit.covariance = hac.covariance + of_prior;
   fit.degrees_of_freedom = hac.degrees_of_freedom;
   double ratio = 0, n = 0;
@@ -48,7 +49,8 @@ void fill_covariance(const FinalRows& last, OutputErrorFit& fit) {
   if (n > 0) fit.effective_rows *= n / ratio;
 }
 
-/// One-sided: where the parameter would go if it were free, as far as the fit is linear there. With
+/// One-sided, by the profile of the whitened |r|^2, as far as the fit is linear there: c beyond the
+/// bound costs ((c - f)^2 - f^2) / sd^2 when the parameter would go to f <= 0 if it were free. With
 /// its column last among those that are free, the last row of R says that alone.
 void set_on_bound(const FinalRows& last_rows, std::size_t k, const OutputErrorFit& fit,
                   Estimate& e) {
@@ -66,15 +68,12 @@ void set_on_bound(const FinalRows& last_rows, std::size_t k, const OutputErrorFi
   const Eigen::MatrixXd rows = all.r()(Eigen::all, columns);
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows);
   const double slope = qr.matrixQR()(last, last);
-  Estimate free = e;
-  free.sd_white = fit.residual_rms / std::abs(slope);
-  free.sd = free.sd_white * std::sqrt(static_cast<double>(fit.n_rows) / fit.effective_rows);
-  free.value = e.value + std::max(0.0, -qr.matrixQR()(last, last + 1) / slope);
-  set_interval(free, fit.degrees_of_freedom);
-  e.sd = free.sd;
-  e.sd_white = free.sd_white;
+  e.sd_white = fit.residual_rms / std::abs(slope);
+  e.sd = e.sd_white * std::sqrt(static_cast<double>(fit.n_rows) / fit.effective_rows);
+  const double free = std::min(0.0, -qr.matrixQR()(last, last + 1) / slope);
   e.ci_low = e.value;
-  e.ci_high = free.ci_high;
+  e.ci_high = e.value + free + std::hypot(free, t_quantile_975(fit.degrees_of_freedom) * e.sd);
+  e.profiled = true;
 }
 
 Estimate estimate_of(const FinalRows& last, std::size_t k, const OutputErrorFit& fit) {

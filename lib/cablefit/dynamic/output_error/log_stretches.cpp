@@ -13,15 +13,16 @@ constexpr double kLeastNoise = 1e-10;  // of the range of the channel
 
 using Grown = std::vector<double>;  // rows x slots, row by row
 
-/// The column of a channel for every joint; no rows where a joint does not have it.
-Eigen::ArrayXXd channel(const LogPlan& plan, const Grown& rows, Channel wanted) {
+/// The column of a channel for `n` joints from `first` on; no rows where one does not have it.
+Eigen::ArrayXXd channel(const LogPlan& plan, const Grown& rows, Channel wanted, int n,
+                        int first = 0) {
   const auto n_slots = static_cast<Eigen::Index>(plan.slots.size());
   using Table = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const Eigen::Map<const Table> all(rows.data(), static_cast<Eigen::Index>(rows.size()) / n_slots,
                                     n_slots);
-  Eigen::ArrayXXd out(all.rows(), plan.rig.n_joints());
-  for (int joint = 0; joint < plan.rig.n_joints(); ++joint) {
-    const int slot = plan.find(wanted, joint);
+  Eigen::ArrayXXd out(all.rows(), n);
+  for (int joint = 0; joint < n; ++joint) {
+    const int slot = plan.find(wanted, first + joint);
     if (slot < 0) return {};
     out.col(joint) = all.col(slot);
   }
@@ -29,14 +30,15 @@ Eigen::ArrayXXd channel(const LogPlan& plan, const Grown& rows, Channel wanted) 
 }
 
 MeasuredStretch stretch_of(const DynamicJob& job, const LogPlan& plan, const Grown& rows,
-                           double period) {
+                           double period, bool simulated) {
+  const int n = job.n_joints(), first = simulated ? n : 0;
   MeasuredStretch stretch;
   stretch.period = period;
   stretch.hold_torque = job.settings.rows.signal.torque_held;
-  if (!job.rigid) stretch.q = channel(plan, rows, Channel::q);
-  stretch.theta = channel(plan, rows, Channel::theta);
-  stretch.tau = channel(plan, rows, Channel::tau);
-  stretch.tau_load = channel(plan, rows, Channel::tau_load);
+  if (!job.rigid) stretch.q = channel(plan, rows, Channel::q, n, first);
+  stretch.theta = channel(plan, rows, Channel::theta, n, first);
+  stretch.tau = channel(plan, rows, Channel::tau, n);
+  stretch.tau_load = channel(plan, rows, Channel::tau_load, n);
   return stretch;
 }
 
@@ -49,13 +51,13 @@ double noise_of(const LogSurvey& log, const PartSurvey& part, Channel channel, i
 }  // namespace
 
 std::vector<MeasuredStretch> measured_stretches(const DynamicJob& job,
-                                                std::span<const LogSurvey> logs) {
+                                                std::span<const LogSurvey> logs, bool simulated) {
   std::vector<MeasuredStretch> stretches;
   for (const LogSurvey& log : logs) {
     Grown rows;
     double period = 0;
     const auto finish = [&] {
-      if (!rows.empty()) stretches.push_back(stretch_of(job, log.plan, rows, period));
+      if (!rows.empty()) stretches.push_back(stretch_of(job, log.plan, rows, period, simulated));
       rows.clear();
     };
     for_each_window(log, job.wanted, 0, kLeastRows, bridge_seconds(job.settings.rows.signal),

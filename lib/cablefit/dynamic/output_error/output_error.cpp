@@ -9,9 +9,11 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/dynamic/output_error/fit_estimates.hpp"
+#include "cablefit/dynamic/output_error/instrumental_fit.hpp"
 #include "cablefit/dynamic/output_error/noise_levels.hpp"
 #include "cablefit/dynamic/output_error/window_pass.hpp"
 #include "cablefit/estimate/nonlinear_least_squares.hpp"
+#include "cablefit/estimate/parameter_estimate.hpp"
 
 namespace cablefit {
 namespace {
@@ -88,6 +90,8 @@ class Fit {
   Eigen::MatrixXd prior_rows(const Eigen::VectorXd& x) const;
   void set_parameters(const Eigen::VectorXd& x);
   void fill(OutputErrorFit& fit, const NonlinearSolution& solution);
+  void use_instruments(OutputErrorFit& fit);
+  void take(const InstrumentalFit& found, OutputErrorFit& fit);
   Eigen::MatrixXd all_rows(const Eigen::VectorXd& x) const;
 
   const OutputErrorOptions& options_;
@@ -273,7 +277,64 @@ OutputErrorFit Fit::run() {
   if (settings_.every > 1) round(false);
   settings_.every = 1;
   fill(fit, round(true));
+  if (options_.noise_free_loop && fit.converged) use_instruments(fit);
   return fit;
+}
+
+/// Once more with the columns of a noise-free loop, from where the fit without ended.
+void Fit::use_instruments(OutputErrorFit& fit) {
+  const NoiseFreeLogs logs = options_.noise_free_loop(fit.model);
+  if (!logs.failure.empty()) {
+    fit.instruments = logs.failure;
+    return;
+  }
+  const auto windows = cut_windows(model_, logs.measured, options_.window, options_.position_sd);
+  const auto noise_free =
+      cut_windows(model_, logs.noise_free, options_.window, options_.position_sd);
+  std::vector<bool> moves;
+  for (Eigen::Index k = 0; k < x_.size(); ++k) moves.push_back(fit.covariance(k, k) > 0);
+  const InstrumentalFit found =
+      solve_instrumental(x_, moves, [&](const Eigen::VectorXd& x) -> InstrumentedSums {
+        return {instrumented_pass(windows, noise_free, model_, parameters_, x, noise_, settings_),
+                prior_rows(x)};
+      });
+  fit.n_passes += 2 * found.n_passes;
+  fit.instruments = found.failure;
+  if (!found.failure.empty()) return;
+  for (std::size_t k = 0; k < parameters_.size(); ++k)
+    if (found.x[static_cast<Eigen::Index>(k)] < parameters_[k].lower) {
+      fit.instruments = fmt::format("{} would leave its bound", parameters_[k].name);
+      return;
+    }
+  take(found, fit);
+}
+
+void Fit::take(const InstrumentalFit& found, OutputErrorFit& fit) {
+  std::string furthest;
+  double most = 0;
+  for (std::size_t k = 0; k < parameters_.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    Estimate& e = fit.parameters[k];
+    if (!(found.covariance(i, i) > 0)) continue;
+    e.sd = std::sqrt(found.covariance(i, i));
+    e.sd_white = std::sqrt(found.covariance_white(i, i));
+    const double moved = (found.x[i] - e.value) / e.sd;
+    if (std::abs(moved) >= std::abs(most)) {
+      most = moved;
+      furthest = e.name;
+    }
+    e.value = found.x[i];
+    set_interval(e, found.degrees_of_freedom, parameters_[k].lower);
+  }
+  fit.covariance = found.covariance;
+  fit.covariance_white = found.covariance_white;
+  fit.degrees_of_freedom = found.degrees_of_freedom;
+  fit.effective_rows = found.effective_rows;
+  x_ = found.x;
+  set_parameters(x_);
+  fit.model = model_;
+  fit.instrumented = true;
+  fit.instruments = fmt::format("{} moves furthest, by {:+.2f} sd", furthest, most);
 }
 
 void Fit::fill(OutputErrorFit& fit, const NonlinearSolution& solution) {

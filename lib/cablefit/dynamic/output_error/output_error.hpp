@@ -2,6 +2,7 @@
 // the noise of the torque that drives it taken for what it is (prediction_filter.hpp).
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,13 @@ struct GaussianPrior {
   std::vector<std::string> names;
   Eigen::VectorXd mean;
   Eigen::MatrixXd covariance;  ///< honest
+};
+
+/// The logs once more, and the same rows with the positions that a noise-free loop makes in place
+/// of the measured ones.
+struct NoiseFreeLogs {
+  std::vector<MeasuredStretch> measured, noise_free;
+  std::string failure;  ///< why there are none; empty: there are
 };
 
 struct OutputErrorOptions {
@@ -38,6 +46,9 @@ struct OutputErrorOptions {
   int max_rounds = 3;       ///< of noise and fit until it has settled
   int max_iterations = 10;  ///< of the fit in a round
   int threads = 1;
+  /// The noise-free loop of a model: instruments against disturbances that come back through the
+  /// controller (instrumental_fit.hpp). Empty: none is known.
+  std::function<NoiseFreeLogs(const Model&)> noise_free_loop;
 };
 
 struct OutputErrorFit {
@@ -53,6 +64,8 @@ struct OutputErrorFit {
   int n_rounds = 0;
   int n_passes = 0;  ///< over all rows, with sensitivities
   std::string message;
+  std::string instruments;    ///< what became of them, in words; empty: there are none
+  bool instrumented = false;  ///< parameters and covariances are those with instruments
   std::vector<std::string> warnings;
 };
 

@@ -29,4 +29,14 @@ WindowPass pass_over(const std::vector<OutputErrorWindow>& windows, const Model&
                      const std::vector<ModelParameter>& parameters, const Eigen::VectorXd& values,
                      const NoiseLevels& noise, const PassSettings& settings);
 
+/// Columns: parameters, the residual, then the parameters once more along the motion of
+/// `noise_free`, the same windows with noise-free positions: instruments, whitened like the rest.
+/// They are not correlated with what disturbs the drive, as the parameters' own columns are. No
+/// rows where something diverged.
+RowStatistics instrumented_pass(const std::vector<OutputErrorWindow>& windows,
+                                const std::vector<OutputErrorWindow>& noise_free,
+                                const Model& model, const std::vector<ModelParameter>& parameters,
+                                const Eigen::VectorXd& values, const NoiseLevels& noise,
+                                const PassSettings& settings);
+
 }  // namespace cablefit

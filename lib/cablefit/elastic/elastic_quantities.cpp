@@ -1,0 +1,104 @@
+#include "cablefit/elastic/elastic_quantities.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "cablefit/model/modes.hpp"
+
+namespace cablefit {
+namespace {
+
+// rad or m to either side of the reference pose: beyond what an l_o of about 0 is known to, so that
+// a pair without preload has the mean of its cables' slopes, whichever side of 0 its l_o fell.
+constexpr double kBeside = 2e-5;
+
+/// Torque per deflection at `phi`, of the motor.
+double slope_at(const Transmission& transmission, double phi) {
+  const double q = transmission.reference_q()(0);
+  const double centre = transmission.reference_theta()(0) - q;
+  double sum = 0;
+  for (const Cable& cable : transmission.cables) {
+    const double r = cable.motor_map.front().radius(q + centre + phi);
+    sum += r * r * cable.stiffness(elongation_at(transmission, cable, centre + phi));
+  }
+  return sum;
+}
+
+/// Of all slack points the one of that cable on that side; NaN when the values have none there.
+double slack_value(const Transmission& transmission, const UsedDeflections& used,
+                   const SlackPoint& wanted, double SlackPoint::*member) {
+  for (const SlackPoint& point : slack_points(transmission, used.low, used.high))
+    if (point.cable == wanted.cable && point.slack_above == wanted.slack_above)
+      return point.*member;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+double rest_stiffness(const Transmission& transmission) {
+  if (transmission.cables.empty()) return transmission.linear_stiffness(0);
+  // Each side's slope as it goes towards the pose, by the straight line through two of its points.
+  const auto towards = [&](double side) {
+    return 2 * slope_at(transmission, side * kBeside) - slope_at(transmission, 2 * side * kBeside);
+  };
+  return 0.5 * (towards(-1) + towards(1));
+}
+
+TransmissionOf transmission_of(const Transmission& transmission, bool cable_space,
+                               const JointEstimates& from) {
+  struct Place {
+    std::size_t cable = 0;
+    int coefficient = 0;  // -1: l_o
+    Eigen::Index at = 0;
+  };
+  std::vector<Place> places;
+  for (std::size_t c = 0; c < transmission.cables.size(); ++c) {
+    const Cable& cable = transmission.cables[c];
+    for (int j = 0; j < cable.n_coefficients(); ++j)
+      if (const Eigen::Index at = from.find(coefficient_name(cable, j, cable_space)); at >= 0)
+        places.push_back({c, j, at});
+    if (const Eigen::Index at = from.find(elongation_name(cable)); at >= 0)
+      places.push_back({c, -1, at});
+  }
+  const Eigen::Index stiffness = from.find("K");
+  return [=](const Eigen::VectorXd& value) {
+    Transmission changed = transmission;
+    if (changed.cables.empty() && stiffness >= 0) changed.linear_stiffness(0) = value(stiffness);
+    for (const Place& place : places) {
+      Cable& cable = changed.cables[place.cable];
+      if (place.coefficient < 0)
+        cable.initial_elongation = value(place.at);
+      else
+        cable.coefficients[static_cast<std::size_t>(place.coefficient)] = value(place.at);
+    }
+    return changed;
+  };
+}
+
+std::vector<DerivedQuantity> elastic_quantities(const Transmission& transmission, bool cable_space,
+                                                bool linear_motion, const UsedDeflections& used,
+                                                const JointEstimates& from) {
+  std::vector<DerivedQuantity> all;
+  if (transmission.n_joints > 1 || transmission.cables.empty()) return all;
+  const TransmissionOf changed = transmission_of(transmission, cable_space, from);
+  all.push_back({"K_rest", "K_rest", linear_motion ? "N/m" : "N m/rad",
+                 [changed](const Eigen::VectorXd& v) { return rest_stiffness(changed(v)); }});
+  if (!is_preloaded(transmission)) return all;
+  for (const SlackPoint& point : slack_points(transmission, used.low, used.high)) {
+    std::string cable = fmt::format("[{}]", transmission.cables[point.cable].name);
+    if (all.back().name == "tau_slack" + cable) cable += "'";  // taut in a range only
+    all.push_back({"phi_slack" + cable, "phi_slack", linear_motion ? "m" : "rad",
+                   [changed, used, point](const Eigen::VectorXd& v) {
+                     return slack_value(changed(v), used, point, &SlackPoint::deflection);
+                   }});
+    all.push_back({"tau_slack" + cable, "tau_slack", linear_motion ? "N" : "N m",
+                   [changed, used, point](const Eigen::VectorXd& v) {
+                     return slack_value(changed(v), used, point, &SlackPoint::motor);
+                   }});
+  }
+  return all;
+}
+
+}  // namespace cablefit

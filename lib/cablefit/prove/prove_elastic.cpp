@@ -1,0 +1,212 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/elastic/blocked_rows.hpp"
+#include "cablefit/prove/proof_runs.hpp"
+#include "cablefit/prove/twin.hpp"
+#include "cablefit/samples/agreement.hpp"
+#include "cablefit/samples/butterworth.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr std::uint64_t kDisturbances = 1, kSensors = 2, kCalibration = 4;  // as in prove.cpp
+constexpr std::size_t kLags = 64;
+constexpr int kFilterOrder = 4;
+constexpr double kWidestBand = 0.4;  // of the rate, for the low-pass
+
+/// Torque of the fit besides the elastic one.
+struct Friction {
+  double offset = 0, f_sm = 0;
+};
+
+double value_of(const ElasticFit& fit, const char* name) {
+  const Estimate* e = find_estimate(fit.parameters, name);
+  return e != nullptr && e->not_identifiable.empty() && std::isfinite(e->value) ? e->value : 0;
+}
+
+/// Positions without what sensors added: the low-pass of stage 1.
+Eigen::ArrayXXd smooth(const Eigen::VectorXd& measured, double period, double cutoff) {
+  Eigen::MatrixXd column = measured;
+  if (cutoff > 0 && cutoff < kWidestBand / period)
+    Butterworth(kFilterOrder, cutoff, 1 / period).apply(column, true, true);
+  return column.array();
+}
+
+/// Dry friction: f_sm against the motion; at rest what was measured beside the rest of the model,
+/// as far as friction goes. A jump from one side to the other, which no drive makes, would come out
+/// of the low-pass as less friction.
+void add_friction(const Eigen::ArrayXd& theta, const Eigen::ArrayXd& measured, double f_sm,
+                  double rest_step, Eigen::ArrayXXd& tau) {
+  for (Eigen::Index i = 0; i < theta.size(); ++i) {
+    const Eigen::Index from = std::max<Eigen::Index>(0, i - 1),
+                       to = std::min<Eigen::Index>(theta.size() - 1, i + 1);
+    const double step =
+        (theta(to) - theta(from)) / static_cast<double>(std::max<Eigen::Index>(1, to - from));
+    const double rest = std::clamp(measured(i) - tau(i, 0), -f_sm, f_sm);
+    tau(i, 0) += std::abs(step) > rest_step ? (step > 0 ? f_sm : -f_sm) : rest;
+  }
+}
+
+/// What the blocked drive does: the logs' motion with the fit's torque. `rest_speed`: of stage 1.
+std::vector<SimulationResult> follow(const Twin& twin, const ElasticFit& fit, double cutoff,
+                                     double rest_speed) {
+  const Friction friction{fit.offset, value_of(fit, "f_sm")};
+  std::vector<SimulationResult> motions;
+  for (const TwinStretch& stretch : twin.stretches) {
+    const LogPlan& plan = twin.plans[stretch.log];
+    const double period = stretch.input.period;
+    const auto column = [&](Channel channel) {
+      return smooth(stretch.measured.col(plan.find(channel, 0)), period, cutoff);
+    };
+    SimulationResult motion;
+    motion.q = column(Channel::q);
+    motion.theta = column(Channel::theta);
+    motion.tau = Eigen::ArrayXXd::Constant(motion.q.rows(), 1, friction.offset);
+    motion.qd = motion.thetad = Eigen::ArrayXXd::Zero(motion.q.rows(), 1);
+    Eigen::VectorXd link, motor;
+    for (Eigen::Index i = 0; i < motion.q.rows(); ++i) {
+      fit.transmission.torques(motion.q.row(i).matrix(), motion.theta.row(i).matrix(), link, motor);
+      motion.tau(i, 0) += motor(0);
+    }
+    add_friction(motion.theta.col(0), column(Channel::tau).col(0), friction.f_sm,
+                 rest_speed * period, motion.tau);
+    motions.push_back(std::move(motion));
+  }
+  return motions;
+}
+
+void disturb(const Twin& twin, const ArModel& colour, Random& random,
+             std::vector<SimulationResult>& motions) {
+  if (!(colour.sd > 0)) return;
+  for (std::size_t k = 0; k < motions.size(); ++k)
+    motions[k].tau.col(0) +=
+        draw(colour, motions[k].tau.rows(), twin.stretches[k].input.period, random);
+}
+
+/// rows * this = residual of the fit.
+Eigen::VectorXd residual_combination(const BlockedRows& rows, const ElasticFit& fit) {
+  const BlockedColumns& c = rows.columns;
+  Eigen::VectorXd combination = rows.torque_response();
+  combination(c.offset) -= fit.offset;
+  combination(c.direction) -= value_of(fit, "f_sm");
+  if (fit.transmission.cables.empty())
+    combination(c.deflection) -= fit.transmission.linear_stiffness(0);
+  Eigen::Index first = c.basis;
+  for (std::size_t i = 0; i < fit.transmission.cables.size(); ++i) {
+    const std::vector<double>& own = fit.transmission.cables[i].coefficients;
+    for (std::size_t j = 0; j < own.size(); ++j)
+      combination(first + static_cast<Eigen::Index>(j)) -= own[j];
+    first += rows.transmission.cables[i].n_coefficients();
+  }
+  return combination;
+}
+
+struct Colour {
+  Eigen::VectorXd autocovariance;
+  double period = 0;
+  std::size_t n_values = 0;
+};
+
+/// Of what the fit leaves of these logs.
+Colour colour_of(std::span<const LogSurvey> logs, const ElasticOptions& options,
+                 const std::string& preload, const ElasticFit& fit) {
+  const ElasticJob job = make_job(logs, options, preload);
+  const BlockedRows rows = collect_blocked(job, fit.transmission.encoder_zero()(0), nullptr);
+  const Eigen::VectorXd combination = residual_combination(rows, fit);
+  Autocovariance sums(kLags);
+  rows.archive->for_each([&](const Eigen::MatrixXd& some, std::span<const Eigen::Index> numbers) {
+    sums.add(numbers, some * combination);
+  });
+  return {sums.values(), job.settings.rows.decimate / sample_rates(logs, job.wanted).highest,
+          sums.n_values()};
+}
+
+/// As in the fit: its order, and what its zero is.
+ElasticOptions options_of_runs(const ElasticOptions& options, const ElasticPreload& preload,
+                               const ElasticFit& fit) {
+  ElasticOptions same = options;
+  same.preload = preload.name;
+  same.figures = false;
+  same.samples.threads = 1;
+  if (!fit.transmission.cables.empty()) same.order = fit.order;
+  if (same.order == 0) same.order = preload.fits.back().order;
+  same.zero =
+      find_estimate(fit.parameters, "theta_0") != nullptr ? ZeroMode::theta_0 : ZeroMode::offset;
+  return same;
+}
+
+struct Plan {
+  Twin twin;
+  std::vector<SimulationResult> motions;  ///< without a disturbance
+  ArModel disturbance;
+  ElasticOptions options;
+};
+
+Plan make_plan(std::span<const LogSurvey> logs, const ElasticOptions& options,
+               const ProveOptions& prove, const ElasticPreload& preload, const ElasticFit& fit) {
+  Plan plan;
+  plan.options = options_of_runs(options, preload, fit);
+  const ElasticJob job = make_job(logs, plan.options, preload.name);
+  for (std::size_t k = 0; k < logs.size(); ++k) {
+    plan.twin.plans.push_back(logs[k].plan);
+    plan.twin.parts.push_back(logs[k].parts);
+    for (TwinStretch& stretch : read_stretches(logs[k], k, job.wanted)) {
+      stretch.link_blocked = true;
+      plan.twin.stretches.push_back(std::move(stretch));
+    }
+  }
+  plan.twin.notes.emplace_back("the motion of the logs, the torque of the fit");
+  plan.motions = follow(plan.twin, fit, job.settings.rows.signal.cutoff, job.rest_speeds.front());
+  choose_sensors(plan.twin, plan.motions);
+  Random calibration(prove.seed, kCalibration);
+  const std::vector<LogSurvey> quiet = record_twin(plan.twin, plan.motions, calibration);
+  const Colour measured = colour_of(logs, plan.options, preload.name, fit);
+  const Colour by_noise = colour_of(quiet, plan.options, preload.name, fit);
+  Eigen::VectorXd left = measured.autocovariance;
+  if (by_noise.period == measured.period) left -= by_noise.autocovariance;
+  plan.disturbance = fit_ar(left, measured.period, measured.n_values);
+  plan.twin.notes.push_back(fmt::format(
+      "residual {:.3g} rms, of which {:.3g} are simulated as a disturbance, autoregressive of "
+      "order {}",
+      std::sqrt(measured.autocovariance(0)), plan.disturbance.sd,
+      plan.disturbance.coefficients.size()));
+  return plan;
+}
+
+ProofRun run_once(const Plan& plan, const std::string& model, std::uint64_t seed) {
+  ProofRun run;
+  try {
+    Random disturbances(seed, kDisturbances), sensors(seed, kSensors);
+    std::vector<SimulationResult> motions = plan.motions;
+    disturb(plan.twin, plan.disturbance, disturbances, motions);
+    const ElasticResult found = fit_elastic(record_twin(plan.twin, motions, sensors), plan.options);
+    run.parameters = found.preloads.at(0).find(model)->parameters;
+  } catch (const Error& error) {
+    run.failure = error.what();
+  }
+  return run;
+}
+
+}  // namespace
+
+void prove_elastic(std::span<const LogSurvey> logs, const ElasticOptions& options,
+                   const ProveOptions& prove, ElasticResult& result) {
+  for (ElasticPreload& preload : result.preloads)
+    for (ElasticFit& fit : preload.fits) {
+      if (fit.transmission.n_joints > 1) {
+        fit.warnings.emplace_back("not proved: --prove of stage 1 is made for one joint");
+        continue;
+      }
+      const Plan plan = make_plan(logs, options, prove, preload, fit);
+      fit.proof = prove_by_runs(fit.parameters, prove, plan.twin.notes, [&](std::uint64_t seed) {
+        return run_once(plan, fit.model, seed);
+      });
+      widen(fit.parameters, *fit.proof);
+    }
+}
+
+}  // namespace cablefit
