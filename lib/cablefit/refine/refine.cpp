@@ -492,7 +492,8 @@ RefineResult refine(std::span<const Model> given, const RefineLogs& logs,
     result.unexplained =
         describe_remainder(state.design, fit.x, bench.floor, bench.scan.block_seconds);
   conclude(result);
-  choose_next_run({first.design, first.x, bench.floor, bench.first_search.candidates, runs}, result);
+  choose_next_run({first.design, first.x, bench.floor, bench.first_search.candidates, runs},
+                  result);
   if (options.figures)
     result.figures =
         refine_figures(result, {bench.all, first.design, first.x, state.design, fit.x},
