@@ -18,11 +18,11 @@ namespace {
 /// With so many, Student's t is the normal distribution to five digits.
 constexpr double kMostDof = 1e5;
 
-/// The degrees of freedom that an interval was made with: its half width is t sd.
+/// The degrees of freedom that an interval was made with: its half width is t sd, but for profiles.
 double dof_of(const Estimate& e) {
   constexpr double kTail = 0.05;
   const double t = (e.ci_high - e.value) / e.sd;
-  if (!e.active_bound.empty() || !(t > t_quantile(kTail, kMostDof))) return kMostDof;
+  if (e.profiled || !e.active_bound.empty() || !(t > t_quantile(kTail, kMostDof))) return kMostDof;
   double low = 1, high = kMostDof;
   while (high - low > 1e-6 * high) {
     const double middle = std::sqrt(low * high);

@@ -42,6 +42,7 @@ Estimate read_estimate(const JsonNode& node) {
     e.ci_low = ends[0];
     e.ci_high = ends[1];
   }
+  e.profiled = text_or_nothing(node, "interval") == "profile";
   e.not_identifiable = text_or_nothing(node, "not_identifiable");
   e.active_bound = text_or_nothing(node, "active_bound");
   return e;

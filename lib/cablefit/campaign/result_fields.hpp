@@ -19,6 +19,7 @@ void fields(Archive& a, Estimate& v) {
   a("value", v.value), a("sd", v.sd), a("sd_white", v.sd_white);
   a("ci_low", v.ci_low), a("ci_high", v.ci_high), a("cad", v.cad);
   a("not_identifiable", v.not_identifiable), a("active_bound", v.active_bound);
+  a("profiled", v.profiled);
 }
 
 template <class Archive>
@@ -38,8 +39,7 @@ void fields(Archive& a, WindowCounts& v) {
   a("segments", v.segments), a("out", v.rows_out);
 }
 
-// --- figures
-// ----------------------------------------------------------------------------------------
+// Figures
 
 template <class Archive>
 void fields(Archive& a, Axis& v) {
@@ -69,8 +69,7 @@ void fields(Archive& a, Figure& v) {
   a("wide", v.wide);
 }
 
-// --- stage 1
-// ----------------------------------------------------------------------------------------
+// Stage 1
 
 template <class Archive>
 void fields(Archive& a, MapParameters& v) {
@@ -110,6 +109,7 @@ void fields(Archive& a, ElasticJointErrors& v) {
   a("held_out_rms", v.held_out_rms), a("held_out_max", v.held_out_max);
 }
 
+/// Without a proof, which campaigns do not make.
 template <class Archive>
 void fields(Archive& a, ElasticFit& v) {
   a("model", v.model), a("order", v.order), a("parameters", v.parameters);
@@ -117,7 +117,7 @@ void fields(Archive& a, ElasticFit& v) {
   a("rms", v.rms_error), a("max", v.max_abs_error);
   a("held_out_rms", v.held_out_rms), a("held_out_max", v.held_out_max), a("joints", v.joints);
   a("passive", v.passive), a("active_bounds", v.active_bounds), a("condition", v.condition);
-  a("effective_rows", v.effective_rows), a("warnings", v.warnings);
+  a("effective_rows", v.effective_rows), a("warnings", v.warnings), a("derived", v.derived);
 }
 
 template <class Archive>
@@ -152,8 +152,7 @@ void fields(Archive& a, ElasticResult& v) {
   a("inputs", v.inputs), a("preloads", v.preloads), a("warnings", v.warnings);
 }
 
-// --- stage 2
-// ----------------------------------------------------------------------------------------
+// Stage 2
 
 template <class Archive>
 void fields(Archive& a, TorqueError& v) {
@@ -183,7 +182,7 @@ void fields(Archive& a, DynamicFit& v) {
   a("torque_error", v.torque_error), a("weight", v.weight), a("condition", v.condition);
   a("effective_rows", v.effective_rows), a("elastic", v.elastic), a("verdicts", v.verdicts);
   a("warnings", v.warnings), a("sd_reason", v.sd_reason), a("suspects", v.suspects);
-  a("trace", v.trace);
+  a("trace", v.trace), a("derived", v.derived);
 }
 
 template <class Archive>
@@ -231,8 +230,7 @@ void fields(Archive& a, DynamicResult& v) {
   a("inputs", v.inputs), a("preloads", v.preloads), a("warnings", v.warnings);
 }
 
-// --- refine
-// -----------------------------------------------------------------------------------------
+// Refine
 
 template <class Archive>
 void fields(Archive& a, GapStory& v) {
