@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "cablefit/base/digest.hpp"
 #include "cablefit/base/error.hpp"
+#include "cablefit/base/quote.hpp"
 #include "cablefit/campaign/campaign.hpp"
 #include "cablefit/dynamic/estimators.hpp"
 #include "cablefit/elastic/elastic_fit.hpp"
@@ -205,8 +207,13 @@ std::vector<LogSurvey> campaign_logs(const CommonOptions& options) {
     throw usage_error(fmt::format("no log given and no {} here", kCampaignHere),
                       "name one or more log files");
   std::vector<LogSurvey> logs;
+  std::set<std::string> preloads;
   for (const CampaignCell& cell : read_campaign(kCampaignHere).cells) {
     if (!options.preload.empty() && options.preload != cell.preload) continue;
+    if (!preloads.insert(cell.preload).second)
+      throw usage_error(fmt::format("{} has several cells of preload {}", kCampaignHere,
+                                    cablefit::quoted(cell.preload)),
+                        "name the logs of one, or fit each for itself by 'cablefit batch'");
     for (const auto* paths : {&cell.blocked, &cell.moving})
       for (const std::string& path : *paths)
         logs.push_back(survey_log(plan_log(path, rig_for_log(path, cell.rig)), cell.preload,

@@ -1,6 +1,7 @@
 // A whole batch: the same whatever the jobs and whatever was there, and what CI reads of it.
 #include "cablefit/campaign/batch.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 #include "cablefit/report/batch_json.hpp"
 #include "cablefit/report/junit.hpp"
 #include "cablefit/report/writers.hpp"
+#include "tests/report/schema.hpp"
 #include "tests/support/message.hpp"
 #include "tests/support/temp_folder.hpp"
 
@@ -71,6 +73,40 @@ TEST_CASE("results are the same with any number of jobs, and when cells are ther
   }
 }
 
+TEST_CASE("a cell with refine is told what is missing: nothing, on the shipped logs") {
+  Campaign campaign = read_campaign(CABLEFIT_DATA "/campaign.json");
+  campaign.cells.resize(1);
+  campaign.cells.front().refine.emplace().n_draws = 4;
+  campaign.limits.new_effect = false;
+  const BatchResult result = run_batch(campaign, {});
+  REQUIRE(result.cells.front().refine);
+  CHECK(result.cells.front().refine->error == "");
+  CHECK(result.cells.front().refine->verdict == "none");
+  CHECK(result.gates.back().name == "new_effect");
+  CHECK(result.gates.back().passed);
+  CHECK(test::schema_errors("batch", batch_json(result)) == "");
+  const auto& tables = batch_document(result).tables;
+  CHECK(std::any_of(tables.begin(), tables.end(), [](const Table& table) {
+    return table.title == "Missing effects" && table.rows.size() == 1 &&
+           table.columns[3].unit == "N m";
+  }));
+}
+
+TEST_CASE("refine that has no verdict costs no fit") {
+  Campaign campaign = read_campaign(CABLEFIT_DATA "/campaign.json");
+  campaign.cells.resize(1);
+  CampaignCell& cell = campaign.cells.front();
+  cell.refine.emplace().train = cell.blocked;  // refine is given one log twice, and no moving one
+  cell.refine->test = cell.blocked;
+  const BatchResult result = run_batch(campaign, {});
+  REQUIRE(result.cells.front().refine);
+  CHECK(result.cells.front().error == "");
+  CHECK(result.cells.front().dynamic.has_value());
+  CHECK(result.cells.front().refine->verdict == "");
+  CHECK(result.cells.front().refine->error != "");
+  CHECK(test::schema_errors("batch", batch_json(result)) == "");
+}
+
 TEST_CASE("one cell writes its own file, from which the batch takes it") {
   const TempFolder folder;
   BatchOptions options;
@@ -92,6 +128,7 @@ TEST_CASE("a cell that fails is tried again, and is listed") {
   for (int k = 0; k < 2; ++k) {
     const BatchResult result = run_batch(campaign, options);
     CHECK(result.n_kept == static_cast<std::size_t>(k));  // the other one
+    CHECK(test::schema_errors("batch", batch_json(result)) == "");
     const auto json = nlohmann::json::parse(batch_json(result));
     REQUIRE(json["failed"].size() == 1);
     CHECK(json["failed"][0]["cell"] == "low");

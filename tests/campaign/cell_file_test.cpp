@@ -185,7 +185,13 @@ TEST_CASE("a damaged file, or another cell's, is not taken") {
   CHECK(!read_cell_file(folder.file("cell.json"), other));
   for (std::size_t n = 0; n + 1 < text.size(); n += 7)
     CHECK(!read_cell_file(folder.write("cell.json", text.substr(0, n)), key));
-  CHECK(!read_cell_file(folder.write("cell.json", "{\"schema\": \"cablefit/cell/1\"}"), key));
+  CHECK(!read_cell_file(folder.write("cell.json", text + text), key));
+  for (std::size_t n = 0; n < text.size();
+       n += 5) {  // still JSON, mostly, with another number or letter
+    std::string damaged = text;
+    damaged[n] = damaged[n] == '1' ? '2' : '1';
+    CHECK(!read_cell_file(folder.write("cell.json", damaged), key));
+  }
   CHECK_THROWS_AS(parse_cell("[]", key), Error);
 }
 

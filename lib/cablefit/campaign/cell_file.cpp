@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <vector>
 
+#include "cablefit/base/digest.hpp"
+#include "cablefit/base/input_file.hpp"
 #include "cablefit/base/json_document.hpp"
 #include "cablefit/campaign/record_reader.hpp"
 #include "cablefit/campaign/record_writer.hpp"
@@ -13,27 +16,33 @@
 namespace cablefit {
 namespace {
 
-constexpr const char* kSchema = "cablefit/cell/1";
 constexpr std::size_t kMostBytes = std::size_t{1} << 28;
+constexpr std::size_t kBlockBytes = std::size_t{1} << 16;
+constexpr std::string_view kEnd = "}\n";
 
-struct CellFile {
-  std::string schema, version, key;
-  CellResults results;
-};
-
-template <class Archive>
-void fields(Archive& a, CellFile& v) {
-  a("schema", v.schema), a("cablefit_version", v.version), a("key", v.key);
-  a("results", v.results);
+/// What stands before the results. The digest tells a file that was damaged from one that was not:
+/// nothing else would, where a number lost a digit.
+std::string head_of(std::string_view results, const CellKey& key) {
+  return fmt::format(
+      "{{\"schema\": \"cablefit/cell/1\", \"cablefit_version\": \"{}\", \"key\": \"{}\",\n"
+      "\"sha256\": \"{}\",\n\"results\": ",
+      kVersion, key.key, sha256_of_text(results));
 }
 
-CellResults from_document(const JsonNode& root, const CellKey& key) {
-  CellFile file;
-  RecordReader reader(root, key.paths);
-  fields(reader, file);
-  if (file.schema != kSchema || file.key != key.key)
-    throw root.error("not the results of this cell", "delete the file, it is made anew");
-  return std::move(file.results);
+Error not_this_cell() {
+  return input_error({"results of a cell", 0, 0}, "not the results of this cell",
+                     "delete the file, it is made anew");
+}
+
+std::string content_of(const std::string& path) {
+  FileReader file(path);
+  std::string text;
+  std::vector<char> block(kBlockBytes);
+  while (const std::size_t n = file.read(block.data(), block.size())) {
+    text.append(block.data(), n);
+    if (text.size() > kMostBytes) throw not_this_cell();
+  }
+  return text;
 }
 
 }  // namespace
@@ -44,19 +53,28 @@ std::string cell_path(const std::string& folder, const CellKey& key) {
 
 std::string cell_text(const CellResults& results, const CellKey& key) {
   RecordWriter writer(key.paths);
-  writer.write_struct(CellFile{kSchema, kVersion, key.key, results});
-  return writer.take() + "\n";
+  writer.write_struct(results);
+  const std::string text = writer.take();
+  return head_of(text, key) + text + std::string(kEnd);
 }
 
 CellResults parse_cell(std::string_view text, const CellKey& key) {
-  return from_document(parse_json(text, "results of a cell"), key);
+  const std::size_t n_head = head_of("", key).size();  // as long as with any other digest
+  if (text.size() < n_head + kEnd.size() || !text.ends_with(kEnd)) throw not_this_cell();
+  const std::string_view results = text.substr(n_head, text.size() - n_head - kEnd.size());
+  if (text.substr(0, n_head) != head_of(results, key)) throw not_this_cell();
+  CellResults parsed;
+  const JsonNode root = parse_json(results, "results of a cell");
+  RecordReader reader(root, key.paths);
+  fields(reader, parsed);
+  return parsed;
 }
 
 std::optional<CellResults> read_cell_file(const std::string& path, const CellKey& key) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return std::nullopt;
   try {
-    return from_document(read_json_file(path, kMostBytes), key);
+    return parse_cell(content_of(path), key);
   } catch (const Error&) {
     return std::nullopt;
   }

@@ -75,6 +75,12 @@ std::string effects_text(const CellRefine& refine) {
   return text.empty() ? kNoNumber : text;
 }
 
+std::string unit_of(const BatchResult& result) {
+  for (const BatchCell& cell : result.cells)
+    if (cell.dynamic) return torque_unit(cell.dynamic->preloads.front().linear_motion);
+  return torque_unit(false);
+}
+
 /// The missing effects of every cell that was refined; no rows where none was.
 Table refine_table(const BatchResult& result) {
   Table table;
@@ -82,9 +88,9 @@ Table refine_table(const BatchResult& result) {
   table.columns = {{"", "cell", "", true},
                    {"", "verdict", "", true},
                    {"", "effects", "", true},
-                   {"torque gap, unseen", "before", ""},
-                   {"torque gap, unseen", "after", ""},
-                   {"torque gap, unseen", "floor", ""}};
+                   {"torque gap, unseen", "before", unit_of(result)},
+                   {"torque gap, unseen", "after", unit_of(result)},
+                   {"torque gap, unseen", "floor", unit_of(result)}};
   for (const BatchCell& cell : result.cells) {
     if (!cell.refine) continue;
     const CellRefine& refine = *cell.refine;
