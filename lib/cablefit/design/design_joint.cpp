@@ -86,7 +86,7 @@ std::optional<CollisionThreshold> collision(const DesignOptions& options, double
   detector.noise = *options.noise;
   detector.rate = options.rate;
   detector.window = options.window;
-  detector.model_error = model_error;
+  detector.model_error = model_error + options.floor;
   detector.false_alarm_rate = false_alarm_rate_of(options.false_alarms_per_hour, options.window);
   detector.detection_rate = options.detection_rate;
   return collision_threshold(detector);

@@ -83,7 +83,7 @@ struct DesignResult {
   bool linear_motion = false, cable_space = false;
   std::vector<std::string> cables;
   double torque = 0;                          ///< N m, the working range is -torque .. torque
-  std::optional<CollisionDetector> detector;  ///< model_error left 0
+  std::optional<CollisionDetector> detector;  ///< of the cables themselves
   double false_alarms_per_hour = 0;
   std::vector<DesignPoint> points;
   std::vector<NeededPreload> needed;  ///< one per radius factor

@@ -18,8 +18,9 @@ struct DesignOptions {
   std::vector<int> orders = {1};           ///< of the cables of simpler models; 1: piecewise linear
   std::optional<double> tension_friction;  ///< N m per N m, on the motor, beside the model's
   std::optional<double> noise;             ///< N m, of the torque; nothing: the rig's sensor "tau"
-  double window = 0.05;                    ///< s, of the collision detector
-  double rate = 1000;                      ///< Hz, of the same
+  double floor = 0;  ///< N m, of what even the cables get wrong, bound; adds to every model's error
+  double window = 0.05;  ///< s, of the collision detector
+  double rate = 1000;    ///< Hz, of the same
   double false_alarms_per_hour = 1;
   double detection_rate = 0.99;
   bool figures = false;

@@ -1,94 +1,18 @@
 #include "cablefit/design/planned_fit.hpp"
 
-#include <fmt/format.h>
-
-#include <Eigen/QR>
 #include <cmath>
 
-#include "cablefit/base/error.hpp"
 #include "cablefit/base/parallel.hpp"
-#include "cablefit/base/random.hpp"
+#include "cablefit/design/planned_log.hpp"
+#include "cablefit/design/planned_refusal.hpp"
+#include "cablefit/design/scaled_solver.hpp"
 #include "cablefit/dynamic/dynamic_job.hpp"
 #include "cablefit/model/model_parameters.hpp"
-#include "cablefit/samples/noise.hpp"
-#include "cablefit/samples/recorded.hpp"
 
 namespace cablefit {
 namespace {
 
-constexpr double kCounts = 0.01;          // of the torque: a friction of less is as good as none
-constexpr double kRankTolerance = 1e-10;  // of columns of unit norm, exact but for rounding
-// As estimates.cpp refuses inertias (0.98 and 2/3), with some room.
-constexpr double kPositionAlias = 0.95;
-constexpr double kShiftRefused = 0.4;
-constexpr double kShiftSd = 3;  // of that shift, so that no noise makes it as large
-constexpr std::uint64_t kSeed = 20261;
-constexpr Eigen::Index kLeastRows = 4;  // per parameter
-
-bool load_is_column(const Rig& rig) { return rig.load.law == nullptr || rig.load.law->from_column; }
-
-std::vector<Channel> channels_of(const Model& model) {
-  std::vector<Channel> channels;
-  if (!model.rigid) channels.push_back(Channel::q);
-  channels.push_back(Channel::theta);
-  channels.push_back(Channel::tau);
-  if (load_is_column(model.rig)) channels.push_back(Channel::tau_load);
-  return channels;
-}
-
-std::string indexed(Channel channel, int joint, int n_joints) {
-  const std::string name(channel_name(channel));
-  return n_joints > 1 ? name + std::to_string(joint + 1) : name;
-}
-
-/// Every sensor under its own name; throws for one of which nothing is known.
-void spell_out_sensors(const std::vector<Channel>& channels, Rig& rig) {
-  for (const Channel channel : channels) {
-    if (channel == Channel::tau_load) continue;
-    for (int joint = 0; joint < rig.n_joints(); ++joint) {
-      const std::string name = indexed(channel, joint, rig.n_joints());
-      const auto shared = rig.sensors.find(std::string(channel_name(channel)));
-      if (rig.sensors.count(name) == 0 && shared != rig.sensors.end())
-        rig.sensors[name] = shared->second;
-      const auto found = rig.sensors.find(name);
-      if (found != rig.sensors.end() && (found->second.noise || found->second.quantum)) continue;
-      throw input_error({rig.path}, fmt::format("nothing says how noisy sensor {} is", name),
-                        fmt::format("add \"sensors\": {{\"{}\": {{\"{}\": ...}}}} to the rig; an "
-                                    "expected sd rests on it",
-                                    name, channel == Channel::tau ? "noise" : "quantum"));
-    }
-  }
-}
-
-/// Rows x slots of the plan.
-Eigen::MatrixXd slots_of(const ExcitedMotion& motion, const std::vector<Slot>& slots) {
-  const SimulationResult& r = motion.result;
-  Eigen::MatrixXd data(r.theta.rows(), static_cast<Eigen::Index>(slots.size()));
-  for (std::size_t k = 0; k < slots.size(); ++k) {
-    const Eigen::ArrayXXd& from = slots[k].channel == Channel::q       ? r.q
-                                  : slots[k].channel == Channel::theta ? r.theta
-                                  : slots[k].channel == Channel::tau   ? r.tau
-                                                                       : motion.input.tau_load;
-    data.col(static_cast<Eigen::Index>(k)) = from.col(slots[k].joint);
-  }
-  return data;
-}
-
-LogPlan plan_of(const Model& model) {
-  Rig rig = model.rig;
-  rig.torque_hold = TorqueHold::zoh;  // as it is simulated; an expected sd is the same without
-  rig.path.clear();
-  const std::vector<Channel> channels = channels_of(model);
-  spell_out_sensors(channels, rig);
-  LogPlan plan = recorded_plan("the planned motion", rig, {});
-  for (const Channel channel : channels)
-    for (int joint = 0; joint < rig.n_joints(); ++joint) {
-      plan.slots.push_back({channel, joint, plan.header.columns.size(), 1, 0});
-      plan.header.columns.push_back(
-          {indexed(channel, joint, rig.n_joints()), "", {plan.path, 1, 0}});
-    }
-  return plan;
-}
+constexpr double kCounts = 0.01;  // of the torque: a friction of less is as good as none
 
 /// The model's cables as stage 1 would hand them over, exactly known.
 ElasticResult stage1_of(const Model& model, const ExcitedMotion& motion) {
@@ -121,38 +45,6 @@ double value_of(const Model& model, const std::string& name) {
   return 0;
 }
 
-/// Least squares on columns of unit norm by QR.
-class Solver {
- public:
-  explicit Solver(Eigen::MatrixXd columns) : scale_(columns.colwise().norm()) {
-    determined_ = columns.rows() > kLeastRows * columns.cols() && scale_.minCoeff() > 0;
-    if (!determined_) return;
-    columns *= scale_.cwiseInverse().asDiagonal();
-    qr_.compute(columns);
-    const Eigen::VectorXd diagonal = qr_.matrixQR().diagonal().cwiseAbs();
-    determined_ = diagonal.minCoeff() > kRankTolerance;
-  }
-  bool determined() const { return determined_; }
-  const Eigen::VectorXd& norms() const { return scale_; }
-  /// Columns x right-hand sides.
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const {
-    return scale_.cwiseInverse().asDiagonal() * Eigen::MatrixXd(qr_.solve(right));
-  }
-  /// Root of diag (W'W)^-1.
-  Eigen::VectorXd unit_sd() const {
-    const Eigen::Index n = scale_.size();
-    const Eigen::MatrixXd r = qr_.matrixQR().topRows(n).triangularView<Eigen::Upper>();
-    const Eigen::MatrixXd inverse =
-        r.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(n, n));
-    return inverse.rowwise().norm().cwiseQuotient(scale_);
-  }
-
- private:
-  Eigen::VectorXd scale_;
-  Eigen::HouseholderQR<Eigen::MatrixXd> qr_;
-  bool determined_ = false;
-};
-
 /// The same without the torques of a direction: what sgn does with noise at a reversal is not told.
 Eigen::VectorXd smooth_part(Eigen::VectorXd combination, const DynamicColumns& c) {
   for (std::size_t k = 0; k < c.parameters.size(); ++k)
@@ -161,49 +53,7 @@ Eigen::VectorXd smooth_part(Eigen::VectorXd combination, const DynamicColumns& c
   return combination;
 }
 
-/// The motion as one window of its log.
-Window window_of(const ExcitedMotion& motion, const LogSurvey& log) {
-  Window window;
-  window.data = slots_of(motion, log.plan.slots);
-  window.approach = Eigen::MatrixXd::Zero(window.data.rows(), log.plan.rig.n_joints());
-  window.end = window.data.rows();
-  window.starts_segment = window.ends_segment = true;
-  window.period = motion.period;
-  return window;
-}
-
-Window with_noise(Window window, const LogSurvey& log, std::uint64_t draw) {
-  Random random(kSeed, draw);
-  for (std::size_t k = 0; k < log.plan.slots.size(); ++k) {
-    const Slot& slot = log.plan.slots[k];
-    if (slot.channel == Channel::tau_load) continue;  // known
-    const double sd = position_noise(log, log.parts.front(), slot.channel, slot.joint);
-    for (double& value : window.data.col(static_cast<Eigen::Index>(k)))
-      value += sd * random.normal();
-  }
-  return window;
-}
-
-LogSurvey survey_of(const LogPlan& plan, const Eigen::MatrixXd& data, double period) {
-  RecordedPart part{"default", "", Phase::moving, true, {}};
-  part.rows.resize(data.rows(), data.cols() + 1);
-  part.rows.rightCols(data.cols()) = data;
-  for (Eigen::Index i = 0; i < data.rows(); ++i) part.rows(i, 0) = static_cast<double>(i) * period;
-  return survey_recorded(plan, {part});
-}
-
-/// As it will be recorded: settings are chosen by what the noise looks like.
-LogSurvey noisy_log(const Model& model, const ExcitedMotion& motion) {
-  const LogSurvey clean = planned_log(model, motion);
-  return survey_of(clean.plan, with_noise(window_of(motion, clean), clean, 0).data, motion.period);
-}
-
 }  // namespace
-
-LogSurvey planned_log(const Model& model, const ExcitedMotion& motion) {
-  const LogPlan plan = plan_of(model);
-  return survey_of(plan, slots_of(motion, plan.slots), motion.period);
-}
 
 struct FitPlanner::Settings {
   Settings(const Model& m, const ExcitedMotion& first, int n_draws, int threads)
@@ -292,39 +142,26 @@ struct FitPlanner::Settings {
 
 namespace {
 
-/// `noise`: rms in the rows. Why the inertia of column `own` would be refused on them: told from a
-/// torque of position too badly, or resting on the elastic stage alone.
-std::string refusal_of(const Eigen::MatrixXd& rows, const DynamicColumns& c, Eigen::Index own,
-                       const Eigen::VectorXd& response, double value, double noise) {
-  const std::string& name = c.parameters[static_cast<std::size_t>(own)].name;
-  std::vector<Eigen::Index> others, allowed;
-  for (Eigen::Index j = 0; j < c.n_effects; ++j) {
-    if (j != own) others.push_back(j);
-    allowed.push_back(j);
-  }
-  others.push_back(c.position);
-  allowed.push_back(c.position);
-  for (std::size_t m = 0; m < c.elastic.size(); ++m)
-    for (Eigen::Index j = 0; j < c.n_elastic[m]; ++j) allowed.push_back(c.elastic[m] + j);
-  const Eigen::MatrixXd w = rows(Eigen::all, others);
-  const Solver solver(w);
-  if (!solver.determined()) return name + " is not shown";
-  const Eigen::VectorXd column = rows.col(own);
-  const double left = (column - w * solver.solve(column)).squaredNorm();
-  if (1 - left / column.squaredNorm() > kPositionAlias)
-    return name +
-           " cannot be told from stiffness: its acceleration follows position, as in one "
-           "sine";
-  // Cables that are never taut have columns of zeros.
-  std::erase_if(allowed, [&](Eigen::Index j) { return rows.col(j).norm() == 0; });
-  const Eigen::MatrixXd all = rows(Eigen::all, allowed);
-  const Solver free(all);
-  const std::string rests = name + " would rest on the elastic stage alone";
-  if (!free.determined()) return rests;
-  const double alternative = free.solve(rows * response)(own);
-  if (kShiftSd * noise * free.unit_sd()(own) > kShiftRefused * value) return rests;
-  if (std::abs(alternative - value) > kShiftRefused * value) return rests;
-  return "";
+struct Expected {
+  Eigen::VectorXd sd, floor, white;  ///< per parameter
+  double noise = 0;                  ///< rms in the rows
+};
+
+/// `noise`: rows x draws; `left`: what the true parameters leave of the rows without noise.
+Expected expected_errors(const ScaledSolver& solver, const Eigen::MatrixXd& noise,
+                         const Eigen::VectorXd& left) {
+  Expected out;
+  out.noise = std::sqrt(noise.squaredNorm() / static_cast<double>(noise.size()));
+  out.sd = solver.solve(noise).rowwise().norm() / std::sqrt(static_cast<double>(noise.cols()));
+  out.floor = solver.solve(left);
+  out.white = out.noise * solver.unit_sd();
+  return out;
+}
+
+/// What an error of the parameter is held against; `full`: what makes all of the torque.
+double size_of(const DynamicParameter& p, double value, double full) {
+  if (p.is_inertia) return value;
+  return p.info.lower == 0 ? std::max(std::abs(value), kCounts * full) : full;
 }
 
 }  // namespace
@@ -335,56 +172,49 @@ FitPlanner::~FitPlanner() = default;
 
 double FitPlanner::cutoff() const { return settings_->job.settings.rows.signal.cutoff; }
 
+/// One equation of a motion, `rows` without noise.
+void FitPlanner::add_equation(std::size_t k, const EquationBatch& batch,
+                              const ExcitedMotion& motion, PlannedFit& planned) const {
+  const Settings& s = *settings_;
+  const DynamicColumns& columns = s.equations[k].columns;
+  std::vector<Eigen::Index> wanted;
+  for (Eigen::Index j = 0; j < columns.n_effects; ++j)
+    if (!columns.parameters[static_cast<std::size_t>(j)].given) wanted.push_back(j);
+  const ScaledSolver solver(batch.rows(Eigen::all, wanted), kLeastRowsPlanned);
+  const double torque = std::sqrt(motion.result.tau.col(columns.place.joint).square().mean() *
+                                  static_cast<double>(batch.rows.rows()));
+  Expected expected;
+  if (solver.determined())
+    expected = expected_errors(solver, s.noise_in(k, batch.numbers), batch.rows * s.residual[k]);
+  for (std::size_t j = 0; j < wanted.size(); ++j) {
+    const DynamicParameter& p = columns.parameters[static_cast<std::size_t>(wanted[j])];
+    const auto at = static_cast<Eigen::Index>(j);
+    PlannedParameter out;
+    out.equation = s.plain[k].name;
+    out.name = p.name;
+    out.unit = unit_on(s.model.rig, p.info.unit);
+    out.value = value_of(s.model, p.name);
+    out.sd = out.sd_white = out.relative = kUnbounded;
+    if (solver.determined()) {
+      out.sd = expected.sd(at);
+      out.sd_white = expected.white(at);
+      out.floor = expected.floor(at);
+      out.relative = out.error() / size_of(p, out.value, torque / solver.norms()(at));
+      if (p.is_inertia && planned.refused.empty())
+        planned.refused = refusal_of(batch.rows, columns, wanted[j], s.response_of(s.equations[k]),
+                                     out.value, expected.noise);
+    }
+    planned.parameters.push_back(std::move(out));
+  }
+}
+
 PlannedFit FitPlanner::fit(const ExcitedMotion& motion) const {
   const Settings& s = *settings_;
   const RowBatch batch =
       make_rows(window_of(motion, s.logs.front()), s.logs.front(), 0, s.job.settings.rows, s.plain);
   PlannedFit planned;
-  for (std::size_t k = 0; k < s.equations.size(); ++k) {
-    const DynamicColumns& columns = s.equations[k].columns;
-    const Eigen::MatrixXd& rows = batch.equations[k].rows;
-    std::vector<Eigen::Index> wanted;
-    for (Eigen::Index j = 0; j < columns.n_effects; ++j)
-      if (!columns.parameters[static_cast<std::size_t>(j)].given) wanted.push_back(j);
-    const Solver solver(rows(Eigen::all, wanted));
-    const bool shown = solver.determined();
-    Eigen::MatrixXd scatter;
-    Eigen::VectorXd floor, white;
-    double rms = 0;
-    if (shown) {
-      const Eigen::MatrixXd noise = s.noise_in(k, batch.equations[k].numbers);
-      rms = std::sqrt(noise.squaredNorm() / static_cast<double>(noise.size()));
-      scatter = solver.solve(noise);
-      floor = solver.solve(rows * s.residual[k]);
-      white = rms * solver.unit_sd();
-    }
-    const double torque = std::sqrt(motion.result.tau.col(columns.place.joint).square().mean() *
-                                    static_cast<double>(rows.rows()));
-    for (std::size_t j = 0; j < wanted.size(); ++j) {
-      const DynamicParameter& p = columns.parameters[static_cast<std::size_t>(wanted[j])];
-      const auto at = static_cast<Eigen::Index>(j);
-      PlannedParameter out;
-      out.equation = s.plain[k].name;
-      out.name = p.name;
-      out.unit = unit_on(s.model.rig, p.info.unit);
-      out.value = value_of(s.model, p.name);
-      out.sd = out.sd_white = out.relative = kUnbounded;
-      if (shown) {
-        out.sd = std::sqrt(scatter.row(at).squaredNorm() / static_cast<double>(scatter.cols()));
-        out.sd_white = white(at);
-        out.floor = floor(at);
-        const double full = torque / solver.norms()(at);
-        out.relative =
-            out.error() / (p.is_inertia        ? out.value
-                           : p.info.lower == 0 ? std::max(std::abs(out.value), kCounts * full)
-                                               : full);
-        if (p.is_inertia && planned.refused.empty())
-          planned.refused =
-              refusal_of(rows, columns, wanted[j], s.response_of(s.equations[k]), out.value, rms);
-      }
-      planned.parameters.push_back(std::move(out));
-    }
-  }
+  for (std::size_t k = 0; k < s.equations.size(); ++k)
+    add_equation(k, batch.equations[k], motion, planned);
   return planned;
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cablefit/design/excited_motion.hpp"
-#include "cablefit/samples/survey.hpp"
+#include "cablefit/samples/row_stream.hpp"
 
 namespace cablefit {
 
@@ -31,10 +31,6 @@ struct PlannedFit {
   double worst() const;  ///< the largest relative error
 };
 
-/// The log that a motion would leave, without noise: q, theta, tau, and tau_load where the rig has
-/// no law of q. Its rig holds the torque over a row.
-LogSurvey planned_log(const Model& model, const ExcitedMotion& motion);
-
 /// Settings are chosen once, from a first motion, so that motions of one length can be compared; so
 /// are draws of the sensors' noise, which go through filters, derivatives and decimation and then
 /// act on the rows of each motion: what they do to the estimates has the sd of their scatter, of
@@ -55,6 +51,8 @@ class FitPlanner {
 
  private:
   struct Settings;
+  void add_equation(std::size_t k, const EquationBatch& batch, const ExcitedMotion& motion,
+                    PlannedFit& planned) const;
   std::unique_ptr<Settings> settings_;
 };
 

@@ -123,14 +123,15 @@ Table cost_table(const Words& words) {
       "cables: the model that was given");
   if (words.result.detector) {
     const CollisionDetector& d = *words.result.detector;
-    table.notes.push_back(
-        fmt::format("smallest collision: link torque that the residual's mean over {:g} s at {:g} "
-                    "Hz shows with "
-                    "a probability of {:g} within two windows, at {:g} false alarm{} an hour, "
-                    "torque noise {:g} "
-                    "{}, whatever the model's error within its largest",
-                    d.window, d.rate, d.detection_rate, words.result.false_alarms_per_hour,
-                    words.result.false_alarms_per_hour == 1 ? "" : "s", d.noise, words.torque));
+    table.notes.push_back(fmt::format(
+        "smallest collision: link torque that the residual's mean over {:g} s at {:g} "
+        "Hz shows with "
+        "a probability of {:g} within two windows, at {:g} false alarm{} an hour, "
+        "torque noise {:g} "
+        "{}, whatever the model's error within its largest",
+        d.window, d.rate, d.detection_rate, words.result.false_alarms_per_hour,
+        words.result.false_alarms_per_hour == 1 ? "" : "s", d.noise, words.torque,
+        d.model_error > 0 ? fmt::format(" and {:g} {}", d.model_error, words.torque) : ""));
   }
   return table;
 }

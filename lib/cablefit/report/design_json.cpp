@@ -130,6 +130,7 @@ Json excitation_json(const DesignResult& result) {
 Json detector_json(const DesignResult& result) {
   if (!result.detector) return {};
   return Json{{"noise", result.detector->noise},
+              {"floor", result.detector->model_error},
               {"rate", result.detector->rate},
               {"window", result.detector->window},
               {"false_alarms_per_hour", result.false_alarms_per_hour},
