@@ -1,5 +1,7 @@
 #include "cablefit/refine/quick_look.hpp"
 
+#include <Eigen/Cholesky>
+
 #include "cablefit/base/error.hpp"
 
 namespace cablefit {
@@ -48,12 +50,15 @@ QuickLook::QuickLook(const Design& design, const BlockGrams& grams, const KindLe
   bool regular = p > 0 && diagonal.minCoeff() > 0;
   if (regular) {
     scale_ = diagonal.cwiseSqrt().cwiseInverse();
-    llt_.compute(scale_.asDiagonal() * total.bottomRightCorner(p, p) * scale_.asDiagonal());
-    regular = llt_.info() == Eigen::Success;
+    const Eigen::LLT<Eigen::MatrixXd> llt(scale_.asDiagonal() * total.bottomRightCorner(p, p) *
+                                          scale_.asDiagonal());
+    regular = llt.info() == Eigen::Success;
+    lower_ = llt.matrixL();
   }
   if (!regular)
     throw Error(ErrorKind::not_identifiable, "the logs do not determine the model's parameters");
-  response_ = llt_.matrixL().solve(scale_.cwiseProduct(total.col(0).tail(p)));
+  response_ =
+      lower_.triangularView<Eigen::Lower>().solve(scale_.cwiseProduct(total.col(0).tail(p)));
   error_ = total(0, 0) - response_.squaredNorm();
 }
 
@@ -76,8 +81,8 @@ std::optional<QuickLook::Glance> QuickLook::with(const Products& products, Eigen
   if (!(norms.minCoeff() > 0)) return {};
   const Eigen::VectorXd scale = norms.cwiseSqrt().cwiseInverse();
   // What the base explains of the columns goes out of them (Frisch & Waugh 1933).
-  const Eigen::MatrixXd in_base =
-      llt_.matrixL().solve(scale_.asDiagonal() * cross.bottomRows(scale_.size()));
+  const Eigen::MatrixXd in_base = lower_.triangularView<Eigen::Lower>().solve(
+      scale_.asDiagonal() * cross.bottomRows(scale_.size()));
   const Eigen::LLT<Eigen::MatrixXd> llt(scale.asDiagonal() * (own - in_base.transpose() * in_base) *
                                         scale.asDiagonal());
   if (llt.info() != Eigen::Success) return {};

@@ -3,8 +3,6 @@
 // worth a fit block by block. Internal to refine/.
 #pragma once
 
-#include <Eigen/Cholesky>
-
 #include "cablefit/refine/evidence.hpp"
 
 namespace cablefit {
@@ -32,7 +30,7 @@ class QuickLook {
   const Design& design_;
   KindLevels levels_;
   Eigen::VectorXd scale_, response_;  ///< of the columns; in the orthonormal base
-  Eigen::LLT<Eigen::MatrixXd> llt_;
+  Eigen::MatrixXd lower_;             ///< Cholesky factor of the scaled columns' Gram matrix
   double error_ = 0;
 };
 
