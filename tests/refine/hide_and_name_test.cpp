@@ -1,6 +1,7 @@
 // Effects hidden by the second simulator are found, named and added; where nothing is hidden,
 // nothing is named. A reduced form of tests/hidden/run, through the library.
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "cablefit/refine/refine.hpp"
 #include "tests/refine/hidden_logs.hpp"
