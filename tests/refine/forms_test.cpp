@@ -102,3 +102,21 @@ TEST_CASE("a quick look is the fit in sample", "[refine]") {
   CHECK((glance->x - fit->x.tail(4)).norm() < 1e-6 * glance->x.norm());
   CHECK_FALSE(look.with(look.products(columns), 4, 1));  // none is all its own
 }
+
+/// A linear model of cables that stiffen: the next order of a pair, no limit of the drive.
+TEST_CASE("a spring that stiffens is named on a linear base", "[refine]") {
+  HiddenLogs hidden = hidden_logs({});
+  for (Model& model : hidden.models) {
+    model.transmission.cables.clear();
+    model.transmission.linear_stiffness = Eigen::VectorXd::Constant(1, 1600);
+  }
+  const BaseFit base = base_of(hidden);
+  const Candidate order = best_of(base, "stiffness_order", Site::transmission);
+  CHECK(order.gain > 0.9);
+  CHECK(order.gain > best_of(base, "saturation", Site::drive).gain);
+  // What is made of cables needs some: a second variant may not stand alone.
+  const Design pair = with_variant(base.design, order.variant, base.fit.x);
+  const Refinement& asymmetry = find_refinement("stiffness_asymmetry", Site::transmission);
+  CHECK(applies(base.design, {&asymmetry, {}, 0, 0, false}));
+  CHECK_FALSE(applies(pair, {&asymmetry, {}, 0, 0, false}));
+}

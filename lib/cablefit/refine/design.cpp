@@ -173,6 +173,14 @@ std::vector<StretchRows> replaced_rows(const Design& design, const Variant& vari
   return rows;
 }
 
+bool applies(const Design& design, const Variant& variant) {
+  const auto change = variant.refinement->change;
+  if (change == nullptr) return true;
+  return std::all_of(design.models.begin(), design.models.end(), [&](const Model& model) {
+    return !model.rigid && change(model.transmission, variant.shape.data());
+  });
+}
+
 Design with_variant(const Design& design, const Variant& variant, const Eigen::VectorXd& values) {
   Design out = design;
   const Refinement& row = *variant.refinement;

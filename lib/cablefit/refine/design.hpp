@@ -61,7 +61,11 @@ VariantColumns variant_columns(const Design& design, const Variant& variant,
 bool replaces_rows(const Variant& variant);
 std::vector<StretchRows> replaced_rows(const Design& design, const Variant& variant);
 
-/// The design with a variant in it. `values`: of the columns so far.
+/// Whether the variant's cables can be made of the design's: some need what another effect made of
+/// them first.
+bool applies(const Design& design, const Variant& variant);
+
+/// The design with a variant in it, which applies. `values`: of the columns so far.
 Design with_variant(const Design& design, const Variant& variant, const Eigen::VectorXd& values);
 
 /// All of it anew with other coefficients in the models: states and nonlinear columns follow them.

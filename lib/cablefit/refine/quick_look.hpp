@@ -30,7 +30,7 @@ class QuickLook {
   const Design& design_;
   KindLevels levels_;
   Eigen::VectorXd scale_, response_;  ///< of the columns; in the orthonormal base
-  Eigen::MatrixXd lower_;             ///< Cholesky factor of the scaled columns' products
+  Eigen::MatrixXd lower_;             ///< Cholesky factor of the scaled columns' Gram matrix
   double error_ = 0;
 };
 

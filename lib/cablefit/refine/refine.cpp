@@ -151,6 +151,7 @@ void need_draws(Bench& bench, const State& state, const Search& found) {
 /// The state with one more effect; nothing when the rows become singular.
 std::optional<State> with_candidate(const Bench& bench, const State& state, const Search& found,
                                     const Candidate& winner) {
+  if (!applies(state.design, winner.variant)) return {};
   State next;
   next.design = with_variant(state.design, winner.variant, found.fit.x);
   next.test = with_variant(state.test, winner.variant, found.fit.x);

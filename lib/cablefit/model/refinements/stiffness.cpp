@@ -16,8 +16,8 @@ bool can_rise(const Cable& cable, int orders) {
 }
 
 std::optional<Transmission> raise_order(const Transmission& transmission, const double* shape) {
-  if (transmission.cables.empty()) return std::nullopt;
-  Transmission changed = transmission;
+  // A spring's next order is that of two cables, each with its own.
+  Transmission changed = transmission.cables.empty() ? linear_pairs(transmission) : transmission;
   const int orders = static_cast<int>(std::lround(shape[0]));
   for (Cable& cable : changed.cables) {
     if (!can_rise(cable, orders)) return std::nullopt;
