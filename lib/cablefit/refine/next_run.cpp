@@ -143,7 +143,22 @@ void tell_groups_apart(const NextRunInput& input, RefineResult& result) {
 
 }  // namespace
 
+namespace {
+
+/// On a blocked link a loop of the cables and one of the motor's friction are the same.
+bool is_loop(const NamedEffect& effect) {
+  const Refinement& row = *effect.instance.refinement;
+  return row.n_states > 0 || row.level != nullptr;
+}
+
+}  // namespace
+
 void choose_next_run(const NextRunInput& input, RefineResult& result) {
+  if (result.elastic_only && result.next_experiment.empty() &&
+      std::any_of(result.effects.begin(), result.effects.end(), is_loop))
+    result.next_experiment =
+        "a moving log: a blocked link does not tell what the cables lose from what the motor's "
+        "friction does (presliding)";
   if (!result.effects.empty()) tell_rivals_apart(input, result);
   if (!result.next_run) tell_groups_apart(input, result);
 }
