@@ -60,7 +60,16 @@ void add_file_options(CLI::App& app, RefineCommand& command) {
                  "preloads. A result of 'cablefit elastic': blocked logs alone")
       ->type_name("");
   const auto add_logs = [&app](const char* name, std::vector<std::string>& logs, const char* help) {
-    app.add_option(name, logs, help)->type_name("LOG");
+    // A script may have no log of a kind.
+    app.add_option_function<std::vector<std::string>>(
+           name,
+           [&logs](const std::vector<std::string>& given) {
+             for (const std::string& path : given)
+               if (!path.empty() && path != "{}") logs.push_back(path);
+           },
+           help)
+        ->expected(0, CLI::detail::expected_max_vector_size)
+        ->type_name("LOG");
   };
   add_logs("--train", command.train, "logs to search and fit, moving or blocked");
   add_logs("--test", command.test,

@@ -59,7 +59,8 @@ RefineResult named() {
                       false,
                       false,
                       "at a load of +20 N m",
-                      2}};
+                      2,
+                      {}}};
   r.remainder_link = 0.0037;
   r.remainder_motor = 0.015;
   r.floor_link = 0.0363;
@@ -208,7 +209,6 @@ effect          side      squared gap  resamples  why not
 stribeck        motor              89        100
 quadratic_drag  motor              44          0
 stribeck        link              -10          0  a negative friction
-these logs cannot tell from the model's own parameters: asymmetric_coulomb (motor)
 
 Steps
 

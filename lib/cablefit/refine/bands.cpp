@@ -91,6 +91,8 @@ std::vector<Regime> ranked(std::vector<Regime> cells, std::vector<Regime> bands,
           (kind.response - kind.base * x).squaredNorm() / (level * level) - n;
     }
   const auto weight = [&](const Regime& r) {
+    // That a gap is slow says little: it stands last.
+    if (r.regime == "frequency" && r.from == 0) return 1e-9 * in_floors[r.equation];
     return in_floors[r.equation] * r.share_of_squared_gap / std::sqrt(r.share_of_rows);
   };
   cells.insert(cells.end(), bands.begin(), bands.end());

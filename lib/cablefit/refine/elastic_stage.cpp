@@ -107,14 +107,19 @@ Smoothing widened(const Smoothing& narrowest, double signals, double period) {
   return s;
 }
 
-/// Of the rows that there would be without rest.
-double share_of_rows(const Design& design, const std::vector<Stretch>& stretches) {
-  double n = 0, all = 0;
-  for (std::size_t k = 0; k < stretches.size(); ++k) {
+constexpr double kEnough = 0.25;  // of the rows that there could be without rest
+
+/// How near the stretches come to having enough rows, 0 .. 1.
+double enough_rows(const Design& design) {
+  double sum = 0;
+  for (std::size_t k = 0; k < design.stretches.size(); ++k) {
+    double n = 0;
     for (const KindRows& kind : design.rows[k].kinds) n += static_cast<double>(kind.at.size());
-    all += static_cast<double>(stretches[k].recording.theta.size() / design.smoothing.stride);
+    const auto all =
+        static_cast<double>(design.stretches[k].recording.theta.size() / design.smoothing.stride);
+    sum += std::min(1.0, n / (kEnough * std::max(1.0, all)));
   }
-  return all > 0 ? n / all : 0;
+  return sum / static_cast<double>(design.stretches.size());
 }
 
 void require_one_joint(std::span<const Model> models) {
@@ -159,20 +164,23 @@ bool is_blocked_only(std::span<const Stretch> stretches) {
 }
 
 Smoothing blocked_smoothing(std::span<const Model> models, const std::vector<Stretch>& stretches) {
-  constexpr double kOfTravel = 0.004;             // of the time for the whole range
-  constexpr double kWidest = 0.1;                 // s
-  constexpr double kWider = 1.6, kEnough = 0.25;  // of the rows that there could be
+  constexpr double kOfTravel = 0.004;  // of the time for the whole range
+  constexpr double kWidest = 0.1;      // s
+  constexpr double kWider = 1.6, kAlmost = 0.95;
   const double period = stretches.front().recording.period;
   const Smoothing narrowest = smoothing_for(period);
   double width = std::clamp(kOfTravel * travel_time(stretches), narrowest.signals, kWidest);
   Smoothing best;
   double most = -1;
   for (; width <= kWider * kWidest; width *= kWider) {
-    const Smoothing tried = widened(narrowest, width, period);
-    const double share = share_of_rows(make_design(models, stretches, tried), stretches);
-    if (share > most) best = tried;
-    most = std::max(most, share);
-    if (most > kEnough) break;
+    // A row asks for the same sign of the speed all over its kernel: that does not happen at rest.
+    constexpr double kOfUsual = 0.5;
+    Smoothing tried = make_design(models, stretches, widened(narrowest, width, period)).smoothing;
+    tried.least_speed_theta *= kOfUsual;
+    const double enough = enough_rows(make_design(models, stretches, tried));
+    if (enough > most) best = tried;
+    most = std::max(most, enough);
+    if (most > kAlmost) break;
   }
   return best;
 }
@@ -198,6 +206,11 @@ std::vector<Stretch> hold_out_blocked(std::vector<Stretch>& stretches, double sh
       stretch.recording.*signal = Eigen::ArrayXd((stretch.recording.*signal).head(kept));
   }
   return held;
+}
+
+bool has_rows(const std::vector<Model>& models, const std::vector<Stretch>& stretches,
+              const Smoothing& smoothing) {
+  return !stretches.empty() && enough_rows(make_design(models, stretches, smoothing)) > 0;
 }
 
 bool is_candidate(const Refinement& refinement, const Design& design) {

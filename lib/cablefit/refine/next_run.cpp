@@ -110,6 +110,18 @@ void tell_rivals_apart(const NextRunInput& input, RefineResult& result) {
       times(choice->difference / choice->floor));
 }
 
+/// "a, b from c, d", or "a, b apart".
+std::string told_apart(const NotSeparable& group) {
+  const auto is_left = [&](const std::string& name) {
+    return std::find(group.still_together.begin(), group.still_together.end(), name) !=
+           group.still_together.end();
+  };
+  std::vector<std::string> told, left;
+  for (const std::string& name : group.effects) (is_left(name) ? left : told).push_back(name);
+  if (told.empty() || left.empty()) return fmt::format("{} apart", fmt::join(group.effects, ", "));
+  return fmt::format("{} from {}", fmt::join(told, ", "), fmt::join(left, ", "));
+}
+
 /// The run that most groups ask for, the cheapest of those.
 void tell_groups_apart(const NextRunInput& input, RefineResult& result) {
   std::vector<int> votes(input.runs.size(), 0);
@@ -119,16 +131,34 @@ void tell_groups_apart(const NextRunInput& input, RefineResult& result) {
   if (most == votes.end() || *most == 0) return;
   const TrialRun& run = input.runs[static_cast<std::size_t>(most - votes.begin())];
   take(run, result);
-  if (result.next_experiment.empty())
-    result.next_experiment = fmt::format(
-        "{}: it tells apart {} of the effects, or groups of them, that these logs "
-        "cannot",
-        text_of(run, result.linear_motion), *most);
+  if (!result.next_experiment.empty()) return;
+  const int number = static_cast<int>(most - votes.begin());
+  const auto asked =
+      std::find_if(result.not_separable.begin(), result.not_separable.end(),
+                   [number](const NotSeparable& group) { return group.run == number; });
+  result.next_experiment = fmt::format(
+      "{}: it tells {}{}", text_of(run, result.linear_motion), told_apart(*asked),
+      *most > 1 ? fmt::format(", and {} more groups that these logs cannot", *most - 1) : "");
+}
+
+}  // namespace
+
+namespace {
+
+/// On a blocked link a loop of the cables and one of the motor's friction are the same.
+bool is_loop(const NamedEffect& effect) {
+  const Refinement& row = *effect.instance.refinement;
+  return row.n_states > 0 || row.level != nullptr;
 }
 
 }  // namespace
 
 void choose_next_run(const NextRunInput& input, RefineResult& result) {
+  if (result.elastic_only && result.next_experiment.empty() &&
+      std::any_of(result.effects.begin(), result.effects.end(), is_loop))
+    result.next_experiment =
+        "a moving log: a blocked link does not tell what the cables lose from what the motor's "
+        "friction does (presliding)";
   if (!result.effects.empty()) tell_rivals_apart(input, result);
   if (!result.next_run) tell_groups_apart(input, result);
 }

@@ -375,7 +375,8 @@ void tell_remainder(const KindLevels& rms, const KindLevels& floor, RefineResult
     return std::sqrt(std::max(0.0, rms[k] * rms[k] - floor[k] * floor[k]));
   };
   result.remainder_blocked = above(RowKind::blocked);
-  result.floor_blocked = floor[static_cast<std::size_t>(RowKind::blocked)];
+  const auto blocked = static_cast<std::size_t>(RowKind::blocked);
+  result.floor_blocked = rms[blocked] > 0 ? floor[blocked] : 0;  // 0: there are no such rows
   if (result.elastic_only) return;
   result.remainder_motor = above(RowKind::motor);
   result.floor_motor = floor[static_cast<std::size_t>(RowKind::motor)];
@@ -394,6 +395,15 @@ void tell_inputs(std::span<const Model> models, const RefineLogs& logs, RefineRe
   result.rig_path = models.front().rig.path;
 }
 
+/// Kernels that suit all logs.
+Smoothing smoothing_of(const Bench& bench, std::span<const Model> models,
+                       const std::vector<Stretch>& train, const std::vector<Stretch>& test) {
+  if (!bench.elastic_only) return smoothing_for(train.front().recording.period);
+  std::vector<Stretch> all = train;
+  all.insert(all.end(), test.begin(), test.end());
+  return blocked_smoothing(models, all);
+}
+
 /// The base fit, floors and unseen rows.
 State prepare(Bench& bench, std::span<const Model> models, const RefineLogs& logs,
               RefineResult& result) {
@@ -403,12 +413,17 @@ State prepare(Bench& bench, std::span<const Model> models, const RefineLogs& log
                       "give logs of at least a few seconds with --train");
   std::vector<Stretch> test = read_stretches(logs.test, models, bench.wanted);
   for (Stretch& stretch : test) stretch.log += bench.logs.size();  // recorded after what they test
+  const Smoothing wanted = smoothing_of(bench, models, train, test);
+  if (bench.elastic_only && !test.empty() &&
+      !has_rows({models.begin(), models.end()}, test, wanted)) {
+    result.warnings.emplace_back(
+        "the test logs do not move enough to judge by; the last third of the others is held out");
+    test.clear();
+  }
+  result.held_out_blocks = test.empty();
   if (test.empty())
     test = bench.elastic_only ? hold_out_blocked(train, kHeldOutShare)
                               : hold_out(train, kHeldOutShare);
-  result.held_out_blocks = logs.test.empty();
-  const Smoothing wanted = bench.elastic_only ? blocked_smoothing(models, train)
-                                              : smoothing_for(train.front().recording.period);
   const std::vector<Model> bases = bench.elastic_only
                                        ? with_visible_effects({models.begin(), models.end()}, train,
                                                               wanted, bench.scan.block_seconds)
@@ -421,7 +436,8 @@ State prepare(Bench& bench, std::span<const Model> models, const RefineLogs& log
   bench.floor = fitted_floor(bench);
   base = fit_base(std::move(base.design), bench.scan.block_seconds, &bench.floor);
   fitted = models_with(base.design, base.fit.x);
-  find_unseen_floors(bench, fitted, logs);
+  find_unseen_floors(bench, fitted,
+                     result.held_out_blocks ? RefineLogs{logs.train, {}, logs.blocked} : logs);
   State state;
   state.test = make_design(fitted, std::move(test), bench.smoothing);
   state.x = base.fit.x;

@@ -1,0 +1,40 @@
+// What refinements cannot be asked for says so in words; no assertion is reached.
+#include <catch2/catch.hpp>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/dynamic/output_error/output_error.hpp"
+#include "cablefit/refine/elastic_stage.hpp"
+#include "tests/refine/hidden_logs.hpp"
+
+using namespace cablefit;
+using namespace cablefit::test;
+
+TEST_CASE("output error refuses a model with refinements", "[refine][refused]") {
+  Model model = hidden_logs({}).models.front();
+  RefinementInstance instance;
+  instance.refinement = &find_refinement("stribeck", Site::motor);
+  for (const ParameterInfo& info : instance.refinement->parameters) {
+    instance.parameters.emplace_back();
+    instance.parameters.back().name = info.name;
+    instance.parameters.back().value = 0.1;
+  }
+  model.joints.front().refinements.push_back(instance);
+  try {
+    fit_output_error(model, {}, {});
+    FAIL("it was taken");
+  } catch (const Error& error) {
+    CHECK(error.kind() == ErrorKind::usage);
+    CHECK(std::string(error.what()) ==
+          "output error cannot fit a model with 'stribeck' (motor) in it; it fits the paper's "
+          "model; `cablefit refine` fits a model with refinements");
+  }
+}
+
+TEST_CASE("refine refuses several joints", "[refine][refused]") {
+  const HiddenLogs hidden = hidden_logs({});
+  Model model = hidden.models.front();
+  model.joints.push_back(model.joints.front());
+  const Model models[] = {model};
+  CHECK_THROWS_WITH(stage_of(models, hidden.logs),
+                    Catch::Contains("the rig has 2 joints, and refine is made for one"));
+}
