@@ -21,6 +21,7 @@ constexpr double kWidestBand = 0.4;  // of the rate, for the low-pass
 /// Torque of the fit besides the elastic one.
 struct Friction {
   double offset = 0, f_sm = 0;
+  double f_vm = 0;  ///< which a fit estimates to keep it out of f_sm, and does not report
 };
 
 double value_of(const ElasticFit& fit, const char* name) {
@@ -28,7 +29,11 @@ double value_of(const ElasticFit& fit, const char* name) {
   return e != nullptr && e->not_identifiable.empty() && std::isfinite(e->value) ? e->value : 0;
 }
 
-/// Positions without what sensors added: the low-pass of stage 1.
+// Of the band of stage 1, for the motion to be followed: the fit's own low-pass, which comes on
+// top, must not find it slowed down (f_sm -1.2 % with the same band twice).
+constexpr double kFollowedBand = 4;
+
+/// Positions without most of what sensors added.
 Eigen::ArrayXXd smooth(const Eigen::VectorXd& measured, double period, double cutoff) {
   Eigen::MatrixXd column = measured;
   if (cutoff > 0 && cutoff < kWidestBand / period)
@@ -39,22 +44,17 @@ Eigen::ArrayXXd smooth(const Eigen::VectorXd& measured, double period, double cu
 /// Dry friction: f_sm against the motion; at rest what was measured beside the rest of the model,
 /// as far as friction goes. A jump from one side to the other, which no drive makes, would come out
 /// of the low-pass as less friction.
-void add_friction(const Eigen::ArrayXd& theta, const Eigen::ArrayXd& measured, double f_sm,
-                  double rest_step, Eigen::ArrayXXd& tau) {
-  for (Eigen::Index i = 0; i < theta.size(); ++i) {
-    const Eigen::Index from = std::max<Eigen::Index>(0, i - 1),
-                       to = std::min<Eigen::Index>(theta.size() - 1, i + 1);
-    const double step =
-        (theta(to) - theta(from)) / static_cast<double>(std::max<Eigen::Index>(1, to - from));
+void add_friction(const Eigen::ArrayXd& speed, const Eigen::ArrayXd& measured, double f_sm,
+                  double rest_speed, Eigen::ArrayXXd& tau) {
+  for (Eigen::Index i = 0; i < speed.size(); ++i) {
     const double rest = std::clamp(measured(i) - tau(i, 0), -f_sm, f_sm);
-    tau(i, 0) += std::abs(step) > rest_step ? (step > 0 ? f_sm : -f_sm) : rest;
+    tau(i, 0) += std::abs(speed(i)) > rest_speed ? (speed(i) > 0 ? f_sm : -f_sm) : rest;
   }
 }
 
 /// What the blocked drive does: the logs' motion with the fit's torque. `rest_speed`: of stage 1.
-std::vector<SimulationResult> follow(const Twin& twin, const ElasticFit& fit, double cutoff,
-                                     double rest_speed) {
-  const Friction friction{fit.offset, value_of(fit, "f_sm")};
+std::vector<SimulationResult> follow(const Twin& twin, const ElasticFit& fit,
+                                     const Friction& friction, double cutoff, double rest_speed) {
   std::vector<SimulationResult> motions;
   for (const TwinStretch& stretch : twin.stretches) {
     const LogPlan& plan = twin.plans[stretch.log];
@@ -72,8 +72,12 @@ std::vector<SimulationResult> follow(const Twin& twin, const ElasticFit& fit, do
       fit.transmission.torques(motion.q.row(i).matrix(), motion.theta.row(i).matrix(), link, motor);
       motion.tau(i, 0) += motor(0);
     }
-    add_friction(motion.theta.col(0), column(Channel::tau).col(0), friction.f_sm,
-                 rest_speed * period, motion.tau);
+    const Eigen::Index n = motion.q.rows();
+    for (Eigen::Index k = 1; k + 1 < n; ++k)
+      motion.thetad(k, 0) = (motion.theta(k + 1, 0) - motion.theta(k - 1, 0)) / (2 * period);
+    motion.tau += friction.f_vm * motion.thetad;
+    add_friction(motion.thetad.col(0), column(Channel::tau).col(0), friction.f_sm, rest_speed,
+                 motion.tau);
     motions.push_back(std::move(motion));
   }
   return motions;
@@ -109,6 +113,7 @@ struct Colour {
   Eigen::VectorXd autocovariance;
   double period = 0;
   std::size_t n_values = 0;
+  double f_vm = 0;  ///< see Friction
 };
 
 /// Of what the fit leaves of these logs.
@@ -116,13 +121,23 @@ Colour colour_of(std::span<const LogSurvey> logs, const ElasticOptions& options,
                  const std::string& preload, const ElasticFit& fit) {
   const ElasticJob job = make_job(logs, options, preload);
   const BlockedRows rows = collect_blocked(job, fit.transmission.encoder_zero()(0), nullptr);
-  const Eigen::VectorXd combination = residual_combination(rows, fit);
+  Eigen::VectorXd combination = residual_combination(rows, fit);
+  Colour colour;
+  if (has_both_branches(rows) && speed_tells_more(rows)) {
+    // What a fit leaves has no part along any of its columns: only f_vm's, left out, is there.
+    const auto& r = rows.rows->r();
+    const Eigen::VectorXd speed = r.col(rows.columns.speed);
+    colour.f_vm = speed.dot(r * combination) / speed.squaredNorm();
+    combination(rows.columns.speed) -= colour.f_vm;
+  }
   Autocovariance sums(kLags);
   rows.archive->for_each([&](const Eigen::MatrixXd& some, std::span<const Eigen::Index> numbers) {
     sums.add(numbers, some * combination);
   });
-  return {sums.values(), job.settings.rows.decimate / sample_rates(logs, job.wanted).highest,
-          sums.n_values()};
+  colour.autocovariance = sums.values();
+  colour.period = job.settings.rows.decimate / sample_rates(logs, job.wanted).highest;
+  colour.n_values = sums.n_values();
+  return colour;
 }
 
 /// As in the fit: its order, and what its zero is.
@@ -160,11 +175,13 @@ Plan make_plan(std::span<const LogSurvey> logs, const ElasticOptions& options,
     }
   }
   plan.twin.notes.emplace_back("the motion of the logs, the torque of the fit");
-  plan.motions = follow(plan.twin, fit, job.settings.rows.signal.cutoff, job.rest_speeds.front());
+  const Colour measured = colour_of(logs, plan.options, preload.name, fit);
+  const Friction friction{fit.offset, value_of(fit, "f_sm"), measured.f_vm};
+  plan.motions = follow(plan.twin, fit, friction, kFollowedBand * job.settings.rows.signal.cutoff,
+                        job.rest_speeds.front());
   choose_sensors(plan.twin, plan.motions);
   Random calibration(prove.seed, kCalibration);
   const std::vector<LogSurvey> quiet = record_twin(plan.twin, plan.motions, calibration);
-  const Colour measured = colour_of(logs, plan.options, preload.name, fit);
   const Colour by_noise = colour_of(quiet, plan.options, preload.name, fit);
   Eigen::VectorXd left = measured.autocovariance;
   if (by_noise.period == measured.period) left -= by_noise.autocovariance;

@@ -142,6 +142,7 @@ ElasticFit read_elastic_fit(const JsonNode& node, const Rig& rig) {
   if (const JsonNode* passive = node.find("passive")) fit.passive = passive->boolean();
   if (const JsonNode* bounds = node.find("active_bounds")) fit.active_bounds = bounds->texts();
   if (const JsonNode* warnings = node.find("warnings")) fit.warnings = warnings->texts();
+  if (const JsonNode* derived = node.find("derived")) fit.derived = read_parameters(*derived);
   fit.joints = read_joint_errors(node);
   fit.rms_error = number_or_nan(node, "rms_error");
   fit.max_abs_error = number_or_nan(node, "max_abs_error");

@@ -82,6 +82,7 @@ Estimate read_estimate(const JsonNode& node, std::string name, std::string_view 
   read_interval(node.find("ci95"), factor, &estimate);
   estimate.not_identifiable = text_or(node, "not_identifiable", "");
   estimate.active_bound = text_or(node, "active_bound", "");
+  estimate.profiled = text_or(node, "interval", "") == "profile";
   return estimate;
 }
 
