@@ -131,6 +131,16 @@ bool wants_figures(const CommonOptions& options) {
                      [](const std::string& file) { return report_writer_for(file).figures; });
 }
 
+void add_choice_of_fit(CLI::App& app, std::string& model, std::string& preload,
+                       const std::string& preload_default) {
+  app.add_option("--model", model,
+                 "which fit of a result [the only one, else poly, else the first]")
+      ->type_name("NAME");
+  app.add_option("--preload", preload,
+                 fmt::format("which preload of a result [{}]", preload_default))
+      ->type_name("NAME");
+}
+
 void add_sd_option(CLI::App& app, CommonOptions& options) {
   add_choice(
       app, "--sd", "kind of sd", {"honest", "white"},

@@ -30,6 +30,9 @@ struct CommonOptions {
 int default_threads();
 /// LOG..., --rig, --preload.
 void add_log_options(CLI::App& app, CommonOptions& options);
+/// --model and --preload: which fit of a result. `preload_default`: what it is without.
+void add_choice_of_fit(CLI::App& app, std::string& model, std::string& preload,
+                       const std::string& preload_default);
 /// --out, --json, --report, --threads, --quiet, --verbose, --seed.
 void add_output_options(CLI::App& app, CommonOptions& options);
 /// --torque-hold, --cutoff, --filter-order, --decimate, --drop-edge, --rest-speed.

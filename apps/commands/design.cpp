@@ -84,12 +84,7 @@ void add_model_options(CLI::App& app, DesignCommand& command) {
                  "model file, result of 'cablefit dynamic' or 'identify', or rig file whose cables "
                  "have coefficients")
       ->type_name("");
-  app.add_option("--model", command.model,
-                 "which fit of a result [the only one, else poly, else the first]")
-      ->type_name("NAME");
-  app.add_option("--preload", command.common.preload,
-                 "which preload of a result [the only one, else the first]")
-      ->type_name("NAME");
+  add_choice_of_fit(app, command.model, command.common.preload, "the only one, else the first");
 }
 
 void add_sweep_options(CLI::App& app, DesignOptions& design) {

@@ -76,11 +76,7 @@ void add_file_options(CLI::App& app, RefineCommand& command) {
            "logs that have no say and show whether the gap shrinks [the last third of every moving "
            "log of --train]");
   add_logs("--blocked", command.blocked, "further logs with the link blocked");
-  app.add_option("--model", command.model,
-                 "which fit of a result [the only one, else poly, else the first]")
-      ->type_name("NAME");
-  app.add_option("--preload", command.common.preload, "which preload of a result [all]")
-      ->type_name("NAME");
+  add_choice_of_fit(app, command.model, command.common.preload, "all");
   app.add_option("--rig", command.common.rig,
                  "rig file; default: rig.json beside each log, else the model's")
       ->type_name("FILE");

@@ -36,12 +36,7 @@ void add_model_options(CLI::App& app, SimulateCommand& command) {
                  "model file or result of 'cablefit dynamic', then logs: CSV or JSON, also .gz "
                  "and .zst")
       ->type_name("");
-  app.add_option("--model", command.model,
-                 "which fit of a result [the only one, else poly, else the first]")
-      ->type_name("NAME");
-  app.add_option("--preload", command.common.preload,
-                 "which preload of a result [the only one, else the first]")
-      ->type_name("NAME");
+  add_choice_of_fit(app, command.model, command.common.preload, "the only one, else the first");
   app.add_option("--rig", command.common.rig,
                  "rig file; default: rig.json beside each log, else the model's")
       ->type_name("FILE");

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "cablefit/design/root.hpp"
+#include "cablefit/base/root.hpp"
 
 namespace cablefit {
 namespace {

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/design/root.hpp"
+#include "cablefit/base/root.hpp"
 
 namespace cablefit {
 namespace {

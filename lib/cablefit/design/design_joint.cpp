@@ -15,17 +15,8 @@ constexpr int kSteps = 400;  // over the working range, for its extremes
 /// 1/J_motor + 1/J_link; NaN when the model has no inertias.
 double mobility(const Model& model, int joint) {
   if (model.joints.empty()) return kNotKnown;
-  const auto inertia = [](const std::vector<EffectInstance>& effects) {
-    double sum = 0;
-    for (const EffectInstance& e : effects) {
-      std::vector<double> values;
-      for (const Estimate& p : e.parameters) values.push_back(p.value);
-      if (e.effect->inertia != nullptr) sum += e.effect->inertia(values.data());
-    }
-    return sum;
-  };
   const JointModel& axes = model.joints[static_cast<std::size_t>(joint)];
-  return 1 / inertia(axes.motor) + 1 / inertia(axes.link);
+  return 1 / inertia_of(axes.motor) + 1 / inertia_of(axes.link);
 }
 
 /// `visit` at deflections over the range and at every change of a cable.

@@ -8,10 +8,10 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/quote.hpp"
+#include "cablefit/base/root.hpp"
 #include "cablefit/design/design_figures.hpp"
 #include "cablefit/design/equilibrium_preload.hpp"
 #include "cablefit/design/joint_curve.hpp"
-#include "cablefit/design/root.hpp"
 #include "cablefit/model/modes.hpp"
 
 namespace cablefit {

@@ -8,7 +8,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/quote.hpp"
-#include "cablefit/design/root.hpp"
+#include "cablefit/base/root.hpp"
 #include "cablefit/model/modes.hpp"
 
 namespace cablefit {

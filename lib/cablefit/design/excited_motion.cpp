@@ -18,16 +18,6 @@ constexpr double kDamping = 0.7;
 constexpr double kStandInBandwidth = 15;  // Hz
 constexpr double kLargestGain = 0.3;      // kd period / J_motor; a sampled loop is unstable at 2
 
-double inertia_of(const std::vector<EffectInstance>& effects) {
-  double sum = 0;
-  for (const EffectInstance& e : effects) {
-    std::vector<double> values;
-    for (const Estimate& p : e.parameters) values.push_back(p.value);
-    if (e.effect->inertia != nullptr) sum += e.effect->inertia(values.data());
-  }
-  return sum;
-}
-
 /// A PD controller, damped for what swings along and stable with the motor alone.
 Controller stand_in(const Model& model, double period) {
   double motor = kUnbounded, all = kUnbounded;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cablefit/design/root.hpp"
+#include "cablefit/base/root.hpp"
 
 namespace cablefit {
 namespace {

@@ -39,14 +39,6 @@ std::string no_known_loop(const LogPlan& plan) {
   return fmt::format("no reference '{}' in the log", plan.rig.controller->reference);
 }
 
-double inertia_of(const std::vector<EffectInstance>& effects) {
-  double total = 0;
-  for (const EffectInstance& instance : effects)
-    if (instance.effect->inertia != nullptr && !instance.parameters.empty())
-      total += instance.effect->inertia(&instance.parameters.front().value);
-  return total;
-}
-
 /// Follows its reference within the bandwidth, whatever inertia swings along; damped for the motor
 /// alone, which is what it turns above the resonance.
 Controller stand_in(const Model& model, double bandwidth, double h) {

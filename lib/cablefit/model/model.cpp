@@ -21,6 +21,17 @@ constexpr std::array<std::pair<std::string_view, Reader>, 3> kReaders{
 
 }  // namespace
 
+double inertia_of(const std::vector<EffectInstance>& effects) {
+  double sum = 0;
+  for (const EffectInstance& instance : effects) {
+    if (instance.effect->inertia == nullptr) continue;
+    std::vector<double> values;
+    for (const Estimate& e : instance.parameters) values.push_back(e.value);
+    if (!values.empty()) sum += instance.effect->inertia(values.data());
+  }
+  return sum;
+}
+
 std::string joint_parameter_name(std::string_view name, int joint, int n_joints) {
   return n_joints > 1 ? fmt::format("{}[{}]", name, joint) : std::string(name);
 }

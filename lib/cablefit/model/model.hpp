@@ -20,6 +20,9 @@ struct EffectInstance {
   std::vector<Estimate> parameters;
 };
 
+/// What the effects of an axis add to its inertia, kg m^2 (on a linear axis kg); 0 without any.
+double inertia_of(const std::vector<EffectInstance>& effects);
+
 /// Name of a joint's parameter in results: "f_v", or "f_v[2]" when there are several joints.
 std::string joint_parameter_name(std::string_view name, int joint, int n_joints);
 

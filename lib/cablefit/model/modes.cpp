@@ -4,32 +4,12 @@
 #include <cassert>
 #include <cmath>
 
+#include "cablefit/base/root.hpp"
+
 namespace cablefit {
 namespace {
 
 constexpr int kScanSteps = 400;
-constexpr int kMaxIterations = 200;
-
-/// Where f changes sign between a and b: regula falsi with Illinois weights (Dowell & Jarratt
-/// 1971), which ends after one step when f is a line.
-template <typename Function>
-double root_between(Function f, double a, double b, double tolerance) {
-  double fa = f(a), fb = f(b);
-  if (fa == 0) return a;
-  for (int i = 0; i < kMaxIterations && fb != 0 && std::abs(b - a) > tolerance; ++i) {
-    const double c = (a * fb - b * fa) / (fb - fa);
-    const double fc = f(c);
-    if ((fc > 0) != (fb > 0)) {
-      a = b;
-      fa = fb;
-    } else {
-      fa /= 2;
-    }
-    b = c;
-    fb = fc;
-  }
-  return b;
-}
 
 /// The cable itself gives nothing there, whichever way its root was rounded.
 SlackPoint slack_point(Transmission transmission, std::size_t cable, double deflection,
@@ -86,7 +66,7 @@ std::vector<SlackPoint> slack_points(const Transmission& transmission, double lo
       const double to = low + (high - low) * (i + 1) / kScanSteps;
       const bool taut_before = l(from) > 0;
       if (taut_before == (l(to) > 0)) continue;
-      const double at = root_between(l, from, to, 1e-13 * (high - low));
+      const double at = root_between(l, from, to);
       points.push_back(slack_point(transmission, c, at, taut_before));
     }
   }

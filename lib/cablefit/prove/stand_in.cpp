@@ -17,16 +17,6 @@ constexpr int kCommandsPerRow = 8;    // of a torque that is not held
 constexpr double kWidestBand = 0.4;   // of the rate, for the low-pass
 constexpr int kFilterOrder = 4;
 
-double inertia(const std::vector<EffectInstance>& effects) {
-  double sum = 0;
-  for (const EffectInstance& e : effects) {
-    std::vector<double> parameters;
-    for (const Estimate& p : e.parameters) parameters.push_back(p.value);
-    if (e.effect->inertia != nullptr) sum += e.effect->inertia(parameters.data());
-  }
-  return sum;
-}
-
 struct Inertias {
   double drive = kUnbounded, all = kUnbounded;  ///< the least of all joints, kg m^2
 };
@@ -34,9 +24,9 @@ struct Inertias {
 Inertias inertias_of(const Model& model, bool link_blocked) {
   Inertias least;
   for (const JointModel& joint : model.joints) {
-    const double motor = inertia(joint.motor);
+    const double motor = inertia_of(joint.motor);
     least.drive = std::min(least.drive, motor);
-    least.all = std::min(least.all, motor + (link_blocked ? 0 : inertia(joint.link)));
+    least.all = std::min(least.all, motor + (link_blocked ? 0 : inertia_of(joint.link)));
   }
   return least;
 }

@@ -99,16 +99,6 @@ std::vector<double> loads_of(const Limits& limits, double peak) {
   return {largest, 0, -largest, largest / 2};
 }
 
-double inertia_of(const std::vector<EffectInstance>& effects) {
-  double sum = 0;
-  for (const EffectInstance& e : effects) {
-    std::vector<double> values;
-    for (const Estimate& p : e.parameters) values.push_back(p.value);
-    if (e.effect->inertia != nullptr) sum += e.effect->inertia(values.data());
-  }
-  return sum;
-}
-
 Controller stiff_controller(const Model& model, double period) {
   constexpr double kGain = 0.2;  // kd period / J_motor; a sampled loop is unstable at 2
   const JointModel& joint = model.joints.front();

@@ -1,6 +1,7 @@
-// Where a continuous function has a value. Internal to design/.
+// Where a continuous function is zero.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
