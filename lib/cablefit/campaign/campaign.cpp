@@ -1,27 +1,15 @@
 #include "cablefit/campaign/campaign.hpp"
 
 #include <fmt/format.h>
-#include <glob.h>
 
-#include "cablefit/base/catalog.hpp"
 #include "cablefit/base/json_document.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/campaign/campaign_cell.hpp"
-#include "cablefit/dynamic/estimators.hpp"
 
 namespace cablefit {
 namespace {
 
 constexpr std::string_view kSchema = "cablefit/campaign/1";
-
-std::vector<std::string> files_on_disk(const std::string& pattern) {
-  glob_t found{};
-  std::vector<std::string> paths;
-  if (glob(pattern.c_str(), 0, nullptr, &found) == 0)
-    paths.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
-  globfree(&found);
-  return paths;
-}
 
 CampaignLimits read_limits(const JsonNode& node, const FindFiles& find_files) {
   node.allow_only({"rsd_percent", "torque_error", "drift", "new_effect"});
@@ -50,21 +38,7 @@ void read_models(const JsonNode& node, Campaign& campaign) {
     throw node.error("'models' is empty", "write [\"linear\", \"poly\"]");
 }
 
-std::string read_estimator(const JsonNode& node) {
-  std::vector<std::string_view> known;
-  for (const Estimator& estimator : estimators()) {
-    if (estimator.name == node.text()) return node.text();
-    known.push_back(estimator.name);
-  }
-  throw node.error(fmt::format("unknown estimator {}", cablefit::quoted(node.text())),
-                   suggestion(node.text(), known));
-}
-
 }  // namespace
-
-Campaign read_campaign(const std::string& path) {
-  return parse_campaign(read_json_file(path), files_on_disk);
-}
 
 Campaign parse_campaign(const JsonNode& root, const FindFiles& find_files) {
   root.allow_only({"schema", "name", "cells", "models", "estimator", "limits"});
@@ -77,8 +51,7 @@ Campaign parse_campaign(const JsonNode& root, const FindFiles& find_files) {
   campaign.path = root.place.file;
   if (const JsonNode* name = root.find("name")) campaign.name = name->text();
   if (const JsonNode* models = root.find("models")) read_models(*models, campaign);
-  if (const JsonNode* estimator = root.find("estimator"))
-    campaign.estimator = read_estimator(*estimator);
+  if (const JsonNode* estimator = root.find("estimator")) campaign.estimator = estimator->text();
   if (const JsonNode* limits = root.find("limits"))
     campaign.limits = read_limits(*limits, find_files);
   campaign.cells = read_cells(root.at("cells"), find_files);

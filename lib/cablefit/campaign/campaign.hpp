@@ -52,7 +52,7 @@ Campaign read_campaign(const std::string& path);
 /// The files that match a pattern, sorted.
 using FindFiles = std::function<std::vector<std::string>(const std::string& pattern)>;
 class JsonNode;
-/// The same from a document that is read already.
+/// The same from a document that is read already, whatever estimator it names.
 Campaign parse_campaign(const JsonNode& root, const FindFiles& find_files);
 
 }  // namespace cablefit

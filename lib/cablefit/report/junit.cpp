@@ -2,17 +2,25 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 #include "cablefit/base/quote.hpp"
 
 namespace cablefit {
 namespace {
 
+/// U+FFFE and U+FFFF, which XML does not have.
+bool is_no_character(std::string_view text) {
+  return text.starts_with("\xEF\xBF\xBE") || text.starts_with("\xEF\xBF\xBF");
+}
+
 /// Within an attribute in double quotes. XML 1.0 has no way to write most control bytes: they are
 /// made printable.
 std::string attribute(const std::string& text) {
+  const std::string shown = printable(text);
   std::string safe;
-  for (const char c : printable(text)) {
-    switch (c) {
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    switch (shown[i]) {
       case '&':
         safe += "&amp;";
         break;
@@ -26,13 +34,14 @@ std::string attribute(const std::string& text) {
         safe += "&quot;";
         break;
       default:
-        safe += c;
+        if (is_no_character(std::string_view(shown).substr(i))) {
+          safe += '?';
+          i += 2;
+        } else {
+          safe += shown[i];
+        }
     }
   }
-  // U+FFFE and U+FFFF are no characters of XML either.
-  for (const char* none : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"})
-    for (std::size_t at = safe.find(none); at != std::string::npos; at = safe.find(none, at))
-      safe.replace(at, 3, "?");
   return safe;
 }
 
