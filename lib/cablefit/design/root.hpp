@@ -1,6 +1,7 @@
 // Where a continuous function has a value. Internal to design/.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
