@@ -83,6 +83,30 @@ TEST_CASE("a design as text has the closed forms of linear cables", "[report]") 
   CHECK(document.figures.back().section == "Cables at l_o = 10 mrad");
 }
 
+// With E = 0 the two tails share the alarms, with a floor they do not: more than twice the floor.
+TEST_CASE("what even the cables get wrong adds to every collision torque", "[report]") {
+  Model model;
+  model.rig = default_rig();
+  model.transmission = antagonist_pair(1);
+  model.transmission.cables[0].coefficients = model.transmission.cables[1].coefficients = {1000};
+  DesignOptions options;
+  options.torque = 20;
+  options.l_o = {0.002};
+  options.noise = 0.3;
+  const DesignResult exact = sweep_design(model, options);
+  options.floor = 1;
+  const DesignResult floor = sweep_design(model, options);
+  CHECK(floor.detector->model_error == 1);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto torque = [&](const DesignResult& result) {
+      return result.points[0].joints[0].models[k].collision->torque;
+    };
+    CHECK(torque(floor) - torque(exact) == Approx(2).margin(0.05));
+  }
+  CHECK(write_text(design_document(floor)).find("within its largest and 1 N m") !=
+        std::string::npos);
+}
+
 TEST_CASE("an excitation as text says what it beats, and why a sine would not do", "[report]") {
   DesignResult result;
   result.excitation = plan();

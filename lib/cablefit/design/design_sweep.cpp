@@ -150,7 +150,7 @@ DesignResult sweep_design(const Model& model, const DesignOptions& given) {
         CollisionDetector{*options.noise,
                           options.rate,
                           options.window,
-                          0,
+                          options.floor,
                           false_alarm_rate_of(options.false_alarms_per_hour, options.window),
                           options.detection_rate};
   warn_of_soft_cables(model, options.torque, result);
@@ -158,8 +158,11 @@ DesignResult sweep_design(const Model& model, const DesignOptions& given) {
     const Transmission base = with_radii(model.transmission, factor);
     (void)balanced_tensions(base);  // or say at once that there are none
     result.needed.push_back(what_is_needed(base, factor, options.torque));
-    const std::vector<double> sweep =
-        options.l_o.empty() ? chosen_preloads(result.needed.back()) : options.l_o;
+  }
+  for (const NeededPreload& needed : result.needed) {
+    const double factor = needed.radius_factor;
+    const Transmission base = with_radii(model.transmission, factor);
+    const std::vector<double> sweep = options.l_o.empty() ? chosen_preloads(needed) : options.l_o;
     if (is_preloaded(base)) {
       result.points.push_back(describe_point(model, base, factor, options));
       result.points.back().is_own = true;

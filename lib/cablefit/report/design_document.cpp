@@ -128,7 +128,7 @@ Table cost_table(const Words& words) {
         "Hz shows with "
         "a probability of {:g} within two windows, at {:g} false alarm{} an hour, "
         "torque noise {:g} "
-        "{}, whatever the model's error within its largest",
+        "{}, whatever the model's error within its largest{}",
         d.window, d.rate, d.detection_rate, words.result.false_alarms_per_hour,
         words.result.false_alarms_per_hour == 1 ? "" : "s", d.noise, words.torque,
         d.model_error > 0 ? fmt::format(" and {:g} {}", d.model_error, words.torque) : ""));
