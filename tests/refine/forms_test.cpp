@@ -81,6 +81,14 @@ TEST_CASE("presliding takes all of the dry friction, not more", "[refine]") {
   CHECK(fit->x(fit->x.size() - 1) > fit->x(base.design.layout.dry_link));
 }
 
+/// What remembers its way stands at the middle of the step, as the motion does; at its end it is 3
+/// % too far.
+TEST_CASE("presliding has its distance", "[refine]") {
+  const HiddenLogs hidden = hidden_logs({"presliding.link=0.3"}, 2);
+  const Candidate best = best_of(base_of(hidden), "presliding", Site::link);
+  CHECK(best.variant.shape.at(0) == Approx(truth(hidden)).epsilon(0.015));
+}
+
 /// Beyond the peak there would be no torque left to explain.
 TEST_CASE("the grid of what the drive loses ends far below the peak", "[refine]") {
   const Refinement& row = find_refinement("drive_dead_band", Site::drive);

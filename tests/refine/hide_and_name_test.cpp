@@ -1,5 +1,6 @@
 // Effects hidden by the second simulator are found, named and added; where nothing is hidden,
 // nothing is named. A reduced form of tests/hidden/run, through the library.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -100,6 +101,33 @@ TEST_CASE("two effects at once are judged together", "[refine][slow]") {
   CHECK(first_name(result) == "drive_dead_band");
   CHECK(result.effects[1].instance.refinement->name == "presliding");
   CHECK(result.rho_after < 1.2);
+}
+
+/// Together they look like a torque constant that is off, which beside a dead band is best as well.
+TEST_CASE("two effects that look like a third are named", "[refine][slow]") {
+  const HiddenLogs hidden =
+      hidden_logs({"drive_efficiency.motor=0.1337", "drive_dead_band.drive=0.2093"}, 2);
+  const RefineResult result = refined(hidden);
+  INFO(result.reason);
+  REQUIRE(result.effects.size() == 2);
+  CHECK(first_name(result) == "drive_efficiency");
+  CHECK(result.effects[1].instance.refinement->name == "drive_dead_band");
+  CHECK(result.rho_after < 1.1);
+}
+
+/// On the base alone an encoder's offset is as good; beside the friction it is not the first
+/// choice.
+TEST_CASE("the first of two is named again beside the second", "[refine][slow]") {
+  const HiddenLogs hidden =
+      hidden_logs({"tension_friction.link=0.1568", "constant_torque.link=0.4063"}, 8);
+  const RefineResult result = refined(hidden);
+  INFO(result.reason);
+  REQUIRE(result.effects.size() == 2);
+  std::vector<std::string> names;
+  for (const NamedEffect& effect : result.effects)
+    names.emplace_back(effect.instance.refinement->name);
+  std::sort(names.begin(), names.end());
+  CHECK(names == std::vector<std::string>{"constant_torque", "tension_friction"});
 }
 
 /// Table 2's link friction rises from 3.3 to 7.0 N m with preload, which (31) cannot explain: with
