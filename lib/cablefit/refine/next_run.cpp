@@ -138,7 +138,8 @@ void tell_groups_apart(const NextRunInput& input, RefineResult& result) {
                    [number](const NotSeparable& group) { return group.run == number; });
   result.next_experiment = fmt::format(
       "{}: it tells {}{}", text_of(run, result.linear_motion), told_apart(*asked),
-      *most > 1 ? fmt::format(", and {} more groups that these logs cannot", *most - 1) : "");
+      *most > 1 ? fmt::format(" ({} of {} groups of that kind)", *most, result.not_separable.size())
+                : "");
 }
 
 }  // namespace
