@@ -144,8 +144,8 @@ TEST_CASE("the high polynomial row of Table 1 is refused, with the reason", "[el
     CHECK(e.ci_high > 0);
     CHECK(e.active_bound == "cable 1 only pulls");
   }
-  const Estimate& first = estimate(poly.parameters, "K1_0");  // k(0) >= 0 is its own bound
-  CHECK(first.ci_low > -1e-4 * first.ci_high);
+  // k(0) >= 0 is its own bound; profiles know bounds to 1e-5 of the sd of residuals of 1 N m.
+  CHECK(estimate(poly.parameters, "K1_0").ci_low > -1e-3);
   CHECK(poly.active_bounds == std::vector<std::string>{"cable 1: k(l) >= 0 at l = 0 mrad",
                                                        "cable 1: k(l) >= 0 at l = 13.8 mrad"});
   CHECK(warns(poly.warnings,
