@@ -139,9 +139,13 @@ TEST_CASE("the high polynomial row of Table 1 is refused, with the reason", "[el
     const Estimate& e = estimate(poly.parameters, name);
     CHECK(e.value == 0);
     CHECK(std::isnan(e.sd));
-    CHECK(std::isnan(e.ci_low));
+    CHECK(e.profiled);  // under the constraints, so that it has an interval all the same
+    CHECK(e.ci_low <= 1e-4 * e.ci_high);
+    CHECK(e.ci_high > 0);
     CHECK(e.active_bound == "cable 1 only pulls");
   }
+  // k(0) >= 0 is its own bound; profiles know bounds to 1e-5 of the sd of residuals of 1 N m.
+  CHECK(estimate(poly.parameters, "K1_0").ci_low > -1e-3);
   CHECK(poly.active_bounds == std::vector<std::string>{"cable 1: k(l) >= 0 at l = 0 mrad",
                                                        "cable 1: k(l) >= 0 at l = 13.8 mrad"});
   CHECK(warns(poly.warnings,
@@ -304,12 +308,14 @@ TEST_CASE("what is at its bound survives the result file", "[elastic]") {
   CHECK(fit["active_bounds"].size() == 2);
   CHECK(fit["parameters"][0]["value"] == 0);
   CHECK(fit["parameters"][0]["sd"].is_null());
-  CHECK(fit["parameters"][0]["ci95"].is_null());
+  CHECK(fit["parameters"][0]["ci95"].size() == 2);
+  CHECK(fit["parameters"][0]["interval"] == "profile");
   CHECK(fit["parameters"][0]["active_bound"] == "cable 1 only pulls");
   const TempFolder folder;
   const ElasticFit read = poly_of(read_elastic_result(folder.write("elastic.json", text)));
   CHECK(read.active_bounds == poly_of(result).active_bounds);
   CHECK(read.parameters[0].active_bound == "cable 1 only pulls");
+  CHECK(read.parameters[0].profiled);
   CHECK(read.transmission.cables[0].coefficients == std::vector<double>{0, 0});
 }
 

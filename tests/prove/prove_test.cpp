@@ -176,7 +176,7 @@ TEST_CASE("stage 1 is proved on its own motion") {
   print(proof);
   INFO(proof.first_failure);
   CHECK(proof.n_failed == 0);
-  REQUIRE(proof.parameters.size() == 6);  // K1_0, K1_1, K2_0, K2_1, offset, f_sm
+  REQUIRE(proof.parameters.size() == 5);  // K1_0, K1_1, K2_0, K2_1, offset; not f_sm
   for (const ProvedParameter& p : proof.parameters) {
     INFO(p.name);
     CHECK(p.n_covered >= 33);

@@ -41,6 +41,10 @@ Eigen::ArrayXXd smooth(const Eigen::VectorXd& measured, double period, double cu
   return column.array();
 }
 
+// Of the speed below which stage 1 leaves rows out: slower ones rest. What is measured there is
+// noisy, and noise can only take from f_sm: a share of 1 costs rows that do move (f_sm -1.1 %).
+constexpr double kRestShare = 0.25;
+
 /// Dry friction: f_sm against the motion; at rest what was measured beside the rest of the model,
 /// as far as friction goes. A jump from one side to the other, which no drive makes, would come out
 /// of the low-pass as less friction.
@@ -174,11 +178,13 @@ Plan make_plan(std::span<const LogSurvey> logs, const ElasticOptions& options,
       plan.twin.stretches.push_back(std::move(stretch));
     }
   }
-  plan.twin.notes.emplace_back("the motion of the logs, the torque of the fit");
+  plan.twin.notes.emplace_back(
+      "the motion of the logs, the torque of the fit; f_sm is not proved: reversals are not "
+      "simulated");
   const Colour measured = colour_of(logs, plan.options, preload.name, fit);
   const Friction friction{fit.offset, value_of(fit, "f_sm"), measured.f_vm};
   plan.motions = follow(plan.twin, fit, friction, kFollowedBand * job.settings.rows.signal.cutoff,
-                        job.rest_speeds.front());
+                        kRestShare * job.rest_speeds.front());
   choose_sensors(plan.twin, plan.motions);
   Random calibration(prove.seed, kCalibration);
   const std::vector<LogSurvey> quiet = record_twin(plan.twin, plan.motions, calibration);
@@ -208,6 +214,15 @@ ProofRun run_once(const Plan& plan, const std::string& model, std::uint64_t seed
   return run;
 }
 
+/// All but f_sm. How friction passes from one side to the other while the motor sticks is taken
+/// from the log, as far as its noise lets that be seen: near reversals the twin has less of it than
+/// the bench (f_sm -1.1 % on a simulated log), which would be told as a bias of the fit.
+std::vector<Estimate> proved(const ElasticFit& fit) {
+  std::vector<Estimate> parameters = fit.parameters;
+  std::erase_if(parameters, [](const Estimate& e) { return e.name == "f_sm"; });
+  return parameters;
+}
+
 }  // namespace
 
 void prove_elastic(std::span<const LogSurvey> logs, const ElasticOptions& options,
@@ -219,7 +234,7 @@ void prove_elastic(std::span<const LogSurvey> logs, const ElasticOptions& option
         continue;
       }
       const Plan plan = make_plan(logs, options, prove, preload, fit);
-      fit.proof = prove_by_runs(fit.parameters, prove, plan.twin.notes, [&](std::uint64_t seed) {
+      fit.proof = prove_by_runs(proved(fit), prove, plan.twin.notes, [&](std::uint64_t seed) {
         return run_once(plan, fit.model, seed);
       });
       widen(fit.parameters, *fit.proof);
