@@ -9,6 +9,7 @@
 #include "cablefit/report/dynamic_document.hpp"
 #include "cablefit/report/elastic_document.hpp"
 #include "cablefit/report/numbers.hpp"
+#include "cablefit/report/preload_report.hpp"
 
 namespace cablefit {
 namespace {
@@ -126,6 +127,7 @@ Document batch_document(const BatchResult& result) {
   append(document, dynamic_document(result.all_dynamic()));
   if (Table refine = refine_table(result); !refine.rows.empty())
     document.tables.push_back(std::move(refine));
+  add_preload_advice(result, document);
   if (!result.gates.empty()) document.tables.push_back(gate_table(result));
   return result.cells.size() > kMostCellsInFull ? in_short(std::move(document)) : document;
 }
