@@ -168,3 +168,15 @@ TEST_CASE("a simulation that shows no gap may scatter a little", "[refine]") {
   CHECK(why_not_added({row, 1.2, 1.05, before, little, floor}).empty());
   CHECK_FALSE(why_not_added({row, 1.2, 1.05, before, more, floor}).empty());
 }
+
+TEST_CASE("at the floor there is nothing to explain, whatever was refused", "[refine]") {
+  RefineResult result;
+  result.steps.emplace_back().added = "stiffness_order";
+  result.rho_before = 0.97;
+  conclude(result);
+  CHECK(result.verdict == Verdict::none);
+  CHECK(result.reason.find("stiffness_order, was refused") != std::string::npos);
+  result.rho_before = 1.15;
+  conclude(result);
+  CHECK(result.verdict == Verdict::unexplained);
+}

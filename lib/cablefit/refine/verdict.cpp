@@ -309,9 +309,12 @@ void conclude(RefineResult& result) {
   const bool refused = !result.steps.empty();
   const std::string level =
       fmt::format("the squared residual is {:.3g} times what the sensors' noise leaves", rho);
-  if (rho < kRemainder && !refused) {
+  // At the floor there is nothing to explain, whatever was tried and refused.
+  if (rho < (refused ? kNoGap : kRemainder)) {
     result.verdict = Verdict::none;
-    result.reason = level + "; no effect of the catalogue improves on it beyond chance";
+    result.reason = level + (refused ? "; what fits best, " + result.steps.front().added +
+                                           ", was refused: " + result.steps.front().reason
+                                     : "; no effect of the catalogue improves on it beyond chance");
     return;
   }
   result.verdict = Verdict::unexplained;
