@@ -80,7 +80,7 @@ Estimate estimate_at(const JointFit& fit, const JudgedPoint& judged,
     e.sd = sd_at(chosen(judged.unbounded->covariance, honest), k);
     e.sd_white = sd_at(judged.unbounded->covariance.white, k);
     set_on_bound(e, judged.unbounded->x(k), degrees_of_freedom);
-    take_profile(judged, k, honest, p.lower, e);
+    take_profile(judged, k, honest, 0, e);  // at its bound, 0: one-sided
     add_known(p.known, e);
     return e;
   }
