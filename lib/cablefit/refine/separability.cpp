@@ -132,11 +132,11 @@ std::optional<Seen> see_replaced(const Design& design, const Variant& variant, c
 
 std::optional<Seen> see(const Design& design, const Variant& variant, const Stack& stack,
                         const Eigen::VectorXd& values, const Eigen::VectorXd* scale) {
-  if (replaces_rows(*variant.refinement)) return see_replaced(design, variant, stack, values);
+  if (replaces_rows(variant)) return see_replaced(design, variant, stack, values);
   const VariantColumns columns = variant_columns(design, variant, values);
   Seen seen;
-  seen.span = stack.of(static_cast<Eigen::Index>(variant.refinement->n_linear()),
-                       [&](std::size_t s, std::size_t i) { return columns[s][i]; });
+  seen.span =
+      stack.of(n_linear(variant), [&](std::size_t s, std::size_t i) { return columns[s][i]; });
   seen.scale = scale != nullptr ? *scale : unit_scale(seen.span);
   seen.example = scaled_sum(seen.span, seen.scale);
   return seen;
@@ -406,7 +406,7 @@ std::vector<NotSeparable> find_not_separable(const Design& design, const Eigen::
   for (std::size_t f = 0; f < families.size(); ++f) {
     if (!distances.is_there(f)) continue;
     // Other cables are not columns beside the base's, see try_variant.
-    const double tolerance = replaces_rows(*families[f].row) ? 1e-9 : kAbsorbed;
+    const double tolerance = replaces_rows(families[f].variants.front()) ? 1e-9 : kAbsorbed;
     if (distances.from_base(f) < tolerance)
       open.push_back({{f}, true});
     else

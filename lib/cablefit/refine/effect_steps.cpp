@@ -1,0 +1,207 @@
+#include "cablefit/refine/effect_steps.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/refine/refined_model.hpp"
+#include "cablefit/refine/verdict.hpp"
+
+namespace cablefit {
+namespace {
+
+// Tensions and stiffness that columns are made of were those of a model without the effect.
+constexpr int kRelinearisations = 3;
+
+/// The state with one more effect; nothing when the rows become singular.
+std::optional<RefineState> with_candidate(const RefineBench& bench, const RefineState& state,
+                                          const Search& found, const Candidate& winner) {
+  if (!applies(state.design, winner.variant)) return {};
+  RefineState next;
+  next.design = with_variant(state.design, winner.variant, found.fit.x);
+  next.test = with_variant(state.test, winner.variant, found.fit.x);
+  next.levels = found.levels;
+  std::optional<BlockFit> fit;
+  for (int round = 0; round < kRelinearisations; ++round) {
+    if (round > 0) {
+      next.design = relinearised(next.design, fit->x);
+      next.test = relinearised(next.test, fit->x);
+    }
+    fit = fit_blocks(block_grams(next.design.rows, next.design.stretches, bench.scan.block_seconds),
+                     next.levels, false);
+    if (!fit) return {};
+  }
+  next.x = fit->x;
+  next.rho = rho_of(*fit, bench.floor);
+  next.unseen = gap_of(next.test, next.x, bench.test_floor, bench.scan.block_seconds);
+  next.simulated =
+      simulated_gap(models_with(next.design, next.x), bench.unseen, bench.options.threads);
+  return next;
+}
+
+RefineEvidence evidence_of(const RefineBench& bench, const RefineState& before,
+                           const RefineState& after, const Judgement& judgement) {
+  RefineEvidence e;
+  e.rho_before = before.rho;
+  e.rho_after = after.rho;
+  e.p_value = judgement.p_value;
+  e.inclusion = judgement.inclusion;
+  e.n_draws = bench.draws.size();
+  // On rows that had no say; on the training rows where those show no gap to close.
+  const bool visible = before.unseen.rho > kVisibleGap;
+  const double from = visible ? before.unseen.rho : before.rho;
+  const double to = visible ? after.unseen.rho : after.rho;
+  e.gain = from > 1 ? (from - to) / (from - 1) : 0;
+  return e;
+}
+
+/// What a search names, added on trial.
+struct Trial {
+  Judgement judgement;
+  Candidate winner;
+  RefineState after;
+};
+
+/// Nothing: nothing is named.
+std::optional<Trial> try_next(RefineBench& bench, const RefineState& state, bool is_first,
+                              RefineResult* first_result) {
+  tell(bench.options, "search", 0);
+  const Search found = search(state.design, bench.floor, bench.scan);
+  need_draws(bench, state, found);
+  const SquaredGap gap{found.fit.held_out.sum(), floor_error(found.fit, bench.floor, found.levels)};
+  Trial trial;
+  trial.judgement = judge_search(found.candidates, gap, bench.draws, bench.options, is_first);
+  if (first_result != nullptr) {
+    first_result->league = trial.judgement.league;
+    bench.first_search = found;
+  }
+  if (!trial.judgement.is_named) return {};
+  trial.winner = refined_shape({state.design, found.grams, found.fit, found.levels}, bench.scan,
+                               *trial.judgement.best);
+  trial.judgement.best = nullptr;  // of the search, which ends here
+  auto next = with_candidate(bench, state, found, trial.winner);
+  if (!next) return {};
+  trial.after = std::move(*next);
+  return trial;
+}
+
+/// `reason`: of a refusal.
+RefineStep step_of(const RefineBench& bench, const Trial& trial, const std::string& reason) {
+  const Refinement& row = *trial.winner.variant.refinement;
+  const double unit = bench.floor[static_cast<std::size_t>(RowKind::motor)];
+  RefineStep step;
+  step.added = row.name;
+  step.side = to_string(row.site);
+  step.gap_train = unit * std::sqrt(trial.after.rho);
+  step.gap_test = unit * std::sqrt(trial.after.unseen.rho);
+  step.reason = reason;
+  step.accepted = reason.empty();
+  return step;
+}
+
+UnseenChange change_of(const RefineBench& bench, const Refinement& row, const RefineState& before,
+                       const RefineState& after) {
+  return {row,
+          before.unseen.rho,
+          after.unseen.rho,
+          before.simulated,
+          after.simulated,
+          bench.simulation_floor};
+}
+
+NamedEffect effect_of(const RefineBench& bench, const RefineState& before, const RefineState& after,
+                      const Judgement& judgement) {
+  NamedEffect effect;
+  effect.evidence = evidence_of(bench, before, after, judgement);
+  effect.rivals = judgement.rivals;
+  return effect;
+}
+
+/// What was refused alone may be half of the truth: with the next best beside it, both are judged
+/// together. Two names at once need more evidence than one.
+bool add_both(RefineBench& bench, RefineState& state, const Trial& one, RefineResult& result) {
+  auto two = try_next(bench, one.after, false, nullptr);
+  if (!two) return false;
+  const UnseenChange change = change_of(bench, *two->winner.variant.refinement, state, two->after);
+  const std::string reason = why_not_both(change);
+  result.steps.push_back(step_of(bench, *two, reason));
+  if (!reason.empty()) return false;
+  for (RefineStep& step : result.steps) step.accepted = true;
+  result.effects.push_back(effect_of(bench, state, one.after, one.judgement));
+  result.effects.push_back(effect_of(bench, one.after, two->after, two->judgement));
+  state = std::move(two->after);
+  return true;
+}
+
+}  // namespace
+
+bool add_next_effect(RefineBench& bench, RefineState& state, RefineResult& result) {
+  const bool is_first = result.effects.empty();
+  auto trial = try_next(bench, state, is_first, is_first ? &result : nullptr);
+  if (!trial) return false;
+  const Refinement& row = *trial->winner.variant.refinement;
+  const std::string reason = why_not_added(change_of(bench, row, state, trial->after));
+  result.steps.push_back(step_of(bench, *trial, reason));
+  if (!reason.empty()) return is_first && add_both(bench, state, *trial, result);
+  result.effects.push_back(effect_of(bench, state, trial->after, trial->judgement));
+  state = std::move(trial->after);
+  return true;
+}
+
+void name_first_again(RefineBench& bench, const RefineState& first, RefineState& state,
+                      RefineResult& result) {
+  Search found;
+  found.levels = state.levels;
+  found.fit.x = first.x;
+  Candidate second;
+  second.variant = state.design.added[1];
+  const auto alone = with_candidate(bench, first, found, second);
+  if (!alone) return;
+  const auto trial = try_next(bench, *alone, false, nullptr);
+  if (!trial) return;
+  const Refinement& row = *trial->winner.variant.refinement;
+  NamedEffect& named = result.effects.front();
+  if (&row == state.design.added.front().refinement) {
+    named.rivals = trial->judgement.rivals;  // fewer: the second no longer blurs it
+    return;
+  }
+  // A tie goes to what is named beside the other.
+  constexpr double kTie = 1.01;
+  if (trial->after.rho > kTie * state.rho || trial->after.unseen.rho > kTie * state.unseen.rho ||
+      !why_not_added(change_of(bench, row, *alone, trial->after)).empty())
+    return;
+  result.steps.front() = step_of(bench, *trial, "");
+  named = effect_of(bench, first, trial->after, trial->judgement);
+  RefineState other = trial->after;
+  std::swap(result.effects[0], result.effects[1]);  // in the order of the design
+  std::swap(result.steps[0], result.steps[1]);
+  state = std::move(other);
+}
+
+void begin_otherwise(RefineBench& bench, const RefineState& first, RefineState& state,
+                     RefineResult& result) {
+  constexpr std::size_t kBeginnings = 3;
+  const Search& found = bench.first_search;
+  const Refinement& taken = *state.design.added.front().refinement;
+  for (const Candidate* candidate : best_candidates(found.candidates, kBeginnings, taken)) {
+    Trial one;
+    one.winner =
+        refined_shape({first.design, found.grams, found.fit, found.levels}, bench.scan, *candidate);
+    auto after = with_candidate(bench, first, found, one.winner);
+    if (!after) continue;
+    one.after = std::move(*after);
+    auto two = try_next(bench, one.after, false, nullptr);
+    if (!two || two->after.rho >= state.rho || two->after.unseen.rho >= state.unseen.rho) continue;
+    const Refinement& row = *two->winner.variant.refinement;
+    if (!why_not_added(change_of(bench, row, first, two->after)).empty()) continue;
+    // Named beside each other, none alone.
+    const double p_value = result.effects.front().evidence.p_value;
+    one.judgement.p_value = p_value;
+    one.judgement.inclusion = result.effects.front().evidence.inclusion;
+    result.effects = {effect_of(bench, first, one.after, one.judgement),
+                      effect_of(bench, one.after, two->after, two->judgement)};
+    result.steps = {step_of(bench, one, ""), step_of(bench, *two, "")};
+    state = std::move(two->after);
+  }
+}
+
+}  // namespace cablefit

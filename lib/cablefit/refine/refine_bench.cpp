@@ -1,0 +1,164 @@
+#include "cablefit/refine/refine_bench.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/base/parallel.hpp"
+#include "cablefit/refine/elastic_stage.hpp"
+#include "cablefit/refine/refined_model.hpp"
+#include "cablefit/refine/remainder.hpp"
+#include "cablefit/refine/verdict.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr std::size_t kFloorDraws = 4;  // the floor is then known to about 1 %
+constexpr double kHeldOutShare = 1.0 / 3;
+
+template <typename Draw>
+auto run_draws(const RefineBench& bench, std::size_t n, std::uint64_t first, std::string_view what,
+               Draw draw) {
+  std::vector<decltype(draw(first))> draws;
+  ordered_pipeline<std::uint64_t>(
+      bench.options.threads,
+      [&](auto emit) {
+        for (std::size_t k = 0; k < n; ++k) emit(std::uint64_t{first + k});
+      },
+      draw,
+      [&](auto one) {
+        draws.push_back(std::move(one));
+        tell(bench.options, what, static_cast<double>(draws.size()) / static_cast<double>(n));
+      });
+  return draws;
+}
+
+/// The floor of the motor rows is the unit of gaps over all equations; of blocked logs alone
+/// theirs.
+KindLevels common_unit(const RefineBench& bench, KindLevels floor) {
+  if (bench.elastic_only)
+    floor[static_cast<std::size_t>(RowKind::motor)] =
+        floor[static_cast<std::size_t>(RowKind::blocked)];
+  return floor;
+}
+
+KindLevels fitted_floor(const RefineBench& bench) {
+  std::vector<KindLevels> levels;
+  for (const NullDraw& draw :
+       run_draws(bench, kFloorDraws, bench.options.seed, "noise floor",
+                 [&](std::uint64_t seed) { return bench.null->base_only(seed, nullptr); }))
+    levels.push_back(draw.floor);
+  return common_unit(bench, positive(rms_over(levels)));
+}
+
+/// Floors of the unseen logs: equations, and simulation beside what it was simulated from.
+void find_unseen_floors(RefineBench& bench, const std::vector<Model>& models,
+                        const RefineLogs& logs) {
+  bench.unseen = logs.test.empty() ? logs.train : logs.test;
+  const NullBench unseen(models, bench.unseen, bench.wanted, bench.smoothing);
+  bench.test_floor = logs.test.empty()
+                         ? bench.floor
+                         : positive(rms_over(run_draws(
+                               bench, kFloorDraws, bench.options.seed, "noise floor",
+                               [&](std::uint64_t seed) { return unseen.unfitted(seed); })));
+  std::vector<LogSurvey> recorded;
+  for (NullBench::Recorded& one : unseen.record(bench.options.seed))
+    recorded.insert(recorded.end(), one.logs.begin(), one.logs.end());
+  bench.simulation_floor = simulated_gap(models, recorded, bench.options.threads);
+}
+
+/// Gives the draws of the null what even the best candidate leaves, so that they look like the logs
+/// would without it.
+void disturb_null(RefineBench& bench, const RefineState& state, const Search& found) {
+  const Candidate* best = best_lasting(found.candidates);
+  Design design = state.design;
+  Eigen::VectorXd x = found.fit.x;
+  if (best != nullptr) {
+    design = with_variant(design, best->variant, x);
+    x = best->x;
+  }
+  const TwinDisturbance wanted = remainder_of(design, x, bench.floor);
+  if (is_quiet(wanted)) return;
+  bench.null->disturb(wanted);
+  // The rows see the disturbance through their kernel, which its colour has been through already.
+  const KindLevels seen = bench.null->base_only(bench.options.seed, nullptr).floor;
+  const KindLevels left = best != nullptr ? best->rms : found.fit.rms();
+  KindLevels factors{1, 1, 1};
+  for (std::size_t k = 0; k < kRowKinds; ++k) {
+    const double floor = bench.floor[k] * bench.floor[k];
+    const double ratio = (left[k] * left[k] - floor) / std::max(1e-12, seen[k] * seen[k] - floor);
+    factors[k] = std::sqrt(std::clamp(ratio, 0.1, 10.0));
+  }
+  bench.null->disturb(scaled(wanted, common_unit(bench, factors)));
+}
+
+/// Kernels that suit all logs.
+Smoothing smoothing_of(const RefineBench& bench, std::span<const Model> models,
+                       const std::vector<Stretch>& train, const std::vector<Stretch>& test) {
+  if (!bench.elastic_only) return smoothing_for(train.front().recording.period);
+  std::vector<Stretch> all = train;
+  all.insert(all.end(), test.begin(), test.end());
+  return blocked_smoothing(models, all);
+}
+
+}  // namespace
+
+void tell(const RefineOptions& options, std::string_view what, double share) {
+  if (options.progress) options.progress(what, share);
+}
+
+void need_draws(RefineBench& bench, const RefineState& state, const Search& found) {
+  if (!bench.draws.empty() || !anything_material(found.candidates, bench.options)) return;
+  disturb_null(bench, state, found);
+  ScanSettings settings = bench.scan;
+  settings.threads = 1;
+  bench.draws = run_draws(
+      bench, bench.options.n_draws, bench.options.seed + kFloorDraws, "chance",
+      [&](std::uint64_t seed) { return bench.null->searched(seed, bench.floor, settings); });
+}
+
+RefineState prepare(RefineBench& bench, std::span<const Model> models, const RefineLogs& logs,
+                    RefineResult& result) {
+  std::vector<Stretch> train = read_stretches(bench.logs, models, bench.wanted);
+  if (train.empty())
+    throw input_error({}, "no stretch of evenly spaced rows is long enough to refine with",
+                      "give logs of at least a few seconds with --train");
+  std::vector<Stretch> test = read_stretches(logs.test, models, bench.wanted);
+  for (Stretch& stretch : test) stretch.log += bench.logs.size();  // recorded after what they test
+  const Smoothing wanted = smoothing_of(bench, models, train, test);
+  if (bench.elastic_only && !test.empty() &&
+      !has_rows({models.begin(), models.end()}, test, wanted)) {
+    result.warnings.emplace_back(
+        "the test logs do not move enough to judge by; the last third of the others is held out");
+    test.clear();
+  }
+  result.held_out_blocks = test.empty();
+  if (test.empty())
+    test = bench.elastic_only ? hold_out_blocked(train, kHeldOutShare)
+                              : hold_out(train, kHeldOutShare);
+  const std::vector<Model> bases = bench.elastic_only
+                                       ? with_visible_effects({models.begin(), models.end()}, train,
+                                                              wanted, bench.scan.block_seconds)
+                                       : std::vector<Model>(models.begin(), models.end());
+  BaseFit base =
+      fit_base(make_design(bases, std::move(train), wanted), bench.scan.block_seconds, nullptr);
+  bench.smoothing = base.design.smoothing;
+  std::vector<Model> fitted = models_with(base.design, base.fit.x);
+  bench.null.emplace(fitted, bench.logs, bench.wanted, bench.smoothing);
+  bench.floor = fitted_floor(bench);
+  base = fit_base(std::move(base.design), bench.scan.block_seconds, &bench.floor);
+  fitted = models_with(base.design, base.fit.x);
+  find_unseen_floors(bench, fitted,
+                     result.held_out_blocks ? RefineLogs{logs.train, {}, logs.blocked} : logs);
+  RefineState state;
+  state.test = make_design(fitted, std::move(test), bench.smoothing);
+  state.x = base.fit.x;
+  state.levels = bench.floor;
+  state.rho = rho_of(base.fit, bench.floor);
+  state.unseen = gap_of(state.test, state.x, bench.test_floor, bench.scan.block_seconds);
+  state.simulated = simulated_gap(fitted, bench.unseen, bench.options.threads);
+  state.design = std::move(base.design);
+  return state;
+}
+
+}  // namespace cablefit

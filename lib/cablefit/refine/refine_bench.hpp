@@ -1,0 +1,53 @@
+// What every step of refine works with, and where the workflow stands. Internal to refine/.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "cablefit/refine/confirm.hpp"
+#include "cablefit/refine/levels.hpp"
+#include "cablefit/refine/null_draws.hpp"
+#include "cablefit/refine/refine.hpp"
+#include "cablefit/refine/search.hpp"
+
+namespace cablefit {
+
+/// What every step needs.
+struct RefineBench {
+  const RefineOptions& options;
+  PartFilter wanted = {};
+  bool elastic_only = false;
+  ScanSettings scan = {};
+  std::vector<LogSurvey> all = {};     ///< blocked, training, test: by Stretch::log
+  std::vector<LogSurvey> logs = {};    ///< blocked, then training
+  std::vector<LogSurvey> unseen = {};  ///< simulated for the last word; the training logs when none
+  Smoothing smoothing = {};
+  KindLevels floor{}, test_floor{};
+  SimulatedGap simulation_floor = {};
+  std::optional<NullBench> null = {};
+  std::vector<NullDraw> draws = {};  ///< of searches; none until something is worth them
+  Search first_search = {};          ///< on the base alone
+};
+
+/// Where the workflow stands.
+struct RefineState {
+  Design design, test;  ///< training and unseen rows, with the same columns
+  Eigen::VectorXd x;
+  KindLevels levels{};
+  double rho = 0;  ///< training rows
+  RowGap unseen;
+  SimulatedGap simulated;
+};
+
+/// The base fit, floors and unseen rows. Throws Error(input) without a long enough stretch.
+RefineState prepare(RefineBench& bench, std::span<const Model> models, const RefineLogs& logs,
+                    RefineResult& result);
+
+/// Simulated data sets are searched only once something is worth it.
+void need_draws(RefineBench& bench, const RefineState& state, const Search& found);
+
+void tell(const RefineOptions& options, std::string_view what, double share);
+
+}  // namespace cablefit
