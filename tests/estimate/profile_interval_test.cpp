@@ -89,7 +89,7 @@ TEST_CASE("beside a bound the profile agrees with a grid", "[estimate]") {
 }
 
 // x = -1 / v: the profile never comes back below the threshold on that side.
-TEST_CASE("an interval that has no end says so", "[estimate]") {
+TEST_CASE("a threshold of nothing leaves the estimate alone", "[estimate]") {
   Eigen::Matrix2d a = Eigen::Matrix2d::Identity();
   const ProfileInterval i = profile_interval(a, Eigen::Vector2d(1, 0), kNoBounds, first_of(2), 0);
   CHECK(i.low == Approx(1));

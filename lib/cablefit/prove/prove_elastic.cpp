@@ -30,7 +30,7 @@ double value_of(const ElasticFit& fit, const char* name) {
 }
 
 // Of the band of stage 1, for the motion to be followed: the fit's own low-pass, which comes on
-// top, must not find it slowed down (f_sm -1.2 % with the same band twice).
+// top, must not find it slowed down.
 constexpr double kFollowedBand = 4;
 
 /// Positions without most of what sensors added.
@@ -42,7 +42,7 @@ Eigen::ArrayXXd smooth(const Eigen::VectorXd& measured, double period, double cu
 }
 
 // Of the speed below which stage 1 leaves rows out: slower ones rest. What is measured there is
-// noisy, and noise can only take from f_sm: a share of 1 costs rows that do move (f_sm -1.1 %).
+// noisy, and noise can only take from f_sm; a share of 1 costs rows that do move.
 constexpr double kRestShare = 0.25;
 
 /// Dry friction: f_sm against the motion; at rest what was measured beside the rest of the model,
@@ -179,8 +179,8 @@ Plan make_plan(std::span<const LogSurvey> logs, const ElasticOptions& options,
     }
   }
   plan.twin.notes.emplace_back(
-      "the motion of the logs, the torque of the fit; f_sm is not proved: reversals are not "
-      "simulated");
+      "the motion of the logs, the torque of the fit; f_sm is not proved: simulated logs do not "
+      "stick as the log does");
   const Colour measured = colour_of(logs, plan.options, preload.name, fit);
   const Friction friction{fit.offset, value_of(fit, "f_sm"), measured.f_vm};
   plan.motions = follow(plan.twin, fit, friction, kFollowedBand * job.settings.rows.signal.cutoff,
@@ -214,9 +214,10 @@ ProofRun run_once(const Plan& plan, const std::string& model, std::uint64_t seed
   return run;
 }
 
-/// All but f_sm. How friction passes from one side to the other while the motor sticks is taken
-/// from the log, as far as its noise lets that be seen: near reversals the twin has less of it than
-/// the bench (f_sm -1.1 % on a simulated log), which would be told as a bias of the fit.
+/// All but f_sm, which comes out 1.1 % lower from a twin than from a simulated log with the same
+/// value: the twin may have less of it near reversals, where the log's noise hides how friction
+/// passes from one side to the other, or the fit may have a bias. Told as the fit's bias it would
+/// claim what is not known.
 std::vector<Estimate> proved(const ElasticFit& fit) {
   std::vector<Estimate> parameters = fit.parameters;
   std::erase_if(parameters, [](const Estimate& e) { return e.name == "f_sm"; });

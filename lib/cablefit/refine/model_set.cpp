@@ -30,9 +30,20 @@ bool same_structure(const Model& a, const Model& b) {
                     });
 }
 
+/// What an earlier refinement added has no column: its effect would be found missing once more.
+void require_unrefined(const Model& model) {
+  for (const JointModel& joint : model.joints)
+    for (const RefinementInstance& has : joint.refinements)
+      throw usage_error(
+          fmt::format("the model of preload '{}' has '{}' ({}) from an earlier refine",
+                      model.preload, has.refinement->name, to_string(has.refinement->site)),
+          "give the model that it was refined from; --effects N lets more be added");
+}
+
 }  // namespace
 
 void require_model_set(std::span<const Model> models) {
+  for (const Model& model : models) require_unrefined(model);
   for (std::size_t k = 1; k < models.size(); ++k) {
     if (!same_structure(models[k], models[0]))
       throw usage_error(fmt::format("the models of preload '{}' and '{}' have different equations",
