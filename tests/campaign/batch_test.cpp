@@ -96,8 +96,12 @@ TEST_CASE("refine that has no verdict costs no fit") {
   Campaign campaign = read_campaign(CABLEFIT_DATA "/campaign.json");
   campaign.cells.resize(1);
   CampaignCell& cell = campaign.cells.front();
-  cell.refine.emplace().train = cell.blocked;  // refine is given one log twice, and no moving one
-  cell.refine->test = cell.blocked;
+  const std::string finger = CABLEFIT_DATA "/two_joints/finger/";  // refine knows one joint
+  cell.rig = finger + "rig.json";
+  cell.preload = "";
+  cell.blocked = {finger + "blocked.csv"};
+  cell.moving = {finger + "moving.csv"};
+  cell.refine.emplace();
   const BatchResult result = run_batch(campaign, {});
   REQUIRE(result.cells.front().refine);
   CHECK(result.cells.front().error == "");

@@ -52,9 +52,9 @@ Table advice_table(const std::vector<PreloadAdvice>& advice, const AdviceDetecto
       "off by: largest error on the blocked rows; friction: f_s + f_sm; all taut: needs l_o in the "
       "rig file ('cablefit identify' finds it)",
       fmt::format("smallest collision: link torque that stands out of the model's largest error "
-                  "and the link equation's residual with a probability of {:.4g} at {:.4g} false "
-                  "alarms an hour, one look every {:.4g} s",
-                  detector.detection_rate, detector.false_alarms_per_hour, detector.window)};
+                  "and the link equation's residual with a probability of {:.4g}; one look every "
+                  "{:.4g} s, false alarms an hour: {:.4g}",
+                  detector.detection_rate, detector.window, detector.false_alarms_per_hour)};
   return table;
 }
 
