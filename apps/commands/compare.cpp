@@ -51,7 +51,7 @@ void add_options(CLI::App& app, CompareCommand& command) {
   app.add_flag("--gate-different", command.gate_different,
                "exit 1 when a parameter is different by what may be more than the margin");
   app.add_flag("--gate-equal", command.gate_equal,
-               "exit 1 unless every parameter is shown to be within the margin");
+               "exit 1 unless every parameter of both is shown to be within the margin");
 }
 
 void take_preloads(CompareCommand& command) {
@@ -78,6 +78,11 @@ std::vector<std::string> failed_gates(const CompareCommand& command, const Compa
       failed.push_back(
           fmt::format("FAILED: {}{} is not shown to be within the margin", where, p.name));
   }
+  // What can no longer be determined, or is not there any more, is not shown to be equal.
+  if (command.gate_equal)
+    for (const Uncompared& one : result.not_compared)
+      failed.push_back(fmt::format("FAILED: {}{}{} is not compared: {}", one.preload,
+                                   one.preload.empty() ? "" : ": ", one.name, one.reason));
   return failed;
 }
 

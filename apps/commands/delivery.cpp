@@ -45,6 +45,17 @@ void print(const CommonOptions& options, const Document& document) {
   }
 }
 
+/// Every file this run reads, the rig files that it finds beside its logs among them.
+std::vector<std::string> inputs_of(const CommonOptions& options) {
+  std::vector<std::string> inputs = options.logs;
+  inputs.insert(inputs.end(), options.more_inputs.begin(), options.more_inputs.end());
+  const std::size_t n_named = inputs.size();
+  for (std::size_t k = 0; k < n_named; ++k)
+    inputs.push_back((std::filesystem::path(inputs[k]).parent_path() / "rig.json").string());
+  if (!options.rig.empty()) inputs.push_back(options.rig);
+  return inputs;
+}
+
 }  // namespace
 
 void refuse_collisions(const CommonOptions& options, const std::vector<ResultFile>& results) {
@@ -54,9 +65,7 @@ void refuse_collisions(const CommonOptions& options, const std::vector<ResultFil
     return std::filesystem::weakly_canonical(a, ignored) ==
            std::filesystem::weakly_canonical(b, ignored);
   };
-  std::vector<std::string> inputs = options.logs;
-  inputs.insert(inputs.end(), options.more_inputs.begin(), options.more_inputs.end());
-  if (!options.rig.empty()) inputs.push_back(options.rig);
+  const std::vector<std::string> inputs = inputs_of(options);
   for (std::size_t k = 0; k < paths.size(); ++k) {
     for (const std::string& input : inputs)
       if (same(paths[k], input))

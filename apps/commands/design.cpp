@@ -194,6 +194,15 @@ void check_limits(const DesignCommand& command) {
 }
 
 /// The reference never replaces what it is made from, nor another result of the same run.
+/// Of a reference: fewer rows tell nothing, more take the search minutes.
+void check_rows(const DesignCommand& command) {
+  constexpr double kFewest = 200, kMost = 200000;
+  const double rows = command.design.rate * command.excitation.limits.duration;
+  if (rows >= kFewest && rows <= kMost) return;
+  throw usage_error(fmt::format("a reference of {:.4g} rows", rows),
+                    fmt::format("--rate times --duration may be {} to {}", kFewest, kMost));
+}
+
 void check_excite(const DesignCommand& command, const std::string& model) {
   if (command.excite.empty()) return;
   const CommonOptions& options = command.common;
@@ -218,7 +227,10 @@ DesignResult run(DesignCommand& command) {
     throw usage_error("neither --torque nor --excite given",
                       "say which torque the joint has to carry, or which file the motion goes to");
   if (sweep) check_sweep(command.design);
-  if (excite) check_limits(command);
+  if (excite) {
+    check_limits(command);
+    check_rows(command);
+  }
   check_excite(command, path);
   std::string choice;
   const Model model = read_design_model(path, command.common.preload, command.model, choice);

@@ -159,6 +159,42 @@ TEST_CASE("coefficients of another order are another thing", "[compare]") {
   CHECK(compare(elastic("a", 2), elastic("b", 6), {}).parameters.front().name == "K");
 }
 
+TEST_CASE("without a measure of its size an offset is not decided by the margin", "[compare]") {
+  RecordedResult a = result("a", {estimate("offset", 0.030, 0.01)});
+  a.sets.front().torque_scale = std::numeric_limits<double>::quiet_NaN();
+  RecordedResult b = a;
+  b.sets.front().estimates.front().value = 0.031;
+  CHECK(compare(a, b, {}).parameters.front().sameness == Sameness::undecided);  // same logs
+  b.inputs.front().sha256 = "other";
+  CHECK(compare(a, b, {}).parameters.front().sameness == Sameness::undecided);
+}
+
+TEST_CASE("a preload that vanished is told", "[compare]") {
+  RecordedResult a = result("a", {estimate("f_s", 10, 1)}),
+                 b = result("b", {estimate("f_s", 10, 1)});
+  a.sets.push_back(a.sets.front());
+  a.sets.back().preload = "high";
+  b.sets.push_back(b.sets.front());
+  b.sets.back().preload = "medium";
+  const CompareResult r = compare(a, b, {});
+  REQUIRE(r.not_compared.size() == 2);
+  CHECK(r.not_compared[0].preload == "high");
+  CHECK(r.not_compared[1].preload == "medium");
+  CHECK(r.warnings ==
+        std::vector<std::string>{"2 parameters, preloads or stages could not be compared"});
+}
+
+TEST_CASE("asked for by name, orders still have to be the same", "[compare]") {
+  RecordedResult a = result("a", {estimate("K1_0", 10, 1), estimate("f_sm", 10, 1)}), b = a;
+  b.inputs.front().sha256 = "other";
+  a.sets.front().order = 2;
+  b.sets.front().order = 3;
+  const CompareResult r = compare(a, b, {});
+  CHECK(r.parameters.size() == 1);
+  CHECK(r.not_compared.front().reason ==
+        "of order 2 here, 3 there: coefficients do not mean the same");
+}
+
 TEST_CASE("a preload that is not there", "[compare]") {
   CompareOptions options;
   options.first_preload = options.second_preload = "hgih";

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "cablefit/base/digest.hpp"
@@ -12,7 +13,7 @@
 namespace cablefit {
 namespace {
 
-constexpr int kFormat = 1;  // of the cells' files; to be raised when they change
+constexpr int kFormat = 2;  // of the cells' files; to be raised when they change
 constexpr std::size_t kMostCellsWithFigures = 6;
 
 template <class T>
@@ -51,7 +52,11 @@ class KeyMaker {
   void add(const char* role, const std::vector<std::string>& logs) {
     for (const std::string& log : logs) {
       const std::string rig = rig_for_log(log, cell_.rig).path;
-      text_ += fmt::format("{} {} {} {}\n", role, digest(log), rig.empty() ? "-" : digest(rig),
+      // A cell's file names its files by their numbers, which are therefore part of the key.
+      const std::string of_log = digest(log);
+      const std::string of_rig = rig.empty() ? "-" : digest(rig);
+      text_ += fmt::format("{} {}#{} {}#{} {}\n", role, of_log, number(log), of_rig,
+                           rig.empty() ? -1 : number(rig),
                            std::filesystem::path(log).filename().string());
     }
   }
@@ -68,6 +73,10 @@ class KeyMaker {
       made_.paths.push_back(path);
     }
     return place->second;
+  }
+
+  std::ptrdiff_t number(const std::string& path) const {
+    return std::find(made_.paths.begin(), made_.paths.end(), path) - made_.paths.begin();
   }
 
   const CampaignCell& cell_;

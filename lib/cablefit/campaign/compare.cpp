@@ -37,7 +37,13 @@ double welch_dof(double variance_1, double dof_1, double variance_2, double dof_
 }
 
 /// Why two estimates of one name cannot be compared; empty: they can.
-std::string why_not(const Estimate& first, const Estimate& second) {
+std::string why_not(const EstimatePair& pair) {
+  const Estimate &first = *pair.first, &second = *pair.second;
+  const bool is_coefficient = first.name.find('_') != std::string::npos &&
+                              (first.name.starts_with('K') || first.name.starts_with("k["));
+  if (is_coefficient && pair.first_set->order != pair.second_set->order)
+    return fmt::format("of order {} here, {} there: coefficients do not mean the same",
+                       pair.first_set->order, pair.second_set->order);
   for (const Estimate* e : {&first, &second})
     if (!e->not_identifiable.empty()) return "not identifiable: " + e->not_identifiable;
   if (first.unit != second.unit)
@@ -145,7 +151,9 @@ void judge_difference(ComparedParameter& p, double first_dof, double second_dof,
     p.low = p.high = p.difference;
     p.is_within_margin = size <= p.margin;
     p.p_value = p.p_together = size == 0 ? 1 : 0;
-    p.sameness = p.is_within_margin || size == 0 ? Sameness::equal : Sameness::different;
+    p.sameness = p.is_within_margin || size == 0 ? Sameness::equal
+                 : std::isnan(p.margin)          ? Sameness::undecided
+                                                 : Sameness::different;
     return;
   }
   const double variance_1 = p.first_sd * p.first_sd, variance_2 = p.second_sd * p.second_sd;
@@ -170,7 +178,7 @@ CompareResult compare(RecordedResult first, RecordedResult second, const Compare
   result.options = options;
   std::vector<EstimatePair> pairs = estimate_pairs(first, second, options, result.not_compared);
   std::erase_if(pairs, [&](const EstimatePair& pair) {
-    std::string reason = why_not(*pair.first, *pair.second);
+    std::string reason = why_not(pair);
     if (reason.empty()) return false;
     result.not_compared.push_back({pair.first_set->preload, pair.first->name, std::move(reason)});
     return true;
@@ -199,6 +207,12 @@ CompareResult compare(RecordedResult first, RecordedResult second, const Compare
     judge_difference(result.parameters.back(), dof_of(*pair.first), dof_of(*pair.second),
                      pairs.size(), same_logs, options);
   }
+  if (!result.not_compared.empty())
+    result.warnings.push_back(fmt::format(
+        "{} could not be compared",
+        result.not_compared.size() == 1
+            ? "1 parameter, preload or stage"
+            : fmt::format("{} parameters, preloads or stages", result.not_compared.size())));
   result.first.sets.clear();
   result.second.sets.clear();
   return result;

@@ -75,6 +75,21 @@ void pair_up(const EstimateSet& first, const EstimateSet& second, std::vector<Es
       alone.push_back({second.preload, b.name, "only in the second result"});
 }
 
+/// Preloads and stages that only one of the results has.
+void tell_alone(const Sets& sets, const Sets& done, std::string_view which,
+                std::vector<Uncompared>& alone) {
+  for (const EstimateSet* set : sets) {
+    const bool met = std::any_of(done.begin(), done.end(), [&](const EstimateSet* other) {
+      return other->stage == set->stage && other->preload == set->preload;
+    });
+    const bool told = std::any_of(alone.begin(), alone.end(), [&](const Uncompared& one) {
+      return one.preload == set->preload && one.name == set->stage;
+    });
+    if (!met && !told)
+      alone.push_back({set->preload, set->stage, fmt::format("only in the {} result", which)});
+  }
+}
+
 /// Sets of the same stage and preload; `any_preload` takes those of any that has a name.
 Sets group_of(const Sets& sets, const EstimateSet& like, bool any_preload) {
   Sets group;
@@ -95,7 +110,7 @@ std::vector<EstimatePair> estimate_pairs(const RecordedResult& first, const Reco
   const bool only_ones = distinct(a, &EstimateSet::preload).size() == 1 &&
                          distinct(b, &EstimateSet::preload).size() == 1;
   std::vector<EstimatePair> pairs;
-  Sets done;
+  Sets done, met_a, met_b;
   for (const EstimateSet* set : a) {
     if (std::find(done.begin(), done.end(), set) != done.end()) continue;
     const Sets mine = group_of(a, *set, false);
@@ -103,8 +118,12 @@ std::vector<EstimatePair> estimate_pairs(const RecordedResult& first, const Reco
     const Sets theirs = group_of(b, *set, only_ones);
     if (theirs.empty()) continue;
     const auto [left, right] = best_pair(mine, theirs);
+    met_a.push_back(left);
+    met_b.push_back(right);
     pair_up(*left, *right, pairs, alone);
   }
+  tell_alone(a, met_a, "first", alone);
+  tell_alone(b, met_b, "second", alone);
   return pairs;
 }
 

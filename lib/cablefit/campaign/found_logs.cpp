@@ -123,7 +123,11 @@ class Finder {
     const std::string folder = relative(path.parent_path());
     const auto [place, is_new] =
         without_rig_.try_emplace(folder, FolderWithoutRig{folder, preload, columns});
-    if (!is_new && place->second.preload != preload) place->second.preload.clear();
+    if (is_new) return;
+    if (place->second.preload != preload) place->second.preload.clear();
+    std::vector<std::string>& known = place->second.columns;
+    for (const std::string& column : columns)
+      if (std::find(known.begin(), known.end(), column) == known.end()) known.push_back(column);
   }
 
   fs::path folder_;

@@ -24,7 +24,7 @@ struct UnreadLog {
 struct FolderWithoutRig {
   std::string path;                  ///< relative, "." for the folder that was searched
   std::string preload;               ///< its logs'; empty: several, told by a column
-  std::vector<std::string> columns;  ///< of its first log
+  std::vector<std::string> columns;  ///< of all its logs
 };
 
 struct FoundLogs {

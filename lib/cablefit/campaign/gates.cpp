@@ -27,8 +27,11 @@ bool is_physical(std::string_view name) {
 Gate gate(std::string name, const BatchCell& cell, double limit, double value,
           std::string_view unit) {
   Gate g{std::move(name), cell.name, limit, value, value <= limit, ""};
-  g.text = fmt::format("{}: {}: {} is {:.4g} {}, limit {:.4g} {}", g.passed ? "passed" : "FAILED",
-                       cell.name, g.name, value, unit, limit, unit);
+  g.text = std::isnan(value) ? fmt::format("FAILED: {}: {} is not known, limit {:.4g} {}",
+                                           cell.name, g.name, limit, unit)
+                             : fmt::format("{}: {}: {} is {:.4g} {}, limit {:.4g} {}",
+                                           g.passed ? "passed" : "FAILED", cell.name, g.name, value,
+                                           unit, limit, unit);
   return g;
 }
 
@@ -86,7 +89,9 @@ Gate drift_gate(const BatchCell& cell, const std::string& name, double value, do
                 double limit) {
   const double drift = 100 * std::abs(value - baseline) / std::abs(baseline);
   Gate g{"drift " + name, cell.name, limit, drift, drift <= limit, ""};
-  if (std::isnan(baseline)) {
+  if (std::isnan(value)) {
+    g.text = fmt::format("FAILED: {}: drift {}: it is not identifiable now", cell.name, name);
+  } else if (std::isnan(baseline)) {
     g.text = fmt::format("FAILED: {}: drift {}: the baseline does not have it", cell.name, name);
   } else {
     g.text =

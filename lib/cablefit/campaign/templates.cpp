@@ -44,12 +44,6 @@ std::string columns_text(const std::vector<std::string>& columns) {
   return text.empty() ? "none that could be read" : text;
 }
 
-bool has(const std::vector<std::string>& columns, const std::string& name) {
-  return std::any_of(columns.begin(), columns.end(), [&](const std::string& column) {
-    return column == name || column.starts_with(name + " [");
-  });
-}
-
 }  // namespace
 
 bool is_complete(const FoundCell& cell) { return !cell.blocked.empty(); }
@@ -92,7 +86,6 @@ std::string rig_template(const FolderWithoutRig& folder) {
   const std::string preload = folder.preload.empty()
                                   ? "  // \"preload\": \"low\","
                                   : "  \"preload\": " + json(folder.preload) + ",";
-  const std::string load = has(folder.columns, "tau_load") ? "column" : "none";
   return fmt::format(R"({{
   // What the logs in this folder mean and what the bench is made of. All keys: data/schema/rig.schema.json
   "schema": "cablefit/rig/1",
@@ -102,14 +95,14 @@ std::string rig_template(const FolderWithoutRig& folder) {
   // Wanted: t, q (link), theta (motor after the reduction), tau (its torque), tau_load; SI, or a unit in the header.
   // Others are mapped, with scale and unit where the header has none:
   // "columns": {{"t": "time", "theta": {{"column": "motor", "unit": "deg"}}, "tau": {{"column": "i_q", "scale": 0.083, "unit": "N m"}}}},
-  "torque_hold": "auto",             // "zoh": tau is commanded and held; "none": a mean measured around t
-  // {{"type": "constant", "torque": -12.8}}, {{"type": "hanging_mass", "mass": 40, "radius": 0.1, "direction": -1}}, "pendulum", "table"
-  "load": {{"type": "{}"}}
+  "torque_hold": "auto"              // "zoh": tau is commanded and held; "none": a mean measured around t
+  // The load is the column tau_load, where a log has one; else a law says it:
+  // , "load": {{"type": "hanging_mass", "mass": 40, "radius": 0.1, "direction": -1}}   // "constant", "pendulum", "table", "none"
   // , "controller": {{"type": "pd", "kp": 800, "kd": 6, "limit": 250, "reference": "theta_ref"}}   // simulations run closed loop
   // , "cad": {{"J_link": 0.3}}        // printed beside, never fitted to
 }}
 )",
-                     preload, columns_text(folder.columns), load);
+                     preload, columns_text(folder.columns));
 }
 
 }  // namespace cablefit

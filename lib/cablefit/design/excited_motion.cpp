@@ -73,6 +73,7 @@ void set_shares(const ExcitationLimits& limits, ExcitedMotion& motion) {
 /// The factor at which the reference itself reaches its share of the limits.
 double reference_scale(const ExcitationLimits& limits, const Eigen::ArrayXXd& shape, double share) {
   const Eigen::Index n = shape.rows();
+  if (n < 2) return 0;
   const double way = shape.abs().maxCoeff();
   const double speed =
       (shape.bottomRows(n - 1) - shape.topRows(n - 1)).abs().maxCoeff() * limits.rate;

@@ -61,6 +61,12 @@ struct Trial {
   RefineState after;
 };
 
+/// Whether there is nothing to explain, whatever fits better by chance. Blocked rows alone are few,
+/// and their floor is known less well.
+bool is_at_floor(const RefineBench& bench, const RefineState& state) {
+  return bench.elastic_only ? state.rho < kNoGap && state.unseen.rho < kVisibleGap : state.rho <= 1;
+}
+
 /// Nothing: nothing is named.
 std::optional<Trial> try_next(RefineBench& bench, const RefineState& state, bool is_first,
                               RefineResult* first_result) {
@@ -74,7 +80,7 @@ std::optional<Trial> try_next(RefineBench& bench, const RefineState& state, bool
     first_result->league = trial.judgement.league;
     bench.first_search = found;
   }
-  if (!trial.judgement.is_named) return {};
+  if (!trial.judgement.is_named || is_at_floor(bench, state)) return {};
   trial.winner = refined_shape({state.design, found.grams, found.fit, found.levels}, bench.scan,
                                *trial.judgement.best);
   trial.judgement.best = nullptr;  // of the search, which ends here
@@ -125,7 +131,10 @@ bool add_both(RefineBench& bench, RefineState& state, const Trial& one, RefineRe
   const std::string reason = why_not_both(change);
   result.steps.push_back(step_of(bench, *two, reason));
   if (!reason.empty()) return false;
-  for (RefineStep& step : result.steps) step.accepted = true;
+  for (RefineStep& step : result.steps) {
+    step.accepted = true;
+    step.reason.clear();
+  }
   result.effects.push_back(effect_of(bench, state, one.after, one.judgement));
   result.effects.push_back(effect_of(bench, one.after, two->after, two->judgement));
   state = std::move(two->after);
@@ -141,7 +150,8 @@ bool add_next_effect(RefineBench& bench, RefineState& state, RefineResult& resul
   const Refinement& row = *trial->winner.variant.refinement;
   const std::string reason = why_not_added(change_of(bench, row, state, trial->after));
   result.steps.push_back(step_of(bench, *trial, reason));
-  if (!reason.empty()) return is_first && add_both(bench, state, *trial, result);
+  if (!reason.empty())
+    return is_first && bench.options.most_effects > 1 && add_both(bench, state, *trial, result);
   result.effects.push_back(effect_of(bench, state, trial->after, trial->judgement));
   state = std::move(trial->after);
   return true;
@@ -169,12 +179,15 @@ void name_first_again(RefineBench& bench, const RefineState& first, RefineState&
   if (trial->after.rho > kTie * state.rho || trial->after.unseen.rho > kTie * state.unseen.rho ||
       !why_not_added(change_of(bench, row, *alone, trial->after)).empty())
     return;
-  result.steps.front() = step_of(bench, *trial, "");
-  named = effect_of(bench, first, trial->after, trial->judgement);
-  RefineState other = trial->after;
-  std::swap(result.effects[0], result.effects[1]);  // in the order of the design
-  std::swap(result.steps[0], result.steps[1]);
-  state = std::move(other);
+  // In the order of the design: what was second alone, then the new one beside it.
+  Judgement kept;
+  kept.p_value = result.effects[1].evidence.p_value;
+  kept.inclusion = result.effects[1].evidence.inclusion;
+  kept.rivals = result.effects[1].rivals;
+  result.effects = {effect_of(bench, first, *alone, kept),
+                    effect_of(bench, *alone, trial->after, trial->judgement)};
+  result.steps = {step_of(bench, {kept, second, *alone}, ""), step_of(bench, *trial, "")};
+  state = trial->after;
 }
 
 void begin_otherwise(RefineBench& bench, const RefineState& first, RefineState& state,
@@ -190,13 +203,12 @@ void begin_otherwise(RefineBench& bench, const RefineState& first, RefineState& 
     if (!after) continue;
     one.after = std::move(*after);
     auto two = try_next(bench, one.after, false, nullptr);
-    if (!two || two->after.rho >= state.rho || two->after.unseen.rho >= state.unseen.rho) continue;
+    if (!two || two->after.rho >= state.rho) continue;
     const Refinement& row = *two->winner.variant.refinement;
-    if (!why_not_added(change_of(bench, row, first, two->after)).empty()) continue;
-    // Named beside each other, none alone.
-    const double p_value = result.effects.front().evidence.p_value;
-    one.judgement.p_value = p_value;
-    one.judgement.inclusion = result.effects.front().evidence.inclusion;
+    if (!why_not_both(change_of(bench, row, first, two->after)).empty()) continue;
+    const SquaredGap gap{found.fit.held_out.sum(),
+                         floor_error(found.fit, bench.floor, found.levels)};
+    one.judgement = judge_candidate(*candidate, found.candidates, gap, bench.draws, bench.options);
     result.effects = {effect_of(bench, first, one.after, one.judgement),
                       effect_of(bench, one.after, two->after, two->judgement)};
     result.steps = {step_of(bench, one, ""), step_of(bench, *two, "")};

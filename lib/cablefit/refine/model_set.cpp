@@ -48,7 +48,8 @@ void require_model_set(std::span<const Model> models) {
     if (!same_structure(models[k], models[0]))
       throw usage_error(fmt::format("the models of preload '{}' and '{}' have different equations",
                                     models[0].preload, models[k].preload),
-                        "refine shares coefficients between preloads: fit both in the same way");
+                        "refine shares coefficients between preloads: fit both in the same way, or "
+                        "refine one of them with --preload NAME");
     for (std::size_t j = 0; j < k; ++j)
       if (models[k].preload == models[j].preload)
         throw usage_error(fmt::format("two models of preload '{}'", models[k].preload),

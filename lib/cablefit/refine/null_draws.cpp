@@ -45,6 +45,7 @@ struct NullBench::Parts {
   BlockedTwin blocked;  ///< of logs that are all blocked; then there are no other twins
   Smoothing smoothing;
   TwinDisturbance disturbance;
+  double held_back = 0;
 };
 
 NullBench::NullBench(std::span<const Model> models, std::span<const LogSurvey> logs,
@@ -78,6 +79,8 @@ NullBench::~NullBench() = default;
 
 void NullBench::disturb(const TwinDisturbance& disturbance) { parts_->disturbance = disturbance; }
 
+void NullBench::hold_back(double share) { parts_->held_back = share; }
+
 std::vector<NullBench::Recorded> NullBench::record(std::uint64_t seed) const {
   std::vector<Recorded> all;
   for (const PreloadTwin& twin : parts_->twins) {
@@ -93,7 +96,10 @@ std::vector<NullBench::Recorded> NullBench::record(std::uint64_t seed) const {
 std::vector<Stretch> NullBench::draw(std::uint64_t seed) const {
   if (parts_->twins.empty()) {
     const auto& motor = parts_->disturbance.motor;
-    return cablefit::record(parts_->blocked, motor.empty() ? ArModel{} : motor.front(), seed);
+    std::vector<Stretch> blocked =
+        cablefit::record(parts_->blocked, motor.empty() ? ArModel{} : motor.front(), seed);
+    if (parts_->held_back > 0) hold_out_blocked(blocked, parts_->held_back);
+    return blocked;
   }
   std::vector<Stretch> all;
   const std::vector<Recorded> recorded = record(seed);
@@ -108,6 +114,7 @@ std::vector<Stretch> NullBench::draw(std::uint64_t seed) const {
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const Stretch& a, const Stretch& b) { return a.log < b.log; });
+  if (parts_->held_back > 0) hold_out(all, parts_->held_back);
   return all;
 }
 

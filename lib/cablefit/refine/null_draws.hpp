@@ -43,6 +43,10 @@ class NullBench {
   /// Torques that the draws from now on have beside the model, see remainder.hpp.
   void disturb(const TwinDisturbance& disturbance);
 
+  /// Of every draw from now on this share (0..1) is kept from the search, as it is of the logs:
+  /// what is found by chance grows as rows are fewer.
+  void hold_back(double share);
+
   /// One draw as logs, by model.
   struct Recorded {
     std::size_t model = 0;

@@ -48,7 +48,11 @@ KindLevels fitted_floor(const RefineBench& bench) {
        run_draws(bench, kFloorDraws, bench.options.seed, "noise floor",
                  [&](std::uint64_t seed) { return bench.null->base_only(seed, nullptr); }))
     levels.push_back(draw.floor);
-  return common_unit(bench, positive(rms_over(levels)));
+  KindLevels floor = rms_over(levels);
+  // Of rows that there are none of: simulated runs may have some.
+  auto& blocked = floor[static_cast<std::size_t>(RowKind::blocked)];
+  if (!(blocked > 0)) blocked = floor[static_cast<std::size_t>(RowKind::motor)];
+  return common_unit(bench, positive(floor));
 }
 
 /// Floors of the unseen logs: equations, and simulation beside what it was simulated from.
@@ -145,6 +149,7 @@ RefineState prepare(RefineBench& bench, std::span<const Model> models, const Ref
   bench.smoothing = base.design.smoothing;
   std::vector<Model> fitted = models_with(base.design, base.fit.x);
   bench.null.emplace(fitted, bench.logs, bench.wanted, bench.smoothing);
+  if (result.held_out_blocks) bench.null->hold_back(kHeldOutShare);
   bench.floor = fitted_floor(bench);
   base = fit_base(std::move(base.design), bench.scan.block_seconds, &bench.floor);
   fitted = models_with(base.design, base.fit.x);

@@ -4,6 +4,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/refine/levels.hpp"
+#include "cablefit/refine/verdict.hpp"
 
 namespace cablefit {
 namespace {
@@ -15,8 +16,7 @@ std::vector<const Refinement*> named_already(const Design& design) {
   for (const Variant& variant : design.added)
     for (const Refinement& row : refinements()) {
       const Refinement& named = *variant.refinement;
-      const bool alias = !row.alias_class.empty() && row.alias_class == named.alias_class;
-      if (&row == &named || alias) out.push_back(&row);
+      if (&row == &named || same_class(row, named)) out.push_back(&row);
     }
   return out;
 }
@@ -40,8 +40,8 @@ const Candidate* best_lasting(const std::vector<Candidate>& candidates) {
 
 std::vector<const Candidate*> best_candidates(const std::vector<Candidate>& candidates,
                                               std::size_t most, const Refinement& but) {
-  const auto same_class = [](const Refinement& a, const Refinement& b) {
-    return &a == &b || (!a.alias_class.empty() && a.alias_class == b.alias_class);
+  const auto are_one = [](const Refinement& a, const Refinement& b) {
+    return &a == &b || same_class(a, b);
   };
   std::vector<const Candidate*> all, best;
   for (const Candidate& c : candidates)
@@ -51,9 +51,9 @@ std::vector<const Candidate*> best_candidates(const std::vector<Candidate>& cand
   for (const Candidate* c : all) {
     const Refinement& row = *c->variant.refinement;
     const bool again = std::any_of(best.begin(), best.end(), [&](const Candidate* other) {
-      return same_class(row, *other->variant.refinement);
+      return are_one(row, *other->variant.refinement);
     });
-    if (best.size() < most && !again && !same_class(row, but)) best.push_back(c);
+    if (best.size() < most && !again && !are_one(row, but)) best.push_back(c);
   }
   return best;
 }

@@ -39,13 +39,6 @@ std::vector<double> largest_gains(const std::vector<NullDraw>& draws, bool event
   return largest;
 }
 
-/// The same law on the link and on the motor is two.
-bool same_class(const Refinement& a, const Refinement& b) {
-  const bool other_axis = (a.site == Site::link && b.site == Site::motor) ||
-                          (a.site == Site::motor && b.site == Site::link);
-  return !a.alias_class.empty() && a.alias_class == b.alias_class && !other_axis;
-}
-
 /// Share of resamples of the blocks in which each candidate has the least error.
 std::vector<double> inclusions(const std::vector<const Candidate*>& candidates) {
   std::vector<int> wins(candidates.size(), 0);
@@ -217,6 +210,12 @@ std::vector<Rival> league_of(const std::vector<Candidate>& candidates,
 
 }  // namespace
 
+bool same_class(const Refinement& a, const Refinement& b) {
+  const bool other_axis = (a.site == Site::link && b.site == Site::motor) ||
+                          (a.site == Site::motor && b.site == Site::link);
+  return !a.alias_class.empty() && a.alias_class == b.alias_class && !other_axis;
+}
+
 bool anything_material(const std::vector<Candidate>& candidates, const RefineOptions& options) {
   return std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& c) {
     return may_be_named(c) && c.gain >= options.materiality;
@@ -238,6 +237,20 @@ Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGa
   judgement.p_value = significance.p_value(*judgement.best);
   judgement.inclusion = share[*best];
   judgement.rivals = rivals_of(*judgement.best, able, share, gap);
+  return judgement;
+}
+
+Judgement judge_candidate(const Candidate& candidate, const std::vector<Candidate>& candidates,
+                          const SquaredGap& gap, const std::vector<NullDraw>& draws,
+                          const RefineOptions& options) {
+  const std::vector<const Candidate*> able = ranked(candidates);
+  const std::vector<double> share = inclusions(able);
+  Judgement judgement;
+  judgement.is_named = true;
+  judgement.p_value = Significance(draws, gap, options, true).p_value(candidate);
+  judgement.rivals = rivals_of(candidate, able, share, gap);
+  for (std::size_t k = 0; k < able.size(); ++k)
+    if (able[k]->variant.refinement == candidate.variant.refinement) judgement.inclusion = share[k];
   return judgement;
 }
 

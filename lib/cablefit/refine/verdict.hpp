@@ -29,6 +29,15 @@ Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGa
                        const std::vector<NullDraw>& draws, const RefineOptions& options,
                        bool is_first);
 
+/// The same of one of the candidates, whether or not it is the best.
+Judgement judge_candidate(const Candidate& candidate, const std::vector<Candidate>& candidates,
+                          const SquaredGap& gap, const std::vector<NullDraw>& draws,
+                          const RefineOptions& options);
+
+/// Whether two rows are of one alias class, which no data tell apart. The same law on the link and
+/// on the motor is two.
+bool same_class(const Refinement& a, const Refinement& b);
+
 /// Squared residual over floor that a base of no fault reaches: floors are known to some per cent.
 inline constexpr double kNoGap = 1.07;
 /// Above this something is there that was not named.

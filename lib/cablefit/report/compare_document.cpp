@@ -81,9 +81,17 @@ std::vector<std::string> notes_of(const CompareResult& result) {
   return notes;
 }
 
+/// ", poly", when it is one and has a name.
+std::string model_text(const CompareResult& result) {
+  const std::string& model = result.parameters.front().model;
+  const bool one = !model.empty() && !has_several(result, &ComparedParameter::model);
+  return one ? ", " + model : "";
+}
+
 Table table_of(const CompareResult& result) {
   Table table;
-  table.title = fmt::format("{} (A) and {} (B)", result.first.path, result.second.path);
+  table.title =
+      fmt::format("{} (A) and {} (B){}", result.first.path, result.second.path, model_text(result));
   table.columns = {{"", "preload", "", true}, {"", "parameter", "", true},
                    {"", "unit", "", true},    {"A", "value", ""},
                    {"A", "sd", ""},           {"B", "value", ""},
