@@ -122,6 +122,31 @@ TEST_CASE("one cell writes its own file, from which the batch takes it") {
         "the campaign has no cell 'hihg'; did you mean 'high'?");
 }
 
+// Files are kept by number, and the numbers of one layout are not those of another.
+TEST_CASE("the same files in another layout keep their names") {
+  const TempFolder folder;
+  BatchOptions options;
+  options.folder = folder.file("cells");
+  Campaign together = read_campaign(CABLEFIT_DATA "/campaign.json");
+  together.cells.resize(1);
+  Campaign apart = together;
+  CampaignCell& cell = apart.cells.front();
+  const auto copied = [&](const std::string& path, const std::string& place) {
+    const fs::path to = fs::path(folder.file(place)) / fs::path(path).filename();
+    fs::create_directories(to.parent_path());
+    fs::copy_file(path, to, fs::copy_options::overwrite_existing);
+    return to.string();
+  };
+  for (std::string& log : cell.blocked) log = copied(log, "x");
+  for (std::string& log : cell.moving) log = copied(log, "y");
+  for (const char* place : {"x", "y"}) copied(cell.rig, place);
+  cell.rig = "";
+  run_batch(together, options);
+  const std::string kept = batch_json(run_batch(apart, options));
+  CHECK((kept == batch_json(run_batch(apart, {}))));
+  CHECK(kept.find("y/moving_load30.csv") != std::string::npos);
+}
+
 TEST_CASE("a cell that fails is tried again, and is listed") {
   const TempFolder folder;
   Campaign campaign = read_campaign(CABLEFIT_DATA "/campaign.json");
