@@ -8,7 +8,7 @@
 #include "cablefit/base/catalog.hpp"
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/quote.hpp"
-#include "cablefit/model/effects.hpp"
+#include "cablefit/model/effect_parameter.hpp"
 
 namespace cablefit {
 namespace {
@@ -128,11 +128,8 @@ std::vector<EstimatePair> estimate_pairs(const RecordedResult& first, const Reco
 }
 
 bool is_ideally_zero(std::string_view name) {
-  const std::string_view base = name.substr(0, name.find('['));
-  for (const Effect& effect : effects())
-    for (const ParameterInfo& info : effect.parameters)
-      if (info.name == base) return info.lower == -kUnbounded;
-  return base == "theta_0";
+  const ParameterInfo* info = effect_parameter(name);
+  return info != nullptr ? info->lower == -kUnbounded : name.substr(0, name.find('[')) == "theta_0";
 }
 
 double scale_of_zero(const EstimateSet& set, const Estimate& estimate) {

@@ -8,7 +8,7 @@
 #include "cablefit/base/quote.hpp"
 #include "cablefit/campaign/batch.hpp"
 #include "cablefit/campaign/cell_fit.hpp"
-#include "cablefit/model/effects.hpp"
+#include "cablefit/model/effect_parameter.hpp"
 
 namespace cablefit {
 namespace {
@@ -17,11 +17,8 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Whether a percentage of the parameter's value says anything.
 bool is_physical(std::string_view name) {
-  name = name.substr(0, name.find('['));  // of one of several joints
-  for (const Effect& effect : effects())
-    for (const ParameterInfo& info : effect.parameters)
-      if (info.name == name) return std::isfinite(info.lower);
-  return false;
+  const ParameterInfo* info = effect_parameter(name);
+  return info != nullptr && std::isfinite(info->lower);
 }
 
 Gate gate(std::string name, const BatchCell& cell, double limit, double value,

@@ -4,17 +4,12 @@
 #include <cmath>
 #include <optional>
 
+#include "cablefit/campaign/cell_fit.hpp"
 #include "cablefit/design/collision.hpp"
 #include "cablefit/model/modes.hpp"
 
 namespace cablefit {
 namespace {
-
-const DynamicFit* fit_of(const DynamicPreload& preload, const std::string& model) {
-  for (const DynamicFit& fit : preload.fits)
-    if (fit.model == model) return &fit;
-  return preload.fits.empty() ? nullptr : &preload.fits.back();
-}
 
 void take_friction(const DynamicFit& fit, PreloadAdvice& advice) {
   const Estimate* sum = find_estimate(fit.derived, "f_dry");
@@ -60,7 +55,7 @@ std::optional<PreloadAdvice> advice_of(const BatchCell& cell, const AdviceDetect
   const DynamicPreload& stage2 = cell.dynamic->preloads.front();
   const ElasticFit* line = stage1.find("linear");
   const ElasticFit* chosen = stage1.find(stage1.selected);
-  const DynamicFit* fit = fit_of(stage2, stage1.selected);
+  const DynamicFit* fit = chosen_fit(*cell.elastic, stage2);
   if (line == nullptr || chosen == nullptr || fit == nullptr || line->transmission.n_joints > 1)
     return {};
   const auto link = fit->torque_error.find("link");

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/model/effects.hpp"
+#include "cablefit/model/effect_parameter.hpp"
 #include "cablefit/report/document_parts.hpp"
 #include "cablefit/report/numbers.hpp"
 
@@ -18,11 +18,8 @@ constexpr int kSdDigits = 2;
 
 /// "viscous friction of the link", or nothing for a coefficient whose name says it.
 std::string meaning_of(const std::string& name) {
-  const std::string base = name.substr(0, name.find('['));
-  for (const Effect& effect : effects())
-    for (const ParameterInfo& info : effect.parameters)
-      if (info.name == base) return std::string(info.meaning);
-  return {};
+  const ParameterInfo* info = effect_parameter(name);
+  return info != nullptr ? std::string(info->meaning) : "";
 }
 
 /// Whether names alone would be ambiguous.
