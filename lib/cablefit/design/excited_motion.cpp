@@ -8,6 +8,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/design/joint_curve.hpp"
+#include "cablefit/model/least_inertias.hpp"
 
 namespace cablefit {
 namespace {
@@ -20,11 +21,7 @@ constexpr double kLargestGain = 0.3;      // kd period / J_motor; a sampled loop
 
 /// A PD controller, damped for what swings along and stable with the motor alone.
 Controller stand_in(const Model& model, double period) {
-  double motor = kUnbounded, all = kUnbounded;
-  for (const JointModel& joint : model.joints) {
-    motor = std::min(motor, inertia_of(joint.motor));
-    all = std::min(all, inertia_of(joint.motor) + inertia_of(joint.link));
-  }
+  const auto [motor, all] = least_inertias(model);
   const double omega = 2 * std::numbers::pi * kStandInBandwidth;
   Controller c;
   c.kd = std::min(2 * kDamping * all * omega, kLargestGain * motor / period);

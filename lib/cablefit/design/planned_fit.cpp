@@ -7,6 +7,7 @@
 #include "cablefit/design/planned_refusal.hpp"
 #include "cablefit/design/scaled_solver.hpp"
 #include "cablefit/dynamic/dynamic_job.hpp"
+#include "cablefit/dynamic/sensor_noise.hpp"
 #include "cablefit/model/model_parameters.hpp"
 
 namespace cablefit {
@@ -43,14 +44,6 @@ double value_of(const Model& model, const std::string& name) {
   for (const ModelParameter& p : model_parameters(model))
     if (p.name == name) return parameter_value(model, p);
   return 0;
-}
-
-/// The same without the torques of a direction: what sgn does with noise at a reversal is not told.
-Eigen::VectorXd smooth_part(Eigen::VectorXd combination, const DynamicColumns& c) {
-  for (std::size_t k = 0; k < c.parameters.size(); ++k)
-    if (c.parameters[k].follows == MotionPart::direction)
-      combination(static_cast<Eigen::Index>(k)) = 0;
-  return combination;
 }
 
 }  // namespace
@@ -111,7 +104,7 @@ struct FitPlanner::Settings {
           std::vector<Eigen::VectorXd> made;
           for (std::size_t k = 0; k < plain.size(); ++k)
             made.emplace_back((with.equations[k].rows - without.equations[k].rows) *
-                              smooth_part(residual[k], equations[k].columns));
+                              without_directions(residual[k], equations[k].columns));
           return made;
         },
         [&](const std::vector<Eigen::VectorXd>& made) {

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "cablefit/dynamic/log_copy.hpp"
+#include "cablefit/model/least_inertias.hpp"
 #include "cablefit/samples/agreement.hpp"
 #include "cablefit/samples/butterworth.hpp"
 #include "cablefit/samples/noise.hpp"
@@ -42,11 +43,7 @@ std::string no_known_loop(const LogPlan& plan) {
 /// Follows its reference within the bandwidth, whatever inertia swings along; damped for the motor
 /// alone, which is what it turns above the resonance.
 Controller stand_in(const Model& model, double bandwidth, double h) {
-  double motor = kUnbounded, total = kUnbounded;  // of the lightest joint: stable for all
-  for (const JointModel& joint : model.joints) {
-    motor = std::min(motor, inertia_of(joint.motor));
-    total = std::min(total, inertia_of(joint.motor) + inertia_of(joint.link));
-  }
+  const auto [motor, total] = least_inertias(model);  // of the lightest joint: stable for all
   const double omega = 2 * std::numbers::pi * bandwidth;
   Controller c;
   c.kd = std::min(2 * kDamping * total * omega, kLargestGain * motor / h);

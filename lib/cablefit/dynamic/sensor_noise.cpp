@@ -30,15 +30,14 @@ Window with_noise(Window window, const LogSurvey& log, std::mt19937_64& engine) 
   return window;
 }
 
-/// The same without the torques of a direction.
-Eigen::VectorXd smooth_part(Eigen::VectorXd combination, const DynamicColumns& c) {
+}  // namespace
+
+Eigen::VectorXd without_directions(Eigen::VectorXd combination, const DynamicColumns& c) {
   for (std::size_t k = 0; k < c.parameters.size(); ++k)
     if (c.parameters[k].follows == MotionPart::direction)
       combination(static_cast<Eigen::Index>(k)) = 0;
   return combination;
 }
-
-}  // namespace
 
 std::vector<double> sensor_noise(const DynamicJob& job, const std::vector<EquationRows>& equations,
                                  const std::vector<Eigen::VectorXd>& combinations) {
@@ -47,7 +46,7 @@ std::vector<double> sensor_noise(const DynamicJob& job, const std::vector<Equati
   for (std::size_t k = 0; k < equations.size(); ++k) {
     plain.push_back(equations[k].equation);
     plain.back().rest_speed = 0;  // noise must not decide which rows there are
-    smooth.push_back(smooth_part(combinations[k], equations[k].columns));
+    smooth.push_back(without_directions(combinations[k], equations[k].columns));
   }
   std::vector<double> sum(equations.size());
   std::vector<double> n(equations.size());

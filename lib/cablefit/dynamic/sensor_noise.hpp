@@ -15,4 +15,8 @@ namespace cablefit {
 std::vector<double> sensor_noise(const DynamicJob& job, const std::vector<EquationRows>& equations,
                                  const std::vector<Eigen::VectorXd>& combinations);
 
+/// A combination of an equation's columns without the torques of a direction: what sgn does with
+/// noise at a reversal is not told.
+Eigen::VectorXd without_directions(Eigen::VectorXd combination, const DynamicColumns& columns);
+
 }  // namespace cablefit

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "cablefit/model/least_inertias.hpp"
 #include "cablefit/samples/butterworth.hpp"
 
 namespace cablefit {
@@ -17,20 +18,6 @@ constexpr int kCommandsPerRow = 8;    // of a torque that is not held
 constexpr double kWidestBand = 0.4;   // of the rate, for the low-pass
 constexpr int kFilterOrder = 4;
 
-struct Inertias {
-  double drive = kUnbounded, all = kUnbounded;  ///< the least of all joints, kg m^2
-};
-
-Inertias inertias_of(const Model& model, bool link_blocked) {
-  Inertias least;
-  for (const JointModel& joint : model.joints) {
-    const double motor = inertia_of(joint.motor);
-    least.drive = std::min(least.drive, motor);
-    least.all = std::min(least.all, motor + (link_blocked ? 0 : inertia_of(joint.link)));
-  }
-  return least;
-}
-
 bool has_reference(const LogPlan& plan) {
   for (int joint = 0; joint < plan.rig.n_joints(); ++joint)
     if (!plan.has(Channel::theta_ref, joint)) return false;
@@ -38,10 +25,10 @@ bool has_reference(const LogPlan& plan) {
 }
 
 /// A PD controller of kBandwidth, as damped as the motor's inertia allows.
-Controller stand_in(const Inertias& inertias, double period) {
+Controller stand_in(const LeastInertias& inertias, double period) {
   const double omega = 2 * std::numbers::pi * kBandwidth;
   Controller controller;
-  controller.kd = std::min(2 * inertias.all * omega, kLargestGain * inertias.drive / period);
+  controller.kd = std::min(2 * inertias.all * omega, kLargestGain * inertias.motor / period);
   controller.kp = controller.kd * omega / 2;
   controller.period = period;
   return controller;
@@ -71,7 +58,7 @@ Eigen::ArrayXd reference_for(const Eigen::ArrayXd& theta, const Eigen::ArrayXd& 
 void follow_measured(const Model& model, const LogPlan& plan, const TwinDrive& drive,
                      TwinStretch& stretch) {
   const double period = stretch.input.period;
-  const Controller controller = stand_in(inertias_of(model, stretch.link_blocked),
+  const Controller controller = stand_in(least_inertias(model, stretch.link_blocked),
                                          drive.torque_held ? period : period / kCommandsPerRow);
   const int n_joints = plan.rig.n_joints();
   stretch.input.theta_ref.resize(stretch.measured.rows(), n_joints);

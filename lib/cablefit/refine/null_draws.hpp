@@ -17,7 +17,6 @@ namespace cablefit {
 /// One simulated data set, searched.
 struct NullDraw {
   KindLevels floor{};                         ///< rms the base model leaves
-  double rho = 0;                             ///< of it, against the levels given
   std::map<const Refinement*, double> gains;  ///< best of each row; events in sample
 };
 

@@ -99,11 +99,6 @@ class Stack {
   double n_all_ = 0;
 };
 
-/// The sum of the columns, each times its scale.
-Eigen::VectorXd scaled_sum(const Eigen::MatrixXd& columns, const Eigen::VectorXd& scale) {
-  return columns * scale;
-}
-
 /// That brings them to length 1; those that vanish stay.
 Eigen::VectorXd unit_scale(const Eigen::MatrixXd& columns) {
   return columns.colwise().norm().transpose().unaryExpr(
@@ -138,7 +133,7 @@ std::optional<Seen> see(const Design& design, const Variant& variant, const Stac
   seen.span =
       stack.of(n_linear(variant), [&](std::size_t s, std::size_t i) { return columns[s][i]; });
   seen.scale = scale != nullptr ? *scale : unit_scale(seen.span);
-  seen.example = scaled_sum(seen.span, seen.scale);
+  seen.example = seen.span * seen.scale;
   return seen;
 }
 
