@@ -7,21 +7,12 @@
 
 #include "tests/support/columns.hpp"
 #include "tests/support/message.hpp"
+#include "tests/support/recorded_estimate.hpp"
 
 namespace cablefit {
 namespace {
 
-/// With the interval that 20 degrees of freedom make: t = 2.0859634472658648 (R: qt(.975, 20)).
-Estimate estimate(const std::string& name, double value, double sd) {
-  Estimate e;
-  e.name = name;
-  e.unit = "N m";
-  e.value = value;
-  e.sd = sd;
-  e.ci_low = value - 2.0859634472658648 * sd;
-  e.ci_high = value + 2.0859634472658648 * sd;
-  return e;
-}
+using test::recorded_estimate;
 
 RecordedResult result(const std::string& log, std::vector<Estimate> estimates,
                       const std::string& preload = "low") {
@@ -37,10 +28,11 @@ RecordedResult result(const std::string& log, std::vector<Estimate> estimates,
 }
 
 ComparedParameter compared(double first, double second, double sd, std::size_t n_others = 0) {
-  std::vector<Estimate> a{estimate("f_s", first, sd)}, b{estimate("f_s", second, sd)};
+  std::vector<Estimate> a{recorded_estimate("f_s", first, sd)},
+      b{recorded_estimate("f_s", second, sd)};
   for (std::size_t k = 0; k < n_others; ++k) {
-    a.push_back(estimate("x" + std::to_string(k), 1, 1));
-    b.push_back(estimate("x" + std::to_string(k), 1, 1));
+    a.push_back(recorded_estimate("x" + std::to_string(k), 1, 1));
+    b.push_back(recorded_estimate("x" + std::to_string(k), 1, 1));
   }
   return compare(result("a", a), result("b", b), {}).parameters.front();
 }
@@ -80,8 +72,8 @@ TEST_CASE("a difference may be certain and of no importance", "[compare]") {
 }
 
 TEST_CASE("an offset is measured by the torque, not by itself", "[compare]") {
-  const CompareResult r = compare(result("a", {estimate("offset", 0.001, 0.01)}),
-                                  result("b", {estimate("offset", -0.001, 0.01)}), {});
+  const CompareResult r = compare(result("a", {recorded_estimate("offset", 0.001, 0.01)}),
+                                  result("b", {recorded_estimate("offset", -0.001, 0.01)}), {});
   CHECK(r.parameters.front().margin == Approx(0.5));
   CHECK(r.parameters.front().sameness == Sameness::equal);
   CHECK(std::isnan(r.parameters.front().percent()));
@@ -102,8 +94,8 @@ TEST_CASE("5 % of pairs without a change are different somewhere", "[compare]") 
         return std::sqrt(sum / 20);
       };
       const std::string name = "x" + std::to_string(i);
-      a.push_back(estimate(name, 100 + normal(), sd()));
-      b.push_back(estimate(name, 100 + normal(), sd()));
+      a.push_back(recorded_estimate(name, 100 + normal(), sd()));
+      b.push_back(recorded_estimate(name, 100 + normal(), sd()));
     }
     different += compare(result("a", a), result("b", b), {}).count(Sameness::different) > 0;
   }
@@ -113,17 +105,17 @@ TEST_CASE("5 % of pairs without a change are different somewhere", "[compare]") 
 }
 
 TEST_CASE("results of the same logs differ by method, not by chance", "[compare]") {
-  const CompareResult r =
-      compare(result("a", {estimate("f_s", 10, 1)}), result("a", {estimate("f_s", 11, 1)}), {});
+  const CompareResult r = compare(result("a", {recorded_estimate("f_s", 10, 1)}),
+                                  result("a", {recorded_estimate("f_s", 11, 1)}), {});
   CHECK(r.parameters.front().sameness == Sameness::different);
   CHECK(r.warnings.size() == 1);
 }
 
 TEST_CASE("two preloads of one result are not the same logs", "[compare]") {
-  RecordedResult both = result("a", {estimate("f_s", 10, 1)});
+  RecordedResult both = result("a", {recorded_estimate("f_s", 10, 1)});
   both.sets.push_back(both.sets.front());
   both.sets.back().preload = "high";
-  both.sets.back().estimates = {estimate("f_s", 11, 1)};
+  both.sets.back().estimates = {recorded_estimate("f_s", 11, 1)};
   CompareOptions options;
   options.first_preload = "low";
   options.second_preload = "high";
@@ -134,9 +126,9 @@ TEST_CASE("two preloads of one result are not the same logs", "[compare]") {
 }
 
 TEST_CASE("what only one result has is told", "[compare]") {
-  const CompareResult r =
-      compare(result("a", {estimate("f_s", 10, 1), estimate("f_v", 1, 1)}),
-              result("b", {estimate("f_s", 10, 1), estimate("J_link", 1, 1)}), {});
+  const CompareResult r = compare(
+      result("a", {recorded_estimate("f_s", 10, 1), recorded_estimate("f_v", 1, 1)}),
+      result("b", {recorded_estimate("f_s", 10, 1), recorded_estimate("J_link", 1, 1)}), {});
   REQUIRE(r.not_compared.size() == 2);
   CHECK(r.not_compared[0].reason == "only in the first result");
   CHECK(r.not_compared[1].name == "J_link");
@@ -144,14 +136,14 @@ TEST_CASE("what only one result has is told", "[compare]") {
 
 TEST_CASE("coefficients of another order are another thing", "[compare]") {
   const auto elastic = [](const std::string& log, int order) {
-    RecordedResult r = result(log, {estimate("K", 10, 1)});
+    RecordedResult r = result(log, {recorded_estimate("K", 10, 1)});
     r.sets.front() = EstimateSet{"stage 1", "low", "linear", ""};
     r.sets.front().order = 1;
-    r.sets.front().estimates = {estimate("K", 10, 1)};
+    r.sets.front().estimates = {recorded_estimate("K", 10, 1)};
     EstimateSet poly{"stage 1", "low", "poly", ""};
     poly.order = order;
     poly.is_selected = true;
-    poly.estimates = {estimate("K1_0", 10, 1)};
+    poly.estimates = {recorded_estimate("K1_0", 10, 1)};
     r.sets.push_back(poly);
     return r;
   };
@@ -160,7 +152,7 @@ TEST_CASE("coefficients of another order are another thing", "[compare]") {
 }
 
 TEST_CASE("without a measure of its size an offset is not decided by the margin", "[compare]") {
-  RecordedResult a = result("a", {estimate("offset", 0.030, 0.01)});
+  RecordedResult a = result("a", {recorded_estimate("offset", 0.030, 0.01)});
   a.sets.front().torque_scale = std::numeric_limits<double>::quiet_NaN();
   RecordedResult b = a;
   b.sets.front().estimates.front().value = 0.031;
@@ -170,8 +162,8 @@ TEST_CASE("without a measure of its size an offset is not decided by the margin"
 }
 
 TEST_CASE("a preload that vanished is told", "[compare]") {
-  RecordedResult a = result("a", {estimate("f_s", 10, 1)}),
-                 b = result("b", {estimate("f_s", 10, 1)});
+  RecordedResult a = result("a", {recorded_estimate("f_s", 10, 1)}),
+                 b = result("b", {recorded_estimate("f_s", 10, 1)});
   a.sets.push_back(a.sets.front());
   a.sets.back().preload = "high";
   b.sets.push_back(b.sets.front());
@@ -185,7 +177,9 @@ TEST_CASE("a preload that vanished is told", "[compare]") {
 }
 
 TEST_CASE("asked for by name, orders still have to be the same", "[compare]") {
-  RecordedResult a = result("a", {estimate("K1_0", 10, 1), estimate("f_sm", 10, 1)}), b = a;
+  RecordedResult a = result("a",
+                            {recorded_estimate("K1_0", 10, 1), recorded_estimate("f_sm", 10, 1)}),
+                 b = a;
   b.inputs.front().sha256 = "other";
   a.sets.front().order = 2;
   b.sets.front().order = 3;
@@ -198,7 +192,7 @@ TEST_CASE("asked for by name, orders still have to be the same", "[compare]") {
 TEST_CASE("a preload that is not there", "[compare]") {
   CompareOptions options;
   options.first_preload = options.second_preload = "hgih";
-  const RecordedResult a = result("a", {estimate("f_s", 10, 1)}, "high");
+  const RecordedResult a = result("a", {recorded_estimate("f_s", 10, 1)}, "high");
   CHECK(test::message_of([&] { compare(a, a, options); }) ==
         "no preload 'hgih' in a.json; did you mean 'high'?");
 }

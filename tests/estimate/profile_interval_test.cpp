@@ -88,7 +88,6 @@ TEST_CASE("beside a bound the profile agrees with a grid", "[estimate]") {
     }
 }
 
-// x = -1 / v: the profile never comes back below the threshold on that side.
 TEST_CASE("a threshold of nothing leaves the estimate alone", "[estimate]") {
   Eigen::Matrix2d a = Eigen::Matrix2d::Identity();
   const ProfileInterval i = profile_interval(a, Eigen::Vector2d(1, 0), kNoBounds, first_of(2), 0);

@@ -4,20 +4,12 @@
 #include "cablefit/report/compare_document.hpp"
 #include "cablefit/report/compare_json.hpp"
 #include "tests/report/schema.hpp"
+#include "tests/support/recorded_estimate.hpp"
 
 namespace cablefit {
 namespace {
 
-Estimate estimate(const std::string& name, double value, double sd) {
-  Estimate e;
-  e.name = name;
-  e.unit = "N m";
-  e.value = value;
-  e.sd = sd;
-  e.ci_low = value - 2 * sd;
-  e.ci_high = value + 2 * sd;
-  return e;
-}
+using test::recorded_estimate;
 
 RecordedResult result(const std::string& log, double friction) {
   RecordedResult r;
@@ -26,7 +18,7 @@ RecordedResult result(const std::string& log, double friction) {
   r.version = log == "a" ? "1" : "2";
   r.inputs = {{log + ".csv", log, 10}};
   EstimateSet set{"stage 2", "low", "poly", "wls"};
-  set.estimates = {estimate("f_s", friction, 0.1), estimate("f_v", 2, 0.01)};
+  set.estimates = {recorded_estimate("f_s", friction, 0.1), recorded_estimate("f_v", 2, 0.01)};
   r.sets = {set};
   return r;
 }
