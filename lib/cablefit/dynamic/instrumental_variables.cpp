@@ -20,7 +20,7 @@ void simulate_and_fit(const DynamicJob& job, std::span<const LogSurvey> logs,
   ++fit.n_simulations;
   fit.failure = simulated.failure;
   if (!fit.failure.empty()) return;
-  fit.rows = collect_instrumented(job, simulated.logs, equations);
+  fit.rows = collect_instrumented(job, simulated.logs, equations, plan.kind);
   fit.solutions.clear();
   fit.last_change = 0;
   for (std::size_t k = 0; k < equations.size(); ++k) {

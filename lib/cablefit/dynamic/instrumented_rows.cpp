@@ -10,9 +10,13 @@ Signals measured(const Signals& signals, int n_joints) {
           signals.period, {signals.joints.begin(), signals.joints.begin() + n_joints}};
 }
 
+const Eigen::ArrayXd& speed_of(Side side, const JointSignals& joint) {
+  return side == Side::link ? joint.qd : joint.thetad;
+}
+
 }  // namespace
 
-Equation with_instruments(const EquationRows& e, int n_joints) {
+Equation with_instruments(const EquationRows& e, int n_joints, LoopKind loop) {
   Equation more = e.equation;
   const Eigen::Index own = e.columns.count, extra = e.columns.n_effects;
   more.columns.resize(static_cast<std::size_t>(own + extra));
@@ -23,24 +27,27 @@ Equation with_instruments(const EquationRows& e, int n_joints) {
     fill(measured(signals, n_joints), out.leftCols(own));
     effect_columns(columns.effects, columns.side, signals.joints[twin], out.rightCols(extra));
   };
-  more.speed = [side = e.columns.side, twin, n_joints](const Signals& signals) {
+  const Side side = e.columns.side;
+  const bool by_either = side == Side::motor || loop == LoopKind::stand_in;
+  more.speed = [side, by_either, twin, n_joints](const Signals& signals) -> Eigen::ArrayXd {
     const JointSignals& simulated = signals.joints[twin];
     const JointSignals& seen = signals.joints[twin - static_cast<std::size_t>(n_joints)];
-    if (side == Side::link) return simulated.qd;
-    if (side == Side::rigid) return simulated.thetad;
-    return simulated.thetad.abs().min(seen.thetad.abs()).eval();
+    const auto& speed = speed_of(side, simulated);
+    if (!by_either) return speed;
+    return speed.abs().min(speed_of(side, seen).abs());
   };
   return more;
 }
 
 std::vector<InstrumentedRows> collect_instrumented(const DynamicJob& job,
                                                    std::span<const LogSurvey> simulated,
-                                                   const std::vector<EquationRows>& equations) {
+                                                   const std::vector<EquationRows>& equations,
+                                                   LoopKind loop) {
   const Eigen::Index expected = expected_rows(simulated, job.wanted, job.settings.rows);
   std::vector<Equation> with;
   std::vector<InstrumentedRows> all;
   for (const EquationRows& e : equations) {
-    with.push_back(with_instruments(e, job.n_joints()));
+    with.push_back(with_instruments(e, job.n_joints(), loop));
     all.push_back(
         {RowStatistics(e.columns.count + e.columns.n_effects, expected, job.options.honest_sd),
          {}});

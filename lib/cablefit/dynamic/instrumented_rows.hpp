@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cablefit/dynamic/dynamic_job.hpp"
+#include "cablefit/dynamic/noise_free_loop.hpp"
 
 namespace cablefit {
 
@@ -19,13 +20,16 @@ struct InstrumentedRows {
 /// Rest is judged by the speed of the noise-free loop: judged by the measured one, which rows stay
 /// would depend on the disturbance that instruments are to keep out (f_s of the link -13 % at 3 N m
 /// of it). Elastic motors rest by either: disturbances act on the link, not in their equation, and
-/// what a motor's friction is where it really sticks no regressor says (f_vm -12 % at low gain).
-Equation with_instruments(const EquationRows& equation, int n_joints);
+/// what a motor's friction is where it really sticks no regressor says (f_vm -12 % at low gain). A
+/// stand-in keeps no disturbance out and reverses later than the drive, so that there all rest by
+/// either (f_s -5 %, f_v +4 % with an encoder of 12 bits).
+Equation with_instruments(const EquationRows& equation, int n_joints, LoopKind loop);
 
 /// All wanted rows of logs with simulated channels, per equation.
 std::vector<InstrumentedRows> collect_instrumented(const DynamicJob& job,
                                                    std::span<const LogSurvey> simulated,
-                                                   const std::vector<EquationRows>& equations);
+                                                   const std::vector<EquationRows>& equations,
+                                                   LoopKind loop);
 
 /// What model number `which` fits to such rows, with instruments.
 LinearProblem instrumented_problem(const DynamicJob& job, const EquationRows& equation,

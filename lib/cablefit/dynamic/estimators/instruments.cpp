@@ -73,7 +73,9 @@ void note_instruments(const EstimationTask& task, const LoopPlan& plan, const Iv
   out.decisions.push_back(
       {label(task, "instruments"),
        fmt::format("{} simulation{}", fit.n_simulations, fit.n_simulations == 1 ? "" : "s"),
-       fmt::format("{}; rows by its rest: {}", describe(plan), rows_of(task, fit))});
+       fmt::format("{}; rows by {} rest: {}", describe(plan),
+                   plan.kind == LoopKind::known ? "its" : "its and the drive's",
+                   rows_of(task, fit))});
   if (!fit.converged())
     out.fit.warnings.push_back(
         fmt::format("the instruments have not settled after {} simulations: the last one moved an "
