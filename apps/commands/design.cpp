@@ -193,7 +193,6 @@ void check_limits(const DesignCommand& command) {
                     "give --max-position, --max-speed and --max-torque of the joint");
 }
 
-/// The reference never replaces what it is made from, nor another result of the same run.
 /// Of a reference: fewer rows tell nothing, more take the search minutes.
 void check_rows(const DesignCommand& command) {
   constexpr double kFewest = 200, kMost = 200000;
@@ -203,6 +202,7 @@ void check_rows(const DesignCommand& command) {
                     fmt::format("--rate times --duration may be {} to {}", kFewest, kMost));
 }
 
+/// The reference never replaces what it is made from, nor another result of the same run.
 void check_excite(const DesignCommand& command, const std::string& model) {
   if (command.excite.empty()) return;
   const CommonOptions& options = command.common;

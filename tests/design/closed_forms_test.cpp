@@ -65,7 +65,7 @@ TEST_CASE("cables are balanced, and closure ends where the closed form says", "[
 TEST_CASE("the smallest preload that keeps closure has a closed form", "[design]") {
   for (const auto& [a, b] : {std::pair{1800.0, 1800.0}, {1500.0, 2400.0}, {3000.0, 900.0}})
     for (const double torque : {0.1, 20.0, 400.0})
-      CHECK_THAT(needed_preload(linear_cables(a, b), torque),
+      CHECK_THAT(needed_preload(linear_cables(a, b), torque).l_o,
                  WithinRel(torque / (std::min(a, b) * (1 + a / b)), kExact));
 }
 
@@ -164,6 +164,22 @@ TEST_CASE("what cannot be preloaded is told", "[design]") {
       "check the signs of the radii");
   CHECK(test::message_of([&] { (void)with_preload(linear_cables(1500, 0), 0.01); }) ==
         "cable '2' never pulls with 15 N; give it coefficients that grow with its elongation");
+}
+
+// Cables with K1 > 0 > K2 pull most, K1^2/(-4 K2), at l = K1/(-2 K2). A pair of them, alike and
+// wound on unit pulleys, carries at most that when one is stretched so far and the other just slack
+// (deflection l): f(l_o + l) - f(l_o - l) = torque with l = l_o at the threshold, f(2 l_o).
+TEST_CASE("cables that give way still have a preload that is enough", "[design]") {
+  Transmission pair = linear_cables(1500, 1500);
+  for (Cable& cable : pair.cables) {
+    cable.order = 2;
+    cable.coefficients = {1500, -15000};  // 37.5 N at 0.05
+  }
+  const double torque = 30, l_o = 0.05 * (1 - std::sqrt(1 - torque / 37.5)) / 2;
+  CHECK_THAT(needed_preload(pair, torque).l_o, WithinRel(l_o, 1e-9));
+  const PreloadSearch none = needed_preload(pair, 40);
+  CHECK(std::isnan(none.l_o));
+  CHECK(none.searched_to > l_o);
 }
 
 }  // namespace

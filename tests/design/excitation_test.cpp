@@ -201,6 +201,12 @@ TEST_CASE("what cannot be planned is told", "[design]") {
         "limit (holding the load and friction alone may need the torque), or take longer");
   CHECK(message_of([&] { (void)plan_excitation(low_rig(), options_with("sine"), false); }) ==
         "unknown shape 'sine'; known: multisine, trapezoid");
+  ExcitationOptions hurried = options_with("multisine");
+  hurried.limits.duration = 0.1;
+  CHECK(
+      message_of([&] { (void)plan_excitation(low_rig(), hurried, false); }) ==
+      "0.1 s are too short for a motion of this drive; it can be moved at up to 18 Hz (a third of "
+      "its resonance, a fortieth of the rows): give --duration of at least 0.22");
 }
 
 }  // namespace

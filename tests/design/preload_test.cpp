@@ -94,7 +94,7 @@ TEST_CASE("the error of a linear spring is what the simulated cables give", "[de
 
 TEST_CASE("what is needed for closure just keeps it", "[design]") {
   const Transmission cables = paper_rig_low().transmission;
-  const double l_o = needed_preload(cables, 40);
+  const double l_o = needed_preload(cables, 40).l_o;
   const auto threshold = [&](double l) {
     return closure_range(JointCurve(with_preload(cables, l), 0)).threshold();
   };

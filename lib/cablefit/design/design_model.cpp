@@ -37,7 +37,13 @@ Model model_of_rig(const JsonNode& root, std::string& choice) {
 Model read_design_model(const std::string& path, const std::string& preload,
                         const std::string& model, std::string& choice) {
   const JsonNode root = read_json_file(path);
-  if (is_rig(root)) return model_of_rig(root, choice);
+  if (is_rig(root)) {
+    if (!preload.empty() || !model.empty())
+      throw usage_error(fmt::format("a rig file has nothing to choose from with --{}",
+                                    preload.empty() ? "model" : "preload"),
+                        "leave it away, or name a result with several");
+    return model_of_rig(root, choice);
+  }
   Model found = parse_model(root, preload, model, choice);
   if (found.rigid)
     throw input_error({path}, "a rigid drive has no cables to design",

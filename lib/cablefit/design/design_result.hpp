@@ -73,6 +73,7 @@ struct DesignPoint {
 struct NeededPreload {
   double radius_factor = 1;
   double l_o = kNotKnown;                   ///< of the first cable; NaN: no preload does
+  double searched_to = 0;                   ///< largest l_o of the first cable that was tried
   std::vector<double> initial_elongations;  ///< per cable
   std::vector<double> tensions;             ///< per cable, without load
 };

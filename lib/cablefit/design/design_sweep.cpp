@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kFirstPreload = 1e-6;  // m (rad), of the search for the one that is needed
 constexpr double kLargestPreload = 10;
+constexpr int kBisections = 50;
 constexpr int kChosenSteps = 5;     // up to this many quarters of what is needed
 constexpr double kFallback = 0.01;  // m (rad), when nothing is needed or nothing helps
 constexpr double kSoftens = 0.9;    // of its stiffness at first
@@ -40,13 +41,34 @@ std::vector<double> elongations_of(const Transmission& transmission) {
 NeededPreload what_is_needed(const Transmission& transmission, double factor, double torque) {
   NeededPreload needed;
   needed.radius_factor = factor;
-  needed.l_o = needed_preload(transmission, torque);
+  const PreloadSearch search = needed_preload(transmission, torque);
+  needed.l_o = search.l_o;
+  needed.searched_to = search.searched_to;
   if (!std::isfinite(needed.l_o)) return needed;
   const Transmission preloaded = with_preload(transmission, needed.l_o);
   needed.initial_elongations = elongations_of(preloaded);
   for (const Cable& cable : preloaded.cables)
     needed.tensions.push_back(cable.force(cable.initial_elongation));
   return needed;
+}
+
+bool can_be_stretched(const Transmission& transmission, double l_o) {
+  try {
+    (void)closure_torque(with_preload(transmission, l_o));
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+/// The furthest elongation, between one that can be and one that cannot: a cable whose force falls
+/// again has one.
+double furthest_stretch(const Transmission& transmission, double can, double cannot) {
+  for (int i = 0; i < kBisections; ++i) {
+    const double middle = (can + cannot) / 2;
+    (can_be_stretched(transmission, middle) ? can : cannot) = middle;
+  }
+  return can;
 }
 
 /// What to sweep when nobody said: none, quarters of what is needed, and a little more.
@@ -106,27 +128,28 @@ void tell_needed(const DesignResult& result, std::vector<std::string>& warnings)
   for (const NeededPreload& needed : result.needed)
     if (!std::isfinite(needed.l_o))
       warnings.push_back(fmt::format(
-          "no preload up to {:g} keeps all cables taut up to {:g}, with radii times {:g}",
-          kLargestPreload, result.torque, needed.radius_factor));
+          "no preload up to l_o = {:.4g} {}{} keeps all cables taut up to {:g} {}, with radii "
+          "times "
+          "{:g}",
+          1e3 * needed.searched_to, result.cable_space || result.linear_motion ? "mm" : "mrad",
+          needed.searched_to < kLargestPreload ? ", from where on a cable gives way," : "",
+          result.torque, result.linear_motion ? "N" : "N m", needed.radius_factor));
 }
 
 }  // namespace
 
-double needed_preload(const Transmission& transmission, double torque) {
+PreloadSearch needed_preload(const Transmission& transmission, double torque) {
   const auto missing = [&](double l_o) {
     return closure_torque(with_preload(transmission, l_o)) - torque;
   };
   double from = 0;
-  for (double to = kFirstPreload; to <= kLargestPreload; from = to, to *= 2) {
-    double gap = 0;
-    try {
-      gap = missing(to);
-    } catch (const Error&) {  // a cable that cannot be stretched so far
-      return kNotKnown;
-    }
-    if (gap >= 0) return root_between(missing, from, to);
+  for (double to = kFirstPreload; from < kLargestPreload; from = to, to *= 2) {
+    const bool is_last = !can_be_stretched(transmission, to);
+    if (is_last) to = furthest_stretch(transmission, from, to);
+    if (to > from && missing(to) >= 0) return {root_between(missing, from, to), to};
+    if (is_last) return {kNotKnown, to};
   }
-  return kNotKnown;
+  return {kNotKnown, from};
 }
 
 DesignResult blank_design(const Model& model) {

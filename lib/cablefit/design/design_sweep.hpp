@@ -38,9 +38,15 @@ DesignResult blank_design(const Model& model);
 /// Throws Error(input) when the cables cannot be preloaded or never give the torque.
 DesignResult sweep_design(const Model& model, const DesignOptions& options);
 
-/// Initial elongation of the first cable at which all cables are just taut at -torque and torque on
-/// every joint (each for itself), to 1e-12 of it. NaN when no preload does.
-double needed_preload(const Transmission& transmission, double torque);
+/// Of the first cable, m (rad in joint space).
+struct PreloadSearch {
+  double l_o = 0;          ///< NaN when none is enough
+  double searched_to = 0;  ///< what is beyond was not tried, or cannot be reached by a cable
+};
+
+/// Initial elongation at which all cables are just taut at -torque and torque on every joint (each
+/// for itself), to 1e-12 of it.
+PreloadSearch needed_preload(const Transmission& transmission, double torque);
 
 /// What is known of one joint of cables that are preloaded already.
 DesignJoint describe_joint(const Model& model, const Transmission& preloaded, int joint,

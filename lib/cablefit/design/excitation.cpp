@@ -18,6 +18,7 @@ namespace {
 constexpr double kSearchStep = 200e-6;   // s; as exact as a choice of motions needs
 constexpr double kRateShare = 1.0 / 40;  // of the rate, for the highest frequency
 constexpr double kResonanceShare = 1.0 / 3;
+constexpr double kPeriods = 4;  // at least, of the fastest part of a motion
 constexpr int kSineFrequencies = 16;
 constexpr double kFirstStep = 0.25, kSmallestStep = 0.01;  // of the numbers' range
 constexpr double kGrow = 1.3, kShrink = 0.75;
@@ -49,6 +50,13 @@ ShapeFrame frame_of(const Model& model, const ExcitationLimits& limits) {
                    kRateShare * limits.rate};
   const double f0 = resonance(model);
   if (f0 > 0) frame.highest_frequency = std::min(frame.highest_frequency, kResonanceShare * f0);
+  if (frame.highest_frequency * frame.duration < kPeriods)
+    throw usage_error(
+        fmt::format("{:g} s are too short for a motion of this drive", frame.duration),
+        fmt::format("it can be moved at up to {:.3g} Hz (a third of its resonance, a fortieth of "
+                    "the rows): "
+                    "give --duration of at least {:.2g}",
+                    frame.highest_frequency, kPeriods / frame.highest_frequency));
   return frame;
 }
 

@@ -318,6 +318,7 @@ Document design_document(const DesignResult& result) {
   document.title = !result.excitation ? "Design: what a preload buys, and what simpler models cost"
                    : sweep            ? "Design: what a preload buys, and which motion to record"
                                       : "Design: which motion to record";
+  document.summary.push_back({"model", result.model_choice});
   if (sweep) add_sweep(result, document);
   add_decisions(document, result.preload, result.decisions);
   if (result.excitation) add_excitation(result, document);
