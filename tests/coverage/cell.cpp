@@ -36,6 +36,7 @@ Rig rig_of(const truth::DriveOptions& options) {
   rig.torque_hold = TorqueHold::zoh;
   rig.sensors["theta"].quantum = options.quantum_theta;
   rig.sensors["tau"].noise = options.noise_tau;
+  rig.open_loop = cell.loop == Loop::replay;
   if (options.open_loop) return rig;
   rig.controller.emplace();
   rig.controller->kp = options.kp;

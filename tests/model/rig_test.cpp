@@ -116,6 +116,14 @@ TEST_CASE("an empty rig file is the paper's rig") {
   CHECK(fixed.path.empty());
 }
 
+TEST_CASE("a torque may be a command, which no controller made") {
+  const Rig rig = parse_rig(parse_json(R"({"controller": {"type": "open_loop"}})", "rig.json"));
+  CHECK(rig.open_loop);
+  CHECK_FALSE(rig.controller);
+  CHECK_FALSE(parse_rig(parse_json(R"({"controller": {"kp": 3}})", "rig.json")).open_loop);
+  CHECK_FALSE(default_rig().open_loop);
+}
+
 TEST_CASE("a single joint may be numbered, and radii be scalars") {
   const Rig rig = parse_rig(parse_json(R"({"columns": {"q1": "link"}, "motion": "linear",
       "cables": [{"name": "a", "motor_radius": 0.02, "link_radius": 0.05}]})",

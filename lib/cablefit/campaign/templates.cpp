@@ -98,7 +98,7 @@ std::string rig_template(const FolderWithoutRig& folder) {
   "torque_hold": "auto"              // "zoh": tau is commanded and held; "none": a mean measured around t
   // The load is the column tau_load, where a log has one; else a law says it:
   // , "load": {{"type": "hanging_mass", "mass": 40, "radius": 0.1, "direction": -1}}   // "constant", "pendulum", "table", "none"
-  // , "controller": {{"type": "pd", "kp": 800, "kd": 6, "limit": 250, "reference": "theta_ref"}}   // simulations run closed loop
+  // , "controller": {{"type": "pd", "kp": 800, "kd": 6, "limit": 250, "reference": "theta_ref"}}   // simulations run closed loop; "open_loop": tau is a command of its own
   // , "cad": {{"J_link": 0.3}}        // printed beside, never fitted to
 }}
 )",

@@ -28,7 +28,7 @@ Equation with_instruments(const EquationRows& e, int n_joints, LoopKind loop) {
     effect_columns(columns.effects, columns.side, signals.joints[twin], out.rightCols(extra));
   };
   const Side side = e.columns.side;
-  const bool by_either = side == Side::motor || loop == LoopKind::stand_in;
+  const bool by_either = side == Side::motor || !keeps_disturbances_out(loop);
   more.speed = [side, by_either, twin, n_joints](const Signals& signals) -> Eigen::ArrayXd {
     const JointSignals& simulated = signals.joints[twin];
     const JointSignals& seen = signals.joints[twin - static_cast<std::size_t>(n_joints)];

@@ -35,6 +35,7 @@ bool in_every_joint(const LogPlan& plan, Channel channel) {
 }
 
 std::string no_known_loop(const LogPlan& plan) {
+  if (plan.rig.open_loop) return "some logs in open loop, others not";
   if (!plan.rig.controller) return "no controller in the rig file";
   if (in_every_joint(plan, Channel::theta_ref)) return "";
   return fmt::format("no reference '{}' in the log", plan.rig.controller->reference);
@@ -52,19 +53,27 @@ Controller stand_in(const Model& model, double bandwidth, double h) {
   return c;
 }
 
+Channel input_channel(LoopKind kind) {
+  return kind == LoopKind::known     ? Channel::theta_ref
+         : kind == LoopKind::command ? Channel::tau
+                                     : Channel::theta;
+}
+
 /// One log beside its noise-free loop, window by window.
 class LogLoop {
  public:
-  LogLoop(const LogSurvey& log, const Model& model, const LoopPlan& plan, double step)
+  LogLoop(const LogSurvey& log, const Model& model, const LoopPlan& plan, bool torque_held,
+          double step)
       : log_(log), model_(model), plan_(plan), copy_(log, true) {
     model_.rig.sensors.clear();  // no quantisation in the loop either
-    options_.closed_loop = true;
+    options_.closed_loop = plan.kind != LoopKind::command;
+    options_.hold_torque = torque_held;
     options_.step = step;
   }
 
   /// False when the simulation diverged.
   bool add(const Window& window) {
-    const Eigen::MatrixXd reference = references(window);
+    const Eigen::MatrixXd reference = inputs(window);
     if (window.begin == 0) start(window, reference);
     const Eigen::Index n = window.end - window.begin;
     const Eigen::Index there = window.first + window.data.rows() - window.begin;
@@ -84,14 +93,12 @@ class LogLoop {
  private:
   int n_joints() const { return log_.plan.rig.n_joints(); }
 
-  /// Of all rows of the window, halo and all.
-  Eigen::MatrixXd references(const Window& window) const {
-    const bool known = plan_.kind == LoopKind::known;
+  /// References, or commanded torques, of all rows of the window, halo and all.
+  Eigen::MatrixXd inputs(const Window& window) const {
     Eigen::MatrixXd reference(window.data.rows(), n_joints());
     for (int joint = 0; joint < n_joints(); ++joint)
-      reference.col(joint) =
-          window.data.col(log_.plan.find(known ? Channel::theta_ref : Channel::theta, joint));
-    if (!known)
+      reference.col(joint) = window.data.col(log_.plan.find(input_channel(plan_.kind), joint));
+    if (plan_.kind == LoopKind::stand_in)
       Butterworth(kStandInOrder, plan_.bandwidth, 1 / window.period)
           .apply(reference, window.starts_segment, window.ends_segment);
     return reference;
@@ -102,7 +109,8 @@ class LogLoop {
     SimulationInput input;
     const Eigen::Index from = window.begin - window.first;
     input.period = window.period;
-    input.theta_ref = reference.middleRows(from, n_rows).array();
+    (plan_.kind == LoopKind::command ? input.tau : input.theta_ref) =
+        reference.middleRows(from, n_rows).array();
     input.tau_load.resize(in_every_joint(log_.plan, Channel::tau_load) ? n_rows : 0, n_joints());
     for (int joint = 0; input.tau_load.rows() > 0 && joint < n_joints(); ++joint)
       input.tau_load.col(joint) =
@@ -164,7 +172,7 @@ LoopResult run_loop(const DynamicJob& job, const LogSurvey& log, const Model& mo
   LoopResult result;
   const double rate = sample_rates({&log, 1}, job.wanted).highest;
   for (const double step : {kLoopStep, SimulationOptions{}.step}) {
-    LogLoop loop(log, model, plan, step);
+    LogLoop loop(log, model, plan, job.settings.rows.signal.torque_held, step);
     for_each_window(log, job.wanted, halo(plan, rate), kMinRows,
                     bridge_seconds(job.settings.rows.signal),
                     [&](Window&& window) { return loop.add(window); });
@@ -180,20 +188,30 @@ LoopResult run_loop(const DynamicJob& job, const LogSurvey& log, const Model& mo
 
 }  // namespace
 
+std::string source_of_instruments(LoopKind kind) {
+  return kind == LoopKind::command
+             ? "the log's torque replayed without noise, as the rig file says that it is a command"
+             : "noise-free loop of the rig's controller and the log's reference";
+}
+
 LoopPlan plan_loop(const DynamicJob& job, std::span<const LogSurvey> logs) {
   LoopPlan plan;
   if (job.arm != nullptr && job.arm->is_coupled())
     return {LoopKind::none, "links that move each other are not simulated yet", 0};
+  std::size_t n_logs = 0, n_commanded = 0;
   plan.kind = LoopKind::known;
   for (const LogSurvey& log : logs) {
     if (std::none_of(log.parts.begin(), log.parts.end(), job.wanted)) continue;
     if (!in_every_joint(log.plan, Channel::theta))
       return {LoopKind::none, fmt::format("{} has no theta to follow", log.plan.path), 0};
+    ++n_logs;
+    n_commanded += log.plan.rig.open_loop ? 1 : 0;
     const std::string obstacle = no_known_loop(log.plan);
     if (obstacle.empty()) continue;
     plan.kind = LoopKind::stand_in;
     plan.reason = obstacle;
   }
+  if (n_logs > 0 && n_commanded == n_logs) return {LoopKind::command, "", 0};
   if (plan.kind == LoopKind::known) return plan;
   const double rate = sample_rates(logs, job.wanted).lowest;
   double cutoff = job.settings.rows.signal.cutoff;

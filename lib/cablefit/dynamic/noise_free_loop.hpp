@@ -1,5 +1,5 @@
-// The noise-free closed loop of a fitted model: what the robot would have done without disturbances
-// and encoder noise. Instruments are made of it.
+// The noise-free motion of a fitted model, in its loop or by a commanded torque: what the robot
+// would have done without disturbances and encoder noise. Instruments are made of it.
 #pragma once
 
 #include <span>
@@ -14,6 +14,7 @@ namespace cablefit {
 /// Where the reference of the loop comes from.
 enum class LoopKind {
   known,     ///< the rig's controller follows the log's reference
+  command,   ///< the rig says that the torque is a command: it is replayed, there is no loop
   stand_in,  ///< a stiff PD controller follows the measured theta, smoothed
   none       ///< nothing can be simulated
 };
@@ -24,7 +25,15 @@ struct LoopPlan {
   double bandwidth = 0;  ///< Hz, of the smoothed theta
 };
 
-/// One for all wanted logs of the job: known when every one of them allows it.
+/// Instruments of this loop keep out disturbances that moved the robot, not encoder noise alone.
+inline bool keeps_disturbances_out(LoopKind kind) {
+  return kind == LoopKind::known || kind == LoopKind::command;
+}
+
+/// Where such instruments come from, in words.
+std::string source_of_instruments(LoopKind kind);
+
+/// One for all wanted logs of the job: known, or command, when every one of them allows it.
 LoopPlan plan_loop(const DynamicJob& job, std::span<const LogSurvey> logs);
 
 struct SimulatedLogs {

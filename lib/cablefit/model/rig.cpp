@@ -68,6 +68,7 @@ Rig parse_rig(const JsonNode& node) {
   if (const JsonNode* arm = node.find("arm")) rig.arm = rig_parts::read_arm(*arm, rig);
   if (const JsonNode* controller = node.find("controller")) {
     rig.controller = rig_parts::read_controller(*controller);
+    rig.open_loop = !rig.controller;
   }
   if (const JsonNode* sensors = node.find("sensors")) {
     rig.sensors = rig_parts::read_sensors(*sensors, n);

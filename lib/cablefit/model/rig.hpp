@@ -51,6 +51,7 @@ struct Rig {
   Load load;
   Arm arm;  ///< of several joints
   std::optional<Controller> controller;
+  bool open_loop = false;  ///< tau is a command of its own: nothing measured comes back into it
   std::map<std::string, SensorInfo> sensors;  ///< by channel
   std::map<std::string, double> cad;          ///< by parameter name
   std::vector<std::string> joints = {"1"};

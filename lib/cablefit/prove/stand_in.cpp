@@ -74,12 +74,25 @@ void follow_measured(const Model& model, const LogPlan& plan, const TwinDrive& d
   stretch.rig.sensors.clear();  // it reads theta as it is; what is recorded is rounded all the same
 }
 
+/// A channel of every joint, as it was measured.
+void take_inputs(const LogPlan& plan, Channel channel, const TwinStretch& stretch,
+                 Eigen::ArrayXXd& inputs) {
+  inputs.resize(stretch.measured.rows(), plan.rig.n_joints());
+  for (int joint = 0; joint < plan.rig.n_joints(); ++joint)
+    inputs.col(joint) = stretch.measured.col(plan.find(channel, joint)).array();
+}
+
 }  // namespace
 
 std::string choose_controller(const Model& model, const LogSurvey& log, const TwinDrive& drive,
                               TwinStretch& stretch) {
   const LogPlan& plan = log.plan;
   stretch.rig = plan.rig;
+  if (plan.rig.open_loop) {
+    take_inputs(plan, Channel::tau, stretch, stretch.input.tau);
+    stretch.hold_torque = drive.torque_held;
+    return "none: the measured torque, which the rig file says is a command";
+  }
   if (!has_reference(plan)) {
     follow_measured(model, plan, drive, stretch);
     return fmt::format(
@@ -88,10 +101,8 @@ std::string choose_controller(const Model& model, const LogSurvey& log, const Tw
         kBandwidth);
   }
   const int n_joints = plan.rig.n_joints();
-  stretch.input.theta_ref.resize(stretch.measured.rows(), n_joints);
+  take_inputs(plan, Channel::theta_ref, stretch, stretch.input.theta_ref);
   for (int joint = 0; joint < n_joints; ++joint) {
-    stretch.input.theta_ref.col(joint) =
-        stretch.measured.col(plan.find(Channel::theta_ref, joint)).array();
     const auto theta = static_cast<std::size_t>(plan.find(Channel::theta, joint));
     SensorInfo& sensor =
         stretch.rig

@@ -19,9 +19,10 @@ struct TwinStretch {
   std::size_t log = 0, part = 0;
   double t0 = 0;             ///< s
   Eigen::MatrixXd measured;  ///< rows x slots of the log's plan
-  SimulationInput input;     ///< reference, load and initial state
-  Rig rig;                   ///< the log's, with the controller that is simulated
+  SimulationInput input;     ///< reference or command, load and initial state
+  Rig rig;  ///< the log's, with the controller that is simulated; none: the torque is a command
   bool link_blocked = false;
+  bool hold_torque = true;  ///< of a command
 };
 
 /// How a log's channels are measured: rounded to `quantum` after noise of `noise` was added.

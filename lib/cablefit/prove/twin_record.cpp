@@ -100,7 +100,8 @@ std::vector<SimulationResult> run_twin(const Twin& twin, const TwinDisturbance& 
     if (!stretch.link_blocked)
       input.link_disturbance = disturbances(disturbance.link, stretch, random);
     SimulationOptions options;
-    options.closed_loop = true;
+    options.closed_loop = stretch.rig.controller.has_value();
+    options.hold_torque = stretch.hold_torque;
     options.link_blocked = stretch.link_blocked;
     motions.push_back(simulate(model, input, options));
     if (motions.back().diverged_at)

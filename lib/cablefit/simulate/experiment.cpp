@@ -25,6 +25,7 @@ void require_in_every_joint(const LogPlan& plan, Channel channel, std::string_vi
 
 /// Why there can be no closed loop; empty: there can.
 std::string no_closed_loop(const LogPlan& plan) {
+  if (plan.rig.open_loop) return "the rig file says that the torque is a command";
   if (!plan.rig.controller) return "no controller in the rig file";
   if (in_every_joint(plan, Channel::theta_ref)) return "";
   return fmt::format("no reference '{}' in the log", plan.rig.controller->reference);
@@ -113,7 +114,10 @@ Rig rig_for_simulation(const std::string& log_path, const std::string& rig_optio
                       "simulate logs of the bench that the model is of");
   }
   if (!rig.load.law) rig.load = model.rig.load;
-  if (!rig.controller) rig.controller = model.rig.controller;
+  if (!rig.controller && !rig.open_loop) {
+    rig.controller = model.rig.controller;
+    rig.open_loop = model.rig.open_loop;
+  }
   if (rig.sensors.empty()) rig.sensors = model.rig.sensors;
   if (rig.torque_hold == TorqueHold::automatic) rig.torque_hold = model.rig.torque_hold;
   return rig;

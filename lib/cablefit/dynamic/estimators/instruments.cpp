@@ -51,8 +51,7 @@ std::string label(const EstimationTask& task, const char* what) {
 }
 
 std::string describe(const LoopPlan& plan) {
-  if (plan.kind == LoopKind::known)
-    return "noise-free loop of the rig's controller and the log's reference";
+  if (keeps_disturbances_out(plan.kind)) return source_of_instruments(plan.kind);
   return fmt::format(
       "{}: a stand-in follows theta smoothed at {:.3g} Hz; encoder noise is kept out, disturbances "
       "that moved the robot are not",
@@ -74,7 +73,7 @@ void note_instruments(const EstimationTask& task, const LoopPlan& plan, const Iv
       {label(task, "instruments"),
        fmt::format("{} simulation{}", fit.n_simulations, fit.n_simulations == 1 ? "" : "s"),
        fmt::format("{}; rows by {} rest: {}", describe(plan),
-                   plan.kind == LoopKind::known ? "its" : "its and the drive's",
+                   keeps_disturbances_out(plan.kind) ? "its" : "its and the drive's",
                    rows_of(task, fit))});
   if (!fit.converged())
     out.fit.warnings.push_back(

@@ -81,20 +81,21 @@ FittedRows rows_of(const DynamicJob& job) {
           std::move(parts)};
 }
 
-/// A stand-in, which follows what was measured, would keep out no disturbance: only the loop that
-/// is known makes instruments that the fit itself does not have.
-void add_noise_free_loop(const DynamicJob& job, const FittedRows& rows,
-                         OutputErrorOptions& options) {
+/// A stand-in, which follows what was measured, would keep out no disturbance: only a loop that is
+/// known, or a commanded torque, makes instruments that the fit itself does not have.
+LoopKind add_noise_free_loop(const DynamicJob& job, const FittedRows& rows,
+                             OutputErrorOptions& options) {
   const std::span<const LogSurvey> logs =
       rows.parts.empty() ? job.logs : std::span<const LogSurvey>(rows.parts);
   const LoopPlan plan = plan_loop(job, logs);
-  if (plan.kind != LoopKind::known) return;
+  if (!keeps_disturbances_out(plan.kind)) return plan.kind;
   options.noise_free_loop = [&job, logs, plan](const Model& model) {
     const SimulatedLogs simulated = simulate_loops(job, logs, model, plan);
     if (!simulated.failure.empty()) return NoiseFreeLogs{{}, {}, simulated.failure};
     return NoiseFreeLogs{measured_stretches(job, simulated.logs),
                          measured_stretches(job, simulated.logs, true), ""};
   };
+  return plan.kind;
 }
 
 OutputErrorOptions options_of(const EstimationTask& task, const Model& start) {
@@ -191,8 +192,8 @@ std::string per_axis(const EstimationTask& task, const Eigen::VectorXd& values) 
   return text;
 }
 
-void note_fit(const EstimationTask& task, const FittedRows& rows, const OutputErrorFit& oe,
-              Estimation& out) {
+void note_fit(const EstimationTask& task, const FittedRows& rows, LoopKind loop,
+              const OutputErrorFit& oe, Estimation& out) {
   const bool linear = task.job.rig().linear_motion;
   out.decisions.push_back(
       {label(task, "output error"),
@@ -204,9 +205,7 @@ void note_fit(const EstimationTask& task, const FittedRows& rows, const OutputEr
            linear ? "m" : "rad", oe.residual_rms, rows.note)});
   if (!oe.instruments.empty())
     out.decisions.push_back({label(task, "instruments"),
-                             oe.instrumented
-                                 ? "noise-free loop of the rig's controller and the log's reference"
-                                 : "none",
+                             oe.instrumented ? source_of_instruments(loop) : "none",
                              oe.instruments});
   out.fit.warnings.insert(out.fit.warnings.end(), oe.warnings.begin(), oe.warnings.end());
   if (oe.residual_rms > kWrongNoise || oe.residual_rms < 1 / kWrongNoise)
@@ -302,13 +301,13 @@ Estimation estimate(const EstimationTask& task) {
   if (rows.stretches.empty())
     return stay_with_least_squares(task, std::move(start), "no stretch of 16 rows without a gap");
   OutputErrorOptions options = options_of(task, model);
-  add_noise_free_loop(job, rows, options);
+  const LoopKind loop = add_noise_free_loop(job, rows, options);
   const OutputErrorFit oe = fit_output_error(model, rows.stretches, options);
   if (oe.parameters.empty()) return stay_with_least_squares(task, std::move(start), oe.message);
   Estimation out;
   fill(task, oe, start, out);
   if (job.n_joints() == 1) out.joint = joint_estimates_of(oe, out.fit);
-  note_fit(task, rows, oe, out);
+  note_fit(task, rows, loop, oe, out);
   note_stage1(task, options, oe, out);
   return out;
 }

@@ -108,6 +108,7 @@ Json rig_json(const Rig& rig) {
   if (rig.load.law) json["load"] = load_json(rig.load);
   if (rig.arm.kind) json["arm"] = arm_json(rig.arm);
   if (rig.controller) json["controller"] = controller_json(*rig.controller);
+  if (rig.open_loop) json["controller"] = {{"type", "open_loop"}};
   add_map(&json, "sensors", rig.sensors, sensor_json);
   add_map(&json, "cad", rig.cad, [](double value) { return value; });
   if (rig.joints != Rig().joints) {

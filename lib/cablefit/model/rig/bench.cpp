@@ -66,12 +66,16 @@ Arm read_arm(const JsonNode& node, const Rig& rig) {
   return arm;
 }
 
-Controller read_controller(const JsonNode& node) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 1> kTypes{
-      {{"pd", "pd"}}};
-  node.allow_only({"type", "kp", "kd", "limit", "period", "reference"});
+std::optional<Controller> read_controller(const JsonNode& node) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kTypes{
+      {{"pd", "pd"}, {"open_loop", "open_loop"}}};
   Controller controller;
   if (const JsonNode* type = node.find("type")) controller.type = choose(*type, kTypes);
+  if (controller.type == "open_loop") {
+    node.allow_only({"type"});
+    return std::nullopt;
+  }
+  node.allow_only({"type", "kp", "kd", "limit", "period", "reference"});
   controller.kp = not_negative(node.at("kp"));
   if (const JsonNode* kd = node.find("kd")) controller.kd = not_negative(*kd);
   if (const JsonNode* limit = node.find("limit")) controller.limit = limit->positive();
