@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/plain_arm.hpp"
 #include "tests/support/plain_joints.hpp"
 
 namespace cablefit::test {
@@ -77,6 +78,14 @@ inline PlainRig tendon_finger() {
                  pulleys(none, {{0.006, 0.001}}),
                  {5e4, 1e7, 1e9},
                  1.5e-3}};
+  return rig;
+}
+
+/// The same finger, its links the phalanges of plain_arm.hpp; no other torque acts on them.
+inline PlainRig phalanges_rig() {
+  PlainRig rig = tendon_finger();
+  rig.link_dynamics = phalanges();
+  for (PlainJoint& joint : rig.joints) joint.load = 0;
   return rig;
 }
 

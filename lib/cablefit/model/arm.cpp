@@ -7,7 +7,8 @@ namespace cablefit {
 namespace {
 
 const std::vector<ArmKind>& table() {
-  static const std::vector<ArmKind> kRows{arms::independent(), arms::planar_two_joint()};
+  static const std::vector<ArmKind> kRows{arms::independent(), arms::planar_two_joint(),
+                                          arms::serial(), arms::urdf()};
   return kRows;
 }
 
@@ -19,6 +20,11 @@ const ArmKind& find_arm_kind(std::string_view name) { return find_row(arm_kinds(
 
 std::vector<ParameterInfo> Arm::base_parameters() const {
   return kind == nullptr ? std::vector<ParameterInfo>{} : kind->base_parameters(parameters);
+}
+
+std::vector<double> Arm::described() const {
+  return kind == nullptr || kind->described == nullptr ? std::vector<double>{}
+                                                       : kind->described(parameters);
 }
 
 }  // namespace cablefit

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -14,6 +15,7 @@
 namespace cablefit {
 
 class JsonNode;
+struct SerialArm;
 
 /// Parameters of any arm; each kind uses what it needs. SI.
 struct ArmParameters {
@@ -21,17 +23,26 @@ struct ArmParameters {
   double length_1 = 0;         ///< planar: from axis 1 to axis 2, m
   double gravity = 0;          ///< planar: in the plane of motion, m/s^2; 0: the plane is level
   double horizontal = 0;       ///< planar: q1 at which link 1 points away level, rad
+  std::shared_ptr<const SerialArm> serial;  ///< serial: the chain and its base parameters
 };
 
-/// One key of an arm in a rig file: a number or a list.
-using ArmEntry = std::pair<std::string_view, std::variant<double, std::vector<double>>>;
+/// What an arm must know of the rig.
+struct RigJoints {
+  int count = 1;
+  bool slide = false;  ///< "motion": "linear"
+};
+
+/// One key of an arm in a rig file: a number, a list or a list of lists.
+using ArmEntry =
+    std::pair<std::string_view,
+              std::variant<double, std::vector<double>, std::vector<std::vector<double>>>>;
 
 /// A row of the table of arms (rig file "arm": {"type": name, ...}).
 struct ArmKind {
   std::string_view name;
   std::string_view equation;
   std::string_view source;
-  ArmParameters (*read)(const JsonNode& node, int n_joints);
+  ArmParameters (*read)(const JsonNode& node, const RigJoints& joints);
   /// What `read` read besides "type", for writing it back.
   std::vector<ArmEntry> (*entries)(const ArmParameters& parameters);
   /// Base parameters that the links share, named by the combination they stand for; none: every
@@ -41,6 +52,13 @@ struct ArmKind {
   /// g(q); `links`: motion of q, one per joint. nullptr without base parameters.
   void (*regressor)(const ArmParameters& parameters, std::span<const Motion> links, int joint,
                     Eigen::Ref<Eigen::MatrixXd> columns);
+  /// The base parameters by what the rig file says of masses; none: it does not. nullptr: it
+  /// cannot.
+  std::vector<double> (*described)(const ArmParameters& parameters) = nullptr;
+  /// Makes sense on linear axes.
+  bool may_slide = false;
+  /// Name of the row that the arm belongs to once it is read; empty: this one.
+  std::string_view becomes = {};
 };
 
 std::span<const ArmKind> arm_kinds();
@@ -54,6 +72,8 @@ struct Arm {
   /// The links move each other.
   bool is_coupled() const { return kind != nullptr && kind->regressor != nullptr; }
   std::vector<ParameterInfo> base_parameters() const;
+  /// Their values by the description, in the same order, or none.
+  std::vector<double> described() const;
 };
 
 }  // namespace cablefit

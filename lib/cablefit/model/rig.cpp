@@ -74,6 +74,7 @@ Rig parse_rig(const JsonNode& node) {
     rig.sensors = rig_parts::read_sensors(*sensors, n);
   }
   if (const JsonNode* cad = node.find("cad")) rig.cad = rig_parts::read_cad(*cad, rig);
+  rig_parts::add_described(&rig);
   return rig;
 }
 

@@ -4,12 +4,12 @@
 namespace cablefit::arms {
 namespace {
 
-ArmParameters read(const JsonNode& node, int n_joints) {
+ArmParameters read(const JsonNode& node, const RigJoints& joints) {
   node.allow_only({"type", "J_link"});
   ArmParameters parameters;
   const JsonNode* given = node.find("J_link");
   if (given == nullptr) return parameters;
-  parameters.J_link = n_numbers(*given, n_joints);
+  parameters.J_link = n_numbers(*given, joints.count);
   for (const double inertia : parameters.J_link)
     if (!(inertia > 0)) throw given->error("an inertia is not positive", "give kg m^2, above 0");
   return parameters;

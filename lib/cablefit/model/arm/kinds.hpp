@@ -4,6 +4,7 @@
 
 #include "cablefit/base/json_document.hpp"
 #include "cablefit/model/arm.hpp"
+#include "cablefit/model/arm/serial_chain.hpp"
 
 namespace cablefit::arms {
 
@@ -11,5 +12,13 @@ namespace cablefit::arms {
 ArmKind independent();
 /// Two links with parallel axes.
 ArmKind planar_two_joint();
+/// A chain of joints.
+ArmKind serial();
+/// The same from a file.
+ArmKind urdf();
+
+/// "gravity" of an arm: three numbers, m/s^2, in the frame of its base; standard gravity down z
+/// when left out.
+Eigen::Vector3d gravity_at(const JsonNode& node);
 
 }  // namespace cablefit::arms

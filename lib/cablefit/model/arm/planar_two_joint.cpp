@@ -17,9 +17,9 @@ namespace {
 /// Columns, in this order; the last two only where gravity acts.
 enum Column : Eigen::Index { kZZ1, kZZ2, kMX2, kMY2, kMX1, kMY1 };
 
-ArmParameters read(const JsonNode& node, int n_joints) {
+ArmParameters read(const JsonNode& node, const RigJoints& joints) {
   node.allow_only({"type", "length_1", "gravity", "horizontal"});
-  if (n_joints != 2)
+  if (joints.count != 2)
     throw node.at("type").error("a planar_two_joint arm on a rig of another number of joints",
                                 "list two joints");
   ArmParameters parameters;

@@ -59,10 +59,11 @@ Arm read_arm(const JsonNode& node, const Rig& rig) {
   const JsonNode& type = node.at("type");
   Arm arm;
   arm.kind = at_place_of(type, [&] { return &find_arm_kind(type.text()); });
-  arm.parameters = arm.kind->read(node, rig.n_joints());
-  if (rig.linear_motion && arm.is_coupled())
+  if (rig.linear_motion && arm.is_coupled() && !arm.kind->may_slide)
     throw type.error(fmt::format("arm '{}' on linear axes", arm.kind->name),
                      "its joints turn: leave out \"motion\": \"linear\"");
+  arm.parameters = arm.kind->read(node, {rig.n_joints(), rig.linear_motion});
+  if (!arm.kind->becomes.empty()) arm.kind = &find_arm_kind(arm.kind->becomes);
   return arm;
 }
 
@@ -96,6 +97,12 @@ std::map<std::string, double> read_cad(const JsonNode& node, const Rig& rig) {
     cad[name] = value.number();
   }
   return cad;
+}
+
+void add_described(Rig* rig) {
+  const std::vector<ParameterInfo> base = rig->arm.base_parameters();
+  const std::vector<double> described = rig->arm.described();
+  for (std::size_t k = 0; k < described.size(); ++k) rig->cad.emplace(base[k].name, described[k]);
 }
 
 }  // namespace cablefit::rig_parts

@@ -24,6 +24,8 @@ std::optional<Controller> read_controller(const JsonNode& node);
 std::map<std::string, SensorInfo> read_sensors(const JsonNode& node, int n_joints);
 /// "cad": values by parameter name; needs the joints and cables, which name the parameters.
 std::map<std::string, double> read_cad(const JsonNode& node, const Rig& rig);
+/// What the arm's description gives, where "cad" does not.
+void add_described(Rig* rig);
 
 /// A channel of a log. Text channels have no unit, per-joint ones may carry an index.
 struct ChannelName {
