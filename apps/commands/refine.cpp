@@ -9,6 +9,7 @@
 #include "cablefit/base/digest.hpp"
 #include "cablefit/base/error.hpp"
 #include "cablefit/model/read_models.hpp"
+#include "cablefit/refine/chance_tail.hpp"
 #include "cablefit/refine/model_set.hpp"
 #include "cablefit/report/elastic_models.hpp"
 #include "cablefit/report/excite_csv.hpp"
@@ -111,6 +112,16 @@ void add_gate_options(CLI::App& app, RefineCommand& command) {
       app, "--gate-gap", "X", {0}, [&command](double gap) { command.most_gap = gap; },
       "exit 1 when the torque gap on unseen logs is larger in the end (N m; N on a linear axis)");
   app.add_flag("--gate-new-effect", command.gate_new_effect, "exit 1 when an effect was named");
+}
+
+/// What is asked for has to be within reach of the draws.
+void require_enough_draws(const RefineOptions& refine) {
+  const double least = least_tail(refine.n_draws);
+  if (refine.significance < least)
+    throw usage_error(
+        fmt::format("--significance {:g} is less than {} simulated data sets can tell ({:.2g})",
+                    refine.significance, refine.n_draws, least),
+        "ask for more of them with --draws");
 }
 
 /// A log in two places would count double, or judge what was made from it.
@@ -306,6 +317,7 @@ int run_refine(const Arguments& arguments) {
   app.footer(kExample);
   if (!parse(app, arguments)) return 0;
   require_files(command);
+  require_enough_draws(command.refine);
 
   const RefineResult result = run(command);
   const std::vector<std::string> names = model_file_names(result);

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "cablefit/refine/next_run.hpp"
 #include "cablefit/refine/null_draws.hpp"
+#include "cablefit/refine/search.hpp"
 #include "cablefit/refine/separability.hpp"
 #include "tests/refine/hidden_logs.hpp"
 
@@ -73,6 +75,31 @@ TEST_CASE("aliases are never told apart, and no run is promised", "[refine][sepa
   CHECK(scale->is_alias);
   CHECK(scale->next_run.empty());
   CHECK(group_with(groups, "stribeck (motor)", "cogging (motor)") == nullptr);
+}
+
+/// What a rival could still bend to tells nothing: what values it was given does not matter.
+TEST_CASE("a run tells rivals apart by what they cannot bend to", "[refine][separability]") {
+  const HiddenLogs hidden = hidden_logs({"constant_torque.link=1"}, 1, "one_load");
+  const BaseFit base = base_of(hidden, all_training(hidden.logs));
+  const KindLevels floor = base.fit.rms();
+  const Search found = search(base.design, floor, {});
+  const auto candidate = [&](std::string_view name) {
+    return *std::find_if(found.candidates.begin(), found.candidates.end(),
+                         [&](const Candidate& c) { return c.variant.refinement->name == name; });
+  };
+  const Candidate best = candidate("constant_torque"), rival = candidate("load_scale");
+  Candidate bent = rival;
+  bent.x *= 1.1;
+  std::vector<TrialRun> runs = trial_runs(base.design);
+  runs.resize(2);
+  const auto from = [&](const Candidate& other) {
+    return decisive_run(base.design, base.fit.x, best, {&other}, floor, runs);
+  };
+  const auto own = from(rival), other = from(bent);
+  REQUIRE(own);
+  REQUIRE(other);
+  CHECK(own->run == other->run);
+  CHECK(own->difference == Approx(other->difference));
 }
 
 /// References stay within what the logs have seen, and the fitted model can follow them.

@@ -119,10 +119,21 @@ TEST_CASE("a further effect has to carry more", "[refine]") {
 TEST_CASE("the tail of the largest gain", "[refine]") {
   const std::vector<double> largest = {0.001, 0.002, 0.003};
   // mean .002, sd .001: scale 7.79697e-4, mode 1.549946e-3.
-  CHECK(tail_of_largest(largest, 0.006) == Approx(0.00331574).epsilon(1e-5));
-  CHECK(tail_of_largest(largest, 0.0025) == Approx(0.5));  // one of three is above
-  CHECK(tail_of_largest(largest, 1) >= kLeastTail);
-  CHECK(tail_of_largest({}, 1) == 1);
+  CHECK(tail_of_largest(largest, 0.006).p == Approx(0.00331574).epsilon(1e-5));
+  CHECK(tail_of_largest(largest, 0.006).is_fitted);
+  CHECK(tail_of_largest(largest, 0.0025).p == Approx(0.5));  // one of three is above
+  CHECK_FALSE(tail_of_largest(largest, 0.0025).is_fitted);
+  CHECK(tail_of_largest({}, 1).p == 1);
+}
+
+/// Four draws say nothing of one in ten thousand, however far the gain is beyond them.
+TEST_CASE("a fitted tail goes no further than its draws support", "[refine]") {
+  const std::vector<double> four = {0.001, 0.002, 0.003, 0.002};
+  CHECK(tail_of_largest(four, 1).p == Approx(0.002));  // two decades beyond 1 in 5
+  CHECK(tail_of_largest(std::vector<double>(24, 0.001), 1).p == Approx(4e-4));
+  CHECK(least_tail(100000) == Approx(1e-4));
+  CHECK(judge_search({candidate("stribeck", Site::motor, 0.4)}, kGap, draws(), {}, true)
+            .chance.is_fitted);
 }
 
 /// The trap: a term that improves the equation error and worsens the simulation.

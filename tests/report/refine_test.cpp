@@ -32,7 +32,7 @@ NamedEffect stribeck() {
   effect.instance.parameters = {test::estimate("amplitude", "N m", 0.1821, 0.0077),
                                 test::estimate("v_s", "rad/s", 0.1358, 0.0068),
                                 test::estimate("exponent", "", 1.88, 0.21)};
-  effect.evidence = {0.244, 1.308, 1.023, 2.1e-45, 1, 24};
+  effect.evidence = {0.244, 1.308, 1.023, 2.1e-45, true, 1, 24};
   effect.torque_rms = 0.093;
   return effect;
 }
@@ -127,6 +127,7 @@ TEST_CASE("a refinement as JSON: what scripts rely on") {
   CHECK(effect["event"].is_null());
   CHECK(effect["evidence"]["rho_before"] == 1.308);
   CHECK(effect["evidence"]["p_value"] == 2.1e-45);
+  CHECK(effect["evidence"]["p_is_fitted"] == true);
   CHECK(effect["rivals"][0]["evidence"]["gain"] == 0.85);
   CHECK(effect["rivals"][1]["alias"] == true);
   CHECK(j["gap"]["torque"]["test_after"] == 0.1016);
@@ -180,8 +181,8 @@ and        link equation, sgn(qd) = -1: 90 % of its squared gap in 50 % of its r
 verdict    named: stribeck (motor); 93 % of the squared gap above the noise floor closed
 effect     stribeck: a exp(-|thetad / v_s|^s) sgn(thetad); amplitude = 0.1821 +- 0.0077 N m, v_s = 0.1358 +-
            0.0068 rad/s, exponent = 1.88 +- 0.21; carries 0.0930 N m rms
-evidence   removes 24 % of the squared gap above the noise floor on unseen data; by chance p < 1e-4 (24
-           simulated data sets); the best in 100 % of resamples
+evidence   removes 24 % of the squared gap above the noise floor on unseen data; by chance p < 0.0004 (tail
+           fitted to 24 simulated data sets); the best in 100 % of resamples
 rivals     none; the next best, quadratic_drag (motor), removes 44 % alone
 gap        torque, N m rms: train 0.0977 -> 0.0864, unseen 0.106 -> 0.102, noise floor 0.0854
 remainder  link 0.00370 N m, motor 0.0150 N m rms above the noise floor
@@ -242,7 +243,7 @@ TEST_CASE("look-alikes and the run that separates them, in the story") {
 and: link equation, sgn(qd) = -1: 90 % of its squared gap in 50 % of its rows; 0.0500 N m rms there, noise floor 0.0360
 verdict: ambiguous: stribeck (motor) or a look-alike; 93 % of the squared gap above the noise floor closed
 effect: stribeck: a exp(-|thetad / v_s|^s) sgn(thetad); amplitude = 0.1821 +- 0.0077 N m, v_s = 0.1358 +- 0.0068 rad/s, exponent = 1.88 +- 0.21; carries 0.0930 N m rms
-evidence: removes 24 % of the squared gap above the noise floor on unseen data; by chance p < 1e-4 (24 simulated data sets); the best in 100 % of resamples
+evidence: removes 24 % of the squared gap above the noise floor on unseen data; by chance p < 0.0004 (tail fitted to 24 simulated data sets); the best in 100 % of resamples
 rivals: quadratic_drag (motor) removes 85 %, 1.3 sd behind; asymmetric_coulomb (motor) is the same in any log of the usual kind
 gap: torque, N m rms: train 0.0977 -> 0.0864, unseen 0.106 -> 0.102, noise floor 0.0854; unseen: the last third of every moving log
 simulation: of unseen logs, mrad rms: 0.910 -> 0.120 (0.110 .. 0.130), noise floor 0.100

@@ -43,7 +43,8 @@ RefineEvidence evidence_of(const RefineBench& bench, const RefineState& before,
   RefineEvidence e;
   e.rho_before = before.rho;
   e.rho_after = after.rho;
-  e.p_value = judgement.p_value;
+  e.p_value = judgement.chance.p;
+  e.is_fitted_tail = judgement.chance.is_fitted;
   e.inclusion = judgement.inclusion;
   e.n_draws = bench.draws.size();
   // On rows that had no say; on the training rows where those show no gap to close.
@@ -181,7 +182,7 @@ void name_first_again(RefineBench& bench, const RefineState& first, RefineState&
     return;
   // In the order of the design: what was second alone, then the new one beside it.
   Judgement kept;
-  kept.p_value = result.effects[1].evidence.p_value;
+  kept.chance = {result.effects[1].evidence.p_value, result.effects[1].evidence.is_fitted_tail};
   kept.inclusion = result.effects[1].evidence.inclusion;
   kept.rivals = result.effects[1].rivals;
   result.effects = {effect_of(bench, first, *alone, kept),

@@ -12,6 +12,7 @@ namespace cablefit {
 namespace {
 
 constexpr double kVisibleSd = 3;
+constexpr std::string_view kUnnamed = "default";  // preload of logs that name none
 
 bool is_blocked(const PartSurvey& part) { return part.phase == Phase::blocked; }
 
@@ -122,6 +123,25 @@ double enough_rows(const Design& design) {
   return sum / static_cast<double>(design.stretches.size());
 }
 
+/// A single model that says which preload it is of has nothing to say of another.
+PartFilter of_preload(std::span<const Model> models) {
+  const std::string own = models.front().preload;
+  if (models.size() > 1 || own.empty() || own == kUnnamed)
+    return [](const PartSurvey&) { return true; };
+  return [own](const PartSurvey& part) { return part.preload == own; };
+}
+
+void require_preload(std::span<const Model> models, const RefineLogs& logs) {
+  const PartFilter own = of_preload(models);
+  for (const auto* some : {&logs.train, &logs.test, &logs.blocked})
+    for (const LogSurvey& log : *some)
+      if (!log.parts.empty() && std::none_of(log.parts.begin(), log.parts.end(), own))
+        throw input_error({log.plan.path},
+                          fmt::format("the log is of preload '{}', the model of '{}'",
+                                      log.parts.front().preload, models.front().preload),
+                          "give a model of every preload, or leave the log out");
+}
+
 void require_one_joint(std::span<const Model> models) {
   for (const Model& model : models)
     if (model.joints.size() > 1)
@@ -136,8 +156,9 @@ void require_one_joint(std::span<const Model> models) {
 RefineStage stage_of(std::span<const Model> models, const RefineLogs& logs) {
   RefineStage stage;
   stage.models.assign(models.begin(), models.end());
-  stage.wanted = [](const PartSurvey&) { return true; };
+  stage.wanted = of_preload(models);
   require_one_joint(models);
+  require_preload(models, logs);
   if (models.front().rigid) return stage;
   const bool from_stage_1 = models.front().joints.front().link.empty();
   const bool any_moves = any_part_of(logs, [](const PartSurvey& p) { return !is_blocked(p); });
@@ -150,7 +171,9 @@ RefineStage stage_of(std::span<const Model> models, const RefineLogs& logs) {
   if (any_moves)
     stage.warnings.emplace_back(
         "moving parts of the logs were not used: the model is of stage 1 and knows no inertia");
-  stage.wanted = is_blocked;
+  stage.wanted = [own = of_preload(models)](const PartSurvey& part) {
+    return is_blocked(part) && own(part);
+  };
   for (Model& model : stage.models) {
     model.joints.front().link.clear();
     add_motor_effects(model);

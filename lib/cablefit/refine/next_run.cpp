@@ -12,13 +12,32 @@ namespace cablefit {
 namespace {
 
 /// What an explanation's equations leave on a run, stretch by stretch, kind by kind.
-std::vector<Eigen::VectorXd> residuals_of(const Design& trial, const Candidate& c,
-                                          const Eigen::VectorXd& values) {
-  const Design with = with_variant(trial, c.variant, values);
+std::vector<Eigen::VectorXd> residuals_of(const Design& with, const Eigen::VectorXd& x) {
   std::vector<Eigen::VectorXd> all;
   for (const KindRows& kind : with.rows.front().kinds)
-    all.emplace_back(kind.base * c.x - kind.response);
+    all.emplace_back(kind.base * x - kind.response);
   return all;
+}
+
+/// A rival with the rows it was fitted to.
+struct Fitted {
+  const Candidate* rival = nullptr;
+  BlockGrams grams;
+};
+
+constexpr double kBlockSeconds = 2;
+
+BlockGrams grams_of(const Design& design) {
+  return block_grams(design.rows, design.stretches, kBlockSeconds);
+}
+
+/// The rival fitted to its logs and the run together: what it cannot bend to is what tells it
+/// apart. Its first values where that is singular.
+Eigen::VectorXd refitted(const Fitted& fitted, const Design& trial, const KindLevels& floor) {
+  BlockGrams both = grams_of(trial);
+  both.blocks.insert(both.blocks.end(), fitted.grams.blocks.begin(), fitted.grams.blocks.end());
+  const auto fit = fit_blocks(both, floor, false);
+  return fit ? fit->x : fitted.rival->x;
 }
 
 struct Apart {
@@ -46,20 +65,26 @@ std::optional<RunChoice> decisive_run(const Design& design, const Eigen::VectorX
                                       const std::vector<const Candidate*>& rivals,
                                       const KindLevels& floor, const std::vector<TrialRun>& runs) {
   const Model model = models_with(with_variant(design, best.variant, x), best.x).front();
+  std::vector<Fitted> fitted;
+  for (const Candidate* rival : rivals)
+    fitted.push_back({rival, grams_of(with_variant(design, rival->variant, x))});
   std::optional<RunChoice> choice;
   double most = 0;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const auto stretch = simulated(runs[k], model);
     if (!stretch) continue;
     const Design trial = make_design(design.models, {*stretch}, design.smoothing);
-    const auto own = residuals_of(trial, best, x);
+    const auto own = residuals_of(with_variant(trial, best.variant, x), best.x);
     Apart closest{RowKind::motor, 0, kUnbounded};
     std::string name;
-    for (const Candidate* rival : rivals) {
-      const Apart one = apart(trial, own, residuals_of(trial, *rival, x), floor);
+    for (const Fitted& one_rival : fitted) {
+      const Candidate& rival = *one_rival.rival;
+      const Design with = with_variant(trial, rival.variant, x);
+      const Apart one =
+          apart(trial, own, residuals_of(with, refitted(one_rival, with, floor)), floor);
       if (one.in_floors >= closest.in_floors) continue;
       closest = one;
-      name = rival->variant.refinement->name;
+      name = rival.variant.refinement->name;
     }
     if (name.empty() || closest.in_floors <= most) continue;
     most = closest.in_floors;

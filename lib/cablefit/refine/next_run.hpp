@@ -20,7 +20,8 @@ struct RunChoice {
 };
 
 /// The run on which the closest rival differs most from `best`, in floors of the equation where it
-/// shows; nothing when no run can be simulated. `x`: of the design's columns.
+/// shows, after the rival was fitted again to the logs and that run; nothing when no run can be
+/// simulated. `x`: of the design's columns.
 std::optional<RunChoice> decisive_run(const Design& design, const Eigen::VectorXd& x,
                                       const Candidate& best,
                                       const std::vector<const Candidate*>& rivals,

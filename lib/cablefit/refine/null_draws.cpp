@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/prove/twin.hpp"
@@ -79,6 +78,14 @@ NullBench::~NullBench() = default;
 
 void NullBench::disturb(const TwinDisturbance& disturbance) { parts_->disturbance = disturbance; }
 
+void NullBench::silence_torque() {
+  for (PreloadTwin& preload : parts_->twins)
+    for (std::size_t log = 0; log < preload.twin.plans.size(); ++log)
+      for (std::size_t k = 0; k < preload.twin.sensors[log].size(); ++k)
+        if (preload.twin.plans[log].slots[k].channel == Channel::tau)
+          preload.twin.sensors[log][k].noise = 0;
+}
+
 void NullBench::hold_back(double share) { parts_->held_back = share; }
 
 std::vector<NullBench::Recorded> NullBench::record(std::uint64_t seed) const {
@@ -145,6 +152,7 @@ NullDraw NullBench::base_only(std::uint64_t seed, const KindLevels* levels) cons
       fit_base(make_design(parts_->models, draw(seed), parts_->smoothing), 2, levels);
   NullDraw out;
   out.floor = base.fit.rms();
+  out.x = base.fit.x;
   return out;
 }
 
@@ -168,26 +176,6 @@ NullDraw NullBench::searched(std::uint64_t seed, const KindLevels& levels,
        scan({base.design, base.grams, base.fit, base.levels}, settings, {}))
     if (candidate.refused.empty()) out.gains[candidate.variant.refinement] = candidate.gain;
   return out;
-}
-
-double tail_of_largest(const std::vector<double>& largest, double gain) {
-  const auto n = static_cast<double>(largest.size());
-  if (largest.size() < 2) return 1;
-  double sum = 0, squares = 0, above = 0;
-  for (const double one : largest) {
-    sum += one;
-    above += one >= gain ? 1 : 0;
-  }
-  const double mean = sum / n;
-  for (const double one : largest) squares += (one - mean) * (one - mean);
-  const double counted = (1 + above) / (1 + n);
-  if (above > 0) return counted;
-  // Gumbel: sd = pi/sqrt(6) scale, mean = mode + gamma scale (Johnson, Kotz & Balakrishnan 1995).
-  const double scale =
-      std::max(1e-12, std::sqrt(squares / (n - 1)) * std::sqrt(6.0) / std::numbers::pi);
-  const double mode = mean - std::numbers::egamma * scale;
-  const double tail = -std::expm1(-std::exp(-(gain - mode) / scale));
-  return std::max(kLeastTail, std::min(counted, tail));
 }
 
 }  // namespace cablefit

@@ -17,6 +17,7 @@ namespace cablefit {
 /// One simulated data set, searched.
 struct NullDraw {
   KindLevels floor{};                         ///< rms the base model leaves
+  Eigen::VectorXd x;                          ///< its columns' values
   std::map<const Refinement*, double> gains;  ///< best of each row; events in sample
 };
 
@@ -46,6 +47,9 @@ class NullBench {
   /// what is found by chance grows as rows are fewer.
   void hold_back(double share);
 
+  /// Torques are logged without noise from now on, which leaves what is not chance.
+  void silence_torque();
+
   /// One draw as logs, by model.
   struct Recorded {
     std::size_t model = 0;
@@ -67,11 +71,5 @@ class NullBench {
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
-
-/// P(largest gain of a search >= gain) where there is nothing: (1 + count) / (1 + n), or the tail
-/// of a Gumbel distribution fitted by moments where none of the draws came that far. Never below
-/// kLeastTail: some tens of draws say nothing of what is rarer.
-inline constexpr double kLeastTail = 1e-4;
-double tail_of_largest(const std::vector<double>& largest, double gain);
 
 }  // namespace cablefit

@@ -8,6 +8,7 @@
 
 #include "cablefit/refine/effect_steps.hpp"
 #include "cablefit/refine/elastic_stage.hpp"
+#include "cablefit/refine/fit_bias.hpp"
 #include "cablefit/refine/next_run.hpp"
 #include "cablefit/refine/refine_bench.hpp"
 #include "cablefit/refine/refine_figures.hpp"
@@ -117,30 +118,34 @@ RefineResult refine(std::span<const Model> given, const RefineLogs& logs,
     if (state.rho < kNoGap) break;
   }
 
-  const FinalFit fit =
-      final_fit(first.design, state.design, state.levels, bench.scan.block_seconds);
+  FinalFit fit = final_fit(first.design, state.design, state.levels, bench.scan.block_seconds);
+  if (state.rho > kRemainder)
+    result.unexplained =
+        describe_remainder(state.design, fit.x, bench.floor, bench.scan.block_seconds);
+  tell_remainder(fit.rms, bench.floor, result);
+  // From here on values are those that simulate.
+  const RefineState before = without_bias(bench, first, bench.base_bias);
+  const Eigen::VectorXd fitted = state.x = fit.x;
+  state = result.effects.empty() ? before : without_bias(bench, state, fit_bias(bench, state));
+  fit.x = state.x;
   const std::vector<NamedEffect> named = named_effects(state.design, fit);
   for (std::size_t k = 0; k < named.size(); ++k) {
     result.effects[k].instance = named[k].instance;
     result.effects[k].derived = named[k].derived;
     result.effects[k].torque_rms = named[k].torque_rms;
   }
-  result.shifts = parameter_shifts(first.design, first.x, state.design, fit);
+  result.shifts = parameter_shifts(first.design, before.x, state.design, fit);
   result.models = refined_models(state.design, fit);
   result.rho_before = first.rho;
   result.rho_after = state.rho;
-  tell_gaps(bench, first, state, result);
-  tell_remainder(fit.rms, bench.floor, result);
-  if (state.rho > kRemainder)
-    result.unexplained =
-        describe_remainder(state.design, fit.x, bench.floor, bench.scan.block_seconds);
+  tell_gaps(bench, before, state, result);
   conclude(result);
   choose_next_run({first.design, first.x, bench.floor, bench.first_search.candidates, runs},
                   result);
   if (options.figures)
     result.figures =
-        refine_figures(result, {bench.all, first.design, first.x, state.design, fit.x},
-                       {bench.all, first.test, first.x, state.test, fit.x}, bench.floor);
+        refine_figures(result, {bench.all, first.design, first.x, state.design, fitted},
+                       {bench.all, first.test, before.x, state.test, fit.x}, bench.floor);
   return result;
 }
 

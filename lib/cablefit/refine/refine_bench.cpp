@@ -42,12 +42,16 @@ KindLevels common_unit(const RefineBench& bench, KindLevels floor) {
   return floor;
 }
 
-KindLevels fitted_floor(const RefineBench& bench) {
+/// `x`: of the fit that the draws are simulated from.
+KindLevels fitted_floor(RefineBench& bench, const Eigen::VectorXd& x) {
   std::vector<KindLevels> levels;
+  bench.base_bias = Eigen::VectorXd::Zero(x.size());
   for (const NullDraw& draw :
        run_draws(bench, kFloorDraws, bench.options.seed, "noise floor",
-                 [&](std::uint64_t seed) { return bench.null->base_only(seed, nullptr); }))
+                 [&](std::uint64_t seed) { return bench.null->base_only(seed, nullptr); })) {
     levels.push_back(draw.floor);
+    bench.base_bias += (draw.x - x) / static_cast<double>(kFloorDraws);
+  }
   KindLevels floor = rms_over(levels);
   // Of rows that there are none of: simulated runs may have some.
   auto& blocked = floor[static_cast<std::size_t>(RowKind::blocked)];
@@ -149,8 +153,9 @@ RefineState prepare(RefineBench& bench, std::span<const Model> models, const Ref
   bench.smoothing = base.design.smoothing;
   std::vector<Model> fitted = models_with(base.design, base.fit.x);
   bench.null.emplace(fitted, bench.logs, bench.wanted, bench.smoothing);
-  if (result.held_out_blocks) bench.null->hold_back(kHeldOutShare);
-  bench.floor = fitted_floor(bench);
+  bench.held_back = result.held_out_blocks ? kHeldOutShare : 0;
+  bench.null->hold_back(bench.held_back);
+  bench.floor = fitted_floor(bench, base.fit.x);
   base = fit_base(std::move(base.design), bench.scan.block_seconds, &bench.floor);
   fitted = models_with(base.design, base.fit.x);
   find_unseen_floors(bench, fitted,

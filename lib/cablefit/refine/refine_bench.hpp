@@ -24,7 +24,9 @@ struct RefineBench {
   std::vector<LogSurvey> logs = {};    ///< blocked, then training
   std::vector<LogSurvey> unseen = {};  ///< simulated for the last word; the training logs when none
   Smoothing smoothing = {};
+  double held_back = 0;  ///< share of every training log that is the unseen data
   KindLevels floor{}, test_floor{};
+  Eigen::VectorXd base_bias = {};  ///< of the base fit, see fit_bias.hpp
   SimulatedGap simulation_floor = {};
   std::optional<NullBench> null = {};
   std::vector<NullDraw> draws = {};  ///< of searches; none until something is worth them

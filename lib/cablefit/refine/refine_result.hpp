@@ -42,6 +42,7 @@ struct RefineEvidence {
   double gain = 0;                       ///< of the squared gap above the floor, unseen data
   double rho_before = 0, rho_after = 0;  ///< weighted squared residual over the floor
   double p_value = 1;                    ///< by parametric bootstrap of the whole pipeline
+  bool is_fitted_tail = false;           ///< p of a distribution fitted to the draws, not counted
   double inclusion = 0;
   std::size_t n_draws = 0;
 };

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "cablefit/base/random.hpp"
+#include "cablefit/refine/chance_tail.hpp"
 #include "cablefit/refine/levels.hpp"
 
 namespace cablefit {
@@ -102,7 +103,7 @@ class Significance {
         options_(options),
         is_first_(is_first) {}
 
-  double p_value(const Candidate& c) const { return tail_of_largest(chance_of(c), c.gain); }
+  ChanceTail tail(const Candidate& c) const { return tail_of_largest(chance_of(c), c.gain); }
 
   bool holds(const Candidate& c) const {
     const std::vector<double>& chance = chance_of(c);
@@ -110,7 +111,7 @@ class Significance {
     const double least =
         is_first_ ? options_.materiality : std::max(kNextMateriality, options_.materiality);
     if (!is_first_ && c.gain * gap_.total < kNextShare * gap_.above()) return false;
-    return c.gain >= least && c.gain > kSafety * most && p_value(c) <= options_.significance;
+    return c.gain >= least && c.gain > kSafety * most && tail(c).p <= options_.significance;
   }
 
  private:
@@ -234,7 +235,7 @@ Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGa
   if (!best) return judgement;
   judgement.is_named = true;
   judgement.best = able[*best];
-  judgement.p_value = significance.p_value(*judgement.best);
+  judgement.chance = significance.tail(*judgement.best);
   judgement.inclusion = share[*best];
   judgement.rivals = rivals_of(*judgement.best, able, share, gap);
   return judgement;
@@ -247,7 +248,7 @@ Judgement judge_candidate(const Candidate& candidate, const std::vector<Candidat
   const std::vector<double> share = inclusions(able);
   Judgement judgement;
   judgement.is_named = true;
-  judgement.p_value = Significance(draws, gap, options, true).p_value(candidate);
+  judgement.chance = Significance(draws, gap, options, true).tail(candidate);
   judgement.rivals = rivals_of(candidate, able, share, gap);
   for (std::size_t k = 0; k < able.size(); ++k)
     if (able[k]->variant.refinement == candidate.variant.refinement) judgement.inclusion = share[k];

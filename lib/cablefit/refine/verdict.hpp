@@ -1,6 +1,7 @@
 // The decision rule of refine, all of it. Internal to refine/.
 #pragma once
 
+#include "cablefit/refine/chance_tail.hpp"
 #include "cablefit/refine/confirm.hpp"
 #include "cablefit/refine/null_draws.hpp"
 #include "cablefit/refine/refine.hpp"
@@ -11,7 +12,7 @@ namespace cablefit {
 /// What one search tells.
 struct Judgement {
   const Candidate* best = nullptr;  ///< the largest gain of all that may be named; nullptr: none
-  double p_value = 1;
+  ChanceTail chance;
   bool is_named = false;
   std::vector<Rival> rivals;  ///< look-alikes of the best, likeliest first
   std::vector<Rival> league;  ///< all rows, by gain

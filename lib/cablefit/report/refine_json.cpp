@@ -52,9 +52,13 @@ Json league_json(const Rival& row) {
 }
 
 Json evidence_json(const RefineEvidence& evidence) {
-  return Json{{"gain", evidence.gain},           {"rho_before", evidence.rho_before},
-              {"rho_after", evidence.rho_after}, {"p_value", evidence.p_value},
-              {"inclusion", evidence.inclusion}, {"draws", evidence.n_draws}};
+  return Json{{"gain", evidence.gain},
+              {"rho_before", evidence.rho_before},
+              {"rho_after", evidence.rho_after},
+              {"p_value", evidence.p_value},
+              {"p_is_fitted", evidence.is_fitted_tail},
+              {"inclusion", evidence.inclusion},
+              {"draws", evidence.n_draws}};
 }
 
 /// When it happened; null for what is always there.

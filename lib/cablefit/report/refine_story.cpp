@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/refine/null_draws.hpp"
+#include "cablefit/refine/chance_tail.hpp"
 #include "cablefit/refine/regime_variables.hpp"
 #include "cablefit/report/document_parts.hpp"
 #include "cablefit/report/numbers.hpp"
@@ -78,8 +78,14 @@ std::string parameters_text(const NamedEffect& effect) {
   return text;
 }
 
-static_assert(kLeastTail == 1e-4);
-std::string p_text(double p) { return p <= kLeastTail ? "p < 1e-4" : fmt::format("p = {:.1g}", p); }
+/// Where none of the draws came as far, p says of what: a fit, and no more than the draws support.
+std::string chance_text(const RefineEvidence& e) {
+  const double least = least_tail(e.n_draws);
+  const bool is_least = e.is_fitted_tail && e.p_value <= least;
+  return fmt::format("p {} {:.1g} ({} {} simulated data sets)", is_least ? "<" : "=",
+                     std::max(e.p_value, least), e.is_fitted_tail ? "tail fitted to" : "counted in",
+                     e.n_draws);
+}
 
 /// An event is in one log only: no unseen data can show it.
 SummaryLine evidence_line(const RefineEvidence& evidence, bool is_event) {
@@ -87,10 +93,8 @@ SummaryLine evidence_line(const RefineEvidence& evidence, bool is_event) {
       is_event ? "dated, so judged on the log that it is in"
                : fmt::format("removes {} of the squared gap above the noise floor on unseen data",
                              percent(evidence.gain));
-  return {
-      "evidence",
-      fmt::format("{}; by chance {} ({} simulated data sets); the best in {} of resamples", gain,
-                  p_text(evidence.p_value), evidence.n_draws, percent(evidence.inclusion))};
+  return {"evidence", fmt::format("{}; by chance {}; the best in {} of resamples", gain,
+                                  chance_text(evidence), percent(evidence.inclusion))};
 }
 
 std::string rival_text(const Rival& rival) {

@@ -130,6 +130,12 @@ void require_own_inertias(const Rig& rig, const JsonNode& node) {
 void require_inertia(const Model& model, const JsonNode& node) {
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
     const JointModel& joint = model.joints[k];
+    if (!model.rigid && joint.link.empty())
+      throw node.error(fmt::format("the link of joint '{}' has no inertia: the model is of stage 1 "
+                                   "alone",
+                                   model.rig.joints[k]),
+                       "fit moving logs with 'cablefit dynamic'; a model of blocked logs cannot "
+                       "move");
     const bool link_moves = model.rigid || total_inertia(joint.link) > 0;
     if (link_moves && total_inertia(joint.motor) > 0) continue;
     throw node.error(fmt::format("the {} of joint '{}' has no positive inertia",

@@ -1,0 +1,21 @@
+// What rounding, filters and reversals make of a fit by equation error, and its values without it:
+// the fitted model is simulated and fitted again, and what comes out differs from what went in by
+// the bias (bootstrap; Efron & Tibshirani 1993, ch. 10). Equations cannot show it, simulations do.
+// Internal to refine/.
+#pragma once
+
+#include "cablefit/refine/refine_bench.hpp"
+
+namespace cablefit {
+
+/// Bias of `state.x`, fitted with `state.levels`, of the columns of its design. Columns of events
+/// and of sensors have none: no simulated log shows these. Nothing when the fitted model cannot be
+/// simulated, or from blocked logs alone.
+std::optional<Eigen::VectorXd> fit_bias(const RefineBench& bench, const RefineState& state);
+
+/// The state with its values less the bias, where these simulate the training logs better, else as
+/// it is. `rho` and `levels` stay those of the fit: floors of training rows know the same bias.
+RefineState without_bias(const RefineBench& bench, const RefineState& state,
+                         const std::optional<Eigen::VectorXd>& bias);
+
+}  // namespace cablefit
