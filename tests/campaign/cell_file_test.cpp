@@ -10,6 +10,7 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/campaign/cell_fit.hpp"
 #include "cablefit/campaign/portable_text.hpp"
+#include "cablefit/model/arm/urdf_file.hpp"
 #include "cablefit/report/batch_document.hpp"
 #include "cablefit/report/batch_json.hpp"
 #include "cablefit/report/dynamic_json.hpp"
@@ -155,6 +156,26 @@ TEST_CASE("a key tells contents and options apart, not folders, threads or dates
   CHECK(key(other) != first);
   std::ofstream(folder.file("data/low/rig.json"), std::ios::app) << " ";
   CHECK(key(moved) != first);
+}
+
+TEST_CASE("a key hangs on what a rig file names") {
+  if (!reads_urdf()) return;
+  const TempFolder folder;
+  fs::copy(std::string(CABLEFIT_DATA) + "/two_joints/phalanges", folder.path(),
+           fs::copy_options::recursive);
+  Campaign campaign;
+  CampaignCell& cell = campaign.cells.emplace_back();
+  cell.rig = folder.file("rig.json");
+  cell.moving = {folder.file("moving.csv")};
+  const auto key = [&] { return key_of(campaign, cell, {}).key; };
+  const std::string first = key();
+  std::string urdf = content_of(folder.file("finger.urdf"));
+  const auto length = urdf.find("xyz=\"0.1 0 0\"");
+  REQUIRE(length != std::string::npos);
+  folder.write("finger.urdf", urdf + "<!-- the same arm -->");
+  CHECK(key() == first);
+  folder.write("finger.urdf", urdf.replace(length, 13, "xyz=\"0.2 0 0\""));
+  CHECK(key() != first);
 }
 
 TEST_CASE("files of a cell are named as they are today") {

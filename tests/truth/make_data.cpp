@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "rig.hpp"
+#include "tests/support/plain_arm.hpp"
 #include "tests/support/plain_rigs.hpp"
 
 namespace {
@@ -157,6 +158,20 @@ void make_finger(const fs::path& folder, std::uint64_t seed) {
   write_text(folder / "rig.json", cablefit::test::rig_text(rig, "") + '\n');
 }
 
+/// The same finger with phalanges that move each other and weigh something, from a URDF.
+void make_phalanges(const fs::path& folder, std::uint64_t seed) {
+  const cablefit::test::PlainRig rig = cablefit::test::phalanges_rig();
+  const auto next = static_cast<unsigned>(seed);
+  fs::create_directories(folder);
+  write_text(folder / "finger.urdf",
+             cablefit::test::urdf_text(cablefit::test::phalanges(), "finger"));
+  write_text(folder / "blocked.csv", cablefit::test::blocked_log(rig, {0.1, 0.1}, 40, next, 50));
+  write_text(folder / "moving.csv", cablefit::test::moving_log(rig, 8, next + 1));
+  write_text(
+      folder / "rig.json",
+      cablefit::test::rig_text(rig, R"( "arm": {"type": "urdf", "file": "finger.urdf"},)") + '\n');
+}
+
 void make_data(const fs::path& out, std::uint64_t seed) {
   const std::vector<Cell> cells{{"low", truth::Rig::low()}, {"high", truth::Rig::high()}};
   print_header();
@@ -169,6 +184,7 @@ void make_data(const fs::path& out, std::uint64_t seed) {
   }
   write_text(out / "campaign.json", campaign_json(cells));
   make_finger(out / "two_joints" / "finger", seed);
+  make_phalanges(out / "two_joints" / "phalanges", seed + 2);
 }
 
 std::uint64_t parse_seed(std::string_view text) {

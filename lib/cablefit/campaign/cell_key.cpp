@@ -45,19 +45,30 @@ std::string options_text(const Campaign& campaign, const CampaignCell& cell,
   return text;
 }
 
+/// Of links that move each other: the rig file may name another, which changes by itself.
+std::string arm_text(const Arm& arm) {
+  std::string text;
+  if (!arm.is_coupled()) return text;
+  for (const auto& [key, value] : arm.kind->entries(arm.parameters))
+    std::visit([&, name = key](const auto& v) { text += fmt::format("{} {}\n", name, v); }, value);
+  return text;
+}
+
 class KeyMaker {
  public:
   KeyMaker(const CampaignCell& cell, std::string text) : cell_(cell), text_(std::move(text)) {}
 
   void add(const char* role, const std::vector<std::string>& logs) {
     for (const std::string& log : logs) {
-      const std::string rig = rig_for_log(log, cell_.rig).path;
+      const Rig of_bench = rig_for_log(log, cell_.rig);
+      const std::string& rig = of_bench.path;
       // A cell's file names its files by their numbers, which are therefore part of the key.
       const std::string of_log = digest(log);
       const std::string of_rig = rig.empty() ? "-" : digest(rig);
       text_ += fmt::format("{} {}#{} {}#{} {}\n", role, of_log, number(log), of_rig,
                            rig.empty() ? -1 : number(rig),
                            std::filesystem::path(log).filename().string());
+      text_ += arm_text(of_bench.arm);
     }
   }
   CellKey take() {
