@@ -105,6 +105,14 @@ RefineStep step_of(const RefineBench& bench, const Trial& trial, const std::stri
   return step;
 }
 
+/// How much better the unseen rows fit, in sd over their blocks, weighted as the search was.
+double sd_better(const RefineBench& bench, const RefineState& before, const RefineState& after) {
+  const auto error = [&](const RefineState& state) {
+    return gap_of(state.test, state.x, after.levels, bench.scan.block_seconds).squares;
+  };
+  return paired(error(before), error(after)).in_sd();
+}
+
 UnseenChange change_of(const RefineBench& bench, const Refinement& row, const RefineState& before,
                        const RefineState& after) {
   return {row,
@@ -112,7 +120,9 @@ UnseenChange change_of(const RefineBench& bench, const Refinement& row, const Re
           after.unseen.rho,
           before.simulated,
           after.simulated,
-          bench.simulation_floor};
+          bench.simulation_floor,
+          after.rho > kRemainder,
+          sd_better(bench, before, after)};
 }
 
 NamedEffect effect_of(const RefineBench& bench, const RefineState& before, const RefineState& after,

@@ -75,29 +75,33 @@ void find_unseen_floors(RefineBench& bench, const std::vector<Model>& models,
   bench.simulation_floor = simulated_gap(models, recorded, bench.options.threads);
 }
 
+/// What rows remember of what the best candidate leaves; of a draw, which has no such effect, all
+/// the same with its columns.
+KindMemory memory_with(const Design& design, const BlockFit& fit, const Candidate* best,
+                       const KindLevels& levels, double block_seconds) {
+  if (best == nullptr || !applies(design, best->variant)) return memory_of(design, fit.x);
+  const Design with = with_variant(design, best->variant, fit.x);
+  const auto both =
+      fit_blocks(block_grams(with.rows, with.stretches, block_seconds), levels, false);
+  return both ? memory_of(with, both->x) : memory_of(design, fit.x);
+}
+
 /// Gives the draws of the null what even the best candidate leaves, so that they look like the logs
 /// would without it.
 void disturb_null(RefineBench& bench, const RefineState& state, const Search& found) {
   const Candidate* best = best_lasting(found.candidates);
-  Design design = state.design;
-  Eigen::VectorXd x = found.fit.x;
-  if (best != nullptr) {
-    design = with_variant(design, best->variant, x);
-    x = best->x;
-  }
-  const TwinDisturbance wanted = remainder_of(design, x, bench.floor);
-  if (is_quiet(wanted)) return;
-  bench.null->disturb(wanted);
-  // The rows see the disturbance through their kernel, which its colour has been through already.
-  const KindLevels seen = bench.null->base_only(bench.options.seed, nullptr).floor;
-  const KindLevels left = best != nullptr ? best->rms : found.fit.rms();
-  KindLevels factors{1, 1, 1};
-  for (std::size_t k = 0; k < kRowKinds; ++k) {
-    const double floor = bench.floor[k] * bench.floor[k];
-    const double ratio = (left[k] * left[k] - floor) / std::max(1e-12, seen[k] * seen[k] - floor);
-    factors[k] = std::sqrt(std::clamp(ratio, 0.1, 10.0));
-  }
-  bench.null->disturb(scaled(wanted, common_unit(bench, factors)));
+  const double block_seconds = bench.scan.block_seconds;
+  const KindMemory left = memory_with(state.design, found.fit, best, found.levels, block_seconds);
+  const KindMemory guess = remainder_of(left, bench.floor);
+  const TwinDisturbance first = as_disturbance(guess, !bench.elastic_only);
+  if (is_quiet(first)) return;
+  bench.null->disturb(first);
+  const std::vector<KindMemory> drawn =
+      run_draws(bench, kFloorDraws, bench.options.seed, "what is left", [&](std::uint64_t seed) {
+        const BaseFit base = bench.null->fitted(seed, found.levels);
+        return memory_with(base.design, base.fit, best, found.levels, block_seconds);
+      });
+  bench.null->disturb(as_disturbance(corrected(guess, left, mean_of(drawn)), !bench.elastic_only));
 }
 
 /// Kernels that suit all logs.
@@ -122,7 +126,7 @@ void need_draws(RefineBench& bench, const RefineState& state, const Search& foun
   settings.threads = 1;
   bench.draws = run_draws(
       bench, bench.options.n_draws, bench.options.seed + kFloorDraws, "chance",
-      [&](std::uint64_t seed) { return bench.null->searched(seed, bench.floor, settings); });
+      [&](std::uint64_t seed) { return bench.null->searched(seed, found.levels, settings); });
 }
 
 RefineState prepare(RefineBench& bench, std::span<const Model> models, const RefineLogs& logs,

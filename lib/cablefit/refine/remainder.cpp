@@ -1,50 +1,60 @@
 #include "cablefit/refine/remainder.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include "cablefit/refine/residual_spectrum.hpp"
-
 namespace cablefit {
 namespace {
 
 constexpr std::size_t kLags = 64;
 constexpr double kVisible = 1.05;  // squared residual over floor; floors are known to some per cent
 
-/// Residuals of one kind on the grid of its rows, as an autoregressive torque.
-ArModel colour_of(const Design& design, const Eigen::VectorXd& x, RowKind wanted, double floor) {
-  const ResidualMemory memory = residual_memory(design, x, wanted, kLags);
-  if (memory.n_values == 0) return {};
-  Eigen::VectorXd covariance = memory.covariance;
-  const double excess = covariance(0) - floor * floor;
-  if (!(covariance(0) > kVisible * floor * floor)) return {};
-  covariance *= excess / covariance(0);
-  return fit_ar(covariance, memory.period, memory.n_values);
+bool is_known(const ResidualMemory& memory) { return memory.n_values > 0; }
+
+ArModel colour_of(const ResidualMemory& memory) {
+  if (!is_known(memory) || !(memory.covariance(0) > 0)) return {};
+  return fit_ar(memory.covariance, memory.period, memory.n_values);
 }
 
 }  // namespace
 
-TwinDisturbance remainder_of(const Design& design, const Eigen::VectorXd& x,
-                             const KindLevels& floor) {
-  const auto of = [&](RowKind kind) {
-    return colour_of(design, x, kind, floor[static_cast<std::size_t>(kind)]);
-  };
-  // Blocked logs alone have no rows of the motor in motion.
-  const bool moves = std::any_of(design.stretches.begin(), design.stretches.end(),
-                                 [](const Stretch& stretch) { return !stretch.blocked; });
-  return {{of(moves ? RowKind::motor : RowKind::blocked)}, {of(RowKind::link)}};
+KindMemory memory_of(const Design& design, const Eigen::VectorXd& x) {
+  KindMemory memory;
+  for (std::size_t k = 0; k < kRowKinds; ++k)
+    memory[k] = residual_memory(design, x, static_cast<RowKind>(k), kLags);
+  return memory;
 }
 
-TwinDisturbance scaled(TwinDisturbance disturbance, const KindLevels& factors) {
-  const auto scale = [&](std::vector<ArModel>& models, RowKind kind) {
-    for (ArModel& model : models) {
-      model.sd *= factors[static_cast<std::size_t>(kind)];
-      model.innovation_sd *= factors[static_cast<std::size_t>(kind)];
-    }
+KindMemory mean_of(const std::vector<KindMemory>& several) {
+  KindMemory mean = several.front();
+  for (std::size_t k = 0; k < kRowKinds; ++k) {
+    if (!is_known(mean[k])) continue;
+    mean[k].covariance.setZero();
+    for (const KindMemory& one : several)
+      mean[k].covariance += one[k].covariance / static_cast<double>(several.size());
+  }
+  return mean;
+}
+
+KindMemory remainder_of(const KindMemory& left, const KindLevels& floor) {
+  KindMemory guess = left;
+  for (std::size_t k = 0; k < kRowKinds; ++k) {
+    if (!is_known(left[k])) continue;
+    const double all = left[k].covariance(0), noise = floor[k] * floor[k];
+    guess[k].covariance *= all > kVisible * noise ? (all - noise) / all : 0;
+  }
+  return guess;
+}
+
+KindMemory corrected(KindMemory guess, const KindMemory& left, const KindMemory& drawn) {
+  for (std::size_t k = 0; k < kRowKinds; ++k)
+    if (is_known(guess[k]) && is_known(drawn[k]) && guess[k].covariance(0) > 0)
+      guess[k].covariance += left[k].covariance - drawn[k].covariance;
+  return guess;
+}
+
+TwinDisturbance as_disturbance(const KindMemory& remainder, bool moves) {
+  const auto of = [&](RowKind kind) {
+    return colour_of(remainder[static_cast<std::size_t>(kind)]);
   };
-  scale(disturbance.motor, RowKind::motor);
-  scale(disturbance.link, RowKind::link);
-  return disturbance;
+  return {{of(moves ? RowKind::motor : RowKind::blocked)}, {of(RowKind::link)}};
 }
 
 bool is_quiet(const TwinDisturbance& disturbance) {

@@ -263,6 +263,15 @@ bool is_better(double before, double after, double visible, double as_good) {
   return before > visible ? after < before : after < as_good * before;
 }
 
+/// Little of a visible gap, most of which stays, and not sure. Where most of it goes a few blocks
+/// may carry that, and an sd over blocks tells nothing.
+bool is_crumb(const UnseenChange& change) {
+  constexpr double kLittle = 0.25;  // of the gap
+  const double gone = change.rho_before - change.rho_after;
+  return change.leaves_remainder && change.rho_before > kVisibleGap &&
+         gone < kLittle * (change.rho_before - 1) && change.sd_better < kClearlyBetter;
+}
+
 std::string in_words(double before, double after) {
   return fmt::format("{:.3g} times the squared floor before, {:.3g} after", before, after);
 }
@@ -274,6 +283,11 @@ std::string why_not_added(const UnseenChange& change) {
   if (!is_better(change.rho_before, change.rho_after, kVisibleGap, kAsGoodRows))
     return fmt::format("the equations of unseen logs do not fit better with it ({})",
                        in_words(change.rho_before, change.rho_after));
+  if (is_crumb(change))
+    return fmt::format(
+        "beside what stays unexplained the equations of unseen logs are not clearly better with it "
+        "({:.2g} sd)",
+        change.sd_better);
   if (!change.before.known() || !change.floor.known()) return "";
   if (!change.after.known()) return "with it the simulation fails: " + change.after.failure;
   const double floor = in_floors(change.floor, change.floor);

@@ -43,6 +43,9 @@ bool same_class(const Refinement& a, const Refinement& b);
 inline constexpr double kNoGap = 1.07;
 /// Above this something is there that was not named.
 inline constexpr double kRemainder = 1.2;
+/// Gain on unseen rows, in its sd over the blocks, that an effect needs which leaves a remainder:
+/// in what wanders the best of a search gains a little on other logs as often as not.
+inline constexpr double kClearlyBetter = 2;
 /// Squared gap over floor that is seen on unseen rows.
 inline constexpr double kVisibleGap = 1.1;
 
@@ -51,6 +54,8 @@ struct UnseenChange {
   const Refinement& row;
   double rho_before = 0, rho_after = 0;  ///< equations
   const SimulatedGap &before, &after, &floor;
+  bool leaves_remainder = false;  ///< of the training rows, above kRemainder
+  double sd_better = kUnbounded;  ///< of its gain, blocks of unseen rows paired
 };
 /// Why it is refused, whatever it did to the equation error of the training logs; empty: it is
 /// not. Events are judged on their own log.
