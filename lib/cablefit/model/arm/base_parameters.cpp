@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "cablefit/base/error.hpp"
 #include "cablefit/base/random.hpp"
 
 namespace cablefit {
@@ -58,7 +59,7 @@ MatrixXd sampled_columns(const SerialChain& chain) {
 VectorXd sizes_of(const MatrixXd& columns) {
   const double nothing = kNothing * std::sqrt(static_cast<double>(columns.rows()));
   return columns.colwise().norm().unaryExpr(
-      [nothing](double size) { return size > nothing ? size : 0; });
+      [nothing](double size) { return size <= nothing ? 0 : size; });
 }
 
 struct Rank {
@@ -205,6 +206,9 @@ double BaseParameter::value(const SerialChain& chain) const {
 std::vector<BaseParameter> base_parameters_of(const SerialChain& chain) {
   MatrixXd scaled = sampled_columns(chain);
   const VectorXd sizes = sizes_of(scaled);
+  if (!sizes.allFinite())
+    throw Error(ErrorKind::input,
+                "the arm's lengths or its gravity are too large to count with; give m and m/s^2");
   for (Index k = 0; k < sizes.size(); ++k) scaled.col(k) *= sizes(k) > 0 ? 1 / sizes(k) : 0;
   const std::vector<Index> kept = kept_columns(scaled, order_of_keeping(chain), rank_of(scaled));
   const MatrixXd factors = factors_of(scaled, sizes, kept);

@@ -32,6 +32,7 @@ struct BaseParameter {
 /// the pivots, so that names do not hang on rounding: from the last link to the first the ones that
 /// Gautier & Khalil 1990 keep (for an axis along z: ZZ, XX, XY, XZ, YZ, MX, MY; along another axis
 /// the same with the letters moved on), then what is left. The factors solve W_left = W_kept F.
+/// Throws Error(input), without a place, where lengths are too large for floating point.
 std::vector<BaseParameter> base_parameters_of(const SerialChain& chain);
 
 }  // namespace cablefit

@@ -63,7 +63,7 @@ ArmParameters read(const JsonNode& node, const RigJoints& joints) {
   const Rows axes = rows_at(node.at("axes"), n, 3);
   for (std::size_t i = 0; i < n; ++i) {
     const Eigen::Vector3d axis = vector_of(axes[i]);
-    if (!(axis.norm() > 0))
+    if (axis.isZero(0))
       throw node.at("axes").items[i].error("an axis of length 0",
                                            "give the direction of the joint's axis");
     chain.joints.push_back(
@@ -73,7 +73,7 @@ ArmParameters read(const JsonNode& node, const RigJoints& joints) {
   chain.gravity = gravity_at(node);
   if (const JsonNode* inertias = node.find("inertias")) read_inertias(*inertias, chain);
   ArmParameters parameters;
-  parameters.serial = serial_arm_of(std::move(chain));
+  parameters.serial = at_place_of(node, [&] { return serial_arm_of(std::move(chain)); });
   return parameters;
 }
 

@@ -15,6 +15,7 @@ struct SerialArm {
   std::vector<Eigen::Index> kept;  ///< the columns of the regressor, one per base parameter
 };
 
+/// Throws as base_parameters_of.
 std::shared_ptr<const SerialArm> serial_arm_of(SerialChain chain);
 
 }  // namespace cablefit

@@ -46,13 +46,12 @@ class Walk {
     m.vd = back * vd;
     m.turn = back * m.turn;
     m.shift = back * shift;
-    const Vector3d across = m.w.cross(axis) * qd;
-    if (slides_) {
-      m.vd += axis * qdd + 2 * across;
+    if (slides_) {  // and no link of such a chain turns
+      m.vd += axis * qdd;
       if (is_own) m.shift = axis;
     } else {
+      m.wd += axis * qdd + m.w.cross(axis) * qd;
       m.w += axis * qd;
-      m.wd += axis * qdd + across;
       if (is_own) m.turn = axis;
     }
   }
@@ -114,7 +113,7 @@ Vector3d rpy_of(const Matrix3d& r) {
 }
 
 Vector3d unit_axis(const Vector3d& axis) {
-  return axis.normalized().unaryExpr(&snapped).normalized();
+  return axis.stableNormalized().unaryExpr(&snapped).normalized();
 }
 
 void serial_regressor(const SerialChain& chain, std::span<const Motion> links, int joint,

@@ -83,7 +83,7 @@ ArmParameters read(const JsonNode& node, const RigJoints& joints) {
   chain.gravity = gravity_at(node);
   chain.slides = joints.slide;
   ArmParameters parameters;
-  parameters.serial = serial_arm_of(std::move(chain));
+  parameters.serial = at_place_of(file, [&] { return serial_arm_of(std::move(chain)); });
   return parameters;
 }
 

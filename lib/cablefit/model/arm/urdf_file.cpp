@@ -201,7 +201,7 @@ class Reader {
     }
     if (const XMLElement* axis = e.FirstChildElement("axis")) {
       joint.axis = vector(*axis, "xyz", joint.axis);
-      if (!(joint.axis.norm() > 0)) throw input_error(at(*axis), "an axis of length 0", "");
+      if (joint.axis.isZero(0)) throw input_error(at(*axis), "an axis of length 0", "");
       joint.axis = unit_axis(joint.axis);
     }
     hang(e, joint);
