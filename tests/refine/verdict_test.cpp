@@ -99,6 +99,18 @@ TEST_CASE("look-alikes are listed, and the simplest of equals is the headline", 
   CHECK_FALSE(lists(judge_search(sure, kGap, draws(), {}, true).rivals, "presliding"));
 }
 
+/// 1.2 % of the gap in every block is more than luck: the simpler one is a rival, not the headline.
+TEST_CASE("the simplest is not the headline where all blocks know better", "[refine]") {
+  const std::vector<Candidate> sure = {candidate("gravity_imbalance", Site::link, 0.406, 0.05),
+                                       candidate("constant_torque", Site::link, 0.4)};
+  const Judgement j = judge_search(sure, kGap, draws(), {}, true);
+  CHECK(best_name(j) == "gravity_imbalance");
+  CHECK(lists(j.rivals, "constant_torque"));
+  const std::vector<Candidate> unsure = {candidate("gravity_imbalance", Site::link, 0.406, 2),
+                                         candidate("constant_torque", Site::link, 0.4)};
+  CHECK(best_name(judge_search(unsure, kGap, draws(), {}, true)) == "constant_torque");
+}
+
 TEST_CASE("aliases are always listed together", "[refine]") {
   const auto rivals_of = [](const Candidate& c) {
     return judge_search({c}, kGap, draws(), {}, true).rivals;

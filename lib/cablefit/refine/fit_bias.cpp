@@ -6,8 +6,6 @@
 namespace cablefit {
 namespace {
 
-constexpr std::size_t kDraws = 2;  // without noise of the torque, which has no bias to give
-
 /// What a recorder of the simulated model would see too: not what happened once, and not what is
 /// wrong with the recorder.
 bool is_recorded(const Refinement& row) { return !row.is_event && row.site != Site::sensor; }
@@ -49,19 +47,16 @@ void forget_unrecorded(const Design& design, Eigen::VectorXd& bias) {
 std::optional<Eigen::VectorXd> fit_bias(const RefineBench& bench, const RefineState& state) {
   if (bench.elastic_only) return {};
   const std::vector<Model> models = recorded_models(state);
-  Eigen::VectorXd bias = Eigen::VectorXd::Zero(state.x.size());
+  Eigen::VectorXd bias;
   try {
     NullBench twin(models, bench.logs, bench.wanted, state.design.smoothing);
     twin.hold_back(bench.held_back);
-    twin.silence_torque();
-    for (std::size_t k = 0; k < kDraws; ++k) {
-      const Design design = design_like(state, models, twin.draw(bench.options.seed + k));
-      const auto fit =
-          fit_blocks(block_grams(design.rows, design.stretches, bench.scan.block_seconds),
-                     state.levels, false);
-      if (!fit || fit->x.size() != state.x.size()) return {};
-      bias += (fit->x - state.x) / static_cast<double>(kDraws);
-    }
+    twin.silence_torque();  // its noise has no bias to give; without it one draw is enough
+    const Design design = design_like(state, models, twin.draw(bench.options.seed));
+    const auto fit = fit_blocks(
+        block_grams(design.rows, design.stretches, bench.scan.block_seconds), state.levels, false);
+    if (!fit || fit->x.size() != state.x.size()) return {};
+    bias = fit->x - state.x;
   } catch (const Error&) {
     return {};
   }
@@ -69,22 +64,26 @@ std::optional<Eigen::VectorXd> fit_bias(const RefineBench& bench, const RefineSt
   return bias;
 }
 
-RefineState without_bias(const RefineBench& bench, const RefineState& state,
-                         const std::optional<Eigen::VectorXd>& bias) {
-  if (!bias || !bias->allFinite()) return state;
-  const auto simulated = [&](const Eigen::VectorXd& x, const std::vector<LogSurvey>& logs) {
-    return simulated_gap(models_with(state.design, x), logs, bench.options.threads);
+bool simulates_better_without(const RefineBench& bench, const RefineState& state,
+                              const Eigen::VectorXd& bias) {
+  const auto gap = [&](const Eigen::VectorXd& x) {
+    return simulated_gap(models_with(state.design, x), bench.logs, bench.options.threads);
   };
-  const Eigen::VectorXd x = state.x - *bias;
-  const SimulatedGap as_fitted = simulated(state.x, bench.logs), less = simulated(x, bench.logs);
-  const bool is_better = less.known() && bench.simulation_floor.known() &&
-                         (!as_fitted.known() || in_floors(less, bench.simulation_floor) <
-                                                    in_floors(as_fitted, bench.simulation_floor));
-  if (!is_better) return state;
+  const SimulatedGap less = gap(state.x - bias);
+  if (!less.known() || !bench.simulation_floor.known()) return false;
+  const SimulatedGap as_fitted = gap(state.x);
+  return !as_fitted.known() ||
+         in_floors(less, bench.simulation_floor) < in_floors(as_fitted, bench.simulation_floor);
+}
+
+RefineState without_bias(const RefineBench& bench, const RefineState& state,
+                         const Eigen::VectorXd& bias) {
   RefineState out = state;
-  out.x = x;
-  out.unseen = gap_of(out.test, x, bench.test_floor, bench.scan.block_seconds);
-  out.simulated = simulated(x, bench.unseen);
+  out.x = state.x - bias;
+  out.simulated =
+      simulated_gap(models_with(out.design, out.x), bench.unseen, bench.options.threads);
+  if (state.simulated.known() && !out.simulated.known()) return state;
+  out.unseen = gap_of(out.test, out.x, bench.test_floor, bench.scan.block_seconds);
   return out;
 }
 

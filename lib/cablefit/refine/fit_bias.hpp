@@ -13,9 +13,13 @@ namespace cablefit {
 /// simulated, or from blocked logs alone.
 std::optional<Eigen::VectorXd> fit_bias(const RefineBench& bench, const RefineState& state);
 
-/// The state with its values less the bias, where these simulate the training logs better, else as
-/// it is. `rho` and `levels` stay those of the fit: floors of training rows know the same bias.
+/// Whether the values without it simulate the training logs better.
+bool simulates_better_without(const RefineBench& bench, const RefineState& state,
+                              const Eigen::VectorXd& bias);
+
+/// The state with its values less the bias. `rho` and `levels` stay those of the fit: floors of
+/// training rows know the same bias.
 RefineState without_bias(const RefineBench& bench, const RefineState& state,
-                         const std::optional<Eigen::VectorXd>& bias);
+                         const Eigen::VectorXd& bias);
 
 }  // namespace cablefit

@@ -147,17 +147,8 @@ BaseFit fit_base(Design design, double block_seconds, const KindLevels* levels) 
   return base;
 }
 
-NullDraw NullBench::base_only(std::uint64_t seed, const KindLevels* levels) const {
-  const BaseFit base =
-      fit_base(make_design(parts_->models, draw(seed), parts_->smoothing), 2, levels);
-  NullDraw out;
-  out.floor = base.fit.rms();
-  out.x = base.fit.x;
-  return out;
-}
-
-BaseFit NullBench::fitted(std::uint64_t seed, const KindLevels& levels) const {
-  return fit_base(make_design(parts_->models, draw(seed), parts_->smoothing), 2, &levels);
+BaseFit NullBench::fitted(std::uint64_t seed, const KindLevels* levels) const {
+  return fit_base(make_design(parts_->models, draw(seed), parts_->smoothing), 2, levels);
 }
 
 KindLevels NullBench::unfitted(std::uint64_t seed) const {

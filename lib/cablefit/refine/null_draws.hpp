@@ -17,7 +17,6 @@ namespace cablefit {
 /// One simulated data set, searched.
 struct NullDraw {
   KindLevels floor{};                         ///< rms the base model leaves
-  Eigen::VectorXd x;                          ///< its columns' values
   std::map<const Refinement*, double> gains;  ///< best of each row; events in sample
 };
 
@@ -58,10 +57,9 @@ class NullBench {
   std::vector<Recorded> record(std::uint64_t seed) const;
   /// The same as stretches, numbered as the logs that the bench was made from.
   std::vector<Stretch> draw(std::uint64_t seed) const;
-  /// Its base fit, without a search. `levels`: weights; nullptr: of its own residual.
-  NullDraw base_only(std::uint64_t seed, const KindLevels* levels) const;
-  /// The same fit, whole: what noise alone leaves, row by row.
-  BaseFit fitted(std::uint64_t seed, const KindLevels& levels) const;
+  /// Its base fit: what noise alone leaves, row by row. `levels`: weights; nullptr: of its own
+  /// residual.
+  BaseFit fitted(std::uint64_t seed, const KindLevels* levels) const;
   /// What the models leave as they are, nothing fitted: the floor of logs that had no say.
   KindLevels unfitted(std::uint64_t seed) const;
   NullDraw searched(std::uint64_t seed, const KindLevels& levels,

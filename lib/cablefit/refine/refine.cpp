@@ -98,10 +98,9 @@ RefineResult refine(std::span<const Model> given, const RefineLogs& logs,
   bench.all = bench.logs;
   bench.all.insert(bench.all.end(), logs.test.begin(), logs.test.end());
   const RefineState first = prepare(bench, models, logs, result);
-  const BaseFit noise = bench.null->fitted(options.seed, bench.floor);
   result.where = ranked(find_regimes(first.design, first.x, bench.floor),
-                        find_bands(first.design, first.x, noise.design, noise.fit.x), first.design,
-                        first.x, bench.floor);
+                        find_bands(first.design, first.x, bench.noise.design, bench.noise.fit.x),
+                        first.design, first.x, bench.floor);
   const std::vector<TrialRun> runs = trial_runs(first.design);
   tell(options, "what can be told apart", 0);
   result.not_separable = find_not_separable(first.design, first.x, bench.floor, runs);
@@ -124,9 +123,12 @@ RefineResult refine(std::span<const Model> given, const RefineLogs& logs,
         describe_remainder(state.design, fit.x, bench.floor, bench.scan.block_seconds);
   tell_remainder(fit.rms, bench.floor, result);
   // From here on values are those that simulate.
-  const RefineState before = without_bias(bench, first, bench.base_bias);
   const Eigen::VectorXd fitted = state.x = fit.x;
-  state = result.effects.empty() ? before : without_bias(bench, state, fit_bias(bench, state));
+  const std::optional<Eigen::VectorXd> bias =
+      result.effects.empty() ? bench.base_bias : fit_bias(bench, state);
+  const bool better = bias && simulates_better_without(bench, state, *bias);
+  const RefineState before = better ? without_bias(bench, first, bench.base_bias) : first;
+  if (better) state = result.effects.empty() ? before : without_bias(bench, state, *bias);
   fit.x = state.x;
   const std::vector<NamedEffect> named = named_effects(state.design, fit);
   for (std::size_t k = 0; k < named.size(); ++k) {

@@ -46,12 +46,14 @@ KindLevels common_unit(const RefineBench& bench, KindLevels floor) {
 KindLevels fitted_floor(RefineBench& bench, const Eigen::VectorXd& x) {
   std::vector<KindLevels> levels;
   bench.base_bias = Eigen::VectorXd::Zero(x.size());
-  for (const NullDraw& draw :
-       run_draws(bench, kFloorDraws, bench.options.seed, "noise floor",
-                 [&](std::uint64_t seed) { return bench.null->base_only(seed, nullptr); })) {
-    levels.push_back(draw.floor);
-    bench.base_bias += (draw.x - x) / static_cast<double>(kFloorDraws);
+  std::vector<BaseFit> draws =
+      run_draws(bench, kFloorDraws, bench.options.seed, "noise floor",
+                [&](std::uint64_t seed) { return bench.null->fitted(seed, nullptr); });
+  for (const BaseFit& draw : draws) {
+    levels.push_back(draw.fit.rms());
+    bench.base_bias += (draw.fit.x - x) / static_cast<double>(kFloorDraws);
   }
+  bench.noise = std::move(draws.front());
   KindLevels floor = rms_over(levels);
   // Of rows that there are none of: simulated runs may have some.
   auto& blocked = floor[static_cast<std::size_t>(RowKind::blocked)];
@@ -98,7 +100,7 @@ void disturb_null(RefineBench& bench, const RefineState& state, const Search& fo
   bench.null->disturb(first);
   const std::vector<KindMemory> drawn =
       run_draws(bench, kFloorDraws, bench.options.seed, "what is left", [&](std::uint64_t seed) {
-        const BaseFit base = bench.null->fitted(seed, found.levels);
+        const BaseFit base = bench.null->fitted(seed, &found.levels);
         return memory_with(base.design, base.fit, best, found.levels, block_seconds);
       });
   bench.null->disturb(as_disturbance(corrected(guess, left, mean_of(drawn)), !bench.elastic_only));

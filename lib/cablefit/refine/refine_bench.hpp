@@ -29,6 +29,7 @@ struct RefineBench {
   Eigen::VectorXd base_bias = {};  ///< of the base fit, see fit_bias.hpp
   SimulatedGap simulation_floor = {};
   std::optional<NullBench> null = {};
+  BaseFit noise = {};                ///< one of its draws without an effect
   std::vector<NullDraw> draws = {};  ///< of searches; none until something is worth them
   Search first_search = {};          ///< on the base alone
 };

@@ -17,7 +17,9 @@ constexpr double kNextShare = 0.3;         // of the gap that is left
 constexpr double kNextMateriality = 0.02;  // of what is left: imperfect first terms leave crumbs
 constexpr double kLookAlikeSd = 2;         // paired blocks' difference
 constexpr double kLookAlikeShare = 0.25;   // of the gap: more than that apart is not alike
-constexpr double kTieShare = 0.02;         // of the gap: closer than that is a tie at any sd
+constexpr double kTieShare = 0.02;         // of the gap: closer than that is alike at any sd
+constexpr double kEqualShare = 0.005;      // the same, where the blocks agree on which is better
+constexpr double kSureSd = 3;              // that they do
 constexpr double kSafety = 1.3;            // times the largest chance gain seen
 constexpr int kResamples = 200;
 // Squared simulated gap over floor that is seen: parameters from other logs leave a simulation more
@@ -77,7 +79,9 @@ std::size_t n_parameters(const Candidate& c) {
 
 bool is_tie(const Candidate& a, const Candidate& b, const SquaredGap& gap) {
   if (a.variant.refinement->is_event != b.variant.refinement->is_event) return false;
-  return paired(a.error, b.error).sum < kTieShare * gap.above();
+  const Paired difference = paired(a.error, b.error);
+  return difference.sum < kEqualShare * gap.above() ||
+         (difference.sum < kTieShare * gap.above() && difference.in_sd() < kSureSd);
 }
 
 Rival rival_of(const Candidate& c, const SquaredGap& gap) {
