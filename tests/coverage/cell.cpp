@@ -36,7 +36,7 @@ Rig rig_of(const truth::DriveOptions& options) {
   rig.torque_hold = TorqueHold::zoh;
   rig.sensors["theta"].quantum = options.quantum_theta;
   rig.sensors["tau"].noise = options.noise_tau;
-  rig.open_loop = cell.loop == Loop::replay;
+  rig.open_loop = options.open_loop && !options.on_sensor;
   if (options.open_loop) return rig;
   rig.controller.emplace();
   rig.controller->kp = options.kp;

@@ -52,7 +52,7 @@ const BadRig kBadRigs[] = {
     {R"({"controller": {"type": "pid", "kp": 3}})",
      "rig.json:1:25: unknown value 'pid'; known: pd, open_loop"},
     {R"({"controller": {"type": "open_loop", "kp": 3}})",
-     "?"},
+     "rig.json:1:44: unknown key 'kp' in 'controller'; known: type"},
     {R"({"sensors": {"q": {"quantum": 0}}})",
      "rig.json:1:31: 'sensors.q.quantum' is 0, not positive; give a number above 0"},
     {R"({"sensors": {"q": {"noise": -0.1}}})",
