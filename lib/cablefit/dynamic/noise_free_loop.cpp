@@ -189,6 +189,10 @@ LoopResult run_loop(const DynamicJob& job, const LogSurvey& log, const Model& mo
 }  // namespace
 
 std::string source_of_instruments(LoopKind kind) {
+  if (kind == LoopKind::stand_in)
+    return "a stand-in follows theta, smoothed: noise of encoder and torque is kept out, "
+           "disturbances "
+           "that moved the robot are not";
   return kind == LoopKind::command
              ? "the log's torque replayed without noise, as the rig file says that it is a command"
              : "noise-free loop of the rig's controller and the log's reference";

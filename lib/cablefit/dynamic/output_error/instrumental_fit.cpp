@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cablefit/estimate/instruments.hpp"
 #include "cablefit/estimate/long_run.hpp"
@@ -122,6 +123,7 @@ InstrumentalFit solve_instrumental(
   for (std::size_t k = 0; k < moves.size(); ++k)
     if (moves[k]) free.push_back(static_cast<Eigen::Index>(k));
   fit.failure = "its steps did not become short";
+  double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMostSteps && !free.empty(); ++i) {
     const InstrumentedSums at = sums(fit.x);
     ++fit.n_passes;
@@ -141,9 +143,12 @@ InstrumentalFit solve_instrumental(
     for (std::size_t k = 0; k < free.size(); ++k)
       longest = std::max(longest, std::abs(change(static_cast<Eigen::Index>(k))) /
                                       std::sqrt(fit.covariance(free[k], free[k])));
-    if (longest > kStill) continue;
-    fit.failure.clear();
-    return fit;
+    if (longest <= kStill) {
+      fit.failure.clear();
+      return fit;
+    }
+    if (longest > before) return fit;  // Newton's steps that grow lead nowhere, and each costs
+    before = longest;
   }
   return fit;
 }
