@@ -6,8 +6,8 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/dynamic/dynamic_fit.hpp"
+#include "tests/support/drive_rig.hpp"
 #include "tests/support/recorded_log.hpp"
-#include "tests/truth/drive.hpp"
 
 namespace cablefit::coverage {
 namespace {
@@ -31,20 +31,6 @@ truth::DriveOptions options_of(const Cell& cell) {
   return options;
 }
 
-Rig rig_of(const truth::DriveOptions& options) {
-  Rig rig = default_rig();
-  rig.torque_hold = TorqueHold::zoh;
-  rig.sensors["theta"].quantum = options.quantum_theta;
-  rig.sensors["tau"].noise = options.noise_tau;
-  rig.open_loop = options.open_loop && !options.on_sensor;
-  if (options.open_loop) return rig;
-  rig.controller.emplace();
-  rig.controller->kp = options.kp;
-  rig.controller->kd = options.kd;
-  rig.controller->limit = options.limit;
-  return rig;
-}
-
 /// No numbers, for a run whose fit complained.
 Estimate nothing(const char* name) {
   Estimate e;
@@ -58,7 +44,7 @@ std::vector<CellRow> run_cell(const Cell& cell) {
   const truth::Drive drive;
   const truth::DriveOptions options = options_of(cell);
   const std::vector<LogSurvey> logs = {
-      test::survey_of(truth::simulate_drive(drive, options), rig_of(options))};
+      test::survey_of(truth::simulate_drive(drive, options), test::drive_rig(options))};
   DynamicOptions fit;
   fit.models = {"rigid"};
   fit.estimator = cell.estimator;

@@ -5,9 +5,9 @@
 
 #include "cablefit/dynamic/estimators.hpp"
 #include "tests/support/columns.hpp"
+#include "tests/support/drive_rig.hpp"
 #include "tests/support/recorded_log.hpp"
 #include "tests/support/recover.hpp"
-#include "tests/truth/drive.hpp"
 
 namespace {
 
@@ -77,10 +77,8 @@ TEST_CASE("reversals stay out when a stand-in is late", "[dynamic][monte-carlo]"
     options.disturbance_sd = 2;
     options.disturbance_time = 1e-9;
     options.quantum_theta = 2 * 3.14159265358979 / 4096;
-    Rig rig = default_rig();
-    rig.torque_hold = TorqueHold::zoh;
-    rig.sensors["theta"].quantum = options.quantum_theta;
-    const std::vector<LogSurvey> logs = {survey_of(truth::simulate_drive(drive, options), rig)};
+    const std::vector<LogSurvey> logs = {
+        survey_of(truth::simulate_drive(drive, options), drive_rig(options))};
     DynamicOptions iv;
     iv.models = {"rigid"};
     iv.estimator = "iv";

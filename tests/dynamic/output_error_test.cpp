@@ -1,9 +1,9 @@
 // The row `output-error`: what it says when the logs do not let it, what it takes from stage 1,
 // what it makes of a parameter on its bound.
 #include "tests/support/columns.hpp"
+#include "tests/support/drive_rig.hpp"
 #include "tests/support/recorded_log.hpp"
 #include "tests/support/recover.hpp"
-#include "tests/truth/drive.hpp"
 
 namespace {
 
@@ -157,102 +157,72 @@ TEST_CASE("output error takes stage 1 with its covariance", "[dynamic]") {
              Catch::WithinRel(estimate(with_sharp.elastic->parameters, "K1_0").sd, 1e-12));
 }
 
+/// Drives with encoders of 16 bits, 20 s each.
+truth::DriveOptions drive_options() {
+  truth::DriveOptions options;
+  options.duration = 20;
+  options.quantum_theta = 2 * 3.14159265358979 / 65536;
+  return options;
+}
+
+/// 2 N m, white.
+truth::DriveOptions disturbed() {
+  truth::DriveOptions options = drive_options();
+  options.disturbance_sd = 2;
+  options.disturbance_time = 1e-9;
+  return options;
+}
+
+/// Of J, mean over 8 seeds, as a share. `source`: what is said of the instruments.
+double mean_error(const std::string& estimator, truth::DriveOptions options,
+                  Rig (*rig_of)(const truth::DriveOptions&), const std::string& source) {
+  const truth::Drive drive;
+  double mean = 0;
+  for (options.seed = 1; options.seed <= 8; ++options.seed) {
+    const std::vector<LogSurvey> logs = {
+        survey_of(truth::simulate_drive(drive, options), rig_of(options))};
+    DynamicOptions fit;
+    fit.models = {"rigid"};
+    fit.estimator = estimator;
+    const DynamicPreload found = fit_dynamic(logs, {}, fit).preloads.at(0);
+    const std::string instruments = reason(found, "instruments");
+    INFO(instruments);
+    CHECK(instruments.find(source) != std::string::npos);
+    mean += (estimate(found.fits.at(0).parameters, "J").value / drive.J - 1) / 8;
+  }
+  return mean;
+}
+
+const char* const kStandIn = "no controller in the rig file: a stand-in follows theta smoothed at ";
+
 // 2 N m of white disturbance on a drive in closed loop come back through the controller into the
 // motion: without instruments output error finds J 0.5 % too small, 2.8 sd of a log of 20 s (0.19
 // %). Over 8 logs the mean scatters by 0.067 %: three of that.
 TEST_CASE("output error keeps a disturbance out that comes back through the controller",
           "[dynamic][monte-carlo]") {
-  const truth::Drive drive;
-  const auto mean_bias = [&](bool knows_loop) {
-    double sum = 0;
-    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-      truth::DriveOptions options;
-      options.duration = 20;
-      options.seed = seed;
-      options.disturbance_sd = 2;
-      options.disturbance_time = 1e-9;
-      options.quantum_theta = 2 * 3.14159265358979 / 65536;
-      Rig rig = default_rig();
-      rig.torque_hold = TorqueHold::zoh;
-      rig.sensors["theta"].quantum = options.quantum_theta;
-      if (knows_loop) {
-        rig.controller.emplace();
-        rig.controller->kp = options.kp;
-        rig.controller->kd = options.kd;
-        rig.controller->limit = options.limit;
-      }
-      const std::vector<LogSurvey> logs = {survey_of(truth::simulate_drive(drive, options), rig)};
-      DynamicOptions fit;
-      fit.models = {"rigid"};
-      fit.estimator = "output-error";
-      const DynamicPreload found = fit_dynamic(logs, {}, fit).preloads.at(0);
-      CHECK((reason(found, "instruments").find("noise-free loop of the rig's controller") == 0) ==
-            knows_loop);
-      sum += estimate(found.fits.at(0).parameters, "J").value / drive.J - 1;
-    }
-    return sum / 8;
-  };
-  CHECK(std::abs(mean_bias(true)) < 0.002);
-  CHECK(mean_bias(false) < -0.003);
+  CHECK(std::abs(mean_error("output-error", disturbed(), drive_rig,
+                            "noise-free loop of the rig's controller")) < 0.002);
+  CHECK(mean_error("output-error", disturbed(), silent_drive_rig, kStandIn) < -0.003);
 }
 
 // A torque sensor with 1 N m of noise that is correlated over 0.1 s, which moves nothing: without
 // instruments of a stand-in J came out 0.34 % too small on these logs. Over 8 logs of 20 s the mean
 // scatters by 0.09 %: nearly three of that.
 TEST_CASE("output error does not mind coloured torque noise", "[dynamic][monte-carlo]") {
-  const truth::Drive drive;
-  double mean = 0;
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    truth::DriveOptions options;
-    options.duration = 20;
-    options.seed = seed;
-    options.open_loop = options.on_sensor = true;
-    options.quantum_theta = 2 * 3.14159265358979 / 65536;
-    Rig rig = default_rig();
-    rig.torque_hold = TorqueHold::zoh;
-    rig.sensors["theta"].quantum = options.quantum_theta;
-    const std::vector<LogSurvey> logs = {survey_of(truth::simulate_drive(drive, options), rig)};
-    DynamicOptions fit;
-    fit.models = {"rigid"};
-    fit.estimator = "output-error";
-    const DynamicPreload found = fit_dynamic(logs, {}, fit).preloads.at(0);
-    CHECK(reason(found, "instruments").find("a stand-in follows theta, smoothed: ") == 0);
-    mean += (estimate(found.fits.at(0).parameters, "J").value / drive.J - 1) / 8;
-  }
-  CHECK(std::abs(mean) < 0.0025);
+  truth::DriveOptions options = drive_options();
+  options.open_loop = options.on_sensor = true;
+  CHECK(std::abs(mean_error("output-error", options, drive_rig, kStandIn)) < 0.0025);
 }
 
 // The disturbance without any loop: the torque is a command, and the disturbance moves the drive.
 // Both estimators find J some 0.4 to 0.5 % too small unless the rig file says so.
 TEST_CASE("a commanded torque makes instruments", "[dynamic][monte-carlo]") {
-  const truth::Drive drive;
-  const auto mean_bias = [&](const std::string& estimator, bool is_command) {
-    double sum = 0;
-    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-      truth::DriveOptions options;
-      options.duration = 20;
-      options.seed = seed;
-      options.open_loop = true;
-      options.disturbance_sd = 2;
-      options.disturbance_time = 1e-9;
-      options.quantum_theta = 2 * 3.14159265358979 / 65536;
-      Rig rig = default_rig();
-      rig.torque_hold = TorqueHold::zoh;
-      rig.open_loop = is_command;
-      rig.sensors["theta"].quantum = options.quantum_theta;
-      const std::vector<LogSurvey> logs = {survey_of(truth::simulate_drive(drive, options), rig)};
-      DynamicOptions fit;
-      fit.models = {"rigid"};
-      fit.estimator = estimator;
-      const DynamicPreload found = fit_dynamic(logs, {}, fit).preloads.at(0);
-      sum += estimate(found.fits.at(0).parameters, "J").value / drive.J - 1;
-    }
-    return sum / 8;
-  };
+  truth::DriveOptions options = disturbed();
+  options.open_loop = true;
   for (const char* estimator : {"iv", "output-error"}) {
     INFO(estimator);
-    CHECK(std::abs(mean_bias(estimator, true)) < 0.002);
-    CHECK(mean_bias(estimator, false) < -0.003);
+    CHECK(std::abs(mean_error(estimator, options, drive_rig, "the log's torque replayed")) < 0.002);
+    CHECK(mean_error(estimator, options, silent_drive_rig, kStandIn) < -0.003);
   }
 }
 

@@ -4,24 +4,19 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/support/drive_rig.hpp"
 #include "tests/support/recorded_log.hpp"
 #include "tests/support/recover.hpp"
-#include "tests/truth/drive.hpp"
 
 namespace {
 
 using namespace cablefit;
 using namespace cablefit::test;
 
-Rig drive_rig(const truth::DriveOptions& options, bool with_controller) {
+/// That names neither sensors nor a controller.
+Rig bare_rig() {
   Rig rig = default_rig();
   rig.torque_hold = TorqueHold::zoh;
-  if (!with_controller) return rig;
-  rig.sensors["theta"].quantum = options.quantum_theta;
-  rig.sensors["tau"].noise = options.noise_tau;
-  rig.controller.emplace();
-  rig.controller->kp = options.kp;
-  rig.controller->kd = options.kd;
   return rig;
 }
 
@@ -37,8 +32,8 @@ struct Proved {
 Proved prove_drive(bool honest, bool with_controller, std::size_t n_runs, int threads = 2) {
   truth::DriveOptions options;
   options.duration = 10;
-  const std::vector<LogSurvey> logs = {
-      survey_of(truth::simulate_drive({}, options), drive_rig(options, with_controller))};
+  const std::vector<LogSurvey> logs = {survey_of(
+      truth::simulate_drive({}, options), with_controller ? drive_rig(options) : bare_rig())};
   DynamicOptions fit;
   fit.models = {"rigid"};
   fit.honest_sd = honest;

@@ -188,14 +188,22 @@ LoopResult run_loop(const DynamicJob& job, const LogSurvey& log, const Model& mo
 
 }  // namespace
 
-std::string source_of_instruments(LoopKind kind) {
-  if (kind == LoopKind::stand_in)
-    return "a stand-in follows theta, smoothed: noise of encoder and torque is kept out, "
-           "disturbances "
-           "that moved the robot are not";
-  return kind == LoopKind::command
-             ? "the log's torque replayed without noise, as the rig file says that it is a command"
-             : "noise-free loop of the rig's controller and the log's reference";
+std::string source_of_instruments(const LoopPlan& plan) {
+  switch (plan.kind) {
+    case LoopKind::known:
+      return "noise-free loop of the rig's controller and the log's reference";
+    case LoopKind::command:
+      return "the log's torque replayed without noise, as the rig file says that it is a command";
+    case LoopKind::stand_in:
+      return fmt::format(
+          "{}: a stand-in follows theta smoothed at {:.3g} Hz; encoder noise is kept out, "
+          "disturbances "
+          "that moved the robot are not",
+          plan.reason, plan.bandwidth);
+    case LoopKind::none:
+      break;
+  }
+  return plan.reason;
 }
 
 LoopPlan plan_loop(const DynamicJob& job, std::span<const LogSurvey> logs) {

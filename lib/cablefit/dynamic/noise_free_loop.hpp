@@ -30,11 +30,11 @@ inline bool keeps_disturbances_out(LoopKind kind) {
   return kind == LoopKind::known || kind == LoopKind::command;
 }
 
-/// Where such instruments come from, in words.
-std::string source_of_instruments(LoopKind kind);
-
 /// One for all wanted logs of the job: known, or command, when every one of them allows it.
 LoopPlan plan_loop(const DynamicJob& job, std::span<const LogSurvey> logs);
+
+/// Where instruments come from and what they keep out, in words. Not of a plan for none.
+std::string source_of_instruments(const LoopPlan& plan);
 
 struct SimulatedLogs {
   std::vector<LogSurvey> logs;  ///< the wanted parts with q and theta of the loop, see LogCopy

@@ -25,7 +25,7 @@ struct Fitted {
   BlockGrams grams;
 };
 
-constexpr double kBlockSeconds = 2;
+constexpr double kBlockSeconds = 2;  // any: all blocks are added up
 
 BlockGrams grams_of(const Design& design) {
   return block_grams(design.rows, design.stretches, kBlockSeconds);

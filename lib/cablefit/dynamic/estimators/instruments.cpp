@@ -50,14 +50,6 @@ std::string label(const EstimationTask& task, const char* what) {
   return fmt::format("{}, {}", what, task.job.models[task.model]);
 }
 
-std::string describe(const LoopPlan& plan) {
-  if (keeps_disturbances_out(plan.kind)) return source_of_instruments(plan.kind);
-  return fmt::format(
-      "{}: a stand-in follows theta smoothed at {:.3g} Hz; encoder noise is kept out, disturbances "
-      "that moved the robot are not",
-      plan.reason, plan.bandwidth);
-}
-
 /// "link 9432 rows, motor 5573": not those of least squares.
 std::string rows_of(const EstimationTask& task, const IvFit& fit) {
   std::string text;
@@ -72,7 +64,7 @@ void note_instruments(const EstimationTask& task, const LoopPlan& plan, const Iv
   out.decisions.push_back(
       {label(task, "instruments"),
        fmt::format("{} simulation{}", fit.n_simulations, fit.n_simulations == 1 ? "" : "s"),
-       fmt::format("{}; rows by {} rest: {}", describe(plan),
+       fmt::format("{}; rows by {} rest: {}", source_of_instruments(plan),
                    keeps_disturbances_out(plan.kind) ? "its" : "its and the drive's",
                    rows_of(task, fit))});
   if (!fit.converged())

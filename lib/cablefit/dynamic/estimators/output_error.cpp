@@ -83,19 +83,19 @@ FittedRows rows_of(const DynamicJob& job) {
 
 /// Even a stand-in, which follows what was measured and so keeps out no disturbance, knows nothing
 /// of the torque's noise, which the smoothed motion has: J -0.4 % where that noise is coloured.
-LoopKind add_noise_free_loop(const DynamicJob& job, const FittedRows& rows,
+LoopPlan add_noise_free_loop(const DynamicJob& job, const FittedRows& rows,
                              OutputErrorOptions& options) {
   const std::span<const LogSurvey> logs =
       rows.parts.empty() ? job.logs : std::span<const LogSurvey>(rows.parts);
-  const LoopPlan plan = plan_loop(job, logs);
-  if (plan.kind == LoopKind::none) return plan.kind;
+  LoopPlan plan = plan_loop(job, logs);
+  if (plan.kind == LoopKind::none) return plan;
   options.noise_free_loop = [&job, logs, plan](const Model& model) {
     const SimulatedLogs simulated = simulate_loops(job, logs, model, plan);
     if (!simulated.failure.empty()) return NoiseFreeLogs{{}, {}, simulated.failure};
     return NoiseFreeLogs{measured_stretches(job, simulated.logs),
                          measured_stretches(job, simulated.logs, true), ""};
   };
-  return plan.kind;
+  return plan;
 }
 
 OutputErrorOptions options_of(const EstimationTask& task, const Model& start) {
@@ -192,7 +192,7 @@ std::string per_axis(const EstimationTask& task, const Eigen::VectorXd& values) 
   return text;
 }
 
-void note_fit(const EstimationTask& task, const FittedRows& rows, LoopKind loop,
+void note_fit(const EstimationTask& task, const FittedRows& rows, const LoopPlan& loop,
               const OutputErrorFit& oe, Estimation& out) {
   const bool linear = task.job.rig().linear_motion;
   out.decisions.push_back(
@@ -301,7 +301,7 @@ Estimation estimate(const EstimationTask& task) {
   if (rows.stretches.empty())
     return stay_with_least_squares(task, std::move(start), "no stretch of 16 rows without a gap");
   OutputErrorOptions options = options_of(task, model);
-  const LoopKind loop = add_noise_free_loop(job, rows, options);
+  const LoopPlan loop = add_noise_free_loop(job, rows, options);
   const OutputErrorFit oe = fit_output_error(model, rows.stretches, options);
   if (oe.parameters.empty()) return stay_with_least_squares(task, std::move(start), oe.message);
   Estimation out;
