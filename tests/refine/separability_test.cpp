@@ -109,7 +109,7 @@ TEST_CASE("trial runs keep to the limits of the logs", "[refine][separability]")
   double low = kUnbounded, high = -kUnbounded, speed = 0, least_load = 0, most_load = 0;
   for (std::size_t k = 0; k < base.design.stretches.size(); ++k) {
     if (base.design.stretches[k].blocked) continue;
-    const SmoothMotion& m = base.design.rows[k].motion;
+    const SmoothMotion& m = *base.design.rows[k].motion;
     low = std::min(low, m.theta.minCoeff());
     high = std::max(high, m.theta.maxCoeff());
     speed = std::max(speed, m.thetad.abs().maxCoeff());

@@ -1,9 +1,13 @@
 // Work in parallel with results in order: the same bits whatever the number of threads.
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <deque>
+#include <exception>
 #include <future>
 #include <utility>
+#include <vector>
 
 namespace cablefit {
 
@@ -47,6 +51,34 @@ void ordered_pipeline(int threads, Produce produce, Map map, Reduce reduce) {
     throw;
   }
   while (!running.empty()) reduce_first();
+}
+
+/// {map(items[0]), map(items[1]), ...} of up to `threads` threads at once (inline when threads <=
+/// 1), each of which takes the next item when it is free: for items that differ in how long they
+/// take. Of several exceptions the first item's comes out, after all threads have ended.
+template <class Item, class Map>
+auto parallel_map(int threads, const std::vector<Item>& items, Map map) {
+  using Result = decltype(map(items.front()));
+  std::vector<Result> results(items.size());
+  std::vector<std::exception_ptr> failures(items.size());
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t k = next++; k < items.size(); k = next++) try {
+        results[k] = map(items[k]);
+      } catch (...) {
+        failures[k] = std::current_exception();
+      }
+  };
+  std::vector<std::future<void>> others;
+  const auto most = std::min(items.size(), static_cast<std::size_t>(std::max(1, threads)));
+  // Where the system has no thread left, get() does the work.
+  for (std::size_t k = 1; k < most; ++k)
+    others.push_back(std::async(std::launch::async | std::launch::deferred, work));
+  work();
+  for (std::future<void>& other : others) other.get();
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+  return results;
 }
 
 }  // namespace cablefit

@@ -64,7 +64,7 @@ std::vector<TwinStretch> read_stretches(const LogSurvey& log, std::size_t number
 
 /// The true motion of every stretch. Throws Error(not_identifiable) when it diverges.
 std::vector<SimulationResult> run_twin(const Twin& twin, const TwinDisturbance& disturbance,
-                                       Random& random);
+                                       Random& random, int threads = 1);
 
 /// Motions as a recorder with the twin's sensors sees them.
 std::vector<LogSurvey> record_twin(const Twin& twin, const std::vector<SimulationResult>& motions,

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/base/parallel.hpp"
 #include "cablefit/prove/twin.hpp"
 
 namespace cablefit {
@@ -79,6 +80,12 @@ const SensorInfo* sensor_of(const LogPlan& plan, const Slot& slot) {
   return found == plan.rig.sensors.end() ? nullptr : &found->second;
 }
 
+/// A stretch with the disturbances that it is simulated with.
+struct StretchRun {
+  const TwinStretch* stretch;
+  SimulationInput input;
+};
+
 bool is_position(Channel channel) { return channel == Channel::q || channel == Channel::theta; }
 
 /// White noise that the measured channel has more than the simulated one.
@@ -90,25 +97,27 @@ double noise_left(const ChannelSurvey& measured, const ChannelSurvey& simulated)
 }  // namespace
 
 std::vector<SimulationResult> run_twin(const Twin& twin, const TwinDisturbance& disturbance,
-                                       Random& random) {
-  std::vector<SimulationResult> motions;
+                                       Random& random, int threads) {
+  std::vector<StretchRun> runs;
   for (const TwinStretch& stretch : twin.stretches) {
-    Model model = twin.model;
-    model.rig = stretch.rig;
-    SimulationInput input = stretch.input;
-    input.motor_disturbance = disturbances(disturbance.motor, stretch, random);
+    StretchRun& run = runs.emplace_back(StretchRun{&stretch, stretch.input});
+    run.input.motor_disturbance = disturbances(disturbance.motor, stretch, random);
     if (!stretch.link_blocked)
-      input.link_disturbance = disturbances(disturbance.link, stretch, random);
-    SimulationOptions options;
-    options.closed_loop = stretch.rig.controller.has_value();
-    options.hold_torque = stretch.hold_torque;
-    options.link_blocked = stretch.link_blocked;
-    motions.push_back(simulate(model, input, options));
-    if (motions.back().diverged_at)
-      throw Error(ErrorKind::not_identifiable,
-                  fmt::format("the simulated loop of {} diverged", twin.plans[stretch.log].path));
+      run.input.link_disturbance = disturbances(disturbance.link, stretch, random);
   }
-  return motions;
+  return parallel_map(threads, runs, [&](const StretchRun& run) {
+    Model model = twin.model;
+    model.rig = run.stretch->rig;
+    SimulationOptions options;
+    options.closed_loop = run.stretch->rig.controller.has_value();
+    options.hold_torque = run.stretch->hold_torque;
+    options.link_blocked = run.stretch->link_blocked;
+    SimulationResult motion = simulate(model, run.input, options);
+    if (motion.diverged_at)
+      throw Error(ErrorKind::not_identifiable, fmt::format("the simulated loop of {} diverged",
+                                                           twin.plans[run.stretch->log].path));
+    return motion;
+  });
 }
 
 std::vector<LogSurvey> record_twin(const Twin& twin, const std::vector<SimulationResult>& motions,

@@ -108,7 +108,8 @@ StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayo
                       const Smoothing& smoothing, const StretchRows* kept) {
   StretchRows rows;
   const bool held = model.rig.torque_hold != TorqueHold::none;
-  rows.motion = smooth_motion_of(stretch.recording, stretch.t0, held, smoothing);
+  rows.motion = std::make_shared<const SmoothMotion>(
+      smooth_motion_of(stretch.recording, stretch.t0, held, smoothing));
   const Kernel filter = gaussian(smoothing.columns, stretch.recording.period);
   for (const RowKind kind : kinds_of(stretch, model)) {
     KindRows& k = rows.kinds.emplace_back();
@@ -116,12 +117,12 @@ StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayo
     const bool link = kind == RowKind::link;
     k.at = kept != nullptr
                ? kept->kinds[rows.kinds.size() - 1].at
-               : moving_rows(link ? rows.motion.qd : rows.motion.thetad,
+               : moving_rows(link ? rows.motion->qd : rows.motion->thetad,
                              link ? smoothing.least_speed_q : smoothing.least_speed_theta,
                              stretch.recording.period, smoothing);
     std::erase_if(k.at, [&](Eigen::Index i) { return i < stretch.rows_from; });
     const Eigen::MatrixXd all =
-        apply_at(filter, full_columns(kind, rows.motion, model, layout), k.at);
+        apply_at(filter, full_columns(kind, *rows.motion, model, layout), k.at);
     k.base = all.leftCols(layout.n());
     k.response = all.col(layout.n());
   }
@@ -132,21 +133,23 @@ StretchRows rows_of_torque(const StretchRows& kept, const Stretch& changed, cons
                            const Smoothing& smoothing) {
   StretchRows rows = kept;
   const Recording& r = changed.recording;
-  rows.motion.tau = smooth_torque(r, model.rig.torque_hold != TorqueHold::none, smoothing);
+  SmoothMotion motion = *kept.motion;
+  motion.tau = smooth_torque(r, model.rig.torque_hold != TorqueHold::none, smoothing);
   const Kernel filter = gaussian(smoothing.columns, r.period);
   for (KindRows& k : rows.kinds)
-    k.response = apply_at(filter, response_of(k.kind, rows.motion, model).matrix(), k.at);
+    k.response = apply_at(filter, response_of(k.kind, motion, model).matrix(), k.at);
+  rows.motion = std::make_shared<const SmoothMotion>(std::move(motion));
   return rows;
 }
 
 StretchRows rows_of_cables(const StretchRows& kept, const BaseLayout& before, const Model& model,
                            const BaseLayout& layout, const Smoothing& smoothing) {
   StretchRows rows = kept;
-  const Kernel filter = gaussian(smoothing.columns, kept.motion.period);
+  const Kernel filter = gaussian(smoothing.columns, kept.motion->period);
   const Eigen::Index effects = before.n_link + before.n_motor;
   for (KindRows& k : rows.kinds) {
-    Eigen::MatrixXd elastic(kept.motion.size(), layout.n_elastic);
-    fill_elastic(model, kept.motion, k.kind == RowKind::link, elastic);
+    Eigen::MatrixXd elastic(kept.motion->size(), layout.n_elastic);
+    fill_elastic(model, *kept.motion, k.kind == RowKind::link, elastic);
     const Eigen::MatrixXd old = std::move(k.base);
     const Eigen::Index more = old.cols() - before.n();
     k.base.resize(old.rows(), layout.n() + more);

@@ -1,6 +1,7 @@
 // The model's own equations as linear columns over the rows of a stretch. Internal to refine/.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,7 +38,7 @@ struct KindRows {
 
 /// What a stretch gives: at most a link and a motor (or blocked) equation.
 struct StretchRows {
-  SmoothMotion motion;
+  std::shared_ptr<const SmoothMotion> motion;  ///< never null; other columns share it
   std::vector<KindRows> kinds;
 };
 

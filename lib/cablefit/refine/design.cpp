@@ -61,7 +61,7 @@ void fill_rows(Design& design, const std::vector<StretchRows>* kept) {
     const Model& model = design.models[stretch.model];
     design.rows.push_back(base_rows(stretch, model, design.layout, design.smoothing,
                                     kept != nullptr ? &(*kept)[k] : nullptr));
-    design.states.push_back(joint_states(design.rows.back().motion, model));
+    design.states.push_back(joint_states(*design.rows.back().motion, model));
   }
 }
 
@@ -193,7 +193,7 @@ Design with_variant(const Design& design, const Variant& variant, const Eigen::V
       for (Stretch& stretch : out.stretches) row.correct(variant.shape.data(), stretch.recording);
     out.layout = base_layout(out.models.front());
     for (std::size_t k = 0; k < out.stretches.size(); ++k)
-      out.states[k] = joint_states(out.rows[k].motion, out.models[out.stretches[k].model]);
+      out.states[k] = joint_states(*out.rows[k].motion, out.models[out.stretches[k].model]);
   } else {
     const VariantColumns columns = variant_columns(design, variant, values);
     for (std::size_t k = 0; k < columns.size(); ++k)

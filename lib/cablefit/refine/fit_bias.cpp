@@ -47,12 +47,13 @@ void forget_unrecorded(const Design& design, Eigen::VectorXd& bias) {
 std::optional<Eigen::VectorXd> fit_bias(const RefineBench& bench, const RefineState& state) {
   if (bench.elastic_only) return {};
   const std::vector<Model> models = recorded_models(state);
+  const int threads = bench.options.threads;
   Eigen::VectorXd bias;
   try {
-    NullBench twin(models, bench.logs, bench.wanted, state.design.smoothing);
+    NullBench twin(models, bench.logs, bench.wanted, state.design.smoothing, threads);
     twin.hold_back(bench.held_back);
     twin.silence_torque();  // its noise has no bias to give; without it one draw is enough
-    const Design design = design_like(state, models, twin.draw(bench.options.seed));
+    const Design design = design_like(state, models, twin.draw(bench.options.seed, threads));
     const auto fit = fit_blocks(
         block_grams(design.rows, design.stretches, bench.scan.block_seconds), state.levels, false);
     if (!fit || fit->x.size() != state.x.size()) return {};

@@ -48,7 +48,7 @@ struct NullBench::Parts {
 };
 
 NullBench::NullBench(std::span<const Model> models, std::span<const LogSurvey> logs,
-                     const PartFilter& wanted, const Smoothing& smoothing)
+                     const PartFilter& wanted, const Smoothing& smoothing, int threads)
     : parts_(std::make_unique<Parts>()) {
   parts_->models.assign(models.begin(), models.end());
   parts_->smoothing = smoothing;
@@ -66,7 +66,7 @@ NullBench::NullBench(std::span<const Model> models, std::span<const LogSurvey> l
     const bool held = model.rig.torque_hold != TorqueHold::none;
     twin.twin = make_twin(model, logs, of_model, {held, kFollowCutoff});
     Random calibration(1, kCalibration);
-    choose_sensors(twin.twin, run_twin(twin.twin, {}, calibration));
+    choose_sensors(twin.twin, run_twin(twin.twin, {}, calibration, threads));
     for (std::size_t k = 0; k < logs.size(); ++k)
       if (std::any_of(twin.twin.stretches.begin(), twin.twin.stretches.end(),
                       [k](const TwinStretch& stretch) { return stretch.log == k; }))
@@ -88,19 +88,20 @@ void NullBench::silence_torque() {
 
 void NullBench::hold_back(double share) { parts_->held_back = share; }
 
-std::vector<NullBench::Recorded> NullBench::record(std::uint64_t seed) const {
+std::vector<NullBench::Recorded> NullBench::record(std::uint64_t seed, int threads) const {
   std::vector<Recorded> all;
   for (const PreloadTwin& twin : parts_->twins) {
     Random random(seed, kSensors + 2 * twin.model);
     Twin aside = twin.twin;
     move_aside(aside, random);
     all.push_back(
-        {twin.model, record_twin(aside, run_twin(aside, parts_->disturbance, random), random)});
+        {twin.model,
+         record_twin(aside, run_twin(aside, parts_->disturbance, random, threads), random)});
   }
   return all;
 }
 
-std::vector<Stretch> NullBench::draw(std::uint64_t seed) const {
+std::vector<Stretch> NullBench::draw(std::uint64_t seed, int threads) const {
   if (parts_->twins.empty()) {
     const auto& motor = parts_->disturbance.motor;
     std::vector<Stretch> blocked =
@@ -109,7 +110,7 @@ std::vector<Stretch> NullBench::draw(std::uint64_t seed) const {
     return blocked;
   }
   std::vector<Stretch> all;
-  const std::vector<Recorded> recorded = record(seed);
+  const std::vector<Recorded> recorded = record(seed, threads);
   for (std::size_t k = 0; k < recorded.size(); ++k) {
     const std::span<const Model> model(&parts_->models[recorded[k].model], 1);
     for (Stretch& stretch :

@@ -32,9 +32,10 @@ BaseFit fit_base(Design design, double block_seconds, const KindLevels* levels);
 class NullBench {
  public:
   /// `models`: fitted, one per preload. `logs`: as the search sees them. Throws
-  /// Error(not_identifiable) when the base cannot be simulated.
+  /// Error(not_identifiable) when the base cannot be simulated. `threads`: to simulate with, here
+  /// and below; the draws are the same whatever their number.
   NullBench(std::span<const Model> models, std::span<const LogSurvey> logs,
-            const PartFilter& wanted, const Smoothing& smoothing);
+            const PartFilter& wanted, const Smoothing& smoothing, int threads);
   ~NullBench();
   NullBench(const NullBench&) = delete;
   NullBench& operator=(const NullBench&) = delete;
@@ -54,9 +55,9 @@ class NullBench {
     std::size_t model = 0;
     std::vector<LogSurvey> logs;
   };
-  std::vector<Recorded> record(std::uint64_t seed) const;
+  std::vector<Recorded> record(std::uint64_t seed, int threads = 1) const;
   /// The same as stretches, numbered as the logs that the bench was made from.
-  std::vector<Stretch> draw(std::uint64_t seed) const;
+  std::vector<Stretch> draw(std::uint64_t seed, int threads = 1) const;
   /// Its base fit: what noise alone leaves, row by row. `levels`: weights; nullptr: of its own
   /// residual.
   BaseFit fitted(std::uint64_t seed, const KindLevels* levels) const;

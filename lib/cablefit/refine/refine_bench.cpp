@@ -65,14 +65,15 @@ KindLevels fitted_floor(RefineBench& bench, const Eigen::VectorXd& x) {
 void find_unseen_floors(RefineBench& bench, const std::vector<Model>& models,
                         const RefineLogs& logs) {
   bench.unseen = logs.test.empty() ? logs.train : logs.test;
-  const NullBench unseen(models, bench.unseen, bench.wanted, bench.smoothing);
+  const NullBench unseen(models, bench.unseen, bench.wanted, bench.smoothing,
+                         bench.options.threads);
   bench.test_floor = logs.test.empty()
                          ? bench.floor
                          : positive(rms_over(run_draws(
                                bench, kFloorDraws, bench.options.seed, "noise floor",
                                [&](std::uint64_t seed) { return unseen.unfitted(seed); })));
   std::vector<LogSurvey> recorded;
-  for (NullBench::Recorded& one : unseen.record(bench.options.seed))
+  for (NullBench::Recorded& one : unseen.record(bench.options.seed, bench.options.threads))
     recorded.insert(recorded.end(), one.logs.begin(), one.logs.end());
   bench.simulation_floor = simulated_gap(models, recorded, bench.options.threads);
 }
@@ -158,7 +159,7 @@ RefineState prepare(RefineBench& bench, std::span<const Model> models, const Ref
       fit_base(make_design(bases, std::move(train), wanted), bench.scan.block_seconds, nullptr);
   bench.smoothing = base.design.smoothing;
   std::vector<Model> fitted = models_with(base.design, base.fit.x);
-  bench.null.emplace(fitted, bench.logs, bench.wanted, bench.smoothing);
+  bench.null.emplace(fitted, bench.logs, bench.wanted, bench.smoothing, bench.options.threads);
   bench.held_back = result.held_out_blocks ? kHeldOutShare : 0;
   bench.null->hold_back(bench.held_back);
   bench.floor = fitted_floor(bench, base.fit.x);

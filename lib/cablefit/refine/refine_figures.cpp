@@ -67,7 +67,7 @@ Timeline timeline_of(const BeforeAfter& input) {
 std::vector<double> variables_at(const Design& design, std::size_t stretch, Eigen::Index at,
                                  bool link) {
   const JointState& state = design.states[stretch][static_cast<std::size_t>(at)];
-  const double load = design.rows[stretch].motion.tau_load(at);
+  const double load = design.rows[stretch].motion->tau_load(at);
   std::vector<double> values;
   for (const RegimeVariable& variable : regime_variables())
     values.push_back(variable.value(state, link, load));

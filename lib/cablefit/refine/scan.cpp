@@ -280,19 +280,16 @@ Variant other_form(Variant variant) {
 std::vector<Candidate> scan(const ScanStart& start, const ScanSettings& settings,
                             const std::vector<const Refinement*>& without) {
   const QuickLook look(start.design, start.grams, start.levels);
+  std::vector<const Refinement*> rows;
+  for (const Refinement& row : refinements())
+    if (is_candidate(row, start.design) &&
+        std::find(without.begin(), without.end(), &row) == without.end())
+      rows.push_back(&row);
   std::vector<Candidate> found;
-  ordered_pipeline<const Refinement*>(
-      settings.threads,
-      [&](auto emit) {
-        for (const Refinement& row : refinements())
-          if (is_candidate(row, start.design) &&
-              std::find(without.begin(), without.end(), &row) == without.end())
-            emit(static_cast<const Refinement*>(&row));
-      },
-      [&](const Refinement* row) { return best_variant(start, settings, look, *row); },
-      [&](std::optional<Candidate> candidate) {
-        if (candidate) found.push_back(std::move(*candidate));
-      });
+  for (auto& candidate : parallel_map(settings.threads, rows, [&](const Refinement* row) {
+         return best_variant(start, settings, look, *row);
+       }))
+    if (candidate) found.push_back(std::move(*candidate));
   return found;
 }
 

@@ -37,7 +37,7 @@ double most(Eigen::ArrayXd values) {
 Limits limits_of(const Design& design) {
   Limits limits;
   for (std::size_t k = 0; k < design.stretches.size(); ++k) {
-    const SmoothMotion& m = design.rows[k].motion;
+    const SmoothMotion& m = *design.rows[k].motion;
     for (const JointState& state : design.states[k])
       limits.deflection = std::max(limits.deflection, std::abs(state.deflection));
     if (design.stretches[k].blocked) continue;

@@ -16,7 +16,7 @@ double since_event(const Variant& variant, const Stretch& stretch, double t) {
 
 /// Torque per unit of each linear parameter at every sample, on link and motor.
 struct FullTorques {
-  Eigen::MatrixXd link, motor;  ///< n_linear x samples
+  Eigen::MatrixXd link, motor;  ///< samples x n_linear
 };
 
 /// From which sample on an event may have done something; none (n) where it has not happened yet or
@@ -51,47 +51,39 @@ FullTorques full_torques(const Variant& variant, const Stretch& stretch,
   const auto samples = (static_cast<Eigen::Index>(states.size()) + every - 1) / every;
   const double h = static_cast<double>(every) * stretch.recording.period;
   const Eigen::Index first = first_sample(variant, stretch, h, samples);
-  FullTorques out{Eigen::MatrixXd(n, samples), Eigen::MatrixXd(n, samples)};
-  out.link.leftCols(first).setZero();
-  out.motor.leftCols(first).setZero();
+  FullTorques out{Eigen::MatrixXd::Zero(samples, n), Eigen::MatrixXd::Zero(samples, n)};
   std::vector<double> z(row.n_states), level(row.n_linear());
+  Eigen::RowVectorXd link(n), motor(n);
   JointState dated;  // of an event, whose age is not the state's own
   for (Eigen::Index i = first; i < samples; ++i) {
     const JointState* state = &states[static_cast<std::size_t>(i * every)];
-    double* link = out.link.col(i).data();
-    double* motor = out.motor.col(i).data();
-    std::fill(link, link + n, 0.0);
-    std::fill(motor, motor + n, 0.0);
     if (row.is_event) {
       dated = *state;
       dated.since_event = since_event(variant, stretch, dated.t);
       if (dated.since_event < 0) continue;
       state = &dated;
     }
+    link.setZero();
+    motor.setZero();
     // Half of the step before, half after: what they remember stands where the motion is.
     if (row.advance != nullptr) row.advance(*state, variant.shape.data(), h / 2, z.data());
-    if (row.torque != nullptr) row.torque(*state, variant.shape.data(), z.data(), link, motor);
+    if (row.torque != nullptr)
+      row.torque(*state, variant.shape.data(), z.data(), link.data(), motor.data());
     if (row.level != nullptr)
-      add_level(row, *state, variant.shape.data(), z.data(), level, link, motor);
+      add_level(row, *state, variant.shape.data(), z.data(), level, link.data(), motor.data());
+    out.link.row(i) = link;
+    out.motor.row(i) = motor;
     if (row.advance != nullptr) row.advance(*state, variant.shape.data(), h / 2, z.data());
   }
   return out;
 }
 
-/// The first `n` rows of `every`-th samples, filtered, at `at`.
+/// The first `n` columns of `every`-th samples, filtered, at `at`.
 Eigen::MatrixXd filtered(const Kernel& filter, const Eigen::MatrixXd& samples, Eigen::Index n,
                          const std::vector<Eigen::Index>& at, Eigen::Index every) {
-  const Eigen::Index all = samples.rows(), width = filter.weights.size();
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(at.size()), n);
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    const double* around = samples.data() + all * (at[i] / every - filter.reach());
-    for (Eigen::Index p = 0; p < n; ++p) {
-      double sum = 0;
-      for (Eigen::Index j = 0; j < width; ++j) sum += filter.weights(j) * around[all * j + p];
-      out(static_cast<Eigen::Index>(i), p) = sum;
-    }
-  }
-  return out;
+  std::vector<Eigen::Index> rows;
+  for (const Eigen::Index i : at) rows.push_back(i / every);
+  return apply_at(filter, samples.leftCols(n), rows);
 }
 
 std::vector<Eigen::MatrixXd> torque_columns(const Design& design, const Variant& variant,
@@ -104,7 +96,7 @@ std::vector<Eigen::MatrixXd> torque_columns(const Design& design, const Variant&
   std::vector<Eigen::MatrixXd> columns;
   for (const KindRows& kind : design.rows[k].kinds) {
     const Eigen::MatrixXd& own = kind.kind == RowKind::link ? full.link : full.motor;
-    const bool is_zero = (own.array() == 0).all();
+    const bool is_zero = own.cwiseAbs().maxCoeff() == 0;
     columns.push_back(is_zero ? Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(kind.at.size()), n)
                               : filtered(filter, own, n, kind.at, every));
   }
