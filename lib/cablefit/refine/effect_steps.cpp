@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/refine/fit_bias.hpp"
 #include "cablefit/refine/refined_model.hpp"
 #include "cablefit/refine/verdict.hpp"
 
@@ -114,15 +115,42 @@ double sd_better(const RefineBench& bench, const RefineState& before, const Refi
 }
 
 UnseenChange change_of(const RefineBench& bench, const Refinement& row, const RefineState& before,
-                       const RefineState& after) {
+                       const RefineState& after, const SimulatedGap& simulated_before,
+                       const SimulatedGap& simulated_after) {
   return {row,
           before.unseen.rho,
           after.unseen.rho,
-          before.simulated,
-          after.simulated,
+          simulated_before,
+          simulated_after,
           bench.simulation_floor,
           after.rho > kRemainder,
           sd_better(bench, before, after)};
+}
+
+UnseenChange change_of(const RefineBench& bench, const Refinement& row, const RefineState& before,
+                       const RefineState& after) {
+  return change_of(bench, row, before, after, before.simulated, after.simulated);
+}
+
+/// What a simulation of the unseen logs leaves with the values that simulate best.
+SimulatedGap simulated_best(const RefineBench& bench, const RefineState& state,
+                            const std::optional<Eigen::VectorXd>& bias) {
+  const bool better = bias && simulates_better_without(bench, state, *bias);
+  return better ? without_bias(bench, state, *bias).simulated : state.simulated;
+}
+
+/// Reason against a step; empty: none. Where the unseen equations are sure of it but the simulation
+/// is not, the bias of either fit may hide what the effect is worth: the simulations without it
+/// decide.
+std::string why_not(const RefineBench& bench, const Refinement& row, const RefineState& before,
+                    const RefineState& after, bool is_first) {
+  const UnseenChange change = change_of(bench, row, before, after);
+  const std::string reason = why_not_added(change);
+  const bool both_known = change.before.known() && change.after.known();
+  if (reason.empty() || change.sd_better < kClearlyBetter || !both_known) return reason;
+  const auto bias = is_first ? std::optional(bench.base_bias) : fit_bias(bench, before);
+  return why_not_added(change_of(bench, row, before, after, simulated_best(bench, before, bias),
+                                 simulated_best(bench, after, fit_bias(bench, after))));
 }
 
 NamedEffect effect_of(const RefineBench& bench, const RefineState& before, const RefineState& after,
@@ -159,7 +187,7 @@ bool add_next_effect(RefineBench& bench, RefineState& state, RefineResult& resul
   auto trial = try_next(bench, state, is_first, is_first ? &result : nullptr);
   if (!trial) return false;
   const Refinement& row = *trial->winner.variant.refinement;
-  const std::string reason = why_not_added(change_of(bench, row, state, trial->after));
+  const std::string reason = why_not(bench, row, state, trial->after, is_first);
   result.steps.push_back(step_of(bench, *trial, reason));
   if (!reason.empty())
     return is_first && bench.options.most_effects > 1 && add_both(bench, state, *trial, result);
