@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/refine/conclusion.hpp"
 #include "cablefit/refine/refined_model.hpp"
 #include "cablefit/refine/verdict.hpp"
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "cablefit/refine/conclusion.hpp"
 #include "cablefit/refine/effect_steps.hpp"
 #include "cablefit/refine/elastic_stage.hpp"
 #include "cablefit/refine/fit_bias.hpp"
@@ -16,7 +17,6 @@
 #include "cablefit/refine/regimes.hpp"
 #include "cablefit/refine/separability.hpp"
 #include "cablefit/refine/unexplained.hpp"
-#include "cablefit/refine/verdict.hpp"
 
 namespace cablefit {
 namespace {

@@ -1,5 +1,5 @@
 // Where do model and measurement disagree, which effect is missing, and does the gap shrink on data
-// that had no say? The decision rule stands in one place, verdict.cpp.
+// that had no say? The decision rule stands in two files: verdict.cpp, conclusion.cpp.
 //
 // Method. Rows of the blocked, link and motor equations (base_rows.hpp) of all training logs are
 // fitted jointly; every row of the catalogue is tried as further columns with everything refitted
