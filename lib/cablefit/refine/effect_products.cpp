@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cablefit/refine/elastic_stage.hpp"
+#include "cablefit/refine/search.hpp"
 
 namespace cablefit {
 namespace {
@@ -76,11 +77,13 @@ std::optional<Seen> see_replaced(const Design& design, const Variant& variant, c
                                  const Eigen::VectorXd& values) {
   const std::vector<StretchRows> rows = replaced_rows(design, variant);
   if (rows.empty()) return {};
-  const Eigen::Index now = rows.front().kinds.front().base.cols(), before = values.size();
+  // Columns of kept effects come last.
+  const Eigen::Index before = design.layout.n(), kept = design.n_columns() - before;
+  const Eigen::Index now = rows.front().kinds.front().base.cols() - kept;
   const auto example = stack.of(1, [&](std::size_t s, std::size_t i) -> Eigen::MatrixXd {
     const KindRows &a = rows[s].kinds[i], &b = design.rows[s].kinds[i];
-    if (now > before) return a.base.rightCols(now - before).rowwise().sum();
-    return (a.base * values - a.response) - (b.base.leftCols(before) * values - b.response);
+    if (now > before) return a.base.middleCols(before, now - before).rowwise().sum();
+    return (a.base * values - a.response) - (b.base * values - b.response);
   });
   Seen seen{example, example, Eigen::VectorXd::Ones(1)};
   // Cables of more terms have those of fewer in them; others stand in their place, and a little of
@@ -106,8 +109,10 @@ std::optional<Seen> see(const Design& design, const Variant& variant, const Stac
 
 std::vector<Family> families_of(const Design& design) {
   std::vector<Family> all;
+  const auto kept = named_already(design);
   for (const Refinement& row : refinements()) {
     if (row.is_event || !is_candidate(row, design)) continue;
+    if (std::find(kept.begin(), kept.end(), &row) != kept.end()) continue;
     std::vector<std::vector<double>> shapes = {{}};
     for (const ShapeGrid& grid : row.shape) {
       std::vector<std::vector<double>> more;
@@ -129,11 +134,11 @@ Products products_of(const Design& design, const std::vector<Family>& families,
                      const KindLevels& floor, const Eigen::VectorXd& values, const Products* like) {
   const Stack stack(design, floor);
   Products out;
-  out.n_base = design.layout.n();
+  out.n_base = design.n_columns();
   out.n_rows = stack.n_all();
   std::vector<Eigen::MatrixXd> blocks = {
       stack.of(out.n_base, [&](std::size_t s, std::size_t i) -> Eigen::MatrixXd {
-        return design.rows[s].kinds[i].base.leftCols(out.n_base);
+        return design.rows[s].kinds[i].base;
       })};
   Eigen::Index at = out.n_base;
   for (std::size_t f = 0; f < families.size(); ++f)

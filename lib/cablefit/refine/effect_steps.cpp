@@ -175,14 +175,15 @@ void name_first_again(RefineBench& bench, const RefineState& first, RefineState&
   found.levels = state.levels;
   found.fit.x = first.x;
   Candidate second;
-  second.variant = state.design.added[1];
+  const std::size_t own = first.design.added.size();  // what comes before was not added
+  second.variant = state.design.added[own + 1];
   const auto alone = with_candidate(bench, first, found, second);
   if (!alone) return;
   const auto trial = try_next(bench, *alone, false, nullptr);
   if (!trial) return;
   const Refinement& row = *trial->winner.variant.refinement;
   NamedEffect& named = result.effects.front();
-  if (&row == state.design.added.front().refinement) {
+  if (&row == state.design.added[own].refinement) {
     named.rivals = trial->judgement.rivals;  // fewer: the second no longer blurs it
     return;
   }
@@ -206,7 +207,7 @@ void begin_otherwise(RefineBench& bench, const RefineState& first, RefineState& 
                      RefineResult& result) {
   constexpr std::size_t kBeginnings = 3;
   const Search& found = bench.first_search;
-  const Refinement& taken = *state.design.added.front().refinement;
+  const Refinement& taken = *state.design.added[first.design.added.size()].refinement;
   for (const Candidate* candidate : best_candidates(found.candidates, kBeginnings, taken)) {
     Trial one;
     one.winner =

@@ -66,6 +66,24 @@ void tell_remainder(const KindLevels& rms, const KindLevels& floor, RefineResult
   result.floor_link = floor[static_cast<std::size_t>(RowKind::link)];
 }
 
+/// The values of what stands in the design, kept effects first.
+void tell_effects(std::span<const Model> models, const std::vector<NamedEffect>& named,
+                  RefineResult& result) {
+  const std::size_t n_kept = named.size() - result.effects.size();
+  for (std::size_t k = 0; k < n_kept; ++k) {
+    KeptEffect& kept = result.kept.emplace_back();
+    kept.now = named[k];
+    for (const RefinementInstance& given : models.front().joints.front().refinements)
+      if (given.refinement == named[k].instance.refinement) kept.given = given.parameters;
+  }
+  for (std::size_t k = 0; k < result.effects.size(); ++k) {
+    const NamedEffect& fitted = named[n_kept + k];
+    result.effects[k].instance = fitted.instance;
+    result.effects[k].derived = fitted.derived;
+    result.effects[k].torque_rms = fitted.torque_rms;
+  }
+}
+
 void tell_inputs(std::span<const Model> models, const RefineLogs& logs, RefineResult& result) {
   for (const auto* some : {&logs.blocked, &logs.train, &logs.test})
     for (const LogSurvey& log : *some)
@@ -117,7 +135,8 @@ RefineResult refine(std::span<const Model> given, const RefineLogs& logs,
     if (state.rho < kNoGap) break;
   }
 
-  FinalFit fit = final_fit(first.design, state.design, state.levels, bench.scan.block_seconds);
+  const Design& bare = first.design.added.empty() ? first.design : bench.bare;
+  FinalFit fit = final_fit(bare, state.design, state.levels, bench.scan.block_seconds);
   if (state.rho > kRemainder)
     result.unexplained =
         describe_remainder(state.design, fit.x, bench.floor, bench.scan.block_seconds);
@@ -130,12 +149,7 @@ RefineResult refine(std::span<const Model> given, const RefineLogs& logs,
   const RefineState before = better ? without_bias(bench, first, bench.base_bias) : first;
   if (better) state = result.effects.empty() ? before : without_bias(bench, state, *bias);
   fit.x = state.x;
-  const std::vector<NamedEffect> named = named_effects(state.design, fit);
-  for (std::size_t k = 0; k < named.size(); ++k) {
-    result.effects[k].instance = named[k].instance;
-    result.effects[k].derived = named[k].derived;
-    result.effects[k].torque_rms = named[k].torque_rms;
-  }
+  tell_effects(models, named_effects(state.design, fit), result);
   result.shifts = parameter_shifts(first.design, before.x, state.design, fit);
   result.models = refined_models(state.design, fit);
   result.rho_before = first.rho;

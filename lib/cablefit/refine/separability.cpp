@@ -6,6 +6,9 @@
 #include <cmath>
 
 #include "cablefit/refine/effect_distances.hpp"
+#include "cablefit/refine/kept_effects.hpp"
+#include "cablefit/refine/recorded_effects.hpp"
+#include "cablefit/refine/refined_model.hpp"
 
 namespace cablefit {
 namespace {
@@ -113,8 +116,7 @@ std::vector<Family> only_open(const std::vector<Family>& families, std::vector<O
 void advise(std::vector<Open> open, const std::vector<Family>& all, const Design& design,
             const Eigen::VectorXd& values, const KindLevels& floor, double least,
             const std::vector<TrialRun>& runs, std::vector<NotSeparable>& out) {
-  Model model = design.models.front();
-  set_base_values(design.layout, values, model);
+  const Model model = recorded_models(models_with(design, values)).front();
   const std::vector<Family> families = only_open(all, open);
   if (families.empty()) return;
   const Products have = products_of(design, families, floor, values, nullptr);
@@ -124,7 +126,8 @@ void advise(std::vector<Open> open, const std::vector<Family>& all, const Design
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const auto stretch = simulated(runs[r], model);
     if (!stretch) continue;
-    const Design trial = make_design(design.models, {*stretch}, design.smoothing);
+    const Design trial = with_variants(make_design(design.models, {*stretch}, design.smoothing),
+                                       design.added, values);
     if (trial.rows.front().kinds.front().response.size() == 0) continue;
     const Products more = products_of(trial, families, floor, values, &have);
     const Distances distances(more, families);
@@ -148,7 +151,7 @@ void advise(std::vector<Open> open, const std::vector<Family>& all, const Design
 std::vector<NotSeparable> find_not_separable(const Design& design, const Eigen::VectorXd& x,
                                              const KindLevels& floor,
                                              const std::vector<TrialRun>& runs) {
-  const Eigen::VectorXd values = x.head(design.layout.n());
+  const Eigen::VectorXd values = x.head(design.n_columns());
   const std::vector<Family> families = families_of(design);
   const Products products = products_of(design, families, floor, values, nullptr);
   const Distances distances(products, families);

@@ -1,0 +1,245 @@
+// A refined model is refined again: what it has is part of the base.
+#include "cablefit/refine/kept_effects.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/refine/elastic_stage.hpp"
+#include "cablefit/refine/model_set.hpp"
+#include "cablefit/refine/refine.hpp"
+#include "tests/refine/hidden_logs.hpp"
+
+using namespace cablefit;
+using namespace cablefit::test;
+
+namespace {
+
+RefinementInstance instance_of(std::string_view name, Site site,
+                               const std::vector<double>& values) {
+  RefinementInstance instance;
+  instance.refinement = &find_refinement(name, site);
+  REQUIRE(values.size() == instance.refinement->parameters.size());
+  for (std::size_t p = 0; p < values.size(); ++p) {
+    Estimate& e = instance.parameters.emplace_back();
+    e.name = instance.refinement->parameters[p].name;
+    e.value = values[p];
+  }
+  return instance;
+}
+
+std::vector<Model> with(std::vector<Model> models, const RefinementInstance& instance) {
+  for (Model& model : models) model.joints.front().refinements.push_back(instance);
+  return models;
+}
+
+RefineResult refined(const std::vector<Model>& models, const RefineLogs& logs,
+                     std::size_t most_effects = 3) {
+  RefineOptions options;
+  options.n_draws = 8;
+  options.threads = 2;
+  options.most_effects = most_effects;
+  return refine(models, logs, options);
+}
+
+KeptBase kept_base(const std::vector<Model>& models, const RefineLogs& logs) {
+  std::vector<LogSurvey> all = logs.blocked;
+  all.insert(all.end(), logs.train.begin(), logs.train.end());
+  return fit_kept_base(models, read_stretches(all, models, [](const PartSurvey&) { return true; }),
+                       smoothing_for(1e-3), {});
+}
+
+double truth(const HiddenLogs& hidden, std::size_t effect, std::string_view name) {
+  for (const hidden::Coefficient& c : hidden.truth.effects.at(effect).coefficients)
+    if (c.name == name) return c.value;
+  FAIL("no coefficient " << name);
+  return 0;
+}
+
+const Estimate& parameter(const RefinementInstance& instance, std::string_view name) {
+  const Estimate* e = find_estimate(instance.parameters, name);
+  REQUIRE(e != nullptr);
+  return *e;
+}
+
+std::vector<std::string_view> names_in(const Model& model) {
+  std::vector<std::string_view> names;
+  for (const RefinementInstance& has : model.joints.front().refinements)
+    names.push_back(has.refinement->name);
+  return names;
+}
+
+const std::vector<std::string> kTwo = {"stribeck.motor=1", "quadratic_drag.link=1"};
+
+}  // namespace
+
+TEST_CASE("what a model has is read in its plain form where the values are those of it",
+          "[refine][kept]") {
+  const Model model = hidden_logs({}).models.front();
+  const auto is_plain = [&](const RefinementInstance& instance) {
+    const std::vector<Variant> kept = kept_variants(with({model}, instance).front());
+    REQUIRE(kept.size() == 1);
+    CHECK(kept.front().refinement == instance.refinement);
+    return kept.front().is_plain;
+  };
+  CHECK(is_plain(instance_of("stribeck", Site::motor, {0.2, 0.1, 2})));
+  CHECK_FALSE(is_plain(instance_of("stribeck", Site::motor, {0.2, 0.1, 1.5})));
+  CHECK(is_plain(instance_of("cogging", Site::motor, {0.2, 0.1, 0, 0, 32})));
+  CHECK_FALSE(is_plain(instance_of("cogging", Site::motor, {0.2, 0.1, 0, 0.01, 32})));
+  CHECK_FALSE(is_plain(instance_of("creep", Site::transmission, {0.01, 3})));  // has only one form
+  double dry = 0;
+  for (const EffectInstance& has : model.joints.front().link)
+    if (has.effect->dry != nullptr) dry = has.parameters.front().value;
+  REQUIRE(dry > 0);
+  CHECK(is_plain(instance_of("presliding", Site::link, {dry, 1e-3})));
+  CHECK_FALSE(is_plain(instance_of("presliding", Site::link, {0.5 * dry, 1e-3})));
+  // Its cables are in the model already.
+  CHECK(kept_variants(with({model}, instance_of("dead_zone", Site::transmission, {1e-3})).front())
+            .empty());
+}
+
+TEST_CASE("an event of an earlier refine is refused, and one base for two structures",
+          "[refine][kept]") {
+  const HiddenLogs hidden = hidden_logs({}, 1, "preloads");
+  REQUIRE(hidden.models.size() == 2);
+  CHECK_NOTHROW(
+      require_model_set(with(hidden.models, instance_of("stribeck", Site::motor, {0.2, 0.1, 2}))));
+  CHECK_THROWS_WITH(require_model_set(with(hidden.models,
+                                           instance_of("payload_change", Site::link, {0.1, 0, 0}))),
+                    Catch::Contains("has 'payload_change' (link), an event of an earlier refine"));
+  std::vector<Model> models = hidden.models;
+  models[1].joints.front().refinements = {instance_of("stribeck", Site::motor, {0.2, 0.1, 2})};
+  CHECK_THROWS_WITH(require_model_set(models), Catch::Contains("have different equations"));
+  models[0].joints.front().refinements = {instance_of("stribeck", Site::motor, {0.3, 0.1, 2})};
+  CHECK_NOTHROW(require_model_set(models));  // coefficients are fitted anew
+  models[0].joints.front().refinements = {instance_of("stribeck", Site::motor, {0.2, 0.2, 2})};
+  CHECK_THROWS_WITH(require_model_set(models), Catch::Contains("have different equations"));
+}
+
+/// Columns of the base, so nothing of them is frozen; v_s of the file is off by half.
+TEST_CASE("a kept effect is fitted with the base, its shape follows", "[refine][kept]") {
+  const HiddenLogs hidden = hidden_logs({"stribeck.motor=1"});
+  const double amplitude = truth(hidden, 0, "amplitude"), v_s = truth(hidden, 0, "v_s");
+  const KeptBase kept = kept_base(
+      with(hidden.models, instance_of("stribeck", Site::motor, {0.1, 1.5 * v_s, 2})), hidden.logs);
+  CHECK(kept.warnings.empty());
+  REQUIRE(kept.base.design.added.size() == 1);
+  // Within 10 %: its sd is 3 %, and that of the amplitude as well (hide_and_name_test.cpp).
+  CHECK(kept.base.design.added[0].shape[0] == Approx(v_s).epsilon(0.1));
+  CHECK(kept.base.fit.x(kept.base.fit.x.size() - 1) == Approx(amplitude).epsilon(0.1));
+  const KeptBase without = kept_base(hidden.models, hidden.logs);
+  const auto motor = static_cast<std::size_t>(RowKind::motor);
+  CHECK(kept.base.fit.rms()[motor] < 0.7 * without.base.fit.rms()[motor]);
+}
+
+TEST_CASE("a kept effect that the logs contradict is taken out", "[refine][kept]") {
+  // Friction that rises ever less with speed looks like a negative drag.
+  const HiddenLogs hidden = hidden_logs({"nonlinear_viscous.link=1"});
+  const KeptBase kept = kept_base(
+      with(hidden.models, instance_of("quadratic_drag", Site::link, {0.2, 2})), hidden.logs);
+  INFO(kept.base.fit.x.transpose());
+  REQUIRE(kept.warnings.size() == 1);
+  CHECK(kept.warnings[0] ==
+        "'quadratic_drag' (link) of the model is beyond its physical bound in these logs and was "
+        "taken "
+        "out of it");
+  CHECK(kept.base.design.added.empty());
+}
+
+/// More inertia of the link, in all rows, is the link's inertia.
+TEST_CASE("a kept effect that the logs do not tell from the base is refused", "[refine][kept]") {
+  const HiddenLogs hidden = hidden_logs({});
+  try {
+    kept_base(with(hidden.models, instance_of("payload_change", Site::link, {0.1, 0, 0})),
+              hidden.logs);
+    FAIL("it was taken");
+  } catch (const Error& error) {
+    CHECK(error.kind() == ErrorKind::not_identifiable);
+    CHECK(std::string(error.what()) ==
+          "the logs do not tell 'payload_change' (link) of the model from its other parameters; "
+          "give the logs that it was named from too, or a model without it");
+  }
+}
+
+TEST_CASE("logs of a blocked link alone refuse what none of them shows", "[refine][kept]") {
+  HiddenLogs hidden = hidden_logs({});
+  hidden.logs.train.clear();
+  hidden.logs.test.clear();
+  const auto models = [&](std::string_view name, const std::vector<double>& values) {
+    return with(hidden.models, instance_of(name, Site::transmission, values));
+  };
+  CHECK(stage_of(models("creep", {0.01, 3}), hidden.logs).elastic_only);
+  CHECK_THROWS_WITH(stage_of(models("cable_damping", {1.0}), hidden.logs),
+                    "the model has 'cable_damping' (transmission), which no log with the link "
+                    "blocked shows; give moving logs too, or a model without it");
+}
+
+TEST_CASE("a refined model is refined again: the second effect, then none",
+          "[refine][kept][slow]") {
+  const HiddenLogs hidden = hidden_logs(kTwo);
+  const RefineResult one = refined(hidden.models, hidden.logs, 1);
+  REQUIRE(names_in(one.models.front()) == std::vector<std::string_view>{"quadratic_drag"});
+  const RefineResult two = refined(one.models, hidden.logs, 1);
+  INFO(two.reason);
+  REQUIRE(two.kept.size() == 1);
+  REQUIRE(two.effects.size() == 1);
+  CHECK(two.effects[0].instance.refinement == &find_refinement("stribeck", Site::motor));
+  CHECK(two.effects[0].evidence.p_value <= 0.01);
+  CHECK(names_in(two.models.front()) ==
+        std::vector<std::string_view>{"quadratic_drag", "stribeck"});
+  const Estimate& drag = parameter(two.kept[0].now.instance, "coefficient");
+  CHECK(drag.ci_low < truth(hidden, 1, "coefficient"));
+  CHECK(drag.ci_high > truth(hidden, 1, "coefficient"));
+  CHECK(drag.sd < 0.02 * drag.value);
+  CHECK(two.kept[0].given[0].value == parameter(one.effects[0].instance, "coefficient").value);
+  // As if both had been named in one go: the gap begins where the first run ended.
+  CHECK(two.rho_before == Approx(one.rho_after).epsilon(0.15));
+  CHECK(two.rho_after < 1.2);
+  const auto shift = std::find_if(two.shifts.begin(), two.shifts.end(), [](const auto& s) {
+    return s.name == "quadratic_drag (link) coefficient";
+  });
+  REQUIRE(shift != two.shifts.end());
+  CHECK(shift->after == drag.value);
+  CHECK(shift->sd == drag.sd);
+
+  const RefineResult none = refined(two.models, hidden.logs);
+  INFO(none.reason);
+  CHECK(none.verdict == Verdict::none);
+  CHECK(none.effects.empty());
+  REQUIRE(none.kept.size() == 2);
+  CHECK(none.rho_before == Approx(1).margin(0.1));
+  for (const Rival& rival : none.league) {
+    const bool is_kept = (rival.name == "stribeck" && rival.side == "motor") ||
+                         (rival.name == "quadratic_drag" && rival.side == "link");
+    CHECK_FALSE(is_kept);
+  }
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Estimate& before = two.models.front().joints.front().refinements[k].parameters.front();
+    const Estimate& after = none.models.front().joints.front().refinements[k].parameters.front();
+    CHECK(std::abs(after.value - before.value) < after.sd);  // of the same logs
+  }
+}
+
+/// The null draws and the trial simulations have what the model has: a null without it would be
+/// that of another drive, and its sensors' floors too high.
+TEST_CASE("new logs of a refined model: nothing is named", "[refine][kept][slow]") {
+  struct Case {
+    std::string effect, name;
+  };
+  const auto [effect, name] = GENERATE(Case{"presliding.link=0.3", "presliding"},
+                                       Case{"encoder_delay.sensor=0.2", "encoder_delay"},
+                                       Case{"drive_dead_band.drive=0.3", "drive_dead_band"});
+  const RefineResult one =
+      refined(hidden_logs({effect}, 1).models, hidden_logs({effect}, 1).logs, 1);
+  INFO(effect << ": " << one.reason);
+  REQUIRE(one.effects.size() == 1);
+  if (!name.empty()) CHECK(one.effects[0].instance.refinement->name == name);
+  const HiddenLogs later = hidden_logs({effect}, 2);
+  const RefineResult again = refined(one.models, later.logs);
+  INFO(again.reason);
+  CHECK(again.verdict == Verdict::none);
+  CHECK(again.effects.empty());
+  CHECK(names_in(again.models.front()) == names_in(one.models.front()));
+  CHECK(again.rho_before == Approx(1).margin(0.15));
+}
