@@ -11,8 +11,9 @@
 namespace cablefit {
 namespace {
 
-// Of an effect's columns, scaled: the squared part that the others have to leave, as in a scan.
-constexpr double kOwnPart = 1e-4;
+// Of an effect's columns, scaled: the squared part that the others have to leave. A scan asks for
+// more, beside a base that the effect had bent; here the sd says what it is worth.
+constexpr double kOwnPart = 1e-7;
 
 double value_at(const RefinementInstance& instance, std::size_t parameter) {
   return instance.parameters[parameter].value;
