@@ -297,6 +297,10 @@ TEST_CASE("new logs of a refined model: nothing is named", "[refine][kept][slow]
   CHECK(again.effects.empty());
   CHECK(names_in(again.models.front()) == names_in(one.models.front()));
   CHECK(again.rho_before == Approx(1).margin(0.15));
+  for (const NotSeparable& group : again.not_separable)
+    for (const std::string& kept : group.effects) CHECK(kept.rfind(name + " ", 0) != 0);
+  // Less the bias of the fit, see hide_and_name_test.cpp.
+  CHECK(again.simulation.test_after < 1.06 * again.simulation.noise_floor);
 }
 
 /// A blocked link's draws are made without a simulator, see blocked_twin.cpp.

@@ -42,8 +42,8 @@ bool is_plain(const RefinementInstance& instance, const Model& model) {
   return true;
 }
 
-std::string name_of(const Variant& variant) {
-  return fmt::format("'{}' ({})", variant.refinement->name, to_string(variant.refinement->site));
+std::string name_of(const Refinement& row) {
+  return fmt::format("'{}' ({})", row.name, to_string(row.site));
 }
 
 BlockGrams grams_of(const Design& design, const ScanSettings& settings) {
@@ -67,7 +67,7 @@ void require_own_columns(const Design& bare, const std::vector<Variant>& kept,
     throw Error(ErrorKind::not_identifiable,
                 fmt::format("the logs do not tell {} of the model from its other parameters; give "
                             "the logs that it was named from too, or a model without it",
-                            name_of(variant)));
+                            name_of(*variant.refinement)));
   }
 }
 
@@ -159,6 +159,12 @@ Design design_of(std::span<const Model> models, std::vector<Stretch> stretches,
   return with_variants(std::move(bare), kept_variants(models.front()), values);
 }
 
+std::string taken_out(const Refinement& row) {
+  return fmt::format(
+      "{} of the model is beyond its physical bound in these logs and was taken out of it",
+      name_of(row));
+}
+
 KeptBase fit_kept_base(std::span<const Model> models, std::vector<Stretch> stretches,
                        const Smoothing& smoothing, const ScanSettings& settings) {
   KeptBase out;
@@ -171,9 +177,7 @@ KeptBase fit_kept_base(std::span<const Model> models, std::vector<Stretch> stret
     out.base = fit_base(with_variants(out.bare, kept, values), settings.block_seconds, nullptr);
     const std::size_t k = beyond_bounds(out.base.design, out.base.fit.x);
     if (k == kept.size()) return out;
-    out.warnings.push_back(fmt::format(
-        "{} of the model is beyond its physical bound in these logs and was taken out of it",
-        name_of(kept[k])));
+    out.warnings.push_back(taken_out(*kept[k].refinement));
     kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(k));
   }
 }

@@ -33,6 +33,9 @@ struct KeptBase {
   std::vector<std::string> warnings;
 };
 
+/// A warning: an effect whose coefficient came out beyond its physical bound.
+std::string taken_out(const Refinement& row);
+
 /// Nonlinear parameters of the effects follow the rows. What is beyond its physical bound in these
 /// is taken out, with a warning. Throws Error(not_identifiable) where the rows do not tell an
 /// effect from the other columns.

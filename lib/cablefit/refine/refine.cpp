@@ -10,6 +10,7 @@
 #include "cablefit/refine/effect_steps.hpp"
 #include "cablefit/refine/elastic_stage.hpp"
 #include "cablefit/refine/fit_bias.hpp"
+#include "cablefit/refine/kept_effects.hpp"
 #include "cablefit/refine/next_run.hpp"
 #include "cablefit/refine/refine_bench.hpp"
 #include "cablefit/refine/refine_figures.hpp"
@@ -101,8 +102,10 @@ std::string_view to_string(Verdict verdict) {
   return kNames[static_cast<std::size_t>(verdict)];
 }
 
-RefineResult refine(std::span<const Model> given, const RefineLogs& logs,
-                    const RefineOptions& options) {
+namespace {
+
+RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
+                         const RefineOptions& options) {
   RefineResult result;
   const RefineStage stage = stage_of(given, logs);
   const std::span<const Model> models = stage.models;
@@ -135,7 +138,7 @@ RefineResult refine(std::span<const Model> given, const RefineLogs& logs,
     if (state.rho < kNoGap) break;
   }
 
-  const Design& bare = first.design.added.empty() ? first.design : bench.bare;
+  const Design& bare = bench.n_kept == 0 ? first.design : bench.bare;
   FinalFit fit = final_fit(bare, state.design, state.levels, bench.scan.block_seconds);
   if (state.rho > kRemainder)
     result.unexplained =
@@ -163,6 +166,38 @@ RefineResult refine(std::span<const Model> given, const RefineLogs& logs,
         refine_figures(result, {bench.all, first.design, first.x, state.design, fitted},
                        {bench.all, first.test, before.x, state.test, fit.x}, bench.floor);
   return result;
+}
+
+/// Of what the models had, the first that is not physical beside what was added; nullptr: none.
+const Refinement* unphysical(const RefineResult& result) {
+  for (const KeptEffect& kept : result.kept) {
+    const Refinement& row = *kept.now.instance.refinement;
+    for (std::size_t p = 0; p < row.n_linear(); ++p) {
+      const double value = kept.now.instance.parameters[p].value;
+      if (value < row.parameters[p].lower || value > row.parameters[p].upper) return &row;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+RefineResult refine(std::span<const Model> given, const RefineLogs& logs,
+                    const RefineOptions& options) {
+  std::vector<Model> models(given.begin(), given.end());
+  std::vector<std::string> warnings;
+  for (;;) {
+    RefineResult result = refine_once(models, logs, options);
+    const Refinement* gone = unphysical(result);
+    if (gone == nullptr) {
+      result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
+      return result;
+    }
+    warnings.push_back(taken_out(*gone));
+    for (Model& model : models)
+      std::erase_if(model.joints.front().refinements,
+                    [gone](const RefinementInstance& has) { return has.refinement == gone; });
+  }
 }
 
 }  // namespace cablefit

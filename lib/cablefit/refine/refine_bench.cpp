@@ -172,7 +172,8 @@ RefineState prepare(RefineBench& bench, std::span<const Model> models, const Ref
   RefineState state;
   state.test = with_variants(make_design(without_kept(fitted), std::move(test), bench.smoothing),
                              base.design.added, base.fit.x);
-  if (!base.design.added.empty()) bench.bare = relinearised(kept.bare, base.fit.x);
+  bench.n_kept = base.design.added.size();
+  if (bench.n_kept > 0) bench.bare = relinearised(kept.bare, base.fit.x);
   state.x = base.fit.x;
   state.levels = bench.floor;
   state.rho = rho_of(base.fit, bench.floor);

@@ -32,7 +32,8 @@ struct RefineBench {
   BaseFit noise = {};                ///< one of its draws without an effect
   std::vector<NullDraw> draws = {};  ///< of searches; none until something is worth them
   Search first_search = {};          ///< on the base alone
-  Design bare = {};                  ///< the base without what the models had; empty: they had none
+  std::size_t n_kept = 0;            ///< effects that the models had, the first that designs hold
+  Design bare = {};                  ///< the base without these, where there are any
 };
 
 /// Where the workflow stands.
