@@ -303,6 +303,21 @@ TEST_CASE("new logs of a refined model: nothing is named", "[refine][kept][slow]
   CHECK(again.simulation.test_after < 1.06 * again.simulation.noise_floor);
 }
 
+/// The law falls off as exp(-|v|): what the kept form leaves of it is at the noise, and a payload
+/// that changes fits it better than chance.
+TEST_CASE("what a kept effect leaves is named no more than what a first one does",
+          "[refine][kept]") {
+  HiddenLogs hidden = hidden_logs({"stribeck.link.exponential=0.5"});
+  hidden.logs.train = {hidden.logs.train.at(1), hidden.logs.train.at(2)};
+  hidden.logs.test = {hidden.logs.test.at(1)};
+  const RefineResult result = refined(
+      with(hidden.models, instance_of("stribeck", Site::link, {0.27, 0.21, 2})), hidden.logs);
+  INFO(result.reason);
+  CHECK(result.verdict == Verdict::none);
+  CHECK(result.effects.empty());
+  REQUIRE_FALSE(result.league.empty());
+}
+
 /// A blocked link's draws are made without a simulator, see blocked_twin.cpp.
 TEST_CASE("a model refined from blocked logs alone is refined again", "[refine][kept]") {
   const std::string effect = GENERATE("cable_hysteresis.transmission=1", "creep.transmission=2",

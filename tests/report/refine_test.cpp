@@ -191,6 +191,13 @@ TEST_CASE("what the model had is shown as given and as it is now, and is no new 
   CHECK(kept->text ==
         "stribeck (motor): amplitude 0.190 -> 0.1821 +- 0.0077 N m, v_s 0.140 -> 0.1358 +- 0.0068 "
         "rad/s, exponent 2.000 -> 1.88 +- 0.21");
+  RefineResult unseen = again();
+  unseen.kept.front().now.instance.parameters.front() =
+      test::estimate("amplitude", "N m", 0.01, 0.02);
+  const std::vector<SummaryLine> lines = refine_story(unseen, kFiles);
+  CHECK(std::any_of(lines.begin(), lines.end(), [](const SummaryLine& line) {
+    return line.label == "kept" && line.text.ends_with("; these logs do not show it");
+  }));
 }
 
 TEST_CASE("models of several preloads are listed") {

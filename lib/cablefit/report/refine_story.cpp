@@ -78,6 +78,16 @@ std::string parameters_text(const NamedEffect& effect) {
   return text;
 }
 
+/// Whether any of its coefficients stands out of its sd.
+bool is_seen(const RefinementInstance& instance) {
+  const std::size_t n = instance.refinement->n_linear();
+  for (std::size_t p = 0; p < n; ++p) {
+    const Estimate& e = instance.parameters[p];
+    if (std::isfinite(e.sd) && std::abs(e.value) > kMovedSd * e.sd) return true;
+  }
+  return n == 0;
+}
+
 /// What the model has already: values as it says them, and in these logs.
 SummaryLine kept_line(const KeptEffect& kept) {
   const Refinement& row = *kept.now.instance.refinement;
@@ -88,6 +98,7 @@ SummaryLine kept_line(const KeptEffect& kept) {
                         value_text(kept.given[p].value, kept.given[p].sd),
                         value_with_sd(e.value, e.sd), e.unit.empty() ? "" : " ", e.unit);
   }
+  if (!is_seen(kept.now.instance)) text += "; these logs do not show it";
   return {"kept", fmt::format("{}: {}", effect_text(row.name, to_string(row.site)), text)};
 }
 
