@@ -303,6 +303,39 @@ TEST_CASE("new logs of a refined model: nothing is named", "[refine][kept][slow]
   CHECK(again.simulation.test_after < 1.06 * again.simulation.noise_floor);
 }
 
+TEST_CASE("models of two preloads are refined again with one coefficient", "[refine][kept][slow]") {
+  const HiddenLogs hidden = hidden_logs({"tension_friction.link=5"}, 1, "preloads");
+  const RefineResult result = refined(
+      with(hidden.models, instance_of("tension_friction", Site::link, {0.1})), hidden.logs, 1);
+  INFO(result.reason);
+  CHECK(result.verdict == Verdict::none);
+  REQUIRE(result.kept.size() == 1);
+  // As in hide_and_name_test.cpp, where it is found.
+  CHECK(parameter(result.kept[0].now.instance, "mu").value ==
+        Approx(truth(hidden, 0, "mu")).epsilon(0.01));
+  REQUIRE(result.models.size() == 2);
+  for (const Model& model : result.models)
+    CHECK(names_in(model) == std::vector<std::string_view>{"tension_friction"});
+}
+
+/// On the base its drag is positive, as friction that falls at low speed bends that; beside the
+/// friction it is negative.
+TEST_CASE("a wrong effect of the model gives way to the right ones", "[refine][kept][slow]") {
+  const HiddenLogs hidden = hidden_logs({"stribeck.link=1.5", "nonlinear_viscous.link=0.6"});
+  const std::vector<Model> models =
+      with(hidden.models, instance_of("quadratic_drag", Site::link, {0.2, 2}));
+  const KeptBase base = kept_base(models, hidden.logs);
+  REQUIRE(base.warnings.empty());
+  REQUIRE(base.base.fit.x(base.base.fit.x.size() - 1) > 0);
+  const RefineResult result = refined(models, hidden.logs);
+  INFO(result.reason);
+  CHECK(result.kept.empty());
+  REQUIRE(result.warnings.size() == 1);
+  CHECK(result.warnings[0] == taken_out(find_refinement("quadratic_drag", Site::link)));
+  CHECK(names_in(result.models.front()) ==
+        std::vector<std::string_view>{"stribeck", "nonlinear_viscous"});
+}
+
 /// The law falls off as exp(-|v|): what the kept form leaves of it is at the noise, and a payload
 /// that changes fits it better than chance.
 TEST_CASE("what a kept effect leaves is named no more than what a first one does",

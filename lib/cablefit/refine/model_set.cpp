@@ -52,7 +52,7 @@ void require_no_event(const Model& model) {
         throw usage_error(
             fmt::format("the model of preload '{}' has '{}' ({}), an event of an earlier refine",
                         model.preload, has.refinement->name, to_string(has.refinement->site)),
-            "it is over, and what it changed is in all of a later log: fit the model anew "
+            "what it changed is in all rows of later logs: fit the model anew "
             "('cablefit identify') to logs from after it");
 }
 

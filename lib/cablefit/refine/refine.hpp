@@ -32,6 +32,8 @@ struct RefineLogs {
   std::vector<LogSurvey> train, test, blocked;
 };
 
+/// What the models have from an earlier refinement is part of the base and fitted anew with it
+/// (kept_effects.hpp).
 /// `models`: one per preload, of the same structure, fitted to about these logs; coefficients of
 /// cables are shared between preloads, l_o are not. Throws Error(input) for missing channels and
 /// several joints, Error(not_identifiable) where the base cannot be fitted or simulated.
