@@ -1,11 +1,13 @@
 // Refinements as JSON, text, Markdown and CSV.
 #include "cablefit/report/refine_document.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "cablefit/report/refine_json.hpp"
+#include "cablefit/report/refine_story.hpp"
 #include "cablefit/report/writers.hpp"
 #include "tests/report/results.hpp"
 #include "tests/report/schema.hpp"
@@ -102,10 +104,21 @@ RefineResult nothing() {
   return r;
 }
 
+/// A model that was refined before.
+RefineResult again() {
+  RefineResult r = nothing();
+  KeptEffect& kept = r.kept.emplace_back();
+  kept.now = stribeck();
+  kept.given = {test::estimate("amplitude", "N m", 0.19, 0.01),
+                test::estimate("v_s", "rad/s", 0.14, 0.01),
+                test::estimate("exponent", "", 2, kNone)};
+  return r;
+}
+
 const std::vector<std::string> kFiles = {"refined.json"};
 
 TEST_CASE("a refinement is as its schema says") {
-  for (RefineResult r : {named(), ambiguous(), nothing()}) {
+  for (RefineResult r : {named(), ambiguous(), nothing(), again()}) {
     CHECK(test::schema_errors("refine", refine_json(r, kFiles)) == "");
     r.shifts.front().sd = kNone;
     r.decisions = {{"test logs", "held out", "none were given"}};
@@ -161,6 +174,30 @@ TEST_CASE("derived amplitudes stand among the parameters, and an event has its l
   r.effects.front().instance.event_time = 7.25;
   j = json::parse(refine_json(r, kFiles));
   CHECK(j["effects"][0]["event"] == json{{"log", "slow.csv"}, {"t", 7.25}});
+}
+
+TEST_CASE("what the model had is shown as given and as it is now, and is no new effect") {
+  const json j = json::parse(refine_json(again(), kFiles));
+  CHECK(j["effects"].empty());
+  REQUIRE(j["kept"].size() == 1);
+  CHECK(j["kept"][0]["name"] == "stribeck");
+  CHECK(j["kept"][0]["given"][0]["value"] == 0.19);
+  CHECK(j["kept"][0]["parameters"][0]["value"] == 0.1821);
+  CHECK_FALSE(json::parse(refine_json(nothing(), kFiles)).contains("kept"));
+  const std::vector<SummaryLine> story = refine_story(again(), kFiles);
+  const auto kept = std::find_if(story.begin(), story.end(),
+                                 [](const SummaryLine& line) { return line.label == "kept"; });
+  REQUIRE(kept != story.end());
+  CHECK(kept->text ==
+        "stribeck (motor): amplitude 0.190 -> 0.1821 +- 0.0077 N m, v_s 0.140 -> 0.1358 +- 0.0068 "
+        "rad/s, exponent 2.000 -> 1.88 +- 0.21");
+  RefineResult unseen = again();
+  unseen.kept.front().now.instance.parameters.front() =
+      test::estimate("amplitude", "N m", 0.01, 0.02);
+  const std::vector<SummaryLine> lines = refine_story(unseen, kFiles);
+  CHECK(std::any_of(lines.begin(), lines.end(), [](const SummaryLine& line) {
+    return line.label == "kept" && line.text.ends_with("; these logs do not show it");
+  }));
 }
 
 TEST_CASE("models of several preloads are listed") {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/refine/conclusion.hpp"
 #include "cablefit/refine/fit_bias.hpp"
 #include "cablefit/refine/refined_model.hpp"
 #include "cablefit/refine/verdict.hpp"
@@ -64,9 +65,12 @@ struct Trial {
 };
 
 /// Whether there is nothing to explain, whatever fits better by chance. Blocked rows alone are few,
-/// and their floor is known less well.
+/// and their floor is known less well. An effect that the model had leaves crumbs, like one that
+/// was added.
 bool is_at_floor(const RefineBench& bench, const RefineState& state) {
-  return bench.elastic_only ? state.rho < kNoGap && state.unseen.rho < kVisibleGap : state.rho <= 1;
+  if (bench.elastic_only) return state.rho < kNoGap && state.unseen.rho < kVisibleGap;
+  const bool is_kept_base = bench.n_kept > 0 && state.design.added.size() == bench.n_kept;
+  return is_kept_base ? state.rho < kNoGap : state.rho <= 1;
 }
 
 /// Nothing: nothing is named.
@@ -77,7 +81,8 @@ std::optional<Trial> try_next(RefineBench& bench, const RefineState& state, bool
   need_draws(bench, state, found);
   const SquaredGap gap{found.fit.held_out.sum(), floor_error(found.fit, bench.floor, found.levels)};
   Trial trial;
-  trial.judgement = judge_search(found.candidates, gap, bench.draws, bench.options, is_first);
+  trial.judgement = judge_search(found.candidates, gap, bench.draws, bench.options,
+                                 is_first && bench.n_kept == 0);
   if (first_result != nullptr) {
     first_result->league = trial.judgement.league;
     bench.first_search = found;
@@ -202,14 +207,14 @@ void name_first_again(RefineBench& bench, const RefineState& first, RefineState&
   found.levels = state.levels;
   found.fit.x = first.x;
   Candidate second;
-  second.variant = state.design.added[1];
+  second.variant = state.design.added[bench.n_kept + 1];
   const auto alone = with_candidate(bench, first, found, second);
   if (!alone) return;
   const auto trial = try_next(bench, *alone, false, nullptr);
   if (!trial) return;
   const Refinement& row = *trial->winner.variant.refinement;
   NamedEffect& named = result.effects.front();
-  if (&row == state.design.added.front().refinement) {
+  if (&row == state.design.added[bench.n_kept].refinement) {
     named.rivals = trial->judgement.rivals;  // fewer: the second no longer blurs it
     return;
   }
@@ -233,7 +238,7 @@ void begin_otherwise(RefineBench& bench, const RefineState& first, RefineState& 
                      RefineResult& result) {
   constexpr std::size_t kBeginnings = 3;
   const Search& found = bench.first_search;
-  const Refinement& taken = *state.design.added.front().refinement;
+  const Refinement& taken = *state.design.added[bench.n_kept].refinement;
   for (const Candidate* candidate : best_candidates(found.candidates, kBeginnings, taken)) {
     Trial one;
     one.winner =

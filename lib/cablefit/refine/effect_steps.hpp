@@ -9,7 +9,7 @@ namespace cablefit {
 bool add_next_effect(RefineBench& bench, RefineState& state, RefineResult& result);
 
 /// Of two effects. The first was named while the second was missing: named again beside it, it may
-/// be another. `first`: the state without effects.
+/// be another. `first`: the state before any was added.
 void name_first_again(RefineBench& bench, const RefineState& first, RefineState& state,
                       RefineResult& result);
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/refine/evidence.hpp"
+#include "cablefit/refine/kept_effects.hpp"
 
 namespace cablefit {
 namespace {
@@ -151,6 +151,18 @@ void require_one_joint(std::span<const Model> models) {
           "write one rig file per joint, with its own columns");
 }
 
+/// Of the effects that the models have, those that a blocked link shows could be fitted anew.
+void require_static(std::span<const Model> models) {
+  for (const Model& model : models)
+    for (const RefinementInstance& has : model.joints.front().refinements)
+      if (!has.refinement->is_static)
+        throw input_error(
+            {},
+            fmt::format("the model has '{}' ({}), which no log with the link blocked shows",
+                        has.refinement->name, to_string(has.refinement->site)),
+            "give moving logs too, or a model without it");
+}
+
 }  // namespace
 
 RefineStage stage_of(std::span<const Model> models, const RefineLogs& logs) {
@@ -171,6 +183,7 @@ RefineStage stage_of(std::span<const Model> models, const RefineLogs& logs) {
   if (any_moves)
     stage.warnings.emplace_back(
         "moving parts of the logs were not used: the model is of stage 1 and knows no inertia");
+  require_static(models);
   stage.wanted = [own = of_preload(models)](const PartSurvey& part) {
     return is_blocked(part) && own(part);
   };
@@ -212,7 +225,7 @@ std::vector<Model> with_visible_effects(std::vector<Model> models,
                                         const std::vector<Stretch>& stretches,
                                         const Smoothing& smoothing, double block_seconds) {
   while (const Effect* least =
-             least_visible(make_design(models, stretches, smoothing), block_seconds))
+             least_visible(design_of(models, stretches, smoothing), block_seconds))
     remove(least, models);
   return models;
 }

@@ -21,8 +21,8 @@ struct RefineStage {
 
 /// The elastic stage alone when the models know nothing of the link (stage 1's) or no log moves;
 /// the models then have the motor's effects that blocked logs may show, and no link. Throws
-/// Error(input) when stage 1's models meet no blocked part, and for a log of another preload than
-/// that of a single model.
+/// Error(input) when stage 1's models meet no blocked part or have an effect that none shows, and
+/// for a log of another preload than that of a single model.
 RefineStage stage_of(std::span<const Model> models, const RefineLogs& logs);
 
 /// Whether all rows come from blocked links.

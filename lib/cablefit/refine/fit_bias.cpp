@@ -1,45 +1,23 @@
 #include "cablefit/refine/fit_bias.hpp"
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/refine/kept_effects.hpp"
+#include "cablefit/refine/recorded_effects.hpp"
 #include "cablefit/refine/refined_model.hpp"
 
 namespace cablefit {
 namespace {
 
-/// What a recorder of the simulated model would see too: not what happened once, and not what is
-/// wrong with the recorder.
-bool is_recorded(const Refinement& row) { return !row.is_event && row.site != Site::sensor; }
-
 std::vector<Model> recorded_models(const RefineState& state) {
-  std::vector<Model> models = models_with(state.design, state.x);
-  for (Model& model : models)
-    std::erase_if(model.joints.front().refinements, [](const RefinementInstance& instance) {
-      return !is_recorded(*instance.refinement);
-    });
-  return models;
+  return cablefit::recorded_models(models_with(state.design, state.x));
 }
 
 /// The same columns over other stretches. `bases`: the models with the state's values.
-Design design_like(const RefineState& state, std::vector<Model> bases,
+Design design_like(const RefineState& state, std::span<const Model> bases,
                    std::vector<Stretch> stretches) {
-  for (Model& model : bases) model.joints.front().refinements.clear();
-  Design design = make_design(bases, std::move(stretches), state.design.smoothing);
-  for (const Variant& variant : state.design.added) {
-    if (variant.refinement->change != nullptr)
-      design.added.push_back(variant);  // the models have these cables
-    else
-      design = with_variant(design, variant, state.x.head(design.n_columns()));
-  }
-  return design;
-}
-
-void forget_unrecorded(const Design& design, Eigen::VectorXd& bias) {
-  Eigen::Index at = design.layout.n();
-  for (const Variant& variant : design.added) {
-    const Eigen::Index n = n_linear(variant);
-    if (!is_recorded(*variant.refinement)) bias.segment(at, n).setZero();
-    at += n;
-  }
+  return with_variants(
+      make_design(without_kept(bases), std::move(stretches), state.design.smoothing),
+      state.design.added, state.x);
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 
 namespace cablefit {
 
-/// Throws Error(usage) for two models of one preload, and for models that are no two sets of values
-/// of the same equations (their coefficients are shared), and for one that an earlier refine added
-/// to: its effects would be found missing once more.
+/// Throws Error(usage) for two models of one preload, for models that are no two sets of values of
+/// the same equations (their coefficients are shared), and for an event among what an earlier
+/// refine added to one; other effects of that are part of it.
 void require_model_set(std::span<const Model> models);
 
 /// Those whose preload is in the logs; all of them when none is, so that the mismatch is told.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "cablefit/refine/kept_effects.hpp"
 #include "cablefit/refine/refined_model.hpp"
 
 namespace cablefit {
@@ -73,7 +74,8 @@ std::optional<RunChoice> decisive_run(const Design& design, const Eigen::VectorX
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const auto stretch = simulated(runs[k], model);
     if (!stretch) continue;
-    const Design trial = make_design(design.models, {*stretch}, design.smoothing);
+    const Design trial =
+        with_variants(make_design(design.models, {*stretch}, design.smoothing), design.added, x);
     const auto own = residuals_of(with_variant(trial, best.variant, x), best.x);
     Apart closest{RowKind::motor, 0, kUnbounded};
     std::string name;

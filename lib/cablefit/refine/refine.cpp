@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 
+#include "cablefit/refine/conclusion.hpp"
 #include "cablefit/refine/effect_steps.hpp"
 #include "cablefit/refine/elastic_stage.hpp"
 #include "cablefit/refine/fit_bias.hpp"
+#include "cablefit/refine/kept_effects.hpp"
 #include "cablefit/refine/next_run.hpp"
 #include "cablefit/refine/refine_bench.hpp"
 #include "cablefit/refine/refine_figures.hpp"
@@ -16,7 +18,6 @@
 #include "cablefit/refine/regimes.hpp"
 #include "cablefit/refine/separability.hpp"
 #include "cablefit/refine/unexplained.hpp"
-#include "cablefit/refine/verdict.hpp"
 
 namespace cablefit {
 namespace {
@@ -66,6 +67,24 @@ void tell_remainder(const KindLevels& rms, const KindLevels& floor, RefineResult
   result.floor_link = floor[static_cast<std::size_t>(RowKind::link)];
 }
 
+/// The values of what stands in the design, kept effects first.
+void tell_effects(std::span<const Model> models, const std::vector<NamedEffect>& named,
+                  RefineResult& result) {
+  const std::size_t n_kept = named.size() - result.effects.size();
+  for (std::size_t k = 0; k < n_kept; ++k) {
+    KeptEffect& kept = result.kept.emplace_back();
+    kept.now = named[k];
+    for (const RefinementInstance& given : models.front().joints.front().refinements)
+      if (given.refinement == named[k].instance.refinement) kept.given = given.parameters;
+  }
+  for (std::size_t k = 0; k < result.effects.size(); ++k) {
+    const NamedEffect& fitted = named[n_kept + k];
+    result.effects[k].instance = fitted.instance;
+    result.effects[k].derived = fitted.derived;
+    result.effects[k].torque_rms = fitted.torque_rms;
+  }
+}
+
 void tell_inputs(std::span<const Model> models, const RefineLogs& logs, RefineResult& result) {
   for (const auto* some : {&logs.blocked, &logs.train, &logs.test})
     for (const LogSurvey& log : *some)
@@ -83,8 +102,10 @@ std::string_view to_string(Verdict verdict) {
   return kNames[static_cast<std::size_t>(verdict)];
 }
 
-RefineResult refine(std::span<const Model> given, const RefineLogs& logs,
-                    const RefineOptions& options) {
+namespace {
+
+RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
+                         const RefineOptions& options) {
   RefineResult result;
   const RefineStage stage = stage_of(given, logs);
   const std::span<const Model> models = stage.models;
@@ -117,7 +138,8 @@ RefineResult refine(std::span<const Model> given, const RefineLogs& logs,
     if (state.rho < kNoGap) break;
   }
 
-  FinalFit fit = final_fit(first.design, state.design, state.levels, bench.scan.block_seconds);
+  const Design& bare = bench.n_kept == 0 ? first.design : bench.bare;
+  FinalFit fit = final_fit(bare, state.design, state.levels, bench.scan.block_seconds);
   if (state.rho > kRemainder)
     result.unexplained =
         describe_remainder(state.design, fit.x, bench.floor, bench.scan.block_seconds);
@@ -130,12 +152,7 @@ RefineResult refine(std::span<const Model> given, const RefineLogs& logs,
   const RefineState before = better ? without_bias(bench, first, bench.base_bias) : first;
   if (better) state = result.effects.empty() ? before : without_bias(bench, state, *bias);
   fit.x = state.x;
-  const std::vector<NamedEffect> named = named_effects(state.design, fit);
-  for (std::size_t k = 0; k < named.size(); ++k) {
-    result.effects[k].instance = named[k].instance;
-    result.effects[k].derived = named[k].derived;
-    result.effects[k].torque_rms = named[k].torque_rms;
-  }
+  tell_effects(models, named_effects(state.design, fit), result);
   result.shifts = parameter_shifts(first.design, before.x, state.design, fit);
   result.models = refined_models(state.design, fit);
   result.rho_before = first.rho;
@@ -149,6 +166,38 @@ RefineResult refine(std::span<const Model> given, const RefineLogs& logs,
         refine_figures(result, {bench.all, first.design, first.x, state.design, fitted},
                        {bench.all, first.test, before.x, state.test, fit.x}, bench.floor);
   return result;
+}
+
+/// Of what the models had, the first that is not physical beside what was added; nullptr: none.
+const Refinement* unphysical(const RefineResult& result) {
+  for (const KeptEffect& kept : result.kept) {
+    const Refinement& row = *kept.now.instance.refinement;
+    for (std::size_t p = 0; p < row.n_linear(); ++p) {
+      const double value = kept.now.instance.parameters[p].value;
+      if (value < row.parameters[p].lower || value > row.parameters[p].upper) return &row;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+RefineResult refine(std::span<const Model> given, const RefineLogs& logs,
+                    const RefineOptions& options) {
+  std::vector<Model> models(given.begin(), given.end());
+  std::vector<std::string> warnings;
+  for (;;) {
+    RefineResult result = refine_once(models, logs, options);
+    const Refinement* gone = unphysical(result);
+    if (gone == nullptr) {
+      result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
+      return result;
+    }
+    warnings.push_back(taken_out(*gone));
+    for (Model& model : models)
+      std::erase_if(model.joints.front().refinements,
+                    [gone](const RefinementInstance& has) { return has.refinement == gone; });
+  }
 }
 
 }  // namespace cablefit

@@ -1,5 +1,5 @@
 // Where do model and measurement disagree, which effect is missing, and does the gap shrink on data
-// that had no say? The decision rule stands in one place, verdict.cpp.
+// that had no say? The decision rule stands in two files: verdict.cpp, conclusion.cpp.
 //
 // Method. Rows of the blocked, link and motor equations (base_rows.hpp) of all training logs are
 // fitted jointly; every row of the catalogue is tried as further columns with everything refitted
@@ -32,6 +32,8 @@ struct RefineLogs {
   std::vector<LogSurvey> train, test, blocked;
 };
 
+/// What the models have from an earlier refinement is part of the base and fitted anew with it
+/// (kept_effects.hpp).
 /// `models`: one per preload, of the same structure, fitted to about these logs; coefficients of
 /// cables are shared between preloads, l_o are not. Throws Error(input) for missing channels and
 /// several joints, Error(not_identifiable) where the base cannot be fitted or simulated.

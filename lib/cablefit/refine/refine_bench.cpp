@@ -6,6 +6,8 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/parallel.hpp"
 #include "cablefit/refine/elastic_stage.hpp"
+#include "cablefit/refine/kept_effects.hpp"
+#include "cablefit/refine/recorded_effects.hpp"
 #include "cablefit/refine/refined_model.hpp"
 #include "cablefit/refine/remainder.hpp"
 #include "cablefit/refine/verdict.hpp"
@@ -42,8 +44,8 @@ KindLevels common_unit(const RefineBench& bench, KindLevels floor) {
   return floor;
 }
 
-/// `x`: of the fit that the draws are simulated from.
-KindLevels fitted_floor(RefineBench& bench, const Eigen::VectorXd& x) {
+/// `base`, `x`: the fit that the draws are simulated from.
+KindLevels fitted_floor(RefineBench& bench, const Design& base, const Eigen::VectorXd& x) {
   std::vector<KindLevels> levels;
   bench.base_bias = Eigen::VectorXd::Zero(x.size());
   std::vector<BaseFit> draws =
@@ -53,6 +55,7 @@ KindLevels fitted_floor(RefineBench& bench, const Eigen::VectorXd& x) {
     levels.push_back(draw.fit.rms());
     bench.base_bias += (draw.fit.x - x) / static_cast<double>(kFloorDraws);
   }
+  forget_unrecorded(base, bench.base_bias);
   bench.noise = std::move(draws.front());
   KindLevels floor = rms_over(levels);
   // Of rows that there are none of: simulated runs may have some.
@@ -62,20 +65,18 @@ KindLevels fitted_floor(RefineBench& bench, const Eigen::VectorXd& x) {
 }
 
 /// Floors of the unseen logs: equations, and simulation beside what it was simulated from.
-void find_unseen_floors(RefineBench& bench, const std::vector<Model>& models,
-                        const RefineLogs& logs) {
+void find_unseen_floors(RefineBench& bench, const BaseFit& base, const RefineLogs& logs) {
   bench.unseen = logs.test.empty() ? logs.train : logs.test;
-  const NullBench unseen(models, bench.unseen, bench.wanted, bench.smoothing,
-                         bench.options.threads);
+  const BaseDraws unseen(base.design, base.fit.x, bench.unseen, bench.wanted, bench.options.threads);
   bench.test_floor = logs.test.empty()
                          ? bench.floor
                          : positive(rms_over(run_draws(
                                bench, kFloorDraws, bench.options.seed, "noise floor",
                                [&](std::uint64_t seed) { return unseen.unfitted(seed); })));
   std::vector<LogSurvey> recorded;
-  for (NullBench::Recorded& one : unseen.record(bench.options.seed, bench.options.threads))
+  for (NullBench::Recorded& one : unseen.logs().record(bench.options.seed, bench.options.threads))
     recorded.insert(recorded.end(), one.logs.begin(), one.logs.end());
-  bench.simulation_floor = simulated_gap(models, recorded, bench.options.threads);
+  bench.simulation_floor = simulated_gap(unseen.models(), recorded, bench.options.threads);
 }
 
 /// What rows remember of what the best candidate leaves; of a draw, which has no such effect, all
@@ -98,13 +99,14 @@ void disturb_null(RefineBench& bench, const RefineState& state, const Search& fo
   const KindMemory guess = remainder_of(left, bench.floor);
   const TwinDisturbance first = as_disturbance(guess, !bench.elastic_only);
   if (is_quiet(first)) return;
-  bench.null->disturb(first);
+  bench.null->logs().disturb(first);
   const std::vector<KindMemory> drawn =
       run_draws(bench, kFloorDraws, bench.options.seed, "what is left", [&](std::uint64_t seed) {
         const BaseFit base = bench.null->fitted(seed, &found.levels);
         return memory_with(base.design, base.fit, best, found.levels, block_seconds);
       });
-  bench.null->disturb(as_disturbance(corrected(guess, left, mean_of(drawn)), !bench.elastic_only));
+  bench.null->logs().disturb(
+      as_disturbance(corrected(guess, left, mean_of(drawn)), !bench.elastic_only));
 }
 
 /// Kernels that suit all logs.
@@ -155,20 +157,23 @@ RefineState prepare(RefineBench& bench, std::span<const Model> models, const Ref
                                        ? with_visible_effects({models.begin(), models.end()}, train,
                                                               wanted, bench.scan.block_seconds)
                                        : std::vector<Model>(models.begin(), models.end());
-  BaseFit base =
-      fit_base(make_design(bases, std::move(train), wanted), bench.scan.block_seconds, nullptr);
+  KeptBase kept = fit_kept_base(bases, std::move(train), wanted, bench.scan);
+  result.warnings.insert(result.warnings.end(), kept.warnings.begin(), kept.warnings.end());
+  BaseFit base = std::move(kept.base);
   bench.smoothing = base.design.smoothing;
-  std::vector<Model> fitted = models_with(base.design, base.fit.x);
-  bench.null.emplace(fitted, bench.logs, bench.wanted, bench.smoothing, bench.options.threads);
+  bench.null.emplace(base.design, base.fit.x, bench.logs, bench.wanted, bench.options.threads);
   bench.held_back = result.held_out_blocks ? kHeldOutShare : 0;
-  bench.null->hold_back(bench.held_back);
-  bench.floor = fitted_floor(bench, base.fit.x);
+  bench.null->logs().hold_back(bench.held_back);
+  bench.floor = fitted_floor(bench, base.design, base.fit.x);
   base = fit_base(std::move(base.design), bench.scan.block_seconds, &bench.floor);
-  fitted = models_with(base.design, base.fit.x);
-  find_unseen_floors(bench, fitted,
+  const std::vector<Model> fitted = models_with(base.design, base.fit.x);
+  find_unseen_floors(bench, base,
                      result.held_out_blocks ? RefineLogs{logs.train, {}, logs.blocked} : logs);
   RefineState state;
-  state.test = make_design(fitted, std::move(test), bench.smoothing);
+  state.test = with_variants(make_design(without_kept(fitted), std::move(test), bench.smoothing),
+                             base.design.added, base.fit.x);
+  bench.n_kept = base.design.added.size();
+  if (bench.n_kept > 0) bench.bare = relinearised(kept.bare, base.fit.x);
   state.x = base.fit.x;
   state.levels = bench.floor;
   state.rho = rho_of(base.fit, bench.floor);

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "cablefit/refine/base_draws.hpp"
 #include "cablefit/refine/confirm.hpp"
 #include "cablefit/refine/levels.hpp"
-#include "cablefit/refine/null_draws.hpp"
 #include "cablefit/refine/refine.hpp"
 #include "cablefit/refine/search.hpp"
 
@@ -28,10 +28,12 @@ struct RefineBench {
   KindLevels floor{}, test_floor{};
   Eigen::VectorXd base_bias = {};  ///< of the base fit, see fit_bias.hpp
   SimulatedGap simulation_floor = {};
-  std::optional<NullBench> null = {};
+  std::optional<BaseDraws> null = {};
   BaseFit noise = {};                ///< one of its draws without an effect
   std::vector<NullDraw> draws = {};  ///< of searches; none until something is worth them
   Search first_search = {};          ///< on the base alone
+  std::size_t n_kept = 0;            ///< effects that the models had, the first that designs hold
+  Design bare = {};                  ///< the base without these, where there are any
 };
 
 /// Where the workflow stands.

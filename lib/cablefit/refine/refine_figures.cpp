@@ -331,7 +331,7 @@ void add_residuals(const BeforeAfter& rows, const std::string& section, Detail d
                     result.linear_motion ? "N" : "N m",
                     result.linear_motion,
                     kind == RowKind::link,
-                    !rows.after.added.empty(),
+                    rows.after.added.size() > rows.before.added.size(),
                     floor[static_cast<std::size_t>(kind)],
                     see(rows.before, rows.x_before, kind, time),
                     see(rows.after, rows.x_after, kind, time)};

@@ -55,6 +55,13 @@ struct NamedEffect {
   std::vector<Rival> rivals;
 };
 
+/// An effect that the model has from an earlier refinement, fitted anew. No evidence: it was not
+/// looked for.
+struct KeptEffect {
+  NamedEffect now;
+  std::vector<Estimate> given;  ///< its parameters as the model has them
+};
+
 struct RefineStep {
   std::string added, side;
   bool accepted = false;
@@ -116,6 +123,7 @@ struct RefineResult {
   std::string reason;  ///< one sentence
   std::vector<Regime> where;
   std::vector<NamedEffect> effects;
+  std::vector<KeptEffect> kept;
   std::vector<Rival> league;  ///< of the first step
   std::vector<NotSeparable> not_separable;
   double remainder_link = 0, remainder_motor = 0, floor_link = 0, floor_motor = 0;  ///< N m rms

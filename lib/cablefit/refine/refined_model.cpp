@@ -1,5 +1,7 @@
 #include "cablefit/refine/refined_model.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -87,6 +89,23 @@ void set_elastic_estimates(const Design& design, const FinalFit& fit, Model& mod
   model.elastic = std::move(elastic);
 }
 
+/// Those of the effects that both designs begin with.
+std::vector<ParameterShift> kept_shifts(const Design& first, const Eigen::VectorXd& before,
+                                        const Design& design, const FinalFit& fit) {
+  const auto old = first_columns(first), now = first_columns(design);
+  std::vector<ParameterShift> shifts;
+  for (std::size_t k = 0; k < first.added.size(); ++k) {
+    const Refinement& row = *first.added[k].refinement;
+    for (Eigen::Index p = 0; p < n_linear(first.added[k]); ++p) {
+      const ParameterInfo& info = row.parameters[static_cast<std::size_t>(p)];
+      shifts.push_back({fmt::format("{} ({}) {}", row.name, to_string(row.site), info.name),
+                        unit_on(design.models.front().rig, info.unit), before(old[k] + p),
+                        fit.x(now[k] + p), sd_at(fit, now[k] + p)});
+    }
+  }
+  return shifts;
+}
+
 /// What a model holds of an effect: other cables it has already, what passed is over, and what
 /// lasts has happened before any log to come.
 std::optional<RefinementInstance> as_state(RefinementInstance instance) {
@@ -145,6 +164,8 @@ std::vector<ParameterShift> parameter_shifts(const Design& first, const Eigen::V
     shifts.push_back(
         {now[i].name, now[i].unit, before(same - old.begin()), fit.x(at), sd_at(fit, at)});
   }
+  for (ParameterShift& shift : kept_shifts(first, before, design, fit))
+    shifts.push_back(std::move(shift));
   return shifts;
 }
 

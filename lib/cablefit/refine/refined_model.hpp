@@ -9,7 +9,8 @@ namespace cablefit {
 /// What was added, in order, with values, sd and 95 % intervals (t quantile of the blocks).
 std::vector<NamedEffect> named_effects(const Design& design, const FinalFit& fit);
 
-/// Parameters of the base that both designs have, before (values of `first`) and after.
+/// Parameters of the base that both designs have, those of effects in it among them, before (values
+/// of `first`) and after.
 std::vector<ParameterShift> parameter_shifts(const Design& first, const Eigen::VectorXd& before,
                                              const Design& design, const FinalFit& fit);
 

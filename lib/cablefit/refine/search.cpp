@@ -11,6 +11,14 @@ namespace {
 
 constexpr double kSameLevel = 1.1;  // weights this close decide alike
 
+bool is_same(const KindLevels& a, const KindLevels& b) {
+  for (std::size_t k = 0; k < kRowKinds; ++k)
+    if (a[k] > kSameLevel * b[k] || b[k] > kSameLevel * a[k]) return false;
+  return true;
+}
+
+}  // namespace
+
 std::vector<const Refinement*> named_already(const Design& design) {
   std::vector<const Refinement*> out;
   for (const Variant& variant : design.added)
@@ -20,14 +28,6 @@ std::vector<const Refinement*> named_already(const Design& design) {
     }
   return out;
 }
-
-bool is_same(const KindLevels& a, const KindLevels& b) {
-  for (std::size_t k = 0; k < kRowKinds; ++k)
-    if (a[k] > kSameLevel * b[k] || b[k] > kSameLevel * a[k]) return false;
-  return true;
-}
-
-}  // namespace
 
 const Candidate* best_lasting(const std::vector<Candidate>& candidates) {
   const Candidate* best = nullptr;

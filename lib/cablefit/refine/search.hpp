@@ -5,6 +5,9 @@
 
 namespace cablefit {
 
+/// Rows that a design has, and their aliases.
+std::vector<const Refinement*> named_already(const Design& design);
+
 struct Search {
   KindLevels levels{};  ///< weights that decided
   BlockGrams grams;

@@ -1,7 +1,5 @@
 #include "cablefit/refine/verdict.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -22,12 +20,6 @@ constexpr double kEqualShare = 0.005;      // the same, where the blocks agree o
 constexpr double kSureSd = 3;              // that they do
 constexpr double kSafety = 1.3;            // times the largest chance gain seen
 constexpr int kResamples = 200;
-// Squared simulated gap over floor that is seen: parameters from other logs leave a simulation more
-// than sensors do.
-constexpr double kVisibleSimulated = 1.5;
-// Growth of an invisible gap that is no worsening: of sums over thousands of rows, and of
-// simulations, whose gap is as much that of the parameters.
-constexpr double kAsGoodRows = 1.02, kAsGoodSimulated = 1.1;
 
 bool may_be_named(const Candidate& c) { return c.refused.empty() && c.gain > 0; }
 
@@ -257,102 +249,6 @@ Judgement judge_candidate(const Candidate& candidate, const std::vector<Candidat
   for (std::size_t k = 0; k < able.size(); ++k)
     if (able[k]->variant.refinement == candidate.variant.refinement) judgement.inclusion = share[k];
   return judgement;
-}
-
-namespace {
-
-/// Of squared gaps on unseen logs. Where these show no gap in the first place, as when a drive
-/// never saturates in them, nothing can shrink: it is enough that nothing grows beyond `as_good`.
-bool is_better(double before, double after, double visible, double as_good) {
-  return before > visible ? after < before : after < as_good * before;
-}
-
-/// Little of a visible gap, most of which stays, and not sure. Where most of it goes a few blocks
-/// may carry that, and an sd over blocks tells nothing.
-bool is_crumb(const UnseenChange& change) {
-  constexpr double kLittle = 0.25;  // of the gap
-  const double gone = change.rho_before - change.rho_after;
-  return change.leaves_remainder && change.rho_before > kVisibleGap &&
-         gone < kLittle * (change.rho_before - 1) && change.sd_better < kClearlyBetter;
-}
-
-std::string in_words(double before, double after) {
-  return fmt::format("{:.3g} times the squared floor before, {:.3g} after", before, after);
-}
-
-}  // namespace
-
-std::string why_not_added(const UnseenChange& change) {
-  if (change.row.is_event) return "";
-  if (!is_better(change.rho_before, change.rho_after, kVisibleGap, kAsGoodRows))
-    return fmt::format("the equations of unseen logs do not fit better with it ({})",
-                       in_words(change.rho_before, change.rho_after));
-  if (is_crumb(change))
-    return fmt::format(
-        "beside what stays unexplained the equations of unseen logs are not clearly better with it "
-        "({:.2g} sd)",
-        change.sd_better);
-  if (!change.before.known() || !change.floor.known()) return "";
-  if (!change.after.known()) return "with it the simulation fails: " + change.after.failure;
-  const double floor = in_floors(change.floor, change.floor);
-  const double before = in_floors(change.before, change.floor);
-  const double after = in_floors(change.after, change.floor);
-  if (!is_better(before, after, kVisibleSimulated * floor, kAsGoodSimulated))
-    return fmt::format("unseen logs are not simulated better with it ({})",
-                       in_words(before / floor, after / floor));
-  return "";
-}
-
-std::string why_not_both(const UnseenChange& change) {
-  if (change.row.is_event) return "one of two effects at once may not be an event";
-  std::string reason = why_not_added(change);
-  if (!reason.empty()) return reason;
-  if (change.rho_after > kRemainder)
-    return fmt::format(
-        "two effects at once should leave nothing in the equations of unseen logs "
-        "({})",
-        in_words(change.rho_before, change.rho_after));
-  if (!change.after.known() || !change.floor.known()) return "";
-  const double floor = in_floors(change.floor, change.floor);
-  const double after = in_floors(change.after, change.floor);
-  if (after > kVisibleSimulated * floor)
-    return fmt::format(
-        "two effects at once should leave nothing in the simulation of unseen logs "
-        "({})",
-        in_words(in_floors(change.before, change.floor) / floor, after / floor));
-  return "";
-}
-
-void conclude(RefineResult& result) {
-  const double rho = result.rho_before;
-  if (!result.effects.empty()) {
-    const std::vector<Rival>& rivals = result.effects.front().rivals;
-    result.verdict = rivals.empty() ? Verdict::named : Verdict::ambiguous;
-    const double closed = (rho - result.rho_after) / std::max(1e-9, rho - 1);
-    result.reason = fmt::format("it closes {:.0f} % of the squared gap above the noise floor",
-                                100 * std::clamp(closed, 0.0, 1.0));
-    if (result.rho_after > kRemainder) result.reason += "; a remainder is unexplained";
-    const auto other = std::find_if(rivals.begin(), rivals.end(),
-                                    [](const Rival& rival) { return !rival.by_rule; });
-    if (!rivals.empty())
-      result.next_experiment = (other != rivals.end() ? *other : rivals.front()).experiment;
-    return;
-  }
-  const bool refused = !result.steps.empty();
-  const std::string level =
-      fmt::format("the squared residual is {:.3g} times what the sensors' noise leaves", rho);
-  // At the floor there is nothing to explain, whatever was tried and refused.
-  if (rho < (refused ? kNoGap : kRemainder)) {
-    result.verdict = Verdict::none;
-    result.reason = level + (refused ? "; what fits best, " + result.steps.front().added +
-                                           ", was refused: " + result.steps.front().reason
-                                     : "; no effect of the catalogue improves on it beyond chance");
-    return;
-  }
-  result.verdict = Verdict::unexplained;
-  result.reason = level + (refused ? ", and what fits best, " + result.steps.front().added +
-                                         ", was refused: " + result.steps.front().reason
-                                   : ", and no effect of the catalogue explains it");
 }
 
 }  // namespace cablefit

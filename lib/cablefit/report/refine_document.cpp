@@ -140,6 +140,7 @@ void add_gap_rows(Table& table, const GapStory& gap, const std::string& what,
 Table tidy_rows(const RefineResult& result) {
   Table table = tidy_table();
   for (const Model& model : result.models) add_model_rows(table, model);
+  for (const KeptEffect& kept : result.kept) add_effect_rows(table, kept.now);
   for (const NamedEffect& effect : result.effects) add_effect_rows(table, effect);
   add_gap_rows(table, result.torque, "torque", torque_unit(result.linear_motion));
   add_gap_rows(table, result.simulation, "simulation", result.linear_motion ? "m" : "rad");

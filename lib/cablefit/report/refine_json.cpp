@@ -81,6 +81,20 @@ Json effect_json(const RefineResult& result, const NamedEffect& effect) {
               {"rivals", list_of(effect.rivals, rival_json)}};
 }
 
+/// What an effect is and the numbers that it has.
+Json kept_json(const KeptEffect& kept) {
+  const Refinement& row = *kept.now.instance.refinement;
+  std::vector<Estimate> parameters = kept.now.instance.parameters;
+  parameters.insert(parameters.end(), kept.now.derived.begin(), kept.now.derived.end());
+  return Json{{"name", row.name},
+              {"side", to_string(row.site)},
+              {"joint", kJoint},
+              {"equation", row.equation},
+              {"given", report_json::parameters(kept.given)},
+              {"parameters", report_json::parameters(parameters)},
+              {"torque_rms", kept.now.torque_rms}};
+}
+
 Json step_json(const RefineStep& step) {
   return Json{{"added", step.added},         {"side", step.side},
               {"accepted", step.accepted},   {"reason", text_or_null(step.reason)},
@@ -168,6 +182,7 @@ std::string refine_json(const RefineResult& result, std::span<const std::string>
   json["where"] = list_of(result.where, regime_json);
   json["effects"] = list_of(result.effects,
                             [&](const NamedEffect& effect) { return effect_json(result, effect); });
+  if (!result.kept.empty()) json["kept"] = list_of(result.kept, kept_json);
   json["rho"] = {{"before", result.rho_before}, {"after", result.rho_after}};
   json["remainder"] = remainder_json(result);
   json["steps"] = list_of(result.steps, step_json);

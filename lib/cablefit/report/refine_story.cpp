@@ -78,6 +78,30 @@ std::string parameters_text(const NamedEffect& effect) {
   return text;
 }
 
+/// Whether any of its coefficients stands out of its sd.
+bool is_seen(const RefinementInstance& instance) {
+  const std::size_t n = instance.refinement->n_linear();
+  for (std::size_t p = 0; p < n; ++p) {
+    const Estimate& e = instance.parameters[p];
+    if (std::isfinite(e.sd) && std::abs(e.value) > kMovedSd * e.sd) return true;
+  }
+  return n == 0;
+}
+
+/// What the model has already: values as it says them, and in these logs.
+SummaryLine kept_line(const KeptEffect& kept) {
+  const Refinement& row = *kept.now.instance.refinement;
+  std::string text;
+  for (std::size_t p = 0; p < kept.given.size(); ++p) {
+    const Estimate& e = kept.now.instance.parameters[p];
+    text += fmt::format("{}{} {} -> {}{}{}", text.empty() ? "" : ", ", e.name,
+                        value_text(kept.given[p].value, kept.given[p].sd),
+                        value_with_sd(e.value, e.sd), e.unit.empty() ? "" : " ", e.unit);
+  }
+  if (!is_seen(kept.now.instance)) text += "; these logs do not show it";
+  return {"kept", fmt::format("{}: {}", effect_text(row.name, to_string(row.site)), text)};
+}
+
 /// Where none of the draws came as far, p says of what: a fit, and no more than the draws support.
 std::string chance_text(const RefineEvidence& e) {
   const double least = least_tail(e.n_draws);
@@ -244,6 +268,7 @@ std::vector<SummaryLine> refine_story(const RefineResult& result,
   std::vector<SummaryLine> lines;
   if (result.verdict != Verdict::none) lines = where_lines(result);
   lines.push_back(verdict_line(result));
+  for (const KeptEffect& kept : result.kept) lines.push_back(kept_line(kept));
   add_effect_lines(result, lines);
   if (result.torque.known) lines.push_back(gap_line(result));
   if (result.simulation.known || result.elastic_only) lines.push_back(simulation_line(result));

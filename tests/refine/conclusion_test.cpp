@@ -1,0 +1,74 @@
+// The decision rule on unseen logs, on made-up gaps.
+#include "cablefit/refine/conclusion.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace cablefit;
+
+/// The trap: a term that improves the equation error and worsens the simulation.
+TEST_CASE("the simulation of unseen logs has the last word", "[refine]") {
+  const Refinement& row = find_refinement("presliding", Site::link);
+  const SimulatedGap floor{1e-5, 0.1, ""}, before{2e-5, 0.2, ""}, worse{3e-5, 0.2, ""},
+      better{1.5e-5, 0.2, ""}, failed{0, 0, "diverged"};
+  CHECK(why_not_added({row, 1.5, 1.2, before, better, floor}).empty());
+  CHECK(
+      why_not_added({row, 1.5, 1.2, before, worse, floor}) ==
+      "unseen logs are not simulated better with it (4 times the squared floor before, 6.5 after)");
+  CHECK(why_not_added({row, 1.5, 1.6, before, better, floor}) ==
+        "the equations of unseen logs do not fit better with it (1.5 times the squared floor "
+        "before, 1.6 "
+        "after)");
+  CHECK(why_not_added({row, 1.5, 1.2, before, failed, floor}) ==
+        "with it the simulation fails: diverged");
+  // These logs do not show the effect: what they show already is their floor.
+  CHECK(why_not_added({row, 1.01, 1.015, floor, floor, floor}).empty());
+  CHECK_FALSE(why_not_added({row, 1.01, 1.1, floor, floor, floor}).empty());
+  CHECK_FALSE(why_not_added({row, 1.01, 1.0, floor, before, floor}).empty());
+  const Refinement& event = find_refinement("contact", Site::link);
+  CHECK(why_not_added({event, 1.5, 1.6, before, worse, floor}).empty());  // is over in other logs
+}
+
+/// The trap: in a wandering torque the best of a search gains a little on other logs by chance.
+TEST_CASE("beside a remainder a gain on unseen logs has to be clear", "[refine]") {
+  const Refinement& row = find_refinement("friction_drift", Site::link);
+  const SimulatedGap floor{1e-5, 0.1, ""}, before{2e-5, 0.2, ""}, better{1.5e-5, 0.2, ""};
+  CHECK(why_not_added({row, 7, 6.9, before, better, floor, true, 3}).empty());
+  CHECK(why_not_added({row, 7, 6.9, before, better, floor, false, 0.8}).empty());
+  CHECK(why_not_added({row, 7, 3, before, better, floor, true, 0.8}).empty());
+  CHECK(why_not_added({row, 7, 6.9, before, better, floor, true, 0.8}) ==
+        "beside what stays unexplained the equations of unseen logs are not clearly better with it "
+        "(0.8 sd)");
+}
+
+/// The trap: a pair of the catalogue mimics a third mass, 98.7 % of the gap closed.
+TEST_CASE("two at once have to leave nothing", "[refine]") {
+  const Refinement& row = find_refinement("stribeck", Site::link);
+  const SimulatedGap floor{1e-5, 0.1, ""}, before{1e-4, 1, ""}, most{2e-5, 0.2, ""},
+      all{1.1e-5, 0.11, ""};
+  CHECK(why_not_both({row, 56, 1.1, before, all, floor}).empty());
+  CHECK_FALSE(why_not_both({row, 56, 1.7, before, all, floor}).empty());
+  CHECK_FALSE(why_not_both({row, 56, 1.1, before, most, floor}).empty());
+  CHECK_FALSE(why_not_both({row, 1.5, 1.6, before, all, floor}).empty());
+  const Refinement& event = find_refinement("contact", Site::link);
+  CHECK_FALSE(why_not_both({event, 56, 1.1, before, all, floor}).empty());
+}
+
+TEST_CASE("a simulation that shows no gap may scatter a little", "[refine]") {
+  const Refinement& row = find_refinement("load_scale", Site::link);
+  const SimulatedGap floor{1e-5, 0.1, ""}, before{1.05e-5, 0.105, ""}, little{1.07e-5, 0.107, ""},
+      more{1.15e-5, 0.115, ""};
+  CHECK(why_not_added({row, 1.2, 1.05, before, little, floor}).empty());
+  CHECK_FALSE(why_not_added({row, 1.2, 1.05, before, more, floor}).empty());
+}
+
+TEST_CASE("at the floor there is nothing to explain, whatever was refused", "[refine]") {
+  RefineResult result;
+  result.steps.emplace_back().added = "stiffness_order";
+  result.rho_before = 0.97;
+  conclude(result);
+  CHECK(result.verdict == Verdict::none);
+  CHECK(result.reason.find("stiffness_order, was refused") != std::string::npos);
+  result.rho_before = 1.15;
+  conclude(result);
+  CHECK(result.verdict == Verdict::unexplained);
+}
