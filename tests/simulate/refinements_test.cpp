@@ -27,7 +27,8 @@ std::string label(const Refinement& row) {
 Values middle_shape(const Refinement& row) {
   Values shape;
   for (const ShapeGrid& grid : row.shape)
-    shape.push_back(grid.value(grid.n_values / 2, {.peak = 1, .travel = 0.4}));
+    shape.push_back(grid.value(grid.n_values / 2,
+                               {.peak = 1, .travel = 0.4, .speed = 2.5, .deflection = 0.03}));
   return shape;
 }
 
@@ -378,7 +379,7 @@ TEST_CASE("what a sensor or drive does wrong is put right before a replay", "[si
 
 TEST_CASE("what a cable remembers outlives the windows of a replay", "[simulate]") {
   const Refinement& creep = find_refinement("creep", Site::transmission);
-  const Model model = refined(paper_rig_low(), instance_of(creep, {2e-5}, {2.0}));
+  const Model model = refined(paper_rig_low(), instance_of(creep, {2e-5}, {2.0, 0}));
   SimulationInput input = lively_input(6000, 1e-3);
   input.tau += 12;
   input.tau_load -= 12;

@@ -79,6 +79,22 @@ double ShapeGrid::value(int i, const LogScale& scale) const {
   return from * std::pow(to / from, share);
 }
 
+double ShapeGrid::factor(const LogScale& scale) const {
+  switch (unit) {
+    case GridUnit::si:
+      return 1;
+    case GridUnit::peak:
+      return scale.peak;
+    case GridUnit::per_travel:
+      return 1 / scale.travel;
+    case GridUnit::speed:
+      return scale.speed;
+    case GridUnit::deflection:
+      return scale.deflection;
+  }
+  return 1;
+}
+
 std::span<const Refinement> refinements() { return table(); }
 
 const Refinement& find_refinement(std::string_view name, Site site) {

@@ -49,11 +49,15 @@ struct Recording {
 struct LogScale {
   double peak = 0;    ///< N m, largest |tau|
   double travel = 0;  ///< rad, half the range of the positions
+  /// All but the largest hundredth of |thetad|, rad/s, and of |theta - theta_0 - q|, rad.
+  double speed = 0, deflection = 0;
 };
 enum class GridUnit {
   si,
   peak,        ///< shares of LogScale::peak
   per_travel,  ///< divided by LogScale::travel: radians of phase over half the range
+  speed,       ///< shares of LogScale::speed
+  deflection,  ///< shares of LogScale::deflection
 };
 
 /// Values of one nonlinear parameter that a scan tries.
@@ -72,11 +76,7 @@ struct ShapeGrid {
   double highest(const LogScale& scale) const { return high * factor(scale); }
 
  private:
-  double factor(const LogScale& scale) const {
-    return unit == GridUnit::peak         ? scale.peak
-           : unit == GridUnit::per_travel ? 1 / scale.travel
-                                          : 1.0;
-  }
+  double factor(const LogScale& scale) const;
 };
 
 /// A row. Exactly one of `torque` (with or without `level`), `level`, `correct` and `change` groups
@@ -125,6 +125,11 @@ struct Refinement {
   std::optional<Transmission> (*change)(const Transmission& transmission,
                                         const double* shape) = nullptr;
 
+  /// Cables that have the effect already, with other coefficients now; nullptr: nothing of it
+  /// depends on them.
+  std::optional<Transmission> (*change_again)(const Transmission& transmission,
+                                              const double* shape) = nullptr;
+
   /// The only linear parameter is a share of the dry friction of its axis: all of it in the plain
   /// form of the law, more than all of it never.
   bool takes_dry_friction = false;
@@ -132,6 +137,8 @@ struct Refinement {
   std::size_t n_linear() const { return parameters.size() - shape.size(); }
   /// An event after which the joint is another one, and not one that passes.
   bool lasts() const { return is_event && shape.empty(); }
+  /// An event that is over after a while.
+  bool passes() const { return is_event && !lasts(); }
 };
 
 /// All rows, in the order of the contract's list.
@@ -146,6 +153,7 @@ struct RefinementInstance {
   /// When an event happened: number of the log (from 0, in the order given) and s since it began.
   std::size_t event_log = 0;
   double event_time = 0;
+  bool ends_with_log = false;  ///< of what lasts: only as long as that log
 };
 
 }  // namespace cablefit

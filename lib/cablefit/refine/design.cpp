@@ -41,14 +41,31 @@ double least_speed(const std::vector<Stretch>& stretches, Eigen::ArrayXd Recordi
   return std::max(kQuietSpeeds * per_noise * noise, kShareOfSpeed * std::sqrt(squares / n));
 }
 
-LogScale scale_of(const std::vector<Stretch>& stretches) {
+/// All but the largest hundredth of the values, 0 or more.
+double most_of(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(0.99 * (values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+LogScale scale_of(const Design& design) {
+  constexpr double kLeast = 1e-9;
   LogScale scale;
   double low = kUnbounded, high = -kUnbounded;
-  for (const Stretch& stretch : stretches) {
+  std::vector<double> speeds, deflections;
+  for (std::size_t k = 0; k < design.stretches.size(); ++k) {
+    const Stretch& stretch = design.stretches[k];
     scale.peak = std::max(scale.peak, stretch.recording.tau.abs().maxCoeff());
     low = std::min(low, stretch.recording.theta.minCoeff());
     high = std::max(high, stretch.recording.theta.maxCoeff());
+    for (const JointState& state : design.states[k]) {
+      speeds.push_back(std::abs(state.thetad));
+      deflections.push_back(std::abs(state.deflection));
+    }
   }
+  scale.speed = std::max(kLeast, most_of(std::move(speeds)));
+  scale.deflection = std::max(kLeast, most_of(std::move(deflections)));
   scale.travel = std::max(1e-9, (high - low) / 2);
   return scale;
 }
@@ -132,7 +149,6 @@ Design make_design(std::span<const Model> models, std::vector<Stretch> stretches
   design.models.assign(models.begin(), models.end());
   design.layout = base_layout(models.front());
   design.stretches = std::move(stretches);
-  design.scale = scale_of(design.stretches);
   if (!(smoothing.least_speed_theta > 0)) {
     smoothing.least_speed_theta =
         least_speed(design.stretches, &Recording::theta, false, smoothing);
@@ -140,6 +156,7 @@ Design make_design(std::span<const Model> models, std::vector<Stretch> stretches
   }
   design.smoothing = smoothing;
   fill_rows(design, nullptr);
+  design.scale = scale_of(design);
   return design;
 }
 
@@ -171,6 +188,12 @@ std::vector<StretchRows> replaced_rows(const Design& design, const Variant& vari
                                          : rows_of_correction(design, variant, k));
   }
   return rows;
+}
+
+void change_again(const Variant& variant, Transmission& transmission) {
+  const auto again = variant.refinement->change_again;
+  if (again == nullptr) return;
+  if (auto changed = again(transmission, variant.shape.data())) transmission = std::move(*changed);
 }
 
 bool applies(const Design& design, const Variant& variant) {
@@ -210,7 +233,10 @@ Design with_variant(const Design& design, const Variant& variant, const Eigen::V
 
 Design relinearised(const Design& design, const Eigen::VectorXd& values) {
   Design out = design;
-  for (Model& model : out.models) set_base_values(out.layout, values, model);
+  for (Model& model : out.models) {
+    set_base_values(out.layout, values, model);
+    for (const Variant& variant : out.added) change_again(variant, model.transmission);
+  }
   fill_rows(out, &design.rows);
   out.added.clear();
   for (const Variant& variant : design.added) {

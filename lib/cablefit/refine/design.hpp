@@ -17,6 +17,8 @@ struct Variant {
   std::size_t event_log = 0;  ///< events only
   double event_time = 0;      ///< s
   bool is_plain = false;      ///< the row's plain form, see has_plain_form
+  /// Of what lasts: only as long as the log, as where axes are homed anew before each.
+  bool ends_with_log = false;
 };
 
 /// Some rows have more parameters than the law of the textbooks, so that they also name what is
@@ -64,6 +66,9 @@ std::vector<StretchRows> replaced_rows(const Design& design, const Variant& vari
 /// Whether the variant's cables can be made of the design's: some need what another effect made of
 /// them first.
 bool applies(const Design& design, const Variant& variant);
+
+/// Gives cables that have the variant already what follows from other coefficients.
+void change_again(const Variant& variant, Transmission& transmission);
 
 /// The design with a variant in it, which applies. `values`: of the columns so far.
 Design with_variant(const Design& design, const Variant& variant, const Eigen::VectorXd& values);

@@ -110,7 +110,7 @@ std::vector<ParameterShift> kept_shifts(const Design& first, const Eigen::Vector
 /// lasts has happened before any log to come.
 std::optional<RefinementInstance> as_state(RefinementInstance instance) {
   const Refinement& row = *instance.refinement;
-  if (row.change != nullptr || (row.is_event && !row.lasts())) return {};
+  if (row.change != nullptr || row.passes() || instance.ends_with_log) return {};
   instance.event_log = 0;
   instance.event_time = 0;
   return instance;
@@ -131,6 +131,7 @@ std::vector<NamedEffect> named_effects(const Design& design, const FinalFit& fit
     effect.instance.refinement = &row;
     effect.instance.event_log = variant.event_log;
     effect.instance.event_time = variant.event_time;
+    effect.instance.ends_with_log = variant.ends_with_log;
     const auto add = [&](std::size_t parameter, double value, double sd) {
       effect.instance.parameters.push_back(
           estimate_of(row.parameters[parameter], value, sd, fit.degrees_of_freedom));
@@ -179,6 +180,7 @@ std::vector<Model> models_with(const Design& design, const Eigen::VectorXd& x) {
   std::vector<Model> models = design.models;
   for (Model& model : models) {
     set_base_values(design.layout, x, model);
+    for (const Variant& variant : design.added) change_again(variant, model.transmission);
     for (const NamedEffect& effect : effects)
       if (auto instance = as_state(effect.instance))
         model.joints.front().refinements.push_back(std::move(*instance));

@@ -29,15 +29,35 @@ Estimate read_parameter(const JsonNode& node, const ParameterInfo& info, const R
                    fmt::format("expected {}: {}", range, info.meaning));
 }
 
+/// Between forms numbered from 0; a file may leave it out, and then it is 0.
+bool is_choice(const Refinement& row, std::size_t parameter) {
+  if (parameter < row.n_linear()) return false;
+  const ShapeGrid& grid = row.shape[parameter - row.n_linear()];
+  return grid.is_whole && grid.low == 0;
+}
+
+Estimate first_choice(const ParameterInfo& info, const Rig& rig) {
+  Estimate estimate;
+  estimate.name = info.name;
+  estimate.symbol = info.symbol;
+  estimate.unit = parameter_unit(info, rig);
+  estimate.value = 0;
+  return estimate;
+}
+
 std::vector<Estimate> read_parameters(const JsonNode* node, const JsonNode& row_node,
                                       const Refinement& row, const Rig& rig) {
   std::vector<Estimate> parameters;
   if (!node && row.parameters.empty()) return parameters;
   const JsonNode& values = node ? *node : row_node.at("parameters");
   std::vector<std::string_view> known;
-  for (const ParameterInfo& info : row.parameters) {
-    parameters.push_back(read_parameter(values.at(info.name), info, rig));
+  for (std::size_t p = 0; p < row.parameters.size(); ++p) {
+    const ParameterInfo& info = row.parameters[p];
     known.push_back(info.name);
+    if (is_choice(row, p) && !values.find(info.name))
+      parameters.push_back(first_choice(info, rig));
+    else
+      parameters.push_back(read_parameter(values.at(info.name), info, rig));
   }
   for (const auto& [key, value] : members_of(values))
     if (std::find(known.begin(), known.end(), key) == known.end())

@@ -10,10 +10,14 @@ constexpr ParameterInfo kHysteresis[] = {
     {"yield", "y", "rad", "deflection after which 63 % of it is there", 1e-7}};
 constexpr ParameterInfo kCreep[] = {
     {"compliance", "a", "rad/(N m)", "that comes with time; times the stiffness: a fraction", 0},
-    {"T", "T", "s", "time after which 63 % of it is there", 1e-3}};
+    {"T", "T", "s", "time after which 63 % of it is there", 1e-3},
+    {"settled", "s", "", "1: a log begins settled under its load; 0: as if unloaded before", 0, 1}};
 
-constexpr ShapeGrid kYield[] = {{.low = 0.2e-3, .high = 4e-3, .n_values = 8}};
-constexpr ShapeGrid kTime[] = {{.low = 0.3, .high = 10, .n_values = 8}};
+constexpr ShapeGrid kYield[] = {
+    {.low = 0.006, .high = 0.2, .n_values = 9, .unit = GridUnit::deflection}};
+constexpr ShapeGrid kTime[] = {
+    {.low = 0.3, .high = 10, .n_values = 8},
+    {.low = 0, .high = 1, .n_values = 2, .is_geometric = false, .is_whole = true}};
 
 void damp(const JointState& state, const double* /*shape*/, const double* /*z*/, double* link,
           double* motor) {
@@ -29,8 +33,13 @@ void hold(const JointState& /*state*/, const double* /*shape*/, const double* z,
   pull(z[0], 0, link, motor);
 }
 
-// z: the torque that they have settled under. Exact for a torque that is constant over h.
+// z: the torque that they have settled under, and whether the log has begun. Exact for a torque
+// that is constant over h.
 void settle(const JointState& state, const double* shape, double h, double* z) {
+  if (z[1] == 0) {
+    z[0] = shape[1] * state.tau_elas;
+    z[1] = 1;
+  }
   z[0] += (state.tau_elas - z[0]) * settled(h, shape[0]);
 }
 
@@ -84,7 +93,7 @@ Refinement creep() {
           .parameters = kCreep,
           .shape = kTime,
           .is_static = true,
-          .n_states = 1,
+          .n_states = 2,
           .advance = settle,
           .torque = give_way};
 }

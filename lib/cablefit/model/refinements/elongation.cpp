@@ -11,8 +11,10 @@ constexpr ParameterInfo kHalfWidth[] = {
     {"half_width", "b", "rad", "of the motor, by which each cable is slack", 0}};
 constexpr ParameterInfo kElongation[] = {
     {"l_o", "l_o", "rad", "of the motor, by which cable 1 is stretched at rest", 0}};
-constexpr ShapeGrid kSlack[] = {{.low = 0.05e-3, .high = 3e-3, .n_values = 9}};
-constexpr ShapeGrid kStretch[] = {{.low = 0.1e-3, .high = 6e-3, .n_values = 9}};
+constexpr ShapeGrid kSlack[] = {
+    {.low = 0.0016, .high = 0.16, .n_values = 10, .unit = GridUnit::deflection}};
+constexpr ShapeGrid kStretch[] = {
+    {.low = 0.0033, .high = 0.5, .n_values = 11, .unit = GridUnit::deflection}};
 
 /// Signed radius at the motor pulley that moves the cable most, in the reference pose; 1 in joint
 /// space.
@@ -87,6 +89,13 @@ std::optional<Transmission> stretch(const Transmission& transmission, const doub
   return changed;
 }
 
+/// Other coefficients balance at another elongation of the second cable.
+std::optional<Transmission> stretch_again(const Transmission& transmission, const double* shape) {
+  Transmission loose = transmission;
+  for (Cable& cable : loose.cables) cable.initial_elongation = 0;
+  return stretch(loose, shape);
+}
+
 }  // namespace
 
 Refinement dead_zone() {
@@ -118,7 +127,8 @@ Refinement preload() {
           .parameters = kElongation,
           .shape = kStretch,
           .is_static = true,
-          .change = stretch};
+          .change = stretch,
+          .change_again = stretch_again};
 }
 
 }  // namespace cablefit::rows

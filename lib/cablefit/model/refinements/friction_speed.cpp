@@ -19,8 +19,9 @@ constexpr ParameterInfo kNonlinear[] = {
     {"coefficient", "a", "N m", "torque at 1 rad/s", 0},
     {"exponent", "p", "", "below 1: thins with speed", 0.25, 0.75}};
 
-constexpr ShapeGrid kStribeckShape[] = {{.low = 0.02, .high = 0.8, .n_values = 8},
-                                        {.low = 1, .high = 2, .n_values = 2, .canonical = 2}};
+constexpr ShapeGrid kStribeckShape[] = {
+    {.low = 0.008, .high = 0.5, .n_values = 9, .unit = GridUnit::speed},
+    {.low = 1, .high = 2, .n_values = 2, .canonical = 2}};
 constexpr ShapeGrid kDragShape[] = {
     {.low = 1.5, .high = 2.5, .n_values = 5, .is_geometric = false, .canonical = 2}};
 constexpr ShapeGrid kNonlinearShape[] = {
