@@ -60,6 +60,38 @@ TEST_CASE("rows at rest are no rows of the equations", "[refine][trap]") {
   CHECK(with_rest[link] > 1.5 * moving[link]);
 }
 
+/// Effects that remember would begin anew in the middle of a log.
+TEST_CASE("the held-out third of a moving log knows its history", "[refine][trap]") {
+  const HiddenLogs nothing = hidden_logs({});
+  const auto all = [](const PartSurvey&) { return true; };
+  std::vector<Stretch> train = read_stretches(nothing.logs.train, nothing.models, all);
+  const Eigen::Index n = train.front().recording.theta.size();
+  const std::vector<Stretch> test = hold_out(train, 0.25);
+  REQUIRE(test.size() == train.size());
+  CHECK(train.front().recording.theta.size() == 3 * n / 4);
+  CHECK(test.front().recording.theta.size() == n);
+  CHECK(test.front().t0 == train.front().t0);
+  const Design design = make_design(nothing.models, test, smoothing_for(1e-3));
+  for (const KindRows& kind : design.rows.front().kinds) {
+    REQUIRE_FALSE(kind.at.empty());
+    CHECK(kind.at.front() >= 3 * n / 4);
+  }
+}
+
+/// A loop that is not the robot's makes a floor that is not the robot's.
+TEST_CASE("draws follow the motion where the rig's loop would not", "[refine][trap]") {
+  const HiddenLogs nothing = hidden_logs({});
+  const auto follows = [&](double kp) {
+    RefineLogs logs = nothing.logs;
+    for (LogSurvey& log : logs.train) log.plan.rig.controller->kp *= kp;
+    const NullBench bench(
+        nothing.models, logs.train, [](const PartSurvey&) { return true; }, smoothing_for(1e-3), 1);
+    return bench.follows();
+  };
+  CHECK_FALSE(follows(1));
+  CHECK(follows(0.1));
+}
+
 /// On a frozen base the part of an effect that the base has swallowed is lost.
 TEST_CASE("a frozen base shrinks what is found", "[refine][trap]") {
   const HiddenLogs hidden = hidden_logs({"quadratic_drag.link=1"});

@@ -93,7 +93,7 @@ std::string choose_controller(const Model& model, const LogSurvey& log, const Tw
     stretch.hold_torque = drive.torque_held;
     return "none: the measured torque, which the rig file says is a command";
   }
-  if (!has_reference(plan)) {
+  if (drive.follows || !has_reference(plan)) {
     follow_measured(model, plan, drive, stretch);
     return fmt::format(
         "a stand-in of {:g} Hz that follows the measured theta, the measured torque as "

@@ -47,7 +47,8 @@ struct Twin {
 /// What decides about the controller of a twin.
 struct TwinDrive {
   bool torque_held = true;
-  double cutoff = 0;  ///< Hz, of the low-pass on what a stand-in follows; 0: none
+  double cutoff = 0;     ///< Hz, of the low-pass on what a stand-in follows; 0: none
+  bool follows = false;  ///< a stand-in, also where the rig's controller is known
 };
 
 /// The parts of the logs for which `wanted` says true, in closed loop: the rig's controller where

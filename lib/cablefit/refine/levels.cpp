@@ -65,7 +65,11 @@ double RowGap::quantile(double level, std::uint64_t seed) const {
 
 RowGap gap_of(const Design& design, const Eigen::VectorXd& x, const KindLevels& floor,
               double block_seconds) {
-  const BlockGrams grams = block_grams(design.rows, design.stretches, block_seconds);
+  BlockGrams grams = block_grams(design.rows, design.stretches, block_seconds);
+  std::erase_if(grams.blocks, [](const BlockGrams::Block& block) {
+    return std::all_of(block.n_rows.begin(), block.n_rows.end(),
+                       [](Eigen::Index n) { return n == 0; });
+  });
   RowGap gap;
   gap.squares = errors_of(grams, floor, x);
   gap.n_rows = Eigen::ArrayXd::Zero(gap.squares.size());

@@ -7,6 +7,7 @@
 #include "cablefit/prove/twin.hpp"
 #include "cablefit/refine/blocked_twin.hpp"
 #include "cablefit/refine/elastic_stage.hpp"
+#include "cablefit/refine/kernel.hpp"
 #include "cablefit/refine/levels.hpp"
 
 namespace cablefit {
@@ -29,6 +30,29 @@ void move_aside(Twin& twin, Random& random) {
   }
 }
 
+/// rms of what the rows see of an acceleration.
+double rms_acceleration(const Eigen::ArrayXd& theta, double period, const Smoothing& smoothing) {
+  const Eigen::ArrayXd rough = apply(gaussian_curvature(smoothing.signals, period), theta);
+  const Eigen::ArrayXd smooth = apply(gaussian(smoothing.columns, period), rough);
+  return std::sqrt(smooth.square().mean());
+}
+
+/// Whether the moving stretches are as lively as the measured ones.
+bool move_alike(const Twin& twin, const std::vector<SimulationResult>& motions,
+                const Smoothing& smoothing) {
+  constexpr double kAlike = 1.25;
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    const TwinStretch& stretch = twin.stretches[k];
+    if (stretch.link_blocked) continue;
+    const int slot = twin.plans[stretch.log].find(Channel::theta, 0);
+    const double period = stretch.input.period;
+    const double measured = rms_acceleration(stretch.measured.col(slot).array(), period, smoothing);
+    const double simulated = rms_acceleration(motions[k].theta.col(0), period, smoothing);
+    if (simulated > kAlike * measured || measured > kAlike * simulated) return false;
+  }
+  return true;
+}
+
 /// Twins of the logs of one preload.
 struct PreloadTwin {
   std::size_t model = 0;
@@ -45,6 +69,7 @@ struct NullBench::Parts {
   Smoothing smoothing;
   TwinDisturbance disturbance;
   double held_back = 0;
+  bool follows = false;
 };
 
 NullBench::NullBench(std::span<const Model> models, std::span<const LogSurvey> logs,
@@ -64,9 +89,17 @@ NullBench::NullBench(std::span<const Model> models, std::span<const LogSurvey> l
     PreloadTwin& twin = parts_->twins.emplace_back();
     twin.model = m;
     const bool held = model.rig.torque_hold != TorqueHold::none;
-    twin.twin = make_twin(model, logs, of_model, {held, kFollowCutoff});
-    Random calibration(1, kCalibration);
-    choose_sensors(twin.twin, run_twin(twin.twin, {}, calibration, threads));
+    const auto run = [&](bool follows) {
+      twin.twin = make_twin(model, logs, of_model, {held, kFollowCutoff, follows});
+      Random calibration(1, kCalibration);
+      return run_twin(twin.twin, {}, calibration, threads);
+    };
+    auto motions = run(false);
+    if (!move_alike(twin.twin, motions, smoothing)) {
+      motions = run(true);
+      parts_->follows = true;
+    }
+    choose_sensors(twin.twin, motions);
     for (std::size_t k = 0; k < logs.size(); ++k)
       if (std::any_of(twin.twin.stretches.begin(), twin.twin.stretches.end(),
                       [k](const TwinStretch& stretch) { return stretch.log == k; }))
@@ -75,6 +108,8 @@ NullBench::NullBench(std::span<const Model> models, std::span<const LogSurvey> l
 }
 
 NullBench::~NullBench() = default;
+
+bool NullBench::follows() const { return parts_->follows; }
 
 void NullBench::disturb(const TwinDisturbance& disturbance) { parts_->disturbance = disturbance; }
 
@@ -146,28 +181,6 @@ BaseFit fit_base(Design design, double block_seconds, const KindLevels* levels) 
     if (round + 1 < kRounds) base.design = relinearised(base.design, base.fit.x);
   }
   return base;
-}
-
-BaseFit NullBench::fitted(std::uint64_t seed, const KindLevels* levels) const {
-  return fit_base(make_design(parts_->models, draw(seed), parts_->smoothing), 2, levels);
-}
-
-KindLevels NullBench::unfitted(std::uint64_t seed) const {
-  const Design design = make_design(parts_->models, draw(seed), parts_->smoothing);
-  return rms_of(block_grams(design.rows, design.stretches, 2),
-                base_values(design.layout, design.models.front()));
-}
-
-NullDraw NullBench::searched(std::uint64_t seed, const KindLevels& levels,
-                             const ScanSettings& settings) const {
-  const BaseFit base = fit_base(make_design(parts_->models, draw(seed), parts_->smoothing),
-                                settings.block_seconds, &levels);
-  NullDraw out;
-  out.floor = base.fit.rms();
-  for (const Candidate& candidate :
-       scan({base.design, base.grams, base.fit, base.levels}, settings, {}))
-    if (candidate.refused.empty()) out.gains[candidate.variant.refinement] = candidate.gain;
-  return out;
 }
 
 }  // namespace cablefit

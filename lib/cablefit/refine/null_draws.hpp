@@ -50,6 +50,10 @@ class NullBench {
   /// Torques are logged without noise from now on, which leaves what is not chance.
   void silence_torque();
 
+  /// The rig's controller with the logs' reference does not move the model as the robot moved, as
+  /// where a torque was added to its command: the draws follow the measured motion instead.
+  bool follows() const;
+
   /// One draw as logs, by model.
   struct Recorded {
     std::size_t model = 0;
@@ -58,13 +62,6 @@ class NullBench {
   std::vector<Recorded> record(std::uint64_t seed, int threads = 1) const;
   /// The same as stretches, numbered as the logs that the bench was made from.
   std::vector<Stretch> draw(std::uint64_t seed, int threads = 1) const;
-  /// Its base fit: what noise alone leaves, row by row. `levels`: weights; nullptr: of its own
-  /// residual.
-  BaseFit fitted(std::uint64_t seed, const KindLevels* levels) const;
-  /// What the models leave as they are, nothing fitted: the floor of logs that had no say.
-  KindLevels unfitted(std::uint64_t seed) const;
-  NullDraw searched(std::uint64_t seed, const KindLevels& levels,
-                    const ScanSettings& settings) const;
 
  private:
   struct Parts;

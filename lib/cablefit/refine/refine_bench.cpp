@@ -67,7 +67,8 @@ KindLevels fitted_floor(RefineBench& bench, const Design& base, const Eigen::Vec
 /// Floors of the unseen logs: equations, and simulation beside what it was simulated from.
 void find_unseen_floors(RefineBench& bench, const BaseFit& base, const RefineLogs& logs) {
   bench.unseen = logs.test.empty() ? logs.train : logs.test;
-  const BaseDraws unseen(base.design, base.fit.x, bench.unseen, bench.wanted, bench.options.threads);
+  const BaseDraws unseen(base.design, base.fit.x, bench.unseen, bench.wanted,
+                         bench.options.threads);
   bench.test_floor = logs.test.empty()
                          ? bench.floor
                          : positive(rms_over(run_draws(
@@ -162,6 +163,11 @@ RefineState prepare(RefineBench& bench, std::span<const Model> models, const Ref
   BaseFit base = std::move(kept.base);
   bench.smoothing = base.design.smoothing;
   bench.null.emplace(base.design, base.fit.x, bench.logs, bench.wanted, bench.options.threads);
+  if (bench.null->logs().follows())
+    result.warnings.emplace_back(
+        "the rig's controller with the reference of the logs does not move the model as the robot "
+        "moved (is a torque added that the rig file does not know, or a delay?); chance is judged "
+        "by simulations that follow the measured motion");
   bench.held_back = result.held_out_blocks ? kHeldOutShare : 0;
   bench.null->logs().hold_back(bench.held_back);
   bench.floor = fitted_floor(bench, base.design, base.fit.x);

@@ -30,6 +30,9 @@ void require_channels(const LogPlan& plan, const Model& model, bool blocked) {
   require_channel(plan, Channel::theta, kWhy);
   require_channel(plan, Channel::tau, kWhy);
   if (!model.rigid && !blocked) require_channel(plan, Channel::q, kWhy);
+  const Load& load = plan.rig.load;
+  if (!blocked && load.law != nullptr && load.law->from_column)
+    require_channel(plan, Channel::tau_load, "the load that the rig file says is a column");
 }
 
 Eigen::ArrayXd column(const Window& window, const LogPlan& plan, Channel channel) {
@@ -106,14 +109,11 @@ std::vector<Stretch> hold_out(std::vector<Stretch>& stretches, double share) {
     if (stretch.blocked) continue;
     const Eigen::Index n = stretch.recording.theta.size();
     const auto kept = static_cast<Eigen::Index>((1 - share) * static_cast<double>(n));
-    Stretch last = stretch;
-    last.t0 += static_cast<double>(kept) * stretch.recording.period;
+    held.push_back(stretch);
+    held.back().rows_from = kept;
     for (Eigen::ArrayXd Recording::*signal :
-         {&Recording::q, &Recording::theta, &Recording::tau, &Recording::tau_load}) {
-      last.recording.*signal = Eigen::ArrayXd((stretch.recording.*signal).tail(n - kept));
+         {&Recording::q, &Recording::theta, &Recording::tau, &Recording::tau_load})
       stretch.recording.*signal = Eigen::ArrayXd((stretch.recording.*signal).head(kept));
-    }
-    held.push_back(std::move(last));
   }
   return held;
 }

@@ -26,7 +26,8 @@ struct Stretch {
 std::vector<Stretch> read_stretches(std::span<const LogSurvey> logs, std::span<const Model> models,
                                     const PartFilter& wanted);
 
-/// The last `share` (0..1) of every moving stretch, taken from it.
+/// The last `share` (0..1) of every moving stretch, taken from it; with what came before as history
+/// for effects that remember it.
 std::vector<Stretch> hold_out(std::vector<Stretch>& stretches, double share);
 
 }  // namespace cablefit
