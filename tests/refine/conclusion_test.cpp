@@ -53,6 +53,34 @@ TEST_CASE("two at once have to leave nothing", "[refine]") {
   CHECK_FALSE(why_not_both({event, 56, 1.1, before, all, floor}).empty());
 }
 
+/// The traps: a date explains a little of any hum, and nothing of logs that it should show in.
+TEST_CASE("an event closes its part of the gap, and that of logs after it", "[refine]") {
+  const Refinement& row = find_refinement("payload_change", Site::link);
+  const SimulatedGap none{0, 0, "not simulated"};
+  const auto reason = [&](double after, bool leaves_remainder, bool is_after, double closed) {
+    return why_not_added({row, 5, after, none, none, none, leaves_remainder, 3, is_after, closed});
+  };
+  CHECK(reason(5.1, false, false, 0.9).empty());  // unseen logs have no say
+  CHECK(reason(5.1, false, true, 0.9) ==
+        "the equations of unseen logs do not fit better with it (5 times the squared floor before, "
+        "5.1 after)");
+  CHECK(reason(4, true, true, 0.3).empty());
+  CHECK(reason(4.9, true, true, 0.03) ==
+        "a date explains 3 % of the gap only, and the rest stays unexplained");
+  CHECK(reason(4.9, false, true, 0.03).empty());
+}
+
+/// Noise that a controller feeds back moves a joint beyond the floor of its sensors.
+TEST_CASE("where the equations have nothing left a simulation may scatter", "[refine]") {
+  const Refinement& row = find_refinement("stribeck", Site::motor);
+  const SimulatedGap floor{1e-5, 0.1, ""}, before{5e-5, 0.5, ""}, little{5.1e-5, 0.51, ""},
+      worse{5.5e-5, 0.55, ""};
+  CHECK(why_not_added({row, 3, 1.05, before, little, floor}).empty());
+  CHECK_FALSE(why_not_added({row, 3, 1.05, before, worse, floor}).empty());
+  CHECK_FALSE(why_not_added({row, 3, 1.5, before, little, floor}).empty());
+  CHECK_FALSE(why_not_added({row, 3, 1.05, before, little, floor, true}).empty());
+}
+
 TEST_CASE("a simulation that shows no gap may scatter a little", "[refine]") {
   const Refinement& row = find_refinement("load_scale", Site::link);
   const SimulatedGap floor{1e-5, 0.1, ""}, before{1.05e-5, 0.105, ""}, little{1.07e-5, 0.107, ""},

@@ -51,6 +51,32 @@ TEST_CASE("nothing hidden: nothing named", "[refine][slow]") {
   CHECK(result.league.size() > 20);
 }
 
+/// An axis that is homed before each log has slipped in one of them only.
+TEST_CASE("a slip that ends with its log is named and sized", "[refine][slow]") {
+  HiddenLogs hidden = hidden_logs({"slip.transmission=1"}, 2);
+  const HiddenLogs nothing = hidden_logs({}, 2);
+  std::vector<LogSurvey>& train = hidden.logs.train;
+  const auto differ = [](const LogSurvey& a, const LogSurvey& b) {
+    return !std::equal(a.parts[0].channels.begin(), a.parts[0].channels.end(),
+                       b.parts[0].channels.begin(), [](const auto& x, const auto& y) {
+                         return x.min == y.min && x.max == y.max && x.noise == y.noise;
+                       });
+  };
+  std::size_t slipped = 0;
+  while (slipped < train.size() && !differ(train[slipped], nothing.logs.train[slipped])) ++slipped;
+  REQUIRE(slipped + 1 < train.size());
+  for (std::size_t k = slipped + 1; k < train.size(); ++k) train[k] = nothing.logs.train[k];
+  hidden.logs.test = nothing.logs.test;
+  const RefineResult result = refined(hidden);
+  INFO(result.reason);
+  REQUIRE(first_name(result) == "slip");
+  CHECK(result.effects[0].instance.ends_with_log);
+  CHECK(result.effects[0].instance.event_log == hidden.logs.blocked.size() + slipped);
+  CHECK(parameter(result, "slip").value == Approx(truth(hidden, "slip")).epsilon(0.05));
+  CHECK(result.rho_after < 1.2);
+  CHECK(result.models[0].joints[0].refinements.empty());  // over with the log
+}
+
 TEST_CASE("a hidden Stribeck friction is named, sized and closes the gap", "[refine][slow]") {
   const HiddenLogs hidden = hidden_logs({"stribeck.motor=1"});
   const RefineResult result = refined(hidden);

@@ -88,7 +88,8 @@ TEST_CASE("what a model has is read in its plain form where the values are those
   CHECK_FALSE(is_plain(instance_of("stribeck", Site::motor, {0.2, 0.1, 1.5})));
   CHECK(is_plain(instance_of("cogging", Site::motor, {0.2, 0.1, 0, 0, 32})));
   CHECK_FALSE(is_plain(instance_of("cogging", Site::motor, {0.2, 0.1, 0, 0.01, 32})));
-  CHECK_FALSE(is_plain(instance_of("creep", Site::transmission, {0.01, 3})));  // has only one form
+  CHECK_FALSE(
+      is_plain(instance_of("creep", Site::transmission, {0.01, 3, 0})));  // has only one form
   double dry = 0;
   for (const EffectInstance& has : model.joints.front().link)
     if (has.effect->dry != nullptr) dry = has.parameters.front().value;
@@ -170,7 +171,7 @@ TEST_CASE("logs of a blocked link alone refuse what none of them shows", "[refin
   const auto models = [&](std::string_view name, const std::vector<double>& values) {
     return with(hidden.models, instance_of(name, Site::transmission, values));
   };
-  CHECK(stage_of(models("creep", {0.01, 3}), hidden.logs).elastic_only);
+  CHECK(stage_of(models("creep", {0.01, 3, 0}), hidden.logs).elastic_only);
   CHECK_THROWS_WITH(stage_of(models("cable_damping", {1.0}), hidden.logs),
                     "the model has 'cable_damping' (transmission), which no log with the link "
                     "blocked shows; give moving logs too, or a model without it");
@@ -199,7 +200,8 @@ TEST_CASE("simulated data sets have what the model has", "[refine][kept]") {
   all.insert(all.end(), hidden.logs.train.begin(), hidden.logs.train.end());
   const BaseFit base = kept_base(with(hidden.models, has), hidden.logs).base;
   REQUIRE(base.design.added.size() == 1);
-  const BaseDraws draws(base.design, base.fit.x, all, [](const PartSurvey&) { return true; });
+  const BaseDraws draws(
+      base.design, base.fit.x, all, [](const PartSurvey&) { return true; }, 1);
   const KindLevels unfitted = draws.unfitted(1), fitted = draws.fitted(1, nullptr).fit.rms();
   for (std::size_t k = 0; k < kRowKinds; ++k) {
     INFO(effect << ": " << to_string(static_cast<RowKind>(k)));

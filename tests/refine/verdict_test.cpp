@@ -15,6 +15,7 @@ constexpr Eigen::Index kBlocks = 20;
 Candidate candidate(std::string_view name, Site site, double share, double unevenness = 0) {
   Candidate c;
   c.variant.refinement = &find_refinement(name, site);
+  c.x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(c.variant.refinement->n_linear()));
   c.gain = share;
   c.error = Eigen::ArrayXd::Constant(kBlocks, 1000 * (1 - share) / kBlocks);
   for (Eigen::Index b = 0; b < kBlocks; ++b) c.error(b) += (b % 2 == 0 ? 1 : -1) * unevenness;
@@ -71,6 +72,23 @@ TEST_CASE("an event has to beat its own null", "[refine]") {
   const std::vector<Candidate> candidates = {candidate("contact", Site::link, 0.09)};
   CHECK(judge_search(candidates, kGap, draws(0.002), {}, true).is_named);
   CHECK_FALSE(judge_search(candidates, kGap, draws(0.08), {}, true).is_named);
+}
+
+/// The trap: what wanders or hums has dates as good as the best one all over the logs.
+TEST_CASE("what passes has to stand out of other dates", "[refine]") {
+  std::vector<Candidate> candidates = {candidate("contact", Site::link, 0.09)};
+  candidates[0].elsewhere = 0.02;
+  CHECK(judge_search(candidates, kGap, draws(0.002), {}, true).is_named);
+  candidates[0].elsewhere = 0.03;
+  CHECK_FALSE(judge_search(candidates, kGap, draws(0.002), {}, true).is_named);
+}
+
+/// The trap: a date in sample gains what no law could.
+TEST_CASE("what chance gives a search of dates is taken off first", "[refine]") {
+  const std::vector<Candidate> candidates = {candidate("contact", Site::link, 0.42),
+                                             candidate("gravity_imbalance", Site::link, 0.4)};
+  CHECK(best_name(judge_search(candidates, kGap, draws(0.002), {}, true)) == "contact");
+  CHECK(best_name(judge_search(candidates, kGap, draws(0.1), {}, true)) == "gravity_imbalance");
 }
 
 TEST_CASE("a physical bound is not negotiable", "[refine]") {

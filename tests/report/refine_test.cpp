@@ -173,7 +173,8 @@ TEST_CASE("derived amplitudes stand among the parameters, and an event has its l
   r.effects.front().instance.refinement = &find_refinement("slip", Site::transmission);
   r.effects.front().instance.event_time = 7.25;
   j = json::parse(refine_json(r, kFiles));
-  CHECK(j["effects"][0]["event"] == json{{"log", "slow.csv"}, {"t", 7.25}});
+  CHECK(j["effects"][0]["event"] ==
+        json{{"log", "slow.csv"}, {"t", 7.25}, {"duration", "lasting"}});
 }
 
 TEST_CASE("what the model had is shown as given and as it is now, and is no new effect") {

@@ -22,13 +22,15 @@ inline constexpr double kVisibleGap = 1.1;
 /// What adding an effect did on logs that had no say.
 struct UnseenChange {
   const Refinement& row;
-  double rho_before = 0, rho_after = 0;  ///< equations
+  double rho_before = 0, rho_after = 0;  ///< equations of the unseen rows
   const SimulatedGap &before, &after, &floor;
   bool leaves_remainder = false;  ///< of the training rows, above kRemainder
   double sd_better = kUnbounded;  ///< of its gain, blocks of unseen rows paired
+  bool is_after_event = false;    ///< unseen rows that an event should show in
+  double closed = 1;              ///< share of the training rows' gap
 };
 /// Why it is refused, whatever it did to the equation error of the training logs; empty: it is
-/// not. Events are judged on their own log.
+/// not. Events are judged by the equations of rows after them.
 std::string why_not_added(const UnseenChange& change);
 
 /// The same of two effects at once, of which the first was refused alone. A pair of the catalogue

@@ -5,6 +5,7 @@
 
 #include "cablefit/refine/conclusion.hpp"
 #include "cablefit/refine/fit_bias.hpp"
+#include "cablefit/refine/golden.hpp"
 #include "cablefit/refine/refined_model.hpp"
 #include "cablefit/refine/verdict.hpp"
 
@@ -14,6 +15,22 @@ namespace {
 // Tensions and stiffness that columns are made of were those of a model without the effect.
 constexpr int kRelinearisations = 3;
 
+/// Fitted again and again, each time with what follows from the values before.
+std::optional<BlockFit> settled_fit(const RefineBench& bench, const KindLevels& levels, int rounds,
+                                    Design& design, Design* test) {
+  std::optional<BlockFit> fit;
+  for (int round = 0; round < rounds; ++round) {
+    if (round > 0) {
+      design = relinearised(design, fit->x);
+      if (test != nullptr) *test = relinearised(*test, fit->x);
+    }
+    fit = fit_blocks(block_grams(design.rows, design.stretches, bench.scan.block_seconds), levels,
+                     false);
+    if (!fit) return {};
+  }
+  return fit;
+}
+
 /// The state with one more effect; nothing when the rows become singular.
 std::optional<RefineState> with_candidate(const RefineBench& bench, const RefineState& state,
                                           const Search& found, const Candidate& winner) {
@@ -22,22 +39,43 @@ std::optional<RefineState> with_candidate(const RefineBench& bench, const Refine
   next.design = with_variant(state.design, winner.variant, found.fit.x);
   next.test = with_variant(state.test, winner.variant, found.fit.x);
   next.levels = found.levels;
-  std::optional<BlockFit> fit;
-  for (int round = 0; round < kRelinearisations; ++round) {
-    if (round > 0) {
-      next.design = relinearised(next.design, fit->x);
-      next.test = relinearised(next.test, fit->x);
-    }
-    fit = fit_blocks(block_grams(next.design.rows, next.design.stretches, bench.scan.block_seconds),
-                     next.levels, false);
-    if (!fit) return {};
-  }
+  const auto fit = settled_fit(bench, next.levels, kRelinearisations, next.design, &next.test);
+  if (!fit) return {};
   next.x = fit->x;
   next.rho = rho_of(*fit, bench.floor);
   next.unseen = gap_of(next.test, next.x, bench.test_floor, bench.scan.block_seconds);
   next.simulated =
       simulated_gap(models_with(next.design, next.x), bench.unseen, bench.options.threads);
   return next;
+}
+
+/// The same where the effect's cables follow from coefficients that are fitted with it: those that
+/// the search had are of a model without it, and its shape is then off by some per cent.
+std::optional<RefineState> with_own_coefficients(const RefineBench& bench, const RefineState& state,
+                                                 const Search& found, Candidate& winner) {
+  constexpr double kAround = 0.1;
+  constexpr int kSettling = 8;
+  if (!applies(state.design, winner.variant)) return {};
+  Design design = with_variant(state.design, winner.variant, found.fit.x);
+  auto fit = settled_fit(bench, found.levels, kSettling, design, nullptr);
+  for (std::size_t i = 0; fit && i < winner.variant.shape.size(); ++i) {
+    if (!is_free(winner.variant, i)) continue;
+    double& value = winner.variant.shape[i];
+    const auto rho_with = [&](double other) {
+      design.added.back().shape[i] = other;
+      if (fit) design = relinearised(design, fit->x);
+      if (fit) fit = settled_fit(bench, found.levels, kRelinearisations, design, nullptr);
+      return fit ? rho_of(*fit, bench.floor) : kUnbounded;
+    };
+    value = golden((1 - kAround) * value, (1 + kAround) * value, rho_with);
+    rho_with(value);
+  }
+  if (!fit) return {};
+  const Eigen::VectorXd own = fit->x.head(state.design.n_columns());
+  RefineState there = state;
+  there.design = relinearised(state.design, own);
+  there.test = relinearised(state.test, own);
+  return with_candidate(bench, there, found, winner);
 }
 
 RefineEvidence evidence_of(const RefineBench& bench, const RefineState& before,
@@ -73,6 +111,12 @@ bool is_at_floor(const RefineBench& bench, const RefineState& state) {
   return is_kept_base ? state.rho < kNoGap : state.rho <= 1;
 }
 
+/// Of an event in the last log only the unseen logs can say whether it outlasted that one.
+bool may_have_ended(const RefineBench& bench, const RefineState& state, const Variant& variant) {
+  return variant.refinement->lasts() && bench.held_back == 0 &&
+         variant.event_log == state.design.stretches.back().log;
+}
+
 /// Nothing: nothing is named.
 std::optional<Trial> try_next(RefineBench& bench, const RefineState& state, bool is_first,
                               RefineResult* first_result) {
@@ -91,8 +135,14 @@ std::optional<Trial> try_next(RefineBench& bench, const RefineState& state, bool
   trial.winner = refined_shape({state.design, found.grams, found.fit, found.levels}, bench.scan,
                                *trial.judgement.best);
   trial.judgement.best = nullptr;  // of the search, which ends here
-  auto next = with_candidate(bench, state, found, trial.winner);
+  auto next = trial.winner.variant.refinement->change_again != nullptr
+                  ? with_own_coefficients(bench, state, found, trial.winner)
+                  : with_candidate(bench, state, found, trial.winner);
   if (!next) return {};
+  if (may_have_ended(bench, state, trial.winner.variant) && next->unseen.rho > state.unseen.rho) {
+    trial.winner.variant.ends_with_log = true;
+    next = with_candidate(bench, state, found, trial.winner);
+  }
   trial.after = std::move(*next);
   return trial;
 }
@@ -119,6 +169,12 @@ double sd_better(const RefineBench& bench, const RefineState& before, const Refi
   return paired(error(before), error(after)).in_sd();
 }
 
+/// Whether the unseen rows should show an event.
+bool is_after_event(const RefineBench& bench, const Variant& variant) {
+  const bool is_held_out = bench.held_back > 0;
+  return variant.refinement->lasts() && (is_held_out || !variant.ends_with_log);
+}
+
 UnseenChange change_of(const RefineBench& bench, const Refinement& row, const RefineState& before,
                        const RefineState& after, const SimulatedGap& simulated_before,
                        const SimulatedGap& simulated_after) {
@@ -129,7 +185,9 @@ UnseenChange change_of(const RefineBench& bench, const Refinement& row, const Re
           simulated_after,
           bench.simulation_floor,
           after.rho > kRemainder,
-          sd_better(bench, before, after)};
+          sd_better(bench, before, after),
+          is_after_event(bench, after.design.added.back()),
+          (before.rho - after.rho) / std::max(1e-9, before.rho - 1)};
 }
 
 UnseenChange change_of(const RefineBench& bench, const Refinement& row, const RefineState& before,
@@ -144,11 +202,24 @@ SimulatedGap simulated_best(const RefineBench& bench, const RefineState& state,
   return better ? without_bias(bench, state, *bias).simulated : state.simulated;
 }
 
+/// Whether the rows fit as well with the last effect's coefficients at 0: what it stood for went
+/// into what others follow from when all was fitted together.
+bool carries_nothing(const RefineBench& bench, const RefineState& after) {
+  constexpr double kNothing = 0.005;  // of the squared residual
+  const Eigen::Index n = n_linear(after.design.added.back());
+  if (n == 0) return false;
+  Eigen::VectorXd without = after.x;
+  without.tail(n).setZero();
+  const double rho = gap_of(after.design, without, bench.floor, bench.scan.block_seconds).rho;
+  return rho < (1 + kNothing) * after.rho;
+}
+
 /// Reason against a step; empty: none. Where the unseen equations are sure of it but the simulation
 /// is not, the bias of either fit may hide what the effect is worth: the simulations without it
 /// decide.
 std::string why_not(const RefineBench& bench, const Refinement& row, const RefineState& before,
                     const RefineState& after, bool is_first) {
+  if (carries_nothing(bench, after)) return "it carries nothing once all is fitted with it";
   const UnseenChange change = change_of(bench, row, before, after);
   const std::string reason = why_not_added(change);
   const bool both_known = change.before.known() && change.after.known();
@@ -211,23 +282,31 @@ void name_first_again(RefineBench& bench, const RefineState& first, RefineState&
   const auto alone = with_candidate(bench, first, found, second);
   if (!alone) return;
   const auto trial = try_next(bench, *alone, false, nullptr);
-  if (!trial) return;
+  // A tie goes to what is named beside the other, or alone.
+  constexpr double kTie = 1.01;
+  const auto is_tie = [&](const RefineState& other) {
+    return other.rho <= kTie * state.rho && other.unseen.rho <= kTie * state.unseen.rho;
+  };
+  Judgement kept;
+  kept.chance = {result.effects[1].evidence.p_value, result.effects[1].evidence.is_fitted_tail};
+  kept.inclusion = result.effects[1].evidence.inclusion;
+  kept.rivals = result.effects[1].rivals;
+  if (!trial) {
+    if (!is_tie(*alone)) return;
+    result.effects = {effect_of(bench, first, *alone, kept)};
+    result.steps = {step_of(bench, {kept, second, *alone}, "")};
+    state = *alone;
+    return;
+  }
   const Refinement& row = *trial->winner.variant.refinement;
   NamedEffect& named = result.effects.front();
   if (&row == state.design.added[bench.n_kept].refinement) {
     named.rivals = trial->judgement.rivals;  // fewer: the second no longer blurs it
     return;
   }
-  // A tie goes to what is named beside the other.
-  constexpr double kTie = 1.01;
-  if (trial->after.rho > kTie * state.rho || trial->after.unseen.rho > kTie * state.unseen.rho ||
-      !why_not_added(change_of(bench, row, *alone, trial->after)).empty())
+  if (!is_tie(trial->after) || !why_not_added(change_of(bench, row, *alone, trial->after)).empty())
     return;
   // In the order of the design: what was second alone, then the new one beside it.
-  Judgement kept;
-  kept.chance = {result.effects[1].evidence.p_value, result.effects[1].evidence.is_fitted_tail};
-  kept.inclusion = result.effects[1].evidence.inclusion;
-  kept.rivals = result.effects[1].rivals;
   result.effects = {effect_of(bench, first, *alone, kept),
                     effect_of(bench, *alone, trial->after, trial->judgement)};
   result.steps = {step_of(bench, {kept, second, *alone}, ""), step_of(bench, *trial, "")};

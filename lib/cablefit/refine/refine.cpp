@@ -130,7 +130,7 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
   while (result.effects.size() < options.most_effects && add_next_effect(bench, state, result)) {
     if (result.effects.size() == 2) {
       name_first_again(bench, first, state, result);
-      if (state.rho >= kNoGap) {
+      if (state.rho >= kNoGap && result.effects.size() == 2) {
         begin_otherwise(bench, first, state, result);
         name_first_again(bench, first, state, result);
       }

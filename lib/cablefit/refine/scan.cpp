@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "cablefit/base/parallel.hpp"
 #include "cablefit/refine/elastic_stage.hpp"
+#include "cablefit/refine/golden.hpp"
 #include "cablefit/refine/levels.hpp"
 #include "cablefit/refine/quick_look.hpp"
 
@@ -16,7 +18,6 @@ namespace {
 // is off by a per cent passes for the effect.
 constexpr double kTolerance = 1e-4;
 constexpr double kEventMargin = 1.0;  // s, to the ends of a log
-constexpr int kGoldenSteps = 9;       // 0.618^9 = 1 % of a cell
 
 /// `x`: of the variant's own columns.
 bool is_out_of_bounds(const Refinement& row, const Eigen::VectorXd& x) {
@@ -46,14 +47,16 @@ std::optional<Candidate> try_variant(const ScanStart& start, const ScanSettings&
   if (!grams) return {};
   const Refinement& row = *variant.refinement;
   const Eigen::Index n = n_linear(variant);
-  const auto fit = fit_blocks(*grams, start.levels, !row.is_event, {kTolerance, n});
+  const bool in_sample = row.passes();
+  const auto fit = fit_blocks(*grams, start.levels, !in_sample, {kTolerance, n});
   if (!fit) return {};
   Candidate c;
   c.variant = std::move(variant);
   c.x = fit->x;
   c.rms = fit->rms();
-  c.error = row.is_event ? fit->in_sample : fit->held_out;
-  const Eigen::ArrayXd& before = row.is_event ? start.fit.in_sample : start.fit.held_out;
+  c.error = in_sample ? fit->in_sample : fit->held_out;
+  const Eigen::ArrayXd& before = in_sample ? start.fit.in_sample : start.fit.held_out;
+  if (!std::isfinite(c.error.sum())) return {};  // one block alone determines it
   c.gain = 1 - c.error.sum() / before.sum();
   const Eigen::Index dry = row.takes_dry_friction ? dry_column(start.design, row) : -1;
   const bool too_dry = dry >= 0 && n > 0 && fit->x(fit->x.size() - n) > fit->x(dry);
@@ -76,17 +79,30 @@ std::vector<std::vector<double>> grid_points(const Refinement& row, const LogSca
   return points;
 }
 
+double seconds_of(const Stretch& stretch) {
+  return static_cast<double>(stretch.recording.theta.size()) * stretch.recording.period;
+}
+
 /// Dates at which an event may have happened: inside the moving logs.
 std::vector<std::pair<std::size_t, double>> dates(const Design& design, double step) {
   std::vector<std::pair<std::size_t, double>> all;
   for (const Stretch& stretch : design.stretches) {
     if (stretch.blocked) continue;
-    const double seconds =
-        static_cast<double>(stretch.recording.theta.size()) * stretch.recording.period;
-    for (double t = kEventMargin; t < seconds - kEventMargin; t += step)
+    for (double t = kEventMargin; t < seconds_of(stretch) - kEventMargin; t += step)
       all.emplace_back(stretch.log, stretch.t0 + t);
   }
   return all;
+}
+
+/// A step to either side, as far as an event may have happened.
+std::pair<double, double> dates_around(const Design& design, const Variant& variant, double step) {
+  double low = kUnbounded, high = -kUnbounded;
+  for (const Stretch& stretch : design.stretches) {
+    if (stretch.log != variant.event_log) continue;
+    low = std::min(low, stretch.t0 + kEventMargin);
+    high = std::max(high, stretch.t0 + seconds_of(stretch) - kEventMargin);
+  }
+  return {std::max(low, variant.event_time - step), std::min(high, variant.event_time + step)};
 }
 
 /// What lasts changes all rows after it, so that its date is known from far; what passes does not.
@@ -102,8 +118,12 @@ std::vector<Variant> variants_of(const Refinement& row, const Design& design, do
       all.push_back({&row, shape, 0, 0, false});
       continue;
     }
-    for (const auto& [log, time] : dates(design, event_step))
+    for (const auto& [log, time] : dates(design, event_step)) {
       all.push_back({&row, shape, log, time, false});
+      if (!row.lasts() || log == design.stretches.back().log) continue;
+      all.push_back(all.back());
+      all.back().ends_with_log = true;
+    }
   }
   return all;
 }
@@ -137,6 +157,24 @@ void keep_better(std::optional<Looked>& best, std::optional<Looked> other) {
     best = std::move(other);
 }
 
+/// Least squared error of the dates in each block of each log.
+using ErrorsByBlock = std::map<std::pair<std::size_t, int>, double>;
+
+void keep_least(ErrorsByBlock& errors, const Looked& looked, double block_seconds) {
+  const Variant& variant = looked.variant;
+  const auto block = static_cast<int>(std::floor(variant.event_time / block_seconds));
+  const auto at = errors.try_emplace({variant.event_log, block}, looked.error).first;
+  at->second = std::min(at->second, looked.error);
+}
+
+double median_error(const ErrorsByBlock& errors) {
+  std::vector<double> sorted;
+  for (const auto& [block, error] : errors) sorted.push_back(error);
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  return *middle;
+}
+
 /// The plain form at the same shape; nothing where the shape is another one.
 std::optional<Variant> plain_of(Variant variant) {
   const Refinement& row = *variant.refinement;
@@ -148,74 +186,6 @@ std::optional<Variant> plain_of(Variant variant) {
         variant.shape[i] != row.shape[i].canonical)
       return {};
   return variant;
-}
-
-/// Of two forms of one law the plain one, unless the held-out blocks agree on the other.
-std::optional<Candidate> simpler(std::optional<Candidate> plain, std::optional<Candidate> full) {
-  constexpr double kAgree = 2;  // sd of the paired blocks' difference
-  if (!plain || !full) return plain ? plain : full;
-  if (plain->refused.empty() != full->refused.empty()) return full->refused.empty() ? full : plain;
-  const Paired difference = paired(plain->error, full->error);
-  return difference.sum > kAgree * difference.se ? full : plain;
-}
-
-/// Of variants with as many parameters, all fitted, the one that fits best; the plain form apart.
-std::optional<Candidate> best_fitting(const ScanStart& start, const ScanSettings& settings,
-                                      const QuickLook& look, const std::vector<Variant>& variants) {
-  std::optional<Looked> plain, full;
-  for (const Variant& variant : variants) {
-    const auto products = look.products(variant_columns(start.design, variant, start.fit.x));
-    keep_better(full, looked_at(look, products, variant));
-    if (const auto same = plain_of(variant)) keep_better(plain, looked_at(look, products, *same));
-  }
-  const auto tried = [&](const std::optional<Looked>& looked) {
-    return looked ? try_variant(start, settings, looked->variant) : std::nullopt;
-  };
-  return simpler(tried(plain), tried(full));
-}
-
-/// The same of variants that replace rows.
-std::optional<Candidate> best_replacing(const ScanStart& start, const ScanSettings& settings,
-                                        const std::vector<Variant>& variants) {
-  std::optional<Candidate> best;
-  for (const Variant& variant : variants) {
-    auto candidate = try_variant(start, settings, variant);
-    if (candidate && (!best || is_better(*candidate, *best))) best = std::move(candidate);
-  }
-  return best;
-}
-
-std::optional<Candidate> best_variant(const ScanStart& start, const ScanSettings& settings,
-                                      const QuickLook& look, const Refinement& row) {
-  std::vector<Variant> variants = variants_of(row, start.design, date_step(row, settings));
-  if (variants.empty()) return {};  // no log is long enough for a date
-  if (replaces_rows(variants.front())) return best_replacing(start, settings, variants);
-  auto best = best_fitting(start, settings, look, variants);
-  if (!row.takes_dry_friction) return best;
-  for (Variant& variant : variants) variant.is_plain = true;
-  return simpler(best_replacing(start, settings, variants), std::move(best));
-}
-
-/// Minimum of `error` over [low, high] by golden section (Kiefer 1953).
-template <typename Error>
-double golden(double low, double high, Error error) {
-  const double ratio = (std::sqrt(5.0) - 1) / 2;
-  double a = high - ratio * (high - low), b = low + ratio * (high - low);
-  double at_a = error(a), at_b = error(b);
-  for (int i = 0; i < kGoldenSteps; ++i) {
-    if (at_a < at_b) {
-      high = b;
-      b = a;
-      at_b = at_a;
-      at_a = error(a = high - ratio * (high - low));
-    } else {
-      low = a;
-      a = b;
-      at_a = at_b;
-      at_b = error(b = low + ratio * (high - low));
-    }
-  }
-  return at_a < at_b ? a : b;
 }
 
 /// A step of the grid to either side, as far as the grid goes.
@@ -255,15 +225,71 @@ Variant moved_shape(const ScanStart& start, const ScanSettings& settings, const 
       });
     }
     if (!row.is_event) continue;
-    const double step = date_step(row, settings);
-    variant.event_time =
-        golden(variant.event_time - step, variant.event_time + step, [&](double time) {
-          Variant other = variant;
-          other.event_time = time;
-          return error_with(other);
-        });
+    const auto [from, to] = dates_around(start.design, variant, date_step(row, settings));
+    variant.event_time = golden(from, to, [&](double time) {
+      Variant other = variant;
+      other.event_time = time;
+      return error_with(other);
+    });
   }
   return variant;
+}
+
+/// Of two forms of one law the plain one, unless the held-out blocks agree on the other.
+std::optional<Candidate> simpler(std::optional<Candidate> plain, std::optional<Candidate> full) {
+  constexpr double kAgree = 2;  // sd of the paired blocks' difference
+  if (!plain || !full) return plain ? plain : full;
+  if (plain->refused.empty() != full->refused.empty()) return full->refused.empty() ? full : plain;
+  const Paired difference = paired(plain->error, full->error);
+  return difference.sum > kAgree * difference.se ? full : plain;
+}
+
+/// Of variants with as many parameters, all fitted, the one that fits best; the plain form apart.
+std::optional<Candidate> best_fitting(const ScanStart& start, const ScanSettings& settings,
+                                      const QuickLook& look, const std::vector<Variant>& variants) {
+  std::optional<Looked> plain, full;
+  ErrorsByBlock errors;
+  for (const Variant& variant : variants) {
+    const auto products = look.products(variant_columns(start.design, variant, start.fit.x));
+    const auto looked = looked_at(look, products, variant);
+    if (looked) keep_least(errors, *looked, settings.block_seconds);
+    keep_better(full, looked);
+    if (const auto same = plain_of(variant)) keep_better(plain, looked_at(look, products, *same));
+  }
+  const auto tried = [&](const std::optional<Looked>& looked) -> std::optional<Candidate> {
+    if (!looked) return {};
+    // Blocks that a coarse date is wrong in would speak against what lasts.
+    const bool lasts = looked->variant.refinement->lasts();
+    return try_variant(
+        start, settings,
+        lasts ? moved_shape(start, settings, look, looked->variant) : looked->variant);
+  };
+  auto best = simpler(tried(plain), tried(full));
+  if (best && best->variant.refinement->passes())
+    best->elsewhere = 1 - median_error(errors) / start.fit.in_sample.sum();
+  return best;
+}
+
+/// The same of variants that replace rows.
+std::optional<Candidate> best_replacing(const ScanStart& start, const ScanSettings& settings,
+                                        const std::vector<Variant>& variants) {
+  std::optional<Candidate> best;
+  for (const Variant& variant : variants) {
+    auto candidate = try_variant(start, settings, variant);
+    if (candidate && (!best || is_better(*candidate, *best))) best = std::move(candidate);
+  }
+  return best;
+}
+
+std::optional<Candidate> best_variant(const ScanStart& start, const ScanSettings& settings,
+                                      const QuickLook& look, const Refinement& row) {
+  std::vector<Variant> variants = variants_of(row, start.design, date_step(row, settings));
+  if (variants.empty()) return {};  // no log is long enough for a date
+  if (replaces_rows(variants.front())) return best_replacing(start, settings, variants);
+  auto best = best_fitting(start, settings, look, variants);
+  if (!row.takes_dry_friction) return best;
+  for (Variant& variant : variants) variant.is_plain = true;
+  return simpler(best_replacing(start, settings, variants), std::move(best));
 }
 
 /// The other form of the same law, to begin with at the same shape.

@@ -13,10 +13,11 @@ namespace cablefit {
 struct Candidate {
   Variant variant;
   double gain = 0;       ///< share of the squared held-out error that it removes; may be negative
-  Eigen::ArrayXd error;  ///< per block: weighted squared error, held out (events: in sample)
+  Eigen::ArrayXd error;  ///< per block: weighted squared error, held out (what passes: in sample)
   Eigen::VectorXd x;     ///< all columns, the candidate's last
   KindLevels rms{};      ///< N m, left
   std::string refused;   ///< why it is no candidate, "a negative friction"; empty: it is one
+  double elsewhere = 0;  ///< of what passes: the gain that half of the other blocks' dates exceed
 };
 
 struct ScanSettings {
@@ -34,7 +35,7 @@ struct ScanStart {
 };
 
 /// One candidate per applicable row, in the order of the table; rows in `without` are left out.
-/// Events are judged in sample: they lie in one block.
+/// What passes is judged in sample: it lies in one block.
 std::vector<Candidate> scan(const ScanStart& start, const ScanSettings& settings,
                             const std::vector<const Refinement*>& without);
 

@@ -26,7 +26,7 @@ Eigen::Index first_sample(const Variant& variant, const Stretch& stretch, double
   const Refinement& row = *variant.refinement;
   if (!row.is_event) return 0;
   if (stretch.log < variant.event_log) return n;
-  if (stretch.log > variant.event_log) return row.lasts() ? 0 : n;
+  if (stretch.log > variant.event_log) return row.lasts() && !variant.ends_with_log ? 0 : n;
   const double samples = std::floor((variant.event_time - stretch.t0) / step);
   return std::clamp<Eigen::Index>(static_cast<Eigen::Index>(samples), 0, n);
 }

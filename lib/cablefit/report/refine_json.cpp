@@ -64,7 +64,12 @@ Json evidence_json(const RefineEvidence& evidence) {
 /// When it happened; null for what is always there.
 Json event_json(const RefineResult& result, const RefinementInstance& instance) {
   if (!instance.refinement->is_event) return nullptr;
-  return Json{{"log", result.inputs.at(instance.event_log).path}, {"t", instance.event_time}};
+  const bool passes = instance.refinement->passes();
+  return Json{{"log", result.inputs.at(instance.event_log).path},
+              {"t", instance.event_time},
+              {"duration", passes                   ? "passing"
+                           : instance.ends_with_log ? "end of log"
+                                                    : "lasting"}};
 }
 
 Json effect_json(const RefineResult& result, const NamedEffect& effect) {

@@ -146,8 +146,9 @@ void add_effect_lines(const RefineResult& result, std::vector<SummaryLine>& line
     const Refinement& row = *effect.instance.refinement;
     std::string text = fmt::format("{}: {}; {}", row.name, row.equation, parameters_text(effect));
     if (row.is_event)
-      text += fmt::format("; at {} s of {}", number(effect.instance.event_time),
-                          result.inputs.at(effect.instance.event_log).path);
+      text += fmt::format("; at {} s of {}{}", number(effect.instance.event_time),
+                          result.inputs.at(effect.instance.event_log).path,
+                          effect.instance.ends_with_log ? ", until that log ends" : "");
     if (effect.torque_rms > 0)
       text += fmt::format("; carries {} {} rms", number(effect.torque_rms),
                           torque_unit(result.linear_motion));
