@@ -83,6 +83,15 @@ TEST_CASE("what passes has to stand out of other dates", "[refine]") {
   CHECK_FALSE(judge_search(candidates, kGap, draws(0.002), {}, true).is_named);
 }
 
+/// The trap: a log begins unlike the simulated ones.
+TEST_CASE("without a gap nothing happened", "[refine]") {
+  const std::vector<Candidate> candidates = {candidate("contact", Site::link, 0.02)};
+  CHECK(judge_search(candidates, {1000, 900}, draws(0.002), {}, true).is_named);
+  CHECK_FALSE(judge_search(candidates, {1000, 960}, draws(0.002), {}, true).is_named);
+  const std::vector<Candidate> lasting = {candidate("stribeck", Site::motor, 0.02)};
+  CHECK(judge_search(lasting, {1000, 960}, draws(0.002), {}, true).is_named);
+}
+
 /// The trap: a date in sample gains what no law could.
 TEST_CASE("what chance gives a search of dates is taken off first", "[refine]") {
   const std::vector<Candidate> candidates = {candidate("contact", Site::link, 0.42),

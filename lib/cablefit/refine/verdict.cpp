@@ -8,6 +8,7 @@
 
 #include "cablefit/base/random.hpp"
 #include "cablefit/refine/chance_tail.hpp"
+#include "cablefit/refine/conclusion.hpp"
 #include "cablefit/refine/levels.hpp"
 
 namespace cablefit {
@@ -106,40 +107,47 @@ Rival rival_of(const Candidate& c, const SquaredGap& gap) {
   return rival;
 }
 
-/// What decides whether a gain is beyond chance. An event may not win by what any date would have
-/// won: each occurrence has its own null.
+/// What decides whether a gain is beyond chance. An event may not win by what any date of any event
+/// would have won, and only where there is a gap: some log begins or ends unlike the simulated
+/// ones.
 class Significance {
  public:
   Significance(const std::vector<NullDraw>& draws, const SquaredGap& gap,
                const RefineOptions& options, bool is_first)
-      : chance_(largest_gains(draws)), gap_(gap), options_(options), is_first_(is_first) {}
+      : chance_(largest_gains(draws)), gap_(gap), options_(options), is_first_(is_first) {
+    for (std::size_t k = 0; k < draws.size(); ++k)
+      of_events_.push_back(std::max(chance_[1][k], chance_[2][k]));
+  }
 
-  ChanceTail tail(const Candidate& c) const { return tail_of_largest(chance_of(c), c.gain); }
+  ChanceTail tail(const Candidate& c) const { return tail_of_largest(to_beat(c), c.gain); }
 
   bool holds(const Candidate& c) const {
-    const std::vector<double>& chance = chance_of(c);
+    const Refinement& row = *c.variant.refinement;
+    const std::vector<double>& chance = to_beat(c);
     const double most = chance.empty() ? 0 : *std::max_element(chance.begin(), chance.end());
     const double least =
         is_first_ ? options_.materiality : std::max(kNextMateriality, options_.materiality);
     if (!is_first_ && c.gain * gap_.total < kNextShare * gap_.above()) return false;
-    if (c.variant.refinement->passes() && c.gain < kStandsOut * c.elsewhere) return false;
+    if (row.is_event && gap_.total < kNoGap * gap_.floor) return false;
+    if (row.passes() && c.gain < kStandsOut * c.elsewhere) return false;
     return c.gain >= least && c.gain > kSafety * most && tail(c).p <= options_.significance;
   }
 
   /// The gain less what a search of its kind gains by chance on average.
   double beyond_chance(const Candidate& c) const {
-    const std::vector<double>& chance = chance_of(c);
+    const std::vector<double>& chance = chance_[occurrence_of(*c.variant.refinement)];
     if (chance.empty()) return c.gain;
     return c.gain -
            std::accumulate(chance.begin(), chance.end(), 0.0) / static_cast<double>(chance.size());
   }
 
  private:
-  const std::vector<double>& chance_of(const Candidate& c) const {
-    return chance_[occurrence_of(*c.variant.refinement)];
+  const std::vector<double>& to_beat(const Candidate& c) const {
+    return c.variant.refinement->is_event ? of_events_ : chance_[0];
   }
 
   LargestGains chance_;
+  std::vector<double> of_events_;  ///< of every draw
   const SquaredGap& gap_;
   const RefineOptions& options_;
   bool is_first_;
