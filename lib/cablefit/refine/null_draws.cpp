@@ -30,6 +30,13 @@ void move_aside(Twin& twin, Random& random) {
   }
 }
 
+/// Whether a controller of the rig moves it; else it follows what was measured already.
+bool has_reference(const Twin& twin) {
+  return std::any_of(twin.plans.begin(), twin.plans.end(), [](const LogPlan& plan) {
+    return plan.rig.controller && plan.has(Channel::theta_ref, 0);
+  });
+}
+
 /// rms of what the rows see of an acceleration.
 double rms_acceleration(const Eigen::ArrayXd& theta, double period, const Smoothing& smoothing) {
   const Eigen::ArrayXd rough = apply(gaussian_curvature(smoothing.signals, period), theta);
@@ -95,7 +102,7 @@ NullBench::NullBench(std::span<const Model> models, std::span<const LogSurvey> l
       return run_twin(twin.twin, {}, calibration, threads);
     };
     auto motions = run(false);
-    if (!move_alike(twin.twin, motions, smoothing)) {
+    if (has_reference(twin.twin) && !move_alike(twin.twin, motions, smoothing)) {
       motions = run(true);
       parts_->follows = true;
     }
