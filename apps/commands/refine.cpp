@@ -87,7 +87,7 @@ void add_search_options(CLI::App& app, RefineOptions& refine) {
   add_whole(
       app, "--draws", "N", {kLeastDraws, kMostDraws},
       [&refine](long n) { refine.n_draws = static_cast<std::size_t>(n); },
-      "simulated data sets without any effect: what a search finds by chance [24]");
+      "simulated data sets without any effect, 4 or more: what a search finds by chance [24]");
   add_number(
       app, "--materiality", "PERCENT", {0, 100},
       [&refine](double percent) { refine.materiality = percent / 100; },

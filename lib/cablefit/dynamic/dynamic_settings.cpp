@@ -134,7 +134,9 @@ void choose_settings(DynamicJob& job, DynamicPreload& preload, const ElasticResu
   std::string reason = preload.delay.reason;
   if (hold != TorqueHold::automatic) {
     const bool held = hold == TorqueHold::zoh;
-    if (preload.delay.estimated && held != preload.delay.held && preload.delay.warning.empty())
+    if (preload.delay.undecided)
+      preload.delay.warning.clear();
+    else if (preload.delay.estimated && held != preload.delay.held && preload.delay.warning.empty())
       preload.delay.warning = fmt::format("torque hold {} was given, but {}", held ? "zoh" : "none",
                                           preload.delay.reason);
     preload.delay.held = held;

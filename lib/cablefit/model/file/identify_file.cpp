@@ -42,7 +42,7 @@ Model read_identify_file(const JsonNode& root, const Wanted& wanted, std::string
   if (node->is_null())
     throw node->error(
         fmt::format("the dynamics of preload {} were not identified", cablefit::quoted(name)),
-        "give `cablefit identify` moving logs with tau as well");
+        "run `cablefit identify` on moving logs with tau, and see what it says of them");
   Model model = read_model_file(*node, {"", wanted.model}, choice);
   *choice =
       fmt::format("{}, model '{}'", describe(preloads, name, !wanted.preload.empty()), model.name);

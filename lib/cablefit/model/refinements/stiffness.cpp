@@ -46,7 +46,7 @@ Transmission linear_pairs(const Transmission& transmission) {
 Refinement stiffness_order() {
   return {.name = "stiffness_order",
           .site = Site::transmission,
-          .equation = "f = sum_j K_j l^(j+1) with n more terms",
+          .equation = "f = sum_j K_j l^(j+1), `order` more terms than the model has",
           .signature =
               "smooth, largest at the peak load; a dead zone and preload show near zero "
               "deflection instead",
