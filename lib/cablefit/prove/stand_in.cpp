@@ -18,12 +18,6 @@ constexpr int kCommandsPerRow = 8;    // of a torque that is not held
 constexpr double kWidestBand = 0.4;   // of the rate, for the low-pass
 constexpr int kFilterOrder = 4;
 
-bool has_reference(const LogPlan& plan) {
-  for (int joint = 0; joint < plan.rig.n_joints(); ++joint)
-    if (!plan.has(Channel::theta_ref, joint)) return false;
-  return plan.rig.controller.has_value();
-}
-
 /// A PD controller of kBandwidth, as damped as the motor's inertia allows.
 Controller stand_in(const LeastInertias& inertias, double period) {
   const double omega = 2 * std::numbers::pi * kBandwidth;
@@ -83,6 +77,12 @@ void take_inputs(const LogPlan& plan, Channel channel, const TwinStretch& stretc
 }
 
 }  // namespace
+
+bool has_reference(const LogPlan& plan) {
+  for (int joint = 0; joint < plan.rig.n_joints(); ++joint)
+    if (!plan.has(Channel::theta_ref, joint)) return false;
+  return plan.rig.controller.has_value();
+}
 
 std::string choose_controller(const Model& model, const LogSurvey& log, const TwinDrive& drive,
                               TwinStretch& stretch) {

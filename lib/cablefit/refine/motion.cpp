@@ -134,4 +134,13 @@ std::vector<JointState> joint_states(const SmoothMotion& m, const Model& model) 
   return states;
 }
 
+double most_of(std::vector<double> values) {
+  if (values.empty()) return 0;
+  constexpr double kMost = 0.99;
+  const auto last = static_cast<double>(values.size() - 1);
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(kMost * last);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
 }  // namespace cablefit

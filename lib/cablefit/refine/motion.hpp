@@ -53,4 +53,7 @@ std::vector<Eigen::Index> moving_rows(const Eigen::ArrayXd& speed, double least_
 /// What the model's cables do at every sample, beside the motion.
 std::vector<JointState> joint_states(const SmoothMotion& motion, const Model& model);
 
+/// What all but the largest hundredth of the values stay below; 0 without values.
+double most_of(std::vector<double> values);
+
 }  // namespace cablefit

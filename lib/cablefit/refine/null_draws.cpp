@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/prove/stand_in.hpp"
 #include "cablefit/prove/twin.hpp"
 #include "cablefit/refine/blocked_twin.hpp"
 #include "cablefit/refine/elastic_stage.hpp"
@@ -28,13 +29,6 @@ void move_aside(Twin& twin, Random& random) {
     stretch.input.theta0.array() += aside;
     if (!stretch.link_blocked) stretch.input.q0.array() += aside;
   }
-}
-
-/// Whether a controller of the rig moves it; else it follows what was measured already.
-bool has_reference(const Twin& twin) {
-  return std::any_of(twin.plans.begin(), twin.plans.end(), [](const LogPlan& plan) {
-    return plan.rig.controller && plan.has(Channel::theta_ref, 0);
-  });
 }
 
 /// rms of what the rows see of an acceleration.
@@ -102,7 +96,9 @@ NullBench::NullBench(std::span<const Model> models, std::span<const LogSurvey> l
       return run_twin(twin.twin, {}, calibration, threads);
     };
     auto motions = run(false);
-    if (has_reference(twin.twin) && !move_alike(twin.twin, motions, smoothing)) {
+    const std::vector<LogPlan>& plans = twin.twin.plans;
+    const bool has_controller = std::any_of(plans.begin(), plans.end(), has_reference);
+    if (has_controller && !move_alike(twin.twin, motions, smoothing)) {
       motions = run(true);
       parts_->follows = true;
     }

@@ -25,13 +25,9 @@ struct Limits {
   double period = 0;
 };
 
-/// All but the largest share of the values.
-double most(Eigen::ArrayXd values) {
-  constexpr double kAll = 0.99;
-  values = values.abs();
-  const auto at = static_cast<Eigen::Index>(kAll * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values(at);
+double most_of(const Eigen::ArrayXd& values) {
+  const Eigen::ArrayXd amounts = values.abs();
+  return cablefit::most_of(std::vector<double>(amounts.begin(), amounts.end()));
 }
 
 Limits limits_of(const Design& design) {
@@ -44,8 +40,8 @@ Limits limits_of(const Design& design) {
     limits.period = m.period;
     limits.low = std::min(limits.low, m.theta.minCoeff());
     limits.high = std::max(limits.high, m.theta.maxCoeff());
-    limits.speed = std::max(limits.speed, most(m.thetad));
-    limits.acceleration = std::max(limits.acceleration, most(m.thetadd));
+    limits.speed = std::max(limits.speed, most_of(m.thetad));
+    limits.acceleration = std::max(limits.acceleration, most_of(m.thetadd));
     limits.loads.push_back(m.tau_load.mean());
   }
   return limits;
