@@ -292,14 +292,28 @@ model: refined.json
 )");
 }
 
-TEST_CASE("an event has its date, and no gain on unseen data") {
-  RefineResult r = named();
-  r.effects.front().instance.refinement = &find_refinement("slip", Site::transmission);
-  r.effects.front().instance.event_time = 7.25;
+std::string story_of(const RefineResult& result) {
   std::string story;
-  for (const SummaryLine& line : refine_document(r, kFiles).summary) story += line.text + "\n";
-  CHECK_THAT(story, Catch::Matchers::Contains("; at 7.25 s of slow.csv; carries"));
-  CHECK_THAT(story, Catch::Matchers::Contains("dated, so judged on the log that it is in; by"));
+  for (const SummaryLine& line : refine_document(result, kFiles).summary) story += line.text + "\n";
+  return story;
+}
+
+TEST_CASE("an event has its date, and a gain on unseen data where these can show it") {
+  const auto judged_there =
+      Catch::Matchers::Contains("dated, so judged on the log that it is in; by");
+  RefineResult r = named();
+  RefinementInstance& slip = r.effects.front().instance;
+  slip.refinement = &find_refinement("slip", Site::transmission);
+  slip.event_time = 7.25;
+  CHECK_THAT(story_of(r), Catch::Matchers::Contains("; at 7.25 s of slow.csv; carries"));
+  CHECK_THAT(story_of(r), !judged_there);
+  slip.ends_with_log = true;
+  r.held_out_blocks = false;
+  CHECK_THAT(story_of(r), judged_there);
+  r.held_out_blocks = true;
+  CHECK_THAT(story_of(r), !judged_there);
+  slip.refinement = &find_refinement("contact", Site::link);
+  CHECK_THAT(story_of(r), judged_there);
 }
 
 TEST_CASE("a story without an effect") {

@@ -111,12 +111,19 @@ std::string chance_text(const RefineEvidence& e) {
                      e.n_draws);
 }
 
-/// An event is in one log only: no unseen data can show it.
-SummaryLine evidence_line(const RefineEvidence& evidence, bool is_event) {
+/// Whether it is in one log only, so that no unseen data can show it.
+bool is_over(const NamedEffect& effect, bool held_out_blocks) {
+  const RefinementInstance& instance = effect.instance;
+  return instance.refinement->passes() || (instance.ends_with_log && !held_out_blocks);
+}
+
+SummaryLine evidence_line(const NamedEffect& effect, bool held_out_blocks) {
+  const RefineEvidence& evidence = effect.evidence;
   const std::string gain =
-      is_event ? "dated, so judged on the log that it is in"
-               : fmt::format("removes {} of the squared gap above the noise floor on unseen data",
-                             percent(evidence.gain));
+      is_over(effect, held_out_blocks)
+          ? "dated, so judged on the log that it is in"
+          : fmt::format("removes {} of the squared gap above the noise floor on unseen data",
+                        percent(evidence.gain));
   return {"evidence", fmt::format("{}; by chance {}; the best in {} of resamples", gain,
                                   chance_text(evidence), percent(evidence.inclusion))};
 }
@@ -153,7 +160,7 @@ void add_effect_lines(const RefineResult& result, std::vector<SummaryLine>& line
       text += fmt::format("; carries {} {} rms", number(effect.torque_rms),
                           torque_unit(result.linear_motion));
     lines.push_back({"effect", text});
-    lines.push_back(evidence_line(effect.evidence, row.is_event));
+    lines.push_back(evidence_line(effect, result.held_out_blocks));
     // Further ones were chosen from another league.
     const bool is_first = &effect == &result.effects.front();
     if (is_first || !effect.rivals.empty())
