@@ -168,7 +168,7 @@ TEST_CASE("a grid of a refinement rises within the bounds of its parameter", "[c
       const ParameterInfo& info = row.parameters[row.n_linear() + i];
       INFO(label(row) << ", " << info.name);
       REQUIRE(grid.n_values >= 2);
-      CHECK((grid.low > 0 || grid.is_whole));
+      CHECK((grid.low > 0 || !grid.is_geometric));
       CHECK(grid.value(0, kScale) == Approx(grid.lowest(kScale)));
       CHECK(grid.value(grid.n_values - 1, kScale) == Approx(grid.highest(kScale)));
       CHECK(info.lower <= grid.lowest(kScale));

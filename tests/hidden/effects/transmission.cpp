@@ -102,7 +102,7 @@ Planted eccentricity(const Draw& draw, const Run&, const Bench&) {
           {{"amplitude", a, "rad"}, {"phase", phase, "rad"}}};
 }
 
-/// Standard linear solid(s) in series: the cable gives way by up to `fraction` of tau/k0.
+/// Standard linear solid(s) in series: the cable gives way by up to the share `a` of tau/k0.
 template <bool kTwo>
 Planted creep(const Draw& draw, const Run&, const Bench& bench) {
   const double a = draw.size, T = 1 + 3 * draw.u, k_0 = bench.rig.stiffness(kAt);
@@ -114,7 +114,7 @@ Planted creep(const Draw& draw, const Run&, const Bench& bench) {
     for (std::size_t i = 0; i < 2; ++i)
       (*c)[i] += (share[i] * a * s.tau_elas / k_0 - (*c)[i]) * s.h / times[i];
   };
-  std::vector<Coefficient> coefficients{{"fraction", a, ""}};
+  std::vector<Coefficient> coefficients{{"compliance", a / k_0, "rad/(N m)"}};
   if (!kTwo) coefficients.push_back({"T", T, "s"});
   return {hooks, coefficients};
 }

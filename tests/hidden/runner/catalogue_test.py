@@ -47,8 +47,6 @@ def refinement(name, side, c, base):
         "presliding": lambda: {"amplitude": base[f_s], "distance": c["distance"]},
         "friction_drift": lambda: {"damping": -c["fraction"] * base[f_v],
                                    "amplitude": -c["fraction"] * base[f_s], "T": c["T"]},
-        # As a share of 1/k at 20 mrad.
-        "creep": lambda: {"compliance": c["fraction"] / (base["K1_0"] + 0.04 * base["K1_1"]), "T": c["T"]},
         "slip": lambda: {"slip": c["slip"]},
         "stiffness_order": lambda: None, "dead_zone": lambda: None, "preload": lambda: None,
     }

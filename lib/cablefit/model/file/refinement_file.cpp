@@ -29,14 +29,13 @@ Estimate read_parameter(const JsonNode& node, const ParameterInfo& info, const R
                    fmt::format("expected {}: {}", range, info.meaning));
 }
 
-/// Between forms numbered from 0; a file may leave it out, and then it is 0.
-bool is_choice(const Refinement& row, std::size_t parameter) {
+/// A shape that may be 0; a file may leave it out, and then it is 0.
+bool is_optional(const Refinement& row, std::size_t parameter) {
   if (parameter < row.n_linear()) return false;
-  const ShapeGrid& grid = row.shape[parameter - row.n_linear()];
-  return grid.is_whole && grid.low == 0;
+  return row.shape[parameter - row.n_linear()].low == 0;
 }
 
-Estimate first_choice(const ParameterInfo& info, const Rig& rig) {
+Estimate left_out(const ParameterInfo& info, const Rig& rig) {
   Estimate estimate;
   estimate.name = info.name;
   estimate.symbol = info.symbol;
@@ -54,8 +53,8 @@ std::vector<Estimate> read_parameters(const JsonNode* node, const JsonNode& row_
   for (std::size_t p = 0; p < row.parameters.size(); ++p) {
     const ParameterInfo& info = row.parameters[p];
     known.push_back(info.name);
-    if (is_choice(row, p) && !values.find(info.name))
-      parameters.push_back(first_choice(info, rig));
+    if (is_optional(row, p) && !values.find(info.name))
+      parameters.push_back(left_out(info, rig));
     else
       parameters.push_back(read_parameter(values.at(info.name), info, rig));
   }

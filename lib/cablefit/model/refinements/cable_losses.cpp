@@ -11,13 +11,12 @@ constexpr ParameterInfo kHysteresis[] = {
 constexpr ParameterInfo kCreep[] = {
     {"compliance", "a", "rad/(N m)", "that comes with time; times the stiffness: a fraction", 0},
     {"T", "T", "s", "time after which 63 % of it is there", 1e-3},
-    {"settled", "s", "", "1: a log begins settled under its load; 0: as if unloaded before", 0, 1}};
+    {"settled", "s", "", "share of its load under which a log begins settled, 0: unloaded", 0, 1}};
 
 constexpr ShapeGrid kYield[] = {
     {.low = 0.006, .high = 0.2, .n_values = 9, .unit = GridUnit::deflection}};
-constexpr ShapeGrid kTime[] = {
-    {.low = 0.3, .high = 10, .n_values = 8},
-    {.low = 0, .high = 1, .n_values = 2, .is_geometric = false, .is_whole = true}};
+constexpr ShapeGrid kTime[] = {{.low = 0.3, .high = 10, .n_values = 8},
+                               {.low = 0, .high = 1, .n_values = 2, .is_geometric = false}};
 
 void damp(const JointState& state, const double* /*shape*/, const double* /*z*/, double* link,
           double* motor) {

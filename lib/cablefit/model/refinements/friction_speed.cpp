@@ -25,7 +25,7 @@ constexpr ShapeGrid kStribeckShape[] = {
 constexpr ShapeGrid kDragShape[] = {
     {.low = 1.5, .high = 2.5, .n_values = 5, .is_geometric = false, .canonical = 2}};
 constexpr ShapeGrid kNonlinearShape[] = {
-    {.low = 0.25, .high = 0.75, .n_values = 3, .is_geometric = false, .canonical = 0.5}};
+    {.low = 0.25, .high = 0.75, .n_values = 3, .is_geometric = false}};
 
 /// x^p for x >= 0; the powers of textbooks without std::pow, which is ten times slower.
 double power(double x, double p) {
