@@ -41,14 +41,6 @@ double least_speed(const std::vector<Stretch>& stretches, Eigen::ArrayXd Recordi
   return std::max(kQuietSpeeds * per_noise * noise, kShareOfSpeed * std::sqrt(squares / n));
 }
 
-/// All but the largest hundredth of the values, 0 or more.
-double most_of(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(0.99 * (values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 LogScale scale_of(const Design& design) {
   constexpr double kLeast = 1e-9;
   LogScale scale;
@@ -204,6 +196,16 @@ bool applies(const Design& design, const Variant& variant) {
   });
 }
 
+void append(std::vector<StretchRows>& rows, const VariantColumns& columns) {
+  for (std::size_t s = 0; s < rows.size(); ++s)
+    for (std::size_t k = 0; k < rows[s].kinds.size(); ++k) {
+      Eigen::MatrixXd& base = rows[s].kinds[k].base;
+      const Eigen::Index before = base.cols();
+      base.conservativeResize(Eigen::NoChange, before + columns[s][k].cols());
+      base.rightCols(columns[s][k].cols()) = columns[s][k];
+    }
+}
+
 Design with_variant(const Design& design, const Variant& variant, const Eigen::VectorXd& values) {
   Design out = design;
   const Refinement& row = *variant.refinement;
@@ -218,14 +220,7 @@ Design with_variant(const Design& design, const Variant& variant, const Eigen::V
     for (std::size_t k = 0; k < out.stretches.size(); ++k)
       out.states[k] = joint_states(*out.rows[k].motion, out.models[out.stretches[k].model]);
   } else {
-    const VariantColumns columns = variant_columns(design, variant, values);
-    for (std::size_t k = 0; k < columns.size(); ++k)
-      for (std::size_t i = 0; i < columns[k].size(); ++i) {
-        Eigen::MatrixXd& base = out.rows[k].kinds[i].base;
-        const Eigen::Index before = base.cols();
-        base.conservativeResize(Eigen::NoChange, before + columns[k][i].cols());
-        base.rightCols(columns[k][i].cols()) = columns[k][i];
-      }
+    append(out.rows, variant_columns(design, variant, values));
   }
   out.added.push_back(variant);
   return out;

@@ -58,6 +58,9 @@ using VariantColumns = std::vector<std::vector<Eigen::MatrixXd>>;
 VariantColumns variant_columns(const Design& design, const Variant& variant,
                                const Eigen::VectorXd& values);
 
+/// These behind the columns that the rows have.
+void append(std::vector<StretchRows>& rows, const VariantColumns& columns);
+
 /// Whether a variant has no columns but other base columns or responses (other cables, a clipped
 /// torque), and these. Empty: it makes no sense for this model.
 bool replaces_rows(const Variant& variant);

@@ -138,6 +138,31 @@ BlockGrams extended(const BlockGrams& base, const std::vector<StretchRows>& rows
   return grams;
 }
 
+BlockGrams with_columns(const BlockGrams& grams, const std::vector<Eigen::Index>& which) {
+  std::vector<Eigen::Index> at = {0};  // the response
+  for (const Eigen::Index column : which) at.push_back(1 + column);
+  BlockGrams some = grams;
+  some.n_columns = static_cast<Eigen::Index>(which.size());
+  for (BlockGrams::Block& block : some.blocks)
+    for (Eigen::MatrixXd& gram : block.gram)
+      if (gram.size() > 0) gram = Eigen::MatrixXd(gram(at, at));
+  return some;
+}
+
+std::vector<Eigen::Index> told_columns(const BlockGrams& grams, const KindLevels& levels,
+                                       Eigen::Index n, double least) {
+  const Eigen::MatrixXd total = weighted_sum(grams, levels);
+  std::vector<Eigen::Index> told, at = {0};
+  for (Eigen::Index column = 0; column < grams.n_columns; ++column) {
+    at.push_back(1 + column);
+    if (column >= n && !solve_normal(total(at, at), false, {least, 1}))
+      at.pop_back();
+    else
+      told.push_back(column);
+  }
+  return told;
+}
+
 Eigen::MatrixXd weighted_sum(const BlockGrams& grams, const KindLevels& levels) {
   const Eigen::Index n = 1 + grams.n_columns;
   Eigen::MatrixXd total = Eigen::MatrixXd::Zero(n, n);

@@ -6,11 +6,12 @@
 #include <limits>
 
 #include "cablefit/estimate/scaled_solve.hpp"
+#include "cablefit/refine/shape_moves.hpp"
 
 namespace cablefit {
 namespace {
 
-constexpr double kShapeStep = 0.02;  // of a nonlinear parameter, for a central difference
+constexpr double kShapeStep = 0.02;  // of the unit of a nonlinear parameter
 constexpr double kDateStep = 5e-3;   // s, of an event
 
 Eigen::Index count_rows(const std::vector<StretchRows>& rows) {
@@ -53,15 +54,6 @@ VariantColumns derivative(const Design& undone, const Design& design, const Eige
   return column;
 }
 
-void append(std::vector<StretchRows>& rows, const VariantColumns& column) {
-  for (std::size_t s = 0; s < rows.size(); ++s)
-    for (std::size_t k = 0; k < rows[s].kinds.size(); ++k) {
-      Eigen::MatrixXd& base = rows[s].kinds[k].base;
-      base.conservativeResize(Eigen::NoChange, base.cols() + 1);
-      base.rightCols(1) = column[s][k];
-    }
-}
-
 /// Grams of the linear columns, one column per nonlinear parameter, and one per date, which is not
 /// reported but blurs the rest.
 BlockGrams with_shape_columns(const Design& undone, const Design& design, const Eigen::VectorXd& x,
@@ -73,11 +65,9 @@ BlockGrams with_shape_columns(const Design& undone, const Design& design, const 
     move(less_more[1], step);
     append(rows, derivative(undone, design, x, k, less_more, step));
   };
-  for (std::size_t k = 0; k < design.added.size(); ++k)
-    for (std::size_t i = 0; i < design.added[k].shape.size(); ++i)
-      if (is_free(design.added[k], i))
-        add(k, kShapeStep * std::abs(design.added[k].shape[i]),
-            [i](Variant& variant, double by) { variant.shape[i] += by; });
+  for (const FreeShape& at : free_shapes(design))
+    add(at.variant, kShapeStep * unit_of(design, at),
+        [&at](Variant& variant, double by) { variant.shape[at.shape] += by; });
   for (std::size_t k = 0; k < design.added.size(); ++k)
     if (design.added[k].refinement->is_event)
       add(k, kDateStep, [](Variant& variant, double by) { variant.event_time += by; });
@@ -102,6 +92,19 @@ double rows_per_value(const Smoothing& smoothing, double period) {
   double sum = 1;
   for (int k = 1; k * step < 3; ++k) sum += 2 * std::exp(-(k * step) * (k * step));
   return sum;
+}
+
+/// Of all columns; not a number for what the rows do not tell, such as the share of its load under
+/// which a log begins settled that begins without load.
+Eigen::MatrixXd told_covariance(const BlockGrams& grams, const KindLevels& levels,
+                                Eigen::Index n_linear, double rows_per_value) {
+  const std::vector<Eigen::Index> told = told_columns(grams, levels, n_linear);
+  const BlockGrams some = with_columns(grams, told);
+  const auto jackknife = jackknife_covariance(some, levels);
+  Eigen::MatrixXd all = Eigen::MatrixXd::Constant(grams.n_columns, grams.n_columns,
+                                                  std::numeric_limits<double>::quiet_NaN());
+  all(told, told) = jackknife ? *jackknife : noise_covariance(some, levels) * rows_per_value;
+  return all;
 }
 
 }  // namespace
@@ -133,14 +136,10 @@ FinalFit final_fit(const Design& undone, const Design& design, const KindLevels&
   fit.x = solve_scaled(a, b).x;
   fit.rms = rms_of(block_grams(design.rows, design.stretches, block_seconds), fit.x);
   const BlockGrams grams = with_shape_columns(undone, design, fit.x, block_seconds);
-  const Eigen::Index q = grams.n_columns;
-  const auto jackknife = jackknife_covariance(grams, levels);
   const double period = design.stretches.front().recording.period;
-  fit.covariance = jackknife
-                       ? *jackknife
-                       : noise_covariance(grams, levels) * rows_per_value(design.smoothing, period);
-  fit.degrees_of_freedom =
-      std::max(1.0, static_cast<double>(grams.blocks.size()) - static_cast<double>(q));
+  fit.covariance = told_covariance(grams, levels, p, rows_per_value(design.smoothing, period));
+  fit.degrees_of_freedom = std::max(
+      1.0, static_cast<double>(grams.blocks.size()) - static_cast<double>(grams.n_columns));
   return fit;
 }
 

@@ -1,64 +1,92 @@
 #include "cablefit/refine/fit_bias.hpp"
 
+#include <cmath>
+
 #include "cablefit/base/error.hpp"
 #include "cablefit/refine/kept_effects.hpp"
 #include "cablefit/refine/recorded_effects.hpp"
 #include "cablefit/refine/refined_model.hpp"
+#include "cablefit/refine/shape_moves.hpp"
 
 namespace cablefit {
 namespace {
 
-std::vector<Model> recorded_models(const RefineState& state) {
-  return cablefit::recorded_models(models_with(state.design, state.x));
+/// Values anywhere, as they are simulated and fitted again.
+struct Values {
+  Design design;
+  Eigen::VectorXd x;
+};
+
+/// The same columns over other stretches. `bases`: the models with these values.
+Design design_like(const Values& values, std::span<const Model> bases,
+                   std::vector<Stretch> stretches) {
+  Design design =
+      with_variants(make_design(without_kept(bases), std::move(stretches), values.design.smoothing),
+                    values.design.added, values.x);
+  design.scale = values.design.scale;
+  return design;
 }
 
-/// The same columns over other stretches. `bases`: the models with the state's values.
-Design design_like(const RefineState& state, std::span<const Model> bases,
-                   std::vector<Stretch> stretches) {
-  return with_variants(
-      make_design(without_kept(bases), std::move(stretches), state.design.smoothing),
-      state.design.added, state.x);
+bool is_unrecorded(const Refinement& row) { return !is_recorded(row); }
+
+std::optional<ValueChange> bias_at(const RefineBench& bench, const Values& values,
+                                   const KindLevels& levels) {
+  const std::vector<Model> models = recorded_models(models_with(values.design, values.x));
+  const int threads = bench.options.threads;
+  try {
+    NullBench twin(models, bench.logs, bench.wanted, values.design.smoothing, threads);
+    twin.hold_back(bench.held_back);
+    twin.silence_torque();  // its noise has no bias to give; without it one draw is enough
+    const Design design = design_like(values, models, twin.draw(bench.options.seed, threads));
+    if (design.n_columns() != values.x.size()) return {};
+    auto bias = change_to_fit(design, values.x, levels, bench.scan.block_seconds, is_unrecorded);
+    if (bias) forget_unrecorded(values.design, bias->x);
+    return bias;
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+/// Whether the bias at the shapes without it is another one.
+bool is_far(const Design& design, const ValueChange& bias) {
+  constexpr double kFar = 0.05;
+  const std::vector<FreeShape> all = free_shapes(design);
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (std::abs(bias.shapes(static_cast<Eigen::Index>(k))) > kFar * unit_of(design, all[k]))
+      return true;
+  return false;
 }
 
 }  // namespace
 
-std::optional<Eigen::VectorXd> fit_bias(const RefineBench& bench, const RefineState& state) {
+std::optional<ValueChange> fit_bias(const RefineBench& bench, const RefineState& state) {
   if (bench.elastic_only) return {};
-  const std::vector<Model> models = recorded_models(state);
-  const int threads = bench.options.threads;
-  Eigen::VectorXd bias;
-  try {
-    NullBench twin(models, bench.logs, bench.wanted, state.design.smoothing, threads);
-    twin.hold_back(bench.held_back);
-    twin.silence_torque();  // its noise has no bias to give; without it one draw is enough
-    const Design design = design_like(state, models, twin.draw(bench.options.seed, threads));
-    const auto fit = fit_blocks(
-        block_grams(design.rows, design.stretches, bench.scan.block_seconds), state.levels, false);
-    if (!fit || fit->x.size() != state.x.size()) return {};
-    bias = fit->x - state.x;
-  } catch (const Error&) {
-    return {};
-  }
-  forget_unrecorded(state.design, bias);
-  return bias;
+  const auto here = bias_at(bench, {state.design, state.x}, state.levels);
+  if (!here || !is_far(state.design, *here)) return here;
+  const Eigen::VectorXd x = state.x - here->x;
+  const auto there = bias_at(bench, {with_shapes(state.design, -here->shapes, x), x}, state.levels);
+  return there ? there : here;
 }
 
 bool simulates_better_without(const RefineBench& bench, const RefineState& state,
-                              const Eigen::VectorXd& bias) {
-  const auto gap = [&](const Eigen::VectorXd& x) {
-    return simulated_gap(models_with(state.design, x), bench.logs, bench.options.threads);
+                              const ValueChange& bias) {
+  const auto gap = [&](const Design& design, const Eigen::VectorXd& x) {
+    return simulated_gap(models_with(design, x), bench.logs, bench.options.threads);
   };
-  const SimulatedGap less = gap(state.x - bias);
+  const Eigen::VectorXd x = state.x - bias.x;
+  const SimulatedGap less = gap(with_shapes(state.design, -bias.shapes, x), x);
   if (!less.known() || !bench.simulation_floor.known()) return false;
-  const SimulatedGap as_fitted = gap(state.x);
+  const SimulatedGap as_fitted = gap(state.design, state.x);
   return !as_fitted.known() ||
          in_floors(less, bench.simulation_floor) < in_floors(as_fitted, bench.simulation_floor);
 }
 
 RefineState without_bias(const RefineBench& bench, const RefineState& state,
-                         const Eigen::VectorXd& bias) {
+                         const ValueChange& bias) {
   RefineState out = state;
-  out.x = state.x - bias;
+  out.x = state.x - bias.x;
+  out.design = with_shapes(std::move(out.design), -bias.shapes, out.x);
+  out.test = with_shapes(std::move(out.test), -bias.shapes, out.x);
   out.simulated =
       simulated_gap(models_with(out.design, out.x), bench.unseen, bench.options.threads);
   if (state.simulated.known() && !out.simulated.known()) return state;

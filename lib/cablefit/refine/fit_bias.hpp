@@ -8,18 +8,18 @@
 
 namespace cablefit {
 
-/// Bias of `state.x`, fitted with `state.levels`, of the columns of its design. Columns of events
-/// and of sensors have none: no simulated log shows these. Nothing when the fitted model cannot be
-/// simulated, or from blocked logs alone.
-std::optional<Eigen::VectorXd> fit_bias(const RefineBench& bench, const RefineState& state);
+/// Bias of `state.x`, fitted with `state.levels`, and of the shapes of its design, to first order
+/// in these. Events and sensors have none: no simulated log shows them. Nothing when the fitted
+/// model cannot be simulated, or from blocked logs alone.
+std::optional<ValueChange> fit_bias(const RefineBench& bench, const RefineState& state);
 
 /// Whether the values without it simulate the training logs better.
 bool simulates_better_without(const RefineBench& bench, const RefineState& state,
-                              const Eigen::VectorXd& bias);
+                              const ValueChange& bias);
 
 /// The state with its values less the bias. `rho` and `levels` stay those of the fit: floors of
 /// training rows know the same bias.
 RefineState without_bias(const RefineBench& bench, const RefineState& state,
-                         const Eigen::VectorXd& bias);
+                         const ValueChange& bias);
 
 }  // namespace cablefit

@@ -1,11 +1,8 @@
 #include "cablefit/refine/recorded_effects.hpp"
 
 namespace cablefit {
-namespace {
 
 bool is_recorded(const Refinement& row) { return !row.is_event && row.site != Site::sensor; }
-
-}  // namespace
 
 std::vector<Model> recorded_models(std::vector<Model> models) {
   for (Model& model : models)

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "cablefit/refine/best_shapes.hpp"
 #include "cablefit/refine/conclusion.hpp"
 #include "cablefit/refine/effect_steps.hpp"
 #include "cablefit/refine/elastic_stage.hpp"
@@ -21,6 +22,14 @@
 
 namespace cablefit {
 namespace {
+
+/// The model knows no date, so it simulates the log of an event as if nothing had happened.
+bool simulates_an_event(const RefineResult& result) {
+  return result.held_out_blocks &&
+         std::any_of(result.effects.begin(), result.effects.end(), [](const NamedEffect& effect) {
+           return effect.instance.refinement->is_event;
+         });
+}
 
 /// Torques of rows weighted so that every equation has the motor's floor.
 void tell_gaps(const RefineBench& bench, const RefineState& first, const RefineState& last,
@@ -49,6 +58,12 @@ void tell_gaps(const RefineBench& bench, const RefineState& first, const RefineS
   if (first.simulated.failure == last.simulated.failure && !result.warnings.empty() &&
       !simulation.known && !bench.elastic_only)
     result.warnings.pop_back();
+  if (simulation.known && simulates_an_event(result)) {
+    simulation.known = false;
+    result.warnings.push_back(
+        "not simulated: the unseen rows are of logs in which the event happened, and the model "
+        "knows no date; give logs from after it with --test");
+  }
 }
 
 void tell_remainder(const KindLevels& rms, const KindLevels& floor, RefineResult& result) {
@@ -138,33 +153,36 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
     if (state.rho < kNoGap) break;
   }
 
+  if (!result.effects.empty()) state = with_best_shapes(bench, std::move(state));
   const Design& bare = bench.n_kept == 0 ? first.design : bench.bare;
   FinalFit fit = final_fit(bare, state.design, state.levels, bench.scan.block_seconds);
   if (state.rho > kRemainder)
     result.unexplained =
         describe_remainder(state.design, fit.x, bench.floor, bench.scan.block_seconds);
   tell_remainder(fit.rms, bench.floor, result);
-  // From here on values are those that simulate.
-  const Eigen::VectorXd fitted = state.x = fit.x;
-  const std::optional<Eigen::VectorXd> bias =
+  state.x = fit.x;
+  // What is told are the values that simulate.
+  const std::optional<ValueChange> bias =
       result.effects.empty() ? bench.base_bias : fit_bias(bench, state);
   const bool better = bias && simulates_better_without(bench, state, *bias);
   const RefineState before = better ? without_bias(bench, first, bench.base_bias) : first;
-  if (better) state = result.effects.empty() ? before : without_bias(bench, state, *bias);
-  fit.x = state.x;
-  tell_effects(models, named_effects(state.design, fit), result);
-  result.shifts = parameter_shifts(first.design, before.x, state.design, fit);
-  result.models = refined_models(state.design, fit);
+  const RefineState after = !better                  ? state
+                            : result.effects.empty() ? before
+                                                     : without_bias(bench, state, *bias);
+  fit.x = after.x;
+  tell_effects(models, named_effects(after.design, fit), result);
+  result.shifts = parameter_shifts(first.design, before.x, after.design, fit);
+  result.models = refined_models(after.design, fit);
   result.rho_before = first.rho;
   result.rho_after = state.rho;
-  tell_gaps(bench, before, state, result);
+  tell_gaps(bench, before, after, result);
   conclude(result);
   choose_next_run({first.design, first.x, bench.floor, bench.first_search.candidates, runs},
                   result);
   if (options.figures)
     result.figures =
-        refine_figures(result, {bench.all, first.design, first.x, state.design, fitted},
-                       {bench.all, first.test, before.x, state.test, fit.x}, bench.floor);
+        refine_figures(result, {bench.all, first.design, first.x, state.design, state.x},
+                       {bench.all, first.test, before.x, after.test, after.x}, bench.floor);
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/parallel.hpp"
 #include "cablefit/refine/elastic_stage.hpp"
+#include "cablefit/refine/fit_bias.hpp"
 #include "cablefit/refine/kept_effects.hpp"
 #include "cablefit/refine/recorded_effects.hpp"
 #include "cablefit/refine/refined_model.hpp"
@@ -47,15 +48,16 @@ KindLevels common_unit(const RefineBench& bench, KindLevels floor) {
 /// `base`, `x`: the fit that the draws are simulated from.
 KindLevels fitted_floor(RefineBench& bench, const Design& base, const Eigen::VectorXd& x) {
   std::vector<KindLevels> levels;
-  bench.base_bias = Eigen::VectorXd::Zero(x.size());
+  Eigen::VectorXd bias = Eigen::VectorXd::Zero(x.size());
   std::vector<BaseFit> draws =
       run_draws(bench, kFloorDraws, bench.options.seed, "noise floor",
                 [&](std::uint64_t seed) { return bench.null->fitted(seed, nullptr); });
   for (const BaseFit& draw : draws) {
     levels.push_back(draw.fit.rms());
-    bench.base_bias += (draw.fit.x - x) / static_cast<double>(kFloorDraws);
+    bias += (draw.fit.x - x) / static_cast<double>(kFloorDraws);
   }
-  forget_unrecorded(base, bench.base_bias);
+  forget_unrecorded(base, bias);
+  bench.base_bias.x = std::move(bias);
   bench.noise = std::move(draws.front());
   KindLevels floor = rms_over(levels);
   // Of rows that there are none of: simulated runs may have some.
@@ -178,6 +180,7 @@ RefineState prepare(RefineBench& bench, std::span<const Model> models, const Ref
   RefineState state;
   state.test = with_variants(make_design(without_kept(fitted), std::move(test), bench.smoothing),
                              base.design.added, base.fit.x);
+  state.test.scale = base.design.scale;  // bounds of what is fitted are those of the training rows
   bench.n_kept = base.design.added.size();
   if (bench.n_kept > 0) bench.bare = relinearised(kept.bare, base.fit.x);
   state.x = base.fit.x;
@@ -186,6 +189,8 @@ RefineState prepare(RefineBench& bench, std::span<const Model> models, const Ref
   state.unseen = gap_of(state.test, state.x, bench.test_floor, bench.scan.block_seconds);
   state.simulated = simulated_gap(fitted, bench.unseen, bench.options.threads);
   state.design = std::move(base.design);
+  if (!free_shapes(state.design).empty())  // of kept effects, which the draws above hold
+    if (auto bias = fit_bias(bench, state)) bench.base_bias = std::move(*bias);
   return state;
 }
 

@@ -11,6 +11,7 @@
 #include "cablefit/refine/levels.hpp"
 #include "cablefit/refine/refine.hpp"
 #include "cablefit/refine/search.hpp"
+#include "cablefit/refine/shape_moves.hpp"
 
 namespace cablefit {
 
@@ -26,7 +27,7 @@ struct RefineBench {
   Smoothing smoothing = {};
   double held_back = 0;  ///< share of every training log that is the unseen data
   KindLevels floor{}, test_floor{};
-  Eigen::VectorXd base_bias = {};  ///< of the base fit, see fit_bias.hpp
+  ValueChange base_bias = {};  ///< of the base fit, see fit_bias.hpp
   SimulatedGap simulation_floor = {};
   std::optional<BaseDraws> null = {};
   BaseFit noise = {};                ///< one of its draws without an effect

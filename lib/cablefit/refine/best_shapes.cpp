@@ -1,0 +1,64 @@
+#include "cablefit/refine/best_shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/refine/refined_model.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr int kSteps = 4;
+constexpr double kLongest = 0.3, kNothing = 1e-3;  // of the unit of a shape
+
+/// No step longer than what the derivative holds for.
+void shorten(const Design& design, Eigen::VectorXd& shapes) {
+  const std::vector<FreeShape> all = free_shapes(design);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const double most = kLongest * unit_of(design, all[k]);
+    double& step = shapes(static_cast<Eigen::Index>(k));
+    step = std::clamp(step, -most, most);
+  }
+}
+
+/// The largest step in units of its shape.
+double largest(const Design& design, const Eigen::VectorXd& shapes) {
+  const std::vector<FreeShape> all = free_shapes(design);
+  double most = 0;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    most = std::max(most, std::abs(shapes(static_cast<Eigen::Index>(k))) / unit_of(design, all[k]));
+  return most;
+}
+
+bool none_is_fixed(const Refinement& /*row*/) { return false; }
+
+}  // namespace
+
+RefineState with_best_shapes(const RefineBench& bench, RefineState state) {
+  const double seconds = bench.scan.block_seconds;
+  bool moved = false;
+  for (int k = 0; k < kSteps; ++k) {
+    auto step = change_to_fit(state.design, state.x, state.levels, seconds, none_is_fixed);
+    if (!step || step->shapes.size() == 0) break;
+    shorten(state.design, step->shapes);
+    if (largest(state.design, step->shapes) < kNothing) break;
+    Design design = with_shapes(state.design, step->shapes, state.x + step->x);
+    const auto fit =
+        fit_blocks(block_grams(design.rows, design.stretches, seconds), state.levels, false);
+    if (!fit) break;
+    const double rho = rho_of(*fit, bench.floor);
+    if (!(rho < state.rho)) break;
+    state.test = with_shapes(std::move(state.test), step->shapes, fit->x);
+    state.design = std::move(design);
+    state.x = fit->x;
+    state.rho = rho;
+    moved = true;
+  }
+  if (!moved) return state;
+  state.unseen = gap_of(state.test, state.x, bench.test_floor, seconds);
+  state.simulated =
+      simulated_gap(models_with(state.design, state.x), bench.unseen, bench.options.threads);
+  return state;
+}
+
+}  // namespace cablefit
