@@ -67,6 +67,31 @@ TEST_CASE("what chance finds, and what is immaterial, is not named", "[refine]")
   CHECK_FALSE(judge_search(clear, kGap, {}, options, true).is_named);  // without a null
 }
 
+/// What wanders on the link lets the rows of the link gain by chance, and not those of the motor.
+TEST_CASE("a gain is counted in what its own row gains by chance", "[refine]") {
+  std::vector<NullDraw> wandering;
+  for (int k = 0; k < 20; ++k) {
+    NullDraw draw;
+    const double luck = 1 + 0.05 * (k % 7);
+    draw.gains[&find_refinement("stribeck", Site::link)] = 0.04 * luck;
+    for (const char* name : {"stribeck", "quadratic_drag", "nonlinear_viscous"})
+      draw.gains[&find_refinement(name, Site::motor)] = 0.002 * luck;
+    wandering.push_back(draw);
+  }
+  const auto is_named = [&](Site site) {
+    return judge_search({candidate("stribeck", site, 0.05)}, kGap, wandering, {}, true).is_named;
+  };
+  CHECK(is_named(Site::motor));
+  CHECK_FALSE(is_named(Site::link));
+}
+
+/// One lucky draw of a row that gains nothing else is luck and no unit.
+TEST_CASE("a row that gained once is not beyond all measure", "[refine]") {
+  std::vector<NullDraw> once = draws();
+  once.front().gains[&find_refinement("saturation", Site::drive)] = 0.004;
+  CHECK(judge_search({candidate("stribeck", Site::motor, 0.1)}, kGap, once, {}, true).is_named);
+}
+
 /// The trap: scores of events are in sample, and large where nothing happened.
 TEST_CASE("an event has to beat its own null", "[refine]") {
   const std::vector<Candidate> candidates = {candidate("contact", Site::link, 0.09)};

@@ -137,7 +137,7 @@ struct Refinement {
   std::size_t n_linear() const { return parameters.size() - shape.size(); }
   /// An event after which the joint is another one, and not one that passes.
   bool lasts() const { return is_event && shape.empty(); }
-  /// An event that is over after a while.
+  /// An event that is over after a while: the first of its shapes, s.
   bool passes() const { return is_event && !lasts(); }
 };
 

@@ -21,6 +21,7 @@ bool is_better(double before, double after, double visible, double as_good) {
 }
 
 constexpr double kLittle = 0.25;  // of the gap
+constexpr double kLikely = 1;     // sd, that a gain on unseen rows is one
 
 /// Some date always fits a little of what wanders or hums.
 bool is_stray_event(const UnseenChange& change) {
@@ -32,7 +33,15 @@ bool is_stray_event(const UnseenChange& change) {
 bool is_crumb(const UnseenChange& change) {
   const double gone = change.rho_before - change.rho_after;
   return change.leaves_remainder && change.rho_before > kVisibleGap &&
-         gone < kLittle * (change.rho_before - 1) && change.sd_better < kClearlyBetter;
+         gone < kLittle * (change.rho_before - 1) && change.sd_better < kLikely;
+}
+
+/// Beside a remainder the sum over all rows is that of the equation that has it; rows weighted by
+/// what they leave have the say then.
+bool fits_better(const UnseenChange& change) {
+  if (is_better(change.rho_before, change.rho_after, kVisibleGap, kAsGoodRows)) return true;
+  const bool as_good = change.rho_after < kAsGoodRows * change.rho_before;
+  return change.leaves_remainder && as_good && change.sd_better > 0;
 }
 
 std::string in_words(double before, double after) {
@@ -43,7 +52,7 @@ std::string in_words(double before, double after) {
 
 std::string why_not_added(const UnseenChange& change) {
   const bool no_say = change.row.is_event && !change.is_after_event;
-  if (!no_say && !is_better(change.rho_before, change.rho_after, kVisibleGap, kAsGoodRows))
+  if (!no_say && !fits_better(change))
     return fmt::format("the equations of unseen logs do not fit better with it ({})",
                        in_words(change.rho_before, change.rho_after));
   if (is_stray_event(change))
@@ -60,11 +69,7 @@ std::string why_not_added(const UnseenChange& change) {
   const double floor = in_floors(change.floor, change.floor);
   const double before = in_floors(change.before, change.floor);
   const double after = in_floors(change.after, change.floor);
-  // Where the equations have nothing left to explain, so has the simulation but for what its floor
-  // leaves out: noise that a controller feeds back, friction at rest.
-  const bool all_explained = !change.leaves_remainder && change.rho_after < kVisibleGap;
-  const double visible = all_explained ? kUnbounded : kVisibleSimulated * floor;
-  if (!is_better(before, after, visible, kAsGoodSimulated))
+  if (!is_better(before, after, kVisibleSimulated * floor, kAsGoodSimulated))
     return fmt::format("unseen logs are not simulated better with it ({})",
                        in_words(before / floor, after / floor));
   return "";

@@ -13,8 +13,7 @@ namespace cablefit {
 inline constexpr double kNoGap = 1.07;
 /// Above this something is there that was not named.
 inline constexpr double kRemainder = 1.2;
-/// Gain on unseen rows, in its sd over the blocks, that an effect needs which leaves a remainder:
-/// in what wanders the best of a search gains a little on other logs as often as not.
+/// Gain on unseen rows, in its sd over the blocks, of which these are sure.
 inline constexpr double kClearlyBetter = 2;
 /// Squared gap over floor that is seen on unseen rows.
 inline constexpr double kVisibleGap = 1.1;

@@ -10,6 +10,7 @@
 #include "cablefit/refine/golden.hpp"
 #include "cablefit/refine/levels.hpp"
 #include "cablefit/refine/quick_look.hpp"
+#include "cablefit/refine/variant_grid.hpp"
 
 namespace cablefit {
 namespace {
@@ -17,7 +18,6 @@ namespace {
 // Of a candidate's columns, scaled: the squared part that the others leave. With less, a base that
 // is off by a per cent passes for the effect.
 constexpr double kTolerance = 1e-4;
-constexpr double kEventMargin = 1.0;  // s, to the ends of a log
 
 /// `x`: of the variant's own columns.
 bool is_out_of_bounds(const Refinement& row, const Eigen::VectorXd& x) {
@@ -62,70 +62,6 @@ std::optional<Candidate> try_variant(const ScanStart& start, const ScanSettings&
   const bool too_dry = dry >= 0 && n > 0 && fit->x(fit->x.size() - n) > fit->x(dry);
   if (too_dry || is_out_of_bounds(row, fit->x.tail(n))) c.refused = "beyond its physical bound";
   return c;
-}
-
-/// Every combination of the grid's values.
-std::vector<std::vector<double>> grid_points(const Refinement& row, const LogScale& scale) {
-  std::vector<std::vector<double>> points = {{}};
-  for (const ShapeGrid& grid : row.shape) {
-    std::vector<std::vector<double>> more;
-    for (const auto& point : points)
-      for (int i = 0; i < grid.n_values; ++i) {
-        more.push_back(point);
-        more.back().push_back(grid.value(i, scale));
-      }
-    points = std::move(more);
-  }
-  return points;
-}
-
-double seconds_of(const Stretch& stretch) {
-  return static_cast<double>(stretch.recording.theta.size()) * stretch.recording.period;
-}
-
-/// Dates at which an event may have happened: inside the moving logs.
-std::vector<std::pair<std::size_t, double>> dates(const Design& design, double step) {
-  std::vector<std::pair<std::size_t, double>> all;
-  for (const Stretch& stretch : design.stretches) {
-    if (stretch.blocked) continue;
-    for (double t = kEventMargin; t < seconds_of(stretch) - kEventMargin; t += step)
-      all.emplace_back(stretch.log, stretch.t0 + t);
-  }
-  return all;
-}
-
-/// A step to either side, as far as an event may have happened.
-std::pair<double, double> dates_around(const Design& design, const Variant& variant, double step) {
-  double low = kUnbounded, high = -kUnbounded;
-  for (const Stretch& stretch : design.stretches) {
-    if (stretch.log != variant.event_log) continue;
-    low = std::min(low, stretch.t0 + kEventMargin);
-    high = std::max(high, stretch.t0 + seconds_of(stretch) - kEventMargin);
-  }
-  return {std::max(low, variant.event_time - step), std::min(high, variant.event_time + step)};
-}
-
-/// What lasts changes all rows after it, so that its date is known from far; what passes does not.
-double date_step(const Refinement& row, const ScanSettings& settings) {
-  constexpr double kCoarser = 4;
-  return (row.lasts() ? kCoarser : 1.0) * settings.event_step;
-}
-
-std::vector<Variant> variants_of(const Refinement& row, const Design& design, double event_step) {
-  std::vector<Variant> all;
-  for (const auto& shape : grid_points(row, design.scale)) {
-    if (!row.is_event) {
-      all.push_back({&row, shape, 0, 0, false});
-      continue;
-    }
-    for (const auto& [log, time] : dates(design, event_step)) {
-      all.push_back({&row, shape, log, time, false});
-      if (!row.lasts() || log == design.stretches.back().log) continue;
-      all.push_back(all.back());
-      all.back().ends_with_log = true;
-    }
-  }
-  return all;
 }
 
 /// A physical candidate before one that is not, then the larger gain.
@@ -175,31 +111,6 @@ double median_error(const ErrorsByBlock& errors) {
   return *middle;
 }
 
-/// The plain form at the same shape; nothing where the shape is another one.
-std::optional<Variant> plain_of(Variant variant) {
-  const Refinement& row = *variant.refinement;
-  if (!has_plain_form(row)) return {};
-  variant.is_plain = true;
-  if (replaces_rows(variant)) return {};  // no columns of its own: see best_replacing
-  for (std::size_t i = 0; i < row.shape.size(); ++i)
-    if (!is_free(variant, i) && row.shape[i].canonical > 0 &&
-        variant.shape[i] != row.shape[i].canonical)
-      return {};
-  return variant;
-}
-
-/// A step of the grid to either side, as far as the grid goes.
-std::pair<double, double> around(const ShapeGrid& grid, double value, const LogScale& scale) {
-  const double low = grid.lowest(scale), high = grid.highest(scale);
-  if (grid.n_values < 2) return {low, high};
-  if (grid.is_geometric) {
-    const double step = std::pow(high / low, 1.0 / (grid.n_values - 1));
-    return {std::max(low, value / step), std::min(high, value * step)};
-  }
-  const double step = (high - low) / (grid.n_values - 1);
-  return {std::max(low, value - step), std::min(high, value + step)};
-}
-
 /// The variant with its nonlinear parameters (and date) where its squared error is least.
 Variant moved_shape(const ScanStart& start, const ScanSettings& settings, const QuickLook& look,
                     Variant variant) {
@@ -218,14 +129,12 @@ Variant moved_shape(const ScanStart& start, const ScanSettings& settings, const 
     for (std::size_t i = 0; i < variant.shape.size(); ++i) {
       if (!is_free(variant, i)) continue;
       const auto [low, high] = around(row.shape[i], variant.shape[i], start.design.scale);
-      variant.shape[i] = golden(low, high, [&](double value) {
-        Variant other = variant;
-        other.shape[i] = value;
-        return error_with(other);
-      });
+      variant = with_shape(variant, i, golden(low, high, [&](double value) {
+                             return error_with(with_shape(variant, i, value));
+                           }));
     }
     if (!row.is_event) continue;
-    const auto [from, to] = dates_around(start.design, variant, date_step(row, settings));
+    const auto [from, to] = dates_around(start.design, variant, settings.event_step);
     variant.event_time = golden(from, to, [&](double time) {
       Variant other = variant;
       other.event_time = time;
@@ -283,22 +192,13 @@ std::optional<Candidate> best_replacing(const ScanStart& start, const ScanSettin
 
 std::optional<Candidate> best_variant(const ScanStart& start, const ScanSettings& settings,
                                       const QuickLook& look, const Refinement& row) {
-  std::vector<Variant> variants = variants_of(row, start.design, date_step(row, settings));
+  std::vector<Variant> variants = variants_of(row, start.design, settings.event_step);
   if (variants.empty()) return {};  // no log is long enough for a date
   if (replaces_rows(variants.front())) return best_replacing(start, settings, variants);
   auto best = best_fitting(start, settings, look, variants);
   if (!row.takes_dry_friction) return best;
   for (Variant& variant : variants) variant.is_plain = true;
   return simpler(best_replacing(start, settings, variants), std::move(best));
-}
-
-/// The other form of the same law, to begin with at the same shape.
-Variant other_form(Variant variant) {
-  const Refinement& row = *variant.refinement;
-  variant.is_plain = !variant.is_plain;
-  for (std::size_t i = 0; variant.is_plain && i < row.shape.size(); ++i)
-    if (row.shape[i].canonical > 0) variant.shape[i] = row.shape[i].canonical;
-  return variant;
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ struct Candidate {
 
 struct ScanSettings {
   double block_seconds = 2;
-  double event_step = 0.5;  ///< s, between the dates that are tried for what passes
+  double event_step = 0.5;  ///< s, longest between the dates that are tried for what passes
   int threads = 1;
 };
 

@@ -14,22 +14,34 @@ double since_event(const Variant& variant, const Stretch& stretch, double t) {
   return stretch.log > variant.event_log ? 1e9 : -1e9;
 }
 
-/// Torque per unit of each linear parameter at every sample, on link and motor.
-struct FullTorques {
-  Eigen::MatrixXd link, motor;  ///< samples x n_linear
+/// Samples [first, last).
+struct SampleRange {
+  Eigen::Index first = 0, last = 0;
 };
 
-/// From which sample on an event may have done something; none (n) where it has not happened yet or
-/// is over.
-Eigen::Index first_sample(const Variant& variant, const Stretch& stretch, double step,
-                          Eigen::Index n) {
+/// Those in which an effect may do something: of an event none before it or when it is over.
+SampleRange active_samples(const Variant& variant, const Stretch& stretch, double step,
+                           Eigen::Index n) {
   const Refinement& row = *variant.refinement;
-  if (!row.is_event) return 0;
-  if (stretch.log < variant.event_log) return n;
-  if (stretch.log > variant.event_log) return row.lasts() && !variant.ends_with_log ? 0 : n;
-  const double samples = std::floor((variant.event_time - stretch.t0) / step);
-  return std::clamp<Eigen::Index>(static_cast<Eigen::Index>(samples), 0, n);
+  if (!row.is_event) return {0, n};
+  const bool is_over = stretch.log > variant.event_log && (row.passes() || variant.ends_with_log);
+  if (stretch.log < variant.event_log || is_over) return {n, n};
+  if (stretch.log > variant.event_log) return {0, n};
+  const auto sample_at = [&](double time) {
+    const double samples = std::floor((time - stretch.t0) / step);
+    return std::clamp<Eigen::Index>(static_cast<Eigen::Index>(samples), 0, n);
+  };
+  const Eigen::Index first = sample_at(variant.event_time);
+  if (row.lasts()) return {first, n};
+  return {first, std::min(n, sample_at(variant.event_time + variant.shape.front()) + 2)};
 }
+
+/// Torque per unit of each linear parameter, on link and motor: row i is that of sample from + i;
+/// all others are 0.
+struct SomeTorques {
+  Eigen::Index from = 0;
+  Eigen::MatrixXd link, motor;  ///< samples x n_linear
+};
 
 /// Adds what a level of dry friction does in motion to its own side's torques.
 void add_level(const Refinement& row, const JointState& state, const double* shape, const double* z,
@@ -43,19 +55,22 @@ void add_level(const Refinement& row, const JointState& state, const double* sha
   for (std::size_t p = 0; p < level.size(); ++p) own[p] += direction * level[p];
 }
 
-/// At every `every`-th sample.
-FullTorques full_torques(const Variant& variant, const Stretch& stretch,
-                         const std::vector<JointState>& states, Eigen::Index every) {
+/// At every `every`-th sample, with `margin` of them without torque at either end.
+SomeTorques some_torques(const Variant& variant, const Stretch& stretch,
+                         const std::vector<JointState>& states, Eigen::Index every,
+                         Eigen::Index margin) {
   const Refinement& row = *variant.refinement;
   const auto n = static_cast<Eigen::Index>(row.n_linear());
   const auto samples = (static_cast<Eigen::Index>(states.size()) + every - 1) / every;
   const double h = static_cast<double>(every) * stretch.recording.period;
-  const Eigen::Index first = first_sample(variant, stretch, h, samples);
-  FullTorques out{Eigen::MatrixXd::Zero(samples, n), Eigen::MatrixXd::Zero(samples, n)};
+  const SampleRange active = active_samples(variant, stretch, h, samples);
+  const Eigen::Index n_rows = active.last - active.first + 2 * margin;
+  SomeTorques out{active.first - margin, Eigen::MatrixXd::Zero(n_rows, n),
+                  Eigen::MatrixXd::Zero(n_rows, n)};
   std::vector<double> z(row.n_states), level(row.n_linear());
   Eigen::RowVectorXd link(n), motor(n);
   JointState dated;  // of an event, whose age is not the state's own
-  for (Eigen::Index i = first; i < samples; ++i) {
+  for (Eigen::Index i = active.first; i < active.last; ++i) {
     const JointState* state = &states[static_cast<std::size_t>(i * every)];
     if (row.is_event) {
       dated = *state;
@@ -71,34 +86,42 @@ FullTorques full_torques(const Variant& variant, const Stretch& stretch,
       row.torque(*state, variant.shape.data(), z.data(), link.data(), motor.data());
     if (row.level != nullptr)
       add_level(row, *state, variant.shape.data(), z.data(), level, link.data(), motor.data());
-    out.link.row(i) = link;
-    out.motor.row(i) = motor;
+    out.link.row(i - out.from) = link;
+    out.motor.row(i - out.from) = motor;
     if (row.advance != nullptr) row.advance(*state, variant.shape.data(), h / 2, z.data());
   }
   return out;
 }
 
-/// The first `n` columns of `every`-th samples, filtered, at `at`.
-Eigen::MatrixXd filtered(const Kernel& filter, const Eigen::MatrixXd& samples, Eigen::Index n,
-                         const std::vector<Eigen::Index>& at, Eigen::Index every) {
+/// The first `n` columns filtered, at those of `at` that the filter can reach; 0 elsewhere.
+/// `samples`: from number `from` on, with twice the filter's reach of zeros at either end.
+Eigen::MatrixXd filtered(const Kernel& filter, const Eigen::MatrixXd& samples, Eigen::Index from,
+                         Eigen::Index n, const std::vector<Eigen::Index>& at, Eigen::Index every) {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(at.size()), n);
+  const Eigen::Index reach = filter.reach();
+  const auto begin = std::lower_bound(at.begin(), at.end(), (from + reach) * every);
+  const auto end = std::lower_bound(begin, at.end(), (from + samples.rows() - reach) * every);
   std::vector<Eigen::Index> rows;
-  for (const Eigen::Index i : at) rows.push_back(i / every);
-  return apply_at(filter, samples.leftCols(n), rows);
+  for (auto i = begin; i != end; ++i) rows.push_back(*i / every - from);
+  if (!rows.empty())
+    out.middleRows(begin - at.begin(), end - begin) = apply_at(filter, samples.leftCols(n), rows);
+  return out;
 }
 
 std::vector<Eigen::MatrixXd> torque_columns(const Design& design, const Variant& variant,
                                             std::size_t k) {
   const Eigen::Index every = design.smoothing.every;
-  const FullTorques full = full_torques(variant, design.stretches[k], design.states[k], every);
   const Kernel filter = gaussian(design.smoothing.columns,
                                  static_cast<double>(every) * design.stretches[k].recording.period);
+  const SomeTorques torques =
+      some_torques(variant, design.stretches[k], design.states[k], every, 2 * filter.reach());
   const Eigen::Index n = n_linear(variant);
   std::vector<Eigen::MatrixXd> columns;
   for (const KindRows& kind : design.rows[k].kinds) {
-    const Eigen::MatrixXd& own = kind.kind == RowKind::link ? full.link : full.motor;
-    const bool is_zero = own.cwiseAbs().maxCoeff() == 0;
+    const Eigen::MatrixXd& own = kind.kind == RowKind::link ? torques.link : torques.motor;
+    const bool is_zero = own.size() == 0 || own.isZero(0);
     columns.push_back(is_zero ? Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(kind.at.size()), n)
-                              : filtered(filter, own, n, kind.at, every));
+                              : filtered(filter, own, torques.from, n, kind.at, every));
   }
   return columns;
 }

@@ -1,13 +1,11 @@
 #include "cablefit/refine/verdict.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "cablefit/base/random.hpp"
-#include "cablefit/refine/chance_tail.hpp"
+#include "cablefit/refine/chance_gains.hpp"
 #include "cablefit/refine/conclusion.hpp"
 #include "cablefit/refine/levels.hpp"
 
@@ -28,25 +26,6 @@ constexpr double kStandsOut = 4;
 constexpr int kResamples = 200;
 
 bool may_be_named(const Candidate& c) { return c.refused.empty() && c.gain > 0; }
-
-/// What is always there, what lasts from a date on and what passes: a search over dates finds more
-/// by chance, and what passes is judged in sample.
-constexpr std::size_t kOccurrences = 3;
-std::size_t occurrence_of(const Refinement& row) { return !row.is_event ? 0 : row.lasts() ? 1 : 2; }
-
-using LargestGains = std::array<std::vector<double>, kOccurrences>;  ///< of every draw
-LargestGains largest_gains(const std::vector<NullDraw>& draws) {
-  LargestGains largest;
-  for (const NullDraw& draw : draws) {
-    std::array<double, kOccurrences> most{};
-    for (const auto& [row, gain] : draw.gains) {
-      double& own = most[occurrence_of(*row)];
-      own = std::max(own, gain);
-    }
-    for (std::size_t k = 0; k < kOccurrences; ++k) largest[k].push_back(most[k]);
-  }
-  return largest;
-}
 
 /// Share of resamples of the blocks in which each candidate has the least error.
 std::vector<double> inclusions(const std::vector<const Candidate*>& candidates) {
@@ -114,40 +93,27 @@ class Significance {
  public:
   Significance(const std::vector<NullDraw>& draws, const SquaredGap& gap,
                const RefineOptions& options, bool is_first)
-      : chance_(largest_gains(draws)), gap_(gap), options_(options), is_first_(is_first) {
-    for (std::size_t k = 0; k < draws.size(); ++k)
-      of_events_.push_back(std::max(chance_[1][k], chance_[2][k]));
-  }
+      : chance_(draws), gap_(gap), options_(options), is_first_(is_first) {}
 
-  ChanceTail tail(const Candidate& c) const { return tail_of_largest(to_beat(c), c.gain); }
+  ChanceTail tail(const Candidate& c) const { return chance_.tail(*c.variant.refinement, c.gain); }
 
   bool holds(const Candidate& c) const {
     const Refinement& row = *c.variant.refinement;
-    const std::vector<double>& chance = to_beat(c);
-    const double most = chance.empty() ? 0 : *std::max_element(chance.begin(), chance.end());
     const double least =
         is_first_ ? options_.materiality : std::max(kNextMateriality, options_.materiality);
     if (!is_first_ && c.gain * gap_.total < kNextShare * gap_.above()) return false;
     if (row.is_event && gap_.total < kNoGap * gap_.floor) return false;
     if (row.passes() && c.gain < kStandsOut * c.elsewhere) return false;
-    return c.gain >= least && c.gain > kSafety * most && tail(c).p <= options_.significance;
+    return c.gain >= least && chance_.is_beyond(row, c.gain, kSafety) &&
+           tail(c).p <= options_.significance;
   }
 
-  /// The gain less what a search of its kind gains by chance on average.
   double beyond_chance(const Candidate& c) const {
-    const std::vector<double>& chance = chance_[occurrence_of(*c.variant.refinement)];
-    if (chance.empty()) return c.gain;
-    return c.gain -
-           std::accumulate(chance.begin(), chance.end(), 0.0) / static_cast<double>(chance.size());
+    return c.gain - chance_.usual(*c.variant.refinement);
   }
 
  private:
-  const std::vector<double>& to_beat(const Candidate& c) const {
-    return c.variant.refinement->is_event ? of_events_ : chance_[0];
-  }
-
-  LargestGains chance_;
-  std::vector<double> of_events_;  ///< of every draw
+  ChanceGains chance_;
   const SquaredGap& gap_;
   const RefineOptions& options_;
   bool is_first_;

@@ -1,0 +1,125 @@
+#include "cablefit/refine/effect_trial.hpp"
+
+#include "cablefit/refine/conclusion.hpp"
+#include "cablefit/refine/golden.hpp"
+#include "cablefit/refine/refined_model.hpp"
+
+namespace cablefit {
+namespace {
+
+// Tensions and stiffness that columns are made of were those of a model without the effect.
+constexpr int kRelinearisations = 3;
+
+/// Fitted again and again, each time with what follows from the values before.
+std::optional<BlockFit> settled_fit(const RefineBench& bench, const KindLevels& levels, int rounds,
+                                    Design& design, Design* test) {
+  std::optional<BlockFit> fit;
+  for (int round = 0; round < rounds; ++round) {
+    if (round > 0) {
+      design = relinearised(design, fit->x);
+      if (test != nullptr) *test = relinearised(*test, fit->x);
+    }
+    fit = fit_blocks(block_grams(design.rows, design.stretches, bench.scan.block_seconds), levels,
+                     false);
+    if (!fit) return {};
+  }
+  return fit;
+}
+
+/// The same where the effect's cables follow from coefficients that are fitted with it: those that
+/// the search had are of a model without it, and its shape is then off by some per cent.
+std::optional<RefineState> with_own_coefficients(const RefineBench& bench, const RefineState& state,
+                                                 const Search& found, Candidate& winner) {
+  constexpr double kAround = 0.1;
+  constexpr int kSettling = 8;
+  if (!applies(state.design, winner.variant)) return {};
+  Design design = with_variant(state.design, winner.variant, found.fit.x);
+  auto fit = settled_fit(bench, found.levels, kSettling, design, nullptr);
+  for (std::size_t i = 0; fit && i < winner.variant.shape.size(); ++i) {
+    if (!is_free(winner.variant, i)) continue;
+    double& value = winner.variant.shape[i];
+    const auto rho_with = [&](double other) {
+      design.added.back().shape[i] = other;
+      if (fit) design = relinearised(design, fit->x);
+      if (fit) fit = settled_fit(bench, found.levels, kRelinearisations, design, nullptr);
+      return fit ? rho_of(*fit, bench.floor) : kUnbounded;
+    };
+    value = golden((1 - kAround) * value, (1 + kAround) * value, rho_with);
+    rho_with(value);
+  }
+  if (!fit) return {};
+  const Eigen::VectorXd own = fit->x.head(state.design.n_columns());
+  RefineState there = state;
+  there.design = relinearised(state.design, own);
+  there.test = relinearised(state.test, own);
+  return with_candidate(bench, there, found, winner);
+}
+
+/// Whether there is nothing to explain, whatever fits better by chance. Blocked rows alone are few,
+/// and their floor is known less well. An effect that the model had leaves crumbs, like one that
+/// was added.
+bool is_at_floor(const RefineBench& bench, const RefineState& state) {
+  if (bench.elastic_only) return state.rho < kNoGap && state.unseen.rho < kVisibleGap;
+  const bool is_kept_base = bench.n_kept > 0 && state.design.added.size() == bench.n_kept;
+  return is_kept_base ? state.rho < kNoGap : state.rho <= 1;
+}
+
+/// Of an event in the last log only the unseen logs can say whether it outlasted that one.
+bool may_have_ended(const RefineBench& bench, const RefineState& state, const Variant& variant) {
+  return variant.refinement->lasts() && bench.held_back == 0 &&
+         variant.event_log == state.design.stretches.back().log;
+}
+
+}  // namespace
+
+std::optional<RefineState> with_candidate(const RefineBench& bench, const RefineState& state,
+                                          const Search& found, const Candidate& winner) {
+  if (!applies(state.design, winner.variant)) return {};
+  RefineState next;
+  next.design = with_variant(state.design, winner.variant, found.fit.x);
+  next.test = with_variant(state.test, winner.variant, found.fit.x);
+  next.levels = found.levels;
+  const auto fit = settled_fit(bench, next.levels, kRelinearisations, next.design, &next.test);
+  if (!fit) return {};
+  next.x = fit->x;
+  next.rho = rho_of(*fit, bench.floor);
+  next.unseen = gap_of(next.test, next.x, bench.test_floor, bench.scan.block_seconds);
+  next.simulated =
+      simulated_gap(models_with(next.design, next.x), bench.unseen, bench.options.threads);
+  return next;
+}
+
+std::optional<Trial> try_next(RefineBench& bench, const RefineState& state, bool is_first,
+                              RefineResult* first_result) {
+  tell(bench.options, "search", 0);
+  const Search found = search(state.design, bench.floor, bench.scan);
+  need_draws(bench, state, found);
+  const SquaredGap gap{found.fit.held_out.sum(), floor_error(found.fit, bench.floor, found.levels)};
+  Trial trial;
+  trial.judgement = judge_search(found.candidates, gap, bench.draws, bench.options,
+                                 is_first && bench.n_kept == 0);
+  if (first_result != nullptr) {
+    first_result->league = trial.judgement.league;
+    bench.first_search = found;
+  }
+  if (!trial.judgement.is_named || is_at_floor(bench, state)) return {};
+  trial.winner = refined_shape({state.design, found.grams, found.fit, found.levels}, bench.scan,
+                               *trial.judgement.best);
+  trial.judgement.best = nullptr;  // of the search, which ends here
+  auto next = trial.winner.variant.refinement->change_again != nullptr
+                  ? with_own_coefficients(bench, state, found, trial.winner)
+                  : with_candidate(bench, state, found, trial.winner);
+  if (!next) return {};
+  if (may_have_ended(bench, state, trial.winner.variant) && next->unseen.rho > state.unseen.rho) {
+    Candidate ended = trial.winner;
+    ended.variant.ends_with_log = true;
+    if (auto other = with_candidate(bench, state, found, ended)) {
+      trial.winner = std::move(ended);
+      next = std::move(other);
+    }
+  }
+  trial.after = std::move(*next);
+  return trial;
+}
+
+}  // namespace cablefit
