@@ -112,6 +112,17 @@ TEST_CASE("the yield of a hidden hysteresis has no bias", "[refine][slow]") {
     check_near(parameter(result, name), truth(hidden, name));
 }
 
+/// Between two dates half a second apart it was missed, or found twice as long.
+TEST_CASE("a short contact is as long as it was", "[refine][slow]") {
+  const HiddenLogs hidden = hidden_logs({"contact.link=1"});
+  const RefineResult result = refined(hidden);
+  INFO(result.reason);
+  REQUIRE(first_name(result) == "contact");
+  for (const char* name : {"torque", "width"})
+    CHECK(parameter(result, name).value == Approx(truth(hidden, name)).epsilon(0.1));
+  CHECK(result.effects[0].instance.event_time == Approx(truth(hidden, "t0")).margin(0.05));
+}
+
 /// The second simulator runs for half a second before it logs.
 TEST_CASE("a hidden creep has begun before the log", "[refine][slow]") {
   const HiddenLogs hidden = hidden_logs({"creep.transmission=1"});

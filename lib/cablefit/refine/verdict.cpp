@@ -129,19 +129,28 @@ std::vector<const Candidate*> ranked(const std::vector<Candidate>& candidates) {
   return able;
 }
 
-/// Place of the significant candidate with the largest gain beyond chance; of those that do as
-/// well, the one with the fewest parameters. Nothing: none is significant.
+/// Whether the other one is the better name: it gains more beyond chance, or as much with fewer
+/// parameters. What is always there is not held against what its row gains by chance where both
+/// are: of two that are nearly the same the one with the luckier row would lose.
+bool is_better_name(const Candidate& other, const Candidate& best, const Significance& significance,
+                    const SquaredGap& gap) {
+  if (is_tie(other, best, gap) && n_parameters(other) < n_parameters(best)) return true;
+  if (!other.variant.refinement->is_event && !best.variant.refinement->is_event)
+    return other.gain > best.gain;
+  return significance.beyond_chance(other) > significance.beyond_chance(best);
+}
+
+/// Place of the significant candidate with the best name; what is always there is compared first.
+/// Nothing: none is significant.
 std::optional<std::size_t> best_of(const std::vector<const Candidate*>& able,
                                    const Significance& significance, const SquaredGap& gap) {
   std::optional<std::size_t> best;
-  for (std::size_t k = 0; k < able.size(); ++k) {
-    if (!significance.holds(*able[k])) continue;
-    const bool is_better =
-        !best || significance.beyond_chance(*able[k]) > significance.beyond_chance(*able[*best]);
-    if (is_better || (is_tie(*able[k], *able[*best], gap) &&
-                      n_parameters(*able[k]) < n_parameters(*able[*best])))
-      best = k;
-  }
+  for (const bool is_event : {false, true})
+    for (std::size_t k = 0; k < able.size(); ++k) {
+      if (able[k]->variant.refinement->is_event != is_event || !significance.holds(*able[k]))
+        continue;
+      if (!best || is_better_name(*able[k], *able[*best], significance, gap)) best = k;
+    }
   return best;
 }
 
