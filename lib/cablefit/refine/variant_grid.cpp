@@ -43,8 +43,8 @@ std::vector<std::pair<std::size_t, double>> dates(const Design& design, double s
 /// What lasts changes all rows after it, so that its date is known from far; what passes does not,
 /// and is missed between two dates that are further apart than it is long.
 double date_step(const Refinement& row, const std::vector<double>& shape, double event_step) {
-  constexpr double kCoarser = 4;
-  return row.lasts() ? kCoarser * event_step : std::min(event_step, shape.front() / 2);
+  constexpr double kCoarser = 4, kOverlap = 0.75;
+  return row.lasts() ? kCoarser * event_step : std::min(event_step, kOverlap * shape.front());
 }
 
 }  // namespace
