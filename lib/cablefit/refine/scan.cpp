@@ -114,8 +114,8 @@ double median_error(const ErrorsByBlock& errors) {
 /// The variant with its nonlinear parameters (and date) where its squared error is least.
 Variant moved_shape(const ScanStart& start, const ScanSettings& settings, const QuickLook& look,
                     Variant variant) {
-  constexpr int kRounds = 2;
   const Refinement& row = *variant.refinement;
+  const int rounds = row.passes() ? 3 : 2;  // place and length of what passes pull at each other
   const auto error_with = [&](const Variant& other) {
     if (!replaces_rows(other)) {
       const auto looked =
@@ -125,7 +125,15 @@ Variant moved_shape(const ScanStart& start, const ScanSettings& settings, const 
     const auto tried = try_variant(start, settings, other);
     return tried && tried->refused.empty() ? tried->error.sum() : kUnbounded;
   };
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
+    if (row.is_event) {  // first: what is at the wrong place fits best when it is too long
+      const auto [from, to] = dates_around(start.design, variant, settings.event_step);
+      variant.event_time = golden(from, to, [&](double time) {
+        Variant other = variant;
+        other.event_time = time;
+        return error_with(other);
+      });
+    }
     for (std::size_t i = 0; i < variant.shape.size(); ++i) {
       if (!is_free(variant, i)) continue;
       const auto [low, high] = around(row.shape[i], variant.shape[i], start.design.scale);
@@ -133,13 +141,6 @@ Variant moved_shape(const ScanStart& start, const ScanSettings& settings, const 
                              return error_with(with_shape(variant, i, value));
                            }));
     }
-    if (!row.is_event) continue;
-    const auto [from, to] = dates_around(start.design, variant, settings.event_step);
-    variant.event_time = golden(from, to, [&](double time) {
-      Variant other = variant;
-      other.event_time = time;
-      return error_with(other);
-    });
   }
   return variant;
 }
