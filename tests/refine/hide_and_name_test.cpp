@@ -101,13 +101,19 @@ void check_near(const Estimate& found, double true_value) {
   CHECK(found.sd < 0.1 * true_value);
 }
 
+/// What is said of logs with this effect, which has to be named.
+RefineResult named(const HiddenLogs& hidden, std::string_view effect) {
+  RefineResult result = refined(hidden);
+  INFO(result.reason);
+  REQUIRE(first_name(result) == effect);
+  return result;
+}
+
 /// Of the cable's loops the smoothed motion shows less than the cable has: a fit alone puts the
 /// yield a third low.
 TEST_CASE("the yield of a hidden hysteresis has no bias", "[refine][slow]") {
   const HiddenLogs hidden = hidden_logs({"cable_hysteresis.transmission=0.3"});
-  const RefineResult result = refined(hidden);
-  INFO(result.reason);
-  REQUIRE(first_name(result) == "cable_hysteresis");
+  const RefineResult result = named(hidden, "cable_hysteresis");
   for (const char* name : {"amplitude", "yield"})
     check_near(parameter(result, name), truth(hidden, name));
 }
@@ -115,9 +121,7 @@ TEST_CASE("the yield of a hidden hysteresis has no bias", "[refine][slow]") {
 /// Between two dates half a second apart it was missed, or found twice as long.
 TEST_CASE("a short contact is as long as it was", "[refine][slow]") {
   const HiddenLogs hidden = hidden_logs({"contact.link=1"});
-  const RefineResult result = refined(hidden);
-  INFO(result.reason);
-  REQUIRE(first_name(result) == "contact");
+  const RefineResult result = named(hidden, "contact");
   for (const char* name : {"torque", "width"})
     CHECK(parameter(result, name).value == Approx(truth(hidden, name)).epsilon(0.1));
   CHECK(result.effects[0].instance.event_time == Approx(truth(hidden, "t0")).margin(0.05));
@@ -126,9 +130,7 @@ TEST_CASE("a short contact is as long as it was", "[refine][slow]") {
 /// The second simulator runs for half a second before it logs.
 TEST_CASE("a hidden creep has begun before the log", "[refine][slow]") {
   const HiddenLogs hidden = hidden_logs({"creep.transmission=1"});
-  const RefineResult result = refined(hidden);
-  INFO(result.reason);
-  REQUIRE(first_name(result) == "creep");
+  const RefineResult result = named(hidden, "creep");
   for (const char* name : {"compliance", "T"})
     check_near(parameter(result, name), truth(hidden, name));
   const Estimate& settled = parameter(result, "settled");

@@ -26,8 +26,8 @@ std::optional<BlockFit> settled_fit(const RefineBench& bench, const KindLevels& 
   return fit;
 }
 
-/// The same where the effect's cables follow from coefficients that are fitted with it: those that
-/// the search had are of a model without it, and its shape is then off by some per cent.
+/// with_candidate where the effect's cables follow from coefficients that are fitted with it: those
+/// that the search had are of a model without it, and its shape is then off by some per cent.
 std::optional<RefineState> with_own_coefficients(const RefineBench& bench, const RefineState& state,
                                                  const Search& found, Candidate& winner) {
   constexpr double kAround = 0.1;
