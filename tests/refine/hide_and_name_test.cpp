@@ -110,7 +110,7 @@ RefineResult named(const HiddenLogs& hidden, std::string_view effect) {
 }
 
 /// Of the cable's loops the smoothed motion shows less than the cable has: a fit alone puts the
-/// yield a third low.
+/// yield a quarter low.
 TEST_CASE("the yield of a hidden hysteresis has no bias", "[refine][slow]") {
   const HiddenLogs hidden = hidden_logs({"cable_hysteresis.transmission=0.3"});
   const RefineResult result = named(hidden, "cable_hysteresis");
