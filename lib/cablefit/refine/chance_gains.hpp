@@ -15,6 +15,8 @@ class ChanceGains {
  public:
   explicit ChanceGains(const std::vector<NullDraw>& draws);
 
+  std::size_t n_draws() const { return always_.size(); }
+
   /// How likely the largest gain of a search of nothing is this large. Of what is always there two
   /// ways, and twice the smaller (Bonferroni; not where no draws could tell less): as it is, and
   /// counted in what its own row gains by chance, as rows that act where one equation wanders gain

@@ -23,6 +23,7 @@ constexpr double kSafety = 1.3;            // times the largest chance gain seen
 // What passes against its gain at half of all other dates. By chance the largest of 40 blocks'
 // largest gains is 2 to 3 times their median (exponential tails; Fisher & Tippett 1928).
 constexpr double kStandsOut = 4;
+constexpr double kAtFloor = 0.1;  // of the significance, where there is no gap to explain
 constexpr int kResamples = 200;
 
 bool may_be_named(const Candidate& c) { return c.refused.empty() && c.gain > 0; }
@@ -102,10 +103,10 @@ class Significance {
     const double least =
         is_first_ ? options_.materiality : std::max(kNextMateriality, options_.materiality);
     if (!is_first_ && c.gain * gap_.total < kNextShare * gap_.above()) return false;
-    if (row.is_event && gap_.total < kNoGap * gap_.floor) return false;
+    if (row.is_event && is_at_floor()) return false;
     if (row.passes() && c.gain < kStandsOut * c.elsewhere) return false;
     return c.gain >= least && chance_.is_beyond(row, c.gain, kSafety) &&
-           tail(c).p <= options_.significance;
+           tail(c).p <= significance();
   }
 
   double beyond_chance(const Candidate& c) const {
@@ -113,6 +114,15 @@ class Significance {
   }
 
  private:
+  bool is_at_floor() const { return gap_.total < kNoGap * gap_.floor; }
+
+  /// Most logs in which nothing is missing are at the floor, and few in which something is: a name
+  /// there has the odds against it.
+  double significance() const {
+    if (!is_at_floor()) return options_.significance;
+    return std::max(least_tail(chance_.n_draws()), kAtFloor * options_.significance);
+  }
+
   ChanceGains chance_;
   const SquaredGap& gap_;
   const RefineOptions& options_;
