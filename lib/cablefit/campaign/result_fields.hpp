@@ -42,7 +42,7 @@ void fields(Archive& a, WindowCounts& v) {
 // Figures
 
 template <class Archive>
-void fields(Archive& a, Axis& v) {
+void fields(Archive& a, FigureAxis& v) {
   a("title", v.title), a("unit", v.unit);
 }
 

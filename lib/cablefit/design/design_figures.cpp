@@ -29,7 +29,7 @@ std::string group_of(const DesignResult& result, const DesignJoint& joint) {
 
 /// The figure of this title and joint, made when there is none yet.
 Figure& figure_of(DesignResult& result, const DesignJoint& joint, const std::string& title,
-                  const std::string& caption, const Axis& x, const Axis& y) {
+                  const std::string& caption, const FigureAxis& x, const FigureAxis& y) {
   const std::string group = group_of(result, joint);
   for (Figure& figure : result.figures)
     if (figure.section == kSection && figure.group == group && figure.title == title) return figure;
@@ -74,9 +74,9 @@ std::vector<double> sample_points(const JointCurve& curve, const WorkingRange& r
 /// The curves of one joint, each in its figure.
 void add_joint_curves(const JointCurve& curve, const DesignJoint& joint, const std::string& name,
                       const DesignOptions& options, DesignResult& result) {
-  const Axis deflection = {"deflection theta - q", angle_unit_of(result)};
-  const Axis torque = {"elastic torque", torque_unit_of(result)};
-  const Axis error = {"model minus cables", torque_unit_of(result)};
+  const FigureAxis deflection = {"deflection theta - q", angle_unit_of(result)};
+  const FigureAxis torque = {"elastic torque", torque_unit_of(result)};
+  const FigureAxis error = {"model minus cables", torque_unit_of(result)};
   const WorkingRange range{joint.low, joint.high};
   const std::vector<double> phi = sample_points(curve, range);
   std::vector<double> tau;
@@ -136,7 +136,7 @@ std::string with_factor(const std::string& name, double factor, const DesignResu
   return result.needed.size() > 1 ? fmt::format("{}, radii x {:g}", name, factor) : name;
 }
 
-void add_closure_figure(DesignResult& result, std::size_t joint, const Axis& l_o) {
+void add_closure_figure(DesignResult& result, std::size_t joint, const FigureAxis& l_o) {
   Figure& figure = figure_of(
       result, result.points.front().joints[joint], "Closure torque",
       "All cables are taut up to this torque in both directions. Dashed: the torque asked for.",
@@ -159,8 +159,8 @@ void add_closure_figure(DesignResult& result, std::size_t joint, const Axis& l_o
 /// Of every model but the cables themselves (collisions: of these too).
 template <typename Number>
 void add_cost_figure(DesignResult& result, std::size_t joint, const std::string& title,
-                     const std::string& caption, const Axis& l_o, const Axis& y, bool all,
-                     Number number) {
+                     const std::string& caption, const FigureAxis& l_o, const FigureAxis& y,
+                     bool all, Number number) {
   Figure& figure = figure_of(result, result.points.front().joints[joint], title, caption, l_o, y);
   int series = 0;
   for (const NeededPreload& needed : result.needed)
@@ -195,8 +195,8 @@ void add_curves(const Model& model, const Transmission& preloaded, const DesignP
 
 void finish_figures(const DesignOptions& options, DesignResult& result) {
   if (!options.figures || result.points.empty()) return;
-  const Axis l_o = {"initial elongation l_o of cable " + result.cables.front(),
-                    result.cable_space ? "m" : angle_unit_of(result)};
+  const FigureAxis l_o = {"initial elongation l_o of cable " + result.cables.front(),
+                          result.cable_space ? "m" : angle_unit_of(result)};
   for (std::size_t joint = 0; joint < result.points.front().joints.size(); ++joint) {
     add_closure_figure(result, joint, l_o);
     add_cost_figure(result, joint, "Largest error of simpler models",

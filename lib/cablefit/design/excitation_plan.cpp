@@ -46,7 +46,7 @@ Trace thinned(const std::string& name, int series, TraceStyle style, double peri
 
 void add_figures(ExcitationPlan& plan) {
   const bool linear = plan.linear_motion;
-  const auto add = [&](const std::string& title, const Axis& y, const Eigen::ArrayXXd& values,
+  const auto add = [&](const std::string& title, const FigureAxis& y, const Eigen::ArrayXXd& values,
                        double limit, const Eigen::ArrayXXd* reference) {
     Figure figure;
     figure.section = "The motion to record";

@@ -7,7 +7,7 @@
 
 namespace cablefit {
 
-struct Axis {
+struct FigureAxis {
   std::string title;  ///< "deflection theta - q"
   std::string unit;   ///< printed in brackets; may be empty
 };
@@ -52,7 +52,7 @@ struct Figure {
   std::string group;    ///< heading below that: "motor equation"; may be empty
   std::string title;
   std::string caption;  ///< what to look for, and what was thinned
-  Axis x, y;
+  FigureAxis x, y;
   std::vector<Trace> traces;
   std::vector<Mark> marks;
   std::vector<Note> notes;

@@ -203,7 +203,7 @@ std::vector<std::size_t> revealing(const Pair& pair) {
   return chosen;
 }
 
-Axis axis_of(const RegimeVariable& variable, bool link, bool linear_motion) {
+FigureAxis axis_of(const RegimeVariable& variable, bool link, bool linear_motion) {
   return {std::string(link ? variable.link : variable.motor),
           regime_unit(variable.regime, linear_motion)};
 }

@@ -41,7 +41,7 @@ Table parts_table(const CheckedLog& log) {
                    {"", "good for", "", true}};
   for (const CheckedPart& part : log.parts) {
     const PartSurvey& s = part.survey;
-    const Excitation& e = part.excitation;
+    const CheckedExcitation& e = part.excitation;
     const bool known = !e.channel.empty();
     table.rows.push_back(
         {part_name(part), std::string(to_string(s.phase)), fmt::format("{}", s.n_rows),

@@ -20,7 +20,7 @@ Json channel_json(const CheckedChannel& channel) {
               {"at_limits", s.at_limits}};
 }
 
-Json excitation_json(const Excitation& e) {
+Json excitation_json(const CheckedExcitation& e) {
   if (e.channel.empty()) return nullptr;
   return Json{{"channel", e.channel},
               {"rest_speed", e.rest_speed},

@@ -35,7 +35,7 @@ Json numbers(const std::vector<double>& values) {
   return {{"base", base}, {"floats", packed(values, base)}};
 }
 
-Json axis_json(const Axis& axis) {
+Json axis_json(const FigureAxis& axis) {
   return {{"title", printable(axis.title)},
           {"unit", printable(axis.unit)},
           {"dates", axis.title == kDateAxis}};

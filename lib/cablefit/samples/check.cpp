@@ -56,9 +56,9 @@ const Eigen::ArrayXd& speed_of(const JointSignals& signals, Channel channel) {
   return channel == Channel::q ? signals.qd : signals.thetad;
 }
 
-Excitation excitation_of(const LogSurvey& log, const PartSurvey& part, const SampleOptions& options,
-                         int joint) {
-  Excitation excitation;
+CheckedExcitation excitation_of(const LogSurvey& log, const PartSurvey& part,
+                                const SampleOptions& options, int joint) {
+  CheckedExcitation excitation;
   const std::optional<Channel> channel = motion_channel(log.plan, joint);
   if (!channel) return excitation;
   excitation.channel = indexed_name(*channel, joint, log.plan.rig);
@@ -94,11 +94,11 @@ Excitation excitation_of(const LogSurvey& log, const PartSurvey& part, const Sam
 }
 
 /// Of several joints the one that moves least: what it lacks, the log lacks.
-Excitation least_excitation(const LogSurvey& log, const PartSurvey& part,
-                            const SampleOptions& options) {
-  Excitation least = excitation_of(log, part, options, 0);
+CheckedExcitation least_excitation(const LogSurvey& log, const PartSurvey& part,
+                                   const SampleOptions& options) {
+  CheckedExcitation least = excitation_of(log, part, options, 0);
   for (int joint = 1; joint < log.plan.rig.n_joints(); ++joint) {
-    Excitation other = excitation_of(log, part, options, joint);
+    CheckedExcitation other = excitation_of(log, part, options, joint);
     const bool rests_more = other.share_at_rest > least.share_at_rest;
     if (least.channel.empty() || (!other.channel.empty() && rests_more)) least = std::move(other);
   }
@@ -158,7 +158,7 @@ void note_channels(CheckedPart& part) {
 
 void note_motion(const LogPlan& plan, CheckedPart& part) {
   const auto warn = [&part](const std::string& text) { part.warnings.push_back(text); };
-  const Excitation& e = part.excitation;
+  const CheckedExcitation& e = part.excitation;
   if (part.identifies.empty()) {
     warn(
         "nothing can be identified from this part: stage 1 needs q, theta and tau with the link "

@@ -18,7 +18,7 @@ struct CheckedChannel {
 };
 
 /// How the drive (theta or w, else q) was moved, first joint.
-struct Excitation {
+struct CheckedExcitation {
   std::string channel;       ///< empty: no channel tells
   double rest_speed = 0;     ///< rad/s, below this it counts as at rest
   double share_at_rest = 0;  ///< of the rows
@@ -36,7 +36,7 @@ struct CheckedDelay {
 struct CheckedPart {
   PartSurvey survey;
   std::vector<CheckedChannel> channels;
-  Excitation excitation;
+  CheckedExcitation excitation;
   CheckedDelay delay;
   /// Among "elastic" (stage 1), "dynamic" (stage 2), "rigid", "ratios".
   std::vector<std::string> identifies;

@@ -59,7 +59,7 @@ double TimeAxis::at(std::size_t log, std::size_t part, double t) const {
   return t + shifts_[log][part];
 }
 
-Axis TimeAxis::axis() const {
+FigureAxis TimeAxis::axis() const {
   return {n_parts_ > 1 ? "time, one log after the other" : "time", "s"};
 }
 

@@ -19,7 +19,7 @@ class TimeAxis {
   double at(std::size_t log, std::size_t part, double t) const;
 
   ThinnedLine new_line() const { return {begin_, end_, spacing_}; }
-  Axis axis() const;
+  FigureAxis axis() const;
 
   /// A stretch in the middle of the longest part, short enough to be drawn row by row; there is
   /// none when the whole is.
