@@ -32,7 +32,8 @@ fail() {
 
 # configure FOLDER BUILD_TYPE OPTION...
 configure() {
-  show cmake --log-level=WARNING -S . -B "$1" -G Ninja -DCMAKE_BUILD_TYPE="$2" "${@:3}"
+  show cmake --log-level=WARNING -S . -B "$1" -G Ninja -DCMAKE_BUILD_TYPE="$2" \
+    -DCABLEFIT_TOGETHER="${CABLEFIT_TOGETHER:-OFF}" "${@:3}"
 }
 
 # build FOLDER TARGET...
@@ -43,7 +44,7 @@ build() {
 # With -O2, because tests simulate and fit a lot, but without NDEBUG: the assertions here, in Eigen
 # and in the standard library are what a test can still trip over when the numbers look right.
 configure_with_assertions() {
-  configure "$1" RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="$2 -g1 -D_GLIBCXX_ASSERTIONS" \
+  configure "$1" RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="$2 -D_GLIBCXX_ASSERTIONS" \
     "${@:3}"
 }
 

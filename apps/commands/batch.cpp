@@ -24,13 +24,11 @@
 namespace cablefit::apps {
 namespace {
 
-constexpr const char* kExample =
+constexpr const char* kBatchExample =
     "Example:\n"
     "  cablefit batch data/campaign.json --report summary.md --junit gates.xml\n"
     "Finished cells are kept in OUT/cells: a run that was interrupted goes on where it was.\n"
     "Exit code 1: a limit of the campaign was passed; each failed gate is one line.\n";
-
-constexpr int kGateFailed = 1;
 
 struct BatchCommand {
   CommonOptions common;
@@ -167,7 +165,7 @@ int run_batch(const Arguments& arguments) {
   add_sd_option(app, options);
   add_sample_options(app, options);
   add_output_options(app, options);
-  app.footer(kExample);
+  app.footer(kBatchExample);
   if (!parse(app, arguments)) return 0;
 
   const Campaign campaign = read_campaign(command.campaign);

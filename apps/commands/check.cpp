@@ -16,7 +16,7 @@
 namespace cablefit::apps {
 namespace {
 
-constexpr const char* kExample =
+constexpr const char* kCheckExample =
     "Example:\n"
     "  cablefit check data/low/blocked.csv data/low/moving_load30.csv\n";
 
@@ -56,7 +56,7 @@ int run_check(const Arguments& arguments) {
   add_log_options(app, options);
   add_sample_options(app, options);
   add_output_options(app, options);
-  app.footer(kExample);
+  app.footer(kCheckExample);
   if (!parse(app, arguments)) return 0;
 
   const std::vector<LogSurvey> logs = read_logs(options);

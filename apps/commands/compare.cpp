@@ -17,12 +17,11 @@
 namespace cablefit::apps {
 namespace {
 
-constexpr const char* kExample =
+constexpr const char* kCompareExample =
     "Example, after 'cablefit dynamic' on two preloads:\n"
     "  cablefit compare cablefit-out/dynamic.json cablefit-out/dynamic.json --preload low high\n"
     "Reads results of elastic, dynamic, identify and batch.\n";
 
-constexpr int kGateFailed = 1;
 constexpr std::size_t kMostPreloads = 2;
 
 struct CompareCommand {
@@ -94,7 +93,7 @@ int run_compare(const Arguments& arguments) {
   CompareCommand command;
   add_options(app, command);
   add_output_options(app, command.common);
-  app.footer(kExample);
+  app.footer(kCompareExample);
   if (!parse(app, arguments)) return 0;
   if (command.results.size() != 2)
     throw usage_error(fmt::format("compare takes two results, not {}", command.results.size()),

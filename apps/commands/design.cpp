@@ -19,7 +19,7 @@
 namespace cablefit::apps {
 namespace {
 
-constexpr const char* kExample =
+constexpr const char* kDesignExample =
     "Example, after 'cablefit elastic' and 'cablefit dynamic':\n"
     "  cablefit design cablefit-out/dynamic.json --preload low --torque 40 --l-o 0,0.00512\n"
     "A rig file does as well, when its cables have \"coefficients\". Which motion to record:\n"
@@ -266,7 +266,7 @@ int run_design(const Arguments& arguments) {
   add_collision_options(app, command.design);
   add_excitation_options(app, command);
   add_output_options(app, command.common);
-  app.footer(kExample);
+  app.footer(kDesignExample);
   if (!parse(app, arguments)) return 0;
   const DesignResult result = run(command);
   if (result.excitation) write_whole(command.excite, reference_csv(result.excitation->motion));

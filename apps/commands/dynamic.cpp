@@ -30,7 +30,7 @@
 namespace cablefit::apps {
 namespace {
 
-constexpr const char* kExample =
+constexpr const char* kDynamicExample =
     "Example, after 'cablefit elastic data/low/blocked.csv data/high/blocked.csv':\n"
     "  cablefit dynamic --model both data/low/moving*.csv data/high/moving*.csv\n";
 
@@ -258,7 +258,7 @@ int run_dynamic(const Arguments& arguments) {
   add_sd_option(app, options);
   add_sample_options(app, options);
   add_output_options(app, options);
-  app.footer(kExample);
+  app.footer(kDynamicExample);
   if (!parse(app, arguments)) return 0;
   require_unseen(command);
   std::optional<Stage1> earlier = earlier_stage1(command);

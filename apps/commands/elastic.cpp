@@ -16,7 +16,7 @@
 namespace cablefit::apps {
 namespace {
 
-constexpr const char* kExample =
+constexpr const char* kElasticExample =
     "Example:\n"
     "  cablefit elastic data/low/blocked.csv data/high/blocked.csv --report table1.md\n";
 
@@ -99,7 +99,7 @@ int run_elastic(const Arguments& arguments) {
   add_sd_option(app, options);
   add_sample_options(app, options);
   add_output_options(app, options);
-  app.footer(kExample);
+  app.footer(kElasticExample);
   if (!parse(app, arguments)) return 0;
   if (search && elastic.still)
     throw usage_error("--l_o search and --still cannot be combined",

@@ -13,7 +13,7 @@
 namespace cablefit::apps {
 namespace {
 
-constexpr const char* kExample =
+constexpr const char* kIdentifyExample =
     "Example, blocked and moving logs of two preloads:\n"
     "  cablefit identify data/low/*.csv data/high/*.csv --report identify.html\n"
     "Writes a model file per preload for 'cablefit simulate' when the dynamics were identified.\n";
@@ -61,7 +61,7 @@ int run_identify(const Arguments& arguments) {
   add_sd_option(app, options);
   add_sample_options(app, options);
   add_output_options(app, options);
-  app.footer(kExample);
+  app.footer(kIdentifyExample);
   if (!parse(app, arguments)) return 0;
 
   const std::vector<LogSurvey> logs = read_logs(options);

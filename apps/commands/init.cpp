@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExample =
+constexpr const char* kInitExample =
     "Example:\n"
     "  cablefit init data --dry-run\n"
     "Writes FOLDER/campaign.json, and a rig.json into every folder of logs that has none. A "
@@ -103,7 +103,7 @@ int run_init(const Arguments& arguments) {
   app.add_flag("--force", command.force, "replace a campaign.json that is there");
   app.add_flag("--dry-run", command.dry_run, "print the campaign file, write nothing");
   app.add_flag("--quiet", command.quiet, "print problems only");
-  app.footer(kExample);
+  app.footer(kInitExample);
   if (!parse(app, arguments)) return 0;
 
   const std::string campaign = below(command, "campaign.json");

@@ -20,7 +20,7 @@
 namespace cablefit::apps {
 namespace {
 
-constexpr const char* kExample =
+constexpr const char* kListExample =
     "Example:\n"
     "  cablefit list effects\n";
 
@@ -158,7 +158,7 @@ int run_list(const Arguments& arguments) {
   std::string wanted;
   app.add_option("WHAT", wanted, "effects, models, estimators or formats [all]")->type_name("");
   app.add_option("--json", options.json, "as JSON; - for standard output")->type_name("FILE");
-  app.footer(kExample);
+  app.footer(kListExample);
   if (!parse(app, arguments)) return 0;
   if (!wanted.empty()) require_known("list", wanted, section_names());
 

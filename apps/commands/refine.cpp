@@ -28,13 +28,12 @@
 namespace cablefit::apps {
 namespace {
 
-constexpr const char* kExample =
+constexpr const char* kRefineExample =
     "Example, after 'cablefit elastic' and 'cablefit dynamic' (or 'cablefit identify'):\n"
     "  cablefit refine cablefit-out/dynamic.json --train data/low/*.csv --draws 8\n"
     "Writes refined.json (refined_PRELOAD.json for several), a model with what was found.\n";
 
 constexpr const char* kResultFile = "refine.json";
-constexpr int kGateFailed = 1;
 constexpr std::size_t kLeastDraws = 4, kMostDraws = 100000, kMostEffects = 10;
 
 struct RefineCommand {
@@ -314,7 +313,7 @@ int run_refine(const Arguments& arguments) {
   add_gate_options(app, command);
   add_excite_option(app, command);
   add_output_options(app, command.common);
-  app.footer(kExample);
+  app.footer(kRefineExample);
   if (!parse(app, arguments)) return 0;
   require_files(command);
   require_enough_draws(command.refine);

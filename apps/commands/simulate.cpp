@@ -18,7 +18,7 @@
 namespace cablefit::apps {
 namespace {
 
-constexpr const char* kExample =
+constexpr const char* kSimulateExample =
     "Example, after 'cablefit elastic' and 'cablefit dynamic':\n"
     "  cablefit simulate cablefit-out/dynamic.json data/low/moving_load30.csv --preload low\n"
     "MODEL left out: OUT/dynamic.json. Exit code 4: a simulation diverged.\n";
@@ -157,7 +157,7 @@ int run_simulate(const Arguments& arguments) {
   add_model_options(app, command);
   add_replay_options(app, command.replay);
   add_output_options(app, command.common);
-  app.footer(kExample);
+  app.footer(kSimulateExample);
   if (!parse(app, arguments)) return 0;
 
   const SimulateResult result = run_simulation(command);

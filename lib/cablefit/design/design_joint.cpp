@@ -10,7 +10,7 @@
 namespace cablefit {
 namespace {
 
-constexpr int kSteps = 400;  // over the working range, for its extremes
+constexpr int kRangeSteps = 400;  // over the working range, for its extremes
 
 /// 1/J_motor + 1/J_link; NaN when the model has no inertias.
 double mobility(const Model& model, int joint) {
@@ -22,7 +22,8 @@ double mobility(const Model& model, int joint) {
 /// `visit` at deflections over the range and at every change of a cable.
 template <typename Visit>
 void over_range(const JointCurve& curve, const WorkingRange& range, Visit visit) {
-  for (int i = 0; i <= kSteps; ++i) visit(range.low + (range.high - range.low) * i / kSteps);
+  for (int i = 0; i <= kRangeSteps; ++i)
+    visit(range.low + (range.high - range.low) * i / kRangeSteps);
   for (const double at : smooth_pieces(curve, range.low, range.high)) visit(at);
 }
 

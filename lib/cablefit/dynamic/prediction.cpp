@@ -9,14 +9,13 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/dynamic/estimates.hpp"
 #include "cablefit/dynamic/predicted_parameters.hpp"
+#include "cablefit/dynamic/requirements.hpp"
 #include "cablefit/dynamic/rough_stage1.hpp"
 #include "cablefit/dynamic/sensor_noise.hpp"
 #include "cablefit/samples/agreement.hpp"
 
 namespace cablefit {
 namespace {
-
-constexpr Eigen::Index kRowsPerParameter = 4;  // fewer say nothing
 
 /// Moving parts that one fit would take together.
 struct Group {

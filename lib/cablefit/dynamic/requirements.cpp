@@ -9,8 +9,6 @@
 namespace cablefit {
 namespace {
 
-constexpr std::size_t kRowsPerParameter = 4;  // fewer say nothing
-
 bool torque_changes(const DynamicJob& job, int joint) {
   for (const LogSurvey& log : job.logs) {
     const int k = log.plan.find(Channel::tau, joint);
@@ -71,7 +69,7 @@ void require_torque(const DynamicJob& job) {
 }
 
 void require_rows(const EquationRows& e, const std::string& preload) {
-  if (e.counts.rows_used >= kRowsPerParameter * static_cast<std::size_t>(e.columns.n_effects))
+  if (e.counts.rows_used >= static_cast<std::size_t>(kRowsPerParameter * e.columns.n_effects))
     return;
   throw Error(
       ErrorKind::not_identifiable,

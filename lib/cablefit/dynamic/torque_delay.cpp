@@ -15,7 +15,7 @@
 namespace cablefit {
 namespace {
 
-constexpr int kWindows = 8;
+constexpr int kDelayWindows = 8;
 constexpr double kDelayMisfit = 0.15;  // of the hold; less hardly moves any parameter
 
 Eigen::ArrayXd slope(const Eigen::ArrayXd& x, double h) {
@@ -144,7 +144,7 @@ TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFil
   const Equation base = dynamic_equation(c, fits, false, rest_speed);
   const double rate = sample_rates(logs, wanted).highest;
   const double period = 1 / rate;
-  const auto pilot = pilot_windows(logs, wanted, rows.signal, row_halo(rows, rate), kWindows);
+  const auto pilot = pilot_windows(logs, wanted, rows.signal, row_halo(rows, rate), kDelayWindows);
 
   LinearProblem problem;
   for (Eigen::Index k = 0; k < c.n_effects; ++k) problem.regressors.push_back(k);

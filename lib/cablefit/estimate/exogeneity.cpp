@@ -12,7 +12,7 @@
 namespace cablefit {
 namespace {
 
-constexpr double kRankTolerance = 1e-10;  // of correlations between what is tested
+constexpr double kLeastCorrelation = 1e-10;  // of correlations between what is tested
 
 /// y on [W Z]; instruments that are regressors themselves are there already.
 LinearProblem augmented(const LinearProblem& problem) {
@@ -44,7 +44,7 @@ Wald wald(const Eigen::VectorXd& x, const Eigen::MatrixXd& covariance) {
   Wald result;
   for (Eigen::Index k = 0; k < z.size(); ++k) {
     const double value = eigen.eigenvalues()(k);
-    if (!(value > kRankTolerance)) continue;
+    if (!(value > kLeastCorrelation)) continue;
     const double along = eigen.eigenvectors().col(k).dot(z);
     result.sum += along * along / value;
     result.rank += 1;

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
+#include "cablefit/base/parameter.hpp"
 #include "cablefit/estimate/identifiability.hpp"
 
 namespace cablefit {
@@ -16,7 +16,6 @@ namespace {
 
 constexpr double kFirstRadii[] = {1e4, 10, 1};  // of trust regions, in parameters of size about 1
 constexpr double kFlat = 1e-12;
-constexpr double kNone = std::numeric_limits<double>::infinity();
 
 /// The problem in parameters of size about 1, with what was evaluated last.
 class ScaledProblem {
@@ -29,8 +28,8 @@ class ScaledProblem {
 
   const Eigen::VectorXd& scale() const { return scale_; }
   Eigen::VectorXd start() const { return problem_.start.cwiseQuotient(scale_); }
-  double lower(Eigen::Index k) const { return bound(problem_.lower, k, -kNone); }
-  double upper(Eigen::Index k) const { return bound(problem_.upper, k, kNone); }
+  double lower(Eigen::Index k) const { return bound(problem_.lower, k, -kUnbounded); }
+  double upper(Eigen::Index k) const { return bound(problem_.upper, k, kUnbounded); }
   int n_evaluations() const { return n_evaluations_; }
   Eigen::VectorXd unscaled(const Eigen::VectorXd& u) const {
     // On a bound exactly, whatever scaling there and back rounds.
@@ -159,9 +158,10 @@ void minimise(ScaledProblem& scaled, const NonlinearProblem& problem,
   ceres::Problem ceres_problem;
   ceres_problem.AddResidualBlock(new Cost(&scaled, problem.n_residuals, p), nullptr, u.data());
   for (int k = 0; k < p; ++k) {
-    if (scaled.lower(k) > -kNone)
+    if (scaled.lower(k) > -kUnbounded)
       ceres_problem.SetParameterLowerBound(u.data(), k, scaled.lower(k));
-    if (scaled.upper(k) < kNone) ceres_problem.SetParameterUpperBound(u.data(), k, scaled.upper(k));
+    if (scaled.upper(k) < kUnbounded)
+      ceres_problem.SetParameterUpperBound(u.data(), k, scaled.upper(k));
   }
   std::vector<int> constant;
   for (int k = 0; k < p; ++k)

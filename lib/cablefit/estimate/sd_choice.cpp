@@ -10,8 +10,8 @@ namespace {
 
 // HAC variance over the white one, less 1: at least, and in sd of the HAC variance.
 constexpr double kLeastExcess = 0.1, kExcessSds = 2;
-constexpr double kFewRows = 100;     // effective: below it HAC's intervals are too short
-constexpr double kBlockLengths = 5;  // correlation lengths in a block: 10 % of the variance lost
+constexpr double kFewEffective = 100;  // effective: below it HAC's intervals are too short
+constexpr double kBlockLengths = 5;    // correlation lengths in a block: 10 % of the variance lost
 constexpr Eigen::Index kLeastBlocks = 5;
 constexpr Eigen::Index kLeastCells = 40;
 
@@ -51,7 +51,7 @@ ChosenSd choose_sd(const RowStatistics& rows, const LinearSolution& s) {
     const double white = s.covariance_white(k, k);
     const double inflation = white > 0 ? std::max(1.0, out.variance(k) / white) : 1;
     out.effective_rows = std::min(out.effective_rows, n / inflation);
-    const bool is_slow = inflation > white_enough && n / inflation < kFewRows;
+    const bool is_slow = inflation > white_enough && n / inflation < kFewEffective;
     if (is_slow) slowest = std::max(slowest, inflation);
     out.kind.push_back(inflation < white_enough ? SdKind::white
                        : is_slow                ? SdKind::block_bootstrap

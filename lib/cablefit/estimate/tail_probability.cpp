@@ -6,12 +6,12 @@ namespace cablefit {
 namespace {
 
 constexpr int kMostTerms = 10000;
-constexpr double kPrecision = 1e-15;
+constexpr double kSeriesPrecision = 1e-15;
 constexpr double kTiny = 1e-300;  // instead of 0, in a denominator (Lentz 1976)
 
 double lower_gamma_series(double a, double x) {
   double term = 1 / a, sum = term;
-  for (int n = 1; n < kMostTerms && std::abs(term) > kPrecision * std::abs(sum); ++n) {
+  for (int n = 1; n < kMostTerms && std::abs(term) > kSeriesPrecision * std::abs(sum); ++n) {
     term *= x / (a + n);
     sum += term;
   }
@@ -29,7 +29,7 @@ double upper_gamma_fraction(double a, double x) {
     c = kept_from_zero(b + an / c);
     const double change = c * d;
     h *= change;
-    if (std::abs(change - 1) < kPrecision) break;
+    if (std::abs(change - 1) < kSeriesPrecision) break;
   }
   return h * std::exp(a * std::log(x) - x - std::lgamma(a));
 }
@@ -45,7 +45,8 @@ double beta_fraction(double a, double b, double x) {
   };
   for (int m = 1; m < kMostTerms; ++m) {
     step(m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m)));
-    if (step(-(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1))) < kPrecision) break;
+    if (step(-(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1))) < kSeriesPrecision)
+      break;
   }
   return h;
 }

@@ -9,7 +9,7 @@ namespace cablefit {
 namespace {
 
 constexpr int kCells = 12;
-constexpr double kStandsOut = 1.5;    // times its share of the rows
+constexpr double kOverItsRows = 1.5;  // times its share of the rows
 constexpr double kLeastShare = 0.1;   // of the gap
 constexpr double kLeastExcess = 1.1;  // squared residual over floor: below, there is no gap
 
@@ -67,7 +67,7 @@ void add_regimes(std::vector<Point> points, RowKind kind, const RegimeVariable& 
     r.rms = std::sqrt(squares / rows);
     r.noise = floor;
     if (r.share_of_squared_gap > kLeastShare &&
-        r.share_of_squared_gap > kStandsOut * r.share_of_rows)
+        r.share_of_squared_gap > kOverItsRows * r.share_of_rows)
       out.push_back(std::move(r));
   }
 }

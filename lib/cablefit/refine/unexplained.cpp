@@ -10,9 +10,8 @@
 namespace cablefit {
 namespace {
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
-constexpr double kVisible = 1.1;  // squared residual over floor
-constexpr double kMostOf = 0.4;   // of the gap: what a hum or a mode removes at least
+constexpr double kVisibleRemainder = 1.1;  // squared residual over floor
+constexpr double kMostOf = 0.4;            // of the gap: what a hum or a mode removes at least
 
 // A mass m on a spring and a damper, carried by an axis: with r its way relative to the axis,
 // r'' + 2 zeta w r' + w^2 r = -a, and the axis has to give m (a + r'') = -m (2 zeta w r' + w^2 r).
@@ -20,7 +19,7 @@ constexpr double kMostOf = 0.4;   // of the gap: what a hum or a mode removes at
 
 /// r and r' of a free oscillator and under a = 1, after h (Meirovitch 2001, 2.2 and 3.11).
 void shake(double acceleration, const double* shape, double h, double* z) {
-  const double w = kTwoPi * shape[0], zeta = shape[1];
+  const double w = 2 * std::numbers::pi * shape[0], zeta = shape[1];
   const double wd = w * std::sqrt(1 - zeta * zeta), decay = std::exp(-zeta * w * h);
   const double rest = -acceleration / (w * w);  // where it would come to rest
   const double r = z[0] - rest, v = z[1];
@@ -30,7 +29,7 @@ void shake(double acceleration, const double* shape, double h, double* z) {
 }
 
 double reaction(const double* shape, const double* z) {
-  const double w = kTwoPi * shape[0];
+  const double w = 2 * std::numbers::pi * shape[0];
   return -(2 * shape[1] * w * z[1] + w * w * z[0]);
 }
 
@@ -74,17 +73,17 @@ const Refinement& attached_mass(bool link) {
 }
 
 /// What there is of one equation beyond its floor, (N m)^2 summed over its rows.
-struct Gap {
+struct EquationGap {
   RowKind kind = RowKind::motor;
   double squares = 0, n_rows = 0, floor = 0;
   double above() const { return squares - n_rows * floor * floor; }
 };
 
-Gap largest_gap(const Design& design, const Eigen::VectorXd& x, const KindLevels& floor) {
-  Gap largest;
+EquationGap largest_gap(const Design& design, const Eigen::VectorXd& x, const KindLevels& floor) {
+  EquationGap largest;
   double most = 0;
   for (const RowKind kind : {RowKind::link, RowKind::motor, RowKind::blocked}) {
-    Gap gap{kind, 0, 0, floor[static_cast<std::size_t>(kind)]};
+    EquationGap gap{kind, 0, 0, floor[static_cast<std::size_t>(kind)]};
     for (const StretchRows& stretch : design.rows)
       for (const KindRows& rows : stretch.kinds) {
         if (rows.kind != kind) continue;
@@ -92,7 +91,7 @@ Gap largest_gap(const Design& design, const Eigen::VectorXd& x, const KindLevels
         gap.n_rows += static_cast<double>(rows.response.size());
       }
     const double in_floors = gap.above() / (gap.floor * gap.floor);
-    if (gap.squares > kVisible * gap.n_rows * gap.floor * gap.floor && in_floors > most) {
+    if (gap.squares > kVisibleRemainder * gap.n_rows * gap.floor * gap.floor && in_floors > most) {
       most = in_floors;
       largest = gap;
     }
@@ -133,7 +132,7 @@ std::vector<Piece> pieces_of(const Design& design, const Eigen::VectorXd& x, Row
 
 /// What a sine of that frequency, of any size and phase, removes from the squares of a piece.
 double removed(const Piece& piece, double frequency) {
-  const Eigen::ArrayXd phase = kTwoPi * frequency * piece.t;
+  const Eigen::ArrayXd phase = 2 * std::numbers::pi * frequency * piece.t;
   Eigen::MatrixXd a(phase.size(), 2);
   a.col(0) = phase.sin().matrix();
   a.col(1) = phase.cos().matrix();
@@ -172,7 +171,7 @@ struct Mode {
 };
 
 /// The attached mass that removes most, everything else fitted anew.
-Mode strongest_mode(const Design& design, const Eigen::VectorXd& x, const Gap& gap,
+Mode strongest_mode(const Design& design, const Eigen::VectorXd& x, const EquationGap& gap,
                     const KindLevels& floor, double block_seconds) {
   Mode best;
   if (gap.kind == RowKind::blocked) return best;
@@ -203,7 +202,7 @@ Mode strongest_mode(const Design& design, const Eigen::VectorXd& x, const Gap& g
 }
 
 /// How long the residual remembers: where the autocovariance above the floor's falls to 1/e.
-double correlation_time(const Design& design, const Eigen::VectorXd& x, const Gap& gap) {
+double correlation_time(const Design& design, const Eigen::VectorXd& x, const EquationGap& gap) {
   constexpr std::size_t kLags = 512;
   const ResidualMemory memory = residual_memory(design, x, gap.kind, kLags);
   if (!(memory.period > 0)) return 0;
@@ -217,7 +216,7 @@ double correlation_time(const Design& design, const Eigen::VectorXd& x, const Ga
 
 std::optional<Unexplained> describe_remainder(const Design& design, const Eigen::VectorXd& x,
                                               const KindLevels& floor, double block_seconds) {
-  const Gap gap = largest_gap(design, x, floor);
+  const EquationGap gap = largest_gap(design, x, floor);
   if (!(gap.n_rows > 0)) return {};
   const double row_period =
       static_cast<double>(design.smoothing.stride) * design.stretches.front().recording.period;
