@@ -41,10 +41,13 @@ TEST_CASE("the examples of --help work") {
   REQUIRE(names.size() >= 4);
   for (const std::string& name : names) {
     Case example;
-    example.prepare = {"ln -s '" CABLEFIT_DATA "' data",
-                       "cablefit elastic data/low/blocked.csv data/high/blocked.csv --quiet 2> log",
-                       "cablefit dynamic data/*/moving*.csv --quiet 2> log"};
     example.run = example_of(name);
+    example.prepare = {"ln -s '" CABLEFIT_DATA "' data"};
+    if (name == "dynamic" || example.run.find("cablefit-out/") != std::string::npos) {
+      example.prepare.push_back(
+          "cablefit elastic data/low/blocked.csv data/high/blocked.csv --quiet 2> log");
+      example.prepare.push_back("cablefit dynamic data/*/moving*.csv --quiet 2> log");
+    }
     INFO(example.run);
     const Outcome outcome = run_case(example);
     INFO(outcome.err);

@@ -11,6 +11,7 @@
 #include "cablefit/refine/model_set.hpp"
 #include "cablefit/refine/refine.hpp"
 #include "tests/refine/hidden_logs.hpp"
+#include "tests/support/monte_carlo.hpp"
 
 using namespace cablefit;
 using namespace cablefit::test;
@@ -280,13 +281,15 @@ TEST_CASE("two more effects are named beside one that the model has", "[refine][
 
 /// The null draws and the trial simulations have what the model has: a null without it would be
 /// that of another drive, and its sensors' floors too high.
-TEST_CASE("new logs of a refined model: nothing is named", "[refine][kept][slow]") {
+TEST_CASE("new logs of a refined model: nothing is named", "[refine][kept][slow][monte-carlo]") {
   struct Case {
     std::string effect, name;
   };
-  const auto [effect, name] = GENERATE(Case{"presliding.link=0.3", "presliding"},
-                                       Case{"encoder_delay.sensor=0.2", "encoder_delay"},
-                                       Case{"drive_dead_band.drive=0.3", "drive_dead_band"});
+  const auto [effect, name] =
+      GENERATE(take(full_monte_carlo() ? 3 : 1,
+                    values<Case>({{"presliding.link=0.3", "presliding"},
+                                  {"encoder_delay.sensor=0.2", "encoder_delay"},
+                                  {"drive_dead_band.drive=0.3", "drive_dead_band"}})));
   const RefineResult one =
       refined(hidden_logs({effect}, 1).models, hidden_logs({effect}, 1).logs, 1);
   INFO(effect << ": " << one.reason);
