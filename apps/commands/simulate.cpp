@@ -23,7 +23,7 @@ constexpr const char* kSimulateExample =
     "  cablefit simulate cablefit-out/dynamic.json data/low/moving_load30.csv --preload low\n"
     "MODEL left out: OUT/dynamic.json. Exit code 4: a simulation diverged.\n";
 
-constexpr const char* kResultFile = "simulate.json";
+constexpr const char* kSimulationFile = "simulate.json";
 
 struct SimulateCommand {
   CommonOptions common;  ///< its logs: MODEL and the logs
@@ -111,7 +111,7 @@ void check_trajectories(const SimulateCommand& command, const std::string& model
   std::vector<std::string> others = options.logs;
   others.insert(others.end(), options.reports.begin(), options.reports.end());
   others.insert(others.end(), {model, options.rig, options.json,
-                               (std::filesystem::path(options.out) / kResultFile).string()});
+                               (std::filesystem::path(options.out) / kSimulationFile).string()});
   const auto whole = [](const std::string& file) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute(file));
   };
@@ -161,7 +161,7 @@ int run_simulate(const Arguments& arguments) {
   if (!parse(app, arguments)) return 0;
 
   const SimulateResult result = run_simulation(command);
-  deliver(command.common, simulate_document(result), {{kResultFile, simulate_json(result)}});
+  deliver(command.common, simulate_document(result), {{kSimulationFile, simulate_json(result)}});
   throw_if_diverged(result);
   return 0;
 }

@@ -48,12 +48,12 @@ double rest_stiffness(const Transmission& transmission) {
 
 TransmissionOf transmission_of(const Transmission& transmission, bool cable_space,
                                const JointEstimates& from) {
-  struct Place {
+  struct Entry {
     std::size_t cable = 0;
     int coefficient = 0;  // -1: l_o
     Eigen::Index at = 0;
   };
-  std::vector<Place> places;
+  std::vector<Entry> places;
   for (std::size_t c = 0; c < transmission.cables.size(); ++c) {
     const Cable& cable = transmission.cables[c];
     for (int j = 0; j < cable.n_coefficients(); ++j)
@@ -66,7 +66,7 @@ TransmissionOf transmission_of(const Transmission& transmission, bool cable_spac
   return [=](const Eigen::VectorXd& value) {
     Transmission changed = transmission;
     if (changed.cables.empty() && stiffness >= 0) changed.linear_stiffness(0) = value(stiffness);
-    for (const Place& place : places) {
+    for (const Entry& place : places) {
       Cable& cable = changed.cables[place.cable];
       if (place.coefficient < 0)
         cable.initial_elongation = value(place.at);

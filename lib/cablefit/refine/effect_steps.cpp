@@ -87,13 +87,13 @@ SimulatedGap simulated_best(const RefineBench& bench, const RefineState& state,
 /// Whether the rows fit as well with the last effect's coefficients at 0: what it stood for went
 /// into what others follow from when all was fitted together.
 bool carries_nothing(const RefineBench& bench, const RefineState& after) {
-  constexpr double kNothing = 0.005;  // of the squared residual
+  constexpr double kNoLoss = 0.005;  // of the squared residual
   const Eigen::Index n = n_linear(after.design.added.back());
   if (n == 0) return false;
   Eigen::VectorXd without = after.x;
   without.tail(n).setZero();
   const double rho = gap_of(after.design, without, bench.floor, bench.scan.block_seconds).rho;
-  return rho < (1 + kNothing) * after.rho;
+  return rho < (1 + kNoLoss) * after.rho;
 }
 
 /// Reason against a step; empty: none. Where the unseen equations are sure of it but the simulation

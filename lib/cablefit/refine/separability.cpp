@@ -24,24 +24,24 @@ using Group = std::vector<std::size_t>;
 /// Effects that are all closer than `least` to each other, the closest first.
 std::vector<Group> groups_of(const Distances& distances, const std::vector<std::size_t>& able,
                              double least) {
-  struct Pair {
+  struct Close {
     double distance;
     std::size_t a, b;
   };
-  std::vector<Pair> pairs;
+  std::vector<Close> pairs;
   for (std::size_t i = 0; i < able.size(); ++i)
     for (std::size_t k = i + 1; k < able.size(); ++k)
       if (const double d = distances.between(able[i], able[k]); d < least)
         pairs.push_back({d, able[i], able[k]});
   std::stable_sort(pairs.begin(), pairs.end(),
-                   [](const Pair& a, const Pair& b) { return a.distance < b.distance; });
+                   [](const Close& a, const Close& b) { return a.distance < b.distance; });
   const auto fits = [&](const Group& group, std::size_t f) {
     return std::all_of(group.begin(), group.end(), [&](std::size_t other) {
       return other == f || distances.between(other, f) < least;
     });
   };
   std::vector<Group> groups;
-  for (const Pair& pair : pairs) {
+  for (const Close& pair : pairs) {
     const auto with = [&](std::size_t f, std::size_t other) {
       return std::find_if(groups.begin(), groups.end(), [&](Group& group) {
         const bool has = std::find(group.begin(), group.end(), f) != group.end();

@@ -203,13 +203,13 @@ Mode strongest_mode(const Design& design, const Eigen::VectorXd& x, const Equati
 
 /// How long the residual remembers: where the autocovariance above the floor's falls to 1/e.
 double correlation_time(const Design& design, const Eigen::VectorXd& x, const EquationGap& gap) {
-  constexpr std::size_t kLags = 512;
-  const ResidualMemory memory = residual_memory(design, x, gap.kind, kLags);
+  constexpr std::size_t kMostLags = 512;
+  const ResidualMemory memory = residual_memory(design, x, gap.kind, kMostLags);
   if (!(memory.period > 0)) return 0;
   const double wanted = std::exp(-1.0) * gap.above() / gap.n_rows;
   for (Eigen::Index lag = 1; lag < memory.covariance.size(); ++lag)
     if (memory.covariance(lag) < wanted) return static_cast<double>(lag) * memory.period;
-  return static_cast<double>(kLags) * memory.period;
+  return static_cast<double>(kMostLags) * memory.period;
 }
 
 }  // namespace
