@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <limits>
 
 #include "cablefit/figure/autocorrelation.hpp"
 #include "cablefit/figure/binned_mean.hpp"
 #include "cablefit/figure/thinned_line.hpp"
+#include "cablefit/refine/outcome_figures.hpp"
 #include "cablefit/refine/regime_variables.hpp"
+#include "cablefit/refine/shown_rows.hpp"
 
 namespace cablefit {
 namespace {
@@ -19,81 +19,6 @@ namespace {
 constexpr std::size_t kBins = 96;
 constexpr std::size_t kFewRows = 10;       // a mean over fewer says nothing
 constexpr std::size_t kMostVariables = 3;  // per equation, those that reveal most
-constexpr double kPause = 1;               // s between logs on the time axis
-constexpr int kBefore = 1, kAfter = 2;     // series, the same colours everywhere
-
-/// One row of an equation, as it is seen.
-struct Seen {
-  double t;  ///< s, on the common axis
-  std::vector<double> variables;
-  double residual;
-};
-
-/// The rows of one kind of all stretches, and their places on a grid for the autocorrelation.
-struct SeenKind {
-  std::vector<Seen> rows;
-  std::vector<Eigen::Index> numbers;
-  double rms = 0;
-};
-
-/// Where each stretch begins on the common axis.
-struct Timeline {
-  std::vector<double> begins;
-  double end = 0, spacing = 0;
-  std::vector<Mark> marks;
-};
-
-Timeline timeline_of(const BeforeAfter& input) {
-  Timeline time;
-  double next = 0;
-  std::size_t log = std::numeric_limits<std::size_t>::max();
-  for (const Stretch& stretch : input.before.stretches) {
-    if (stretch.log != log) {
-      log = stretch.log;
-      const std::filesystem::path path = input.logs[log].plan.path;
-      time.marks.push_back({next, path.filename().string()});
-    }
-    time.begins.push_back(next);
-    const double period = stretch.recording.period;
-    time.spacing =
-        std::max(time.spacing, period * static_cast<double>(input.before.smoothing.stride));
-    next += static_cast<double>(stretch.recording.theta.size()) * period + kPause;
-  }
-  time.end = std::max(next - kPause, time.spacing);
-  if (time.marks.size() < 2) time.marks.clear();
-  return time;
-}
-
-std::vector<double> variables_at(const Design& design, std::size_t stretch, Eigen::Index at,
-                                 bool link) {
-  const JointState& state = design.states[stretch][static_cast<std::size_t>(at)];
-  const double load = design.rows[stretch].motion->tau_load(at);
-  std::vector<double> values;
-  for (const RegimeVariable& variable : regime_variables())
-    values.push_back(variable.value(state, link, load));
-  return values;
-}
-
-SeenKind see(const Design& design, const Eigen::VectorXd& x, RowKind wanted, const Timeline& time) {
-  SeenKind seen;
-  double squares = 0;
-  for (std::size_t s = 0; s < design.rows.size(); ++s)
-    for (const KindRows& kind : design.rows[s].kinds) {
-      if (kind.kind != wanted) continue;
-      const double period = design.stretches[s].recording.period;
-      const auto first = static_cast<Eigen::Index>(time.begins[s] / time.spacing);
-      const Eigen::VectorXd residual = kind.response - kind.base * x;
-      for (std::size_t i = 0; i < kind.at.size(); ++i) {
-        const double t = time.begins[s] + static_cast<double>(kind.at[i]) * period;
-        const double r = residual(static_cast<Eigen::Index>(i));
-        seen.rows.push_back({t, variables_at(design, s, kind.at[i], wanted == RowKind::link), r});
-        seen.numbers.push_back(first + kind.at[i] / design.smoothing.stride);
-        squares += r * r;
-      }
-    }
-  if (!seen.rows.empty()) seen.rms = std::sqrt(squares / static_cast<double>(seen.rows.size()));
-  return seen;
-}
 
 Trace trace_of(std::string name, TraceStyle style, int series) {
   Trace trace;
@@ -108,8 +33,8 @@ struct Pair {
   std::string section, group, unit;
   bool linear_motion = false, link = false, changed = false;
   double floor = 0;
-  SeenKind before, after;
-  std::array<const SeenKind*, 2> both() const { return {&before, &after}; }
+  ShownRows before, after;
+  std::array<const ShownRows*, 2> both() const { return {&before, &after}; }
 };
 
 std::string name_of(std::size_t k) { return k == 0 ? "before" : "after"; }
@@ -136,7 +61,7 @@ Figure over_time(const Pair& pair, const Timeline& time) {
   figure.wide = true;
   for (std::size_t k = 0; k < n_states(pair); ++k) {
     ThinnedLine line(0, time.end, time.spacing);
-    for (const Seen& row : pair.both()[k]->rows) line.add(row.t, row.residual);
+    for (const ShownRow& row : pair.both()[k]->rows) line.add(row.t, row.residual);
     figure.traces.push_back(
         trace_of(fmt::format("{}, {:.3g} {} rms", name_of(k), pair.both()[k]->rms, pair.unit),
                  TraceStyle::line, series_of(k)));
@@ -148,10 +73,10 @@ Figure over_time(const Pair& pair, const Timeline& time) {
 constexpr std::size_t kBackward = 0, kForward = 1;
 
 /// Mean residual over bins of a variable, apart by the direction of motion: friction changes sides.
-BinnedMean mean_of(const SeenKind& kind, std::size_t variable, std::size_t direction,
+BinnedMean mean_of(const ShownRows& kind, std::size_t variable, std::size_t direction,
                    std::size_t speed) {
   BinnedMean mean(kBins);
-  for (const Seen& row : kind.rows)
+  for (const ShownRow& row : kind.rows)
     if ((row.variables[speed] > 0) == (direction == kForward))
       mean.add(row.variables[variable], row.residual);
   return mean;
@@ -170,7 +95,7 @@ bool is_plotted(const RegimeVariable& variable) {
 }
 
 /// Mean squared mean of the residual over the bins: what of it is a function of the variable.
-double explained(const SeenKind& kind, std::size_t variable) {
+double explained(const ShownRows& kind, std::size_t variable) {
   const std::size_t speed = place_of("speed");
   double sum = 0, n = 0;
   for (const std::size_t direction : {kForward, kBackward}) {
@@ -192,7 +117,7 @@ std::vector<std::size_t> revealing(const Pair& pair) {
     const auto& rows = pair.before.rows;
     const auto [low, high] = std::minmax_element(
         rows.begin(), rows.end(),
-        [v](const Seen& a, const Seen& b) { return a.variables[v] < b.variables[v]; });
+        [v](const ShownRow& a, const ShownRow& b) { return a.variables[v] < b.variables[v]; });
     if (is_plotted(all[v]) && high->variables[v] > low->variables[v])
       ranked.emplace_back(-explained(pair.before, v), v);
   }
@@ -235,7 +160,7 @@ Figure rms_against(const Pair& pair, std::size_t variable) {
   figure.y = {"rms of the residual", pair.unit};
   for (std::size_t k = 0; k < n_states(pair); ++k) {
     BinnedMean mean(kBins);
-    for (const Seen& row : pair.both()[k]->rows)
+    for (const ShownRow& row : pair.both()[k]->rows)
       mean.add(row.variables[variable], row.residual * row.residual);
     Trace trace = trace_of(name_of(k), TraceStyle::line, series_of(k));
     mean.draw(trace, kFewRows, true);
@@ -258,7 +183,7 @@ Figure memory(const Pair& pair, double spacing) {
   figure.x = {"lag", "rows"};
   figure.y = {"autocorrelation", ""};
   for (std::size_t k = 0; k < n_states(pair); ++k) {
-    const SeenKind& kind = *pair.both()[k];
+    const ShownRows& kind = *pair.both()[k];
     Eigen::VectorXd values(static_cast<Eigen::Index>(kind.rows.size()));
     for (Eigen::Index i = 0; i < values.size(); ++i)
       values(i) = kind.rows[static_cast<std::size_t>(i)].residual;
@@ -270,61 +195,12 @@ Figure memory(const Pair& pair, double spacing) {
   return figure;
 }
 
-std::string effect_name(const Rival& rival) {
-  return fmt::format("{} ({})", rival.name, rival.side);
-}
-
-Figure league_figure(const RefineResult& result) {
-  constexpr std::size_t kMostBars = 10;
-  Figure figure;
-  figure.section = "Outcome";
-  figure.title = "Candidates for the first effect";
-  figure.caption =
-      "Share of the squared gap above the noise floor that each would remove on held-out blocks, "
-      "with everything else fitted anew.";
-  figure.x = {"effect", ""};
-  figure.y = {"removed", "%"};
-  figure.wide = true;
-  Trace bars = trace_of("candidates", TraceStyle::interval, kBefore);
-  for (const Rival& row : result.league) {
-    if (!row.refused.empty() || bars.y.size() == kMostBars) break;
-    bars.labels.push_back(effect_name(row));
-    bars.y.push_back(100 * row.gain);
-    bars.low.push_back(0);
-    bars.high.push_back(100 * row.gain);
-  }
-  if (!bars.y.empty()) figure.traces.push_back(std::move(bars));
-  return figure;
-}
-
-Figure shift_figure(const RefineResult& result) {
-  Figure figure;
-  figure.section = "Outcome";
-  figure.title = "How far the parameters moved";
-  figure.caption =
-      "After minus before, in sd; bars: 95 %. What a missing effect had bent comes back.";
-  figure.x = {"parameter", ""};
-  figure.y = {"shift", "sd"};
-  constexpr double k95 = 1.96;
-  Trace trace = trace_of("shift", TraceStyle::interval, kAfter);
-  for (const ParameterShift& shift : result.shifts) {
-    const double moved = (shift.after - shift.before) / shift.sd;
-    if (!std::isfinite(moved)) continue;
-    trace.labels.push_back(shift.name);
-    trace.y.push_back(moved);
-    trace.low.push_back(moved - k95);
-    trace.high.push_back(moved + k95);
-  }
-  if (!trace.y.empty() && !result.effects.empty()) figure.traces.push_back(std::move(trace));
-  return figure;
-}
-
 enum class Detail { full, over_time };
 
 void add_residuals(const BeforeAfter& rows, const std::string& section, Detail detail,
                    const RefineResult& result, const KindLevels& floor,
                    std::vector<Figure>& figures) {
-  const Timeline time = timeline_of(rows);
+  const Timeline time = timeline_of(rows.before, rows.logs);
   for (const RowKind kind : {RowKind::motor, RowKind::link, RowKind::blocked}) {
     const Pair pair{section,
                     fmt::format("{} equation", to_string(kind)),
@@ -333,8 +209,8 @@ void add_residuals(const BeforeAfter& rows, const std::string& section, Detail d
                     kind == RowKind::link,
                     rows.after.added.size() > rows.before.added.size(),
                     floor[static_cast<std::size_t>(kind)],
-                    see(rows.before, rows.x_before, kind, time),
-                    see(rows.after, rows.x_after, kind, time)};
+                    shown_rows(rows.before, rows.x_before, kind, time),
+                    shown_rows(rows.after, rows.x_after, kind, time)};
     if (pair.before.rows.empty()) continue;
     figures.push_back(over_time(pair, time));
     if (detail == Detail::over_time) continue;
@@ -351,9 +227,7 @@ void add_residuals(const BeforeAfter& rows, const std::string& section, Detail d
 
 std::vector<Figure> refine_figures(const RefineResult& result, const BeforeAfter& train,
                                    const BeforeAfter& test, const KindLevels& floor) {
-  std::vector<Figure> figures;
-  for (Figure figure : {league_figure(result), shift_figure(result)})
-    if (!figure.traces.empty()) figures.push_back(std::move(figure));
+  std::vector<Figure> figures = outcome_figures(result);
   add_residuals(train, "Logs that were fitted", Detail::full, result, floor, figures);
   add_residuals(test, "Unseen logs", Detail::over_time, result, floor, figures);
   return figures;

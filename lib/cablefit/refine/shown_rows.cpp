@@ -1,0 +1,69 @@
+#include "cablefit/refine/shown_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "cablefit/refine/regime_variables.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr double kPause = 1;  // s between logs on the time axis
+
+std::vector<double> variables_at(const Design& design, std::size_t stretch, Eigen::Index at,
+                                 bool link) {
+  const JointState& state = design.states[stretch][static_cast<std::size_t>(at)];
+  const double load = design.rows[stretch].motion->tau_load(at);
+  std::vector<double> values;
+  for (const RegimeVariable& variable : regime_variables())
+    values.push_back(variable.value(state, link, load));
+  return values;
+}
+
+}  // namespace
+
+Timeline timeline_of(const Design& design, std::span<const LogSurvey> logs) {
+  Timeline time;
+  double next = 0;
+  std::size_t log = std::numeric_limits<std::size_t>::max();
+  for (const Stretch& stretch : design.stretches) {
+    if (stretch.log != log) {
+      log = stretch.log;
+      const std::filesystem::path path = logs[log].plan.path;
+      time.marks.push_back({next, path.filename().string()});
+    }
+    time.begins.push_back(next);
+    const double period = stretch.recording.period;
+    time.spacing = std::max(time.spacing, period * static_cast<double>(design.smoothing.stride));
+    next += static_cast<double>(stretch.recording.theta.size()) * period + kPause;
+  }
+  time.end = std::max(next - kPause, time.spacing);
+  if (time.marks.size() < 2) time.marks.clear();
+  return time;
+}
+
+ShownRows shown_rows(const Design& design, const Eigen::VectorXd& x, RowKind wanted,
+                     const Timeline& time) {
+  ShownRows shown;
+  double squares = 0;
+  for (std::size_t s = 0; s < design.rows.size(); ++s)
+    for (const KindRows& kind : design.rows[s].kinds) {
+      if (kind.kind != wanted) continue;
+      const double period = design.stretches[s].recording.period;
+      const auto first = static_cast<Eigen::Index>(time.begins[s] / time.spacing);
+      const Eigen::VectorXd residual = kind.response - kind.base * x;
+      for (std::size_t i = 0; i < kind.at.size(); ++i) {
+        const double t = time.begins[s] + static_cast<double>(kind.at[i]) * period;
+        const double r = residual(static_cast<Eigen::Index>(i));
+        shown.rows.push_back({t, variables_at(design, s, kind.at[i], wanted == RowKind::link), r});
+        shown.numbers.push_back(first + kind.at[i] / design.smoothing.stride);
+        squares += r * r;
+      }
+    }
+  if (!shown.rows.empty()) shown.rms = std::sqrt(squares / static_cast<double>(shown.rows.size()));
+  return shown;
+}
+
+}  // namespace cablefit
