@@ -168,6 +168,16 @@ TEST_CASE("look-alikes are listed, and the simplest of equals is the headline", 
   CHECK_FALSE(lists(judge_search(sure, kGap, draws(), {}, true).rivals, "presliding"));
 }
 
+TEST_CASE("what acts on the robot comes before what a sensor reads", "[refine]") {
+  const auto first = [](double sensor, double torque) {
+    return best_name(judge_search({candidate("encoder_offset", Site::sensor, sensor),
+                                   candidate("constant_torque", Site::link, torque)},
+                                  kGap, draws(), {}, true));
+  };
+  CHECK(first(0.402, 0.4) == "constant_torque");
+  CHECK(first(0.44, 0.4) == "encoder_offset");  // no tie
+}
+
 /// 1.2 % of the gap in every block is more than luck: the simpler one is a rival, not the headline.
 TEST_CASE("the simplest is not the headline where all blocks know better", "[refine]") {
   const std::vector<Candidate> sure = {candidate("gravity_imbalance", Site::link, 0.406, 0.05),

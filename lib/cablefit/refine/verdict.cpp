@@ -139,12 +139,21 @@ std::vector<const Candidate*> ranked(const std::vector<Candidate>& candidates) {
   return able;
 }
 
-/// Whether the other one is the better name: it gains more beyond chance, or as much with fewer
-/// parameters. What is always there is not held against what its row gains by chance where both
+bool is_of_sensor(const Candidate& c) { return c.variant.refinement->site == Site::sensor; }
+
+/// Of two that tie: the one with fewer parameters, and what acts on the robot before what a sensor
+/// only reads, as a constant torque before a wrong zero of an encoder.
+bool is_simpler(const Candidate& a, const Candidate& b) {
+  if (n_parameters(a) != n_parameters(b)) return n_parameters(a) < n_parameters(b);
+  return !is_of_sensor(a) && is_of_sensor(b);
+}
+
+/// Whether the other one is the better name: it gains more beyond chance, or as much and is the
+/// simpler one. What is always there is not held against what its row gains by chance where both
 /// are: of two that are nearly the same the one with the luckier row would lose.
 bool is_better_name(const Candidate& other, const Candidate& best, const Significance& significance,
                     const SquaredGap& gap) {
-  if (is_tie(other, best, gap) && n_parameters(other) < n_parameters(best)) return true;
+  if (is_tie(other, best, gap) && is_simpler(other, best)) return true;
   if (!other.variant.refinement->is_event && !best.variant.refinement->is_event)
     return other.gain > best.gain;
   return significance.beyond_chance(other) > significance.beyond_chance(best);
