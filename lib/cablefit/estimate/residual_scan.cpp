@@ -3,20 +3,13 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include "cablefit/figure/new_trace.hpp"
 
 namespace cablefit {
 namespace {
 
 constexpr std::size_t kMeanBins = 64;
 constexpr std::size_t kFewRows = 5;  // a mean over fewer says nothing
-
-Trace trace_of(std::string name, TraceStyle style, int series) {
-  Trace trace;
-  trace.name = std::move(name);
-  trace.style = style;
-  trace.series = series;
-  return trace;
-}
 
 std::string capital(std::string text) {
   if (!text.empty()) text.front() = static_cast<char>(std::toupper(text.front()));
@@ -83,7 +76,7 @@ Figure ResidualScan::blank(const std::string& title) const {
 }
 
 Trace ResidualScan::model_trace(std::size_t model, TraceStyle style) const {
-  return trace_of(plan_.models[model].name, style, plan_.models[model].series);
+  return new_trace(plan_.models[model].name, style, plan_.models[model].series);
 }
 
 Figure ResidualScan::over_time(std::size_t first, std::size_t last, bool near) const {
@@ -98,7 +91,7 @@ Figure ResidualScan::over_time(std::size_t first, std::size_t last, bool near) c
   figure.y = {plan_.measured, plan_.unit};
   if (!near) figure.marks = time_.marks();
   figure.wide = true;
-  figure.traces.push_back(trace_of("measured", TraceStyle::broad, kMeasured));
+  figure.traces.push_back(new_trace("measured", TraceStyle::broad, kMeasured));
   const ModelScan& any = scans_[first];
   (near ? any.near_measured : any.measured).draw(figure.traces.back());
   for (std::size_t m = first; m < last; ++m) {
@@ -136,7 +129,7 @@ Figure ResidualScan::distribution() const {
       figure.caption += fmt::format("{:.2g} % of {} lie beyond {:g} rms. ", beyond,
                                     plan_.models[m].name, kHistogramReach);
   }
-  figure.traces.push_back(trace_of("normal", TraceStyle::dashed, kReference));
+  figure.traces.push_back(new_trace("normal", TraceStyle::dashed, kReference));
   Histogram::draw_normal(figure.traces.back());
   return figure;
 }
@@ -158,7 +151,7 @@ Figure ResidualScan::memory() const {
   const auto reach = static_cast<double>(kMostLags);
   for (const double side : {1.0, -1.0}) {
     figure.traces.push_back(
-        trace_of(side > 0 ? "white noise, 95 %" : "", TraceStyle::dashed, kReference));
+        new_trace(side > 0 ? "white noise, 95 %" : "", TraceStyle::dashed, kReference));
     figure.traces.back().x = {0, reach};
     figure.traces.back().y = {side * band, side * band};
   }
@@ -173,7 +166,7 @@ Figure ResidualScan::against(std::size_t variable, std::size_t model) const {
   figure.y = {plan_.error, plan_.unit};
   Trace cloud = model_trace(model, TraceStyle::points);
   scans_[model].clouds[variable].draw(cloud);
-  Trace mean = trace_of("mean", TraceStyle::line, kMeasured);
+  Trace mean = new_trace("mean", TraceStyle::line, kMeasured);
   scans_[model].means[variable].draw(mean, kFewRows, true);
   if (!cloud.x.empty()) figure.traces = {std::move(cloud), std::move(mean)};
   return figure;

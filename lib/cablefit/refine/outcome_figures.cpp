@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "cablefit/figure/new_trace.hpp"
+
 namespace cablefit {
 namespace {
 
@@ -23,10 +25,7 @@ Figure league_figure(const RefineResult& result) {
   figure.x = {"effect", ""};
   figure.y = {"removed", "%"};
   figure.wide = true;
-  Trace bars;
-  bars.name = "candidates";
-  bars.style = TraceStyle::interval;
-  bars.series = kBefore;
+  Trace bars = new_trace("candidates", TraceStyle::interval, kBefore);
   for (const Rival& row : result.league) {
     if (!row.refused.empty() || bars.y.size() == kMostBars) break;
     bars.labels.push_back(effect_name(row));
@@ -47,10 +46,7 @@ Figure shift_figure(const RefineResult& result) {
   figure.x = {"parameter", ""};
   figure.y = {"shift", "sd"};
   constexpr double k95 = 1.96;
-  Trace trace;
-  trace.name = "shift";
-  trace.style = TraceStyle::interval;
-  trace.series = kAfter;
+  Trace trace = new_trace("shift", TraceStyle::interval, kAfter);
   for (const ParameterShift& shift : result.shifts) {
     const double moved = (shift.after - shift.before) / shift.sd;
     if (!std::isfinite(moved)) continue;

@@ -8,6 +8,7 @@
 
 #include "cablefit/figure/autocorrelation.hpp"
 #include "cablefit/figure/binned_mean.hpp"
+#include "cablefit/figure/new_trace.hpp"
 #include "cablefit/figure/thinned_line.hpp"
 #include "cablefit/refine/outcome_figures.hpp"
 #include "cablefit/refine/regime_variables.hpp"
@@ -19,14 +20,6 @@ namespace {
 constexpr std::size_t kBins = 96;
 constexpr std::size_t kFewRows = 10;       // a mean over fewer says nothing
 constexpr std::size_t kMostVariables = 3;  // per equation, those that reveal most
-
-Trace trace_of(std::string name, TraceStyle style, int series) {
-  Trace trace;
-  trace.name = std::move(name);
-  trace.style = style;
-  trace.series = series;
-  return trace;
-}
 
 /// One equation before and after, on its way to figures.
 struct Pair {
@@ -63,8 +56,8 @@ Figure over_time(const Pair& pair, const Timeline& time) {
     ThinnedLine line(0, time.end, time.spacing);
     for (const ShownRow& row : pair.both()[k]->rows) line.add(row.t, row.residual);
     figure.traces.push_back(
-        trace_of(fmt::format("{}, {:.3g} {} rms", name_of(k), pair.both()[k]->rms, pair.unit),
-                 TraceStyle::line, series_of(k)));
+        new_trace(fmt::format("{}, {:.3g} {} rms", name_of(k), pair.both()[k]->rms, pair.unit),
+                  TraceStyle::line, series_of(k)));
     line.draw(figure.traces.back());
   }
   return figure;
@@ -144,8 +137,8 @@ Figure mean_against(const Pair& pair, std::size_t variable) {
   for (std::size_t k = 0; k < n_states(pair); ++k)
     for (const std::size_t direction : {kForward, kBackward}) {
       Trace mean =
-          trace_of(name_of(k) + (direction == kForward ? "" : ", backward"),
-                   direction == kForward ? TraceStyle::line : TraceStyle::dashed, series_of(k));
+          new_trace(name_of(k) + (direction == kForward ? "" : ", backward"),
+                    direction == kForward ? TraceStyle::line : TraceStyle::dashed, series_of(k));
       mean_of(*pair.both()[k], variable, direction, speed).draw(mean, kFewRows, true);
       if (!mean.x.empty()) figure.traces.push_back(std::move(mean));
     }
@@ -162,13 +155,13 @@ Figure rms_against(const Pair& pair, std::size_t variable) {
     BinnedMean mean(kBins);
     for (const ShownRow& row : pair.both()[k]->rows)
       mean.add(row.variables[variable], row.residual * row.residual);
-    Trace trace = trace_of(name_of(k), TraceStyle::line, series_of(k));
+    Trace trace = new_trace(name_of(k), TraceStyle::line, series_of(k));
     mean.draw(trace, kFewRows, true);
     for (double& y : trace.y) y = std::sqrt(y);
     figure.traces.push_back(std::move(trace));
   }
   if (figure.traces.front().x.empty()) return figure;
-  Trace floor = trace_of("noise floor", TraceStyle::dashed, kReference);
+  Trace floor = new_trace("noise floor", TraceStyle::dashed, kReference);
   floor.x = {figure.traces.front().x.front(), figure.traces.front().x.back()};
   floor.y = {pair.floor, pair.floor};
   figure.traces.push_back(std::move(floor));
@@ -189,7 +182,7 @@ Figure memory(const Pair& pair, double spacing) {
       values(i) = kind.rows[static_cast<std::size_t>(i)].residual;
     Autocorrelation correlation;
     correlation.add(kind.numbers, values);
-    figure.traces.push_back(trace_of(name_of(k), TraceStyle::line, series_of(k)));
+    figure.traces.push_back(new_trace(name_of(k), TraceStyle::line, series_of(k)));
     correlation.draw(figure.traces.back());
   }
   return figure;

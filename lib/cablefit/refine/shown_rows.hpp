@@ -15,7 +15,7 @@ namespace cablefit {
 struct ShownRow {
   double t;                       ///< s, on the common axis
   std::vector<double> variables;  ///< of regime_variables.hpp
-  double residual;                ///< N m
+  double residual;                ///< N m; N on a linear axis
 };
 
 /// The rows of one kind of all stretches, and their places on a grid for the autocorrelation.
