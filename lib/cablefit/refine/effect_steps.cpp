@@ -122,16 +122,13 @@ NamedEffect effect_of(const RefineBench& bench, const RefineState& before, const
 /// What was refused alone may be half of the truth: with the next best beside it, both are judged
 /// together. Two names at once need more evidence than one.
 bool add_both(RefineBench& bench, RefineState& state, const Trial& one, RefineResult& result) {
-  auto two = try_next(bench, one.after, false, nullptr);
+  auto two = try_next(bench, one.after);
   if (!two) return false;
   const UnseenChange change = change_of(bench, *two->winner.variant.refinement, state, two->after);
   const std::string reason = why_not_both(change);
   result.steps.push_back(step_of(bench, *two, reason));
   if (!reason.empty()) return false;
-  for (RefineStep& step : result.steps) {
-    step.accepted = true;
-    step.reason.clear();
-  }
+  result.steps = {step_of(bench, one, ""), result.steps.back()};
   result.effects.push_back(effect_of(bench, state, one.after, one.judgement));
   result.effects.push_back(effect_of(bench, one.after, two->after, two->judgement));
   state = std::move(two->after);
@@ -142,16 +139,24 @@ bool add_both(RefineBench& bench, RefineState& state, const Trial& one, RefineRe
 
 bool add_next_effect(RefineBench& bench, RefineState& state, RefineResult& result) {
   const bool is_first = result.effects.empty();
-  auto trial = try_next(bench, state, is_first, is_first ? &result : nullptr);
-  if (!trial) return false;
-  const Refinement& row = *trial->winner.variant.refinement;
-  const std::string reason = why_not(bench, row, state, trial->after, is_first);
-  result.steps.push_back(step_of(bench, *trial, reason));
-  if (!reason.empty())
-    return is_first && bench.options.most_effects > 1 && add_both(bench, state, *trial, result);
-  result.effects.push_back(effect_of(bench, state, trial->after, trial->judgement));
-  state = std::move(trial->after);
-  return true;
+  Trials trials(bench, state, is_first);
+  const auto best = trials.best();
+  if (is_first) {
+    result.league = trials.league();
+    bench.first_search = trials.found();
+  }
+  std::string reason;
+  for (auto trial = best; trial; trial = trials.next_alike(reason)) {
+    const Refinement& row = *trial->winner.variant.refinement;
+    reason = why_not(bench, row, state, trial->after, is_first);
+    result.steps.push_back(step_of(bench, *trial, reason));
+    if (!reason.empty()) continue;
+    result.effects.push_back(effect_of(bench, state, trial->after, trial->judgement));
+    state = std::move(trial->after);
+    return true;
+  }
+  return best && is_first && bench.options.most_effects > 1 &&
+         add_both(bench, state, *best, result);
 }
 
 void name_first_again(RefineBench& bench, const RefineState& first, RefineState& state,
@@ -163,7 +168,7 @@ void name_first_again(RefineBench& bench, const RefineState& first, RefineState&
   second.variant = state.design.added[bench.n_kept + 1];
   const auto alone = with_candidate(bench, first, found, second);
   if (!alone) return;
-  const auto trial = try_next(bench, *alone, false, nullptr);
+  const auto trial = try_next(bench, *alone);
   // A tie goes to what is named beside the other, or alone.
   constexpr double kTie = 1.01;
   const auto is_tie = [&](const RefineState& other) {
@@ -207,7 +212,7 @@ void begin_otherwise(RefineBench& bench, const RefineState& first, RefineState& 
     auto after = with_candidate(bench, first, found, one.winner);
     if (!after) continue;
     one.after = std::move(*after);
-    auto two = try_next(bench, one.after, false, nullptr);
+    auto two = try_next(bench, one.after);
     if (!two || two->after.rho >= state.rho) continue;
     const Refinement& row = *two->winner.variant.refinement;
     if (!why_not_both(change_of(bench, row, first, two->after)).empty()) continue;

@@ -1,5 +1,7 @@
 #include "cablefit/refine/effect_trial.hpp"
 
+#include <algorithm>
+
 #include "cablefit/refine/conclusion.hpp"
 #include "cablefit/refine/golden.hpp"
 #include "cablefit/refine/refined_model.hpp"
@@ -89,37 +91,66 @@ std::optional<RefineState> with_candidate(const RefineBench& bench, const Refine
   return next;
 }
 
-std::optional<Trial> try_next(RefineBench& bench, const RefineState& state, bool is_first,
-                              RefineResult* first_result) {
+Trials::Trials(RefineBench& bench, const RefineState& state, bool is_first)
+    : bench_(bench), state_(state), is_first_(is_first) {
   tell(bench.options, "search", 0);
-  const Search found = search(state.design, bench.floor, bench.scan);
-  need_draws(bench, state, found);
-  const SquaredGap gap{found.fit.held_out.sum(), floor_error(found.fit, bench.floor, found.levels)};
+  found_ = search(state.design, bench.floor, bench.scan);
+  need_draws(bench, state, found_);
+}
+
+Judgement Trials::judged() const {
+  const SquaredGap gap{found_.fit.held_out.sum(),
+                       floor_error(found_.fit, bench_.floor, found_.levels)};
+  return judge_search(found_.candidates, gap, bench_.draws, bench_.options,
+                      is_first_ && bench_.n_kept == 0);
+}
+
+std::optional<Trial> Trials::best() {
+  Judgement judgement = judged();
+  league_ = judgement.league;
+  if (!judgement.is_named || is_at_floor(bench_, state_)) return {};
+  last_ = judgement.best->variant.refinement;
+  alike_ = judgement.rivals;
+  return tried(std::move(judgement));
+}
+
+std::optional<Trial> Trials::next_alike(const std::string& refusal) {
+  for (Candidate& candidate : found_.candidates)
+    if (candidate.variant.refinement == last_) candidate.refused = refusal;
+  Judgement judgement = judged();
+  if (!judgement.is_named) return {};
+  last_ = judgement.best->variant.refinement;
+  const bool is_alike = std::any_of(alike_.begin(), alike_.end(), [&](const Rival& rival) {
+    return rival.name == last_->name && rival.side == to_string(last_->site);
+  });
+  return is_alike ? tried(std::move(judgement)) : std::nullopt;
+}
+
+std::optional<Trial> Trials::tried(Judgement judgement) const {
   Trial trial;
-  trial.judgement = judge_search(found.candidates, gap, bench.draws, bench.options,
-                                 is_first && bench.n_kept == 0);
-  if (first_result != nullptr) {
-    first_result->league = trial.judgement.league;
-    bench.first_search = found;
-  }
-  if (!trial.judgement.is_named || is_at_floor(bench, state)) return {};
-  trial.winner = refined_shape({state.design, found.grams, found.fit, found.levels}, bench.scan,
-                               *trial.judgement.best);
-  trial.judgement.best = nullptr;  // of the search, which ends here
+  trial.judgement = std::move(judgement);
+  trial.winner = refined_shape({state_.design, found_.grams, found_.fit, found_.levels},
+                               bench_.scan, *trial.judgement.best);
+  trial.judgement.best = nullptr;  // of the search, which ends before the trial
   auto next = trial.winner.variant.refinement->change_again != nullptr
-                  ? with_own_coefficients(bench, state, found, trial.winner)
-                  : with_candidate(bench, state, found, trial.winner);
+                  ? with_own_coefficients(bench_, state_, found_, trial.winner)
+                  : with_candidate(bench_, state_, found_, trial.winner);
   if (!next) return {};
-  if (may_have_ended(bench, state, trial.winner.variant) && next->unseen.rho > state.unseen.rho) {
+  if (may_have_ended(bench_, state_, trial.winner.variant) &&
+      next->unseen.rho > state_.unseen.rho) {
     Candidate ended = trial.winner;
     ended.variant.ends_with_log = true;
-    if (auto other = with_candidate(bench, state, found, ended)) {
+    if (auto other = with_candidate(bench_, state_, found_, ended)) {
       trial.winner = std::move(ended);
       next = std::move(other);
     }
   }
   trial.after = std::move(*next);
   return trial;
+}
+
+std::optional<Trial> try_next(RefineBench& bench, const RefineState& state) {
+  return Trials(bench, state, false).best();
 }
 
 }  // namespace cablefit

@@ -15,10 +15,37 @@ struct Trial {
   RefineState after;
 };
 
-/// What a search on this state names; nothing: it names nothing, or there is nothing to explain.
-/// `first_result`: gets the league of a first search.
-std::optional<Trial> try_next(RefineBench& bench, const RefineState& state, bool is_first,
-                              RefineResult* first_result);
+/// Names what a search on one state found, one after the other. The state has to outlive it.
+class Trials {
+ public:
+  /// Searches. `is_first`: no effect was named before.
+  Trials(RefineBench& bench, const RefineState& state, bool is_first);
+
+  /// The best name; nothing: there is none, or there is nothing to explain.
+  std::optional<Trial> best();
+
+  /// Where the last one was refused: the best of those that the training rows do not tell from it,
+  /// as unseen logs may; nothing: there is none.
+  std::optional<Trial> next_alike(const std::string& refusal);
+
+  const Search& found() const { return found_; }
+  const std::vector<Rival>& league() const { return league_; }
+
+ private:
+  Judgement judged() const;
+  std::optional<Trial> tried(Judgement judgement) const;
+
+  RefineBench& bench_;
+  const RefineState& state_;
+  bool is_first_;
+  Search found_;
+  std::vector<Rival> league_;
+  const Refinement* last_ = nullptr;
+  std::vector<Rival> alike_;
+};
+
+/// The best name that a search on this state finds for a further effect.
+std::optional<Trial> try_next(RefineBench& bench, const RefineState& state);
 
 /// The state with one more effect, fitted with what follows from its values; nothing when the rows
 /// become singular.
