@@ -13,8 +13,8 @@ bool add_next_effect(RefineBench& bench, RefineState& state, RefineResult& resul
 void name_first_again(RefineBench& bench, const RefineState& first, RefineState& state,
                       RefineResult& result);
 
-/// Two effects together may look like a third, and what is best alone is then neither. Where two
-/// leave something, other beginnings are tried: each with what is best beside it.
+/// Two effects together may look like a third, and what is best alone is then neither. Where one or
+/// two leave something, other beginnings are tried: each with what is best beside it.
 void begin_otherwise(RefineBench& bench, const RefineState& first, RefineState& state,
                      RefineResult& result);
 

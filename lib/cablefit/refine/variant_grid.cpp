@@ -9,6 +9,7 @@ namespace cablefit {
 namespace {
 
 constexpr double kEventMargin = 1.0;  // s, to the ends of a log
+constexpr double kBeforeLog = 0;      // s, when the event happened between this log and the last
 
 /// Every combination of the grid's values.
 std::vector<std::vector<double>> grid_points(const Refinement& row, const LogScale& scale) {
@@ -29,10 +30,15 @@ double seconds_of(const Stretch& stretch) {
   return static_cast<double>(stretch.recording.theta.size()) * stretch.recording.period;
 }
 
-/// Dates at which an event may have happened: inside the moving logs.
-std::vector<std::pair<std::size_t, double>> dates(const Design& design, double step) {
+/// Dates at which an event may have happened: inside the moving logs, and of what blocked logs show
+/// as well, as an axis that was homed anew, between two logs.
+std::vector<std::pair<std::size_t, double>> dates(const Refinement& row, const Design& design,
+                                                  double step) {
   std::vector<std::pair<std::size_t, double>> all;
+  std::size_t log = design.stretches.front().log;
   for (const Stretch& stretch : design.stretches) {
+    if (row.is_static && stretch.log != log) all.emplace_back(stretch.log, kBeforeLog);
+    log = stretch.log;
     if (stretch.blocked) continue;
     for (double t = kEventMargin; t < seconds_of(stretch) - kEventMargin; t += step)
       all.emplace_back(stretch.log, stretch.t0 + t);
@@ -56,7 +62,8 @@ std::vector<Variant> variants_of(const Refinement& row, const Design& design, do
       all.push_back({&row, shape, 0, 0, false});
       continue;
     }
-    for (const auto& [log, time] : dates(design, date_step(row, shape, event_step))) {
+    const double step = date_step(row, shape, event_step);
+    for (const auto& [log, time] : dates(row, design, step)) {
       all.push_back({&row, shape, log, time, false});
       if (!row.lasts() || log == design.stretches.back().log) continue;
       all.push_back(all.back());
@@ -106,6 +113,7 @@ std::pair<double, double> around(const ShapeGrid& grid, double value, const LogS
 
 std::pair<double, double> dates_around(const Design& design, const Variant& variant,
                                        double event_step) {
+  if (variant.event_time == kBeforeLog) return {kBeforeLog, kBeforeLog};
   const double step = date_step(*variant.refinement, variant.shape, event_step);
   double low = kUnbounded, high = -kUnbounded;
   for (const Stretch& stretch : design.stretches) {

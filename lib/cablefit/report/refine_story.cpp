@@ -148,14 +148,20 @@ SummaryLine rivals_line(const NamedEffect& effect, const std::vector<Rival>& lea
                                 effect_text(next->name, next->side), percent(next->gain))};
 }
 
+std::string date_text(const RefinementInstance& event, const RefineResult& result) {
+  const std::string& path = result.inputs.at(event.event_log).path;
+  if (event.event_time > 0)
+    return fmt::format("at {} s of {}{}", number(event.event_time), path,
+                       event.ends_with_log ? ", until that log ends" : "");
+  return (event.ends_with_log ? "in all of " : "from the beginning of ") + path +
+         (event.ends_with_log ? "" : " on");
+}
+
 void add_effect_lines(const RefineResult& result, std::vector<SummaryLine>& lines) {
   for (const NamedEffect& effect : result.effects) {
     const Refinement& row = *effect.instance.refinement;
     std::string text = fmt::format("{}: {}; {}", row.name, row.equation, parameters_text(effect));
-    if (row.is_event)
-      text += fmt::format("; at {} s of {}{}", number(effect.instance.event_time),
-                          result.inputs.at(effect.instance.event_log).path,
-                          effect.instance.ends_with_log ? ", until that log ends" : "");
+    if (row.is_event) text += "; " + date_text(effect.instance, result);
     if (effect.torque_rms > 0)
       text += fmt::format("; carries {} {} rms", number(effect.torque_rms),
                           torque_unit(result.linear_motion));

@@ -47,6 +47,7 @@ Refinement slip() {
           .source = "Fichera & Grossard 2017, Assumption 1",
           .parameters = kSlip,
           .is_event = true,
+          .is_static = true,
           .torque = slipped};
 }
 
