@@ -102,14 +102,13 @@ std::vector<std::string> loop_warnings(const LoopSeen& loop, bool linear_motion)
   return warnings;
 }
 
-void note_loop(ElasticPreload& preload, bool plateaus) {
+void note_loop(ElasticPreload& preload, double left, bool plateaus) {
   const ElasticFit& best = *preload.find(preload.selected);
   const Estimate* friction = find_estimate(best.parameters, "f_sm");
   preload.loop_half_width =
       friction != nullptr && friction->not_identifiable.empty() ? friction->value : 0;
-  for (std::string& warning :
-       loop_warnings({preload.loop_half_width, preload.peak_torque, best.rms_error, plateaus},
-                     preload.linear_motion))
+  for (std::string& warning : loop_warnings(
+           {preload.loop_half_width, preload.peak_torque, left, plateaus}, preload.linear_motion))
     preload.warnings.push_back(std::move(warning));
 }
 

@@ -30,8 +30,9 @@ struct LoopSeen {
 /// Warnings of a torque that depends on the path, and of plateaus.
 std::vector<std::string> loop_warnings(const LoopSeen& loop, bool linear_motion);
 
-/// Fills loop_half_width; warns when the torque depends on the path.
-void note_loop(ElasticPreload& preload, bool plateaus);
+/// Fills loop_half_width; warns when the torque depends on the path. `left`: N m rms, by the
+/// selected fit.
+void note_loop(ElasticPreload& preload, double left, bool plateaus);
 
 /// The curve of a pair of cables fitted with l_o = 0 looks like that of two taut ones (preload).
 /// `ranges`: elongations that each cable reached.

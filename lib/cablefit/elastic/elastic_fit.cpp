@@ -9,6 +9,7 @@
 #include "cablefit/elastic/elastic_estimates.hpp"
 #include "cablefit/elastic/elastic_figures.hpp"
 #include "cablefit/elastic/joints_fit.hpp"
+#include "cablefit/elastic/log_zeros.hpp"
 #include "cablefit/elastic/model_errors.hpp"
 #include "cablefit/elastic/preload_checks.hpp"
 #include "cablefit/samples/agreement.hpp"
@@ -159,7 +160,8 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
     check_passive(fit, longest_of(stage.rows.elongations),
                   {stage.job.rig().cables_given, preload.linear_motion});
   select_model(preload, stage.job.options.materiality);
-  note_loop(preload, stage.rows.plateaus);
+  const double left = note_log_zeros(stage.job, stage.rows, candidates.front(), preload);
+  note_loop(preload, left, stage.rows.plateaus);
   note_closure(stage.rows.elongations, preload);
   if (stage.job.options.figures)
     preload.figures = elastic_figures(stage.job, stage.rows, 0, candidates, solutions, preload,

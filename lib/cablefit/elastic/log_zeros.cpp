@@ -1,0 +1,83 @@
+#include "cablefit/elastic/log_zeros.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+namespace cablefit {
+namespace {
+
+constexpr Eigen::Index kFewestRows = 10;
+constexpr double kMostOf = 0.75;      // of the squared residual, that zeros of their own explain
+constexpr double kWorthWords = 0.02;  // of the peak torque, that is left without them
+
+/// The rows of one log, as a triangle; empty when there are too few.
+Eigen::MatrixXd triangle_of(const ElasticJob& job, std::size_t log, const BlockedRows& rows) {
+  ElasticJob own = job;
+  own.logs = job.logs.subspan(log, 1);
+  const auto& parts = own.logs.front().parts;
+  if (std::none_of(parts.begin(), parts.end(), job.wanted)) return {};
+  const BlockedRows some = collect_blocked(own, rows.transmission.theta_0(0), nullptr);
+  if (some.plateaus != rows.plateaus || some.rows->n_rows() < kFewestRows) return {};
+  return some.rows->r();
+}
+
+}  // namespace
+
+std::optional<LogZeros> find_log_zeros(const ElasticJob& job, const BlockedRows& rows,
+                                       const ElasticCandidate& line) {
+  std::vector<Eigen::MatrixXd> triangles;
+  LogZeros found;
+  for (std::size_t k = 0; k < job.logs.size(); ++k) {
+    Eigen::MatrixXd r = triangle_of(job, k, rows);
+    if (r.size() == 0) continue;
+    triangles.push_back(std::move(r));
+    found.zeros.push_back({job.logs[k].plan.path, 0});
+  }
+  const auto n_logs = static_cast<Eigen::Index>(triangles.size());
+  if (n_logs < 2) return {};
+  // The offset of each log in a column of its own, after those that all share; slope first.
+  std::vector<Eigen::Index> shared = line.regressors;
+  std::erase(shared, rows.columns.offset);
+  const auto n_shared = static_cast<Eigen::Index>(shared.size());
+  const Eigen::Index height = triangles.front().rows();
+  Eigen::MatrixXd w = Eigen::MatrixXd::Zero(n_logs * height, n_shared + n_logs);
+  Eigen::VectorXd y(n_logs * height);
+  for (Eigen::Index k = 0; k < n_logs; ++k) {
+    const Eigen::MatrixXd& r = triangles[static_cast<std::size_t>(k)];
+    w.block(k * height, 0, height, n_shared) = r(Eigen::indexing::all, shared);
+    w.block(k * height, n_shared + k, height, 1) = r.col(rows.columns.offset);
+    y.segment(k * height, height) = r.col(rows.columns.tau);
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(w);
+  if (qr.rank() < w.cols()) return {};
+  const Eigen::VectorXd x = qr.solve(y);
+  found.rms = (y - w * x).norm() / std::sqrt(static_cast<double>(rows.rows->n_rows()));
+  for (Eigen::Index k = 0; k < n_logs; ++k)
+    found.zeros[static_cast<std::size_t>(k)].theta_0 =
+        rows.transmission.theta_0(0) - x(n_shared + k) / x(0);
+  return found;
+}
+
+double note_log_zeros(const ElasticJob& job, const BlockedRows& rows, const ElasticCandidate& line,
+                      ElasticPreload& preload) {
+  const double left = preload.find(preload.selected)->rms_error;
+  if (job.logs.size() < 2 || left < kWorthWords * preload.peak_torque) return left;
+  const auto found = find_log_zeros(job, rows, line);
+  if (!found || found->rms * found->rms > (1 - kMostOf) * left * left) return left;
+  const bool linear = preload.linear_motion;
+  std::string zeros;
+  for (const LogZeros::Zero& zero : found->zeros)
+    zeros += fmt::format("{}{:.4g} {} in {}", zeros.empty() ? "" : ", ", 1e3 * zero.theta_0,
+                         linear ? "mm" : "mrad", zero.log);
+  preload.warnings.push_back(fmt::format(
+      "the logs have zeros of their own: with one each, {:.3g} of {:.3g} {} rms are left ({}); was "
+      "an axis homed between them? `cablefit refine` of these logs names it a slip and fits all "
+      "with it",
+      found->rms, left, linear ? "N" : "N m", zeros));
+  return found->rms;
+}
+
+}  // namespace cablefit
