@@ -45,7 +45,10 @@ VectorXd hysteresis(const Track& x, const RealScale& scale, double u, double) {
   const double y = (0.1 + 0.2 * u) * scale.range;
   VectorXd out = VectorXd::Zero(x.x.size());
   for (Index k = 1; k < out.size(); ++k) {
-    const double way = x.x[k] - x.x[k - 1], toward = static_cast<double>((way > 0) - (way < 0));
+    // What an encoder's noise adds up to while a real axis rests is no way.
+    const bool rests = std::abs(x.v[k]) < 0.1 * scale.speed;
+    const double way = rests ? 0 : x.x[k] - x.x[k - 1];
+    const auto toward = static_cast<double>((way > 0) - (way < 0));
     out[k] = toward + (out[k - 1] - toward) * std::exp(-std::abs(way) / y);
   }
   return out;

@@ -71,6 +71,7 @@ Refinement cogging() {
           .parameters = kCogging,
           .shape = kOrder,
           .n_harmonics = 2,
+          .is_static = true,
           .torque = ripple};
 }
 
