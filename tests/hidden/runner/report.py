@@ -2,8 +2,8 @@
 import collections
 import csv
 
-from score import (aliases_listed, both_named, coefficients, judge, names_something, quantile, removed,
-                   truths, upper_bound)
+from score import (aliases_listed, both_named, coefficients, judge, names_something, planted_named,
+                   quantile, removed, truths, upper_bound)
 
 
 class Table:
@@ -82,7 +82,9 @@ def show_others(table, results):
                (names_something(one["answer"]) for one in of_kind(results, "preloads")
                 if not truths(one) and one["answer"]), 0, least=False)
     planted = of_kind(results, "real")
-    table.rate("planted in real logs, >= half the residual", (judge(one)["in_set"] for one in planted), 0.9)
+    table.rate("planted in real logs, >= half the residual", map(planted_named, planted), 0.9)
+    table.rate("  beyond what the base model absorbs of it",
+               (planted_named(one) for one in planted if one["truth"]["ratio_unabsorbed"] >= 0.5), 0.9)
     one_load = of_kind(results, "one_load")
     table.rate("one load: truth in the set", (judge(one)["in_set"] for one in one_load))
     table.rate("one load: the run to add is named",

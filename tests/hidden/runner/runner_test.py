@@ -73,6 +73,12 @@ class Judge(unittest.TestCase):
         self.assertTrue(score.both_named(result(truth, both)))
         self.assertFalse(score.both_named(result(truth, said("named", ("cogging", "motor")))))
 
+    def test_a_real_log_may_have_effects_of_its_own(self):
+        own = said("named", ("slip", "transmission"), ("cogging", "motor"))
+        self.assertTrue(score.planted_named(result([effect("cogging")], own)))
+        self.assertFalse(score.planted_named(result([effect("stribeck")], own)))
+        self.assertFalse(score.planted_named(result([effect("cogging")], said("unexplained"))))
+
 
 class Figures(unittest.TestCase):
     def test_removed(self):

@@ -65,6 +65,16 @@ def both_named(result):
     return all(family(one) in said for one in truths(result))
 
 
+def planted_named(result):
+    """Is the planted effect among all that are named, or a rival of one? Real logs have effects of
+    their own, which may be the larger ones."""
+    answer = result["answer"]
+    if answer is None or not names_something(answer):
+        return False
+    said = {family(one) for effect in answer["effects"] for one in [effect] + (effect.get("rivals") or [])}
+    return family(truths(result)[0]) in said
+
+
 def removed(gap):
     """Share of the squared gap above the floor that the effect removed on unseen logs; None when the
     gap is not known, or before was hardly above it."""
