@@ -1,4 +1,6 @@
 // Logs that stage 1 must not take at face value.
+#include <regex>
+
 #include "tests/elastic/curves.hpp"
 #include "tests/support/columns.hpp"
 #include "tests/support/message.hpp"
@@ -95,6 +97,34 @@ TEST_CASE("an arbitrary encoder zero is found", "[elastic]") {
   CHECK(std::abs(zero.value - (shift - rig.offset / 1470)) < 3 * zero.sd);
   CHECK(find_estimate(found.find("poly")->parameters, "offset") == nullptr);
   CHECK(found.find("poly")->transmission.theta_0(0) == zero.value);
+}
+
+/// Homed anew before the second log: one zero for both looks like a loop.
+TEST_CASE("logs with zeros of their own are told from a loop", "[elastic]") {
+  const truth::Rig rig = truth::Rig::low();
+  constexpr double kShift = 0.002;
+  const std::string own_zeros = "the logs have zeros of their own";
+  for (const double shift : {0.0, kShift}) {
+    Bench bench;
+    bench.add(blocked(rig, 4130));
+    truth::Log other = blocked(rig, 4131);
+    for (double& theta : other.theta) theta += shift;
+    bench.add(other);
+    const ElasticPreload found = fit_elastic(bench.logs(), {}).preloads.at(0);
+    INFO("shift " << shift);
+    print_all("  warning", found.warnings);
+    CHECK(warns(found.warnings, own_zeros) == (shift > 0));
+    CHECK_FALSE(warns(found.warnings, "no static law"));
+    if (shift == 0) continue;
+    const std::string warning = *std::find_if(
+        found.warnings.begin(), found.warnings.end(),
+        [&](const std::string& text) { return text.find(own_zeros) != std::string::npos; });
+    // "(... 0.0123 mrad in a, 2.01 mrad in b)"
+    std::smatch zeros;
+    REQUIRE(std::regex_search(warning, zeros,
+                              std::regex(R"(\((-?[0-9.]+) mrad in .*, (-?[0-9.]+) mrad in )")));
+    CHECK(std::stod(zeros[2]) - std::stod(zeros[1]) == Approx(1e3 * shift).epsilon(0.02));
+  }
 }
 
 TEST_CASE("without a blocked log there is one clear message", "[elastic]") {

@@ -70,6 +70,26 @@ TEST_CASE("what stage 1 lacks is named from blocked logs alone", "[refine][elast
   }
 }
 
+/// Homed anew before the second log.
+TEST_CASE("an encoder zero that moved between two blocked logs is a slip",
+          "[refine][elastic-stage]") {
+  constexpr double kShift = 4e-4;
+  HiddenLogs hidden = blocked_only({}, 1);
+  const HiddenLogs other = blocked_only({"encoder_offset.sensor=1"}, 1);
+  const double shift = other.truth.effects.at(0).coefficients.at(0).value;
+  REQUIRE(std::abs(shift) < kShift);
+  hidden.logs.blocked.push_back(other.logs.blocked.at(0));
+  const RefineResult result = refined(hidden);
+  INFO(result.reason);
+  REQUIRE(first_name(result) == "slip");
+  const RefinementInstance& slip = result.effects[0].instance;
+  CHECK(slip.event_log == 1);
+  CHECK(slip.event_time == 0);
+  CHECK(std::abs(slip.parameters.at(0).value) == Approx(std::abs(shift)).epsilon(0.03));
+  CHECK(result.effects.size() == 1);
+  CHECK(result.rho_after < 1.2);
+}
+
 TEST_CASE("blocked logs name nothing of what they cannot show", "[refine][elastic-stage]") {
   const RefineResult result = refined(blocked_only({"cable_hysteresis.transmission=1"}, 2));
   for (const Rival& row : result.league) {
