@@ -116,12 +116,13 @@ TEST_CASE("logs with zeros of their own are told from a loop", "[elastic]") {
     CHECK(warns(found.warnings, own_zeros) == (shift > 0));
     CHECK_FALSE(warns(found.warnings, "no static law"));
     if (shift == 0) continue;
-    const std::string warning = *std::find_if(
+    const auto warning = std::find_if(
         found.warnings.begin(), found.warnings.end(),
         [&](const std::string& text) { return text.find(own_zeros) != std::string::npos; });
+    REQUIRE(warning != found.warnings.end());
     // "(... 0.0123 mrad in a, 2.01 mrad in b)"
     std::smatch zeros;
-    REQUIRE(std::regex_search(warning, zeros,
+    REQUIRE(std::regex_search(*warning, zeros,
                               std::regex(R"(\((-?[0-9.]+) mrad in .*, (-?[0-9.]+) mrad in )")));
     CHECK(std::stod(zeros[2]) - std::stod(zeros[1]) == Approx(1e3 * shift).epsilon(0.02));
   }

@@ -160,7 +160,7 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
     check_passive(fit, longest_of(stage.rows.elongations),
                   {stage.job.rig().cables_given, preload.linear_motion});
   select_model(preload, stage.job.options.materiality);
-  const double left = note_log_zeros(stage.job, stage.rows, candidates.front(), preload);
+  const double left = note_log_zeros(stage.job, stage.rows, candidates, preload);
   note_loop(preload, left, stage.rows.plateaus);
   note_closure(stage.rows.elongations, preload);
   if (stage.job.options.figures)

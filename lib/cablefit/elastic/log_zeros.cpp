@@ -14,12 +14,13 @@ constexpr double kMostOf = 0.75;      // of the squared residual, that zeros of 
 constexpr double kWorthWords = 0.02;  // of the peak torque, that is left without them
 
 /// The rows of one log, as a triangle; empty when there are too few.
-Eigen::MatrixXd triangle_of(const ElasticJob& job, std::size_t log, const BlockedRows& rows) {
+Eigen::MatrixXd triangle_of(const ElasticJob& job, std::size_t log, const BlockedRows& rows,
+                            const Transmission& fitted) {
   ElasticJob own = job;
   own.logs = job.logs.subspan(log, 1);
   const auto& parts = own.logs.front().parts;
   if (std::none_of(parts.begin(), parts.end(), job.wanted)) return {};
-  const BlockedRows some = collect_blocked(own, rows.transmission.theta_0(0), nullptr);
+  const BlockedRows some = collect_blocked(own, rows.transmission.theta_0(0), &fitted);
   if (some.plateaus != rows.plateaus || some.rows->n_rows() < kFewestRows) return {};
   return some.rows->r();
 }
@@ -27,20 +28,23 @@ Eigen::MatrixXd triangle_of(const ElasticJob& job, std::size_t log, const Blocke
 }  // namespace
 
 std::optional<LogZeros> find_log_zeros(const ElasticJob& job, const BlockedRows& rows,
-                                       const ElasticCandidate& line) {
+                                       const ElasticCandidate& candidate,
+                                       const Transmission& fitted) {
   std::vector<Eigen::MatrixXd> triangles;
   LogZeros found;
   for (std::size_t k = 0; k < job.logs.size(); ++k) {
-    Eigen::MatrixXd r = triangle_of(job, k, rows);
+    Eigen::MatrixXd r = triangle_of(job, k, rows, fitted);
     if (r.size() == 0) continue;
     triangles.push_back(std::move(r));
     found.zeros.push_back({job.logs[k].plan.path, 0});
   }
   const auto n_logs = static_cast<Eigen::Index>(triangles.size());
   if (n_logs < 2) return {};
-  // The offset of each log in a column of its own, after those that all share; slope first.
-  std::vector<Eigen::Index> shared = line.regressors;
+  // The zero of each log in a column of its own, after those that all share. A drive's offset is
+  // part of it, which only a kink could tell from it.
+  std::vector<Eigen::Index> shared = candidate.regressors;
   std::erase(shared, rows.columns.offset);
+  std::erase(shared, rows.columns.zero);
   const auto n_shared = static_cast<Eigen::Index>(shared.size());
   const Eigen::Index height = triangles.front().rows();
   Eigen::MatrixXd w = Eigen::MatrixXd::Zero(n_logs * height, n_shared + n_logs);
@@ -48,7 +52,7 @@ std::optional<LogZeros> find_log_zeros(const ElasticJob& job, const BlockedRows&
   for (Eigen::Index k = 0; k < n_logs; ++k) {
     const Eigen::MatrixXd& r = triangles[static_cast<std::size_t>(k)];
     w.block(k * height, 0, height, n_shared) = r(Eigen::indexing::all, shared);
-    w.block(k * height, n_shared + k, height, 1) = r.col(rows.columns.offset);
+    w.block(k * height, n_shared + k, height, 1) = r.col(rows.columns.zero);
     y.segment(k * height, height) = r.col(rows.columns.tau);
   }
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(w);
@@ -57,15 +61,18 @@ std::optional<LogZeros> find_log_zeros(const ElasticJob& job, const BlockedRows&
   found.rms = (y - w * x).norm() / std::sqrt(static_cast<double>(rows.rows->n_rows()));
   for (Eigen::Index k = 0; k < n_logs; ++k)
     found.zeros[static_cast<std::size_t>(k)].theta_0 =
-        rows.transmission.theta_0(0) - x(n_shared + k) / x(0);
+        rows.transmission.theta_0(0) + x(n_shared + k);
   return found;
 }
 
-double note_log_zeros(const ElasticJob& job, const BlockedRows& rows, const ElasticCandidate& line,
-                      ElasticPreload& preload) {
-  const double left = preload.find(preload.selected)->rms_error;
+double note_log_zeros(const ElasticJob& job, const BlockedRows& rows,
+                      std::span<const ElasticCandidate> candidates, ElasticPreload& preload) {
+  const ElasticFit& selected = *preload.find(preload.selected);
+  const double left = selected.rms_error;
   if (job.logs.size() < 2 || left < kWorthWords * preload.peak_torque) return left;
-  const auto found = find_log_zeros(job, rows, line);
+  const auto candidate = std::find_if(candidates.begin(), candidates.end(),
+                                      [&](const auto& c) { return c.model == preload.selected; });
+  const auto found = find_log_zeros(job, rows, *candidate, selected.transmission);
   if (!found || found->rms * found->rms > (1 - kMostOf) * left * left) return left;
   const bool linear = preload.linear_motion;
   std::string zeros;

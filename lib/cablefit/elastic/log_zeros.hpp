@@ -17,17 +17,18 @@ struct LogZeros {
     double theta_0 = 0;  ///< rad (m on a linear axis)
   };
   std::vector<Zero> zeros;  ///< in the order of the logs
-  double rms = 0;           ///< what the straight line leaves with a zero per log, N m (N)
+  double rms = 0;           ///< what is left with a zero per log, N m (N)
 };
 
-/// The straight line with one slope for all logs and a zero for each; nothing for a single log, or
-/// where a log has too few rows of its own. `rows`: of all logs together.
+/// `candidate` with one curve for all logs and a zero for each (one step from `fitted`); nothing
+/// for a single log, or where the rows do not tell. `rows`: of all logs together.
 std::optional<LogZeros> find_log_zeros(const ElasticJob& job, const BlockedRows& rows,
-                                       const ElasticCandidate& line);
+                                       const ElasticCandidate& candidate,
+                                       const Transmission& fitted);
 
 /// Warns where zeros of their own explain most of what the selected fit leaves. What is left then,
 /// or of that fit, N m rms (N).
-double note_log_zeros(const ElasticJob& job, const BlockedRows& rows, const ElasticCandidate& line,
-                      ElasticPreload& preload);
+double note_log_zeros(const ElasticJob& job, const BlockedRows& rows,
+                      std::span<const ElasticCandidate> candidates, ElasticPreload& preload);
 
 }  // namespace cablefit

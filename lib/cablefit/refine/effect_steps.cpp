@@ -150,10 +150,13 @@ bool add_next_effect(RefineBench& bench, RefineState& state, RefineResult& resul
     const Refinement& row = *trial->winner.variant.refinement;
     reason = why_not(bench, row, state, trial->after, is_first);
     result.steps.push_back(step_of(bench, *trial, reason));
-    if (!reason.empty()) continue;
-    result.effects.push_back(effect_of(bench, state, trial->after, trial->judgement));
-    state = std::move(trial->after);
-    return true;
+    if (reason.empty()) {
+      result.effects.push_back(effect_of(bench, state, trial->after, trial->judgement));
+      state = std::move(trial->after);
+      return true;
+    }
+    // A crumb has many look-alikes, and one of them passes by chance.
+    if (trial->after.rho > kRemainder) break;
   }
   return best && is_first && bench.options.most_effects > 1 &&
          add_both(bench, state, *best, result);
