@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+
+#include "cablefit/estimate/scaled_solve.hpp"
 
 namespace cablefit {
 namespace {
@@ -25,11 +26,9 @@ Eigen::MatrixXd triangle_of(const ElasticJob& job, std::size_t log, const Blocke
   return some.rows->r();
 }
 
-}  // namespace
-
-std::optional<LogZeros> find_log_zeros(const ElasticJob& job, const BlockedRows& rows,
-                                       const ElasticCandidate& candidate,
-                                       const Transmission& fitted) {
+/// One Gauss-Newton step from the curve `fitted`, which becomes the curve found.
+std::optional<LogZeros> zeros_from(const ElasticJob& job, const BlockedRows& rows,
+                                   const ElasticCandidate& candidate, Transmission& fitted) {
   std::vector<Eigen::MatrixXd> triangles;
   LogZeros found;
   for (std::size_t k = 0; k < job.logs.size(); ++k) {
@@ -55,14 +54,26 @@ std::optional<LogZeros> find_log_zeros(const ElasticJob& job, const BlockedRows&
     w.block(k * height, n_shared + k, height, 1) = r.col(rows.columns.zero);
     y.segment(k * height, height) = r.col(rows.columns.tau);
   }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(w);
-  if (qr.rank() < w.cols()) return {};
-  const Eigen::VectorXd x = qr.solve(y);
+  const ScaledSolve solved = solve_scaled(w, y);
+  if (solved.null_directions.cols() > 0) return {};
+  const Eigen::VectorXd& x = solved.x;
   found.rms = (y - w * x).norm() / std::sqrt(static_cast<double>(rows.rows->n_rows()));
   for (Eigen::Index k = 0; k < n_logs; ++k)
     found.zeros[static_cast<std::size_t>(k)].theta_0 =
         rows.transmission.theta_0(0) + x(n_shared + k);
+  fitted = fitted_transmission(candidate, x);
+  fitted.theta_0 = rows.transmission.theta_0;
   return found;
+}
+
+}  // namespace
+
+std::optional<LogZeros> find_log_zeros(const ElasticJob& job, const BlockedRows& rows,
+                                       const ElasticCandidate& candidate,
+                                       const Transmission& fitted) {
+  Transmission curve = fitted;  // fitted with one zero for all, its slope is off
+  if (!zeros_from(job, rows, candidate, curve)) return {};
+  return zeros_from(job, rows, candidate, curve);
 }
 
 double note_log_zeros(const ElasticJob& job, const BlockedRows& rows,

@@ -20,8 +20,8 @@ struct LogZeros {
   double rms = 0;           ///< what is left with a zero per log, N m (N)
 };
 
-/// `candidate` with one curve for all logs and a zero for each (one step from `fitted`); nothing
-/// for a single log, or where the rows do not tell. `rows`: of all logs together.
+/// `candidate` with one curve for all logs and a zero for each; nothing for a single log, or where
+/// the rows do not tell. `rows`: of all logs; `fitted`: with one zero for all.
 std::optional<LogZeros> find_log_zeros(const ElasticJob& job, const BlockedRows& rows,
                                        const ElasticCandidate& candidate,
                                        const Transmission& fitted);
