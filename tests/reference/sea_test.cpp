@@ -43,6 +43,33 @@ TEST_CASE("SEA spring 2: the stiffness its authors found", "[reference]") {
   }
 }
 
+/// Its authors fit each log by itself; together they need to know that the zero moved by .6 mrad.
+TEST_CASE("SEA spring 2: the encoder zero moved before one log", "[reference]") {
+  std::vector<LogSurvey> logs;
+  for (const char* name : {"spring2_amp2_id16", "spring2_amp3_id20"}) {
+    const std::string path = shared_file(std::string("sea_imperial_blocked/") + name + ".csv");
+    if (path.empty()) return;
+    logs.push_back(survey_file(path, default_rig()));
+  }
+  const ElasticPreload preload = fit_elastic(logs, {}).preloads.at(0);
+  print_all("  warning", preload.warnings);
+  CHECK(warns(preload.warnings, "the logs have zeros of their own"));
+  CHECK_FALSE(warns(preload.warnings, kNoStaticLaw));
+
+  RefineLogs both;
+  both.blocked = logs;
+  RefineOptions options;
+  options.n_draws = 8;
+  const std::vector<Model> models = {model_of_fit(preload)};
+  const RefineResult result = refine(models, both, options);
+  INFO(result.reason);
+  REQUIRE_FALSE(result.effects.empty());
+  const RefinementInstance& slip = result.effects[0].instance;
+  CHECK(slip.refinement->name == "slip");
+  CHECK(slip.event_log == 1);
+  CHECK(slip.parameters.at(0).value == Approx(0.6e-3).epsilon(0.05));
+}
+
 TEST_CASE("SEA spring 5: a loop that no static law explains", "[reference]") {
   for (const char* name : {"spring5_amp5_id58", "spring5_amp9_id70"}) {
     const ElasticPreload preload = fit(name);

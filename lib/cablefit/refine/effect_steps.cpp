@@ -208,6 +208,7 @@ void begin_otherwise(RefineBench& bench, const RefineState& first, RefineState& 
   constexpr std::size_t kBeginnings = 3;
   const Search& found = bench.first_search;
   const Refinement& taken = *state.design.added[bench.n_kept].refinement;
+  const bool was_alone = result.effects.size() == 1;
   for (const Candidate* candidate : best_candidates(found.candidates, kBeginnings, taken)) {
     Trial one;
     one.winner =
@@ -218,6 +219,8 @@ void begin_otherwise(RefineBench& bench, const RefineState& first, RefineState& 
     auto two = try_next(bench, one.after);
     if (!two || two->after.rho >= state.rho) continue;
     const Refinement& row = *two->winner.variant.refinement;
+    // Beside what was named alone, the beginning was too little to be named.
+    if (was_alone && (&row == &taken || same_class(row, taken))) continue;
     if (!why_not_both(change_of(bench, row, first, two->after)).empty()) continue;
     const SquaredGap gap{found.fit.held_out.sum(),
                          floor_error(found.fit, bench.floor, found.levels)};
