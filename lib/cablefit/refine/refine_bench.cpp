@@ -5,6 +5,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/parallel.hpp"
+#include "cablefit/refine/conclusion.hpp"
 #include "cablefit/refine/elastic_stage.hpp"
 #include "cablefit/refine/fit_bias.hpp"
 #include "cablefit/refine/kept_effects.hpp"
@@ -93,10 +94,26 @@ KindMemory memory_with(const Design& design, const BlockFit& fit, const Candidat
   return both ? memory_of(with, both->x) : memory_of(design, fit.x);
 }
 
+/// The candidate whose remainder is that of the logs. Some date explains a little of whatever
+/// wanders; an event counts where it explains most of a gap, and more than what is always there.
+const Candidate* best_explaining(const Search& found, const KindLevels& floor) {
+  constexpr double kMost = 0.5;
+  const Candidate* best = best_lasting(found.candidates);
+  const double total = found.fit.held_out.sum(),
+               noise = floor_error(found.fit, floor, found.levels);
+  if (total < kRemainder * noise) return best;
+  for (const Candidate& c : found.candidates) {
+    const bool most = c.refused.empty() && c.gain * total > kMost * (total - noise);
+    if (most && c.variant.refinement->is_event && (best == nullptr || c.gain > best->gain))
+      best = &c;
+  }
+  return best;
+}
+
 /// Gives the draws of the null what even the best candidate leaves, so that they look like the logs
 /// would without it.
 void disturb_null(RefineBench& bench, const RefineState& state, const Search& found) {
-  const Candidate* best = best_lasting(found.candidates);
+  const Candidate* best = best_explaining(found, bench.floor);
   const double block_seconds = bench.scan.block_seconds;
   const KindMemory left = memory_with(state.design, found.fit, best, found.levels, block_seconds);
   const KindMemory guess = remainder_of(left, bench.floor);
