@@ -198,6 +198,29 @@ TEST_CASE("two effects that look like a third are named", "[refine][slow]") {
   CHECK(result.rho_after < 1.1);
 }
 
+/// The same of longer runs, in which the third is named alone and leaves something.
+TEST_CASE("two effects behind one name are found", "[refine][slow]") {
+  const HiddenLogs hidden =
+      hidden_logs({"drive_efficiency.motor=0.1481", "drive_dead_band.drive=0.2145"}, 2, "full");
+  const RefineResult result = refined(hidden);
+  INFO(result.reason);
+  REQUIRE(result.effects.size() == 2);
+  CHECK(first_name(result) == "drive_efficiency");
+  CHECK(result.effects[1].instance.refinement->name == "drive_dead_band");
+  CHECK(result.rho_after < 1.1);
+}
+
+/// A constant torque explains as much of the training logs; it is refused by the unseen ones.
+TEST_CASE("unseen logs say which of look-alikes it is", "[refine][slow]") {
+  const RefineResult result = refined(hidden_logs({"encoder_offset.sensor=0.1"}, 204, "full"));
+  INFO(result.reason);
+  REQUIRE(first_name(result) == "encoder_offset");
+  REQUIRE(result.steps.size() == 2);
+  CHECK(result.steps[0].added == "constant_torque");
+  CHECK_FALSE(result.steps[0].accepted);
+  for (const Rival& rival : result.effects[0].rivals) CHECK(rival.name != "constant_torque");
+}
+
 /// On the base alone an encoder's offset is as good; beside the friction it is not the first
 /// choice.
 TEST_CASE("the first of two is named again beside the second", "[refine][slow]") {

@@ -115,8 +115,10 @@ std::optional<Trial> Trials::best() {
 }
 
 std::optional<Trial> Trials::next_alike(const std::string& refusal) {
-  for (Candidate& candidate : found_.candidates)
-    if (candidate.variant.refinement == last_) candidate.refused = refusal;
+  for (Candidate& candidate : found_.candidates) {
+    const Refinement& row = *candidate.variant.refinement;
+    if (&row == last_ || same_class(row, *last_)) candidate.refused = refusal;
+  }
   Judgement judgement = judged();
   if (!judgement.is_named) return {};
   last_ = judgement.best->variant.refinement;
