@@ -17,7 +17,7 @@
 namespace cablefit {
 namespace {
 
-constexpr std::size_t kBins = 96;
+constexpr std::size_t kFewestBins = 4, kMostBins = 96;
 constexpr std::size_t kFewRows = 10;       // a mean over fewer says nothing
 constexpr std::size_t kMostVariables = 3;  // per equation, those that reveal most
 
@@ -65,10 +65,15 @@ Figure over_time(const Pair& pair, const Timeline& time) {
 
 constexpr std::size_t kBackward = 0, kForward = 1;
 
+/// Few rows share few bins.
+std::size_t n_bins(const ShownRows& kind) {
+  return std::clamp(kind.rows.size() / (2 * kFewRows), kFewestBins, kMostBins);
+}
+
 /// Mean residual over bins of a variable, apart by the direction of motion: friction changes sides.
 BinnedMean mean_of(const ShownRows& kind, std::size_t variable, std::size_t direction,
                    std::size_t speed) {
-  BinnedMean mean(kBins);
+  BinnedMean mean(n_bins(kind));
   for (const ShownRow& row : kind.rows)
     if ((row.variables[speed] > 0) == (direction == kForward))
       mean.add(row.variables[variable], row.residual);
@@ -152,15 +157,15 @@ Figure rms_against(const Pair& pair, std::size_t variable) {
   figure.x = axis_of(v, pair.link, pair.linear_motion);
   figure.y = {"rms of the residual", pair.unit};
   for (std::size_t k = 0; k < n_states(pair); ++k) {
-    BinnedMean mean(kBins);
+    BinnedMean mean(n_bins(pair.before));
     for (const ShownRow& row : pair.both()[k]->rows)
       mean.add(row.variables[variable], row.residual * row.residual);
     Trace trace = new_trace(name_of(k), TraceStyle::line, series_of(k));
     mean.draw(trace, kFewRows, true);
     for (double& y : trace.y) y = std::sqrt(y);
-    figure.traces.push_back(std::move(trace));
+    if (!trace.x.empty()) figure.traces.push_back(std::move(trace));
   }
-  if (figure.traces.front().x.empty()) return figure;
+  if (figure.traces.empty()) return figure;
   Trace floor = new_trace("noise floor", TraceStyle::dashed, kReference);
   floor.x = {figure.traces.front().x.front(), figure.traces.front().x.back()};
   floor.y = {pair.floor, pair.floor};
@@ -210,7 +215,8 @@ void add_residuals(const BeforeAfter& rows, const std::string& section, Detail d
     for (const std::size_t variable : revealing(pair)) {
       if (Figure mean = mean_against(pair, variable); !mean.traces.empty())
         figures.push_back(std::move(mean));
-      figures.push_back(rms_against(pair, variable));
+      if (Figure rms = rms_against(pair, variable); !rms.traces.empty())
+        figures.push_back(std::move(rms));
     }
     figures.push_back(memory(pair, time.spacing));
   }
