@@ -20,8 +20,9 @@ bool is_better(double before, double after, double visible, double as_good) {
   return before > visible ? after < before : after < as_good * before;
 }
 
-constexpr double kLittle = 0.25;  // of the gap
-constexpr double kLikely = 1;     // sd, that a gain on unseen rows is one
+constexpr double kLittle = 0.25;             // of the gap
+constexpr double kLikely = 1;                // sd, that a gain on unseen rows is one
+constexpr double kChanceOfSize = 0.01 / 40;  // 1 % over the rows of the catalogue
 
 /// Some date always fits a little of what wanders or hums.
 bool is_stray_event(const UnseenChange& change) {
@@ -64,6 +65,11 @@ std::string why_not_added(const UnseenChange& change) {
         "beside what stays unexplained the equations of unseen logs are not clearly better with it "
         "({:.2g} sd)",
         change.sd_better);
+  if (change.leaves_remainder && change.chance_of_size > kChanceOfSize)
+    return fmt::format(
+        "beside what stays unexplained a size like its own is not beyond chance (p = {:.1g} of one "
+        "effect)",
+        change.chance_of_size);
   if (!change.before.known() || !change.floor.known()) return "";
   if (!change.after.known()) return "with it the simulation fails: " + change.after.failure;
   const double floor = in_floors(change.floor, change.floor);

@@ -27,6 +27,7 @@ struct UnseenChange {
   double sd_better = kUnbounded;  ///< of its gain, blocks of unseen rows paired
   bool is_after_event = false;    ///< unseen rows that an event should show in
   double closed = 1;              ///< share of the training rows' gap
+  double chance_of_size = 0;      ///< P of coefficients as large where there is no such effect
 };
 /// Why it is refused, whatever it did to the equation error of the training logs; empty: it is
 /// not. Events are judged by the equations of rows after them.

@@ -1,8 +1,10 @@
 #include "cablefit/refine/effect_steps.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/estimate/tail_probability.hpp"
 #include "cablefit/refine/conclusion.hpp"
 #include "cablefit/refine/effect_trial.hpp"
 #include "cablefit/refine/fit_bias.hpp"
@@ -57,6 +59,20 @@ bool is_after_event(const RefineBench& bench, const Variant& variant) {
   return variant.refinement->lasts() && (is_held_out || !variant.ends_with_log);
 }
 
+/// Of the last effect's coefficients: Wald's test with the sandwich over the blocks, whose
+/// residuals may wander (White 1980). 0 for what has none.
+double chance_of_size(const RefineBench& bench, const RefineState& after) {
+  const Eigen::Index n = n_linear(after.design.added.back());
+  if (n == 0) return 0;
+  const Design& design = after.design;
+  const auto fit = fit_blocks(block_grams(design.rows, design.stretches, bench.scan.block_seconds),
+                              after.levels, false);
+  if (!fit) return 1;
+  const Eigen::VectorXd size = fit->x.tail(n);
+  const Eigen::MatrixXd covariance = fit->covariance.bottomRightCorner(n, n);
+  return chi_squared_tail(size.dot(covariance.ldlt().solve(size)), static_cast<double>(n));
+}
+
 UnseenChange change_of(const RefineBench& bench, const Refinement& row, const RefineState& before,
                        const RefineState& after, const SimulatedGap& simulated_before,
                        const SimulatedGap& simulated_after) {
@@ -69,7 +85,8 @@ UnseenChange change_of(const RefineBench& bench, const Refinement& row, const Re
           after.rho > kRemainder,
           sd_better(bench, before, after),
           is_after_event(bench, after.design.added.back()),
-          (before.rho - after.rho) / std::max(1e-9, before.rho - 1)};
+          (before.rho - after.rho) / std::max(1e-9, before.rho - 1),
+          after.rho > kRemainder ? chance_of_size(bench, after) : 0};
 }
 
 UnseenChange change_of(const RefineBench& bench, const Refinement& row, const RefineState& before,
