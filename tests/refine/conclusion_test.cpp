@@ -35,7 +35,7 @@ TEST_CASE("beside a remainder a gain on unseen logs has to be clear", "[refine]"
   CHECK(why_not_added({row, 7, 6.9, before, better, floor, true, 3}).empty());
   CHECK(why_not_added({row, 7, 6.9, before, better, floor, false, 0.8}).empty());
   CHECK(why_not_added({row, 7, 3, before, better, floor, true, 0.8}).empty());
-  CHECK(why_not_added({row, 7, 6.9, before, better, floor, true, 0.8}) ==
+  CHECK(why_not_added({row, 7, 6.9, before, better, floor, true, 0.8, false, 1, 1e-4}) ==
         "beside what stays unexplained the equations of unseen logs are not clearly better with it "
         "(0.8 sd)");
   // The sum over all rows is that of the equation that wanders; rows weighted by what they leave.
@@ -43,6 +43,26 @@ TEST_CASE("beside a remainder a gain on unseen logs has to be clear", "[refine]"
   CHECK_FALSE(why_not_added({row, 7, 7.01, before, better, floor, true, -1.2}).empty());
   CHECK_FALSE(why_not_added({row, 7, 7.01, before, better, floor, false, 1.2}).empty());
   CHECK_FALSE(why_not_added({row, 7, 9, before, better, floor, true, 1.2}).empty());
+}
+
+/// The trap: a wandering torque has a slope, a mean, a period; of forty rows one fits by chance.
+TEST_CASE("beside a remainder a size has to be beyond chance", "[refine]") {
+  const Refinement& row = find_refinement("gravity_imbalance", Site::link);
+  const SimulatedGap floor{1e-5, 0.1, ""}, before{2e-5, 0.2, ""}, better{1.5e-5, 0.2, ""};
+  const auto why = [&](bool beside_remainder, double sd_better, double chance) {
+    return why_not_added(
+        {row, 39, 38, before, better, floor, beside_remainder, sd_better, false, 1, chance});
+  };
+  CHECK(why(true, 3, 1e-5).empty());
+  CHECK(why(false, 3, 4e-4).empty());
+  CHECK(why(true, 3, 4e-4) ==
+        "beside what stays unexplained a size like its own is not beyond chance (p = 0.0004 of one "
+        "effect)");
+  // What the training rows leave no doubt of has to be better on unseen rows, clearly or not.
+  CHECK(why(true, 0.3, 1e-7).empty());
+  CHECK_FALSE(why(true, 0.3, 1e-5).empty());
+  CHECK_FALSE(
+      why_not_added({row, 39, 41, before, better, floor, true, -1, false, 1, 1e-7}).empty());
 }
 
 /// The trap: a pair of the catalogue mimics a third mass, 98.7 % of the gap closed.

@@ -23,18 +23,20 @@ bool is_better(double before, double after, double visible, double as_good) {
 constexpr double kLittle = 0.25;             // of the gap
 constexpr double kLikely = 1;                // sd, that a gain on unseen rows is one
 constexpr double kChanceOfSize = 0.01 / 40;  // 1 % over the rows of the catalogue
+constexpr double kSureSize = 1e-6;           // of which the training rows leave no doubt
 
 /// Some date always fits a little of what wanders or hums.
 bool is_stray_event(const UnseenChange& change) {
   return change.row.is_event && change.leaves_remainder && change.closed < kLittle;
 }
 
-/// Little of a visible gap, most of which stays, and not sure. Where most of it goes a few blocks
-/// may carry that, and an sd over blocks tells nothing.
+/// Little of a visible gap, most of which stays, and sure neither here nor there. Where most of it
+/// goes a few blocks may carry that, and an sd over blocks tells nothing.
 bool is_crumb(const UnseenChange& change) {
   const double gone = change.rho_before - change.rho_after;
   return change.leaves_remainder && change.rho_before > kVisibleGap &&
-         gone < kLittle * (change.rho_before - 1) && change.sd_better < kLikely;
+         gone < kLittle * (change.rho_before - 1) && change.sd_better < kLikely &&
+         change.chance_of_size > kSureSize;
 }
 
 /// Beside a remainder the sum over all rows is that of the equation that has it; rows weighted by
