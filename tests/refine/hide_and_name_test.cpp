@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "cablefit/refine/effect_trial.hpp"
 #include "cablefit/refine/refine.hpp"
 #include "tests/refine/hidden_logs.hpp"
 
@@ -210,15 +211,32 @@ TEST_CASE("two effects behind one name are found", "[refine][slow]") {
   CHECK(result.rho_after < 1.1);
 }
 
-/// A constant torque explains as much of the training logs; it is refused by the unseen ones.
-TEST_CASE("unseen logs say which of look-alikes it is", "[refine][slow]") {
-  const RefineResult result = refined(hidden_logs({"encoder_offset.sensor=0.1"}, 204, "full"));
-  INFO(result.reason);
-  REQUIRE(first_name(result) == "encoder_offset");
-  REQUIRE(result.steps.size() == 2);
-  CHECK(result.steps[0].added == "constant_torque");
-  CHECK_FALSE(result.steps[0].accepted);
-  for (const Rival& rival : result.effects[0].rivals) CHECK(rival.name != "constant_torque");
+/// Training logs that do not tell a constant torque from an encoder's offset leave it to unseen
+/// ones.
+TEST_CASE("the look-alikes of what is refused are tried, its aliases are not", "[refine][slow]") {
+  const HiddenLogs hidden = hidden_logs({"encoder_offset.sensor=0.1"}, 204, "full");
+  RefineOptions options;
+  options.n_draws = 6;
+  options.threads = 2;
+  RefineBench bench{options, [](const PartSurvey&) { return true; }};
+  bench.scan.threads = 2;
+  bench.logs = hidden.logs.blocked;
+  bench.logs.insert(bench.logs.end(), hidden.logs.train.begin(), hidden.logs.train.end());
+  bench.all = bench.logs;
+  RefineResult result;
+  const RefineState state = prepare(bench, hidden.models, hidden.logs, result);
+  const auto name = [](const std::optional<Trial>& trial) {
+    return trial ? std::string(trial->winner.variant.refinement->name) : "";
+  };
+  Trials trials(bench, state, true);
+  CHECK(name(trials.next_alike("nothing was tried yet")).empty());
+  const auto best = trials.best();
+  CHECK(name(best) == "constant_torque");
+  const auto other = trials.next_alike("refused");
+  CHECK(name(other) == "encoder_offset");
+  REQUIRE(other);
+  for (const Rival& rival : other->judgement.rivals) CHECK(rival.name != "constant_torque");
+  CHECK(name(trials.next_alike("refused")) != "asymmetric_coulomb");
 }
 
 /// On the base alone an encoder's offset is as good; beside the friction it is not the first

@@ -115,17 +115,25 @@ bool carries_nothing(const RefineBench& bench, const RefineState& after) {
 
 /// Reason against a step; empty: none. Where the unseen equations are sure of it but the simulation
 /// is not, the bias of either fit may hide what the effect is worth: the simulations without it
-/// decide.
+/// decide. So they do, and the unseen equations, where these lie below their floor: it is that of
+/// values without bias, which fit less well.
 std::string why_not(const RefineBench& bench, const Refinement& row, const RefineState& before,
                     const RefineState& after, bool is_first) {
   if (carries_nothing(bench, after)) return "it carries nothing once all is fitted with it";
   const UnseenChange change = change_of(bench, row, before, after);
   const std::string reason = why_not_added(change);
   const bool both_known = change.before.known() && change.after.known();
-  if (reason.empty() || change.sd_better < kClearlyBetter || !both_known) return reason;
+  const bool is_sure = change.sd_better >= kClearlyBetter;
+  const bool is_below_floor = change.rho_before < 1 && !change.leaves_remainder;
+  if (reason.empty() || !both_known || !(is_sure || is_below_floor)) return reason;
   const auto bias = is_first ? std::optional(bench.base_bias) : fit_bias(bench, before);
-  return why_not_added(change_of(bench, row, before, after, simulated_best(bench, before, bias),
-                                 simulated_best(bench, after, fit_bias(bench, after))));
+  const auto bias_after = fit_bias(bench, after);
+  if (is_sure)
+    return why_not_added(change_of(bench, row, before, after, simulated_best(bench, before, bias),
+                                   simulated_best(bench, after, bias_after)));
+  if (!bias || !bias_after) return reason;
+  return why_not_added(change_of(bench, row, without_bias(bench, before, *bias),
+                                 without_bias(bench, after, *bias_after)));
 }
 
 NamedEffect effect_of(const RefineBench& bench, const RefineState& before, const RefineState& after,

@@ -115,6 +115,7 @@ std::optional<Trial> Trials::best() {
 }
 
 std::optional<Trial> Trials::next_alike(const std::string& refusal) {
+  if (last_ == nullptr) return {};
   for (Candidate& candidate : found_.candidates) {
     const Refinement& row = *candidate.variant.refinement;
     if (&row == last_ || same_class(row, *last_)) candidate.refused = refusal;
