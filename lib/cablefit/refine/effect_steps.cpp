@@ -115,8 +115,8 @@ bool carries_nothing(const RefineBench& bench, const RefineState& after) {
 
 /// Reason against a step; empty: none. Where the unseen equations are sure of it but the simulation
 /// is not, the bias of either fit may hide what the effect is worth: the simulations without it
-/// decide. So they do, and the unseen equations, where these lie below their floor: it is that of
-/// values without bias, which fit less well.
+/// decide. Unseen equations below their floor, which is that of values without bias, are judged
+/// without it as well.
 std::string why_not(const RefineBench& bench, const Refinement& row, const RefineState& before,
                     const RefineState& after, bool is_first) {
   if (carries_nothing(bench, after)) return "it carries nothing once all is fitted with it";

@@ -40,8 +40,8 @@ class Trials {
   bool is_first_;
   Search found_;
   std::vector<Rival> league_;
-  const Refinement* last_ = nullptr;
-  std::vector<Rival> alike_;
+  const Refinement* last_ = nullptr;  ///< tried
+  std::vector<Rival> alike_;          ///< of the best
 };
 
 /// The best name that a search on this state finds for a further effect.
