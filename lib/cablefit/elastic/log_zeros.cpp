@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "cablefit/estimate/scaled_solve.hpp"
 
@@ -13,6 +16,15 @@ namespace {
 constexpr Eigen::Index kFewestRows = 10;
 constexpr double kMostOf = 0.75;      // of the squared residual, that zeros of their own explain
 constexpr double kWorthWords = 0.02;  // of the peak torque, that is left without them
+
+struct LogZeros {
+  struct Zero {
+    std::string log;     ///< path
+    double theta_0 = 0;  ///< rad (m on a linear axis)
+  };
+  std::vector<Zero> zeros;  ///< in the order of the logs
+  double rms = 0;           ///< what is left with a zero per log, N m (N)
+};
 
 /// The rows of one log, as a triangle; empty when there are too few.
 Eigen::MatrixXd triangle_of(const ElasticJob& job, std::size_t log, const BlockedRows& rows,
@@ -66,8 +78,8 @@ std::optional<LogZeros> zeros_from(const ElasticJob& job, const BlockedRows& row
   return found;
 }
 
-}  // namespace
-
+/// One curve for all logs and a zero for each; nothing for a single log, or where the rows do not
+/// tell. `fitted`: with one zero for all.
 std::optional<LogZeros> find_log_zeros(const ElasticJob& job, const BlockedRows& rows,
                                        const ElasticCandidate& candidate,
                                        const Transmission& fitted) {
@@ -75,6 +87,8 @@ std::optional<LogZeros> find_log_zeros(const ElasticJob& job, const BlockedRows&
   if (!zeros_from(job, rows, candidate, curve)) return {};
   return zeros_from(job, rows, candidate, curve);
 }
+
+}  // namespace
 
 double note_log_zeros(const ElasticJob& job, const BlockedRows& rows,
                       std::span<const ElasticCandidate> candidates, ElasticPreload& preload) {

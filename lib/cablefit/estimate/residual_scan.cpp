@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
+
 #include "cablefit/figure/new_trace.hpp"
 
 namespace cablefit {

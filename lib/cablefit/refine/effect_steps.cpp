@@ -255,6 +255,7 @@ void begin_otherwise(RefineBench& bench, const RefineState& first, RefineState& 
     result.steps = {step_of(bench, one, ""), step_of(bench, *two, "")};
     state = std::move(two->after);
   }
+  if (result.effects.size() == 2) name_first_again(bench, first, state, result);
 }
 
 }  // namespace cablefit

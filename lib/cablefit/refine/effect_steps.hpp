@@ -14,7 +14,8 @@ void name_first_again(RefineBench& bench, const RefineState& first, RefineState&
                       RefineResult& result);
 
 /// Two effects together may look like a third, and what is best alone is then neither. Where one or
-/// two leave something, other beginnings are tried: each with what is best beside it.
+/// two leave something, other beginnings are tried: each with what is best beside it, and named
+/// again beside that.
 void begin_otherwise(RefineBench& bench, const RefineState& first, RefineState& state,
                      RefineResult& result);
 

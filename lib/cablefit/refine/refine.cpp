@@ -145,17 +145,13 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
   while (result.effects.size() < options.most_effects && add_next_effect(bench, state, result)) {
     if (result.effects.size() == 2) {
       name_first_again(bench, first, state, result);
-      if (state.rho >= kNoGap && result.effects.size() == 2) {
+      if (state.rho >= kNoGap && result.effects.size() == 2)
         begin_otherwise(bench, first, state, result);
-        name_first_again(bench, first, state, result);
-      }
     }
     if (state.rho < kNoGap) break;
   }
-  if (result.effects.size() == 1 && options.most_effects > 1 && state.rho > kRemainder) {
+  if (result.effects.size() == 1 && options.most_effects > 1 && state.rho > kRemainder)
     begin_otherwise(bench, first, state, result);
-    if (result.effects.size() == 2) name_first_again(bench, first, state, result);
-  }
 
   if (!result.effects.empty()) state = with_best_shapes(bench, std::move(state));
   const Design& bare = bench.n_kept == 0 ? first.design : bench.bare;
