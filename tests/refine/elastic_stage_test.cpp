@@ -73,11 +73,9 @@ TEST_CASE("what stage 1 lacks is named from blocked logs alone", "[refine][elast
 /// Homed anew before the second log.
 TEST_CASE("an encoder zero that moved between two blocked logs is a slip",
           "[refine][elastic-stage]") {
-  constexpr double kShift = 4e-4;
   HiddenLogs hidden = blocked_only({}, 1);
   const HiddenLogs other = blocked_only({"encoder_offset.sensor=1"}, 1);
   const double shift = other.truth.effects.at(0).coefficients.at(0).value;
-  REQUIRE(std::abs(shift) < kShift);
   hidden.logs.blocked.push_back(other.logs.blocked.at(0));
   const RefineResult result = refined(hidden);
   INFO(result.reason);
