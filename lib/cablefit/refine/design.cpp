@@ -206,6 +206,26 @@ void append(std::vector<StretchRows>& rows, const VariantColumns& columns) {
     }
 }
 
+std::vector<StretchRows> whitened(const Design& design, std::vector<StretchRows> rows) {
+  if (!design.whitening.is_needed()) return rows;
+  for (std::size_t s = 0; s < rows.size(); ++s)
+    for (KindRows& kind : rows[s].kinds) {
+      const double period = design.stretches[s].recording.period;
+      kind.base = design.whitening.of(kind, period, kind.base);
+      kind.response = design.whitening.of(kind, period, kind.response);
+    }
+  return rows;
+}
+
+VariantColumns whitened(const Design& design, VariantColumns columns) {
+  if (!design.whitening.is_needed()) return columns;
+  for (std::size_t s = 0; s < columns.size(); ++s)
+    for (std::size_t k = 0; k < columns[s].size(); ++k)
+      columns[s][k] = design.whitening.of(design.rows[s].kinds[k],
+                                          design.stretches[s].recording.period, columns[s][k]);
+  return columns;
+}
+
 Design with_variant(const Design& design, const Variant& variant, const Eigen::VectorXd& values) {
   Design out = design;
   const Refinement& row = *variant.refinement;

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "cablefit/refine/base_rows.hpp"
+#include "cablefit/refine/row_whitening.hpp"
 
 namespace cablefit {
 
@@ -41,6 +41,7 @@ struct Design {
   std::vector<std::vector<JointState>> states;  ///< per stretch
   std::vector<Variant> added;
   LogScale scale;
+  RowWhitening whitening;  ///< of the rows before they are fitted
   Eigen::Index n_columns() const;
 };
 
@@ -57,6 +58,10 @@ Eigen::Index dry_column(const Design& design, const Refinement& row);
 using VariantColumns = std::vector<std::vector<Eigen::MatrixXd>>;
 VariantColumns variant_columns(const Design& design, const Variant& variant,
                                const Eigen::VectorXd& values);
+
+/// As they are fitted.
+std::vector<StretchRows> whitened(const Design& design, std::vector<StretchRows> rows);
+VariantColumns whitened(const Design& design, VariantColumns columns);
 
 /// These behind the columns that the rows have.
 void append(std::vector<StretchRows>& rows, const VariantColumns& columns);

@@ -109,6 +109,12 @@ BlockGrams block_grams(const std::vector<StretchRows>& rows, const std::vector<S
   return grams;
 }
 
+BlockGrams block_grams(const Design& design, double block_seconds) {
+  if (!design.whitening.is_needed())
+    return block_grams(design.rows, design.stretches, block_seconds);
+  return block_grams(whitened(design, design.rows), design.stretches, block_seconds);
+}
+
 BlockGrams extended(const BlockGrams& base, const std::vector<StretchRows>& rows,
                     const std::vector<Stretch>& stretches, const VariantColumns& columns,
                     double block_seconds) {

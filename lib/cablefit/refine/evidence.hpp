@@ -28,6 +28,9 @@ struct BlockGrams {
 BlockGrams block_grams(const std::vector<StretchRows>& rows, const std::vector<Stretch>& stretches,
                        double block_seconds);
 
+/// Of a design's rows as they are fitted.
+BlockGrams block_grams(const Design& design, double block_seconds);
+
 /// The same with columns more, without forming again what is there.
 BlockGrams extended(const BlockGrams& base, const std::vector<StretchRows>& rows,
                     const std::vector<Stretch>& stretches, const VariantColumns& columns,

@@ -24,6 +24,7 @@ Design design_like(const Values& values, std::span<const Model> bases,
       with_variants(make_design(without_kept(bases), std::move(stretches), values.design.smoothing),
                     values.design.added, values.x);
   design.scale = values.design.scale;
+  design.whitening = values.design.whitening;
   return design;
 }
 

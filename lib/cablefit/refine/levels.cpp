@@ -65,7 +65,10 @@ double RowGap::quantile(double level, std::uint64_t seed) const {
 
 RowGap gap_of(const Design& design, const Eigen::VectorXd& x, const KindLevels& floor,
               double block_seconds) {
-  BlockGrams grams = block_grams(design.rows, design.stretches, block_seconds);
+  return gap_of(block_grams(design.rows, design.stretches, block_seconds), x, floor);
+}
+
+RowGap gap_of(BlockGrams grams, const Eigen::VectorXd& x, const KindLevels& floor) {
   std::erase_if(grams.blocks, [](const BlockGrams::Block& block) {
     return std::all_of(block.n_rows.begin(), block.n_rows.end(),
                        [](Eigen::Index n) { return n == 0; });

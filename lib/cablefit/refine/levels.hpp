@@ -28,6 +28,7 @@ struct RowGap {
 };
 RowGap gap_of(const Design& design, const Eigen::VectorXd& x, const KindLevels& floor,
               double block_seconds);
+RowGap gap_of(BlockGrams grams, const Eigen::VectorXd& x, const KindLevels& floor);
 
 /// What noise alone leaves of a weighted squared error of this fit.
 double floor_error(const BlockFit& fit, const KindLevels& floor, const KindLevels& levels);

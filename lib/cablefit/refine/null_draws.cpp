@@ -170,7 +170,7 @@ BaseFit fit_base(Design design, double block_seconds, const KindLevels* levels) 
   base.design = std::move(design);
   base.levels = levels != nullptr ? positive(*levels) : KindLevels{1, 1, 1};
   for (int round = 0; round < kRounds; ++round) {
-    base.grams = block_grams(base.design.rows, base.design.stretches, block_seconds);
+    base.grams = block_grams(base.design, block_seconds);
     for (int pass = 0; pass < 2; ++pass) {
       auto fit = fit_blocks(base.grams, base.levels);
       if (!fit)

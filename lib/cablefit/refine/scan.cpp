@@ -28,22 +28,36 @@ bool is_out_of_bounds(const Refinement& row, const Eigen::VectorXd& x) {
   return false;
 }
 
-std::optional<BlockGrams> grams_with(const ScanStart& start, const ScanSettings& settings,
-                                     const Variant& variant) {
-  const Design& design = start.design;
-  if (replaces_rows(variant)) {
-    const auto rows = replaced_rows(design, variant);
-    if (rows.empty()) return {};
-    return block_grams(rows, design.stretches, settings.block_seconds);
+/// What every function here needs.
+struct Scanner {
+  const ScanStart& start;
+  const ScanSettings& settings;
+  QuickLook look;
+  Scanner(const ScanStart& from, const ScanSettings& how)
+      : start(from), settings(how), look(from.design, from.grams, from.levels) {}
+
+  /// As they are fitted.
+  VariantColumns columns(const Variant& variant) const {
+    return whitened(start.design, variant_columns(start.design, variant, start.fit.x));
   }
-  return extended(start.grams, design.rows, design.stretches,
-                  variant_columns(design, variant, start.fit.x), settings.block_seconds);
+};
+
+std::optional<BlockGrams> grams_with(const Scanner& scanner, const Variant& variant) {
+  const Design& design = scanner.start.design;
+  const double seconds = scanner.settings.block_seconds;
+  if (replaces_rows(variant)) {
+    auto rows = replaced_rows(design, variant);
+    if (rows.empty()) return {};
+    return block_grams(whitened(design, std::move(rows)), design.stretches, seconds);
+  }
+  return extended(scanner.start.grams, scanner.look.rows(), design.stretches,
+                  scanner.columns(variant), seconds);
 }
 
 /// No candidate where the columns are not there or cannot be told from the others'.
-std::optional<Candidate> try_variant(const ScanStart& start, const ScanSettings& settings,
-                                     Variant variant) {
-  const auto grams = grams_with(start, settings, variant);
+std::optional<Candidate> try_variant(const Scanner& scanner, Variant variant) {
+  const ScanStart& start = scanner.start;
+  const auto grams = grams_with(scanner, variant);
   if (!grams) return {};
   const Refinement& row = *variant.refinement;
   const Eigen::Index n = n_linear(variant);
@@ -112,22 +126,22 @@ double median_error(const ErrorsByBlock& errors) {
 }
 
 /// The variant with its nonlinear parameters (and date) where its squared error is least.
-Variant moved_shape(const ScanStart& start, const ScanSettings& settings, const QuickLook& look,
-                    Variant variant) {
+Variant moved_shape(const Scanner& scanner, Variant variant) {
+  const Design& design = scanner.start.design;
   const Refinement& row = *variant.refinement;
   const int rounds = row.passes() ? 3 : 2;  // place and length of what passes pull at each other
   const auto error_with = [&](const Variant& other) {
     if (!replaces_rows(other)) {
       const auto looked =
-          looked_at(look, look.products(variant_columns(start.design, other, start.fit.x)), other);
+          looked_at(scanner.look, scanner.look.products(scanner.columns(other)), other);
       return looked && looked->is_physical ? looked->error : kUnbounded;
     }
-    const auto tried = try_variant(start, settings, other);
+    const auto tried = try_variant(scanner, other);
     return tried && tried->refused.empty() ? tried->error.sum() : kUnbounded;
   };
   for (int round = 0; round < rounds; ++round) {
     if (row.is_event) {  // first: what is at the wrong place fits best when it is too long
-      const auto [from, to] = dates_around(start.design, variant, settings.event_step);
+      const auto [from, to] = dates_around(design, variant, scanner.settings.event_step);
       variant.event_time = golden(from, to, [&](double time) {
         Variant other = variant;
         other.event_time = time;
@@ -136,7 +150,7 @@ Variant moved_shape(const ScanStart& start, const ScanSettings& settings, const 
     }
     for (std::size_t i = 0; i < variant.shape.size(); ++i) {
       if (!is_free(variant, i)) continue;
-      const auto [low, high] = around(row.shape[i], variant.shape[i], start.design.scale);
+      const auto [low, high] = around(row.shape[i], variant.shape[i], design.scale);
       variant = with_shape(variant, i, golden(low, high, [&](double value) {
                              return error_with(with_shape(variant, i, value));
                            }));
@@ -155,14 +169,15 @@ std::optional<Candidate> simpler(std::optional<Candidate> plain, std::optional<C
 }
 
 /// Of variants with as many parameters, all fitted, the one that fits best; the plain form apart.
-std::optional<Candidate> best_fitting(const ScanStart& start, const ScanSettings& settings,
-                                      const QuickLook& look, const std::vector<Variant>& variants) {
+std::optional<Candidate> best_fitting(const Scanner& scanner,
+                                      const std::vector<Variant>& variants) {
+  const QuickLook& look = scanner.look;
   std::optional<Looked> plain, full;
   ErrorsByBlock errors;
   for (const Variant& variant : variants) {
-    const auto products = look.products(variant_columns(start.design, variant, start.fit.x));
+    const auto products = look.products(scanner.columns(variant));
     const auto looked = looked_at(look, products, variant);
-    if (looked) keep_least(errors, *looked, settings.block_seconds);
+    if (looked) keep_least(errors, *looked, scanner.settings.block_seconds);
     keep_better(full, looked);
     if (const auto same = plain_of(variant)) keep_better(plain, looked_at(look, products, *same));
   }
@@ -170,43 +185,41 @@ std::optional<Candidate> best_fitting(const ScanStart& start, const ScanSettings
     if (!looked) return {};
     // Blocks that a coarse date is wrong in would speak against what lasts.
     const bool lasts = looked->variant.refinement->lasts();
-    return try_variant(
-        start, settings,
-        lasts ? moved_shape(start, settings, look, looked->variant) : looked->variant);
+    return try_variant(scanner, lasts ? moved_shape(scanner, looked->variant) : looked->variant);
   };
   auto best = simpler(tried(plain), tried(full));
   if (best && best->variant.refinement->passes())
-    best->elsewhere = 1 - median_error(errors) / start.fit.in_sample.sum();
+    best->elsewhere = 1 - median_error(errors) / scanner.start.fit.in_sample.sum();
   return best;
 }
 
 /// The same of variants that replace rows.
-std::optional<Candidate> best_replacing(const ScanStart& start, const ScanSettings& settings,
+std::optional<Candidate> best_replacing(const Scanner& scanner,
                                         const std::vector<Variant>& variants) {
   std::optional<Candidate> best;
   for (const Variant& variant : variants) {
-    auto candidate = try_variant(start, settings, variant);
+    auto candidate = try_variant(scanner, variant);
     if (candidate && (!best || is_better(*candidate, *best))) best = std::move(candidate);
   }
   return best;
 }
 
-std::optional<Candidate> best_variant(const ScanStart& start, const ScanSettings& settings,
-                                      const QuickLook& look, const Refinement& row) {
-  std::vector<Variant> variants = variants_of(row, start.design, settings.event_step);
+std::optional<Candidate> best_variant(const Scanner& scanner, const Refinement& row) {
+  std::vector<Variant> variants =
+      variants_of(row, scanner.start.design, scanner.settings.event_step);
   if (variants.empty()) return {};  // no log is long enough for a date
-  if (replaces_rows(variants.front())) return best_replacing(start, settings, variants);
-  auto best = best_fitting(start, settings, look, variants);
+  if (replaces_rows(variants.front())) return best_replacing(scanner, variants);
+  auto best = best_fitting(scanner, variants);
   if (!row.takes_dry_friction) return best;
   for (Variant& variant : variants) variant.is_plain = true;
-  return simpler(best_replacing(start, settings, variants), std::move(best));
+  return simpler(best_replacing(scanner, variants), std::move(best));
 }
 
 }  // namespace
 
 std::vector<Candidate> scan(const ScanStart& start, const ScanSettings& settings,
                             const std::vector<const Refinement*>& without) {
-  const QuickLook look(start.design, start.grams, start.levels);
+  const Scanner scanner(start, settings);
   std::vector<const Refinement*> rows;
   for (const Refinement& row : refinements())
     if (is_candidate(row, start.design) &&
@@ -214,16 +227,16 @@ std::vector<Candidate> scan(const ScanStart& start, const ScanSettings& settings
       rows.push_back(&row);
   std::vector<Candidate> found;
   for (auto& candidate : parallel_map(settings.threads, rows, [&](const Refinement* row) {
-         return best_variant(start, settings, look, *row);
+         return best_variant(scanner, *row);
        }))
     if (candidate) found.push_back(std::move(*candidate));
   return found;
 }
 
 Candidate refined_shape(const ScanStart& start, const ScanSettings& settings, Candidate candidate) {
-  const QuickLook look(start.design, start.grams, start.levels);
+  const Scanner scanner(start, settings);
   const auto moved = [&](const Variant& variant) {
-    return try_variant(start, settings, moved_shape(start, settings, look, variant));
+    return try_variant(scanner, moved_shape(scanner, variant));
   };
   auto best = moved(candidate.variant);
   if (has_plain_form(*candidate.variant.refinement)) {

@@ -62,7 +62,7 @@ Search search(const Design& design, const KindLevels& floor, const ScanSettings&
   constexpr int kPasses = 2;
   Search s;
   s.levels = floor;
-  s.grams = block_grams(design.rows, design.stretches, settings.block_seconds);
+  s.grams = block_grams(design, settings.block_seconds);
   const auto without = named_already(design);
   for (int pass = 0; pass < kPasses; ++pass) {
     auto fit = fit_blocks(s.grams, s.levels);
