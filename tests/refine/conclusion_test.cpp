@@ -92,6 +92,11 @@ TEST_CASE("an event closes its part of the gap, and that of logs after it", "[re
   CHECK(reason(4, true, true, 0.3).empty());
   CHECK(reason(4.9, true, true, 0.03) ==
         "a date explains 3 % of the gap only, and the rest stays unexplained");
+  CHECK(reason(3.9, true, true, 0.03).empty());  // logs after it show more of it
+  CHECK(reason(4.2, true, true, 0.03) ==
+        "a date explains 20 % of the gap only, and the rest stays unexplained");
+  CHECK(reason(3.9, true, false, 0.03) ==
+        "a date explains 3 % of the gap only, and the rest stays unexplained");
   CHECK(reason(4.9, false, true, 0.03).empty());
 }
 

@@ -25,9 +25,16 @@ constexpr double kLikely = 1;                // sd, that a gain on unseen rows i
 constexpr double kChanceOfSize = 0.01 / 40;  // 1 % over the rows of the catalogue
 constexpr double kSureSize = 1e-6;           // of which the training rows leave no doubt
 
-/// Some date always fits a little of what wanders or hums.
+/// Share of the gap, where it shows more of an event.
+double closed_by(const UnseenChange& change) {
+  if (!change.is_after_event || change.rho_before <= kVisibleGap) return change.closed;
+  const double gone = change.rho_before - change.rho_after;
+  return std::max(change.closed, gone / (change.rho_before - 1));
+}
+
+/// Some date always fits a little of what wanders or hums, and on logs after it less than that.
 bool is_stray_event(const UnseenChange& change) {
-  return change.row.is_event && change.leaves_remainder && change.closed < kLittle;
+  return change.row.is_event && change.leaves_remainder && closed_by(change) < kLittle;
 }
 
 /// Little of a visible gap, most of which stays, and sure neither here nor there. Where most of it
@@ -60,7 +67,7 @@ std::string why_not_added(const UnseenChange& change) {
                        in_words(change.rho_before, change.rho_after));
   if (is_stray_event(change))
     return fmt::format("a date explains {:.2g} % of the gap only, and the rest stays unexplained",
-                       100 * std::max(0.0, change.closed));
+                       100 * std::max(0.0, closed_by(change)));
   if (change.row.is_event) return "";
   if (is_crumb(change))
     return fmt::format(
