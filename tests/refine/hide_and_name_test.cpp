@@ -180,6 +180,23 @@ TEST_CASE("a refinement has the same bits for any number of threads", "[refine][
   CHECK(one.effects[0].evidence.p_value == three.effects[0].evidence.p_value);
 }
 
+/// Rows that count alike know it by 3 % of a gap of four squared floors, which chance explains too.
+TEST_CASE("beside a torque that wanders an effect is told from whitened rows", "[refine][slow]") {
+  const HiddenLogs hidden = hidden_logs({"stribeck.link=0.3"}, 1, "short", 0.1);
+  const RefineResult result = refined(hidden);
+  INFO(result.reason);
+  REQUIRE(first_name(result) == "stribeck");
+  CHECK(result.effects.size() == 1);
+  CHECK(result.effects[0].instance.refinement->site == Site::link);
+  CHECK(result.whitened);
+  CHECK(result.effects[0].evidence.p_value <= 0.01);
+  CHECK(result.remainder_link == Approx(0.1).epsilon(0.15));
+  const Estimate& amplitude = parameter(result, "amplitude");
+  CHECK(std::abs(amplitude.value - truth(hidden, "amplitude")) < 3 * amplitude.sd);
+  CHECK(amplitude.sd < 0.15 * amplitude.value);
+  CHECK(result.simulation.test_after < result.simulation.test_before);
+}
+
 TEST_CASE("what is not in the catalogue is unexplained", "[refine][slow]") {
   const RefineResult result = refined(hidden_logs({"attached_mode.link=1"}));
   INFO(first_name(result));

@@ -142,6 +142,21 @@ TEST_CASE("what chance gives a search of dates is taken off first", "[refine]") 
   CHECK(best_name(judge_search(candidates, kGap, draws(0.1), {}, true)) == "gravity_imbalance");
 }
 
+/// Of whitened rows, most of which no candidate could explain.
+TEST_CASE("where most of a gap is there to stay, blocks tell what is alike", "[refine]") {
+  SquaredGap stays = kGap;
+  stays.explained = 20;
+  const auto listed = [&](const SquaredGap& gap, double unevenness) {
+    const std::vector<Candidate> candidates = {
+        candidate("stribeck", Site::motor, 0.02),
+        candidate("nonlinear_viscous", Site::motor, 0.013, unevenness)};
+    return lists(judge_search(candidates, gap, draws(), {}, true).rivals, "nonlinear_viscous");
+  };
+  CHECK(listed(kGap, 0));  // a hundredth of the gap apart
+  CHECK_FALSE(listed(stays, 0));
+  CHECK(listed(stays, 2));
+}
+
 TEST_CASE("a physical bound is not negotiable", "[refine]") {
   std::vector<Candidate> candidates = {candidate("stribeck", Site::motor, 0.4),
                                        candidate("quadratic_drag", Site::motor, 0.2)};

@@ -26,8 +26,8 @@ class BaseDraws {
   BaseFit fitted(std::uint64_t seed, const KindLevels* levels) const;
   /// What the models leave as they are, nothing fitted: the floor of logs that had no say.
   KindLevels unfitted(std::uint64_t seed) const;
-  NullDraw searched(std::uint64_t seed, const KindLevels& levels,
-                    const ScanSettings& settings) const;
+  NullDraw searched(std::uint64_t seed, const KindLevels& levels, const ScanSettings& settings,
+                    const RowWhitening& whitening) const;
 
  private:
   Design design(std::uint64_t seed) const;

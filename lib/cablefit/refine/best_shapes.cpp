@@ -36,25 +36,28 @@ bool none_is_fixed(const Refinement& /*row*/) { return false; }
 
 RefineState with_best_shapes(const RefineBench& bench, RefineState state) {
   const double seconds = bench.scan.block_seconds;
+  const KindLevels& floor = bench.floor_of(state.design);
   bool moved = false;
-  for (int k = 0; k < kSteps; ++k) {
+  const auto fitted = [&](const Design& design) {
+    return fit_blocks(block_grams(design, seconds), state.levels, false);
+  };
+  auto best = fitted(state.design);
+  for (int k = 0; best && k < kSteps; ++k) {
     auto step = change_to_fit(state.design, state.x, state.levels, seconds, none_is_fixed);
     if (!step || step->shapes.size() == 0) break;
     shorten(state.design, step->shapes);
     if (largest(state.design, step->shapes) < kNothing) break;
     Design design = with_shapes(state.design, step->shapes, state.x + step->x);
-    const auto fit =
-        fit_blocks(block_grams(design.rows, design.stretches, seconds), state.levels, false);
-    if (!fit) break;
-    const double rho = rho_of(*fit, bench.floor);
-    if (!(rho < state.rho)) break;
+    auto fit = fitted(design);
+    if (!fit || !(rho_of(*fit, floor) < rho_of(*best, floor))) break;
     state.test = with_shapes(std::move(state.test), step->shapes, fit->x);
     state.design = std::move(design);
     state.x = fit->x;
-    state.rho = rho;
+    best = std::move(fit);
     moved = true;
   }
   if (!moved) return state;
+  state.rho = bench.rho(state.design, *best);
   state.unseen = gap_of(state.test, state.x, bench.test_floor, seconds);
   state.simulated =
       simulated_gap(models_with(state.design, state.x), bench.unseen, bench.options.threads);

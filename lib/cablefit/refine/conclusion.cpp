@@ -119,6 +119,8 @@ void conclude(RefineResult& result) {
     result.reason = fmt::format("it closes {:.0f} % of the squared gap above the noise floor",
                                 100 * std::clamp(closed, 0.0, 1.0));
     if (result.rho_after > kRemainder) result.reason += "; a remainder is unexplained";
+    if (result.whitened)
+      result.reason += ", which wanders: the effect was told from rows freed of that";
     const auto other = std::find_if(rivals.begin(), rivals.end(),
                                     [](const Rival& rival) { return !rival.by_rule; });
     if (!rivals.empty())

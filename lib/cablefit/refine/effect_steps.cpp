@@ -10,6 +10,7 @@
 #include "cablefit/refine/fit_bias.hpp"
 #include "cablefit/refine/refined_model.hpp"
 #include "cablefit/refine/verdict.hpp"
+#include "cablefit/refine/whitened_look.hpp"
 
 namespace cablefit {
 namespace {
@@ -22,7 +23,7 @@ RefineEvidence evidence_of(const RefineBench& bench, const RefineState& before,
   e.p_value = judgement.chance.p;
   e.is_fitted_tail = judgement.chance.is_fitted;
   e.inclusion = judgement.inclusion;
-  e.n_draws = bench.draws.size();
+  e.n_draws = bench.draws_of(before.design).size();
   // On rows that had no say; on the training rows where those show no gap to close.
   const bool visible = before.unseen.rho > kVisibleGap;
   const double from = visible ? before.unseen.rho : before.rho;
@@ -48,7 +49,7 @@ RefineStep step_of(const RefineBench& bench, const Trial& trial, const std::stri
 /// How much better the unseen rows fit, in sd over their blocks, weighted as the search was.
 double sd_better(const RefineBench& bench, const RefineState& before, const RefineState& after) {
   const auto error = [&](const RefineState& state) {
-    return gap_of(state.test, state.x, after.levels, bench.scan.block_seconds).squares;
+    return gap_of(block_grams(state.test, bench.scan.block_seconds), state.x, after.levels).squares;
   };
   return paired(error(before), error(after)).in_sd();
 }
@@ -64,9 +65,8 @@ bool is_after_event(const RefineBench& bench, const Variant& variant) {
 double chance_of_size(const RefineBench& bench, const RefineState& after) {
   const Eigen::Index n = n_linear(after.design.added.back());
   if (n == 0) return 0;
-  const Design& design = after.design;
-  const auto fit = fit_blocks(block_grams(design.rows, design.stretches, bench.scan.block_seconds),
-                              after.levels, false);
+  const auto fit =
+      fit_blocks(block_grams(after.design, bench.scan.block_seconds), after.levels, false);
   if (!fit) return 1;
   const Eigen::VectorXd size = fit->x.tail(n);
   const Eigen::MatrixXd covariance = fit->covariance.bottomRightCorner(n, n);
@@ -109,8 +109,10 @@ bool carries_nothing(const RefineBench& bench, const RefineState& after) {
   if (n == 0) return false;
   Eigen::VectorXd without = after.x;
   without.tail(n).setZero();
-  const double rho = gap_of(after.design, without, bench.floor, bench.scan.block_seconds).rho;
-  return rho < (1 + kNoLoss) * after.rho;
+  const BlockGrams grams = block_grams(after.design, bench.scan.block_seconds);
+  const KindLevels& floor = bench.floor_of(after.design);
+  const auto rho = [&](const Eigen::VectorXd& x) { return gap_of(grams, x, floor).rho; };
+  return rho(without) < (1 + kNoLoss) * rho(after.x);
 }
 
 /// Reason against a step; empty: none. Where the unseen equations are sure of it but the simulation
@@ -119,9 +121,12 @@ bool carries_nothing(const RefineBench& bench, const RefineState& after) {
 /// without it as well.
 std::string why_not(const RefineBench& bench, const Refinement& row, const RefineState& before,
                     const RefineState& after, bool is_first) {
-  if (carries_nothing(bench, after)) return "it carries nothing once all is fitted with it";
   const UnseenChange change = change_of(bench, row, before, after);
   const std::string reason = why_not_added(change);
+  // A test of its size tells more of whitened rows, and no bias hides what it is worth beside what
+  // wanders.
+  if (after.design.whitening.is_needed()) return reason;
+  if (carries_nothing(bench, after)) return "it carries nothing once all is fitted with it";
   const bool both_known = change.before.known() && change.after.known();
   const bool is_sure = change.sd_better >= kClearlyBetter;
   const bool is_below_floor = change.rho_before < 1 && !change.leaves_remainder;
@@ -142,6 +147,40 @@ NamedEffect effect_of(const RefineBench& bench, const RefineState& before, const
   effect.evidence = evidence_of(bench, before, after, judgement);
   effect.rivals = judgement.rivals;
   return effect;
+}
+
+/// The first of what the trials name that unseen logs do not refuse. `state`: that they began with,
+/// and then the one with it.
+bool add_one(RefineBench& bench, Trials& trials, std::optional<Trial> trial, RefineState& state,
+             RefineResult& result) {
+  const bool is_first = result.effects.empty();
+  std::string reason;
+  for (; trial; trial = trials.next_alike(reason)) {
+    const Refinement& row = *trial->winner.variant.refinement;
+    reason = why_not(bench, row, state, trial->after, is_first);
+    result.steps.push_back(step_of(bench, *trial, reason));
+    if (reason.empty()) {
+      result.effects.push_back(effect_of(bench, state, trial->after, trial->judgement));
+      state = std::move(trial->after);
+      return true;
+    }
+    // A crumb has many look-alikes, and one of them passes by chance. A date that is none says
+    // nothing of what is always there.
+    if (trial->after.rho > kRemainder && !row.is_event) break;
+  }
+  return false;
+}
+
+/// The first effect again, from whitened rows.
+bool add_whitened(RefineBench& bench, RefineState& state, RefineResult& result) {
+  auto white = whitened(bench, state);
+  if (!white) return false;
+  Trials trials(bench, *white, true);
+  if (!add_one(bench, trials, trials.best(), *white, result)) return false;
+  result.league = trials.league();
+  bench.first_search = trials.found();
+  state = std::move(*white);
+  return true;
 }
 
 /// What was refused alone may be half of the truth: with the next best beside it, both are judged
@@ -170,21 +209,10 @@ bool add_next_effect(RefineBench& bench, RefineState& state, RefineResult& resul
     result.league = trials.league();
     bench.first_search = trials.found();
   }
-  std::string reason;
-  for (auto trial = best; trial; trial = trials.next_alike(reason)) {
-    const Refinement& row = *trial->winner.variant.refinement;
-    reason = why_not(bench, row, state, trial->after, is_first);
-    result.steps.push_back(step_of(bench, *trial, reason));
-    if (reason.empty()) {
-      result.effects.push_back(effect_of(bench, state, trial->after, trial->judgement));
-      state = std::move(trial->after);
-      return true;
-    }
-    // A crumb has many look-alikes, and one of them passes by chance.
-    if (trial->after.rho > kRemainder) break;
-  }
-  return best && is_first && bench.options.most_effects > 1 &&
-         add_both(bench, state, *best, result);
+  if (add_one(bench, trials, best, state, result)) return true;
+  if (!is_first) return false;
+  if (best && bench.options.most_effects > 1 && add_both(bench, state, *best, result)) return true;
+  return state.rho > kRemainder && !bench.elastic_only && add_whitened(bench, state, result);
 }
 
 void name_first_again(RefineBench& bench, const RefineState& first, RefineState& state,

@@ -5,6 +5,7 @@
 #include "cablefit/refine/conclusion.hpp"
 #include "cablefit/refine/golden.hpp"
 #include "cablefit/refine/refined_model.hpp"
+#include "cablefit/refine/whitened_look.hpp"
 
 namespace cablefit {
 namespace {
@@ -21,8 +22,7 @@ std::optional<BlockFit> settled_fit(const RefineBench& bench, const KindLevels& 
       design = relinearised(design, fit->x);
       if (test != nullptr) *test = relinearised(*test, fit->x);
     }
-    fit = fit_blocks(block_grams(design.rows, design.stretches, bench.scan.block_seconds), levels,
-                     false);
+    fit = fit_blocks(block_grams(design, bench.scan.block_seconds), levels, false);
     if (!fit) return {};
   }
   return fit;
@@ -44,7 +44,7 @@ std::optional<RefineState> with_own_coefficients(const RefineBench& bench, const
       design.added.back().shape[i] = other;
       if (fit) design = relinearised(design, fit->x);
       if (fit) fit = settled_fit(bench, found.levels, kRelinearisations, design, nullptr);
-      return fit ? rho_of(*fit, bench.floor) : kUnbounded;
+      return fit ? rho_of(*fit, bench.floor_of(design)) : kUnbounded;
     };
     value = golden((1 - kAround) * value, (1 + kAround) * value, rho_with);
     rho_with(value);
@@ -84,7 +84,7 @@ std::optional<RefineState> with_candidate(const RefineBench& bench, const Refine
   const auto fit = settled_fit(bench, next.levels, kRelinearisations, next.design, &next.test);
   if (!fit) return {};
   next.x = fit->x;
-  next.rho = rho_of(*fit, bench.floor);
+  next.rho = bench.rho(next.design, *fit);
   next.unseen = gap_of(next.test, next.x, bench.test_floor, bench.scan.block_seconds);
   next.simulated =
       simulated_gap(models_with(next.design, next.x), bench.unseen, bench.options.threads);
@@ -92,16 +92,23 @@ std::optional<RefineState> with_candidate(const RefineBench& bench, const Refine
 }
 
 Trials::Trials(RefineBench& bench, const RefineState& state, bool is_first)
-    : bench_(bench), state_(state), is_first_(is_first) {
+    : bench_(bench), state_(state), is_first_(is_first), options_(bench.options) {
   tell(bench.options, "search", 0);
-  found_ = search(state.design, bench.floor, bench.scan);
-  need_draws(bench, state, found_);
+  found_ = search(state.design, bench.floor_of(state.design), bench.scan);
+  if (state.design.whitening.is_needed()) {
+    refuse_small(state.design, found_, options_.materiality);
+    options_.materiality = 0;
+  }
+  need_draws(bench, state, found_, options_);
 }
 
 Judgement Trials::judged() const {
-  const SquaredGap gap{found_.fit.held_out.sum(),
-                       floor_error(found_.fit, bench_.floor, found_.levels)};
-  return judge_search(found_.candidates, gap, bench_.draws, bench_.options,
+  const Design& design = state_.design;
+  SquaredGap gap{found_.fit.held_out.sum(),
+                 floor_error(found_.fit, bench_.floor_of(design), found_.levels)};
+  const Candidate* best = best_lasting(found_.candidates);
+  if (design.whitening.is_needed() && best != nullptr) gap.explained = best->gain * gap.total;
+  return judge_search(found_.candidates, gap, bench_.draws_of(design), options_,
                       is_first_ && bench_.n_kept == 0);
 }
 

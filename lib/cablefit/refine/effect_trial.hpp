@@ -38,6 +38,7 @@ class Trials {
   RefineBench& bench_;
   const RefineState& state_;
   bool is_first_;
+  RefineOptions options_;
   Search found_;
   std::vector<Rival> league_;
   const Refinement* last_ = nullptr;  ///< tried

@@ -142,7 +142,10 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
   result.not_separable = find_not_separable(first.design, first.x, bench.floor, runs);
 
   RefineState state = first;
-  while (result.effects.size() < options.most_effects && add_next_effect(bench, state, result)) {
+  // What took whitened rows to be told is the last: beside it the remainder stands as it did.
+  const auto is_white = [&] { return state.design.whitening.is_needed(); };
+  while (!is_white() && result.effects.size() < options.most_effects &&
+         add_next_effect(bench, state, result)) {
     if (result.effects.size() == 2) {
       name_first_again(bench, first, state, result);
       if (state.rho >= kNoGap && result.effects.size() == 2)
@@ -150,7 +153,8 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
     }
     if (state.rho < kNoGap) break;
   }
-  if (result.effects.size() == 1 && options.most_effects > 1 && state.rho > kRemainder)
+  if (!is_white() && result.effects.size() == 1 && options.most_effects > 1 &&
+      state.rho > kRemainder)
     begin_otherwise(bench, first, state, result);
 
   if (!result.effects.empty()) state = with_best_shapes(bench, std::move(state));
@@ -173,6 +177,7 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
   tell_effects(models, named_effects(after.design, fit), result);
   result.shifts = parameter_shifts(first.design, before.x, after.design, fit);
   result.models = refined_models(after.design, fit);
+  result.whitened = is_white();
   result.rho_before = first.rho;
   result.rho_after = state.rho;
   tell_gaps(bench, before, after, result);

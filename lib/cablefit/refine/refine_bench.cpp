@@ -144,14 +144,23 @@ void tell(const RefineOptions& options, std::string_view what, double share) {
   if (options.progress) options.progress(what, share);
 }
 
-void need_draws(RefineBench& bench, const RefineState& state, const Search& found) {
-  if (!bench.draws.empty() || !anything_material(found.candidates, bench.options)) return;
-  disturb_null(bench, state, found);
+double RefineBench::rho(const Design& design, const BlockFit& fit) const {
+  if (!design.whitening.is_needed()) return rho_of(fit, floor);
+  return gap_of(design, fit.x, floor, scan.block_seconds).rho;
+}
+
+void need_draws(RefineBench& bench, const RefineState& state, const Search& found,
+                const RefineOptions& options) {
+  const RowWhitening& whitening = state.design.whitening;
+  std::vector<NullDraw>& draws = whitening.is_needed() ? bench.white_draws : bench.draws;
+  if (!draws.empty() || !anything_material(found.candidates, options)) return;
+  if (bench.draws.empty()) disturb_null(bench, state, found);
   ScanSettings settings = bench.scan;
   settings.threads = 1;
-  bench.draws = run_draws(
-      bench, bench.options.n_draws, bench.options.seed + kFloorDraws, "chance",
-      [&](std::uint64_t seed) { return bench.null->searched(seed, found.levels, settings); });
+  draws = run_draws(bench, bench.options.n_draws, bench.options.seed + kFloorDraws, "chance",
+                    [&](std::uint64_t seed) {
+                      return bench.null->searched(seed, found.levels, settings, whitening);
+                    });
 }
 
 RefineState prepare(RefineBench& bench, std::span<const Model> models, const RefineLogs& logs,

@@ -32,9 +32,21 @@ struct RefineBench {
   std::optional<BaseDraws> null = {};
   BaseFit noise = {};                ///< one of its draws without an effect
   std::vector<NullDraw> draws = {};  ///< of searches; none until something is worth them
-  Search first_search = {};          ///< on the base alone
-  std::size_t n_kept = 0;            ///< effects that the models had, the first that designs hold
-  Design bare = {};                  ///< the base without these, where there are any
+  KindLevels white_floor{};          ///< of whitened training rows, see whitened_look.hpp
+  std::vector<NullDraw> white_draws = {};
+  Search first_search = {};  ///< on the base alone
+  std::size_t n_kept = 0;    ///< effects that the models had, the first that designs hold
+  Design bare = {};          ///< the base without these, where there are any
+
+  /// Of training rows as they are fitted.
+  const KindLevels& floor_of(const Design& design) const {
+    return design.whitening.is_needed() ? white_floor : floor;
+  }
+  const std::vector<NullDraw>& draws_of(const Design& design) const {
+    return design.whitening.is_needed() ? white_draws : draws;
+  }
+  /// rho of the training rows as they are, whichever way they were fitted.
+  double rho(const Design& design, const BlockFit& fit) const;
 };
 
 /// Where the workflow stands.
@@ -52,7 +64,8 @@ RefineState prepare(RefineBench& bench, std::span<const Model> models, const Ref
                     RefineResult& result);
 
 /// Simulated data sets are searched only once something is worth it.
-void need_draws(RefineBench& bench, const RefineState& state, const Search& found);
+void need_draws(RefineBench& bench, const RefineState& state, const Search& found,
+                const RefineOptions& options);
 
 void tell(const RefineOptions& options, std::string_view what, double share);
 

@@ -119,6 +119,7 @@ struct RefineResult {
   std::string rig_path;
   bool linear_motion = false, rigid = false, held_out_blocks = false;
   bool elastic_only = false;  ///< blocked logs alone
+  bool whitened = false;      ///< the effect was told from whitened rows, see whitened_look.hpp
   Verdict verdict = Verdict::none;
   std::string reason;  ///< one sentence
   std::vector<Regime> where;

@@ -72,8 +72,8 @@ bool are_comparable(const Candidate& a, const Candidate& b) {
 bool is_tie(const Candidate& a, const Candidate& b, const SquaredGap& gap) {
   if (!are_comparable(a, b)) return false;
   const Paired difference = paired(a.error, b.error);
-  return difference.sum < kEqualShare * gap.above() ||
-         (difference.sum < kTieShare * gap.above() && difference.in_sd() < kSureSd);
+  return difference.sum < kEqualShare * gap.explainable() ||
+         (difference.sum < kTieShare * gap.explainable() && difference.in_sd() < kSureSd);
 }
 
 Rival rival_of(const Candidate& c, const SquaredGap& gap) {
@@ -179,9 +179,9 @@ bool is_alike(const Candidate& c, const Candidate& best, const Paired& differenc
               const SquaredGap& gap) {
   if (!are_comparable(c, best)) return false;
   if (n_parameters(c) > n_parameters(best) && difference.sum >= 0) return false;
-  const double apart = gap.above() > 0 ? difference.sum / gap.above() : kUnbounded;
-  return apart < kTieShare ||
-         (difference.sum < kLookAlikeSd * difference.se && apart < kLookAlikeShare);
+  const double apart = gap.explainable() > 0 ? difference.sum / gap.explainable() : kUnbounded;
+  return apart < kTieShare || (difference.sum < kLookAlikeSd * difference.se &&
+                               (gap.stays() || apart < kLookAlikeShare));
 }
 
 /// Aliases are listed by rule, also where their columns vanished beside each other.
@@ -200,8 +200,10 @@ void add_aliases(const Refinement& named, std::vector<Rival>& rivals) {
   }
 }
 
+/// `significance`: where most of the gap is there to stay, some date explains much of it by chance.
 std::vector<Rival> rivals_of(const Candidate& best, const std::vector<const Candidate*>& able,
-                             const std::vector<double>& share, const SquaredGap& gap) {
+                             const std::vector<double>& share, const SquaredGap& gap,
+                             const Significance& significance) {
   const Refinement& named = *best.variant.refinement;
   std::vector<Rival> rivals;
   for (std::size_t k = 0; k < able.size(); ++k) {
@@ -210,6 +212,7 @@ std::vector<Rival> rivals_of(const Candidate& best, const std::vector<const Cand
     const Paired difference = paired(able[k]->error, best.error);
     const bool by_rule = same_class(row, named);
     if (!by_rule && !is_alike(*able[k], best, difference, gap)) continue;
+    if (row.is_event && gap.stays() && !significance.holds(*able[k])) continue;
     Rival& rival = rivals.emplace_back(rival_of(*able[k], gap));
     rival.inclusion = share[k];
     rival.by_rule = by_rule;
@@ -261,7 +264,7 @@ Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGa
   judgement.best = able[*best];
   judgement.chance = significance.tail(*judgement.best);
   judgement.inclusion = share[*best];
-  judgement.rivals = rivals_of(*judgement.best, able, share, gap);
+  judgement.rivals = rivals_of(*judgement.best, able, share, gap, significance);
   return judgement;
 }
 
@@ -272,8 +275,9 @@ Judgement judge_candidate(const Candidate& candidate, const std::vector<Candidat
   const std::vector<double> share = inclusions(able);
   Judgement judgement;
   judgement.is_named = true;
-  judgement.chance = Significance(draws, gap, options, true).tail(candidate);
-  judgement.rivals = rivals_of(candidate, able, share, gap);
+  const Significance significance(draws, gap, options, true);
+  judgement.chance = significance.tail(candidate);
+  judgement.rivals = rivals_of(candidate, able, share, gap, significance);
   for (std::size_t k = 0; k < able.size(); ++k)
     if (able[k]->variant.refinement == candidate.variant.refinement) judgement.inclusion = share[k];
   return judgement;

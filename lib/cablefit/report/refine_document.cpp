@@ -51,6 +51,7 @@ Table league_table(const RefineResult& result) {
     table.rows.push_back(
         {row.name, row.side, percent(row.gain), percent(row.inclusion), row.refused});
   }
+  if (result.whitened) table.notes.emplace_back("of rows freed of what wanders");
   if (result.league.size() > n)
     table.notes.push_back(
         fmt::format("{} more candidates did no better", result.league.size() - n));
