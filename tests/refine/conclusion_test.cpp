@@ -78,6 +78,15 @@ TEST_CASE("two at once have to leave nothing", "[refine]") {
   CHECK_FALSE(why_not_both({event, 56, 1.1, before, all, floor}).empty());
 }
 
+TEST_CASE("of two simulations the smaller gap counts, and one that is known", "[refine]") {
+  const SimulatedGap floor{1e-5, 0.1, ""}, large{1e-4, 0.1, ""}, small{2e-5, 0.1, ""},
+      failed{0, 0, "it diverged"};
+  CHECK(&smaller(large, small, floor) == &small);
+  CHECK(&smaller(small, large, floor) == &small);
+  CHECK(&smaller(large, failed, floor) == &large);
+  CHECK(&smaller(failed, large, floor) == &large);
+}
+
 /// The traps: a date explains a little of any hum, and nothing of logs that it should show in.
 TEST_CASE("an event closes its part of the gap, and that of logs after it", "[refine]") {
   const Refinement& row = find_refinement("payload_change", Site::link);

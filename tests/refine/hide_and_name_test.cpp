@@ -197,6 +197,14 @@ TEST_CASE("beside a torque that wanders an effect is told from whitened rows", "
   CHECK(result.simulation.test_after < result.simulation.test_before);
 }
 
+TEST_CASE("what only wanders is no effect of whitened rows either", "[refine][slow]") {
+  const RefineResult result = refined(hidden_logs({}, 2, "short", 0.1));
+  INFO(first_name(result));
+  CHECK(result.verdict == Verdict::unexplained);
+  REQUIRE(result.unexplained);
+  CHECK(result.unexplained->kind == "wandering");
+}
+
 TEST_CASE("what is not in the catalogue is unexplained", "[refine][slow]") {
   const RefineResult result = refined(hidden_logs({"attached_mode.link=1"}));
   INFO(first_name(result));

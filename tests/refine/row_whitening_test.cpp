@@ -71,6 +71,17 @@ TEST_CASE("products of whitened rows are those of the inverse covariance", "[ref
   CHECK((found / found(0, 0) - expected / expected(0, 0)).norm() < 1e-12);
 }
 
+TEST_CASE("every row is freed of the one before where no other says more", "[refine]") {
+  constexpr Eigen::Index kRows = 30;
+  const double memory = std::exp(-1.0 / 20);
+  const Eigen::MatrixXd c = columns(kRows);
+  const Eigen::MatrixXd white = link_whitening(wandering(64, 0)).of(rows_from_0(kRows), kPeriod, c);
+  Eigen::MatrixXd expected = c;
+  expected.bottomRows(kRows - 1) -= memory * c.topRows(kRows - 1);
+  expected.row(0) *= std::sqrt(1 - memory * memory);
+  CHECK((white - expected).norm() < 1e-9);
+}
+
 TEST_CASE("whitened noise has no memory", "[refine]") {
   constexpr Eigen::Index kRows = 40000;
   constexpr double kNoise = 0.3;
@@ -92,26 +103,30 @@ TEST_CASE("whitened noise has no memory", "[refine]") {
 }
 
 TEST_CASE("a hole and a block each begin a prediction anew", "[refine]") {
-  constexpr Eigen::Index kRows = 12;
+  constexpr Eigen::Index kHalf = 20, kRows = 2 * kHalf;  // more than a prediction looks back
   const Eigen::VectorXd covariance = wandering(64, 0.3);
   const Eigen::MatrixXd c = columns(kRows);
   const auto halves = [&](const KindRows& first, const KindRows& second,
                           const RowWhitening& whitening) {
     Eigen::MatrixXd both(kRows, 2);
-    both << whitening.of(first, kPeriod, c.topRows(6)),
-        whitening.of(second, kPeriod, c.bottomRows(6));
+    both << whitening.of(first, kPeriod, c.topRows(kHalf)),
+        whitening.of(second, kPeriod, c.bottomRows(kHalf));
     return both;
   };
   const RowWhitening whitening = link_whitening(covariance, 3);
-  const std::vector<Eigen::Index> before = {0, 3, 6, 9, 12, 15}, after = {21, 24, 27, 30, 33, 36};
+  std::vector<Eigen::Index> before, after;
+  for (Eigen::Index i = 0; i < kHalf; ++i) {
+    before.push_back(3 * i);
+    after.push_back(3 * (kHalf + 1 + i));  // a row is missing
+  }
   std::vector<Eigen::Index> all = before;
   all.insert(all.end(), after.begin(), after.end());
   CHECK(whitening.of(rows_at(all), kPeriod, c) ==
         halves(rows_at(before), rows_at(after), whitening));
 
-  const RowWhitening blocks = link_whitening(covariance, 1, 6 * kPeriod);
+  const RowWhitening blocks = link_whitening(covariance, 1, kHalf * kPeriod);
   CHECK(blocks.of(rows_from_0(kRows), kPeriod, c) ==
-        halves(rows_from_0(6), rows_from_0(6), blocks));
+        halves(rows_from_0(kHalf), rows_from_0(kHalf), blocks));
   CHECK(blocks.of(rows_from_0(kRows), kPeriod, c) !=
         link_whitening(covariance).of(rows_from_0(kRows), kPeriod, c));
 }

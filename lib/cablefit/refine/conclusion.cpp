@@ -25,9 +25,10 @@ constexpr double kLikely = 1;                // sd, that a gain on unseen rows i
 constexpr double kChanceOfSize = 0.01 / 40;  // 1 % over the rows of the catalogue
 constexpr double kSureSize = 1e-6;           // of which the training rows leave no doubt
 
-/// Share of the gap, where it shows more of an event.
+/// Share of the gap: of the unseen rows' where these are sure of it, of the training rows' else.
 double closed_by(const UnseenChange& change) {
-  if (!change.is_after_event || change.rho_before <= kVisibleGap) return change.closed;
+  const bool is_sure = change.rho_before > kVisibleGap && change.sd_better >= kClearlyBetter;
+  if (!change.is_after_event || !is_sure) return change.closed;
   const double gone = change.rho_before - change.rho_after;
   return std::max(change.closed, gone / (change.rho_before - 1));
 }
@@ -118,9 +119,11 @@ void conclude(RefineResult& result) {
     const double closed = (rho - result.rho_after) / std::max(1e-9, rho - 1);
     result.reason = fmt::format("it closes {:.0f} % of the squared gap above the noise floor",
                                 100 * std::clamp(closed, 0.0, 1.0));
-    if (result.rho_after > kRemainder) result.reason += "; a remainder is unexplained";
-    if (result.whitened)
-      result.reason += ", which wanders: the effect was told from rows freed of that";
+    if (result.rho_after > kRemainder) {
+      result.reason += "; a remainder is unexplained";
+      if (result.whitened)
+        result.reason += ", which wanders: the effect was told from rows freed of that";
+    }
     const auto other = std::find_if(rivals.begin(), rivals.end(),
                                     [](const Rival& rival) { return !rival.by_rule; });
     if (!rivals.empty())

@@ -25,4 +25,8 @@ SimulatedGap simulated_gap(std::span<const Model> models, std::span<const LogSur
 /// Both gaps in units of their floor, squared and summed.
 double in_floors(const SimulatedGap& gap, const SimulatedGap& floor);
 
+/// The smaller one, or the one that is known.
+const SimulatedGap& smaller(const SimulatedGap& a, const SimulatedGap& b,
+                            const SimulatedGap& floor);
+
 }  // namespace cablefit

@@ -94,13 +94,6 @@ UnseenChange change_of(const RefineBench& bench, const Refinement& row, const Re
   return change_of(bench, row, before, after, before.simulated, after.simulated);
 }
 
-/// What a simulation of the unseen logs leaves with the values that simulate best.
-SimulatedGap simulated_best(const RefineBench& bench, const RefineState& state,
-                            const std::optional<ValueChange>& bias) {
-  const bool better = bias && simulates_better_without(bench, state, *bias);
-  return better ? without_bias(bench, state, *bias).simulated : state.simulated;
-}
-
 /// Whether the rows fit as well with the last effect's coefficients at 0: what it stood for went
 /// into what others follow from when all was fitted together.
 bool carries_nothing(const RefineBench& bench, const RefineState& after) {
@@ -110,8 +103,7 @@ bool carries_nothing(const RefineBench& bench, const RefineState& after) {
   Eigen::VectorXd without = after.x;
   without.tail(n).setZero();
   const BlockGrams grams = block_grams(after.design, bench.scan.block_seconds);
-  const KindLevels& floor = bench.floor_of(after.design);
-  const auto rho = [&](const Eigen::VectorXd& x) { return gap_of(grams, x, floor).rho; };
+  const auto rho = [&](const Eigen::VectorXd& x) { return gap_of(grams, x, bench.floor).rho; };
   return rho(without) < (1 + kNoLoss) * rho(after.x);
 }
 
@@ -121,21 +113,26 @@ bool carries_nothing(const RefineBench& bench, const RefineState& after) {
 /// without it as well.
 std::string why_not(const RefineBench& bench, const Refinement& row, const RefineState& before,
                     const RefineState& after, bool is_first) {
+  const bool is_white = before.design.whitening.is_needed();
+  // Of whitened rows a test of its size tells more.
+  if (!is_white && carries_nothing(bench, after))
+    return "it carries nothing once all is fitted with it";
   const UnseenChange change = change_of(bench, row, before, after);
   const std::string reason = why_not_added(change);
-  // A test of its size tells more of whitened rows, and no bias hides what it is worth beside what
-  // wanders.
-  if (after.design.whitening.is_needed()) return reason;
-  if (carries_nothing(bench, after)) return "it carries nothing once all is fitted with it";
   const bool both_known = change.before.known() && change.after.known();
   const bool is_sure = change.sd_better >= kClearlyBetter;
   const bool is_below_floor = change.rho_before < 1 && !change.leaves_remainder;
   if (reason.empty() || !both_known || !(is_sure || is_below_floor)) return reason;
-  const auto bias = is_first ? std::optional(bench.base_bias) : fit_bias(bench, before);
+  const auto bias =
+      is_first && !is_white ? std::optional(bench.base_bias) : fit_bias(bench, before);
   const auto bias_after = fit_bias(bench, after);
-  if (is_sure)
-    return why_not_added(change_of(bench, row, before, after, simulated_best(bench, before, bias),
-                                   simulated_best(bench, after, bias_after)));
+  if (is_sure) {
+    SimulatedGap best = simulated_best(bench, before, bias);
+    if (before.simulated_before)
+      best = smaller(best, *before.simulated_before, bench.simulation_floor);
+    return why_not_added(
+        change_of(bench, row, before, after, best, simulated_best(bench, after, bias_after)));
+  }
   if (!bias || !bias_after) return reason;
   return why_not_added(change_of(bench, row, without_bias(bench, before, *bias),
                                  without_bias(bench, after, *bias_after)));
@@ -158,6 +155,8 @@ bool add_one(RefineBench& bench, Trials& trials, std::optional<Trial> trial, Ref
   for (; trial; trial = trials.next_alike(reason)) {
     const Refinement& row = *trial->winner.variant.refinement;
     reason = why_not(bench, row, state, trial->after, is_first);
+    if (!reason.empty() && state.design.whitening.is_needed())
+      reason = "from rows freed of what wanders: " + reason;
     result.steps.push_back(step_of(bench, *trial, reason));
     if (reason.empty()) {
       result.effects.push_back(effect_of(bench, state, trial->after, trial->judgement));

@@ -109,7 +109,7 @@ Judgement Trials::judged() const {
   const Candidate* best = best_lasting(found_.candidates);
   if (design.whitening.is_needed() && best != nullptr) gap.explained = best->gain * gap.total;
   return judge_search(found_.candidates, gap, bench_.draws_of(design), options_,
-                      is_first_ && bench_.n_kept == 0);
+                      is_first_ && (bench_.n_kept == 0 || design.whitening.is_needed()));
 }
 
 std::optional<Trial> Trials::best() {
@@ -125,7 +125,8 @@ std::optional<Trial> Trials::next_alike(const std::string& refusal) {
   if (last_ == nullptr) return {};
   for (Candidate& candidate : found_.candidates) {
     const Refinement& row = *candidate.variant.refinement;
-    if (&row == last_ || same_class(row, *last_)) candidate.refused = refusal;
+    const bool both_dates = row.is_event && last_->is_event;
+    if (&row == last_ || same_class(row, *last_) || both_dates) candidate.refused = refusal;
   }
   Judgement judgement = judged();
   if (!judgement.is_named) return {};

@@ -95,4 +95,10 @@ RefineState without_bias(const RefineBench& bench, const RefineState& state,
   return out;
 }
 
+SimulatedGap simulated_best(const RefineBench& bench, const RefineState& state,
+                            const std::optional<ValueChange>& bias) {
+  const bool better = bias && simulates_better_without(bench, state, *bias);
+  return better ? without_bias(bench, state, *bias).simulated : state.simulated;
+}
+
 }  // namespace cablefit

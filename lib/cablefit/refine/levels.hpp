@@ -26,6 +26,7 @@ struct RowGap {
   Eigen::ArrayXd squares, n_rows;                               ///< per block
   double quantile(double level, std::uint64_t seed = 1) const;  ///< of rho, blocks resampled
 };
+/// Of a design: its rows as they are, however they are fitted.
 RowGap gap_of(const Design& design, const Eigen::VectorXd& x, const KindLevels& floor,
               double block_seconds);
 RowGap gap_of(BlockGrams grams, const Eigen::VectorXd& x, const KindLevels& floor);

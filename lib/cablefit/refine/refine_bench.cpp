@@ -149,12 +149,17 @@ double RefineBench::rho(const Design& design, const BlockFit& fit) const {
   return gap_of(design, fit.x, floor, scan.block_seconds).rho;
 }
 
+void need_disturbance(RefineBench& bench, const RefineState& state, const Search& found) {
+  if (!bench.is_disturbed) disturb_null(bench, state, found);
+  bench.is_disturbed = true;
+}
+
 void need_draws(RefineBench& bench, const RefineState& state, const Search& found,
                 const RefineOptions& options) {
   const RowWhitening& whitening = state.design.whitening;
   std::vector<NullDraw>& draws = whitening.is_needed() ? bench.white_draws : bench.draws;
   if (!draws.empty() || !anything_material(found.candidates, options)) return;
-  if (bench.draws.empty()) disturb_null(bench, state, found);
+  need_disturbance(bench, state, found);
   ScanSettings settings = bench.scan;
   settings.threads = 1;
   draws = run_draws(bench, bench.options.n_draws, bench.options.seed + kFloorDraws, "chance",

@@ -34,9 +34,10 @@ struct RefineBench {
   std::vector<NullDraw> draws = {};  ///< of searches; none until something is worth them
   KindLevels white_floor{};          ///< of whitened training rows, see whitened_look.hpp
   std::vector<NullDraw> white_draws = {};
-  Search first_search = {};  ///< on the base alone
-  std::size_t n_kept = 0;    ///< effects that the models had, the first that designs hold
-  Design bare = {};          ///< the base without these, where there are any
+  bool is_disturbed = false;  ///< see need_disturbance
+  Search first_search = {};   ///< on the base alone
+  std::size_t n_kept = 0;     ///< effects that the models had, the first that designs hold
+  Design bare = {};           ///< the base without these, where there are any
 
   /// Of training rows as they are fitted.
   const KindLevels& floor_of(const Design& design) const {
@@ -57,11 +58,17 @@ struct RefineState {
   double rho = 0;  ///< training rows
   RowGap unseen;
   SimulatedGap simulated;
+  /// Of a whitened state: what the state that it was made of leaves with its best values.
+  std::optional<SimulatedGap> simulated_before = {};
 };
 
 /// The base fit, floors and unseen rows. Throws Error(input) without a long enough stretch.
 RefineState prepare(RefineBench& bench, std::span<const Model> models, const RefineLogs& logs,
                     RefineResult& result);
+
+/// Gives simulated data sets what even the best candidate of a search on the base leaves; done
+/// once.
+void need_disturbance(RefineBench& bench, const RefineState& state, const Search& found);
 
 /// Simulated data sets are searched only once something is worth it.
 void need_draws(RefineBench& bench, const RefineState& state, const Search& found,

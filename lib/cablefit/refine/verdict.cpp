@@ -24,6 +24,7 @@ constexpr double kSafety = 1.3;            // times the largest chance gain seen
 // largest gains is 2 to 3 times their median (exponential tails; Fisher & Tippett 1928).
 constexpr double kStandsOut = 4;
 constexpr double kAtFloor = 0.1;  // of the significance, where there is no gap to explain
+constexpr double kSecondLook = 0.5;
 constexpr int kResamples = 200;
 
 bool may_be_named(const Candidate& c) { return c.refused.empty() && c.gain > 0; }
@@ -114,13 +115,14 @@ class Significance {
   }
 
  private:
-  bool is_at_floor() const { return gap_.total < kNoGap * gap_.floor; }
+  bool is_at_floor() const { return !gap_.stays() && gap_.total < kNoGap * gap_.floor; }
 
   /// Most logs in which nothing is missing are at the floor, and few in which something is: a name
-  /// there has the odds against it.
+  /// there has the odds against it. Where a gap stays it is the second look (Bonferroni).
   double significance() const {
-    if (!is_at_floor()) return options_.significance;
-    return std::max(least_tail(chance_.n_draws()), kAtFloor * options_.significance);
+    const double share = is_at_floor() ? kAtFloor : gap_.stays() ? kSecondLook : 1;
+    if (share == 1) return options_.significance;
+    return std::max(least_tail(chance_.n_draws()), share * options_.significance);
   }
 
   ChanceGains chance_;

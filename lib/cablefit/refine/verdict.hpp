@@ -22,10 +22,10 @@ struct Judgement {
 /// Squared held-out error of the base, and how much of it noise alone would leave (both weighted).
 struct SquaredGap {
   double total = 0, floor = 0;
-  double explained = kUnbounded;  ///< by the best of all, where most of the gap is there to stay
+  double explained = kUnbounded;  ///< by the best of all, where a gap is known that stays
   double above() const { return std::max(0.0, total - floor); }
-  double explainable() const { return std::min(above(), explained); }
-  bool stays() const { return explained < above(); }
+  bool stays() const { return explained < kUnbounded; }
+  double explainable() const { return stays() ? explained : above(); }
 };
 
 /// `is_first`: a further effect has to carry more.

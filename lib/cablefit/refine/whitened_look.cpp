@@ -1,5 +1,6 @@
 #include "cablefit/refine/whitened_look.hpp"
 
+#include "cablefit/refine/fit_bias.hpp"
 #include "cablefit/refine/refined_model.hpp"
 #include "cablefit/refine/remainder.hpp"
 #include "cablefit/refine/unexplained.hpp"
@@ -53,11 +54,14 @@ std::optional<RefineState> whitened(RefineBench& bench, const RefineState& state
   // A mode or a hum goes on as the motion or a clock has it, not by chance.
   const auto left = describe_remainder(state.design, state.x, bench.floor, seconds);
   if (!left || left->kind != "wandering") return {};
+  KindMemory memory = memory_of(state.design, state.x);
+  for (std::size_t k = 0; k < kRowKinds; ++k)
+    if (to_string(static_cast<RowKind>(k)) != left->equation) memory[k] = {};
   Design noise = bench.noise.design;
-  noise.whitening =
-      whitening_of(memory_of(state.design, state.x), memory_of(noise, bench.noise.fit.x),
-                   state.design.smoothing.stride, seconds);
+  noise.whitening = whitening_of(memory, memory_of(noise, bench.noise.fit.x),
+                                 state.design.smoothing.stride, seconds);
   if (!noise.whitening.is_needed()) return {};
+  need_disturbance(bench, state, bench.first_search);
   bench.white_floor = positive(rms_of(block_grams(noise, seconds), bench.noise.fit.x));
 
   RefineState white = state;
@@ -68,13 +72,14 @@ std::optional<RefineState> whitened(RefineBench& bench, const RefineState& state
   if (!fit) return {};
   white.x = fit->x;
   white.rho = bench.rho(white.design, *fit);
-  white.unseen = gap_of(white.test, white.x, bench.test_floor, seconds);
   white.simulated =
       simulated_gap(models_with(white.design, white.x), bench.unseen, bench.options.threads);
-  // An effect has to simulate better than either.
-  if (in_floors(state.simulated, bench.simulation_floor) <
-      in_floors(white.simulated, bench.simulation_floor))
-    white.simulated = state.simulated;
+  // An effect has to fit and simulate better than either.
+  if (RowGap unseen = gap_of(white.test, white.x, bench.test_floor, seconds);
+      unseen.rho < white.unseen.rho)
+    white.unseen = std::move(unseen);
+  white.simulated = smaller(white.simulated, state.simulated, bench.simulation_floor);
+  white.simulated_before = simulated_best(bench, state, bench.base_bias);
   return white;
 }
 

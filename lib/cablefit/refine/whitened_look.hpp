@@ -6,8 +6,9 @@
 
 namespace cablefit {
 
-/// The state with its rows whitened by what they leave, fitted so, with the better simulation of
-/// the two; sets the floor of such rows. Nothing: what is left does not wander.
+/// The state, refused all names, with the rows of the equation that wanders whitened, fitted so; of
+/// the two states the unseen gap and the simulation that are better. Sets the floor of such rows.
+/// Nothing: what is left does not wander.
 std::optional<RefineState> whitened(RefineBench& bench, const RefineState& state);
 
 /// Refuses candidates whose torque, squared, is less than `least` of what the rows leave as they

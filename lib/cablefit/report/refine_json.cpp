@@ -182,6 +182,7 @@ std::string refine_json(const RefineResult& result, std::span<const std::string>
   json["base_model"] = {{"path", result.model_path}, {"choice", result.model_choice}};
   json["verdict"] = to_string(result.verdict);
   json["reason"] = result.reason;
+  json["whitened"] = result.whitened;
   json["unexplained"] = unexplained_json(result.unexplained, result.linear_motion);
   json["preloads"] = result.preloads;
   json["where"] = list_of(result.where, regime_json);
