@@ -81,7 +81,8 @@ bool same_positions(const Recording& a, const Recording& b) {
 /// What was added before stays as it is.
 StretchRows rows_of_correction(const Design& design, const Variant& variant, std::size_t k) {
   Stretch stretch = design.stretches[k];
-  variant.refinement->correct(variant.shape.data(), stretch.recording);
+  if (const auto correct = variant.refinement->correct)
+    correct(variant.shape.data(), stretch.recording);
   const Model& model = design.models[stretch.model];
   if (same_positions(stretch.recording, design.stretches[k].recording))
     return rows_of_torque(design.rows[k], stretch, model, design.smoothing);

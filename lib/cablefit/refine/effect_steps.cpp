@@ -118,7 +118,7 @@ std::string why_not(const RefineBench& bench, const Refinement& row, const Refin
   if (!is_white && carries_nothing(bench, after))
     return "it carries nothing once all is fitted with it";
   const UnseenChange change = change_of(bench, row, before, after);
-  const std::string reason = why_not_added(change);
+  std::string reason = why_not_added(change);
   const bool both_known = change.before.known() && change.after.known();
   const bool is_sure = change.sd_better >= kClearlyBetter;
   const bool is_below_floor = change.rho_before < 1 && !change.leaves_remainder;

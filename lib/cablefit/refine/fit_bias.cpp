@@ -62,10 +62,10 @@ bool is_far(const Design& design, const ValueChange& bias) {
 
 std::optional<ValueChange> fit_bias(const RefineBench& bench, const RefineState& state) {
   if (bench.elastic_only) return {};
-  const auto here = bias_at(bench, {state.design, state.x}, state.levels);
+  auto here = bias_at(bench, {state.design, state.x}, state.levels);
   if (!here || !is_far(state.design, *here)) return here;
   const Eigen::VectorXd x = state.x - here->x;
-  const auto there = bias_at(bench, {with_shapes(state.design, -here->shapes, x), x}, state.levels);
+  auto there = bias_at(bench, {with_shapes(state.design, -here->shapes, x), x}, state.levels);
   return there ? there : here;
 }
 

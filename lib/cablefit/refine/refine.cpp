@@ -60,7 +60,7 @@ void tell_gaps(const RefineBench& bench, const RefineState& first, const RefineS
     result.warnings.pop_back();
   if (simulation.known && simulates_an_event(result)) {
     simulation.known = false;
-    result.warnings.push_back(
+    result.warnings.emplace_back(
         "not simulated: the unseen rows are of logs in which the event happened, and the model "
         "knows no date; give logs from after it with --test");
   }
@@ -205,19 +205,19 @@ const Refinement* unphysical(const RefineResult& result) {
 
 }  // namespace
 
-RefineResult refine(std::span<const Model> given, const RefineLogs& logs,
+RefineResult refine(std::span<const Model> models, const RefineLogs& logs,
                     const RefineOptions& options) {
-  std::vector<Model> models(given.begin(), given.end());
+  std::vector<Model> bases(models.begin(), models.end());
   std::vector<std::string> warnings;
   for (;;) {
-    RefineResult result = refine_once(models, logs, options);
+    RefineResult result = refine_once(bases, logs, options);
     const Refinement* gone = unphysical(result);
     if (gone == nullptr) {
       result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
       return result;
     }
     warnings.push_back(taken_out(*gone));
-    for (Model& model : models)
+    for (Model& model : bases)
       std::erase_if(model.joints.front().refinements,
                     [gone](const RefinementInstance& has) { return has.refinement == gone; });
   }

@@ -233,7 +233,8 @@ std::vector<Candidate> scan(const ScanStart& start, const ScanSettings& settings
   return found;
 }
 
-Candidate refined_shape(const ScanStart& start, const ScanSettings& settings, Candidate candidate) {
+Candidate refined_shape(const ScanStart& start, const ScanSettings& settings,
+                        const Candidate& candidate) {
   const Scanner scanner(start, settings);
   const auto moved = [&](const Variant& variant) {
     return try_variant(scanner, moved_shape(scanner, variant));

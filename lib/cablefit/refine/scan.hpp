@@ -41,6 +41,7 @@ std::vector<Candidate> scan(const ScanStart& start, const ScanSettings& settings
 
 /// The nonlinear parameters (and date) of a candidate moved to where its squared error is least, by
 /// turns, between the neighbours on the grid.
-Candidate refined_shape(const ScanStart& start, const ScanSettings& settings, Candidate candidate);
+Candidate refined_shape(const ScanStart& start, const ScanSettings& settings,
+                        const Candidate& candidate);
 
 }  // namespace cablefit
