@@ -207,6 +207,15 @@ void append(std::vector<StretchRows>& rows, const VariantColumns& columns) {
     }
 }
 
+VariantColumns residuals(const std::vector<StretchRows>& rows, const Eigen::VectorXd& x) {
+  VariantColumns all;
+  for (const StretchRows& stretch : rows) {
+    auto& kinds = all.emplace_back();
+    for (const KindRows& kind : stretch.kinds) kinds.emplace_back(kind.base * x - kind.response);
+  }
+  return all;
+}
+
 std::vector<StretchRows> whitened(const Design& design, std::vector<StretchRows> rows) {
   if (!design.whitening.is_needed()) return rows;
   for (std::size_t s = 0; s < rows.size(); ++s)

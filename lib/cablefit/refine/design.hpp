@@ -59,6 +59,9 @@ using VariantColumns = std::vector<std::vector<Eigen::MatrixXd>>;
 VariantColumns variant_columns(const Design& design, const Variant& variant,
                                const Eigen::VectorXd& values);
 
+/// What the equations of these rows leave, N m (n_rows x 1): model minus measured.
+VariantColumns residuals(const std::vector<StretchRows>& rows, const Eigen::VectorXd& x);
+
 /// As they are fitted.
 std::vector<StretchRows> whitened(const Design& design, std::vector<StretchRows> rows);
 VariantColumns whitened(const Design& design, VariantColumns columns);

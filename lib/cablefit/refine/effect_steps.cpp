@@ -102,9 +102,8 @@ bool carries_nothing(const RefineBench& bench, const RefineState& after) {
   if (n == 0) return false;
   Eigen::VectorXd without = after.x;
   without.tail(n).setZero();
-  const BlockGrams grams = block_grams(after.design, bench.scan.block_seconds);
-  const auto rho = [&](const Eigen::VectorXd& x) { return gap_of(grams, x, bench.floor).rho; };
-  return rho(without) < (1 + kNoLoss) * rho(after.x);
+  const double rho = gap_of(after.design, without, bench.floor, bench.scan.block_seconds).rho;
+  return rho < (1 + kNoLoss) * after.rho;
 }
 
 /// Reason against a step; empty: none. Where the unseen equations are sure of it but the simulation

@@ -21,16 +21,6 @@ Eigen::Index count_rows(const std::vector<StretchRows>& rows) {
   return n;
 }
 
-/// What the equations leave, stretch by stretch, kind by kind.
-VariantColumns residuals(const std::vector<StretchRows>& rows, const Eigen::VectorXd& x) {
-  VariantColumns all;
-  for (const StretchRows& stretch : rows) {
-    auto& kinds = all.emplace_back();
-    for (const KindRows& kind : stretch.kinds) kinds.emplace_back(kind.base * x - kind.response);
-  }
-  return all;
-}
-
 /// The design with all variants again, one of them another.
 Design with_other(const Design& undone, const Design& design, const Eigen::VectorXd& x,
                   std::size_t which, const Variant& other) {

@@ -19,16 +19,6 @@ double size_of(const Design& design, const VariantColumns& torques, const KindLe
   return sum;
 }
 
-/// What the equations of a design leave, with other rows in place of its own.
-VariantColumns residuals(const std::vector<StretchRows>& rows, const Eigen::VectorXd& x) {
-  VariantColumns all;
-  for (const StretchRows& stretch : rows) {
-    auto& kinds = all.emplace_back();
-    for (const KindRows& kind : stretch.kinds) kinds.emplace_back(kind.base * x - kind.response);
-  }
-  return all;
-}
-
 /// Torque of a candidate in every row, N m: of its columns, or what its rows do to the residual.
 /// `x`: of the design without it.
 VariantColumns torques_of(const Design& design, const Candidate& c, const Eigen::VectorXd& x) {
