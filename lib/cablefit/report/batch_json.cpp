@@ -4,14 +4,15 @@
 
 #include "cablefit/report/dynamic_json.hpp"
 #include "cablefit/report/elastic_json.hpp"
+#include "cablefit/report/json_list.hpp"
 #include "cablefit/report/json_parts.hpp"
 
 namespace cablefit {
 namespace {
 
 using report_json::Json;
-
-Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
+using report_json::list_of;
+using report_json::text_or_null;
 
 Json gap_json(const GapStory& gap) {
   if (!gap.known) return nullptr;
@@ -32,8 +33,7 @@ Json effect_json(const CellEffect& effect) {
 
 Json refine_json(const CellRefine& refine) {
   Json json{{"verdict", text_or_null(refine.verdict)}, {"reason", text_or_null(refine.reason)}};
-  json["effects"] = Json::array();
-  for (const CellEffect& effect : refine.effects) json["effects"].push_back(effect_json(effect));
+  json["effects"] = list_of(refine.effects, effect_json);
   json["gap"] = {{"torque", gap_json(refine.torque)}, {"simulation", gap_json(refine.simulation)}};
   json["next_experiment"] = text_or_null(refine.next_experiment);
   json["error"] = text_or_null(refine.error);
@@ -86,8 +86,7 @@ std::vector<InputFile> inputs_of(const BatchResult& result) {
 std::string batch_json(const BatchResult& result) {
   Json json = report_json::header("batch", inputs_of(result), result.warnings);
   json["campaign"] = {{"path", result.campaign_path}, {"name", result.campaign_name}};
-  json["cells"] = Json::array();
-  for (const BatchCell& cell : result.cells) json["cells"].push_back(cell_json(cell));
+  json["cells"] = list_of(result.cells, cell_json);
   json["failed"] = failed_json(result);
   json["gates"] = gates_json(result);
   return report_json::text(json);

@@ -2,12 +2,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cablefit/report/json_list.hpp"
 #include "cablefit/report/json_parts.hpp"
 
 namespace cablefit {
 namespace {
 
 using report_json::Json;
+using report_json::list_of;
+using report_json::text_or_null;
 
 Json channel_json(const CheckedChannel& channel) {
   const ChannelSurvey& s = channel.survey;
@@ -36,8 +39,6 @@ Json delay_json(const CheckedDelay& delay) {
 
 Json part_json(const CheckedPart& part) {
   const PartSurvey& s = part.survey;
-  Json channels = Json::array();
-  for (const CheckedChannel& channel : part.channels) channels.push_back(channel_json(channel));
   return Json{{"preload", s.preload},
               {"run", s.run},
               {"phase", to_string(s.phase)},
@@ -49,7 +50,7 @@ Json part_json(const CheckedPart& part) {
               {"worst_jitter", s.worst_jitter},
               {"gaps", s.n_gaps},
               {"resampled", s.uneven},
-              {"channels", channels},
+              {"channels", list_of(part.channels, channel_json)},
               {"excitation", excitation_json(part.excitation)},
               {"torque_delay", delay_json(part.delay)},
               {"identifies", part.identifies},
@@ -57,14 +58,12 @@ Json part_json(const CheckedPart& part) {
 }
 
 Json log_json(const CheckedLog& log) {
-  Json parts = Json::array();
-  for (const CheckedPart& part : log.parts) parts.push_back(part_json(part));
   return Json{{"path", log.path},
               {"rig", report_json::rig(log.rig_path)},
               {"linear_motion", log.linear_motion},
               {"usable", log.usable()},
               {"unused_columns", log.unused_columns},
-              {"parts", parts}};
+              {"parts", list_of(log.parts, part_json)}};
 }
 
 Json parameter_json(const PredictedParameter& p) {
@@ -73,29 +72,29 @@ Json parameter_json(const PredictedParameter& p) {
               {"size", p.size},
               {"sd_best", p.sd_best},
               {"sd_first_look", p.sd_first_look},
-              {"closest", p.closest.empty() ? Json() : Json(p.closest)},
+              {"closest", text_or_null(p.closest)},
               {"correlation", p.correlation},
               {"verdict", to_string(p.determined)}};
 }
 
 Json equation_json(const PredictedEquation& e) {
-  Json parameters = Json::array();
-  for (const PredictedParameter& p : e.parameters) parameters.push_back(parameter_json(p));
-  return Json{{"name", e.name},          {"rows", e.rows}, {"condition_scaled", e.condition_scaled},
-              {"noise", e.noise},        {"left", e.left}, {"parameters", parameters},
+  return Json{{"name", e.name},
+              {"rows", e.rows},
+              {"condition_scaled", e.condition_scaled},
+              {"noise", e.noise},
+              {"left", e.left},
+              {"parameters", list_of(e.parameters, parameter_json)},
               {"sentences", e.sentences}};
 }
 
 Json prediction_json(const Prediction& p) {
-  Json equations = Json::array();
-  for (const PredictedEquation& e : p.equations) equations.push_back(equation_json(e));
   return Json{{"preload", p.preload},
               {"logs", p.logs},
               {"model", p.rigid ? "rigid" : "elastic"},
               {"linear_motion", p.linear_motion},
               {"cutoff", p.cutoff},
-              {"equations", equations},
-              {"none", p.none.empty() ? Json() : Json(p.none)}};
+              {"equations", list_of(p.equations, equation_json)},
+              {"none", text_or_null(p.none)}};
 }
 
 }  // namespace
@@ -109,8 +108,7 @@ std::string check_json(const CheckResult& result, const std::vector<Prediction>&
   }
   Json json = report_json::header("check", inputs, result.warnings);
   json["logs"] = logs;
-  json["identifiability"] = Json::array();
-  for (const Prediction& p : predictions) json["identifiability"].push_back(prediction_json(p));
+  json["identifiability"] = list_of(predictions, prediction_json);
   return report_json::text(json);
 }
 

@@ -2,12 +2,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cablefit/report/json_list.hpp"
 #include "cablefit/report/json_parts.hpp"
 
 namespace cablefit {
 namespace {
 
 using report_json::Json;
+using report_json::list_of;
 
 Json result_json(const RecordedResult& result) {
   return Json{{"path", result.path},
@@ -47,9 +49,7 @@ std::string compare_json(const CompareResult& result, const std::vector<InputFil
   json["margin_percent"] = 100 * result.options.margin;
   json["significance"] = result.options.significance;
   json["verdict"] = to_string(result.sameness());
-  json["parameters"] = Json::array();
-  for (const ComparedParameter& p : result.parameters)
-    json["parameters"].push_back(parameter_json(p));
+  json["parameters"] = list_of(result.parameters, parameter_json);
   json["not_compared"] = Json::array();
   for (const Uncompared& one : result.not_compared)
     json["not_compared"].push_back(

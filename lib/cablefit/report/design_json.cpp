@@ -2,12 +2,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cablefit/report/json_list.hpp"
 #include "cablefit/report/json_parts.hpp"
 
 namespace cablefit {
 namespace {
 
 using report_json::Json;
+using report_json::list_of;
+using report_json::text_or_null;
 
 Json collision_json(const std::optional<CollisionThreshold>& c) {
   if (!c) return {};
@@ -43,19 +46,12 @@ Json tension_json(const TensionRange& t) {
       {"cable", t.cable}, {"preload", t.preload}, {"least", t.least}, {"largest", t.largest}};
 }
 
-template <typename Item>
-Json list_of(const std::vector<Item>& items, Json (*item_json)(const Item&)) {
-  Json list = Json::array();
-  for (const Item& item : items) list.push_back(item_json(item));
-  return list;
-}
-
 Json joint_json(const DesignJoint& joint) {
   return Json{{"name", joint.name},
               {"deflection_range", {joint.low, joint.high}},
               {"closure",
                {{"torque", joint.closure_torque},
-                {"slack_first", joint.slack_first.empty() ? Json() : Json(joint.slack_first)},
+                {"slack_first", text_or_null(joint.slack_first)},
                 {"deflection_range", {joint.closure_low, joint.closure_high}},
                 {"torque_range", {joint.closure_torque_low, joint.closure_torque_high}}}},
               {"stiffness",
@@ -98,7 +94,7 @@ Json sine_json(const ExcitationPlan::Sine& sine, double factor) {
   return Json{{"hz", sine.hz},
               {"worst_relative_error", sine.worst},
               {"factor", factor},
-              {"refused", sine.fit.refused.empty() ? Json() : Json(sine.fit.refused)},
+              {"refused", text_or_null(sine.fit.refused)},
               {"parameters", list_of(sine.fit.parameters, planned_json)}};
 }
 

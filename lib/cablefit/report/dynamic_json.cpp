@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cablefit/report/json_list.hpp"
 #include "cablefit/report/json_parts.hpp"
 #include "cablefit/report/proof_report.hpp"
 #include "cablefit/report/validation_json.hpp"
@@ -10,6 +11,7 @@ namespace cablefit {
 namespace {
 
 using report_json::Json;
+using report_json::list_of;
 
 Json errors_json(const std::map<std::string, TorqueError>& errors) {
   Json json = Json::object();
@@ -96,15 +98,13 @@ Json counts_json(const DynamicPreload& preload) {
 }
 
 Json preload_json(const DynamicPreload& preload) {
-  Json fits = Json::array();
-  for (const DynamicFit& fit : preload.fits) fits.push_back(fit_json(fit));
   Json json{{"name", preload.name},
             {"rig", report_json::rig(preload.rig_path)},
             {"linear_motion", preload.linear_motion},
             {"resonance_hz", preload.resonance > 0 ? Json(preload.resonance) : Json()},
             {"load_inertia", preload.load_inertia},
             {"torque_delay", delay_json(preload.delay)},
-            {"fits", fits},
+            {"fits", list_of(preload.fits, fit_json)},
             {"counts", counts_json(preload)},
             {"decisions", report_json::decisions(preload.decisions)},
             {"residual_tests", report_json::residual_tests(preload.residual_tests)},
@@ -117,10 +117,7 @@ Json preload_json(const DynamicPreload& preload) {
 
 std::string dynamic_json(const DynamicResult& result) {
   Json json = report_json::header("dynamic", result.inputs, result.warnings);
-  json["preloads"] = Json::array();
-  for (const DynamicPreload& preload : result.preloads) {
-    json["preloads"].push_back(preload_json(preload));
-  }
+  json["preloads"] = list_of(result.preloads, preload_json);
   return report_json::text(json);
 }
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cablefit/model/modes.hpp"
+#include "cablefit/report/json_list.hpp"
 #include "cablefit/report/json_parts.hpp"
 #include "cablefit/report/proof_report.hpp"
 
@@ -10,6 +11,7 @@ namespace cablefit {
 namespace {
 
 using report_json::Json;
+using report_json::list_of;
 
 Json matrix_json(const Eigen::MatrixXd& matrix) {
   Json rows = Json::array();
@@ -49,13 +51,6 @@ Json joint_json(const ElasticJoint& joint) {
               {"both_branches", joint.both_branches},
               {"weight", joint.weight},
               {"counts", report_json::row_counts(joint.counts)}};
-}
-
-template <typename Item>
-Json list_of(const std::vector<Item>& items, Json (*to_json)(const Item&)) {
-  Json list = Json::array();
-  for (const Item& item : items) list.push_back(to_json(item));
-  return list;
 }
 
 Json fit_json(const ElasticPreload& preload, const ElasticFit& fit) {
@@ -117,10 +112,7 @@ Json preload_json(const ElasticPreload& preload) {
 
 std::string elastic_json(const ElasticResult& result) {
   Json json = report_json::header("elastic", result.inputs, result.warnings);
-  json["preloads"] = Json::array();
-  for (const ElasticPreload& preload : result.preloads) {
-    json["preloads"].push_back(preload_json(preload));
-  }
+  json["preloads"] = list_of(result.preloads, preload_json);
   return report_json::text(json);
 }
 

@@ -3,12 +3,14 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "cablefit/report/json_list.hpp"
 #include "cablefit/report/json_parts.hpp"
 
 namespace cablefit {
 namespace {
 
 using report_json::Json;
+using report_json::list_of;
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
@@ -91,12 +93,8 @@ Json profile_json(const ElongationProfile& profile) {
 std::string identify_json(const IdentifyResult& result) {
   Json json = report_json::header("identify", result.inputs, result.warnings);
   json["parameters"] = report_json::parameters(result.parameters);
-  json["preloads"] = Json::array();
-  for (const IdentifyPreload& preload : result.preloads)
-    json["preloads"].push_back(preload_json(preload));
-  json["profiles"] = Json::array();
-  for (const ElongationProfile& profile : result.profiles)
-    json["profiles"].push_back(profile_json(profile));
+  json["preloads"] = list_of(result.preloads, preload_json);
+  json["profiles"] = list_of(result.profiles, profile_json);
   json["active_bounds"] = result.active_bounds;
   json["condition"] = number(result.condition);
   json["decisions"] = report_json::decisions(result.decisions);

@@ -122,7 +122,9 @@ Json offset(const ElasticFit& fit) {
   return list;
 }
 
-Json rig(const std::string& path) { return path.empty() ? Json() : Json(path); }
+Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
+
+Json rig(const std::string& path) { return text_or_null(path); }
 
 Json per_joint(const Eigen::VectorXd& values) {
   if (values.size() == 1) return values[0];

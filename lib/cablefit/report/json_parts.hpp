@@ -20,6 +20,7 @@ Json parameters(const std::vector<Estimate>& estimates);
 Json decisions(const std::vector<Decision>& decisions);
 Json window_counts(const WindowCounts& counts);
 Json row_counts(const RowCounts& counts);
+Json text_or_null(const std::string& text);
 /// The path of a rig file, null for the default rig.
 Json rig(const std::string& path);
 /// One number, or a list when there are several joints.

@@ -3,23 +3,17 @@
 #include <nlohmann/json.hpp>
 
 #include "cablefit/report/document_parts.hpp"
+#include "cablefit/report/json_list.hpp"
 #include "cablefit/report/json_parts.hpp"
 
 namespace cablefit {
 namespace {
 
 using report_json::Json;
+using report_json::list_of;
+using report_json::text_or_null;
 
 constexpr int kJoint = 1;  // refine is made for one
-
-Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
-
-template <typename Items, typename ItemJson>
-Json list_of(const Items& items, ItemJson item_json) {
-  Json list = Json::array();
-  for (const auto& item : items) list.push_back(item_json(item));
-  return list;
-}
 
 Json regime_json(const Regime& regime) {
   return Json{{"equation", regime.equation},
@@ -186,8 +180,9 @@ std::string refine_json(const RefineResult& result, std::span<const std::string>
   json["unexplained"] = unexplained_json(result.unexplained, result.linear_motion);
   json["preloads"] = result.preloads;
   json["where"] = list_of(result.where, regime_json);
-  json["effects"] = list_of(result.effects,
-                            [&](const NamedEffect& effect) { return effect_json(result, effect); });
+  json["effects"] = Json::array();
+  for (const NamedEffect& effect : result.effects)
+    json["effects"].push_back(effect_json(result, effect));
   if (!result.kept.empty()) json["kept"] = list_of(result.kept, kept_json);
   json["rho"] = {{"before", result.rho_before}, {"after", result.rho_after}};
   json["remainder"] = remainder_json(result);

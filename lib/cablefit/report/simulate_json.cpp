@@ -2,14 +2,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cablefit/report/json_list.hpp"
 #include "cablefit/report/json_parts.hpp"
 
 namespace cablefit {
 namespace {
 
 using report_json::Json;
-
-Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
+using report_json::list_of;
+using report_json::text_or_null;
 
 Json model_json(const SimulateResult& result) {
   return Json{{"path", result.model_path},
@@ -36,13 +37,6 @@ Json cable_json(const CableTension& cable) {
               {"min", cable.min},
               {"max", cable.max},
               {"slack_share", cable.slack_share}};
-}
-
-template <typename Item>
-Json list_of(const std::vector<Item>& items, Json (*item_json)(const Item&)) {
-  Json list = Json::array();
-  for (const Item& item : items) list.push_back(item_json(item));
-  return list;
 }
 
 Json part_json(const SimulatedPart& part) {

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cablefit/report/json_list.hpp"
+
 namespace cablefit::report_json {
 namespace {
 
@@ -10,12 +12,6 @@ Json test_json(const ResidualTest& test) {
               {"value", test.value},         {"p_value", test.p_value},
               {"structure", test.structure}, {"finding", to_string(test.finding)},
               {"verdict", test.verdict}};
-}
-
-Json tests_json(const std::vector<ResidualTest>& tests) {
-  Json json = Json::array();
-  for (const ResidualTest& test : tests) json.push_back(test_json(test));
-  return json;
 }
 
 Json condition_json(const ConditionError& c) {
@@ -33,21 +29,19 @@ Json residual_tests(const std::vector<JudgedEquation>& equations) {
   Json json = Json::array();
   for (const JudgedEquation& e : equations)
     json.push_back(
-        Json{{"model", e.model}, {"equation", e.equation}, {"tests", tests_json(e.tests)}});
+        Json{{"model", e.model}, {"equation", e.equation}, {"tests", list_of(e.tests, test_json)}});
   return json;
 }
 
 Json validation(const Validation& validation) {
   Json equations = Json::array();
   for (const JudgedEquation& e : validation.equations) {
-    Json conditions = Json::array();
-    for (const ConditionError& c : e.conditions) conditions.push_back(condition_json(c));
     equations.push_back(Json{{"model", e.model},
                              {"equation", e.equation},
                              {"noise_floor", e.noise_floor},
                              {"noise_floor_source", e.floor_source},
-                             {"conditions", conditions},
-                             {"tests", tests_json(e.tests)}});
+                             {"conditions", list_of(e.conditions, condition_json)},
+                             {"tests", list_of(e.tests, test_json)}});
   }
   return Json{
       {"logs", validation.logs}, {"linear", validation.linear_name}, {"equations", equations}};
