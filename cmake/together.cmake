@@ -1,9 +1,13 @@
-# Where files use the same templates (Eigen's decompositions, options of CLI11), those of a folder that
-# begin with neighbouring letters are compiled together: the templates once, not once a file. Names in
-# their anonymous namespaces have to differ then.
+# Where files use the same templates (Eigen's decompositions, options of CLI11, JSON), those of a folder
+# that begin with neighbouring letters are compiled together: the templates once, not once a file. Names
+# in their anonymous namespaces have to differ then. FILES: those that the pattern matches.
 function(cablefit_together target folder)
+  cmake_parse_arguments(PARSE_ARGV 2 only "" "FILES" "")
+  if(NOT only_FILES)
+    set(only_FILES "*.cpp")
+  endif()
   foreach(letters a-f g-o p-z)
-    file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/[${letters}]*.cpp)
+    file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/[${letters}]${only_FILES})
     set_source_files_properties(${sources} PROPERTIES UNITY_GROUP "${folder}/${letters}")
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
@@ -11,7 +15,8 @@ function(cablefit_together target folder)
   target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
 endfunction()
 
-foreach(folder design dynamic dynamic/output_error elastic estimate identify refine)
+foreach(folder design dynamic dynamic/output_error elastic estimate identify refine simulate)
   cablefit_together(cablefit lib/cablefit/${folder})
 endforeach()
+cablefit_together(cablefit lib/cablefit/report FILES "*_json.cpp")
 cablefit_together(cablefit_program apps/commands)

@@ -14,18 +14,18 @@ namespace {
 
 using namespace cablefit;
 
-constexpr Eigen::Index kRows = 4000;
+constexpr Eigen::Index kBinnedRows = 4000;
 
 /// A made-up fit: y = W x + noise, W = [speed, sign, 1]; the variable is a position.
 struct Case {
-  Eigen::MatrixXd w = Eigen::MatrixXd(kRows, 3);
-  Eigen::VectorXd position = Eigen::VectorXd(kRows), noise = Eigen::VectorXd(kRows);
+  Eigen::MatrixXd w = Eigen::MatrixXd(kBinnedRows, 3);
+  Eigen::VectorXd position = Eigen::VectorXd(kBinnedRows), noise = Eigen::VectorXd(kBinnedRows);
 
   Case(double rho, std::uint64_t seed) {
     test::Normal normal(seed);
     const double a = normal.uniform(), b = normal.uniform();
     double state = normal() / std::sqrt(1 - rho * rho);
-    for (Eigen::Index i = 0; i < kRows; ++i) {
+    for (Eigen::Index i = 0; i < kBinnedRows; ++i) {
       const double t = 0.005 * static_cast<double>(i);
       position(i) = std::sin(1.7 * t + a) + 0.6 * std::sin(4.3 * t + b);
       const double speed = 1.7 * std::cos(1.7 * t + a) + 2.58 * std::cos(4.3 * t + b);
@@ -37,13 +37,13 @@ struct Case {
 };
 
 std::vector<Eigen::Index> places() {
-  std::vector<Eigen::Index> numbers(kRows);
+  std::vector<Eigen::Index> numbers(kBinnedRows);
   std::iota(numbers.begin(), numbers.end(), 0);
   return numbers;
 }
 
 BinnedTest binned(const Case& c, const Eigen::VectorXd& variable, const Eigen::VectorXd& residual) {
-  BinnedTest test(bin_edges({variable.data(), variable.data() + kRows}, 8), 3, 4);
+  BinnedTest test(bin_edges({variable.data(), variable.data() + kBinnedRows}, 8), 3, 4);
   test.add(places(), variable, residual, c.w);
   return test;
 }
@@ -109,7 +109,7 @@ TEST_CASE("what the regressors explain cannot be tested on the rows they were fi
 
 TEST_CASE("parameters that are uncertain are allowed for on unseen rows", "[estimate]") {
   const Case c(0, 43);
-  const Eigen::VectorXd off = c.noise + 0.2 * Eigen::VectorXd::Ones(kRows);
+  const Eigen::VectorXd off = c.noise + 0.2 * Eigen::VectorXd::Ones(kBinnedRows);
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(3, 3);
   CHECK(binned(c, c.position, off).of_unseen_rows(covariance).p_value < 1e-6);
   covariance(2, 2) = 0.2 * 0.2;

@@ -15,23 +15,23 @@ namespace {
 
 using namespace cablefit;
 
-constexpr Eigen::Index kRows = 6000;
+constexpr Eigen::Index kLogRows = 6000;
 
 /// y = offset 0 + speed 0 + noise of correlation time `rows`.
 struct SlowNoise {
-  RowStatistics rows{3, kRows};
+  RowStatistics rows{3, kLogRows};
   LinearSolution solution;
 
   SlowNoise(double correlation_rows, std::uint64_t seed) {
     test::Normal normal(seed);
     const double rho = correlation_rows > 0 ? std::exp(-1 / correlation_rows) : 0;
     double state = normal() / std::sqrt(1 - rho * rho);
-    Eigen::MatrixXd data(kRows, 3);
-    for (Eigen::Index i = 0; i < kRows; ++i) {
+    Eigen::MatrixXd data(kLogRows, 3);
+    for (Eigen::Index i = 0; i < kLogRows; ++i) {
       state = rho * state + normal();
       data.row(i) << 1, std::sin(0.3 * static_cast<double>(i)), state;
     }
-    std::vector<Eigen::Index> numbers(kRows);
+    std::vector<Eigen::Index> numbers(kLogRows);
     std::iota(numbers.begin(), numbers.end(), 0);
     rows.add(data, numbers);
     LinearProblem problem;
@@ -43,12 +43,12 @@ struct SlowNoise {
   ChosenSd chosen() const { return choose_sd(rows, solution); }
 };
 
-struct Coverage {
+struct BootstrapCoverage {
   int hac = 0, chosen = 0;
 };
 
-Coverage coverage(double correlation_rows, int runs) {
-  Coverage inside;
+BootstrapCoverage coverage(double correlation_rows, int runs) {
+  BootstrapCoverage inside;
   for (int run = 0; run < runs; ++run) {
     const SlowNoise c(correlation_rows, 100 + static_cast<unsigned>(run));
     const double off = std::abs(c.solution.x(0));
@@ -61,7 +61,7 @@ Coverage coverage(double correlation_rows, int runs) {
   std::printf(
       "  correlation time 1/%.0f of the log: offset covered %.1f %% by HAC, %.1f %% as "
       "chosen\n",
-      kRows / correlation_rows, 100.0 * inside.hac / runs, 100.0 * inside.chosen / runs);
+      kLogRows / correlation_rows, 100.0 * inside.hac / runs, 100.0 * inside.chosen / runs);
   return inside;
 }
 
@@ -69,8 +69,8 @@ TEST_CASE("intervals of slow noise hold by the block bootstrap", "[estimate]") {
   // 400 runs: a coverage of 95 % is measured as 91 .. 98.25 % in 99.9 % of all cases. At 1/40 some
   // 15 independent values are left and HAC covers 90 %; at 1/60 it still holds.
   constexpr int kRuns = 400;
-  CHECK(coverage(kRows / 60.0, kRuns).chosen > 0.91 * kRuns);
-  const Coverage slow = coverage(kRows / 40.0, kRuns);
+  CHECK(coverage(kLogRows / 60.0, kRuns).chosen > 0.91 * kRuns);
+  const BootstrapCoverage slow = coverage(kLogRows / 40.0, kRuns);
   CHECK(slow.chosen > 0.90 * kRuns);
   CHECK(slow.hac < 0.92 * kRuns);
 }

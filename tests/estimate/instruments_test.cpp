@@ -93,17 +93,17 @@ TEST_CASE("an instrument that never moves determines nothing", "[estimate]") {
   CHECK_FALSE(s.not_identifiable[1].empty());
 }
 
-constexpr Eigen::Index kRows = 2000;
+constexpr Eigen::Index kDrawnRows = 2000;
 constexpr double kTruth = 2;
 
 /// Rows [1, w, y, z]: y = 0.5 + 2 w + e with e an AR(1) (0.8) of unit variance; w = w0 + share of e
 /// + 0.1 of noise, w0 a sum of sines of unit variance; z = w0, or noise when it is `strange`.
 RowStatistics loop(double share, bool strange, std::uint64_t seed) {
   Normal normal(seed);
-  Eigen::MatrixXd rows(kRows, 4);
+  Eigen::MatrixXd rows(kDrawnRows, 4);
   double e = normal();
-  for (Eigen::Index i = 0; i < kRows; ++i) {
-    const double t = 2 * std::numbers::pi * static_cast<double>(i) / kRows;
+  for (Eigen::Index i = 0; i < kDrawnRows; ++i) {
+    const double t = 2 * std::numbers::pi * static_cast<double>(i) / kDrawnRows;
     const double w0 = std::sin(7 * t) + std::sin(31 * t + 1);
     const double w = w0 + share * e + 0.1 * normal();
     rows.row(i) << 1, w, 0.5 + kTruth * w + e, strange ? normal() : w0;

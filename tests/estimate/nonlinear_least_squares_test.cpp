@@ -14,7 +14,7 @@ namespace {
 using namespace cablefit;
 using cablefit::test::NistNonlinearSet;
 
-double digits(double found, double certified) {
+double certified_digits(double found, double certified) {
   const double relative = std::abs(found - certified) / std::abs(certified);
   return relative > 0 ? std::min(11.0, -std::log10(relative)) : 11;  // certified to 11 digits
 }
@@ -54,14 +54,14 @@ TEST_CASE("NIST nonlinear regression, from both starts", "[estimate]") {
       double of_value = 11, of_sd = 11;
       for (std::size_t k = 0; k < set.value.size(); ++k) {
         const auto i = static_cast<Eigen::Index>(k);
-        of_value = std::min(of_value, digits(solution.x(i), set.value[k]));
-        of_sd = std::min(of_sd, digits(std::sqrt(variance * solution.inverse(i, i)), set.sd[k]));
+        of_value = std::min(of_value, certified_digits(solution.x(i), set.value[k]));
+        of_sd = std::min(of_sd, certified_digits(std::sqrt(variance * solution.inverse(i, i)), set.sd[k]));
       }
       std::printf(
           "  NIST %-8s (%c) start %zu, digits: estimates %4.1f, sd %4.1f, residual sd %4.1f; "
           "%d evaluations; %s\n",
           set.name.c_str(), set.difficulty, s + 1, of_value, of_sd,
-          digits(std::sqrt(variance), set.residual_sd), solution.n_evaluations,
+          certified_digits(std::sqrt(variance), set.residual_sd), solution.n_evaluations,
           solution.message.c_str());
       INFO(set.name << " from start " << s + 1);
       CHECK(of_value >= 6);
