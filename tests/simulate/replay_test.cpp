@@ -154,4 +154,23 @@ TEST_CASE("results do not depend on threads, and come in the order of the logs",
   }
 }
 
+TEST_CASE("only the wanted end of a part is compared", "[simulate]") {
+  // A friction that is wrong shows in both halves; the first of which is simulated all the same.
+  Model model = true_model("low");
+  model.joints.front().link.at(1).parameters.at(0).value *= 2;
+  ReplayOptions options;
+  const SimulatedPart all = simulate_shipped(model, "low/moving_load30.csv", options);
+  options.compared = 0.5;
+  const SimulatedPart end = simulate_shipped(model, "low/moving_load30.csv", options);
+  options.compared = 1e-9;
+  const SimulatedPart last = simulate_shipped(model, "low/moving_load30.csv", options);
+  const double length = static_cast<double>(all.n_rows) * 1e-3;
+  CHECK(end.n_rows == all.n_rows);
+  CHECK(gap_of(all, "deflection").t_of_max < length);
+  CHECK(gap_of(end, "deflection").t_of_max >= 0.5 * (length - 1e-3));
+  CHECK(gap_of(end, "deflection").max_abs <= gap_of(all, "deflection").max_abs);
+  CHECK(gap_of(end, "deflection").rms > 0);
+  CHECK(gap_of(last, "deflection").rms == Approx(gap_of(last, "deflection").max_abs));  // one row
+}
+
 }  // namespace

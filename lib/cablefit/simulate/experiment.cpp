@@ -139,6 +139,8 @@ Experiment plan_experiment(const Model& model, const LogSurvey& log, const PartS
   choose_mode(log.plan, options, experiment);
   choose_hold(log.plan.rig, options, experiment);
   choose_window(options, experiment);
+  if (options.compared < 1)
+    experiment.compared_from = part.t_last - options.compared * (part.t_last - part.t_first);
   tell_refinements(model, experiment);
   require_channels(model, log.plan, part, experiment);
   return experiment;

@@ -2,6 +2,7 @@
 // every choice with its reason.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -23,6 +24,8 @@ struct ReplayOptions {
   /// s; a simulation starts anew from the measured state this often. 0: never. Not given: never in
   /// closed loop, else kReplayWindowSeconds.
   std::optional<double> window;
+  /// How much of the time of every part, its end, is compared; what comes before is only simulated.
+  double compared = 1;
   double step = SimulationOptions{}.step;  ///< s
   std::string trajectories;                ///< CSV file of every row; empty: none
   bool figures = false;                    ///< for reports with plots
@@ -43,7 +46,8 @@ LogSurvey survey_for_simulation(const std::string& log_path, const std::string& 
 struct Experiment {
   Model model;  ///< with the log's rig
   SimulationOptions simulation;
-  double window_seconds = 0;  ///< 0: the whole stretch
+  double window_seconds = 0;                                        ///< 0: the whole stretch
+  double compared_from = -std::numeric_limits<double>::infinity();  ///< s, time of the log
   std::vector<Decision> decisions;
   std::vector<std::string> warnings;
 };

@@ -172,9 +172,14 @@ void PartReplay::diverge(const ReplayedRows& rows, Eigen::Index row) {
 
 void PartReplay::compare(const ReplayedRows& rows) {
   const SimulationResult& s = rows.simulated;
+  const auto n = static_cast<double>(s.theta.rows());
+  const double before = std::ceil((experiment_.compared_from - rows.t0) / rows.period);
+  const auto first = static_cast<Eigen::Index>(std::clamp(before, 0.0, n));
+  const double t0 = rows.t0 + static_cast<double>(first) * rows.period;
   for (Signal& signal : signals_) {
     const auto add = [&](const Eigen::ArrayXd& measured, const Eigen::ArrayXd& simulated) {
-      signal.scan.add(measured, simulated, rows.t0, rows.period);
+      const Eigen::Index compared = simulated.size() - first;
+      signal.scan.add(measured.tail(compared), simulated.tail(compared), t0, rows.period);
     };
     const Eigen::Index k = signal.joint;
     if (signal.is_deflection) {
