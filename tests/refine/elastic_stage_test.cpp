@@ -103,7 +103,7 @@ TEST_CASE("the held-out third of a blocked log knows its history", "[refine][ela
   std::vector<Stretch> train =
       read_stretches(hidden.logs.blocked, hidden.models, [](const PartSurvey&) { return true; });
   const Eigen::Index n = train.front().recording.theta.size();
-  const std::vector<Stretch> test = hold_out_blocked(train, 0.25);
+  const std::vector<Stretch> test = hold_out(train, 0.25, HoldOut::all);
   REQUIRE(test.size() == train.size());
   CHECK(test.front().recording.theta.size() == n);
   CHECK(test.front().rows_from == train.front().recording.theta.size());

@@ -33,6 +33,14 @@ Eigen::MatrixXd toeplitz(const Eigen::VectorXd& covariance, Eigen::Index n) {
   return all;
 }
 
+/// A row every `stride` samples.
+Smoothing rows_every(Eigen::Index stride) {
+  Smoothing smoothing;
+  smoothing.stride = stride;
+  smoothing.period = kPeriod;
+  return smoothing;
+}
+
 KindRows rows_at(std::vector<Eigen::Index> at, RowKind kind = RowKind::link) {
   KindRows rows;
   rows.kind = kind;
@@ -51,11 +59,10 @@ Eigen::MatrixXd columns(Eigen::Index n) {
   return Eigen::MatrixXd::NullaryExpr(n, 2, [&] { return random.normal(); });
 }
 
-RowWhitening link_whitening(const Eigen::VectorXd& covariance, Eigen::Index stride = 1,
-                            double block_seconds = kForever) {
+RowWhitening link_whitening(const Eigen::VectorXd& covariance, double block_seconds = kForever) {
   std::array<Eigen::VectorXd, kRowKinds> all;
   all[kLink] = covariance;
-  return {all, stride, block_seconds};
+  return {all, block_seconds};
 }
 
 }  // namespace
@@ -64,7 +71,7 @@ TEST_CASE("products of whitened rows are those of the inverse covariance", "[ref
   constexpr Eigen::Index kRows = 12;  // none is predicted from fewer rows than there are
   const Eigen::VectorXd covariance = wandering(64, 0.3);
   const Eigen::MatrixXd c = columns(kRows);
-  const Eigen::MatrixXd white = link_whitening(covariance).of(rows_from_0(kRows), kPeriod, c);
+  const Eigen::MatrixXd white = link_whitening(covariance).of(rows_from_0(kRows), rows_every(1), c);
   const Eigen::MatrixXd expected = c.transpose() * toeplitz(covariance, kRows).llt().solve(c);
   const Eigen::MatrixXd found = white.transpose() * white;
   // Both in units of their own: whitened rows stay in N m.
@@ -75,7 +82,8 @@ TEST_CASE("every row is freed of the one before where no other says more", "[ref
   constexpr Eigen::Index kRows = 30;
   const double memory = std::exp(-1.0 / 20);
   const Eigen::MatrixXd c = columns(kRows);
-  const Eigen::MatrixXd white = link_whitening(wandering(64, 0)).of(rows_from_0(kRows), kPeriod, c);
+  const Eigen::MatrixXd white =
+      link_whitening(wandering(64, 0)).of(rows_from_0(kRows), rows_every(1), c);
   Eigen::MatrixXd expected = c;
   expected.bottomRows(kRows - 1) -= memory * c.topRows(kRows - 1);
   expected.row(0) *= std::sqrt(1 - memory * memory);
@@ -94,7 +102,7 @@ TEST_CASE("whitened noise has no memory", "[refine]") {
     wander = memory * wander + std::sqrt(1 - memory * memory) * random.normal();
   }
   const RowWhitening whitening = link_whitening(wandering(64, kNoise));
-  const Eigen::VectorXd white = whitening.of(rows_from_0(kRows), kPeriod, series);
+  const Eigen::VectorXd white = whitening.of(rows_from_0(kRows), rows_every(1), series);
   const auto correlation = [](const Eigen::VectorXd& x, Eigen::Index lag) {
     return x.head(kRows - lag).dot(x.tail(kRows - lag)) / x.squaredNorm();
   };
@@ -105,15 +113,16 @@ TEST_CASE("whitened noise has no memory", "[refine]") {
 TEST_CASE("a hole and a block each begin a prediction anew", "[refine]") {
   constexpr Eigen::Index kHalf = 20, kRows = 2 * kHalf;  // more than a prediction looks back
   const Eigen::VectorXd covariance = wandering(64, 0.3);
+  const Smoothing third = rows_every(3);
   const Eigen::MatrixXd c = columns(kRows);
-  const auto halves = [&](const KindRows& first, const KindRows& second,
+  const auto halves = [&](const KindRows& first, const KindRows& second, const Smoothing& rows,
                           const RowWhitening& whitening) {
     Eigen::MatrixXd both(kRows, 2);
-    both << whitening.of(first, kPeriod, c.topRows(kHalf)),
-        whitening.of(second, kPeriod, c.bottomRows(kHalf));
+    both << whitening.of(first, rows, c.topRows(kHalf)),
+        whitening.of(second, rows, c.bottomRows(kHalf));
     return both;
   };
-  const RowWhitening whitening = link_whitening(covariance, 3);
+  const RowWhitening whitening = link_whitening(covariance);
   std::vector<Eigen::Index> before, after;
   for (Eigen::Index i = 0; i < kHalf; ++i) {
     before.push_back(3 * i);
@@ -121,14 +130,14 @@ TEST_CASE("a hole and a block each begin a prediction anew", "[refine]") {
   }
   std::vector<Eigen::Index> all = before;
   all.insert(all.end(), after.begin(), after.end());
-  CHECK(whitening.of(rows_at(all), kPeriod, c) ==
-        halves(rows_at(before), rows_at(after), whitening));
+  CHECK(whitening.of(rows_at(all), third, c) ==
+        halves(rows_at(before), rows_at(after), third, whitening));
 
-  const RowWhitening blocks = link_whitening(covariance, 1, kHalf * kPeriod);
-  CHECK(blocks.of(rows_from_0(kRows), kPeriod, c) ==
-        halves(rows_from_0(kHalf), rows_from_0(kHalf), blocks));
-  CHECK(blocks.of(rows_from_0(kRows), kPeriod, c) !=
-        link_whitening(covariance).of(rows_from_0(kRows), kPeriod, c));
+  const RowWhitening blocks = link_whitening(covariance, kHalf * kPeriod);
+  CHECK(blocks.of(rows_from_0(kRows), rows_every(1), c) ==
+        halves(rows_from_0(kHalf), rows_from_0(kHalf), rows_every(1), blocks));
+  CHECK(blocks.of(rows_from_0(kRows), rows_every(1), c) !=
+        link_whitening(covariance).of(rows_from_0(kRows), rows_every(1), c));
 }
 
 TEST_CASE("rows of a kind without a memory stay as they are", "[refine]") {
@@ -136,7 +145,7 @@ TEST_CASE("rows of a kind without a memory stay as they are", "[refine]") {
   CHECK_FALSE(RowWhitening().is_needed());
   const RowWhitening whitening = link_whitening(wandering(64, 0.3));
   CHECK(whitening.is_needed());
-  CHECK(whitening.of(rows_at({0, 1, 2}, RowKind::motor), kPeriod, c) == c);
+  CHECK(whitening.of(rows_at({0, 1, 2}, RowKind::motor), rows_every(1), c) == c);
 }
 
 TEST_CASE("what is no autocovariance ends the order", "[refine]") {
@@ -145,8 +154,8 @@ TEST_CASE("what is no autocovariance ends the order", "[refine]") {
   Eigen::VectorXd start(2);
   start << 1, 0.5;
   const Eigen::MatrixXd c = columns(6);
-  CHECK(link_whitening(impossible).of(rows_from_0(6), kPeriod, c) ==
-        link_whitening(start).of(rows_from_0(6), kPeriod, c));
+  CHECK(link_whitening(impossible).of(rows_from_0(6), rows_every(1), c) ==
+        link_whitening(start).of(rows_from_0(6), rows_every(1), c));
 }
 
 TEST_CASE("only rows that wander are whitened, and their noise as far as kernels let it pass",
@@ -158,14 +167,15 @@ TEST_CASE("only rows that wander are whitened, and their noise as far as kernels
   for (const std::size_t kind : {kLink, kMotor}) sensors[kind] = {kPeriod, noise, 1000};
   left[kLink] = {kPeriod, wandering(64, 0) + noise, 1000};
   left[kMotor] = {kPeriod, 1.02 * noise, 1000};
-  const RowWhitening whitening = whitening_of(left, sensors, 1, kForever);
+  const RowWhitening whitening = whitening_of(left, sensors, kForever);
   const Eigen::MatrixXd c = columns(12);
-  CHECK(whitening.of(rows_at({0, 1, 2}, RowKind::motor), kPeriod, c.topRows(3)) == c.topRows(3));
+  CHECK(whitening.of(rows_at({0, 1, 2}, RowKind::motor), rows_every(1), c.topRows(3)) ==
+        c.topRows(3));
 
   Eigen::VectorXd expected(64);
   for (Eigen::Index lag = 0; lag < 64; ++lag)  // Bartlett's window
     expected(lag) = std::exp(-static_cast<double>(lag) / 20) * static_cast<double>(64 - lag) / 64;
   expected(0) += 0.1 + 2 * (0.06 + 0.01);
-  const Eigen::MatrixXd same = link_whitening(expected).of(rows_from_0(12), kPeriod, c);
-  CHECK((whitening.of(rows_from_0(12), kPeriod, c) - same).norm() < 1e-12);
+  const Eigen::MatrixXd same = link_whitening(expected).of(rows_from_0(12), rows_every(1), c);
+  CHECK((whitening.of(rows_from_0(12), rows_every(1), c) - same).norm() < 1e-12);
 }

@@ -66,7 +66,7 @@ TEST_CASE("the held-out third of a moving log knows its history", "[refine][trap
   const auto all = [](const PartSurvey&) { return true; };
   std::vector<Stretch> train = read_stretches(nothing.logs.train, nothing.models, all);
   const Eigen::Index n = train.front().recording.theta.size();
-  const std::vector<Stretch> test = hold_out(train, 0.25);
+  const std::vector<Stretch> test = hold_out(train, 0.25, HoldOut::moving);
   REQUIRE(test.size() == train.size());
   CHECK(train.front().recording.theta.size() == 3 * n / 4);
   CHECK(test.front().recording.theta.size() == n);

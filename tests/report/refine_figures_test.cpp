@@ -85,8 +85,8 @@ std::vector<Figure> figures_of(const Fitted& before, const Fitted& after) {
   LogSurvey log;
   log.plan.path = "logs/swing.csv";
   const std::vector<LogSurvey> logs = {log};
-  const BeforeAfter rows{logs, before.design, before.x, after.design, after.x};
-  return refine_figures(result_of(), rows, rows, {1, 0.01, 1});
+  const BeforeAfter rows{logs, before.design, before.x, after.design, after.x, {1, 0.01, 1}};
+  return refine_figures(result_of(), rows, rows);
 }
 
 const Figure& titled(const std::vector<Figure>& figures, const std::string& title) {

@@ -67,6 +67,7 @@ std::vector<TwinStretch> read_stretches(const LogSurvey& log, std::size_t number
       stretches.back().part = window.part;
       stretches.back().t0 = window.t0;
       stretches.back().input.period = window.period;
+      stretches.back().input.t0 = window.t0 - log.parts.front().t_first;
     }
     append(stretches.back(), window);
     return true;

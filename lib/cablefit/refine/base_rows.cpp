@@ -104,9 +104,17 @@ void set_base_values(const BaseLayout& layout, const Eigen::VectorXd& values, Mo
     set_parameter_value(model, layout.parameters[k], values(static_cast<Eigen::Index>(k)));
 }
 
+Eigen::Index count_rows(const std::vector<StretchRows>& rows) {
+  Eigen::Index n = 0;
+  for (const StretchRows& stretch : rows)
+    for (const KindRows& kind : stretch.kinds) n += kind.response.size();
+  return n;
+}
+
 StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayout& layout,
-                      const Smoothing& smoothing, const StretchRows* kept) {
+                      const Smoothing& wanted, const StretchRows* kept) {
   StretchRows rows;
+  const Smoothing smoothing = suited(wanted, stretch.recording.period);
   const bool held = model.rig.torque_hold != TorqueHold::none;
   rows.motion = std::make_shared<const SmoothMotion>(
       smooth_motion_of(stretch.recording, stretch.t0, held, smoothing));
@@ -130,9 +138,10 @@ StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayo
 }
 
 StretchRows rows_of_torque(const StretchRows& kept, const Stretch& changed, const Model& model,
-                           const Smoothing& smoothing) {
+                           const Smoothing& wanted) {
   StretchRows rows = kept;
   const Recording& r = changed.recording;
+  const Smoothing smoothing = suited(wanted, r.period);
   SmoothMotion motion = *kept.motion;
   motion.tau = smooth_torque(r, model.rig.torque_hold != TorqueHold::none, smoothing);
   const Kernel filter = gaussian(smoothing.columns, r.period);
@@ -145,7 +154,8 @@ StretchRows rows_of_torque(const StretchRows& kept, const Stretch& changed, cons
 StretchRows rows_of_cables(const StretchRows& kept, const BaseLayout& before, const Model& model,
                            const BaseLayout& layout, const Smoothing& smoothing) {
   StretchRows rows = kept;
-  const Kernel filter = gaussian(smoothing.columns, kept.motion->period);
+  const Kernel filter =
+      gaussian(suited(smoothing, kept.motion->period).columns, kept.motion->period);
   const Eigen::Index effects = before.n_link + before.n_motor;
   for (KindRows& k : rows.kinds) {
     Eigen::MatrixXd elastic(kept.motion->size(), layout.n_elastic);

@@ -42,6 +42,8 @@ struct StretchRows {
   std::vector<KindRows> kinds;
 };
 
+Eigen::Index count_rows(const std::vector<StretchRows>& rows);
+
 /// `kept`: take the rows of these instead of choosing, so that a changed recording can be compared
 /// row by row.
 StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayout& layout,

@@ -59,8 +59,7 @@ RefineState with_best_shapes(const RefineBench& bench, RefineState state) {
   if (!moved) return state;
   state.rho = bench.rho(state.design, *best);
   state.unseen = gap_of(state.test, state.x, bench.test_floor, seconds);
-  state.simulated =
-      simulated_gap(models_with(state.design, state.x), bench.unseen, bench.options.threads);
+  state.simulated = bench.simulated(models_with(state.design, state.x));
   return state;
 }
 

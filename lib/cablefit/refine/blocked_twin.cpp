@@ -103,9 +103,10 @@ BlockedTwin::Sensors sensors_of(const Rig& rig, const Recording& r) {
 }  // namespace
 
 BlockedTwin make_blocked_twin(const std::vector<Model>& models, std::vector<Stretch> stretches,
-                              const Smoothing& smoothing) {
+                              const Smoothing& wanted) {
   BlockedTwin twin;
   for (Stretch& stretch : stretches) {
+    const Smoothing smoothing = suited(wanted, stretch.recording.period);
     const Model& model = models[stretch.model];
     twin.sensors.push_back(sensors_of(model.rig, stretch.recording));
     const bool held = model.rig.torque_hold != TorqueHold::none;

@@ -22,7 +22,7 @@ bool is_better(double before, double after, double visible, double as_good) {
 
 constexpr double kLittle = 0.25;             // of the gap
 constexpr double kLikely = 1;                // sd, that a gain on unseen rows is one
-constexpr double kChanceOfSize = 0.01 / 40;  // 1 % over the rows of the catalogue
+constexpr double kChanceOfSize = 0.01 / 40;  // 1 % over the rows of a search
 constexpr double kSureSize = 1e-6;           // of which the training rows leave no doubt
 
 /// Share of the gap: of the unseen rows' where these are sure of it, of the training rows' else.

@@ -32,7 +32,7 @@ std::vector<LogSurvey> logs_of(const Model& model, std::span<const LogSurvey> lo
 }  // namespace
 
 SimulatedGap simulated_gap(std::span<const Model> models, std::span<const LogSurvey> logs,
-                           int threads) {
+                           int threads, double compared) {
   SimulatedGap gap;
   Sum deflection, tau;
   for (const Model& model : models) {
@@ -40,6 +40,7 @@ SimulatedGap simulated_gap(std::span<const Model> models, std::span<const LogSur
     if (own.empty()) continue;
     ReplayOptions options;
     options.threads = threads;
+    options.compared = compared;
     try {
       for (const SimulatedPart& part : simulate_logs(model, own, options).parts) {
         if (!part.diverged.empty()) gap.failure = part.diverged;

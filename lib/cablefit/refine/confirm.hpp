@@ -19,8 +19,9 @@ struct SimulatedGap {
 };
 
 /// Simulates the moving parts of the logs, each by the model of its preload (a single one: all).
+/// `compared`: see ReplayOptions.
 SimulatedGap simulated_gap(std::span<const Model> models, std::span<const LogSurvey> logs,
-                           int threads);
+                           int threads, double compared = 1);
 
 /// Both gaps in units of their floor, squared and summed.
 double in_floors(const SimulatedGap& gap, const SimulatedGap& floor);

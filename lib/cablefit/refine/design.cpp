@@ -1,5 +1,7 @@
 #include "cablefit/refine/design.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -30,14 +32,16 @@ double least_speed(const std::vector<Stretch>& stretches, Eigen::ArrayXd Recordi
   double noise = kUnbounded, squares = 0, n = 0, per_noise = 0;
   for (const Stretch& stretch : stretches) {
     if (of_link && stretch.blocked) continue;
-    const Kernel slope = gaussian_slope(smoothing.signals, stretch.recording.period);
+    const double period = stretch.recording.period;
+    const Kernel slope = gaussian_slope(suited(smoothing, period).signals, period);
     const Eigen::ArrayXd& x = stretch.recording.*signal;
-    noise = std::min(noise, encoder_noise(x));
+    if (const double own = encoder_noise(x); own > 0) noise = std::min(noise, own);  // 0: stood
     per_noise = std::max(per_noise, slope.weights.matrix().norm());
     squares += apply(slope, x).square().sum();
     n += static_cast<double>(x.size());
   }
   if (n == 0) return 0;
+  if (!std::isfinite(noise)) noise = 0;
   return std::max(kQuietSpeeds * per_noise * noise, kShareOfSpeed * std::sqrt(squares / n));
 }
 
@@ -130,6 +134,10 @@ bool is_free(const Variant& variant, std::size_t shape) {
   return !grid.is_whole && !(variant.is_plain && grid.canonical > 0);
 }
 
+Smoothing Design::smoothing_of(std::size_t stretch) const {
+  return suited(smoothing, stretches[stretch].recording.period);
+}
+
 Eigen::Index Design::n_columns() const {
   Eigen::Index n = layout.n();
   for (const Variant& variant : added) n += n_linear(variant);
@@ -218,12 +226,13 @@ VariantColumns residuals(const std::vector<StretchRows>& rows, const Eigen::Vect
 
 std::vector<StretchRows> whitened(const Design& design, std::vector<StretchRows> rows) {
   if (!design.whitening.is_needed()) return rows;
-  for (std::size_t s = 0; s < rows.size(); ++s)
+  for (std::size_t s = 0; s < rows.size(); ++s) {
+    const Smoothing smoothing = design.smoothing_of(s);
     for (KindRows& kind : rows[s].kinds) {
-      const double period = design.stretches[s].recording.period;
-      kind.base = design.whitening.of(kind, period, kind.base);
-      kind.response = design.whitening.of(kind, period, kind.response);
+      kind.base = design.whitening.of(kind, smoothing, kind.base);
+      kind.response = design.whitening.of(kind, smoothing, kind.response);
     }
+  }
   return rows;
 }
 
@@ -231,8 +240,8 @@ VariantColumns whitened(const Design& design, VariantColumns columns) {
   if (!design.whitening.is_needed()) return columns;
   for (std::size_t s = 0; s < columns.size(); ++s)
     for (std::size_t k = 0; k < columns[s].size(); ++k)
-      columns[s][k] = design.whitening.of(design.rows[s].kinds[k],
-                                          design.stretches[s].recording.period, columns[s][k]);
+      columns[s][k] =
+          design.whitening.of(design.rows[s].kinds[k], design.smoothing_of(s), columns[s][k]);
   return columns;
 }
 
@@ -241,6 +250,9 @@ Design with_variant(const Design& design, const Variant& variant, const Eigen::V
   const Refinement& row = *variant.refinement;
   if (replaces_rows(variant)) {
     out.rows = replaced_rows(design, variant);
+    if (out.rows.empty())
+      throw Error(ErrorKind::not_identifiable,
+                  fmt::format("no cables have {} beside what the model has already", row.name));
     if (row.change != nullptr)
       for (Model& model : out.models)
         model.transmission = *row.change(model.transmission, variant.shape.data());

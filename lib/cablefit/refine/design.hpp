@@ -43,6 +43,8 @@ struct Design {
   LogScale scale;
   RowWhitening whitening;  ///< of the rows before they are fitted
   Eigen::Index n_columns() const;
+  /// Of the rows of a stretch.
+  Smoothing smoothing_of(std::size_t stretch) const;
 };
 
 /// `models`: of the same structure, one per preload. The least speeds of the smoothing are chosen

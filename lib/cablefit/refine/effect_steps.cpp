@@ -35,12 +35,11 @@ RefineEvidence evidence_of(const RefineBench& bench, const RefineState& before,
 /// `reason`: of a refusal.
 RefineStep step_of(const RefineBench& bench, const Trial& trial, const std::string& reason) {
   const Refinement& row = *trial.winner.variant.refinement;
-  const double unit = bench.floor[static_cast<std::size_t>(RowKind::motor)];
   RefineStep step;
   step.added = row.name;
   step.side = to_string(row.site);
-  step.gap_train = unit * std::sqrt(trial.after.rho);
-  step.gap_test = unit * std::sqrt(trial.after.unseen.rho);
+  step.gap_train = bench.unit() * std::sqrt(trial.after.rho);
+  step.gap_test = bench.unseen_unit() * std::sqrt(trial.after.unseen.rho);
   step.reason = reason;
   step.accepted = reason.empty();
   return step;
@@ -60,17 +59,20 @@ bool is_after_event(const RefineBench& bench, const Variant& variant) {
   return variant.refinement->lasts() && (is_held_out || !variant.ends_with_log);
 }
 
-/// Of the last effect's coefficients: Wald's test with the sandwich over the blocks, whose
-/// residuals may wander (White 1980). 0 for what has none.
+/// Of the last effect's coefficients, with the sandwich over the blocks, whose residuals may wander
+/// (White 1980), and as few as there are (Hotelling 1931). 0 for what has none.
 double chance_of_size(const RefineBench& bench, const RefineState& after) {
   const Eigen::Index n = n_linear(after.design.added.back());
   if (n == 0) return 0;
-  const auto fit =
-      fit_blocks(block_grams(after.design, bench.scan.block_seconds), after.levels, false);
-  if (!fit) return 1;
+  const BlockGrams grams = block_grams(after.design, bench.scan.block_seconds);
+  const auto fit = fit_blocks(grams, after.levels, false);
+  const Eigen::Index blocks = count_blocks(grams);
+  if (!fit || blocks <= n) return 1;
   const Eigen::VectorXd size = fit->x.tail(n);
   const Eigen::MatrixXd covariance = fit->covariance.bottomRightCorner(n, n);
-  return chi_squared_tail(size.dot(covariance.ldlt().solve(size)), static_cast<double>(n));
+  const auto p = static_cast<double>(n), b = static_cast<double>(blocks);
+  const double squared = size.dot(covariance.ldlt().solve(size));
+  return f_tail((b - p) / (p * b) * squared, p, b - p);
 }
 
 UnseenChange change_of(const RefineBench& bench, const Refinement& row, const RefineState& before,

@@ -76,7 +76,7 @@ bool may_have_ended(const RefineBench& bench, const RefineState& state, const Va
 
 std::optional<RefineState> with_candidate(const RefineBench& bench, const RefineState& state,
                                           const Search& found, const Candidate& winner) {
-  if (!applies(state.design, winner.variant)) return {};
+  if (!applies(state.design, winner.variant) || !applies(state.test, winner.variant)) return {};
   RefineState next;
   next.design = with_variant(state.design, winner.variant, found.fit.x);
   next.test = with_variant(state.test, winner.variant, found.fit.x);
@@ -86,8 +86,7 @@ std::optional<RefineState> with_candidate(const RefineBench& bench, const Refine
   next.x = fit->x;
   next.rho = bench.rho(next.design, *fit);
   next.unseen = gap_of(next.test, next.x, bench.test_floor, bench.scan.block_seconds);
-  next.simulated =
-      simulated_gap(models_with(next.design, next.x), bench.unseen, bench.options.threads);
+  next.simulated = bench.simulated(models_with(next.design, next.x));
   return next;
 }
 

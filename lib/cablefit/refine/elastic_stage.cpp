@@ -116,8 +116,8 @@ double enough_rows(const Design& design) {
   for (std::size_t k = 0; k < design.stretches.size(); ++k) {
     double n = 0;
     for (const KindRows& kind : design.rows[k].kinds) n += static_cast<double>(kind.at.size());
-    const auto all =
-        static_cast<double>(design.stretches[k].recording.theta.size() / design.smoothing.stride);
+    const auto all = static_cast<double>(design.stretches[k].recording.theta.size() /
+                                         design.smoothing_of(k).stride);
     sum += std::min(1.0, n / (kEnough * std::max(1.0, all)));
   }
   return sum / static_cast<double>(design.stretches.size());
@@ -203,12 +203,13 @@ Smoothing blocked_smoothing(std::span<const Model> models, const std::vector<Str
   constexpr double kOfTravel = 0.004;  // of the time for the whole range
   constexpr double kWidest = 0.1;      // s
   constexpr double kWider = 1.6, kAlmost = 0.95;
-  const double period = stretches.front().recording.period;
+  const double period = finest_period(stretches, true);
   const Smoothing narrowest = smoothing_for(period);
-  double width = std::clamp(kOfTravel * travel_time(stretches), narrowest.signals, kWidest);
+  const double widest = std::max(kWidest, narrowest.signals);
+  double width = std::clamp(kOfTravel * travel_time(stretches), narrowest.signals, widest);
   Smoothing best;
   double most = -1;
-  for (; width <= kWider * kWidest; width *= kWider) {
+  for (; width <= kWider * widest; width *= kWider) {
     // A row asks for the same sign of the speed all over its kernel: that does not happen at rest.
     constexpr double kOfUsual = 0.5;
     Smoothing tried = make_design(models, stretches, widened(narrowest, width, period)).smoothing;
@@ -228,25 +229,6 @@ std::vector<Model> with_visible_effects(std::vector<Model> models,
              least_visible(design_of(models, stretches, smoothing), block_seconds))
     remove(least, models);
   return models;
-}
-
-std::vector<Stretch> hold_out_blocked(std::vector<Stretch>& stretches, double share) {
-  std::vector<Stretch> held;
-  for (Stretch& stretch : stretches) {
-    held.push_back(stretch);
-    const Eigen::Index n = stretch.recording.theta.size();
-    const auto kept = static_cast<Eigen::Index>((1 - share) * static_cast<double>(n));
-    held.back().rows_from = kept;
-    for (Eigen::ArrayXd Recording::*signal :
-         {&Recording::q, &Recording::theta, &Recording::tau, &Recording::tau_load})
-      stretch.recording.*signal = Eigen::ArrayXd((stretch.recording.*signal).head(kept));
-  }
-  return held;
-}
-
-bool has_rows(const std::vector<Model>& models, const std::vector<Stretch>& stretches,
-              const Smoothing& smoothing) {
-  return !stretches.empty() && enough_rows(make_design(models, stretches, smoothing)) > 0;
 }
 
 bool is_candidate(const Refinement& refinement, const Design& design) {

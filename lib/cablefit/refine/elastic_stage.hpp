@@ -38,14 +38,6 @@ std::vector<Model> with_visible_effects(std::vector<Model> models,
                                         const std::vector<Stretch>& stretches,
                                         const Smoothing& smoothing, double block_seconds);
 
-/// The last `share` (0..1) of every blocked stretch, taken from it. What comes before stays its
-/// history: hysteresis and creep do not begin anew.
-std::vector<Stretch> hold_out_blocked(std::vector<Stretch>& stretches, double share);
-
-/// Whether any row of these is in motion.
-bool has_rows(const std::vector<Model>& models, const std::vector<Stretch>& stretches,
-              const Smoothing& smoothing);
-
 /// Whether a row of the catalogue may be named from these rows: any with moving logs, else those
 /// that a blocked link can tell apart.
 bool is_candidate(const Refinement& refinement, const Design& design);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 namespace cablefit {
@@ -183,6 +184,19 @@ KindLevels BlockFit::rms() const {
   return out;
 }
 
+Eigen::Index count_blocks(const BlockGrams& grams) {
+  return std::count_if(grams.blocks.begin(), grams.blocks.end(),
+                       [](const BlockGrams::Block& block) {
+                         return std::any_of(block.n_rows.begin(), block.n_rows.end(),
+                                            [](Eigen::Index n) { return n > 0; });
+                       });
+}
+
+double BlockFit::held_out_error(const BlockFit& base) const {
+  if ((alone && !base.alone).any()) return kUnbounded;
+  return base.alone.select(0, held_out).sum();
+}
+
 std::optional<BlockFit> fit_blocks(const BlockGrams& grams, const KindLevels& levels,
                                    bool with_held_out, const OwnPart& own) {
   const Eigen::Index n = 1 + grams.n_columns;
@@ -198,6 +212,7 @@ std::optional<BlockFit> fit_blocks(const BlockGrams& grams, const KindLevels& le
   fit.x = all->x;
   const auto n_blocks = static_cast<Eigen::Index>(each.size());
   fit.in_sample = fit.held_out = Eigen::ArrayXd::Zero(n_blocks);
+  fit.alone.setConstant(n_blocks, false);
   Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(n - 1, n - 1);
   Eigen::VectorXd c(n);
   c << 1.0, -fit.x;
@@ -209,7 +224,12 @@ std::optional<BlockFit> fit_blocks(const BlockGrams& grams, const KindLevels& le
     fit.in_sample(b) = std::max(0.0, c.dot(gc));
     if (!with_held_out || !(g(0, 0) > 0)) continue;
     const auto others = solve_normal(total - g, false, {});
-    fit.held_out(b) = others ? squared_error(g, others->x) : kUnbounded;
+    fit.alone(b) = !others;
+    if (!others) continue;
+    fit.held_out(b) = squared_error(g, others->x);
+    for (std::size_t k = 0; k < kRowKinds; ++k)
+      fit.held_out_rows[k] +=
+          static_cast<double>(grams.blocks[static_cast<std::size_t>(b)].n_rows[k]);
   }
   fit.covariance = all->inverse * meat * all->inverse;
   add_kind_sums(grams, fit);

@@ -24,6 +24,9 @@ struct BlockGrams {
   std::vector<Block> blocks;
 };
 
+/// Those that have rows.
+Eigen::Index count_blocks(const BlockGrams& grams);
+
 /// Blocks of `block_seconds`; consecutive rows stay together, as residuals are correlated.
 BlockGrams block_grams(const std::vector<StretchRows>& rows, const std::vector<Stretch>& stretches,
                        double block_seconds);
@@ -49,13 +52,17 @@ Eigen::MatrixXd weighted_sum(const BlockGrams& grams, const KindLevels& levels);
 
 /// A weighted fit, rows weighted by 1/level^2 of their kind.
 struct BlockFit {
-  Eigen::VectorXd x;                        ///< n_columns
-  Eigen::ArrayXd held_out;                  ///< per block: squared error predicted by the others
-  Eigen::ArrayXd in_sample;                 ///< per block
-  std::array<double, kRowKinds> squares{};  ///< sum of squared residuals, (N m)^2
+  Eigen::VectorXd x;        ///< n_columns
+  Eigen::ArrayXd held_out;  ///< per block: squared error predicted by the others
+  Eigen::Array<bool, Eigen::Dynamic, 1> alone;  ///< blocks that the others cannot predict: 0 there
+  Eigen::ArrayXd in_sample;                     ///< per block
+  std::array<double, kRowKinds> squares{};      ///< sum of squared residuals, (N m)^2
   std::array<double, kRowKinds> n_rows{};
-  Eigen::MatrixXd covariance;  ///< of x, sandwich over the blocks
+  std::array<double, kRowKinds> held_out_rows{};  ///< those of held_out
+  Eigen::MatrixXd covariance;                     ///< of x, sandwich over the blocks
   KindLevels rms() const;
+  /// Sum of held_out; infinite where a block is alone that was not in `base`.
+  double held_out_error(const BlockFit& base) const;
 };
 
 /// The last `n_last` columns have to bring something of their own: the squared part of each (of

@@ -1,9 +1,11 @@
 #include "cablefit/refine/final_fit.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "cablefit/estimate/scaled_solve.hpp"
 #include "cablefit/refine/shape_moves.hpp"
@@ -14,30 +16,28 @@ namespace {
 constexpr double kShapeStep = 0.02;  // of the unit of a nonlinear parameter
 constexpr double kDateStep = 5e-3;   // s, of an event
 
-Eigen::Index count_rows(const std::vector<StretchRows>& rows) {
-  Eigen::Index n = 0;
-  for (const StretchRows& stretch : rows)
-    for (const KindRows& kind : stretch.kinds) n += kind.response.size();
-  return n;
-}
-
-/// The design with all variants again, one of them another.
-Design with_other(const Design& undone, const Design& design, const Eigen::VectorXd& x,
-                  std::size_t which, const Variant& other) {
+/// The design with all variants again, one of them another; nothing where they do not apply.
+std::optional<Design> with_other(const Design& undone, const Design& design,
+                                 const Eigen::VectorXd& x, std::size_t which,
+                                 const Variant& other) {
   Design out = undone;
-  for (std::size_t k = 0; k < design.added.size(); ++k)
-    out = with_variant(out, k == which ? other : design.added[k], x.head(out.n_columns()));
+  for (std::size_t k = 0; k < design.added.size(); ++k) {
+    const Variant& variant = k == which ? other : design.added[k];
+    if (!applies(out, variant)) return {};
+    out = with_variant(out, variant, x.head(out.n_columns()));
+  }
   return out;
 }
 
 /// Derivative of the residuals by something nonlinear of one variant, central, from the variant
-/// with `step` more and less of it.
+/// with `step` more and less of it; 0, which tells nothing, where there is none of these.
 VariantColumns derivative(const Design& undone, const Design& design, const Eigen::VectorXd& x,
                           std::size_t which, const std::array<Variant, 2>& less_more, double step) {
-  const Design less = with_other(undone, design, x, which, less_more[0]);
-  const Design more = with_other(undone, design, x, which, less_more[1]);
-  VariantColumns column = residuals(more.rows, x);
-  const VariantColumns low = residuals(less.rows, x);
+  const auto less = with_other(undone, design, x, which, less_more[0]);
+  const auto more = with_other(undone, design, x, which, less_more[1]);
+  const bool is_there = less && more;
+  VariantColumns column = residuals(is_there ? more->rows : design.rows, x);
+  const VariantColumns low = is_there ? residuals(less->rows, x) : column;
   for (std::size_t s = 0; s < column.size(); ++s)
     for (std::size_t k = 0; k < column[s].size(); ++k)
       column[s][k] = (column[s][k] - low[s][k]) / (2 * step);
@@ -77,8 +77,9 @@ Eigen::MatrixXd noise_covariance(const BlockGrams& grams, const KindLevels& leve
 
 /// How many neighbouring rows are worth one: sum of the autocorrelation of white noise behind the
 /// kernel of the columns.
-double rows_per_value(const Smoothing& smoothing, double period) {
-  const double step = static_cast<double>(smoothing.stride) * period / (2 * smoothing.columns);
+double rows_per_value(const Smoothing& smoothing) {
+  const double step =
+      static_cast<double>(smoothing.stride) * smoothing.period / (2 * smoothing.columns);
   double sum = 1;
   for (int k = 1; k * step < 3; ++k) sum += 2 * std::exp(-(k * step) * (k * step));
   return sum;
@@ -126,10 +127,9 @@ FinalFit final_fit(const Design& undone, const Design& design, const KindLevels&
   fit.x = solve_scaled(a, b).x;
   fit.rms = rms_of(block_grams(design.rows, design.stretches, block_seconds), fit.x);
   const BlockGrams grams = with_shape_columns(undone, design, fit.x, block_seconds);
-  const double period = design.stretches.front().recording.period;
-  fit.covariance = told_covariance(grams, levels, p, rows_per_value(design.smoothing, period));
+  fit.covariance = told_covariance(grams, levels, p, rows_per_value(design.smoothing));
   fit.degrees_of_freedom = std::max(
-      1.0, static_cast<double>(grams.blocks.size()) - static_cast<double>(grams.n_columns));
+      1.0, static_cast<double>(count_blocks(grams)) - static_cast<double>(grams.n_columns));
   return fit;
 }
 

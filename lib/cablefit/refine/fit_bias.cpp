@@ -88,8 +88,7 @@ RefineState without_bias(const RefineBench& bench, const RefineState& state,
   out.x = state.x - bias.x;
   out.design = with_shapes(std::move(out.design), -bias.shapes, out.x);
   out.test = with_shapes(std::move(out.test), -bias.shapes, out.x);
-  out.simulated =
-      simulated_gap(models_with(out.design, out.x), bench.unseen, bench.options.threads);
+  out.simulated = bench.simulated(models_with(out.design, out.x));
   if (state.simulated.known() && !out.simulated.known()) return state;
   out.unseen = gap_of(out.test, out.x, bench.test_floor, bench.scan.block_seconds);
   return out;

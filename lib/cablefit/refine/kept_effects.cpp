@@ -71,11 +71,12 @@ void require_own_columns(const Design& bare, const std::vector<Variant>& kept,
   }
 }
 
-/// Squared error on held-out blocks with a variant added.
-double error_with(const Design& design, const Variant& variant, const Eigen::VectorXd& values,
-                  const KindLevels& levels, const ScanSettings& settings) {
+/// Squared error on held-out blocks with a variant added. `base`: without it.
+double error_with(const Design& design, const BlockFit& base, const Variant& variant,
+                  const Eigen::VectorXd& values, const KindLevels& levels,
+                  const ScanSettings& settings) {
   const auto fit = fit_blocks(grams_of(with_variant(design, variant, values), settings), levels);
-  return fit ? fit->held_out.sum() : kUnbounded;
+  return fit ? fit->held_out_error(base) : kUnbounded;
 }
 
 /// With the nonlinear parameters that the rows have, everything beside it refitted. `others`: the
@@ -91,8 +92,8 @@ Variant followed(const Design& others, const Variant& variant, const Eigen::Vect
   Candidate given;
   given.variant = variant;
   const Variant moved = refined_shape({others, grams, *fit, levels}, settings, given).variant;
-  const bool better = error_with(others, moved, values, levels, settings) <
-                      error_with(others, variant, values, levels, settings);
+  const bool better = error_with(others, *fit, moved, values, levels, settings) <
+                      error_with(others, *fit, variant, values, levels, settings);
   return better ? moved : variant;
 }
 

@@ -87,7 +87,7 @@ RowGap gap_of(BlockGrams grams, const Eigen::VectorXd& x, const KindLevels& floo
 double floor_error(const BlockFit& fit, const KindLevels& floor, const KindLevels& levels) {
   double sum = 0;
   for (std::size_t k = 0; k < kRowKinds; ++k)
-    sum += fit.n_rows[k] * floor[k] * floor[k] / (levels[k] * levels[k]);
+    sum += fit.held_out_rows[k] * floor[k] * floor[k] / (levels[k] * levels[k]);
   return sum;
 }
 

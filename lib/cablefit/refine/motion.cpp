@@ -55,6 +55,25 @@ Smoothing smoothing_for(double period) {
   s.every = samples >= 4 ? 2 : 1;
   s.stride = s.every *
              std::max<Eigen::Index>(1, std::llround(1.2 * samples / static_cast<double>(s.every)));
+  s.period = period;
+  return s;
+}
+
+Smoothing suited(const Smoothing& smoothing, double period) {
+  if (period == smoothing.period) return smoothing;
+  const double wider = std::max(1.0, kSamplesPerWidth * period / smoothing.signals);
+  const auto samples = [&](double seconds, Eigen::Index unit) {
+    const double units = seconds / period / static_cast<double>(unit);
+    return unit * std::max<Eigen::Index>(1, std::llround(units));
+  };
+  Smoothing s = smoothing;
+  s.signals *= wider;
+  s.columns *= wider;
+  const double every = static_cast<double>(smoothing.every) * smoothing.period;
+  // Coarser than half its width a kernel is not sampled.
+  s.every = samples(std::min(every, s.columns / 2), 1);
+  s.stride = samples(wider * static_cast<double>(smoothing.stride) * smoothing.period, s.every);
+  s.period = period;
   return s;
 }
 

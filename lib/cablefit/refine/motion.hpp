@@ -18,11 +18,15 @@ struct Smoothing {
   double signals = 2.5e-3, columns = 5e-3;
   Eigen::Index stride = 6;  ///< samples from row to row
   Eigen::Index every = 2;   ///< samples from one evaluation of a candidate to the next
+  double period = 1e-3;     ///< s, of these samples
   double least_speed_theta = 0, least_speed_q = 0;  ///< rad/s; slower rows are at rest
 };
 
 /// For a recording of this period (s): the widths above, wider where the sampling is coarse.
 Smoothing smoothing_for(double period);
+/// The same for a stretch of another period: kernels as wide where that is sampled finely enough,
+/// rows and evaluations as far apart.
+Smoothing suited(const Smoothing& smoothing, double period);
 
 enum class RowKind { link, motor, blocked };
 inline constexpr std::size_t kRowKinds = 3;

@@ -158,12 +158,12 @@ void tell_groups_apart(const NextRunInput& input, RefineResult& result) {
   if (most == votes.end() || *most == 0) return;
   const TrialRun& run = input.runs[static_cast<std::size_t>(most - votes.begin())];
   take(run, result);
-  if (!result.next_experiment.empty()) return;
   const int number = static_cast<int>(most - votes.begin());
   const auto asked =
       std::find_if(result.not_separable.begin(), result.not_separable.end(),
                    [number](const NotSeparable& group) { return group.run == number; });
-  result.next_experiment = fmt::format(
+  if (!result.next_experiment.empty()) result.next_experiment += "; then ";
+  result.next_experiment += fmt::format(
       "{}: it tells {}{}", text_of(run, result.linear_motion), told_apart(*asked),
       *most > 1 ? fmt::format(" ({} of {} groups of that kind)", *most, result.not_separable.size())
                 : "");

@@ -32,7 +32,8 @@ void move_aside(Twin& twin, Random& random) {
 }
 
 /// rms of what the rows see of an acceleration.
-double rms_acceleration(const Eigen::ArrayXd& theta, double period, const Smoothing& smoothing) {
+double rms_acceleration(const Eigen::ArrayXd& theta, double period, const Smoothing& wanted) {
+  const Smoothing smoothing = suited(wanted, period);
   const Eigen::ArrayXd rough = apply(gaussian_curvature(smoothing.signals, period), theta);
   const Eigen::ArrayXd smooth = apply(gaussian(smoothing.columns, period), rough);
   return std::sqrt(smooth.square().mean());
@@ -144,7 +145,7 @@ std::vector<Stretch> NullBench::draw(std::uint64_t seed, int threads) const {
     const auto& motor = parts_->disturbance.motor;
     std::vector<Stretch> blocked =
         cablefit::record(parts_->blocked, motor.empty() ? ArModel{} : motor.front(), seed);
-    if (parts_->held_back > 0) hold_out_blocked(blocked, parts_->held_back);
+    if (parts_->held_back > 0) hold_out(blocked, parts_->held_back, HoldOut::all);
     return blocked;
   }
   std::vector<Stretch> all;
@@ -153,14 +154,21 @@ std::vector<Stretch> NullBench::draw(std::uint64_t seed, int threads) const {
     const std::span<const Model> model(&parts_->models[recorded[k].model], 1);
     for (Stretch& stretch :
          read_stretches(recorded[k].logs, model, [](const PartSurvey&) { return true; })) {
-      stretch.log = parts_->twins[k].logs[stretch.log];
+      const PreloadTwin& twin = parts_->twins[k];
+      const std::size_t log = twin.logs[stretch.log];
+      // Of the log only the parts of this preload were recorded: time counts from its beginning.
+      const double late = recorded[k].logs[stretch.log].parts.front().t_first -
+                          twin.twin.parts[log].front().t_first;
+      for (double Stretch::*t : {&Stretch::t0, &Stretch::part_begin, &Stretch::part_end})
+        stretch.*t += late;
+      stretch.log = log;
       stretch.model = recorded[k].model;
       all.push_back(std::move(stretch));
     }
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const Stretch& a, const Stretch& b) { return a.log < b.log; });
-  if (parts_->held_back > 0) hold_out(all, parts_->held_back);
+  if (parts_->held_back > 0) hold_out(all, parts_->held_back, HoldOut::moving);
   return all;
 }
 

@@ -31,15 +31,14 @@ bool simulates_an_event(const RefineResult& result) {
          });
 }
 
-/// Torques of rows weighted so that every equation has the motor's floor.
 void tell_gaps(const RefineBench& bench, const RefineState& first, const RefineState& last,
                RefineResult& result) {
-  const double unit = bench.floor[static_cast<std::size_t>(RowKind::motor)];
+  const double unit = bench.unseen_unit();
   GapStory& torque = result.torque;
   torque.known = true;
   torque.noise_floor = unit;
-  torque.train_before = unit * std::sqrt(first.rho);
-  torque.train_after = unit * std::sqrt(last.rho);
+  torque.train_before = bench.unit() * std::sqrt(first.rho);
+  torque.train_after = bench.unit() * std::sqrt(last.rho);
   torque.test_before = unit * std::sqrt(first.unseen.rho);
   torque.test_after = unit * std::sqrt(last.unseen.rho);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -185,9 +184,9 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
   choose_next_run({first.design, first.x, bench.floor, bench.first_search.candidates, runs},
                   result);
   if (options.figures)
-    result.figures =
-        refine_figures(result, {bench.all, first.design, first.x, state.design, state.x},
-                       {bench.all, first.test, before.x, after.test, after.x}, bench.floor);
+    result.figures = refine_figures(
+        result, {bench.all, first.design, first.x, state.design, state.x, bench.floor},
+        {bench.all, before.test, before.x, after.test, after.x, bench.test_floor});
   return result;
 }
 

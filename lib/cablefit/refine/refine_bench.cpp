@@ -1,5 +1,7 @@
 #include "cablefit/refine/refine_bench.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -46,6 +48,14 @@ KindLevels common_unit(const RefineBench& bench, KindLevels floor) {
   return floor;
 }
 
+/// Of rows that the unseen logs have none of: the training rows'.
+KindLevels unseen_floor(const RefineBench& bench, KindLevels floor) {
+  floor = common_unit(bench, floor);
+  for (std::size_t k = 0; k < kRowKinds; ++k)
+    if (!(floor[k] > 0)) floor[k] = bench.floor[k];
+  return floor;
+}
+
 /// `base`, `x`: the fit that the draws are simulated from.
 KindLevels fitted_floor(RefineBench& bench, const Design& base, const Eigen::VectorXd& x) {
   std::vector<KindLevels> levels;
@@ -72,15 +82,17 @@ void find_unseen_floors(RefineBench& bench, const BaseFit& base, const RefineLog
   bench.unseen = logs.test.empty() ? logs.train : logs.test;
   const BaseDraws unseen(base.design, base.fit.x, bench.unseen, bench.wanted,
                          bench.options.threads);
-  bench.test_floor = logs.test.empty()
-                         ? bench.floor
-                         : positive(rms_over(run_draws(
-                               bench, kFloorDraws, bench.options.seed, "noise floor",
-                               [&](std::uint64_t seed) { return unseen.unfitted(seed); })));
+  bench.test_floor =
+      logs.test.empty()
+          ? bench.floor
+          : unseen_floor(bench, rms_over(run_draws(
+                                    bench, kFloorDraws, bench.options.seed, "noise floor",
+                                    [&](std::uint64_t seed) { return unseen.unfitted(seed); })));
   std::vector<LogSurvey> recorded;
   for (NullBench::Recorded& one : unseen.logs().record(bench.options.seed, bench.options.threads))
     recorded.insert(recorded.end(), one.logs.begin(), one.logs.end());
-  bench.simulation_floor = simulated_gap(unseen.models(), recorded, bench.options.threads);
+  bench.simulation_floor =
+      simulated_gap(unseen.models(), recorded, bench.options.threads, bench.compared());
 }
 
 /// What rows remember of what the best candidate leaves; of a draw, which has no such effect, all
@@ -129,19 +141,49 @@ void disturb_null(RefineBench& bench, const RefineState& state, const Search& fo
       as_disturbance(corrected(guess, left, mean_of(drawn)), !bench.elastic_only));
 }
 
-/// Kernels that suit all logs.
+/// What one block alone tells no other block can confirm: it does not judge.
+void check_blocks(const BaseFit& base, double block_seconds, RefineResult& result) {
+  const Eigen::Index alone = base.fit.alone.count();
+  if (alone == 0) return;
+  const Eigen::Index judging = (base.fit.held_out > 0).count();
+  if (judging == 0)
+    throw Error(
+        ErrorKind::not_identifiable,
+        fmt::format("one block of {:g} s alone tells a parameter of the model, and no other "
+                    "is there to judge by; record longer",
+                    block_seconds));
+  result.warnings.push_back(
+      fmt::format("{} of {} blocks of {:g} s tell a parameter of the model alone: they fit, but do "
+                  "not judge",
+                  alone, alone + judging, block_seconds));
+}
+
+/// Kernels of the finest of the moving logs, which shake fastest; see suited.
 Smoothing smoothing_of(const RefineBench& bench, std::span<const Model> models,
                        const std::vector<Stretch>& train, const std::vector<Stretch>& test) {
-  if (!bench.elastic_only) return smoothing_for(train.front().recording.period);
+  if (!bench.elastic_only) return smoothing_for(finest_period(train, false));
   std::vector<Stretch> all = train;
   all.insert(all.end(), test.begin(), test.end());
   return blocked_smoothing(models, all);
+}
+
+/// Whether the test rows, judged by the least speeds of the training logs, have more rows than the
+/// models have columns.
+bool tell_enough(std::span<const Model> models, const std::vector<Stretch>& train,
+                 const std::vector<Stretch>& test, const Smoothing& wanted) {
+  if (test.empty()) return false;
+  const Design design = make_design(models, test, make_design(models, train, wanted).smoothing);
+  return count_rows(design.rows) > design.n_columns();
 }
 
 }  // namespace
 
 void tell(const RefineOptions& options, std::string_view what, double share) {
   if (options.progress) options.progress(what, share);
+}
+
+SimulatedGap RefineBench::simulated(std::span<const Model> models) const {
+  return simulated_gap(models, unseen, options.threads, compared());
 }
 
 double RefineBench::rho(const Design& design, const BlockFit& fit) const {
@@ -171,22 +213,24 @@ void need_draws(RefineBench& bench, const RefineState& state, const Search& foun
 RefineState prepare(RefineBench& bench, std::span<const Model> models, const RefineLogs& logs,
                     RefineResult& result) {
   std::vector<Stretch> train = read_stretches(bench.logs, models, bench.wanted);
-  if (train.empty())
+  if (train.empty() || (!bench.elastic_only && !std::isfinite(finest_period(train, false))))
     throw input_error({}, "no stretch of evenly spaced rows is long enough to refine with",
                       "give logs of at least a few seconds with --train");
   std::vector<Stretch> test = read_stretches(logs.test, models, bench.wanted);
   for (Stretch& stretch : test) stretch.log += bench.logs.size();  // recorded after what they test
   const Smoothing wanted = smoothing_of(bench, models, train, test);
-  if (bench.elastic_only && !test.empty() &&
-      !has_rows({models.begin(), models.end()}, test, wanted)) {
+  if (!logs.test.empty() && !tell_enough(models, train, test, wanted)) {
     result.warnings.emplace_back(
         "the test logs do not move enough to judge by; the last third of the others is held out");
     test.clear();
   }
   result.held_out_blocks = test.empty();
-  if (test.empty())
-    test = bench.elastic_only ? hold_out_blocked(train, kHeldOutShare)
-                              : hold_out(train, kHeldOutShare);
+  if (test.empty()) {
+    test = hold_out(train, kHeldOutShare, bench.elastic_only ? HoldOut::all : HoldOut::moving);
+    if (train.empty() || !tell_enough(models, train, test, wanted))
+      throw input_error({}, "the last third of the logs, held out, has too few rows to judge by",
+                        "record longer, or give other logs with --test");
+  }
   const std::vector<Model> bases = bench.elastic_only
                                        ? with_visible_effects({models.begin(), models.end()}, train,
                                                               wanted, bench.scan.block_seconds)
@@ -194,6 +238,7 @@ RefineState prepare(RefineBench& bench, std::span<const Model> models, const Ref
   KeptBase kept = fit_kept_base(bases, std::move(train), wanted, bench.scan);
   result.warnings.insert(result.warnings.end(), kept.warnings.begin(), kept.warnings.end());
   BaseFit base = std::move(kept.base);
+  check_blocks(base, bench.scan.block_seconds, result);
   bench.smoothing = base.design.smoothing;
   bench.null.emplace(base.design, base.fit.x, bench.logs, bench.wanted, bench.options.threads);
   if (bench.null->logs().follows())
@@ -218,7 +263,7 @@ RefineState prepare(RefineBench& bench, std::span<const Model> models, const Ref
   state.levels = bench.floor;
   state.rho = rho_of(base.fit, bench.floor);
   state.unseen = gap_of(state.test, state.x, bench.test_floor, bench.scan.block_seconds);
-  state.simulated = simulated_gap(fitted, bench.unseen, bench.options.threads);
+  state.simulated = bench.simulated(fitted);
   state.design = std::move(base.design);
   if (!free_shapes(state.design).empty())  // of kept effects, which the draws above hold
     if (auto bias = fit_bias(bench, state)) bench.base_bias = std::move(*bias);

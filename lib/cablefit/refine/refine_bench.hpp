@@ -21,9 +21,11 @@ struct RefineBench {
   PartFilter wanted = {};
   bool elastic_only = false;
   ScanSettings scan = {};
-  std::vector<LogSurvey> all = {};     ///< blocked, training, test: by Stretch::log
-  std::vector<LogSurvey> logs = {};    ///< blocked, then training
-  std::vector<LogSurvey> unseen = {};  ///< simulated for the last word; the training logs when none
+  std::vector<LogSurvey> all = {};   ///< blocked, training, test: by Stretch::log
+  std::vector<LogSurvey> logs = {};  ///< blocked, then training
+  /// Simulated for the last word; of the training logs, when there are no others, the share held
+  /// back.
+  std::vector<LogSurvey> unseen = {};
   Smoothing smoothing = {};
   double held_back = 0;  ///< share of every training log that is the unseen data
   KindLevels floor{}, test_floor{};
@@ -46,8 +48,16 @@ struct RefineBench {
   const std::vector<NullDraw>& draws_of(const Design& design) const {
     return design.whitening.is_needed() ? white_draws : draws;
   }
+  /// N m of gaps over all equations, whose rows are weighted so that each has the motor's floor (of
+  /// blocked logs alone theirs): of training and of unseen rows.
+  double unit() const { return floor[static_cast<std::size_t>(RowKind::motor)]; }
+  double unseen_unit() const { return test_floor[static_cast<std::size_t>(RowKind::motor)]; }
   /// rho of the training rows as they are, whichever way they were fitted.
   double rho(const Design& design, const BlockFit& fit) const;
+  /// Of these models and the unseen logs.
+  SimulatedGap simulated(std::span<const Model> models) const;
+  /// Share of the time of every unseen log that neither chose nor fitted.
+  double compared() const { return held_back > 0 ? held_back : 1; }
 };
 
 /// Where the workflow stands.

@@ -173,11 +173,11 @@ Figure rms_against(const Pair& pair, std::size_t variable) {
   return figure;
 }
 
-Figure memory(const Pair& pair, double spacing) {
+Figure memory(const Pair& pair) {
   Figure figure = blank(pair, "Autocorrelation of the residual");
   figure.caption = fmt::format(
       "One row every {:.3g} ms. What stays away from 0 beyond the first lags is structure.",
-      1e3 * spacing);
+      1e3 * pair.before.row_period);
   figure.x = {"lag", "rows"};
   figure.y = {"autocorrelation", ""};
   for (std::size_t k = 0; k < n_states(pair); ++k) {
@@ -196,8 +196,7 @@ Figure memory(const Pair& pair, double spacing) {
 enum class Detail { full, over_time };
 
 void add_residuals(const BeforeAfter& rows, const std::string& section, Detail detail,
-                   const RefineResult& result, const KindLevels& floor,
-                   std::vector<Figure>& figures) {
+                   const RefineResult& result, std::vector<Figure>& figures) {
   const Timeline time = timeline_of(rows.before, rows.logs);
   for (const RowKind kind : {RowKind::motor, RowKind::link, RowKind::blocked}) {
     const Pair pair{section,
@@ -206,7 +205,7 @@ void add_residuals(const BeforeAfter& rows, const std::string& section, Detail d
                     result.linear_motion,
                     kind == RowKind::link,
                     rows.after.added.size() > rows.before.added.size(),
-                    floor[static_cast<std::size_t>(kind)],
+                    rows.floor[static_cast<std::size_t>(kind)],
                     shown_rows(rows.before, rows.x_before, kind, time),
                     shown_rows(rows.after, rows.x_after, kind, time)};
     if (pair.before.rows.empty()) continue;
@@ -218,17 +217,17 @@ void add_residuals(const BeforeAfter& rows, const std::string& section, Detail d
       if (Figure rms = rms_against(pair, variable); !rms.traces.empty())
         figures.push_back(std::move(rms));
     }
-    figures.push_back(memory(pair, time.spacing));
+    figures.push_back(memory(pair));
   }
 }
 
 }  // namespace
 
 std::vector<Figure> refine_figures(const RefineResult& result, const BeforeAfter& train,
-                                   const BeforeAfter& test, const KindLevels& floor) {
+                                   const BeforeAfter& test) {
   std::vector<Figure> figures = outcome_figures(result);
-  add_residuals(train, "Logs that were fitted", Detail::full, result, floor, figures);
-  add_residuals(test, "Unseen logs", Detail::over_time, result, floor, figures);
+  add_residuals(train, "Logs that were fitted", Detail::full, result, figures);
+  add_residuals(test, "Unseen logs", Detail::over_time, result, figures);
   return figures;
 }
 

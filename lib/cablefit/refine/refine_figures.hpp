@@ -17,11 +17,12 @@ struct BeforeAfter {
   const Eigen::VectorXd& x_before;
   const Design& after;
   const Eigen::VectorXd& x_after;
+  KindLevels floor;  ///< N m, of these rows
 };
 
 /// Candidates and shifts, then all about the residuals of the logs that were fitted, and those of
-/// the test logs over time. `floor`: N m, per kind of row.
+/// the test logs over time.
 std::vector<Figure> refine_figures(const RefineResult& result, const BeforeAfter& train,
-                                   const BeforeAfter& test, const KindLevels& floor);
+                                   const BeforeAfter& test);
 
 }  // namespace cablefit

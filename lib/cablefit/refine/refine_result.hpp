@@ -69,7 +69,7 @@ struct RefineStep {
   double gap_train = 0, gap_test = 0;  ///< N m rms weighted as one equation, after it
 };
 
-/// rms of a gap before and after, N m or rad.
+/// rms of a gap before and after, N m or rad; the floor is that of the unseen rows.
 struct GapStory {
   double train_before = 0, train_after = 0, test_before = 0, test_after = 0, noise_floor = 0;
   std::array<double, 2> test_before_ci{}, test_after_ci{};  ///< 95 %, block bootstrap

@@ -17,8 +17,11 @@ void set_estimate(Estimate& e, double value, double sd, double dof) {
   const auto none = std::numeric_limits<double>::quiet_NaN();
   e.value = value;
   e.sd = e.sd_white = e.ci_low = e.ci_high = none;
+  e.profiled = false;
+  e.active_bound.clear();
+  e.not_identifiable = std::isnan(sd) ? "the rows do not tell it from the other parameters" : "";
   if (!(sd > 0) || !std::isfinite(sd)) return;
-  e.sd = e.sd_white = sd;
+  e.sd = sd;  // see FinalFit; there is none of white residuals
   const double reach = t_quantile_975(dof) * sd;
   e.ci_low = value - reach;
   e.ci_high = value + reach;

@@ -59,8 +59,7 @@ KindMemory corrected(KindMemory guess, const KindMemory& left, const KindMemory&
   return guess;
 }
 
-RowWhitening whitening_of(const KindMemory& left, const KindMemory& noise, Eigen::Index stride,
-                          double block_seconds) {
+RowWhitening whitening_of(const KindMemory& left, const KindMemory& noise, double block_seconds) {
   std::array<Eigen::VectorXd, kRowKinds> wandering;
   for (std::size_t k = 0; k < kRowKinds; ++k) {
     if (!is_known(left[k]) || !is_known(noise[k])) continue;
@@ -72,7 +71,7 @@ RowWhitening whitening_of(const KindMemory& left, const KindMemory& noise, Eigen
     wandering[k] = window.cwiseProduct(all - sensors);
     wandering[k](0) += sum_of_kernel(sensors);
   }
-  return {wandering, stride, block_seconds};
+  return {wandering, block_seconds};
 }
 
 TwinDisturbance as_disturbance(const KindMemory& remainder, bool moves) {

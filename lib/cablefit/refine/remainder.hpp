@@ -26,8 +26,7 @@ KindMemory corrected(KindMemory guess, const KindMemory& left, const KindMemory&
 /// Whitens the rows that wander beyond their sensors' noise (`noise`: what the same rows remember
 /// of that alone), as if that noise were white as far as the kernels let it pass: what is faster
 /// is rounding and no more to be relied on than before.
-RowWhitening whitening_of(const KindMemory& left, const KindMemory& noise, Eigen::Index stride,
-                          double block_seconds);
+RowWhitening whitening_of(const KindMemory& left, const KindMemory& noise, double block_seconds);
 
 /// As torques of one joint, autoregressive. `moves`: any row is in motion, else the motor's torque
 /// is that of blocked rows.

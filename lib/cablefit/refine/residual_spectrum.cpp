@@ -5,23 +5,54 @@
 #include <numbers>
 
 namespace cablefit {
+namespace {
+
+double row_period(const Smoothing& smoothing) {
+  return static_cast<double>(smoothing.stride) * smoothing.period;
+}
+
+bool is_same(double period, double other) {
+  constexpr double kApart = 0.02;  // clocks are not
+  return std::abs(period - other) < kApart * other;
+}
+
+/// Of most rows of a kind: lags of logs of another rate are others. 0: there are none.
+double usual_row_period(const Design& design, RowKind kind) {
+  double usual = 0;
+  std::size_t most = 0;
+  for (std::size_t s = 0; s < design.rows.size(); ++s) {
+    const double period = row_period(design.smoothing_of(s));
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < design.rows.size(); ++k)
+      if (is_same(row_period(design.smoothing_of(k)), period))
+        for (const KindRows& rows : design.rows[k].kinds)
+          if (rows.kind == kind) n += rows.at.size();
+    if (n <= most) continue;
+    most = n;
+    usual = period;
+  }
+  return usual;
+}
+
+}  // namespace
 
 ResidualMemory residual_memory(const Design& design, const Eigen::VectorXd& x, RowKind kind,
                                std::size_t n_lags) {
   Autocovariance sums(n_lags);
   ResidualMemory memory;
+  memory.period = usual_row_period(design, kind);
   Eigen::Index offset = 0;
   for (std::size_t s = 0; s < design.rows.size(); ++s) {
+    const Smoothing smoothing = design.smoothing_of(s);
+    if (!is_same(row_period(smoothing), memory.period)) continue;
     for (const KindRows& rows : design.rows[s].kinds) {
       if (rows.kind != kind) continue;
       std::vector<Eigen::Index> numbers;
-      for (const Eigen::Index at : rows.at)
-        numbers.push_back(offset + at / design.smoothing.stride);
+      for (const Eigen::Index at : rows.at) numbers.push_back(offset + at / smoothing.stride);
       sums.add(numbers, rows.response - rows.base * x);
     }
-    const Recording& r = design.stretches[s].recording;
-    memory.period = static_cast<double>(design.smoothing.stride) * r.period;
-    offset += r.theta.size() / design.smoothing.stride + static_cast<Eigen::Index>(n_lags) + 1;
+    offset += design.stretches[s].recording.theta.size() / smoothing.stride +
+              static_cast<Eigen::Index>(n_lags) + 1;
   }
   memory.covariance = sums.values();
   memory.n_values = sums.n_values();

@@ -6,8 +6,8 @@
 namespace cablefit {
 namespace {
 
-constexpr Eigen::Index kOrder =
-    12;  // more predicts a wandering torque behind white noise no better
+// More predicts a wandering torque behind white noise no better.
+constexpr Eigen::Index kOrder = 12;
 
 /// Rows [from, to) each of which comes right after the other.
 struct Run {
@@ -33,8 +33,8 @@ std::vector<Run> runs_of(const std::vector<Eigen::Index>& at, Eigen::Index strid
 }  // namespace
 
 RowWhitening::RowWhitening(const std::array<Eigen::VectorXd, kRowKinds>& autocovariance,
-                           Eigen::Index stride, double block_seconds)
-    : stride_(stride), block_seconds_(block_seconds) {
+                           double block_seconds)
+    : block_seconds_(block_seconds) {
   for (std::size_t k = 0; k < kRowKinds; ++k) {
     const Eigen::VectorXd& covariance = autocovariance[k];
     if (covariance.size() < 2 || !(covariance(0) > 0)) continue;
@@ -64,13 +64,13 @@ bool RowWhitening::is_needed() const {
                      [](const auto& of_kind) { return !of_kind.empty(); });
 }
 
-Eigen::MatrixXd RowWhitening::of(const KindRows& rows, double period,
+Eigen::MatrixXd RowWhitening::of(const KindRows& rows, const Smoothing& smoothing,
                                  const Eigen::MatrixXd& columns) const {
   const std::vector<Prediction>& of_kind = predictions_[static_cast<std::size_t>(rows.kind)];
   if (of_kind.empty()) return columns;
   const auto longest = static_cast<Eigen::Index>(of_kind.size()) - 1;
   Eigen::MatrixXd out = columns;
-  for (const Run& run : runs_of(rows.at, stride_, block_seconds_ / period)) {
+  for (const Run& run : runs_of(rows.at, smoothing.stride, block_seconds_ / smoothing.period)) {
     const Eigen::Index full = std::min(run.from + longest, run.to);
     const auto leave_unpredicted = [&](Eigen::Index from, Eigen::Index n, const Prediction& p) {
       for (Eigen::Index lag = 1; lag <= p.from.size(); ++lag)

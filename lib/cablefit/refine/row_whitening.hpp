@@ -17,17 +17,17 @@ class RowWhitening {
   /// Rows stay as they are.
   RowWhitening() = default;
 
-  /// `autocovariance`: of each kind's residual, (N m)^2, lags `stride` samples apart; empty: rows
-  /// of the kind stay as they are. Where it is not positive definite the order ends.
-  RowWhitening(const std::array<Eigen::VectorXd, kRowKinds>& autocovariance, Eigen::Index stride,
-               double block_seconds);
+  /// `autocovariance`: of each kind's residual, (N m)^2, by lag in rows; empty: rows of the kind
+  /// stay as they are. Where it is not positive definite the order ends.
+  RowWhitening(const std::array<Eigen::VectorXd, kRowKinds>& autocovariance, double block_seconds);
 
   /// Whether any row changes.
   bool is_needed() const;
 
-  /// What is not predicted of `columns` (any, a row for each of `rows`, `period` s from sample to
-  /// sample). A row that few are before counts less, as much as it is told worse.
-  Eigen::MatrixXd of(const KindRows& rows, double period, const Eigen::MatrixXd& columns) const;
+  /// What is not predicted of `columns` (any, a row for each of `rows`; `smoothing`: of their
+  /// stretch). A row that few are before counts less, as much as it is told worse.
+  Eigen::MatrixXd of(const KindRows& rows, const Smoothing& smoothing,
+                     const Eigen::MatrixXd& columns) const;
 
  private:
   struct Prediction {
@@ -36,7 +36,6 @@ class RowWhitening {
   };
   /// Of each kind, by the number of rows before; empty: rows stay as they are.
   std::array<std::vector<Prediction>, kRowKinds> predictions_;
-  Eigen::Index stride_ = 1;
   double block_seconds_ = 0;
 };
 

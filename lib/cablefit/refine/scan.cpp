@@ -70,7 +70,8 @@ std::optional<Candidate> try_variant(const Scanner& scanner, Variant variant) {
   c.rms = fit->rms();
   c.error = in_sample ? fit->in_sample : fit->held_out;
   const Eigen::ArrayXd& before = in_sample ? start.fit.in_sample : start.fit.held_out;
-  if (!std::isfinite(c.error.sum())) return {};  // one block alone determines it
+  if ((fit->alone && !start.fit.alone).any()) return {};  // one block alone determines it
+  if (!in_sample) c.error = start.fit.alone.select(0, c.error);
   c.gain = 1 - c.error.sum() / before.sum();
   const Eigen::Index dry = row.takes_dry_friction ? dry_column(start.design, row) : -1;
   const bool too_dry = dry >= 0 && n > 0 && fit->x(fit->x.size() - n) > fit->x(dry);

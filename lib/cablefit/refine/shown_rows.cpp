@@ -28,7 +28,8 @@ Timeline timeline_of(const Design& design, std::span<const LogSurvey> logs) {
   Timeline time;
   double next = 0;
   std::size_t log = std::numeric_limits<std::size_t>::max();
-  for (const Stretch& stretch : design.stretches) {
+  for (std::size_t s = 0; s < design.stretches.size(); ++s) {
+    const Stretch& stretch = design.stretches[s];
     if (stretch.log != log) {
       log = stretch.log;
       const std::filesystem::path path = logs[log].plan.path;
@@ -36,7 +37,8 @@ Timeline timeline_of(const Design& design, std::span<const LogSurvey> logs) {
     }
     time.begins.push_back(next);
     const double period = stretch.recording.period;
-    time.spacing = std::max(time.spacing, period * static_cast<double>(design.smoothing.stride));
+    time.spacing =
+        std::max(time.spacing, period * static_cast<double>(design.smoothing_of(s).stride));
     next += static_cast<double>(stretch.recording.theta.size()) * period + kPause;
   }
   time.end = std::max(next - kPause, time.spacing);
@@ -47,21 +49,26 @@ Timeline timeline_of(const Design& design, std::span<const LogSurvey> logs) {
 ShownRows shown_rows(const Design& design, const Eigen::VectorXd& x, RowKind wanted,
                      const Timeline& time) {
   ShownRows shown;
+  constexpr Eigen::Index kApart = 1000;  // places, more than lags are shown
   double squares = 0;
-  for (std::size_t s = 0; s < design.rows.size(); ++s)
+  Eigen::Index first = 0;
+  for (std::size_t s = 0; s < design.rows.size(); ++s) {
+    const Smoothing smoothing = design.smoothing_of(s);
     for (const KindRows& kind : design.rows[s].kinds) {
       if (kind.kind != wanted) continue;
-      const double period = design.stretches[s].recording.period;
-      const auto first = static_cast<Eigen::Index>(time.begins[s] / time.spacing);
+      const double period = smoothing.period;
+      shown.row_period = std::max(shown.row_period, period * static_cast<double>(smoothing.stride));
       const Eigen::VectorXd residual = kind.response - kind.base * x;
       for (std::size_t i = 0; i < kind.at.size(); ++i) {
         const double t = time.begins[s] + static_cast<double>(kind.at[i]) * period;
         const double r = residual(static_cast<Eigen::Index>(i));
         shown.rows.push_back({t, variables_at(design, s, kind.at[i], wanted == RowKind::link), r});
-        shown.numbers.push_back(first + kind.at[i] / design.smoothing.stride);
+        shown.numbers.push_back(first + kind.at[i] / smoothing.stride);
         squares += r * r;
       }
     }
+    first += design.stretches[s].recording.theta.size() / smoothing.stride + kApart;
+  }
   if (!shown.rows.empty()) shown.rms = std::sqrt(squares / static_cast<double>(shown.rows.size()));
   return shown;
 }

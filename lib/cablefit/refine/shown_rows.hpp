@@ -22,6 +22,7 @@ struct ShownRow {
 struct ShownRows {
   std::vector<ShownRow> rows;
   std::vector<Eigen::Index> numbers;
+  double row_period = 0;  ///< s, where they are furthest apart
   double rms = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "cablefit/base/error.hpp"
 
@@ -68,7 +69,7 @@ void complete(const Model& model, const Rig& rig, Stretch& stretch) {
 void read_log(const LogSurvey& log, std::size_t number, std::span<const Model> models,
               const PartFilter& wanted, std::vector<Stretch>& stretches) {
   const std::size_t first = stretches.size();
-  std::vector<double> part_began(log.parts.size(), kUnbounded);
+  const double began = log.parts.front().t_first;
   const bool blocked = std::all_of(log.parts.begin(), log.parts.end(), [&](const PartSurvey& p) {
     return !wanted(p) || p.phase == Phase::blocked;
   });
@@ -81,8 +82,9 @@ void read_log(const LogSurvey& log, std::size_t number, std::span<const Model> m
       stretch.model = model_of(models, log.plan, part);
       stretch.blocked = part.phase == Phase::blocked;
       stretch.recording.period = window.period;
-      part_began[window.part] = std::min(part_began[window.part], window.t0);
-      stretch.t0 = window.t0 - part_began[window.part];
+      stretch.t0 = window.t0 - began;
+      stretch.part_begin = part.t_first - began;
+      stretch.part_end = part.t_last - began;
       require_channels(log.plan, models[stretch.model], stretch.blocked);
     }
     append(stretches.back(), window, log.plan);
@@ -103,18 +105,31 @@ std::vector<Stretch> read_stretches(std::span<const LogSurvey> logs, std::span<c
   return stretches;
 }
 
-std::vector<Stretch> hold_out(std::vector<Stretch>& stretches, double share) {
+double finest_period(std::span<const Stretch> stretches, bool blocked) {
+  double finest = kUnbounded;
+  for (const Stretch& stretch : stretches)
+    if (stretch.blocked == blocked) finest = std::min(finest, stretch.recording.period);
+  return finest;
+}
+
+std::vector<Stretch> hold_out(std::vector<Stretch>& stretches, double share, HoldOut which) {
   std::vector<Stretch> held;
   for (Stretch& stretch : stretches) {
-    if (stretch.blocked) continue;
+    if (stretch.blocked && which == HoldOut::moving) continue;
     const Eigen::Index n = stretch.recording.theta.size();
-    const auto kept = static_cast<Eigen::Index>((1 - share) * static_cast<double>(n));
-    held.push_back(stretch);
-    held.back().rows_from = kept;
+    const double period = stretch.recording.period, end = stretch.part_end + period;
+    const double from = end - share * (end - stretch.part_begin);
+    const double samples = std::round((from - stretch.t0) / period);
+    const auto kept = static_cast<Eigen::Index>(std::clamp(samples, 0.0, static_cast<double>(n)));
+    if (kept < n) {
+      held.push_back(stretch);
+      held.back().rows_from = kept;
+    }
     for (Eigen::ArrayXd Recording::*signal :
          {&Recording::q, &Recording::theta, &Recording::tau, &Recording::tau_load})
       stretch.recording.*signal = Eigen::ArrayXd((stretch.recording.*signal).head(kept));
   }
+  std::erase_if(stretches, [](const Stretch& s) { return s.recording.theta.size() < kLeastRows; });
   return held;
 }
 

@@ -76,6 +76,7 @@ const Refinement& attached_mass(bool link) {
 struct EquationGap {
   RowKind kind = RowKind::motor;
   double squares = 0, n_rows = 0, floor = 0;
+  double row_period = 0;  ///< s, where they are furthest apart
   double above() const { return squares - n_rows * floor * floor; }
 };
 
@@ -83,10 +84,13 @@ EquationGap largest_gap(const Design& design, const Eigen::VectorXd& x, const Ki
   EquationGap largest;
   double most = 0;
   for (const RowKind kind : {RowKind::link, RowKind::motor, RowKind::blocked}) {
-    EquationGap gap{kind, 0, 0, floor[static_cast<std::size_t>(kind)]};
-    for (const StretchRows& stretch : design.rows)
-      for (const KindRows& rows : stretch.kinds) {
+    EquationGap gap{kind, 0, 0, floor[static_cast<std::size_t>(kind)], 0};
+    for (std::size_t s = 0; s < design.rows.size(); ++s)
+      for (const KindRows& rows : design.rows[s].kinds) {
         if (rows.kind != kind) continue;
+        const Smoothing smoothing = design.smoothing_of(s);
+        gap.row_period =
+            std::max(gap.row_period, static_cast<double>(smoothing.stride) * smoothing.period);
         gap.squares += (rows.response - rows.base * x).squaredNorm();
         gap.n_rows += static_cast<double>(rows.response.size());
       }
@@ -177,6 +181,9 @@ Mode strongest_mode(const Design& design, const Eigen::VectorXd& x, const Equati
   if (gap.kind == RowKind::blocked) return best;
   const Refinement& row = attached_mass(gap.kind == RowKind::link);
   const BlockGrams grams = block_grams(design.rows, design.stretches, block_seconds);
+  const auto without = fit_blocks(grams, floor, false);  // x may be of other weights
+  if (!without) return best;
+  const double squares = without->squares[static_cast<std::size_t>(gap.kind)];
   const auto try_at = [&](double frequency, double damping) {
     const Variant variant{&row, {frequency, damping}, 0, 0, false};
     const auto fit = fit_blocks(extended(grams, design.rows, design.stretches,
@@ -184,8 +191,8 @@ Mode strongest_mode(const Design& design, const Eigen::VectorXd& x, const Equati
                                 floor, false);
     if (!fit || !(fit->x(fit->x.size() - 1) > 0)) return;
     const double left = fit->squares[static_cast<std::size_t>(gap.kind)];
-    if (gap.squares - left > best.removed)
-      best = {frequency, damping, fit->x(fit->x.size() - 1), gap.squares - left};
+    if (squares - left > best.removed)
+      best = {frequency, damping, fit->x(fit->x.size() - 1), squares - left};
   };
   const LogScale scale = design.scale;
   for (int i = 0; i < kMode[0].n_values; ++i) try_at(kMode[0].value(i, scale), 0.05);
@@ -218,10 +225,8 @@ std::optional<Unexplained> describe_remainder(const Design& design, const Eigen:
                                               const KindLevels& floor, double block_seconds) {
   const EquationGap gap = largest_gap(design, x, floor);
   if (!(gap.n_rows > 0)) return {};
-  const double row_period =
-      static_cast<double>(design.smoothing.stride) * design.stretches.front().recording.period;
   constexpr double kLowest = 0.5;  // Hz: what is slower wanders
-  const Line line = strongest_line(pieces_of(design, x, gap.kind), kLowest, 0.4 / row_period);
+  const Line line = strongest_line(pieces_of(design, x, gap.kind), kLowest, 0.4 / gap.row_period);
   const Mode mode = strongest_mode(design, x, gap, floor, block_seconds);
   Unexplained found;
   found.equation = to_string(gap.kind);

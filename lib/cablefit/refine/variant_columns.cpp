@@ -110,9 +110,9 @@ Eigen::MatrixXd filtered(const Kernel& filter, const Eigen::MatrixXd& samples, E
 
 std::vector<Eigen::MatrixXd> torque_columns(const Design& design, const Variant& variant,
                                             std::size_t k) {
-  const Eigen::Index every = design.smoothing.every;
-  const Kernel filter = gaussian(design.smoothing.columns,
-                                 static_cast<double>(every) * design.stretches[k].recording.period);
+  const Smoothing smoothing = design.smoothing_of(k);
+  const Eigen::Index every = smoothing.every;
+  const Kernel filter = gaussian(smoothing.columns, static_cast<double>(every) * smoothing.period);
   const SomeTorques torques =
       some_torques(variant, design.stretches[k], design.states[k], every, 2 * filter.reach());
   const Eigen::Index n = n_linear(variant);

@@ -48,8 +48,7 @@ std::optional<RefineState> whitened(RefineBench& bench, const RefineState& state
   for (std::size_t k = 0; k < kRowKinds; ++k)
     if (to_string(static_cast<RowKind>(k)) != left->equation) memory[k] = {};
   Design noise = bench.noise.design;
-  noise.whitening = whitening_of(memory, memory_of(noise, bench.noise.fit.x),
-                                 state.design.smoothing.stride, seconds);
+  noise.whitening = whitening_of(memory, memory_of(noise, bench.noise.fit.x), seconds);
   if (!noise.whitening.is_needed()) return {};
   need_disturbance(bench, state, bench.first_search);
   bench.white_floor = positive(rms_of(block_grams(noise, seconds), bench.noise.fit.x));
@@ -62,8 +61,7 @@ std::optional<RefineState> whitened(RefineBench& bench, const RefineState& state
   if (!fit) return {};
   white.x = fit->x;
   white.rho = bench.rho(white.design, *fit);
-  white.simulated =
-      simulated_gap(models_with(white.design, white.x), bench.unseen, bench.options.threads);
+  white.simulated = bench.simulated(models_with(white.design, white.x));
   // An effect has to fit and simulate better than either.
   if (RowGap unseen = gap_of(white.test, white.x, bench.test_floor, seconds);
       unseen.rho < white.unseen.rho)
