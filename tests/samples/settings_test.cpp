@@ -125,6 +125,31 @@ TEST_CASE("noise left in velocity and acceleration is what the closed form says"
              Catch::WithinRel(0.893 * acceleration_noise(1e-4, 60, 1000), 0.04));
 }
 
+TEST_CASE("edges and margins last as long in a log of any rate", "[samples]") {
+  const Columns fast = noisy_log(20000, 5400);
+  Columns slow{{{"t", {}}, {"theta", {}}, {"tau", {}}}};
+  for (std::size_t i = 0; i < 20000; i += 50)
+    for (std::size_t c = 0; c < 3; ++c) slow.columns[c].second.push_back(fast.columns[c].second[i]);
+  Bench bench;
+  bench.add_text(fast.csv());
+  bench.add_text(slow.csv());
+  const ChosenSettings chosen = moving_settings(bench.logs(), kAllParts, {}, 0);
+  const double two_periods = 2 / chosen.rows.signal.cutoff;
+  CHECK(chosen.rows.rate == Approx(20));
+  CHECK(static_cast<double>(chosen.rows.drop_edge) / 20 == Approx(two_periods).margin(0.05));
+  const RowSettings at_1_khz = at_rate(chosen.rows, 1000);
+  CHECK(at_1_khz.drop_edge == 50 * chosen.rows.drop_edge);
+  CHECK(at_1_khz.rest_margin == 50 * chosen.rows.rest_margin);
+  CHECK(at_1_khz.decimate == chosen.rows.decimate);
+  // A clock that is a little off is no other rate.
+  CHECK(at_rate(chosen.rows, 20.1).drop_edge == chosen.rows.drop_edge);
+  // Counted in rows of the fast log the edges would be longer than the slow one.
+  WindowCounts windows;
+  const EquationBatch rows = all_rows(bench.logs()[1], chosen.rows, plain_equation(), 1, &windows);
+  CHECK(windows.rows_too_short == 0);
+  CHECK(rows.rows.rows() > 200 / chosen.rows.decimate);
+}
+
 TEST_CASE("settings of a blocked log are quasi-static", "[samples]") {
   const std::vector<LogSurvey> logs = {shipped("low/blocked.csv")};
   const ChosenSettings chosen = blocked_settings(logs, kAllParts, {});

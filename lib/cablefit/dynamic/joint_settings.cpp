@@ -21,6 +21,7 @@ void take_most(RowSettings& all, const ChosenSettings& joint) {
   all.decimate = std::min(all.decimate, own.decimate);
   all.drop_edge = std::max(all.drop_edge, own.drop_edge);
   all.rest_margin = std::max(all.rest_margin, own.rest_margin);
+  all.rate = own.rate;
 }
 
 bool has(const std::vector<Decision>& decisions, const Decision& one) {

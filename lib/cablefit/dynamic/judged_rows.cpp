@@ -104,6 +104,7 @@ RowSettings settings_for(const DynamicJob& job, const LogSurvey& log, const Part
   settings.decimate = std::max(1, scaled(settings.decimate));
   settings.drop_edge = std::max(kDifferenceEdge, scaled(settings.drop_edge));
   settings.rest_margin = scaled(settings.rest_margin);
+  settings.rate = own;
   return settings;
 }
 

@@ -28,16 +28,10 @@ constexpr double kDamping = 0.7;
 constexpr double kLargestGain = 0.5;  // of kd h / J_motor, which is unstable from about 1 on
 constexpr Eigen::Index kMinRows = 8;  // of a stretch, as of a part
 
-bool in_every_joint(const LogPlan& plan, Channel channel) {
-  for (int joint = 0; joint < plan.rig.n_joints(); ++joint)
-    if (!plan.has(channel, joint)) return false;
-  return true;
-}
-
 std::string no_known_loop(const LogPlan& plan) {
   if (plan.rig.open_loop) return "some logs in open loop, others not";
   if (!plan.rig.controller) return "no controller in the rig file";
-  if (in_every_joint(plan, Channel::theta_ref)) return "";
+  if (plan.has_for_all(Channel::theta_ref)) return "";
   return fmt::format("no reference '{}' in the log", plan.rig.controller->reference);
 }
 
@@ -111,7 +105,7 @@ class LogLoop {
     input.period = window.period;
     (plan_.kind == LoopKind::command ? input.tau : input.theta_ref) =
         reference.middleRows(from, n_rows).array();
-    input.tau_load.resize(in_every_joint(log_.plan, Channel::tau_load) ? n_rows : 0, n_joints());
+    input.tau_load.resize(log_.plan.has_for_all(Channel::tau_load) ? n_rows : 0, n_joints());
     for (int joint = 0; input.tau_load.rows() > 0 && joint < n_joints(); ++joint)
       input.tau_load.col(joint) =
           window.data.col(log_.plan.find(Channel::tau_load, joint)).segment(from, n_rows).array();
@@ -214,7 +208,7 @@ LoopPlan plan_loop(const DynamicJob& job, std::span<const LogSurvey> logs) {
   plan.kind = LoopKind::known;
   for (const LogSurvey& log : logs) {
     if (std::none_of(log.parts.begin(), log.parts.end(), job.wanted)) continue;
-    if (!in_every_joint(log.plan, Channel::theta))
+    if (!log.plan.has_for_all(Channel::theta))
       return {LoopKind::none, fmt::format("{} has no theta to follow", log.plan.path), 0};
     ++n_logs;
     n_commanded += log.plan.rig.open_loop ? 1 : 0;

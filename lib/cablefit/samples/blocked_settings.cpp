@@ -99,7 +99,7 @@ ChosenSettings blocked_settings(std::span<const LogSurvey> logs, const PartFilte
     decide(chosen, "cut-off", fmt::format("{:.4g} Hz", cutoff), "quasi-static");
   }
   choose_decimation(chosen, options, rate);
-  choose_edges(chosen, options, rates.highest);
+  choose_edges(chosen, options, rates);
   const double band = cutoff > 0 ? cutoff : rate / 2;
   const double noise_q = worst_noise(logs, wanted, Channel::q, joint);
   chosen.rest_speed_q =

@@ -87,9 +87,10 @@ Unit checked_unit(const std::string& text, const Place& place, const Dimension& 
   return unit;
 }
 
-/// Hertz count turns to some and radians to others.
+/// Hertz count turns to some and radians to others, and so does what is told a minute.
 void require_clear_speed(const std::string& unit, const Place& place, const std::string& column) {
-  if (!unit.ends_with("Hz")) return;
+  const bool per_minute = unit == "1/min" || unit == "min^-1" || unit == "min-1";
+  if (!unit.ends_with("Hz") && !per_minute) return;
   throw input_error(place,
                     fmt::format("unit '{}' of column {} may be turns or radians a second",
                                 shortened(unit), cablefit::quoted(column)),
@@ -136,6 +137,12 @@ void resolve_time(LogPlan& plan) {
 }  // namespace
 
 std::string_view channel_name(Channel channel) { return info_of(channel).name; }
+
+bool LogPlan::has_for_all(Channel channel) const {
+  for (int joint = 0; joint < rig.n_joints(); ++joint)
+    if (!has(channel, joint)) return false;
+  return true;
+}
 
 int LogPlan::find(Channel channel, int joint) const {
   for (std::size_t k = 0; k < slots.size(); ++k)

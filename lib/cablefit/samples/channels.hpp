@@ -43,6 +43,7 @@ struct LogPlan {
   /// Position of a channel among `slots`, or -1.
   int find(Channel channel, int joint = 0) const;
   bool has(Channel channel, int joint = 0) const { return find(channel, joint) >= 0; }
+  bool has_for_all(Channel channel) const;  ///< of every joint
 };
 
 /// Opens the log, reads its header and resolves every channel by the rig file or by name. Throws

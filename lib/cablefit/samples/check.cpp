@@ -173,7 +173,7 @@ void note_motion(const LogPlan& plan, CheckedPart& part) {
     warn("one speed only: viscous and Coulomb friction cannot be told apart");
   }
   const bool has_load = plan.has(Channel::tau_load) || plan.rig.load.law != nullptr;
-  if (part.identifies.front() == "dynamic" && !has_load) {
+  if (!part.identifies.empty() && part.identifies.front() == "dynamic" && !has_load) {
     warn("no tau_load column and no load law in the rig file: the load will be taken as 0");
   }
 }

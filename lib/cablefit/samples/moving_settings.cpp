@@ -120,7 +120,7 @@ ChosenSettings moving_settings(std::span<const LogSurvey> logs, const PartFilter
   PilotMotion motion(logs, wanted, joint);
   choose_moving_cutoff(chosen, logs, wanted, options, motion, resonance, rate);
   choose_decimation(chosen, options, rate);
-  choose_edges(chosen, options, rates.highest);
+  choose_edges(chosen, options, rates);
   choose_rest_speed(chosen, logs, wanted, options, motion, rate);
   return chosen;
 }

@@ -144,6 +144,18 @@ RowBatch rows_of(const Window& window, const LogPlan& plan, Eigen::Index number_
 
 }  // namespace
 
+RowSettings at_rate(RowSettings settings, double rate) {
+  constexpr double kSame = 1.01;  // clocks are never quite alike
+  if (!(settings.rate > 0) || rate <= kSame * settings.rate) return settings;
+  const auto scaled = [&](Eigen::Index rows) {
+    return static_cast<Eigen::Index>(std::ceil(static_cast<double>(rows) * rate / settings.rate));
+  };
+  settings.drop_edge = scaled(settings.drop_edge);
+  settings.rest_margin = scaled(settings.rest_margin);
+  settings.rate = rate;
+  return settings;
+}
+
 void RowCounts::operator+=(const RowCounts& other) {
   rows_used += other.rows_used;
   rows_at_rest += other.rows_at_rest;
@@ -151,7 +163,8 @@ void RowCounts::operator+=(const RowCounts& other) {
   rows_at_edges += other.rows_at_edges;
 }
 
-Eigen::Index row_halo(const RowSettings& settings, double rate) {
+Eigen::Index row_halo(const RowSettings& counted, double rate) {
+  const RowSettings settings = at_rate(counted, rate);
   const Eigen::Index averaging = 1;
   const int step = thinning_step(settings.signal, settings.decimate, rate);
   RowSettings thin = thinned(settings, step, 1 / rate);
@@ -175,7 +188,8 @@ Eigen::Index expected_rows(std::span<const LogSurvey> logs, const PartFilter& wa
 }
 
 RowBatch make_rows(const Window& window, const LogSurvey& log, Eigen::Index number_offset,
-                   const RowSettings& settings, std::span<const Equation> equations) {
+                   const RowSettings& counted, std::span<const Equation> equations) {
+  const RowSettings settings = at_rate(counted, 1 / window.period);
   const int step = thinning_step(settings.signal, settings.decimate, 1 / window.period);
   const RowSettings thin = thinned(settings, step, window.period);
   std::optional<Window> slow;

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,7 +27,13 @@ struct RowSettings {
   int decimate = 1;
   Eigen::Index drop_edge = kDifferenceEdge;  ///< rows dropped at both ends of each segment
   Eigen::Index rest_margin = 0;              ///< rows around a slow one that go with it
+  /// Hz, of the log that edge and margin count rows of; of a faster one they are as many more. 0:
+  /// the same number in every log.
+  double rate = 0;
 };
+
+/// For a log of this rate (Hz).
+RowSettings at_rate(RowSettings settings, double rate);
 
 /// An equation as columns over full-rate rows.
 struct Equation {
@@ -94,13 +102,17 @@ WindowCounts stream_rows(std::span<const LogSurvey> logs, const PartFilter& want
   const auto produce = [&](auto emit) {
     Eigen::Index offset = 0;
     for (std::size_t k = 0; k < logs.size(); ++k) {
-      double rate = 0;
-      for (const PartSurvey& part : logs[k].parts)
-        if (wanted(part)) rate = std::max(rate, 1 / part.period);
+      double rate = 0, lowest = std::numeric_limits<double>::infinity();
+      for (const PartSurvey& part : logs[k].parts) {
+        if (!wanted(part)) continue;
+        rate = std::max(rate, 1 / part.period);
+        lowest = std::min(lowest, 1 / part.period);
+      }
       if (rate == 0) continue;
       const Eigen::Index halo = row_halo(settings, rate);
+      const Eigen::Index edge = at_rate(settings, lowest).drop_edge;
       const WindowCounts counts = for_each_window(
-          logs[k], wanted, halo, 2 * settings.drop_edge + 2 * kDifferenceEdge + settings.decimate,
+          logs[k], wanted, halo, 2 * edge + 2 * kDifferenceEdge + settings.decimate,
           bridge_seconds(settings.signal), [&](Window&& window) {
             return (keep && !keep(window)) || emit(Item{k, offset, std::move(window)});
           });

@@ -44,6 +44,8 @@ void choose_filter_order(ChosenSettings& chosen, const SampleOptions& options) {
          options.filter_order ? kByOption : "Butterworth, forward and backward");
 }
 
+bool are_one(const RateRange& rates) { return rates.highest <= kRateSpread * rates.lowest; }
+
 }  // namespace
 
 double worst_noise(std::span<const LogSurvey> logs, const PartFilter& wanted, Channel channel,
@@ -62,7 +64,7 @@ void decide(ChosenSettings& chosen, std::string name, std::string value, std::st
 ChosenSettings begin_settings(std::span<const LogSurvey> logs, const PartFilter& wanted,
                               const SampleOptions& options, const RateRange& rates) {
   ChosenSettings chosen;
-  if (rates.highest > kRateSpread * rates.lowest)
+  if (!are_one(rates))
     chosen.warnings.push_back(fmt::format(
         "the logs have rates of {:.4g} to {:.4g} Hz: the slowest bounds the filter for all",
         rates.lowest, rates.highest));
@@ -86,8 +88,10 @@ void choose_decimation(ChosenSettings& chosen, const SampleOptions& options, dou
              : "no filter, no decimation");
 }
 
-void choose_edges(ChosenSettings& chosen, const SampleOptions& options, double rate) {
+void choose_edges(ChosenSettings& chosen, const SampleOptions& options, const RateRange& rates) {
   RowSettings& rows = chosen.rows;
+  rows.rate = rates.lowest;
+  const double rate = are_one(rates) ? rates.highest : rates.lowest;
   if (options.drop_edge) {
     rows.drop_edge = std::max<Eigen::Index>(*options.drop_edge, kDifferenceEdge);
     decide(chosen, "edge rows", std::to_string(rows.drop_edge), kByOption);

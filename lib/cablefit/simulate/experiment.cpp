@@ -12,22 +12,15 @@ std::string kind_of(const Rig& rig) {
                      rig.n_joints() == 1 ? "" : "s");
 }
 
-bool in_every_joint(const LogPlan& plan, Channel channel) {
-  for (int joint = 0; joint < plan.rig.n_joints(); ++joint) {
-    if (!plan.has(channel, joint)) return false;
-  }
-  return true;
-}
-
 void require_in_every_joint(const LogPlan& plan, Channel channel, std::string_view why) {
-  if (!in_every_joint(plan, channel)) require_channel(plan, channel, why);
+  if (!plan.has_for_all(channel)) require_channel(plan, channel, why);
 }
 
 /// Why there can be no closed loop; empty: there can.
 std::string no_closed_loop(const LogPlan& plan) {
   if (plan.rig.open_loop) return "the rig file says that the torque is a command";
   if (!plan.rig.controller) return "no controller in the rig file";
-  if (in_every_joint(plan, Channel::theta_ref)) return "";
+  if (plan.has_for_all(Channel::theta_ref)) return "";
   return fmt::format("no reference '{}' in the log", plan.rig.controller->reference);
 }
 
@@ -95,7 +88,7 @@ void require_channels(const Model& model, const LogPlan& plan, const PartSurvey&
   const bool by_column = law && law->from_column;
   if (by_column) {
     require_in_every_joint(plan, Channel::tau_load, "the load that the rig file says is a column");
-  } else if (!law && !model.rigid && !in_every_joint(plan, Channel::tau_load)) {
+  } else if (!law && !model.rigid && !plan.has_for_all(Channel::tau_load)) {
     experiment.warnings.emplace_back(
         "no tau_load column and no load law in the rig file: the load torque is taken as 0");
   }

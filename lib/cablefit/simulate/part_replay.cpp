@@ -58,14 +58,14 @@ PartReplay::PartReplay(Experiment experiment, const LogSurvey& log, const PartSu
 
 void PartReplay::choose_signals() {
   const LogPlan& plan = log_.plan;
-  for (int joint = 0; joint < plan.rig.n_joints(); ++joint) {
-    const bool has_q = plan.has(Channel::q, joint);
+  const int n_joints = plan.rig.n_joints();
+  // Of all joints or of none, as `measured` reads them.
+  const bool has_q = plan.has_for_all(Channel::q), has_tau = plan.has_for_all(Channel::tau);
+  for (int joint = 0; joint < n_joints; ++joint) {
     if (has_q) signals_.push_back({Channel::q, joint});
     signals_.push_back({Channel::theta, joint});
     if (has_q) signals_.push_back({Channel::theta, joint, true});
-    if (result_.closed_loop && plan.has(Channel::tau, joint)) {
-      signals_.push_back({Channel::tau, joint});
-    }
+    if (result_.closed_loop && has_tau) signals_.push_back({Channel::tau, joint});
   }
 }
 

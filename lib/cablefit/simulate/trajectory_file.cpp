@@ -50,7 +50,7 @@ void TrajectoryFile::add(std::size_t log, const ReplayedRows& rows) {
 
 void TrajectoryFile::add_row(std::size_t log, const ReplayedRows& rows, Eigen::Index row) {
   line_.clear();
-  append(&line_, "{},{},{:.12g}", log, rows.start,
+  append(&line_, "{},{},{:.15g}", log, rows.start,
          rows.t0 + static_cast<double>(row) * rows.period);
   const SimulationResult& s = rows.simulated;
   for (const Eigen::ArrayXXd* table : {&rows.q, &rows.theta, &rows.tau, &s.q, &s.theta, &s.tau}) {

@@ -140,7 +140,8 @@ class SpanCollector {
 std::vector<SuspectSpan> suspect_spans(const EstimationTask& task, const Iteration& last) {
   const DynamicJob& job = task.job;
   // A single wrong sample rings in the filter for as long as edges are dropped.
-  const double bridge = static_cast<double>(job.settings.rows.drop_edge) * job.first_part().period;
+  const RowSettings& rows = job.settings.rows;
+  const double bridge = static_cast<double>(rows.drop_edge) / rows.rate;
   std::vector<SpanCollector> collectors;
   for (const EquationRows& e : task.equations) collectors.emplace_back(e.equation.name, bridge);
   stream_rows(
