@@ -55,7 +55,8 @@ TEST_CASE("NIST nonlinear regression, from both starts", "[estimate]") {
       for (std::size_t k = 0; k < set.value.size(); ++k) {
         const auto i = static_cast<Eigen::Index>(k);
         of_value = std::min(of_value, certified_digits(solution.x(i), set.value[k]));
-        of_sd = std::min(of_sd, certified_digits(std::sqrt(variance * solution.inverse(i, i)), set.sd[k]));
+        of_sd = std::min(of_sd,
+                         certified_digits(std::sqrt(variance * solution.inverse(i, i)), set.sd[k]));
       }
       std::printf(
           "  NIST %-8s (%c) start %zu, digits: estimates %4.1f, sd %4.1f, residual sd %4.1f; "

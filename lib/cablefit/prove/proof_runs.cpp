@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "cablefit/base/parallel.hpp"
 
 namespace cablefit {
 namespace {
 
 std::string verdict_of(const FitProof& proof) {
+  const bool any = std::any_of(proof.parameters.begin(), proof.parameters.end(),
+                               [](const ProvedParameter& p) { return p.n_runs > 0; });
+  if (!any) return "not proved: no run ended with estimates";
   std::vector<std::string> narrow, biased;
   for (const ProvedParameter& p : proof.parameters) {
     if (p.factor > 1) narrow.push_back(p.name);

@@ -37,7 +37,8 @@ TwinDisturbance disturbances_of(const std::map<std::string, ResidualColour>& mea
   for (const auto& [name, colour] : measured) {
     Eigen::VectorXd left = colour.autocovariance;
     const auto noise = by_noise.find(name);
-    const bool same_grid = noise != by_noise.end() && noise->second.period == colour.period;
+    const bool same_grid =
+        noise != by_noise.end() && is_same_grid(noise->second.period, colour.period);
     if (same_grid) left -= noise->second.autocovariance;
     const ArModel model = fit_ar(left, colour.period, colour.n_values);
     auto& of_side = colour.side == Side::link ? disturbance.link : disturbance.motor;

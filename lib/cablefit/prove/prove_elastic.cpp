@@ -6,6 +6,7 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/elastic/blocked_rows.hpp"
 #include "cablefit/prove/proof_runs.hpp"
+#include "cablefit/prove/residual_colour.hpp"
 #include "cablefit/prove/twin.hpp"
 #include "cablefit/samples/agreement.hpp"
 #include "cablefit/samples/butterworth.hpp"
@@ -190,7 +191,7 @@ Plan make_plan(std::span<const LogSurvey> logs, const ElasticOptions& options,
   const std::vector<LogSurvey> quiet = record_twin(plan.twin, plan.motions, calibration);
   const Colour by_noise = colour_of(quiet, plan.options, preload.name, fit);
   Eigen::VectorXd left = measured.autocovariance;
-  if (by_noise.period == measured.period) left -= by_noise.autocovariance;
+  if (is_same_grid(by_noise.period, measured.period)) left -= by_noise.autocovariance;
   plan.disturbance = fit_ar(left, measured.period, measured.n_values);
   plan.twin.notes.push_back(fmt::format(
       "residual {:.3g} rms, of which {:.3g} are simulated as a disturbance, autoregressive of "

@@ -1,6 +1,7 @@
 // What a fit leaves of its equations on given logs, as autocovariances. Internal to prove/.
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <span>
 #include <string>
@@ -18,6 +19,11 @@ struct ResidualColour {
   double period = 0;               ///< s, of the rows after decimation
   std::size_t n_values = 0;
 };
+
+/// Whether two periods are one: those of a twin's clock are made anew.
+inline bool is_same_grid(double period, double other) {
+  return std::abs(period - other) < 1e-6 * other;
+}
 
 /// The fit's residuals on logs of one preload, with the settings that stage 2 chooses for them. By
 /// the name of the equation.
