@@ -1,12 +1,16 @@
 # Where files use the same templates (Eigen's decompositions, options of CLI11, JSON), those of a folder
 # that begin with neighbouring letters are compiled together: the templates once, not once a file. Names
-# in their anonymous namespaces have to differ then. FILES: those that the pattern matches.
+# in their anonymous namespaces have to differ then. FILES: those that the pattern matches; LETTERS: only
+# those that begin so.
 function(cablefit_together target folder)
-  cmake_parse_arguments(PARSE_ARGV 2 only "" "FILES" "")
+  cmake_parse_arguments(PARSE_ARGV 2 only "" "FILES" "LETTERS")
   if(NOT only_FILES)
     set(only_FILES "*.cpp")
   endif()
-  foreach(letters a-f g-o p-z)
+  if(NOT only_LETTERS)
+    set(only_LETTERS a-f g-o p-z)
+  endif()
+  foreach(letters ${only_LETTERS})
     file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/[${letters}]${only_FILES})
     set_source_files_properties(${sources} PROPERTIES UNITY_GROUP "${folder}/${letters}")
   endforeach()
