@@ -44,15 +44,15 @@ struct StretchRows {
 
 Eigen::Index count_rows(const std::vector<StretchRows>& rows);
 
-/// `kept`: take the rows of these instead of choosing, so that a changed recording can be compared
-/// row by row.
+/// `wanted`: made to suit the stretch. `kept`: take the rows of these instead of choosing, so that
+/// a changed recording can be compared row by row.
 StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayout& layout,
-                      const Smoothing& smoothing, const StretchRows* kept = nullptr);
+                      const Smoothing& wanted, const StretchRows* kept = nullptr);
 
 /// The rows of a stretch again where positions are as they were: of another torque, or of a model
 /// with other cables. `kept`: rows with the columns of `before`, and what was added to them.
 StretchRows rows_of_torque(const StretchRows& kept, const Stretch& changed, const Model& model,
-                           const Smoothing& smoothing);
+                           const Smoothing& wanted);
 StretchRows rows_of_cables(const StretchRows& kept, const BaseLayout& before, const Model& model,
                            const BaseLayout& layout, const Smoothing& smoothing);
 

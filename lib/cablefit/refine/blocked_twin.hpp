@@ -21,7 +21,7 @@ struct BlockedTwin {
 
 /// `models`: by Stretch::model. Sensors as the rig files have them, else as the recordings look.
 BlockedTwin make_blocked_twin(const std::vector<Model>& models, std::vector<Stretch> stretches,
-                              const Smoothing& smoothing);
+                              const Smoothing& wanted);
 
 /// One recording of it. `disturbance`: a torque beside the model; sd 0: none.
 std::vector<Stretch> record(const BlockedTwin& twin, const ArModel& disturbance,

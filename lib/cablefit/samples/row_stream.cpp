@@ -163,19 +163,19 @@ void RowCounts::operator+=(const RowCounts& other) {
   rows_at_edges += other.rows_at_edges;
 }
 
-Eigen::Index row_halo(const RowSettings& counted, double rate) {
-  const RowSettings settings = at_rate(counted, rate);
+Eigen::Index row_halo(const RowSettings& settings, double rate) {
+  const RowSettings own = at_rate(settings, rate);
   const Eigen::Index averaging = 1;
-  const int step = thinning_step(settings.signal, settings.decimate, rate);
-  RowSettings thin = thinned(settings, step, 1 / rate);
-  if (settings.lowest_cutoff > 0) thin.signal.cutoff = settings.lowest_cutoff;
+  const int step = thinning_step(own.signal, own.decimate, rate);
+  RowSettings thin = thinned(own, step, 1 / rate);
+  if (own.lowest_cutoff > 0) thin.signal.cutoff = own.lowest_cutoff;
   const Eigen::Index needed =
       thinning_reach(step) + step * (signal_halo(thin.signal, rate / step) + averaging +
                                      Decimation(thin.decimate).half_width() + thin.rest_margin +
                                      thin.decimate + kDifferenceEdge);
   // A window is followed by more than its halo, or ends its segment: so the rows that the segment's
   // end takes are all in its last window.
-  return std::max(needed, settings.drop_edge);
+  return std::max(needed, own.drop_edge);
 }
 
 Eigen::Index expected_rows(std::span<const LogSurvey> logs, const PartFilter& wanted,
@@ -188,10 +188,10 @@ Eigen::Index expected_rows(std::span<const LogSurvey> logs, const PartFilter& wa
 }
 
 RowBatch make_rows(const Window& window, const LogSurvey& log, Eigen::Index number_offset,
-                   const RowSettings& counted, std::span<const Equation> equations) {
-  const RowSettings settings = at_rate(counted, 1 / window.period);
-  const int step = thinning_step(settings.signal, settings.decimate, 1 / window.period);
-  const RowSettings thin = thinned(settings, step, window.period);
+                   const RowSettings& settings, std::span<const Equation> equations) {
+  const RowSettings own = at_rate(settings, 1 / window.period);
+  const int step = thinning_step(own.signal, own.decimate, 1 / window.period);
+  const RowSettings thin = thinned(own, step, window.period);
   std::optional<Window> slow;
   if (step > 1) slow = thinned(window, step);
   RowBatch batch = rows_of(slow ? *slow : window, log.plan, number_offset, thin, equations);
