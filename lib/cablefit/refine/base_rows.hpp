@@ -42,6 +42,7 @@ struct StretchRows {
   std::vector<KindRows> kinds;
 };
 
+/// Of all kinds and stretches.
 Eigen::Index count_rows(const std::vector<StretchRows>& rows);
 
 /// `wanted`: made to suit the stretch. `kept`: take the rows of these instead of choosing, so that

@@ -83,7 +83,8 @@ bool applies(const Design& design, const Variant& variant);
 /// Gives cables that have the variant already what follows from other coefficients.
 void change_again(const Variant& variant, Transmission& transmission);
 
-/// The design with a variant in it, which applies. `values`: of the columns so far.
+/// The design with a variant in it, which applies. `values`: of the columns so far. Throws
+/// Error(not_identifiable) for one that does not.
 Design with_variant(const Design& design, const Variant& variant, const Eigen::VectorXd& values);
 
 /// All of it anew with other coefficients in the models: states and nonlinear columns follow them.

@@ -78,8 +78,7 @@ Eigen::MatrixXd noise_covariance(const BlockGrams& grams, const KindLevels& leve
 /// How many neighbouring rows are worth one: sum of the autocorrelation of white noise behind the
 /// kernel of the columns.
 double rows_per_value(const Smoothing& smoothing) {
-  const double step =
-      static_cast<double>(smoothing.stride) * smoothing.period / (2 * smoothing.columns);
+  const double step = smoothing.row_period() / (2 * smoothing.columns);
   double sum = 1;
   for (int k = 1; k * step < 3; ++k) sum += 2 * std::exp(-(k * step) * (k * step));
   return sum;

@@ -19,6 +19,7 @@ struct Smoothing {
   Eigen::Index stride = 6;  ///< samples from row to row
   Eigen::Index every = 2;   ///< samples from one evaluation of a candidate to the next
   double period = 1e-3;     ///< s, of these samples
+  double row_period() const { return static_cast<double>(stride) * period; }  ///< s, row to row
   double least_speed_theta = 0, least_speed_q = 0;  ///< rad/s; slower rows are at rest
 };
 

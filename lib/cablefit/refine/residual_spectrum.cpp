@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace cablefit {
 namespace {
-
-double row_period(const Smoothing& smoothing) {
-  return static_cast<double>(smoothing.stride) * smoothing.period;
-}
 
 bool is_same(double period, double other) {
   constexpr double kApart = 0.02;  // clocks are not
@@ -18,20 +15,22 @@ bool is_same(double period, double other) {
 
 /// Of most rows of a kind: lags of logs of another rate are others. 0: there are none.
 double usual_row_period(const Design& design, RowKind kind) {
-  double usual = 0;
-  std::size_t most = 0;
-  for (std::size_t s = 0; s < design.rows.size(); ++s) {
-    const double period = row_period(design.smoothing_of(s));
+  struct Rate {
+    double period = 0;
     std::size_t n = 0;
-    for (std::size_t k = 0; k < design.rows.size(); ++k)
-      if (is_same(row_period(design.smoothing_of(k)), period))
-        for (const KindRows& rows : design.rows[k].kinds)
-          if (rows.kind == kind) n += rows.at.size();
-    if (n <= most) continue;
-    most = n;
-    usual = period;
+  };
+  std::vector<Rate> rates;
+  for (std::size_t s = 0; s < design.rows.size(); ++s) {
+    const double period = design.smoothing_of(s).row_period();
+    auto rate = std::find_if(rates.begin(), rates.end(),
+                             [&](const Rate& one) { return is_same(period, one.period); });
+    if (rate == rates.end()) rate = rates.insert(rates.end(), {period, 0});
+    for (const KindRows& rows : design.rows[s].kinds)
+      if (rows.kind == kind) rate->n += rows.at.size();
   }
-  return usual;
+  const auto most = std::max_element(rates.begin(), rates.end(),
+                                     [](const Rate& a, const Rate& b) { return a.n < b.n; });
+  return most != rates.end() && most->n > 0 ? most->period : 0;
 }
 
 }  // namespace
@@ -44,7 +43,7 @@ ResidualMemory residual_memory(const Design& design, const Eigen::VectorXd& x, R
   Eigen::Index offset = 0;
   for (std::size_t s = 0; s < design.rows.size(); ++s) {
     const Smoothing smoothing = design.smoothing_of(s);
-    if (!is_same(row_period(smoothing), memory.period)) continue;
+    if (!is_same(smoothing.row_period(), memory.period)) continue;
     for (const KindRows& rows : design.rows[s].kinds) {
       if (rows.kind != kind) continue;
       std::vector<Eigen::Index> numbers;

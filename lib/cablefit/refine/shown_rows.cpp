@@ -37,8 +37,7 @@ Timeline timeline_of(const Design& design, std::span<const LogSurvey> logs) {
     }
     time.begins.push_back(next);
     const double period = stretch.recording.period;
-    time.spacing =
-        std::max(time.spacing, period * static_cast<double>(design.smoothing_of(s).stride));
+    time.spacing = std::max(time.spacing, design.smoothing_of(s).row_period());
     next += static_cast<double>(stretch.recording.theta.size()) * period + kPause;
   }
   time.end = std::max(next - kPause, time.spacing);
@@ -57,7 +56,7 @@ ShownRows shown_rows(const Design& design, const Eigen::VectorXd& x, RowKind wan
     for (const KindRows& kind : design.rows[s].kinds) {
       if (kind.kind != wanted) continue;
       const double period = smoothing.period;
-      shown.row_period = std::max(shown.row_period, period * static_cast<double>(smoothing.stride));
+      shown.row_period = std::max(shown.row_period, smoothing.row_period());
       const Eigen::VectorXd residual = kind.response - kind.base * x;
       for (std::size_t i = 0; i < kind.at.size(); ++i) {
         const double t = time.begins[s] + static_cast<double>(kind.at[i]) * period;

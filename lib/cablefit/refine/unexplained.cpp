@@ -88,9 +88,7 @@ EquationGap largest_gap(const Design& design, const Eigen::VectorXd& x, const Ki
     for (std::size_t s = 0; s < design.rows.size(); ++s)
       for (const KindRows& rows : design.rows[s].kinds) {
         if (rows.kind != kind) continue;
-        const Smoothing smoothing = design.smoothing_of(s);
-        gap.row_period =
-            std::max(gap.row_period, static_cast<double>(smoothing.stride) * smoothing.period);
+        gap.row_period = std::max(gap.row_period, design.smoothing_of(s).row_period());
         gap.squares += (rows.response - rows.base * x).squaredNorm();
         gap.n_rows += static_cast<double>(rows.response.size());
       }

@@ -24,7 +24,8 @@ struct ReplayOptions {
   /// s; a simulation starts anew from the measured state this often. 0: never. Not given: never in
   /// closed loop, else kReplayWindowSeconds.
   std::optional<double> window;
-  /// How much of the time of every part, its end, is compared; what comes before is only simulated.
+  /// Share (0..1] of the time of every part, its end, that is compared; what comes before is only
+  /// simulated.
   double compared = 1;
   double step = SimulationOptions{}.step;  ///< s
   std::string trajectories;                ///< CSV file of every row; empty: none
