@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include "cablefit/elastic/elastic_quantities.hpp"
 #include "cablefit/estimate/long_run.hpp"
@@ -15,23 +14,21 @@ namespace {
 /// dynamic_response().
 double sign_of(Side side) { return side == Side::link ? 1 : -1; }
 
-/// All parts' influences side by side, a row per stretch that any of them has.
+/// All parts' influences side by side, a row for each stretch of time from the first to the last.
 Eigen::MatrixXd side_by_side(const std::vector<EquationInfluence>& parts) {
-  std::set<Eigen::Index> ids;
-  Eigen::Index columns = 0;
+  Eigen::Index columns = 0, from = 0, to = 0;
   for (const EquationInfluence& part : parts) {
-    ids.insert(part.cells.begin(), part.cells.end());
     columns += part.influence.cols();
+    if (part.cells.empty()) continue;
+    from = to == 0 ? part.cells.front() : std::min(from, part.cells.front());
+    to = std::max(to, part.cells.back() + 1);
   }
-  const std::vector<Eigen::Index> rows(ids.begin(), ids.end());
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()), columns);
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(to - from, columns);
   Eigen::Index first = 0;
   for (const EquationInfluence& part : parts) {
-    for (std::size_t c = 0; c < part.cells.size(); ++c) {
-      const auto row = std::lower_bound(rows.begin(), rows.end(), part.cells[c]) - rows.begin();
-      all.block(row, first, 1, part.influence.cols()) =
+    for (std::size_t c = 0; c < part.cells.size(); ++c)
+      all.block(part.cells[c] - from, first, 1, part.influence.cols()) =
           part.influence.row(static_cast<Eigen::Index>(c));
-    }
     first += part.influence.cols();
   }
   return all;

@@ -118,15 +118,14 @@ std::optional<DelayFit> fit_delay(const RowStatistics& rows, const DynamicColumn
   const Eigen::VectorXd solution = scale.cwiseProduct(lu.solve(zy));
   Eigen::VectorXd residual = response;
   for (Eigen::Index k = 0; k < p; ++k) residual(x[static_cast<std::size_t>(k)]) -= solution(k);
-  Eigen::MatrixXd scores(static_cast<Eigen::Index>(rows.cells().size()), p);
-  for (std::size_t cell = 0; cell < rows.cells().size(); ++cell) {
-    const Eigen::VectorXd all = rows.cells()[cell].gram * residual;
-    for (Eigen::Index k = 0; k < p; ++k)
-      scores(static_cast<Eigen::Index>(cell), k) = scale(k) * all(z[static_cast<std::size_t>(k)]);
-  }
   // Influence of each cell on the delay alone: the last row of (Z'X)^-1 times its scores.
-  const Eigen::RowVectorXd last = lu.inverse().row(p - 1);
-  const LongRunCovariance spread = long_run_covariance(scores * last.transpose());
+  const Eigen::RowVectorXd last = lu.inverse().row(p - 1).cwiseProduct(scale.transpose());
+  const Eigen::MatrixXd series =
+      series_over_time(rows.cells(), 1, [&](const GramCell& cell) -> Eigen::RowVectorXd {
+        const Eigen::VectorXd all = cell.gram * residual;
+        return last * all(z);
+      });
+  const LongRunCovariance spread = long_run_covariance(series);
   return DelayFit{solution(p - 1), scale(p - 1) * std::sqrt(spread.covariance(0, 0))};
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "cablefit/estimate/long_run.hpp"
+#include "cablefit/estimate/row_statistics.hpp"
 #include "cablefit/estimate/tail_probability.hpp"
 
 namespace cablefit {
@@ -97,6 +98,7 @@ void BinnedTest::add(std::span<const Eigen::Index> numbers,
     cell.bins(bin) += residual(row);
     cell.regressors += residual(row) * regressors.row(row).transpose();
     rows_in_bin_(bin) += 1;
+    squares_ += residual(row) * residual(row);
     variable_in_bin_(bin) += variable(row);
     cross_.row(bin) += regressors.row(row);
     gram_ += regressors.row(row).transpose() * regressors.row(row);
@@ -124,13 +126,22 @@ BinnedTestResult BinnedTest::of_unseen_rows(const Eigen::MatrixXd& parameter_cov
 BinnedTestResult BinnedTest::judged(const Eigen::MatrixXd& own, const Eigen::MatrixXd& white,
                                     const Eigen::MatrixXd& extra) const {
   BinnedTestResult out;
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(n_bins_);
+  for (const Cell& cell : cells_) sums += cell.bins;
+  const Eigen::VectorXd means = sums.cwiseQuotient(rows_in_bin_.cwiseMax(1));
+  if (squares_ > 0) out.explained = sums.dot(means) / squares_;
   const Eigen::MatrixXd turn = whitening(white, rows_in_bin_);
   const Eigen::Index k = turn.cols();
   if (k == 0 || cells_.size() < 8) return out;
-  Eigen::MatrixXd scores(static_cast<Eigen::Index>(cells_.size()), k);
-  for (std::size_t c = 0; c < cells_.size(); ++c)
-    scores.row(static_cast<Eigen::Index>(c)) =
-        (cells_[c].bins - own * cells_[c].regressors).transpose() * turn;
+  // A row per stretch of time, zeros where there are no rows of the equation.
+  std::vector<GramCell> stretches;
+  for (const Cell& cell : cells_) stretches.push_back({cell.id, 0, {}});
+  std::size_t next = 0;
+  const Eigen::MatrixXd scores =
+      series_over_time(stretches, k, [&](const GramCell&) -> Eigen::RowVectorXd {
+        const Cell& cell = cells_[next++];
+        return (cell.bins - own * cell.regressors).transpose() * turn;
+      });
   const LongRunCovariance hac = long_run_covariance(scores);
   const Eigen::VectorXd total = scores.colwise().sum();
   const Eigen::MatrixXd v = hac.covariance + turn.transpose() * extra * turn;
@@ -141,9 +152,7 @@ BinnedTestResult BinnedTest::judged(const Eigen::MatrixXd& own, const Eigen::Mat
   out.f = quadratic_form(v, total) * out.dof_2 / (hac.degrees_of_freedom * out.dof_1);
   out.p_value = f_tail(out.f, out.dof_1, out.dof_2);
   out.structure = std::sqrt(std::max(0.0, total.squaredNorm() - v.trace()) / rows_in_bin_.sum());
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(n_bins_);
-  for (const Cell& cell : cells_) sums += cell.bins;
-  const Eigen::VectorXd means = sums.cwiseQuotient(rows_in_bin_.cwiseMax(1));
+  out.detectable = std::sqrt(2 * v.trace() / rows_in_bin_.sum());
   Eigen::Index at = 0;
   means.cwiseAbs().maxCoeff(&at);
   out.largest = means(at);

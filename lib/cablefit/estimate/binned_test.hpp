@@ -13,6 +13,9 @@ struct BinnedTestResult {
   double p_value = 1;
   /// Root mean square over the rows of what the bins explain, less what noise would: >= 0.
   double structure = 0;
+  /// The least structure that noise would not hide, twice its own sd over the bins.
+  double detectable = 0;
+  double explained = 0;  ///< 0..1, of the rows' squares by the means of the bins, noise included
   double largest = 0, largest_at = 0;  ///< mean of the bin farthest from 0, mean variable there
   /// False: the regressors explain every difference between bins, or there are too few rows.
   bool is_possible = false;
@@ -59,6 +62,7 @@ class BinnedTest {
   Eigen::Index n_bins_, cell_places_;
   std::vector<Cell> cells_;
   Eigen::VectorXd rows_in_bin_, variable_in_bin_;
+  double squares_ = 0;     ///< of the residual
   Eigen::MatrixXd cross_;  ///< bins x regressors
   Eigen::MatrixXd gram_;   ///< regressors x regressors
 };

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/estimate/parameter_estimate.hpp"
+
 namespace cablefit {
 namespace {
 
@@ -89,14 +91,8 @@ ProvedParameter judge_runs(const Estimate& truth, std::span<const Estimate> esti
 void widen(std::vector<Estimate>& estimates, const FitProof& proof) {
   for (const ProvedParameter& p : proof.parameters) {
     if (!(p.factor > 1)) continue;
-    for (Estimate& e : estimates) {
-      if (e.name != p.name || !has_numbers(e)) continue;
-      const bool cut_off = !e.active_bound.empty() || e.ci_low == 0;
-      const double high = p.factor * (e.ci_high - e.value), low = p.factor * (e.value - e.ci_low);
-      e.sd *= p.factor;
-      e.ci_high = e.value + high;
-      if (!cut_off) e.ci_low = e.value - low;
-    }
+    for (Estimate& e : estimates)
+      if (e.name == p.name && has_numbers(e)) widen_interval(e, p.factor);
   }
 }
 

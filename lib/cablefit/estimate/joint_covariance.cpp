@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <vector>
 
 #include "cablefit/estimate/joint_least_squares.hpp"
 #include "cablefit/estimate/long_run.hpp"
@@ -11,14 +12,10 @@ namespace {
 
 constexpr std::size_t kMinCells = 8;  // fewer tell nothing of correlation
 
-/// W'rho of every cell of a block, cells x n_params.
-Eigen::MatrixXd cell_scores(const JointBlock& block, const Eigen::VectorXd& combination) {
-  const auto& cells = block.rows->cells();
-  Eigen::MatrixXd scores(static_cast<Eigen::Index>(cells.size()), block.regressors.cols());
-  for (std::size_t c = 0; c < cells.size(); ++c)
-    scores.row(static_cast<Eigen::Index>(c)) =
-        (block.regressors.transpose() * (cells[c].gram * combination)).transpose();
-  return scores;
+/// W'rho of a cell of a block.
+Eigen::RowVectorXd cell_score(const JointBlock& block, const GramCell& cell,
+                              const Eigen::VectorXd& combination) {
+  return (block.regressors.transpose() * (cell.gram * combination)).transpose();
 }
 
 double variance_of(const JointBlock& block, double rss) {
@@ -46,22 +43,32 @@ Eigen::MatrixXd own_inverse(const JointBlock& block, Eigen::Index& rank) {
   return inverse;
 }
 
-/// Influence of every time cell of a record on the estimates, by the cell's number.
-std::map<Eigen::Index, Eigen::RowVectorXd> influence_of(const JointProblem& problem,
-                                                        const JointSolution& solution, int record) {
-  std::map<Eigen::Index, Eigen::RowVectorXd> influence;
+/// A time cell of a record: its influence on the estimates, and sum of weight w w' over its rows.
+struct RecordCell {
+  Eigen::RowVectorXd influence;
+  Eigen::MatrixXd information;
+};
+
+/// By the cell's number.
+std::map<Eigen::Index, RecordCell> cells_of(const JointProblem& problem,
+                                            const JointSolution& solution, int record) {
+  const Eigen::Index p = solution.x.size();
+  std::map<Eigen::Index, RecordCell> cells;
   for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
     const JointBlock& block = problem.blocks[b];
     if (block.record != record) continue;
-    const Eigen::MatrixXd scores = block.weight * cell_scores(block, solution.combinations[b]);
-    const Eigen::MatrixXd moved = scores * solution.solve_operator;
-    for (Eigen::Index c = 0; c < moved.rows(); ++c) {
-      const Eigen::Index id = block.rows->cells()[static_cast<std::size_t>(c)].id;
-      const auto [at, is_new] = influence.try_emplace(id, moved.row(c));
-      if (!is_new) at->second += moved.row(c);
+    for (const GramCell& cell : block.rows->cells()) {
+      RecordCell& own = cells
+                            .try_emplace(cell.id, RecordCell{Eigen::RowVectorXd::Zero(p),
+                                                             Eigen::MatrixXd::Zero(p, p)})
+                            .first->second;
+      own.influence += block.weight * cell_score(block, cell, solution.combinations[b]) *
+                       solution.solve_operator;
+      own.information +=
+          block.weight * (block.regressors.transpose() * cell.gram * block.regressors);
     }
   }
-  return influence;
+  return cells;
 }
 
 Eigen::MatrixXd white_of(const JointProblem& problem, const JointSolution& s, int record) {
@@ -76,12 +83,17 @@ Eigen::MatrixXd white_of(const JointProblem& problem, const JointSolution& s, in
 }
 
 LongRunCovariance honest_of(const JointProblem& problem, const JointSolution& s, int record) {
-  const auto influence = influence_of(problem, s, record);
-  if (influence.size() < kMinCells) return {white_of(problem, s, record), 1, 1e6};
-  Eigen::MatrixXd series(static_cast<Eigen::Index>(influence.size()), s.x.size());
-  Eigen::Index row = 0;
-  for (const auto& [id, value] : influence) series.row(row++) = value;
-  return interval_covariance(series);
+  const auto cells = cells_of(problem, s, record);
+  if (cells.size() < kMinCells) return {white_of(problem, s, record), 1, 1e6};
+  const Eigen::Index first = cells.begin()->first, n = cells.rbegin()->first - first + 1;
+  Eigen::MatrixXd series = Eigen::MatrixXd::Zero(n, s.x.size());
+  std::vector<Eigen::MatrixXd> information(static_cast<std::size_t>(n));
+  for (const auto& [id, cell] : cells) {
+    series.row(id - first) = cell.influence;
+    information[static_cast<std::size_t>(id - first)] = cell.information;
+  }
+  const FittedOut fitted = fitted_out(information, s.solve_operator);
+  return interval_covariance(series, &fitted);
 }
 
 /// Never below the white variance, as for one equation (solution_covariance.cpp).
@@ -104,7 +116,10 @@ double residual_inflation(const JointBlock& block, const Eigen::VectorXd& combin
   const Eigen::MatrixXd inverse = own_inverse(block, rank);
   const double rss = (block.rows->r() * combination).squaredNorm();
   if (rank == 0 || !(rss > 0)) return 1;
-  const Eigen::MatrixXd influence = cell_scores(block, combination) * inverse;
+  const Eigen::MatrixXd influence = series_over_time(
+      block.rows->cells(), inverse.cols(), [&](const GramCell& cell) -> Eigen::RowVectorXd {
+        return cell_score(block, cell, combination) * inverse;
+      });
   const Eigen::MatrixXd honest = long_run_covariance(influence).covariance;
   const double variance = variance_of(block, rss);
   double sum = 0;

@@ -1,19 +1,170 @@
 #include "cablefit/estimate/long_run.hpp"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "cablefit/estimate/autoregression.hpp"
 
 namespace cablefit {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kMaxRho = 0.97;
+constexpr double kMaxSum = 0.97;             // of the coefficients that prewhiten
+constexpr Eigen::Index kMaxOrder = 30;       // of an autoregression
+constexpr Eigen::Index kEntriesPerLag = 16;  // of the series, for each order
 
 double lag1_correlation(const Eigen::Ref<const Eigen::VectorXd>& x) {
   const Eigen::Index n = x.size();
   const double energy = x.squaredNorm();
   if (!(energy > 0)) return 0;
-  return std::clamp(x.head(n - 1).dot(x.tail(n - 1)) / energy, -kMaxRho, kMaxRho);
+  return std::clamp(x.head(n - 1).dot(x.tail(n - 1)) / energy, -kMaxSum, kMaxSum);
+}
+
+double quadratic_spectral(double x) {
+  if (std::abs(x) < 1e-8) return 1;
+  const double a = 6 * kPi * x / 5;
+  return 25 / (12 * kPi * kPi * x * x) * (std::sin(a) / a - std::cos(a));
+}
+
+/// Takes out of a series what its own past predicts.
+struct Prewhitening {
+  Eigen::VectorXd coefficients;
+  double sum = 0;                ///< of the coefficients
+  double relative_variance = 0;  ///< of 1 / (1 - sum)^2, as the coefficients are estimated
+
+  Eigen::Index order() const { return coefficients.size(); }
+  Eigen::VectorXd apply(const Eigen::Ref<const Eigen::VectorXd>& x) const {
+    Eigen::VectorXd out = x;
+    for (Eigen::Index k = 0; k < order(); ++k)
+      out.tail(x.size() - k - 1) -= coefficients(k) * x.head(x.size() - k - 1);
+    return out;
+  }
+};
+
+/// Biased autocovariances, so that they are positive definite.
+Eigen::VectorXd autocovariance_of(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Index n_lags) {
+  const Eigen::Index n = x.size();
+  Eigen::VectorXd out(n_lags);
+  for (Eigen::Index lag = 0; lag < n_lags; ++lag)
+    out(lag) = x.head(n - lag).dot(x.tail(n - lag)) / static_cast<double>(n);
+  return out;
+}
+
+/// The coefficients of an autoregression have the covariance v / n (autocovariance matrix)^-1, v of
+/// the innovation (Brockwell & Davis 1991, ch. 8.1); by the delta method that of 1 / (1 - sum)^2.
+double recolouring_variance(const Eigen::VectorXd& autocovariance, const Autoregression& found,
+                            double sum, double n) {
+  const auto order = static_cast<Eigen::Index>(found.coefficients.size());
+  if (order == 0) return 0;
+  Eigen::MatrixXd toeplitz(order, order);
+  for (Eigen::Index i = 0; i < order; ++i)
+    for (Eigen::Index j = 0; j < order; ++j) toeplitz(i, j) = autocovariance(std::abs(i - j));
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(order);
+  const double of_sum = found.innovation_variance / n * ones.dot(toeplitz.ldlt().solve(ones));
+  return 4 * of_sum / ((1 - sum) * (1 - sum));
+}
+
+Prewhitening prewhitening_of(const Eigen::Ref<const Eigen::VectorXd>& covariance, double n) {
+  const Autoregression found = fit_autoregression(covariance, n);
+  Prewhitening one;
+  one.coefficients = Eigen::Map<const Eigen::VectorXd>(
+      found.coefficients.data(), static_cast<Eigen::Index>(found.coefficients.size()));
+  one.sum = found.sum();
+  if (one.sum > kMaxSum) {
+    one.coefficients *= kMaxSum / one.sum;
+    one.sum = kMaxSum;
+  }
+  one.relative_variance = recolouring_variance(covariance, found, one.sum, n);
+  return one;
+}
+
+/// One component: its autocovariances, and what the fit took out of them per unit of the level.
+struct Component {
+  Eigen::VectorXd seen, taken;
+  double total = 0;
+  double level = 0;  ///< long-run variance over total
+
+  Component(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Index n_lags,
+            const FittedOut* fitted, Eigen::Index k)
+      : seen(autocovariance_of(x, n_lags)), taken(Eigen::VectorXd::Zero(n_lags)) {
+    if (fitted == nullptr || !(fitted->total(k) > 0)) return;
+    const Eigen::MatrixXd& z = fitted->columns[static_cast<std::size_t>(k)];
+    for (Eigen::Index j = 0; j < z.cols(); ++j) taken += autocovariance_of(z.col(j), n_lags);
+    total = fitted->total(k) / static_cast<double>(x.size());
+    level = seen(0) / total;
+  }
+  Eigen::VectorXd whole() const { return seen + level * taken; }
+};
+
+/// Kernel sum of the prewhitened component, recoloured, from autocovariances; per entry.
+double long_run_variance(const Eigen::VectorXd& covariance, const Prewhitening& filter,
+                         double bandwidth) {
+  Eigen::VectorXd a = Eigen::VectorXd::Zero(filter.order() + 1);
+  a(0) = 1;
+  a.tail(filter.order()) = -filter.coefficients;
+  Eigen::VectorXd twice = Eigen::VectorXd::Zero(filter.order() + 1);  // autocorrelation of a
+  for (Eigen::Index lag = 0; lag <= filter.order(); ++lag)
+    twice(lag) = a.head(a.size() - lag).dot(a.tail(a.size() - lag));
+  const auto at = [&](Eigen::Index lag) {
+    lag = std::abs(lag);
+    return lag < covariance.size() ? covariance(lag) : 0.0;
+  };
+  const auto whitened = [&](Eigen::Index lag) {
+    double sum = twice(0) * at(lag);
+    for (Eigen::Index j = 1; j < twice.size(); ++j) sum += twice(j) * (at(lag + j) + at(lag - j));
+    return sum;
+  };
+  double total = whitened(0);
+  const auto last = std::min<Eigen::Index>(covariance.size() - 1,
+                                           static_cast<Eigen::Index>(std::ceil(5 * bandwidth)));
+  for (Eigen::Index lag = 1; lag <= last; ++lag)
+    total += 2 * quadratic_spectral(static_cast<double>(lag) / bandwidth) * whitened(lag);
+  return total / ((1 - filter.sum) * (1 - filter.sum));
+}
+
+Eigen::Index lags_of_orders(Eigen::Index n) {
+  return 1 + std::clamp<Eigen::Index>(n / kEntriesPerLag, 1, kMaxOrder);
+}
+
+/// Puts back what the fit took out, prewhitening included; the diagonal's entries grow,
+/// correlations stay.
+void restore(const Eigen::Ref<const Eigen::MatrixXd>& series, const FittedOut& fitted,
+             LongRunCovariance& result) {
+  constexpr int kPasses = 6;  // each adds less than a third of the one before
+  const auto n = static_cast<double>(series.rows());
+  const Eigen::Index n_lags = std::min<Eigen::Index>(
+      series.rows(), static_cast<Eigen::Index>(std::ceil(5 * result.bandwidth)) + kMaxOrder + 1);
+  const Eigen::Index n_orders = std::min(n_lags, lags_of_orders(series.rows()));
+  for (Eigen::Index k = 0; k < series.cols(); ++k) {
+    Component component(series.col(k), n_lags, &fitted, k);
+    if (!(component.total > 0) || !(result.covariance(k, k) > 0)) continue;
+    double variance = result.covariance(k, k) / n;
+    for (int pass = 0; pass < kPasses; ++pass) {
+      component.level = variance / component.total;
+      const Eigen::VectorXd whole = component.whole();
+      const double next =
+          long_run_variance(whole, prewhitening_of(whole.head(n_orders), n), result.bandwidth);
+      if (!(next > 0)) break;
+      variance = next;
+    }
+    const double grow = std::sqrt(std::max(1.0, n * variance / result.covariance(k, k)));
+    result.covariance.row(k) *= grow;
+    result.covariance.col(k) *= grow;
+  }
+}
+
+std::vector<Prewhitening> prewhitening_of(const Eigen::Ref<const Eigen::MatrixXd>& series,
+                                          const FittedOut* fitted) {
+  const Eigen::Index n = series.rows();
+  const Eigen::Index n_lags = lags_of_orders(n);
+  std::vector<Prewhitening> all;
+  for (Eigen::Index k = 0; k < series.cols(); ++k)
+    all.push_back(prewhitening_of(Component(series.col(k), n_lags, fitted, k).whole(),
+                                  static_cast<double>(n)));
+  return all;
 }
 
 // Andrews (1991) eq. 6.4 for AR(1) components of equal weight; alpha(2) for the QS kernel.
@@ -29,12 +180,6 @@ double andrews_alpha2(const Eigen::MatrixXd& residual) {
     denominator += 1 / std::pow(1 - rho, 4);
   }
   return denominator > 0 ? numerator / denominator : 0;
-}
-
-double quadratic_spectral(double x) {
-  if (std::abs(x) < 1e-8) return 1;
-  const double a = 6 * kPi * x / 5;
-  return 25 / (12 * kPi * kPi * x * x) * (std::sin(a) / a - std::cos(a));
 }
 
 Eigen::MatrixXd kernel_sum(const Eigen::MatrixXd& v, double bandwidth) {
@@ -53,8 +198,29 @@ Eigen::MatrixXd kernel_sum(const Eigen::MatrixXd& v, double bandwidth) {
 
 }  // namespace
 
+FittedOut fitted_out(const std::vector<Eigen::MatrixXd>& information,
+                     const Eigen::MatrixXd& solve_operator) {
+  const Eigen::Index p = solve_operator.rows(), n = static_cast<Eigen::Index>(information.size());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(solve_operator);
+  const Eigen::MatrixXd root =
+      eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+  FittedOut out;
+  out.columns.assign(static_cast<std::size_t>(p), Eigen::MatrixXd::Zero(n, p));
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(p, p);
+  for (Eigen::Index c = 0; c < n; ++c) {
+    const Eigen::MatrixXd& own = information[static_cast<std::size_t>(c)];
+    if (own.size() == 0) continue;
+    all += own;
+    const Eigen::MatrixXd z = root.transpose() * own * solve_operator;
+    for (Eigen::Index k = 0; k < p; ++k)
+      out.columns[static_cast<std::size_t>(k)].row(c) = z.col(k).transpose();
+  }
+  out.total = (solve_operator * all * solve_operator).diagonal();
+  return out;
+}
+
 LongRunCovariance long_run_covariance(const Eigen::Ref<const Eigen::MatrixXd>& series,
-                                      double least_share) {
+                                      double least_share, const FittedOut* fitted) {
   const Eigen::Index n = series.rows();
   const Eigen::Index p = series.cols();
   LongRunCovariance result;
@@ -64,31 +230,36 @@ LongRunCovariance long_run_covariance(const Eigen::Ref<const Eigen::MatrixXd>& s
     result.degrees_of_freedom = std::max<double>(1, static_cast<double>(n - p));
     return result;
   }
-  Eigen::VectorXd rho(p);
-  Eigen::MatrixXd white(n - 1, p);
+  const std::vector<Prewhitening> filters = prewhitening_of(series, fitted);
+  Eigen::Index order = 0;
+  for (const Prewhitening& one : filters) order = std::max(order, one.order());
+  const Eigen::Index n_left = n - order;
+  Eigen::MatrixXd white(n_left, p);
+  Eigen::VectorXd recolour(p);
+  double of_coefficients = 0;  // relative variance of the recolouring, of the worst component
   for (Eigen::Index k = 0; k < p; ++k) {
-    rho(k) = lag1_correlation(series.col(k));
-    white.col(k) = series.col(k).tail(n - 1) - rho(k) * series.col(k).head(n - 1);
+    const Prewhitening& one = filters[static_cast<std::size_t>(k)];
+    white.col(k) = one.apply(series.col(k)).tail(n_left);
+    recolour(k) = 1 / (1 - one.sum);
+    of_coefficients = std::max(of_coefficients, one.relative_variance);
   }
-  const double n_white = static_cast<double>(n - 1);
+  const double n_white = static_cast<double>(n_left);
   result.bandwidth = std::clamp(1.3221 * std::pow(andrews_alpha2(white) * n_white, 0.2),
                                 std::max(1.0, least_share * n_white), n_white / 4);
-  const Eigen::VectorXd recolour = (1 - rho.array()).inverse();
   const double scale = static_cast<double>(n) / n_white;
   result.covariance =
       scale * recolour.asDiagonal() * kernel_sum(white, result.bandwidth) * recolour.asDiagonal();
   // Variance of a kernel estimate relative to its square is 2 (bandwidth/n) int k^2 = 2 / dof, and
-  // int k^2 = 1 for the QS kernel. The prewhitening coefficient is estimated too: its own error,
-  // (d log 1/(1-rho)^2)^2 var(rho) with var(rho) = (1-rho^2)/n, is added.
-  const double worst = rho.cwiseAbs().maxCoeff();
-  const double relative_variance = 2 * result.bandwidth / n_white +
-                                   4 * (1 - worst * worst) / ((1 - worst) * (1 - worst)) / n_white;
+  // int k^2 = 1 for the QS kernel. That of the prewhitening is added.
+  const double relative_variance = 2 * result.bandwidth / n_white + of_coefficients;
   result.degrees_of_freedom = std::max(2.0, 2 / relative_variance);
+  if (fitted != nullptr) restore(series, *fitted, result);
   return result;
 }
 
-LongRunCovariance interval_covariance(const Eigen::Ref<const Eigen::MatrixXd>& series) {
-  return long_run_covariance(series, kIntervalKernel);
+LongRunCovariance interval_covariance(const Eigen::Ref<const Eigen::MatrixXd>& series,
+                                      const FittedOut* fitted) {
+  return long_run_covariance(series, kIntervalKernel, fitted);
 }
 
 double t_quantile_975(double dof) {

@@ -30,6 +30,13 @@ void set_profile(Estimate& e, const ProfileInterval& profile, double extra, doub
   e.profiled = true;
 }
 
+void widen_interval(Estimate& e, double factor) {
+  const bool cut_off = !e.active_bound.empty() || e.ci_low == 0;
+  e.sd *= factor;
+  e.ci_high = e.value + factor * (e.ci_high - e.value);
+  if (!cut_off) e.ci_low = e.value - factor * (e.value - e.ci_low);
+}
+
 Estimate estimate_of(const ParameterInfo& info, bool linear_motion, const LinearSolution& s,
                      Eigen::Index k, const SdChoice& choice) {
   Estimate e;

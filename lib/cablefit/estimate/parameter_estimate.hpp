@@ -24,6 +24,10 @@ void set_on_bound(Estimate& e, double unbounded, double degrees_of_freedom);
 /// relative variance that the profile does not know of. An interval without an end stays as it is.
 void set_profile(Estimate& e, const ProfileInterval& profile, double extra, double lower);
 
+/// Multiplies sd and interval with `factor` >= 1. An interval at a bound, or cut off there, grows
+/// upwards.
+void widen_interval(Estimate& e, double factor);
+
 /// Parameter `k` of the solution, its interval by profile where the solution has profiles. On its
 /// bound, 0, see set_on_bound(). Held at 0 by constraints instead, it has no sd.
 Estimate estimate_of(const ParameterInfo& info, bool linear_motion, const LinearSolution& solution,

@@ -6,9 +6,29 @@
 #include <cmath>
 #include <map>
 
+#include "cablefit/estimate/cell_places.hpp"
 #include "cablefit/estimate/tall_qr.hpp"
 
 namespace cablefit {
+
+std::vector<Eigen::Index> cell_places(const std::vector<GramCell>& cells) {
+  std::vector<Eigen::Index> places;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const Eigen::Index step = c == 0 ? 0 : cells[c].id - cells[c - 1].id;
+    places.push_back(c == 0 ? 0 : places.back() + std::clamp<Eigen::Index>(step, 1, kLongestGap));
+  }
+  return places;
+}
+
+Eigen::MatrixXd series_over_time(
+    const std::vector<GramCell>& cells, Eigen::Index n_columns,
+    const std::function<Eigen::RowVectorXd(const GramCell&)>& of_cell) {
+  const std::vector<Eigen::Index> places = cell_places(cells);
+  Eigen::MatrixXd series = Eigen::MatrixXd::Zero(places.empty() ? 0 : places.back() + 1, n_columns);
+  for (std::size_t c = 0; c < cells.size(); ++c) series.row(places[c]) = of_cell(cells[c]);
+  return series;
+}
+
 StreamingQr::StreamingQr(Eigen::Index n_columns)
     : r_(Eigen::MatrixXd::Zero(n_columns, n_columns)) {}
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,12 @@ struct GramCell {
   Eigen::Index n_rows = 0;
   Eigen::MatrixXd gram;  ///< n_columns x n_columns, symmetric, full
 };
+
+/// What each cell adds to a sum, as a series in time: n x n_columns, one row for each stretch of
+/// time from the first cell to the last, zeros where no rows were used. Neighbours in the series
+/// are then neighbours in time, which its autocovariance supposes.
+Eigen::MatrixXd series_over_time(const std::vector<GramCell>& cells, Eigen::Index n_columns,
+                                 const std::function<Eigen::RowVectorXd(const GramCell&)>& of_cell);
 
 class RowStatistics {
  public:

@@ -15,17 +15,13 @@ constexpr double kBlockLengths = 5;    // correlation lengths in a block: 10 % o
 constexpr Eigen::Index kLeastBlocks = 5;
 constexpr Eigen::Index kLeastCells = 40;
 
-/// (W'W)^-1 W' rho of every cell: what it adds to each estimate's error; cells that were dropped
-/// add nothing but take their time.
+/// (W'W)^-1 W' rho of every cell: what it adds to each estimate's error.
 Eigen::MatrixXd influences(const RowStatistics& rows, const LinearSolution& s) {
-  const std::vector<GramCell>& cells = rows.cells();
-  const Eigen::Index first = cells.front().id, n = cells.back().id - first + 1;
-  Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(n, s.x.size());
-  for (const GramCell& cell : cells) {
-    const Eigen::VectorXd all = cell.gram * s.residual_combination;
-    scores.row(cell.id - first) = s.score_columns.transpose() * all;
-  }
-  return scores * s.solve_operator;
+  return series_over_time(
+      rows.cells(), s.x.size(), [&](const GramCell& cell) -> Eigen::RowVectorXd {
+        const Eigen::VectorXd all = cell.gram * s.residual_combination;
+        return (s.solve_operator * (s.score_columns.transpose() * all)).transpose();
+      });
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "cablefit/estimate/cell_places.hpp"
 #include "cablefit/estimate/long_run.hpp"
 
 namespace cablefit {
@@ -17,16 +19,20 @@ void honest_covariance(const RowStatistics& rows, LinearSolution& out) {
     out.effective_rows = static_cast<double>(out.n_rows);
     return;
   }
-  Eigen::MatrixXd scores(n_cells, p);
-  for (Eigen::Index c = 0; c < n_cells; ++c) {
-    const Eigen::VectorXd all =
-        rows.cells()[static_cast<std::size_t>(c)].gram * out.residual_combination;
-    scores.row(c) = out.score_columns.transpose() * all;
-  }
-  // Rotate into the parameters before choosing a bandwidth: what counts is the correlation of each
-  // estimate's own influence, not of the raw columns.
-  const Eigen::MatrixXd influence = scores * out.solve_operator;
-  const LongRunCovariance hac = interval_covariance(influence);
+  // The influence on the parameters, not the raw scores: what counts is the correlation of each
+  // estimate's own.
+  const Eigen::MatrixXd influence =
+      series_over_time(rows.cells(), p, [&](const GramCell& cell) -> Eigen::RowVectorXd {
+        const Eigen::VectorXd all = cell.gram * out.residual_combination;
+        return (out.solve_operator * (out.score_columns.transpose() * all)).transpose();
+      });
+  std::vector<Eigen::MatrixXd> information(static_cast<std::size_t>(influence.rows()));
+  const std::vector<Eigen::Index> places = cell_places(rows.cells());
+  for (std::size_t c = 0; c < places.size(); ++c)
+    information[static_cast<std::size_t>(places[c])] =
+        out.score_columns.transpose() * rows.cells()[c].gram * out.score_columns;
+  const FittedOut fitted = fitted_out(information, out.solve_operator);
+  const LongRunCovariance hac = interval_covariance(influence, &fitted);
   const double n = static_cast<double>(out.n_rows);
   const double small_sample = n / std::max(1.0, n - out.n_params);
   out.covariance = small_sample * hac.covariance;

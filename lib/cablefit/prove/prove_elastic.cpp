@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/copies/twin.hpp"
 #include "cablefit/elastic/blocked_rows.hpp"
 #include "cablefit/prove/proof_runs.hpp"
 #include "cablefit/prove/residual_colour.hpp"
-#include "cablefit/prove/twin.hpp"
 #include "cablefit/samples/agreement.hpp"
 #include "cablefit/samples/butterworth.hpp"
 
@@ -63,7 +63,7 @@ std::vector<SimulationResult> follow(const Twin& twin, const ElasticFit& fit,
   std::vector<SimulationResult> motions;
   for (const TwinStretch& stretch : twin.stretches) {
     const LogPlan& plan = twin.plans[stretch.log];
-    const double period = stretch.input.period;
+    const double period = stretch.period;
     const auto column = [&](Channel channel) {
       return smooth(stretch.measured.col(plan.find(channel, 0)), period, cutoff);
     };
@@ -92,8 +92,7 @@ void disturb(const Twin& twin, const ArModel& colour, Random& random,
              std::vector<SimulationResult>& motions) {
   if (!(colour.sd > 0)) return;
   for (std::size_t k = 0; k < motions.size(); ++k)
-    motions[k].tau.col(0) +=
-        draw(colour, motions[k].tau.rows(), twin.stretches[k].input.period, random);
+    motions[k].tau.col(0) += draw(colour, motions[k].tau.rows(), twin.stretches[k].period, random);
 }
 
 /// rows * this = residual of the fit.

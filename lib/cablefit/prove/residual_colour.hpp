@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
+#include "cablefit/copies/coloured_noise.hpp"
 #include "cablefit/dynamic/dynamic_fit.hpp"
-#include "cablefit/prove/coloured_noise.hpp"
 
 namespace cablefit {
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "cablefit/prove/coloured_noise.hpp"
+#include "cablefit/copies/coloured_noise.hpp"
 #include "cablefit/refine/motion.hpp"
 
 namespace cablefit {

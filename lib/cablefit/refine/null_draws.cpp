@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/prove/stand_in.hpp"
-#include "cablefit/prove/twin.hpp"
+#include "cablefit/copies/stand_in.hpp"
+#include "cablefit/copies/twin.hpp"
 #include "cablefit/refine/blocked_twin.hpp"
 #include "cablefit/refine/elastic_stage.hpp"
 #include "cablefit/refine/kernel.hpp"
@@ -47,7 +47,7 @@ bool move_alike(const Twin& twin, const std::vector<SimulationResult>& motions,
     const TwinStretch& stretch = twin.stretches[k];
     if (stretch.link_blocked) continue;
     const int slot = twin.plans[stretch.log].find(Channel::theta, 0);
-    const double period = stretch.input.period;
+    const double period = stretch.period;
     const double measured = rms_acceleration(stretch.measured.col(slot).array(), period, smoothing);
     const double simulated = rms_acceleration(motions[k].theta.col(0), period, smoothing);
     if (simulated > kAlike * measured || measured > kAlike * simulated) return false;

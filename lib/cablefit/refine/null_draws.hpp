@@ -9,7 +9,7 @@
 #include <memory>
 #include <span>
 
-#include "cablefit/prove/twin.hpp"
+#include "cablefit/copies/twin.hpp"
 #include "cablefit/refine/scan.hpp"
 
 namespace cablefit {

@@ -3,7 +3,7 @@
 // refine/.
 #pragma once
 
-#include "cablefit/prove/twin.hpp"
+#include "cablefit/copies/twin.hpp"
 #include "cablefit/refine/residual_spectrum.hpp"
 
 namespace cablefit {

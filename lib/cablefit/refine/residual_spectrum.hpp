@@ -2,7 +2,7 @@
 // of that. Internal to refine/.
 #pragma once
 
-#include "cablefit/prove/coloured_noise.hpp"
+#include "cablefit/copies/coloured_noise.hpp"
 #include "cablefit/refine/evidence.hpp"
 
 namespace cablefit {

@@ -28,9 +28,10 @@ void fill_covariance(const FinalRows& last, OutputErrorFit& fit) {
   fit.effective_rows = static_cast<double>(statistics.n_rows());
   const auto n_cells = static_cast<Eigen::Index>(statistics.cells().size());
   if (n_cells < 8) return;
-  Eigen::MatrixXd scores(n_cells, p);
-  for (Eigen::Index c = 0; c < n_cells; ++c)
-    scores.row(c) = statistics.cells()[static_cast<std::size_t>(c)].gram.col(p).head(p).transpose();
+  const Eigen::MatrixXd scores =
+      series_over_time(statistics.cells(), p, [p](const GramCell& cell) -> Eigen::RowVectorXd {
+        return cell.gram.col(p).head(p).transpose();
+      });
   const LongRunCovariance hac = interval_covariance(scores * inverse);
   fit.covariance = hac.covariance + of_prior;
   fit.degrees_of_freedom = hac.degrees_of_freedom;

@@ -86,12 +86,11 @@ void fill_covariance(const Step& step, const InstrumentedSums& sums, Eigen::Inde
   fit.degrees_of_freedom = std::max(1.0, fit.effective_rows - static_cast<double>(n));
   const auto n_cells = static_cast<Eigen::Index>(sums.rows.cells().size());
   if (n_cells >= 8) {
-    Eigen::MatrixXd series(n_cells, n);
-    for (Eigen::Index c = 0; c < n_cells; ++c) {
-      const Eigen::VectorXd scores =
-          sums.rows.cells()[static_cast<std::size_t>(c)].gram.col(p).tail(p);
-      series.row(c) = step.influence * scores(step.free);
-    }
+    const Eigen::MatrixXd series =
+        series_over_time(sums.rows.cells(), n, [&](const GramCell& cell) -> Eigen::RowVectorXd {
+          const Eigen::VectorXd scores = cell.gram.col(p).tail(p);
+          return (step.influence * scores(step.free)).transpose();
+        });
     const LongRunCovariance hac = interval_covariance(series);
     honest = hac.covariance + of_prior;
     fit.degrees_of_freedom = hac.degrees_of_freedom;

@@ -1,9 +1,9 @@
-// A controller for a twin: the rig's, or one that follows what was measured. Internal to prove/.
+// A controller for a twin: the rig's, or one that follows what was measured.
 #pragma once
 
 #include <string>
 
-#include "cablefit/prove/twin.hpp"
+#include "cablefit/copies/twin.hpp"
 
 namespace cablefit {
 
@@ -11,8 +11,8 @@ namespace cablefit {
 /// was measured.
 bool has_reference(const LogPlan& plan);
 
-/// Fills reference and controller of a stretch whose `measured`, period and log are known. Returns
-/// which it is, in words.
+/// Fills reference, load and controller of a stretch whose `measured`, period, start and log are
+/// known. Returns which it is, in words.
 std::string choose_controller(const Model& model, const LogSurvey& log, const TwinDrive& drive,
                               TwinStretch& stretch);
 

@@ -1,8 +1,9 @@
-#include "cablefit/prove/stand_in.hpp"
+#include "cablefit/copies/stand_in.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "cablefit/model/least_inertias.hpp"
@@ -14,7 +15,9 @@ namespace {
 constexpr double kBandwidth = 5;      // Hz: slower than most joint controllers, so that little of a
                                       // disturbance comes back that did not before
 constexpr double kLargestGain = 0.3;  // kd period / J_motor; a sampled loop is unstable at 2
-constexpr int kCommandsPerRow = 8;    // of a torque that is not held
+// Of a torque that is not held: commands in a row of the log, an even number, at least this often.
+constexpr int kLeastCommands = 4;
+constexpr double kCommandPeriod = 1e-3;  // s
 constexpr double kWidestBand = 0.4;   // of the rate, for the low-pass
 constexpr int kFilterOrder = 4;
 
@@ -49,18 +52,51 @@ Eigen::ArrayXd reference_for(const Eigen::ArrayXd& theta, const Eigen::ArrayXd& 
   return reference;
 }
 
+int commands_per_row(double period, bool torque_held) {
+  if (torque_held) return 1;
+  const int by_time = 2 * static_cast<int>(std::ceil(0.5 * period / kCommandPeriod));
+  return std::max(kLeastCommands, by_time);
+}
+
+/// Columns with n - 1 rows more between neighbours, cubic (Catmull & Rom 1974): no corners.
+Eigen::MatrixXd refined(const Eigen::MatrixXd& columns, int n) {
+  if (n == 1) return columns;
+  const Eigen::Index last = columns.rows() - 1;
+  const auto row = [&](Eigen::Index i) {
+    return columns.row(std::clamp<Eigen::Index>(i, 0, last));
+  };
+  Eigen::MatrixXd fine(last * n + 1, columns.cols());
+  for (Eigen::Index i = 0; i < fine.rows(); ++i) {
+    const Eigen::Index k = i / n;
+    const double x = static_cast<double>(i % n) / n;
+    const double before = 0.5 * x * (-1 + x * (2 - x)), here = 1 + 0.5 * x * x * (-5 + 3 * x);
+    const double next = 0.5 * x * (1 + x * (4 - 3 * x)), after = 0.5 * x * x * (x - 1);
+    fine.row(i) = before * row(k - 1) + here * row(k) + next * row(k + 1) + after * row(k + 2);
+  }
+  return fine;
+}
+
+void take_load(const LogPlan& plan, TwinStretch& stretch) {
+  const int n_joints = plan.rig.n_joints();
+  if (!plan.has_for_all(Channel::tau_load)) return;
+  Eigen::MatrixXd load(stretch.measured.rows(), n_joints);
+  for (int joint = 0; joint < n_joints; ++joint)
+    load.col(joint) = stretch.measured.col(plan.find(Channel::tau_load, joint));
+  stretch.input.tau_load = refined(load, stretch.fine).array();
+}
+
 void follow_measured(const Model& model, const LogPlan& plan, const TwinDrive& drive,
                      TwinStretch& stretch) {
-  const double period = stretch.input.period;
-  const Controller controller = stand_in(least_inertias(model, stretch.link_blocked),
-                                         drive.torque_held ? period : period / kCommandsPerRow);
+  stretch.fine = commands_per_row(stretch.period, drive.torque_held);
+  const double period = stretch.input.period = stretch.period / stretch.fine;
+  const Controller controller = stand_in(least_inertias(model, stretch.link_blocked), period);
   const int n_joints = plan.rig.n_joints();
-  stretch.input.theta_ref.resize(stretch.measured.rows(), n_joints);
+  stretch.input.theta_ref.resize((stretch.measured.rows() - 1) * stretch.fine + 1, n_joints);
   for (int joint = 0; joint < n_joints; ++joint) {
     Eigen::MatrixXd both(stretch.measured.rows(), 2);
     both.col(0) = stretch.measured.col(plan.find(Channel::theta, joint));
     both.col(1) = stretch.measured.col(plan.find(Channel::tau, joint));
-    both = smooth(both, period, drive.cutoff);
+    both = refined(smooth(both, stretch.period, drive.cutoff), stretch.fine);
     stretch.input.theta_ref.col(joint) =
         reference_for(both.col(0).array(), both.col(1).array(), controller, period);
   }
@@ -84,8 +120,10 @@ bool has_reference(const LogPlan& plan) {
   return plan.rig.controller.has_value();
 }
 
-std::string choose_controller(const Model& model, const LogSurvey& log, const TwinDrive& drive,
-                              TwinStretch& stretch) {
+namespace {
+
+std::string choose(const Model& model, const LogSurvey& log, const TwinDrive& drive,
+                   TwinStretch& stretch) {
   const LogPlan& plan = log.plan;
   stretch.rig = plan.rig;
   if (plan.rig.open_loop) {
@@ -110,6 +148,15 @@ std::string choose_controller(const Model& model, const LogSurvey& log, const Tw
     if (!sensor.quantum) sensor.quantum = log.parts[stretch.part].channels[theta].quantum;
   }
   return "the rig's, with the reference of the log";
+}
+
+}  // namespace
+
+std::string choose_controller(const Model& model, const LogSurvey& log, const TwinDrive& drive,
+                              TwinStretch& stretch) {
+  std::string which = choose(model, log, drive, stretch);
+  take_load(log.plan, stretch);
+  return which;
 }
 
 }  // namespace cablefit

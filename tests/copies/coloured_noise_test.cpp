@@ -1,5 +1,5 @@
 // Noise as coloured as a residual.
-#include "cablefit/prove/coloured_noise.hpp"
+#include "cablefit/copies/coloured_noise.hpp"
 
 #include <catch2/catch.hpp>
 #include <numeric>

@@ -1,20 +1,25 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/parallel.hpp"
-#include "cablefit/prove/twin.hpp"
+#include "cablefit/copies/twin.hpp"
 
 namespace cablefit {
 namespace {
+
+Eigen::Index rows_of_input(const TwinStretch& stretch) {
+  return (stretch.measured.rows() - 1) * stretch.fine + 1;
+}
 
 Eigen::ArrayXXd disturbances(const std::vector<ArModel>& models, const TwinStretch& stretch,
                              Random& random) {
   bool any = false;
   for (const ArModel& model : models) any |= model.sd > 0;
   if (!any) return {};
-  const Eigen::Index n_rows = stretch.measured.rows();
+  const Eigen::Index n_rows = rows_of_input(stretch);
   Eigen::ArrayXXd table(n_rows, static_cast<Eigen::Index>(models.size()));
   for (std::size_t k = 0; k < models.size(); ++k)
     table.col(static_cast<Eigen::Index>(k)) = draw(models[k], n_rows, stretch.input.period, random);
@@ -55,7 +60,7 @@ Eigen::MatrixXd recorded_rows(const TwinStretch& stretch, const SimulationResult
   Eigen::MatrixXd rows(stretch.measured.rows(), stretch.measured.cols() + 1);
   rows.rightCols(stretch.measured.cols()) = stretch.measured;
   for (Eigen::Index i = 0; i < rows.rows(); ++i)
-    rows(i, 0) = stretch.t0 + static_cast<double>(i) * stretch.input.period;
+    rows(i, 0) = stretch.t0 + static_cast<double>(i) * stretch.period;
   for (std::size_t k = 0; k < plan.slots.size(); ++k) {
     const Slot& slot = plan.slots[k];
     const Eigen::ArrayXXd* truth = truth_of(motion, slot.channel);
@@ -65,6 +70,25 @@ Eigen::MatrixXd recorded_rows(const TwinStretch& stretch, const SimulationResult
         measure(truth->col(slot.joint), sensors.empty() ? TwinSensor{} : sensors[k], random);
   }
   return rows;
+}
+
+/// Of a finer simulation the rows of the log. A command is held over a fine row, so that a mean over
+/// the log's row, centred, is one of as many commands, half of them from before.
+SimulationResult on_rows_of_log(SimulationResult fine, const TwinStretch& stretch) {
+  if (stretch.fine == 1) return fine;
+  const Eigen::Index n = stretch.fine, rows = stretch.measured.rows();
+  const auto every = Eigen::seqN(Eigen::Index{0}, rows, n);
+  SimulationResult out = fine;
+  for (const auto channel : {&SimulationResult::q, &SimulationResult::theta, &SimulationResult::qd,
+                             &SimulationResult::thetad, &SimulationResult::tension})
+    if ((fine.*channel).rows() > 0) out.*channel = Eigen::ArrayXXd((fine.*channel)(every, Eigen::all));
+  out.tau = Eigen::ArrayXXd::Zero(rows, fine.tau.cols());
+  const Eigen::Index last = fine.tau.rows() - 1;
+  for (Eigen::Index i = 0; i < rows; ++i)
+    for (Eigen::Index k = 0; k < n; ++k)
+      out.tau.row(i) += fine.tau.row(std::clamp<Eigen::Index>(i * n - n / 2 + k, 0, last)) /
+                        static_cast<double>(n);
+  return out;
 }
 
 RecordedPart begin_part(const PartSurvey& part) {
@@ -109,6 +133,7 @@ std::vector<SimulationResult> run_twin(const Twin& twin, const TwinDisturbance& 
     Model model = twin.model;
     model.rig = run.stretch->rig;
     SimulationOptions options;
+    options.step = twin.step;
     options.closed_loop = run.stretch->rig.controller.has_value();
     options.hold_torque = run.stretch->hold_torque;
     options.link_blocked = run.stretch->link_blocked;
@@ -116,7 +141,7 @@ std::vector<SimulationResult> run_twin(const Twin& twin, const TwinDisturbance& 
     if (motion.diverged_at)
       throw Error(ErrorKind::not_identifiable, fmt::format("the simulated loop of {} diverged",
                                                            twin.plans[run.stretch->log].path));
-    return motion;
+    return on_rows_of_log(std::move(motion), *run.stretch);
   });
 }
 

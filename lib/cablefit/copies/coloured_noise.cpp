@@ -1,12 +1,13 @@
-#include "cablefit/prove/coloured_noise.hpp"
+#include "cablefit/copies/coloured_noise.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/estimate/autoregression.hpp"
+
 namespace cablefit {
 namespace {
 
-constexpr double kLargestReflection = 0.999;  // more is a root on the unit circle: no noise
 constexpr int kSettlingTimes = 20;            // of the order, before noise counts as stationary
 constexpr int kLeastSettling = 500;           // values
 
@@ -41,31 +42,14 @@ Eigen::VectorXd Autocovariance::values() const {
 }
 
 ArModel fit_ar(const Eigen::VectorXd& r, double period, std::size_t n_values) {
-  ArModel best;
-  best.period = period;
-  if (r.size() == 0 || !(r(0) > 0) || n_values == 0) return best;
-  best.sd = best.innovation_sd = std::sqrt(r(0));
-  const auto n = static_cast<double>(n_values);
-  std::vector<double> a;
-  double variance = r(0), least = n * std::log(variance);
-  for (Eigen::Index order = 1; order < r.size(); ++order) {
-    double left = r(order);
-    for (std::size_t k = 0; k < a.size(); ++k)
-      left -= a[k] * r(order - 1 - static_cast<Eigen::Index>(k));
-    const double reflection = left / variance;
-    if (!(std::abs(reflection) < kLargestReflection)) break;
-    std::vector<double> next = a;
-    for (std::size_t k = 0; k < a.size(); ++k) next[k] -= reflection * a[a.size() - 1 - k];
-    next.push_back(reflection);
-    a = std::move(next);
-    variance *= 1 - reflection * reflection;
-    const double aic = n * std::log(variance) + 2 * static_cast<double>(order);
-    if (aic >= least) continue;
-    least = aic;
-    best.coefficients = a;
-    best.innovation_sd = std::sqrt(variance);
-  }
-  return best;
+  ArModel model;
+  model.period = period;
+  const Autoregression found = fit_autoregression(r, static_cast<double>(n_values));
+  if (!(found.innovation_variance > 0)) return model;
+  model.coefficients = found.coefficients;
+  model.innovation_sd = std::sqrt(found.innovation_variance);
+  model.sd = std::sqrt(r(0));
+  return model;
 }
 
 Eigen::ArrayXd draw(const ArModel& model, Eigen::Index n_rows, double period, Random& random) {

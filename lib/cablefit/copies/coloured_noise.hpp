@@ -41,9 +41,8 @@ struct ArModel {
   double sd = 0;  ///< of x
 };
 
-/// Yule-Walker by Levinson-Durbin, of the order up to the number of lags that has the least AIC
-/// (Akaike 1974) for `n_values`. Where the autocovariance is not positive definite the order ends.
-/// Autocovariance that is not positive at lag 0: no noise, sd 0.
+/// fit_autoregression() of a series with that period. Autocovariance that is not positive at lag 0:
+/// no noise, sd 0.
 ArModel fit_ar(const Eigen::VectorXd& autocovariance, double period, std::size_t n_values);
 
 /// n_rows values `period` s apart, linear between the model's own, from its stationary state.

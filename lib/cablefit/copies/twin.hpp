@@ -1,5 +1,5 @@
 // A twin of an experiment: the same motion, sensors and clock as the logs have, with a model in
-// place of the bench. Internal to prove/.
+// place of the bench.
 #pragma once
 
 #include <span>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cablefit/base/random.hpp"
-#include "cablefit/prove/coloured_noise.hpp"
+#include "cablefit/copies/coloured_noise.hpp"
 #include "cablefit/samples/recorded.hpp"
 #include "cablefit/samples/row_stream.hpp"
 #include "cablefit/simulate/simulator.hpp"
@@ -18,8 +18,12 @@ namespace cablefit {
 struct TwinStretch {
   std::size_t log = 0, part = 0;
   double t0 = 0;             ///< s
+  double period = 0;         ///< s, of the log's rows
   Eigen::MatrixXd measured;  ///< rows x slots of the log's plan
-  SimulationInput input;     ///< reference or command, load and initial state
+  /// Rows of `input` for each row of the log. More than one: the log's torque is a mean over its
+  /// row, centred, of commands that change `fine` times as often.
+  int fine = 1;
+  SimulationInput input;  ///< reference or command, load and initial state
   Rig rig;  ///< the log's, with the controller that is simulated; none: the torque is a command
   bool link_blocked = false;
   bool hold_torque = true;  ///< of a command
@@ -41,6 +45,7 @@ struct Twin {
   std::vector<std::vector<PartSurvey>> parts;
   std::vector<TwinStretch> stretches;
   std::vector<std::vector<TwinSensor>> sensors;  ///< by log and slot
+  double step = SimulationOptions{}.step;        ///< s, at most
   std::vector<std::string> notes;                ///< what is simulated, in words
 };
 
@@ -49,6 +54,7 @@ struct TwinDrive {
   bool torque_held = true;
   double cutoff = 0;     ///< Hz, of the low-pass on what a stand-in follows; 0: none
   bool follows = false;  ///< a stand-in, also where the rig's controller is known
+  double step = SimulationOptions{}.step;  ///< s, at most, of the simulation
 };
 
 /// The parts of the logs for which `wanted` says true, in closed loop: the rig's controller where
@@ -63,7 +69,8 @@ Twin make_twin(const Model& model, std::span<const LogSurvey> logs, const PartFi
 std::vector<TwinStretch> read_stretches(const LogSurvey& log, std::size_t number,
                                         const PartFilter& wanted);
 
-/// The true motion of every stretch. Throws Error(not_identifiable) when it diverges.
+/// The true motion of every stretch on the rows of its log. Throws Error(not_identifiable) when it
+/// diverges.
 std::vector<SimulationResult> run_twin(const Twin& twin, const TwinDisturbance& disturbance,
                                        Random& random, int threads = 1);
 

@@ -1,9 +1,9 @@
-#include "cablefit/prove/twin.hpp"
+#include "cablefit/copies/twin.hpp"
 
 #include <algorithm>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/prove/stand_in.hpp"
+#include "cablefit/copies/stand_in.hpp"
 #include "cablefit/samples/noise.hpp"
 #include "cablefit/simulate/start_state.hpp"
 
@@ -45,16 +45,6 @@ void set_start(const LogSurvey& log, TwinStretch& stretch) {
   }
 }
 
-void set_load(const LogPlan& plan, TwinStretch& stretch) {
-  const int n_joints = plan.rig.n_joints();
-  for (int joint = 0; joint < n_joints; ++joint)
-    if (!plan.has(Channel::tau_load, joint)) return;
-  stretch.input.tau_load.resize(stretch.measured.rows(), n_joints);
-  for (int joint = 0; joint < n_joints; ++joint)
-    stretch.input.tau_load.col(joint) =
-        stretch.measured.col(plan.find(Channel::tau_load, joint)).array();
-}
-
 }  // namespace
 
 std::vector<TwinStretch> read_stretches(const LogSurvey& log, std::size_t number,
@@ -66,7 +56,7 @@ std::vector<TwinStretch> read_stretches(const LogSurvey& log, std::size_t number
       stretches.back().log = number;
       stretches.back().part = window.part;
       stretches.back().t0 = window.t0;
-      stretches.back().input.period = window.period;
+      stretches.back().period = stretches.back().input.period = window.period;
       stretches.back().input.t0 = window.t0 - log.parts.front().t_first;
     }
     append(stretches.back(), window);
@@ -79,6 +69,7 @@ Twin make_twin(const Model& model, std::span<const LogSurvey> logs, const PartFi
                const TwinDrive& drive) {
   Twin twin;
   twin.model = model;
+  twin.step = drive.step;
   for (std::size_t k = 0; k < logs.size(); ++k) {
     const LogSurvey& log = logs[k];
     twin.plans.push_back(log.plan);
@@ -88,7 +79,6 @@ Twin make_twin(const Model& model, std::span<const LogSurvey> logs, const PartFi
     for (TwinStretch& stretch : read_stretches(log, k, wanted)) {
       stretch.link_blocked = log.parts[stretch.part].phase == Phase::blocked;
       set_start(log, stretch);
-      set_load(log.plan, stretch);
       const std::string which = choose_controller(model, log, drive, stretch);
       if (std::find(twin.notes.begin(), twin.notes.end(), which) == twin.notes.end())
         twin.notes.push_back(which);
