@@ -13,6 +13,7 @@
 #include "cablefit/elastic/model_errors.hpp"
 #include "cablefit/elastic/preload_checks.hpp"
 #include "cablefit/samples/agreement.hpp"
+#include "cablefit/samples/unused_rows.hpp"
 
 namespace cablefit {
 namespace {
@@ -155,6 +156,8 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
   preload.counts = stage.rows.counts;
   preload.modes = stage.rows.modes;
   preload.windows = stage.rows.windows;
+  if (std::string unused = unused_rows_warning(preload.windows, preload.counts); !unused.empty())
+    preload.warnings.push_back(std::move(unused));
   measure_errors(stage.rows, candidates, solutions, preload);
   for (ElasticFit& fit : preload.fits)
     check_passive(fit, longest_of(stage.rows.elongations),

@@ -105,8 +105,7 @@ ChosenSettings blocked_settings(std::span<const LogSurvey> logs, const PartFilte
   chosen.rest_speed_q =
       std::max(4 * velocity_noise(noise_q, band, rate),
                kStillShare * sweep_speed(logs, wanted, Channel::q, joint, noise_q));
-  if (cutoff > 0)
-    chosen.rows.rest_margin = static_cast<Eigen::Index>(std::ceil(rate / (2 * cutoff)));
+  choose_rest_margin(chosen, rate);
   choose_rest_speed(chosen, options, sweep, 4 * velocity_noise(noise, band, rate));
   const Rig& rig = first_log_with(logs, wanted).plan.rig;
   // A delay looks like viscous friction, which stage 1 estimates anyway: auto need not decide.

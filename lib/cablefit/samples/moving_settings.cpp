@@ -46,8 +46,7 @@ void choose_rest_speed(ChosenSettings& chosen, std::span<const LogSurvey> logs,
            fmt::format("motor {:.3g}, link {:.3g}", chosen.rest_speed_theta, chosen.rest_speed_q),
            "speed gained within the filter's blur, at least 4 sd of the speed's noise");
   }
-  if (chosen.rest_speed_theta > 0 && rows.signal.cutoff > 0)
-    rows.rest_margin = static_cast<Eigen::Index>(std::ceil(rate / (4 * rows.signal.cutoff)));
+  if (chosen.rest_speed_theta > 0) choose_rest_margin(chosen, rate);
 }
 
 // Lowers the cut-off until position noise is a negligible part of the acceleration: noise in a

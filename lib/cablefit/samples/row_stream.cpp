@@ -112,6 +112,18 @@ RowSettings thinned(RowSettings settings, int step, double period) {
   return settings;
 }
 
+/// The settings of an equation with that cut-off (Hz; 0: theirs): what the filter smears around a
+/// standstill is as much longer as the cut-off is lower.
+RowSettings with_cutoff(RowSettings settings, double cutoff) {
+  const double usual = settings.signal.cutoff;
+  if (!(cutoff > 0) || cutoff == usual) return settings;
+  settings.signal.cutoff = cutoff;
+  if (usual > cutoff)
+    settings.rest_margin = static_cast<Eigen::Index>(
+        std::ceil(static_cast<double>(settings.rest_margin) * usual / cutoff));
+  return settings;
+}
+
 /// Rows [begin, end) of a window that are within `edge` rows of either end of their segment.
 std::size_t rows_at_edges(const Window& window, Eigen::Index edge) {
   const Eigen::Index inner_begin = std::max(window.begin, edge);
@@ -129,15 +141,14 @@ RowBatch rows_of(const Window& window, const LogPlan& plan, Eigen::Index number_
   // Equations of one cut-off share their signals.
   std::map<double, Signals> signals;
   for (const Equation& equation : equations) {
-    SignalSettings own = settings.signal;
-    if (equation.cutoff > 0) own.cutoff = equation.cutoff;
-    auto found = signals.find(own.cutoff);
+    const RowSettings own = with_cutoff(settings, equation.cutoff);
+    auto found = signals.find(own.signal.cutoff);
     if (found == signals.end())
-      found = signals.emplace(own.cutoff, make_signals(window, plan, own)).first;
+      found = signals.emplace(own.signal.cutoff, make_signals(window, plan, own.signal)).first;
     std::optional<Signals> prepared;
     if (equation.prepare) equation.prepare(prepared.emplace(found->second));
-    batch.equations.push_back(equation_rows(equation, prepared ? *prepared : found->second, window,
-                                            number_offset, settings));
+    batch.equations.push_back(
+        equation_rows(equation, prepared ? *prepared : found->second, window, number_offset, own));
   }
   return batch;
 }
@@ -167,8 +178,7 @@ Eigen::Index row_halo(const RowSettings& settings, double rate) {
   const RowSettings own = at_rate(settings, rate);
   const Eigen::Index averaging = 1;
   const int step = thinning_step(own.signal, own.decimate, rate);
-  RowSettings thin = thinned(own, step, 1 / rate);
-  if (own.lowest_cutoff > 0) thin.signal.cutoff = own.lowest_cutoff;
+  const RowSettings thin = with_cutoff(thinned(own, step, 1 / rate), own.lowest_cutoff);
   const Eigen::Index needed =
       thinning_reach(step) + step * (signal_halo(thin.signal, rate / step) + averaging +
                                      Decimation(thin.decimate).half_width() + thin.rest_margin +

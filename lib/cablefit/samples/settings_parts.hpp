@@ -21,6 +21,8 @@ void decide(ChosenSettings& chosen, std::string name, std::string value, std::st
 ChosenSettings begin_settings(std::span<const LogSurvey> logs, const PartFilter& wanted,
                               const SampleOptions& options, const RateRange& rates);
 void choose_decimation(ChosenSettings& chosen, const SampleOptions& options, double rate);
+/// The rows around a standstill or reversal over which the filter smears friction's step.
+void choose_rest_margin(ChosenSettings& chosen, double rate);
 void choose_edges(ChosenSettings& chosen, const SampleOptions& options, const RateRange& rates);
 
 }  // namespace cablefit::settings_parts

@@ -34,7 +34,7 @@ struct Window : WindowPlace {
 /// What had to be done to get an even grid; printed in reports.
 struct WindowCounts {
   std::size_t rows_read = 0;
-  std::size_t rows_resampled = 0;  ///< rows made by linear interpolation (uneven clocks)
+  std::size_t rows_resampled = 0;  ///< rows made by linear interpolation
   std::size_t rows_too_short = 0;  ///< rows in segments shorter than `min_rows`
   std::size_t segments = 0;
   std::size_t rows_out = 0;  ///< rows of the even grid, over all segments
@@ -43,10 +43,9 @@ struct WindowCounts {
 inline constexpr Eigen::Index kWindowRows = 8192;
 
 /// One pass over the parts for which `wanted` says true. `halo` rows on either side where there are
-/// any. `bridge`: holes up to this long (s) in an uneven log are interpolated over, a quarter
-/// period of the cut-off, say; longer ones, and any missing row of an even log, begin a new
-/// segment. Segments shorter than `min_rows` are left out and counted. Return false from `sink` to
-/// stop.
+/// any. `bridge`: holes up to this long (s) are interpolated over, a quarter period of the cut-off,
+/// say; of an even clock those of up to three rows in any case. Longer ones begin a new segment.
+/// Segments shorter than `min_rows` are left out and counted. Return false from `sink` to stop.
 WindowCounts for_each_window(const LogSurvey& log,
                              const std::function<bool(const PartSurvey&)>& wanted,
                              Eigen::Index halo, Eigen::Index min_rows, double bridge,
