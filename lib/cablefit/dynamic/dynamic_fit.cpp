@@ -6,16 +6,20 @@
 #include <array>
 
 #include "cablefit/base/catalog.hpp"
+#include "cablefit/dynamic/cutoff_check.hpp"
 #include "cablefit/dynamic/dynamic_figures.hpp"
 #include "cablefit/dynamic/dynamic_job.hpp"
 #include "cablefit/dynamic/dynamic_notes.hpp"
+#include "cablefit/dynamic/estimates.hpp"
 #include "cablefit/dynamic/estimators.hpp"
 #include "cablefit/dynamic/joint_estimates.hpp"
 #include "cablefit/dynamic/ratios.hpp"
 #include "cablefit/dynamic/requirements.hpp"
 #include "cablefit/dynamic/sweep.hpp"
+#include "cablefit/dynamic/systematic.hpp"
 #include "cablefit/dynamic/validation.hpp"
 #include "cablefit/samples/agreement.hpp"
+#include "cablefit/samples/unused_rows.hpp"
 
 namespace cablefit {
 namespace {
@@ -70,7 +74,10 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
   const Estimator& estimator = find_estimator(job.options.estimator);
   std::vector<std::vector<LinearSolution>> solutions;
   for (std::size_t m = 0; m < job.models.size(); ++m) {
-    Estimation estimation = estimator.estimate({job, equations, m});
+    const EstimationTask task{job, equations, m};
+    Estimation estimation = estimator.estimate(task);
+    add_systematic(task, estimator.by_filtered_rows, estimation);
+    if (estimator.by_filtered_rows) refuse_moving_inertias(task, estimation);
     DynamicFit& fit = estimation.fit;
     fit.model = job.models[m];
     if (fit.estimator.empty()) fit.estimator = estimator.name;
@@ -98,6 +105,19 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
       }
 }
 
+/// A curve that is not that of the cables bends every estimate, by how much no residual says.
+void refuse_doubtful(const ElasticResult& elastic, DynamicPreload& preload) {
+  for (const ElasticPreload& stage1 : elastic.preloads) {
+    if (stage1.name != preload.name || stage1.shape_doubt.empty()) continue;
+    for (DynamicFit& fit : preload.fits)
+      for (Estimate& e : fit.parameters) {
+        if (!e.not_identifiable.empty()) continue;
+        refuse(e, "stage 1 does not describe the cables: " + stage1.shape_doubt);
+        fit.verdicts[e.name] = "not identifiable";
+      }
+  }
+}
+
 DynamicPreload fit_preload(DynamicJob job, const ElasticResult& elastic) {
   require_agreement(job.logs, job.wanted, job.preload);
   DynamicPreload preload;
@@ -114,9 +134,13 @@ DynamicPreload fit_preload(DynamicJob job, const ElasticResult& elastic) {
     require_rows(e, job.preload);
     preload.counts[e.equation.name] = e.counts;
   }
+  if (std::string unused = unused_rows_warning(preload.windows, equations.front().counts);
+      !unused.empty())
+    preload.warnings.push_back(std::move(unused));
   note_free_fall(job.rig().load, equations, preload);
   fit_models(job, equations, preload);
   note_extrapolations(job, equations, elastic, preload);
+  refuse_doubtful(elastic, preload);
   preload.decisions.insert(preload.decisions.begin(), job.settings.decisions.begin(),
                            job.settings.decisions.end());
   preload.warnings.insert(preload.warnings.end(), job.settings.warnings.begin(),

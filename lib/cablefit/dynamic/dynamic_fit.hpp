@@ -4,6 +4,8 @@
 //   motor  J_motor thetadd + f_vm thetad + f_sm sgn(thetad) + offset = tau - tau_elas_m
 #pragma once
 
+#include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,7 +32,9 @@ struct DynamicOptions {
   bool figures = false;                        ///< one more pass, for reports with plots
   bool residual_tests = true;                  ///< a look at up to 40 windows of every log
   bool sweep = false;                          ///< fit again with other cut-offs and rest speeds
-  std::vector<LogSurvey> validation = {};      ///< logs to judge the fit on, none of them fitted
+  /// The method's floor where it is known already, by parameter; none: it is measured.
+  std::optional<std::map<std::string, double>> method_floor = {};
+  std::vector<LogSurvey> validation = {};  ///< logs to judge the fit on, none of them fitted
 };
 
 /// Fits every preload of the moving logs. `elastic`: stage 1, may be empty for rigid drives. Throws

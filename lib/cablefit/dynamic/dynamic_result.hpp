@@ -29,9 +29,9 @@ struct SuspectSpan {
 
 /// How a parameter changes with a setting that should not matter.
 struct SweepPoint {
-  std::string setting;         ///< "cut-off", "rest speed"
+  std::string setting;         ///< "cut-off", "rest speed", "rest margin"
   double factor = 1;           ///< times what was chosen
-  double value = 0;            ///< Hz, rad/s; of the motor side
+  double value = 0;            ///< Hz, rad/s, s; of the motor side
   std::vector<double> change;  ///< per parameter, in sd; NaN: not identifiable there
 };
 struct SweepVerdict {
@@ -62,6 +62,10 @@ struct DynamicFit {
   std::vector<SuspectSpan> suspects = {};             ///< of a robust fit
   std::optional<RecursiveTrace> trace = {};           ///< of a recursive one
   std::optional<Sweep> sweep = {};                    ///< when asked for
+  /// By parameter, sd in its unit: what the method itself is off by on a simulated copy of the
+  /// motion (method_floor.hpp), and the difference to instrumental variables where neither is
+  /// proved. Part of every sd and interval.
+  std::map<std::string, double> method_floor = {}, estimator_difference = {};
   std::vector<Estimate> derived = {};  ///< stiffness, resonance, damping: of several parameters
 };
 

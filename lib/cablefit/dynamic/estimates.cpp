@@ -64,18 +64,12 @@ Eigen::MatrixXd stage1_covariance(const RowStatistics& rows, const DynamicColumn
   return sensitivity * stage1.covariance * sensitivity.transpose();
 }
 
-void refuse(Estimate& e, const std::string& why) {
-  e.not_identifiable = why;
-  e.active_bound.clear();
-  e.value = e.sd = e.sd_white = e.ci_low = e.ci_high = std::numeric_limits<double>::quiet_NaN();
-}
-
-/// "an inertial torque of 0.02 rms drowns ...; accelerate with ...". A size below its own sd is
-/// noise: the inertia may as well be as large as that.
+/// "an inertial torque of 0.02 rms is too small ...; accelerate with ...". A size below its own sd
+/// is noise: the inertia may as well be as large as that.
 std::string drowned_text(double torque, double left, double relative_sd, const MotionColumn& column,
                          double acceleration) {
   return fmt::format(
-      "an inertial torque of {:.2g} rms drowns in what the model leaves ({:.2g} rms); {}", torque,
+      "an inertial torque of {:.2g} rms is too small beside the residual ({:.2g} rms); {}", torque,
       left, stronger_motion(column, acceleration, std::min(1.0, relative_sd)));
 }
 
@@ -104,16 +98,15 @@ void judge_inertia(const RowStatistics& rows, const DynamicColumns& c, const Lin
                   column, acceleration));
   const double shift = e.value > 0 ? std::abs(alternative - e.value) / e.value : 0;
   if (!e.not_identifiable.empty() || shift < kShiftNoted) return;
+  const char* const what = c.side == Side::rigid ? "the load model" : "the stiffness model";
   if (shift > kShiftRefused)
-    refuse(e, fmt::format("{:.3g} turns into {:.3g} when a torque that depends on position is "
-                          "allowed: the motion cannot "
-                          "tell inertia from a wrong elastic stage; move faster",
-                          e.value, alternative));
+    refuse(e, fmt::format("sensitive to {}: {:.3g} becomes {:.3g} with a free position-dependent "
+                          "torque; move faster",
+                          what, e.value, alternative));
   else
     warnings.push_back(fmt::format(
-        "{} rests on the elastic stage: {:.3g} turns into {:.3g} when a torque that depends on "
-        "position is allowed",
-        e.name, e.value, alternative));
+        "{} is sensitive to {}: {:.3g} becomes {:.3g} with a free position-dependent torque",
+        e.name, what, e.value, alternative));
 }
 
 /// An inertia that the rig file gives: exact.
@@ -141,6 +134,12 @@ void take_chosen(const ChosenSd& chosen, const LinearSolution& s, Eigen::Index k
 }
 
 }  // namespace
+
+void refuse(Estimate& e, const std::string& why) {
+  e.not_identifiable = why;
+  e.active_bound.clear();
+  e.value = e.sd = e.sd_white = e.ci_low = e.ci_high = std::numeric_limits<double>::quiet_NaN();
+}
 
 std::string inertia_alias(const RowStatistics& rows, const DynamicColumns& c, Eigen::Index k,
                           bool linear_motion) {

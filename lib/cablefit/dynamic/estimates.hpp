@@ -16,6 +16,9 @@ void add_estimates(const RowStatistics& rows, const DynamicColumns& columns,
                    const LinearSolution& solution, const ElasticFit* stage1, std::size_t which,
                    bool linear_motion, bool honest, DynamicFit& fit);
 
+/// Takes the numbers from an estimate and says why.
+void refuse(Estimate& e, const std::string& why);
+
 /// Why the motion of these rows cannot tell the inertia of column `k` from a torque that depends on
 /// position, whatever the estimator; empty when it can.
 std::string inertia_alias(const RowStatistics& rows, const DynamicColumns& columns, Eigen::Index k,

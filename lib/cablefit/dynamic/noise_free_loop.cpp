@@ -60,6 +60,7 @@ class LogLoop {
           double step)
       : log_(log), model_(model), plan_(plan), copy_(log, true) {
     model_.rig.sensors.clear();  // no quantisation in the loop either
+    if (plan.fitted) model_.rig.controller = plan.fitted->controller;
     options_.closed_loop = plan.kind != LoopKind::command;
     options_.hold_torque = torque_held;
     options_.step = step;
@@ -185,6 +186,9 @@ LoopResult run_loop(const DynamicJob& job, const LogSurvey& log, const Model& mo
 std::string source_of_instruments(const LoopPlan& plan) {
   switch (plan.kind) {
     case LoopKind::known:
+      if (plan.fitted)
+        return "noise-free loop of a controller found from the log's reference, position and "
+               "torque";
       return "noise-free loop of the rig's controller and the log's reference";
     case LoopKind::command:
       return "the log's torque replayed without noise, as the rig file says that it is a command";
@@ -199,6 +203,41 @@ std::string source_of_instruments(const LoopPlan& plan) {
   }
   return plan.reason;
 }
+
+namespace {
+
+// Rows that a controller is checked and found with: its law is exact, so that few will do.
+constexpr double kControllerRows = 250000;
+
+/// Whether the rig's controller made the torque; else whether one can be found that did.
+void look_at_controller(const DynamicJob& job, std::span<const LogSurvey> logs, bool open_loop,
+                        LoopPlan& plan) {
+  if (open_loop || job.n_joints() > 1) return;
+  double all = 0;
+  for (const LogSurvey& log : logs)
+    for (const PartSurvey& part : log.parts)
+      if (job.wanted(part)) all += static_cast<double>(part.n_rows);
+  std::vector<LogSurvey> some;
+  if (all > kControllerRows)
+    some = stretches_of(logs, job.wanted, kControllerRows / all,
+                        bridge_seconds(job.settings.rows.signal));
+  const std::span<const LogSurvey> looked_at = some.empty() ? logs : some;
+  const bool linear = job.rig().linear_motion;
+  if (plan.kind == LoopKind::known) {
+    const std::optional<ControllerFit> given = check_controller(looked_at, job.wanted);
+    if (!given || given->fits()) return;
+    plan.kind = LoopKind::stand_in;
+    plan.reason = fmt::format("the rig's controller does not make the log's torque ({})",
+                              given->text(linear));
+    plan.warnings.push_back(plan.reason + ": it is not used; check its gains, units and reference");
+  }
+  const std::optional<ControllerFit> found = fit_controller(looked_at, job.wanted);
+  if (!found || !found->fits()) return;
+  plan.kind = LoopKind::known;
+  plan.fitted = found;
+}
+
+}  // namespace
 
 LoopPlan plan_loop(const DynamicJob& job, std::span<const LogSurvey> logs) {
   LoopPlan plan;
@@ -217,7 +256,11 @@ LoopPlan plan_loop(const DynamicJob& job, std::span<const LogSurvey> logs) {
     plan.kind = LoopKind::stand_in;
     plan.reason = obstacle;
   }
-  if (n_logs > 0 && n_commanded == n_logs) return {LoopKind::command, "", 0};
+  if (n_logs > 0 && n_commanded == n_logs) {
+    plan.kind = LoopKind::command;
+    return plan;
+  }
+  look_at_controller(job, logs, n_commanded > 0, plan);
   if (plan.kind == LoopKind::known) return plan;
   const double rate = sample_rates(logs, job.wanted).lowest;
   double cutoff = job.settings.rows.signal.cutoff;

@@ -2,10 +2,12 @@
 // would have done without disturbances and encoder noise. Instruments are made of it.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "cablefit/dynamic/controller_fit.hpp"
 #include "cablefit/dynamic/dynamic_job.hpp"
 #include "cablefit/model/model.hpp"
 
@@ -13,7 +15,7 @@ namespace cablefit {
 
 /// Where the reference of the loop comes from.
 enum class LoopKind {
-  known,     ///< the rig's controller follows the log's reference
+  known,     ///< a controller follows the log's reference: the rig's, or one found from the logs
   command,   ///< the rig says that the torque is a command: it is replayed, there is no loop
   stand_in,  ///< a stiff PD controller follows the measured theta, smoothed
   none       ///< nothing can be simulated
@@ -23,6 +25,9 @@ struct LoopPlan {
   LoopKind kind = LoopKind::none;
   std::string reason;    ///< why not the known one, or why none
   double bandwidth = 0;  ///< Hz, of the smoothed theta
+  /// Of a known loop: found from the logs, where the rig file has none that made their torque.
+  std::optional<ControllerFit> fitted = {};
+  std::vector<std::string> warnings = {};
 };
 
 /// Instruments of this loop keep out disturbances that moved the robot, not encoder noise alone.
@@ -30,7 +35,9 @@ inline bool keeps_disturbances_out(LoopKind kind) {
   return kind == LoopKind::known || kind == LoopKind::command;
 }
 
-/// One for all wanted logs of the job: known, or command, when every one of them allows it.
+/// One for all wanted logs of the job: known, or command, when every one of them allows it. A
+/// controller of the rig file that does not make the logs' torque is not used, with a warning; one
+/// that does is looked for then, and where there is none.
 LoopPlan plan_loop(const DynamicJob& job, std::span<const LogSurvey> logs);
 
 /// Where instruments come from and what they keep out, in words. Not of a plan for none.

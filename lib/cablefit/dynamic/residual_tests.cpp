@@ -14,8 +14,12 @@ namespace {
 
 constexpr double kLevel = 0.01;     // below it a p value says that something is there
 constexpr double kMaterial = 0.01;  // of the rms torque
-constexpr double kManyRows = 0.5;   // share of independent rows above which a memory is small
+constexpr double kShown = 0.1;  // of the rms torque: "none seen" says that as much would have shown
+constexpr double kManyRows = 0.5;  // share of independent rows above which a memory is small
 constexpr double kAllRows = 0.9;
+constexpr double kFewRows = 50;   // independent: fewer look white whatever they are
+constexpr double kLittle = 0.5;   // of the torque: a larger residual is told before all else
+constexpr double kFollows = 0.1;  // of the residual's squares: what it depends on
 constexpr std::size_t kBins = 8;
 constexpr std::size_t kEdgeValues = 20000;
 constexpr Eigen::Index kMostCells = 1024;
@@ -36,6 +40,10 @@ ResidualTest whiteness(const TestedRows& tested, const WhitenessTest& test) {
   const auto n_rows = static_cast<double>(test.n_rows);
   if (test.p_value >= kLevel) {
     out.verdict = fmt::format("white below the cut-off ({})", p_text(test.p_value));
+    if (test.effective_rows < kFewRows) {
+      out.finding = Finding::untestable;
+      out.verdict = fmt::format("too few independent rows to tell ({:.0f})", test.effective_rows);
+    }
     return out;
   }
   out.finding = test.effective_rows < kManyRows * n_rows ? Finding::material : Finding::immaterial;
@@ -67,6 +75,11 @@ ResidualTest dependence(const TestedRows& tested, const JudgedVariable& variable
   out.structure = test.structure;
   if (test.p_value >= kLevel) {
     out.verdict = fmt::format("none seen ({})", p_text(test.p_value));
+    if (test.detectable > kShown * tested.torque_rms) {
+      out.finding = Finding::untestable;
+      out.verdict = fmt::format("too few independent rows: less than {:.2g} {} rms would not show",
+                                test.detectable, tested.torque_unit);
+    }
     return out;
   }
   const double share = tested.torque_rms > 0 ? test.structure / tested.torque_rms : 0;
@@ -126,23 +139,53 @@ std::vector<double> sampled_column(const JudgedRows& rows, Eigen::Index column, 
   return values;
 }
 
-std::vector<ResidualTest> residual_tests(const TestedRows& tested, const LinearSolution& solution) {
+namespace {
+
+/// That the model explains little, and which variable the residual follows most.
+std::string headline(const TestedRows& tested, double relative,
+                     const std::vector<VariableTest>& tests,
+                     const std::vector<BinnedTestResult>& results) {
+  if (!(relative > kLittle)) return "";
+  std::string text = fmt::format(
+      "the model explains little: the residual is {:.2g} {} rms, {:.0f} % of the torque",
+      relative * tested.torque_rms, tested.torque_unit, 100 * relative);
+  std::size_t most = 0;
+  for (std::size_t k = 1; k < results.size(); ++k)
+    if (results[k].explained > results[most].explained) most = k;
+  if (!results.empty() && results[most].explained > kFollows)
+    text += fmt::format("; {:.0f} % of its squares follow {}", 100 * results[most].explained,
+                        tests[most].variable->name);
+  return text;
+}
+
+}  // namespace
+
+std::vector<ResidualTest> residual_tests(const TestedRows& tested, const LinearSolution& solution,
+                                         JudgedEquation& equation) {
   const Eigen::Index p = solution.x.size();
   std::vector<VariableTest> tests = new_tests(tested.rows, p);
   Portmanteau memory;
+  double squares = 0, n_rows = 0;
   tested.rows.rows->for_each(
       [&](const Eigen::MatrixXd& rows, std::span<const Eigen::Index> numbers) {
         const Eigen::VectorXd residual =
             rows.leftCols(tested.rows.n_own) * solution.residual_combination;
+        squares += residual.squaredNorm();
+        n_rows += static_cast<double>(residual.size());
         memory.add(numbers, residual);
         for (VariableTest& one : tests)
           one.test.add(numbers, rows.col(one.variable->column), residual, rows.leftCols(p));
       });
   std::vector<ResidualTest> out = {whiteness(tested, memory.result())};
-  for (const VariableTest& one : tests)
-    out.push_back(dependence(
-        tested, *one.variable,
-        tested.fitted ? one.test.of_fitted_rows() : one.test.of_unseen_rows(solution.covariance)));
+  std::vector<BinnedTestResult> results;
+  for (const VariableTest& one : tests) {
+    results.push_back(tested.fitted ? one.test.of_fitted_rows()
+                                    : one.test.of_unseen_rows(solution.covariance));
+    out.push_back(dependence(tested, *one.variable, results.back()));
+  }
+  if (n_rows > 0 && tested.torque_rms > 0)
+    equation.relative = std::sqrt(squares / n_rows) / tested.torque_rms;
+  equation.headline = headline(tested, equation.relative, tests, results);
   return out;
 }
 

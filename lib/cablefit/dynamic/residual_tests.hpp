@@ -15,8 +15,10 @@ struct TestedRows {
   std::string torque_unit;  ///< "N m"
 };
 
-/// Whiteness, then every tested variable that moves. `solution` is of the rows' equation.
-std::vector<ResidualTest> residual_tests(const TestedRows& tested, const LinearSolution& solution);
+/// Whiteness, then every tested variable that moves. `solution` is of the rows' equation, whose
+/// relative error and headline are filled in.
+std::vector<ResidualTest> residual_tests(const TestedRows& tested, const LinearSolution& solution,
+                                         JudgedEquation& equation);
 
 /// About `most` values of a column, evenly spread over the rows.
 std::vector<double> sampled_column(const JudgedRows& rows, Eigen::Index column, std::size_t most);

@@ -6,43 +6,17 @@
 #include <cmath>
 #include <limits>
 
+#include "cablefit/dynamic/scaled_settings.hpp"
 #include "cablefit/samples/agreement.hpp"
 
 namespace cablefit {
 namespace {
 
 constexpr double kFactors[] = {0.5, 0.71, 1, 1.41, 2};
-constexpr double kMostShareOfRate = 0.3;  // of a cut-off: above it differences are off by percents
-constexpr double kFlat = 2;               // sd
-constexpr double kSmall = 0.01;           // of a parameter: certain, but it does not matter
+constexpr double kFlat = 2;  // sd, between any two points: fits of other rows scatter by one or so
 constexpr const char* kCutoff = "cut-off";
 constexpr const char* kRestSpeed = "rest speed";
-
-void scale_cutoff(ChosenSettings& settings, double factor) {
-  RowSettings& rows = settings.rows;
-  const auto divided = [factor](auto n) {
-    return static_cast<decltype(n)>(std::lround(static_cast<double>(n) / factor));
-  };
-  rows.signal.cutoff *= factor;
-  rows.lowest_cutoff *= factor;
-  settings.cutoff_q *= factor;
-  rows.decimate = std::max(1, divided(rows.decimate));
-  rows.drop_edge = std::max(kDifferenceEdge, divided(rows.drop_edge));
-  rows.rest_margin = divided(rows.rest_margin);
-}
-
-void scale_rest_speed(ChosenSettings& settings, double factor) {
-  settings.rest_speed_theta *= factor;
-  settings.rest_speed_q *= factor;
-}
-
-DynamicJob with_settings(const DynamicJob& job, void (*scale)(ChosenSettings&, double),
-                         double factor) {
-  DynamicJob other = job;
-  scale(other.settings, factor);
-  for (ChosenSettings& joint : other.joint_settings) scale(joint, factor);
-  return other;
-}
+constexpr const char* kRestMargin = "rest margin";
 
 /// Per parameter of `fit` its change in sd.
 std::vector<double> changes(const DynamicJob& job, const Estimator& estimator, std::size_t model,
@@ -62,6 +36,8 @@ std::vector<double> changes(const DynamicJob& job, const Estimator& estimator, s
 
 std::string value_text(const SweepPoint& point) { return fmt::format("{:.3g}", point.value); }
 
+/// How far each parameter moves over a setting, against its sd: an error that a setting makes and
+/// no interval holds.
 SweepVerdict judged(const Sweep& sweep, const std::string& setting, const std::string& unit) {
   std::vector<const SweepPoint*> points;
   for (const SweepPoint& point : sweep.points)
@@ -76,14 +52,13 @@ SweepVerdict judged(const Sweep& sweep, const std::string& setting, const std::s
         low = std::min(low, point->change[k]);
         high = std::max(high, point->change[k]);
       }
-    largest = std::max(largest, high - low);
-    if (!(high - low > kFlat)) continue;
-    const double relative = (high - low) * sweep.relative_sd[k];
+    const double range = high - low;
+    largest = std::max(largest, range);
+    if (!(range > kFlat)) continue;
     moved += fmt::format("{}{} moves by {:.1f} sd ({:.2g} %)", moved.empty() ? "" : ", ",
-                         sweep.parameters[k], high - low, 100 * relative);
-    verdict.is_flat = verdict.is_flat && relative < kSmall;
+                         sweep.parameters[k], range, 100 * range * sweep.relative_sd[k]);
+    verdict.is_flat = false;
   }
-  if (verdict.is_flat && !moved.empty()) moved = "flat within 1 %: " + moved;
   verdict.text = fmt::format(
       "{} between {} and {} {}",
       moved.empty() ? fmt::format("flat: no parameter moves by more than {:.1f} sd", largest)
@@ -101,23 +76,24 @@ Sweep sweep_settings(const DynamicJob& job, const Estimator& estimator, std::siz
     sweep.parameters.push_back(e.name);
     sweep.relative_sd.push_back(e.value != 0 ? std::abs(e.sd / e.value) : 0);
   }
-  const double cutoff = job.settings.rows.signal.cutoff;
-  const double rest = job.settings.rest_speed_theta;
+  const RowSettings& rows = job.settings.rows;
+  const double cutoff = rows.signal.cutoff;
   const double rate = sample_rates(job.logs, job.wanted).lowest;
-  const auto add = [&](const char* setting, double factor, double value, auto scale) {
-    const DynamicJob other = with_settings(job, scale, factor);
-    sweep.points.push_back({setting, factor, value,
-                            factor == 1 ? std::vector<double>(sweep.parameters.size(), 0.0)
-                                        : changes(other, estimator, model, fit)});
-  };
-  for (const double factor : kFactors)
-    if (cutoff > 0 && (factor <= 1 || factor * cutoff <= kMostShareOfRate * rate))
-      add(kCutoff, factor, factor * cutoff, scale_cutoff);
-  for (const double factor : kFactors)
-    if (rest > 0) add(kRestSpeed, factor, factor * rest, scale_rest_speed);
   const std::string length = job.rig().linear_motion ? "m/s" : "rad/s";
-  if (cutoff > 0) sweep.verdicts.push_back(judged(sweep, kCutoff, "Hz"));
-  if (rest > 0) sweep.verdicts.push_back(judged(sweep, kRestSpeed, length));
+  const auto add = [&](const char* setting, double chosen, const std::string& unit, auto scaled,
+                       double most) {
+    if (!(chosen > 0)) return;
+    for (const double factor : kFactors)
+      if (factor <= 1 || factor * chosen <= most)
+        sweep.points.push_back({setting, factor, factor * chosen,
+                                factor == 1 ? std::vector<double>(sweep.parameters.size(), 0.0)
+                                            : changes(scaled(job, factor), estimator, model, fit)});
+    sweep.verdicts.push_back(judged(sweep, setting, unit));
+  };
+  add(kCutoff, cutoff, "Hz", with_cutoff_scaled, kMostShareOfRate * rate);
+  add(kRestSpeed, job.settings.rest_speed_theta, length, with_rest_speed_scaled, kUnbounded);
+  add(kRestMargin, static_cast<double>(rows.rest_margin) / rate, "s", with_rest_margin_scaled,
+      kUnbounded);
   return sweep;
 }
 

@@ -136,7 +136,7 @@ std::vector<JudgedEquation> judged_on(const FittedModels& fitted, const Unseen& 
     JudgedEquation e = named(fitted, m, rows.equation);
     e.conditions = condition_errors(rows, *known, conditions(rows, *known, unseen.names),
                                     judged_model(fitted, m, rows.equation));
-    e.tests = residual_tests(tested(fitted, rows, false, m), fitted.solutions[m][rows.equation]);
+    e.tests = residual_tests(tested(fitted, rows, false, m), fitted.solutions[m][rows.equation], e);
     out.push_back(std::move(e));
     ++known;
   }
@@ -154,8 +154,13 @@ void judge(const FittedModels& fitted, DynamicPreload& preload) {
   for (std::size_t m = 0; m < job.models.size(); ++m)
     for (const JudgedRows& rows : own) {
       preload.residual_tests.push_back(named(fitted, m, rows.equation));
-      preload.residual_tests.back().tests =
-          residual_tests(tested(fitted, rows, true, m), fitted.solutions[m][rows.equation]);
+      JudgedEquation& judged = preload.residual_tests.back();
+      judged.tests =
+          residual_tests(tested(fitted, rows, true, m), fitted.solutions[m][rows.equation], judged);
+      if (!judged.headline.empty())
+        preload.warnings.insert(
+            preload.warnings.begin(),
+            fmt::format("{} equation, {}: {}", judged.equation, judged.model, judged.headline));
     }
   const Unseen unseen = look_at_unseen(fitted);
   if (unseen.logs.empty()) return;

@@ -46,6 +46,8 @@ struct JudgedEquation {
   std::string floor_source;                ///< "repeats", "sensor noise"
   std::vector<ConditionError> conditions;  ///< empty for the logs that were fitted
   std::vector<ResidualTest> tests;
+  double relative = 0;   ///< rms of the residual over rms of the torque to be explained
+  std::string headline;  ///< that the model explains little, and what the residual depends on
 };
 
 struct Validation {

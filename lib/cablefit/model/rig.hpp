@@ -24,9 +24,16 @@ struct ColumnMapping {
 enum class TorqueHold { automatic, zoh, none };
 
 /// tau = kp (ref - theta) + kd d(ref - theta)/dt by backward differences at its period, clipped.
+/// tau = kp e + ki (integral of e) + kd de/dt + feed-forward, e = reference - theta, derivatives by
+/// backward differences over the period. A velocity loop on the motor's speed alone is kd with
+/// feed_velocity = -kd; a cascade of P and PI is written as this law (rig/bench.cpp).
 struct Controller {
   std::string type = "pd";
-  double kp = 0, kd = 0;
+  double kp = 0, kd = 0;                ///< N m/rad, N m s/rad
+  double ki = 0;                        ///< N m/(rad s)
+  double feed_position = 0;             ///< N m/rad, of the reference from its first value on
+  double feed_velocity = 0;             ///< N m s/rad, of the reference's speed
+  double feed_acceleration = 0;         ///< N m s^2/rad
   double limit = kUnbounded;            ///< |tau| <= limit, N m
   double period = 0;                    ///< s; 0: the log's
   std::string reference = "theta_ref";  ///< column

@@ -5,11 +5,11 @@
 #include <optional>
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/copies/twin.hpp"
 #include "cablefit/prove/fitted_model.hpp"
 #include "cablefit/prove/proof_runs.hpp"
 #include "cablefit/prove/residual_colour.hpp"
 #include "cablefit/prove/stage1_draw.hpp"
-#include "cablefit/prove/twin.hpp"
 
 namespace cablefit {
 namespace {
@@ -111,6 +111,7 @@ Plan make_plan(std::span<const LogSurvey> logs, const ProveStage1& stage1,
   Plan plan;
   plan.options = options;
   plan.options.models = {fit.model};
+  plan.options.method_floor = fit.method_floor;  // a property of the motion, which the runs share
   plan.options.preload = preload.name;
   plan.options.figures = false;
   plan.options.samples.threads = 1;

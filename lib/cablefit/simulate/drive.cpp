@@ -72,7 +72,8 @@ const std::vector<double>& ReplayDrive::interpolate(Eigen::Index row, double fra
   return tau_;
 }
 
-PdDrive::PdDrive(const Model& model, const SimulationInput& start, const Clock& clock)
+ControllerDrive::ControllerDrive(const Model& model, const SimulationInput& start,
+                                 const Clock& clock)
     : controller_(*model.rig.controller),
       period_(controller_period(model, start)),
       steps_per_row_(static_cast<double>(clock.steps_per_row)),
@@ -86,17 +87,18 @@ PdDrive::PdDrive(const Model& model, const SimulationInput& start, const Clock& 
     const double velocity = start.thetad0.size() ? start.thetad0[joint] : 0.0;
     const double reference_rate = first_difference(start.theta_ref, joint) / start.period;
     const double reference = first_value(start.theta_ref, joint) - period_ * reference_rate;
-    previous_error_.push_back(reference - measured(position - period_ * velocity, k));
+    memory_.push_back({reference - measured(position - period_ * velocity, k), reference,
+                       reference_rate, 0, first_value(start.theta_ref, joint)});
   }
 }
 
-double PdDrive::measured(double theta, std::size_t joint) const {
+double ControllerDrive::measured(double theta, std::size_t joint) const {
   const double quantum = quantum_[joint];
   return quantum > 0 ? quantum * std::round(theta / quantum) : theta;
 }
 
-const std::vector<double>& PdDrive::torque(Eigen::Index row, Eigen::Index step,
-                                           const std::vector<double>& theta) {
+const std::vector<double>& ControllerDrive::torque(Eigen::Index row, Eigen::Index step,
+                                                   const std::vector<double>& theta) {
   const double now =
       (rows_before_ + static_cast<double>(row)) * steps_per_row_ + static_cast<double>(step);
   if (now >= std::round(n_commands_ * steps_per_command_)) command(row, step, theta);
@@ -105,21 +107,31 @@ const std::vector<double>& PdDrive::torque(Eigen::Index row, Eigen::Index step,
   return drive_.at(middle / steps_per_command_);
 }
 
-void PdDrive::end(Eigen::Index n_rows) {
+void ControllerDrive::end(Eigen::Index n_rows) {
   block_ = nullptr;
   rows_before_ += static_cast<double>(n_rows);
 }
 
-void PdDrive::command(Eigen::Index row, Eigen::Index step, const std::vector<double>& theta) {
+void ControllerDrive::command(Eigen::Index row, Eigen::Index step,
+                              const std::vector<double>& theta) {
   ++n_commands_;
   const double fraction = static_cast<double>(step) / steps_per_row_;
   for (std::size_t k = 0; k < tau_.size(); ++k) {
     const auto joint = static_cast<Eigen::Index>(k);
-    const double error =
-        between_rows(block_->theta_ref, row, fraction, joint) - measured(theta[k], k);
-    const double rate = (error - previous_error_[k]) / period_;
-    previous_error_[k] = error;
-    const double tau = controller_.kp * error + controller_.kd * rate;
+    Memory& last = memory_[k];
+    const double reference = between_rows(block_->theta_ref, row, fraction, joint);
+    const double error = reference - measured(theta[k], k);
+    const double reference_rate = (reference - last.reference) / period_;
+    const double feed =
+        controller_.feed_position * (reference - last.first_reference) +
+        controller_.feed_velocity * reference_rate +
+        controller_.feed_acceleration * (reference_rate - last.reference_rate) / period_;
+    const double tau = controller_.kp * error + controller_.ki * last.integral +
+                       controller_.kd * ((error - last.error) / period_) + feed;
+    if (std::abs(tau) < controller_.limit) last.integral += period_ * error;  // no wind-up
+    last.error = error;
+    last.reference = reference;
+    last.reference_rate = reference_rate;
     tau_[k] = std::clamp(tau, -controller_.limit, controller_.limit);
   }
   if (drive_.is_needed()) drive_.command(tau_);

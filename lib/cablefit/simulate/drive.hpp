@@ -58,11 +58,11 @@ class ReplayDrive final : public Drive {
   std::vector<double> tau_;
 };
 
-/// A PD controller on the quantised motor position, see Controller. The torque is held over its
-/// period. Its first difference is that of a start at the initial velocity.
-class PdDrive final : public Drive {
+/// The rig's controller on the quantised motor position, see Controller. The torque is held over
+/// its period. Its first difference is that of a start at the initial velocity.
+class ControllerDrive final : public Drive {
  public:
-  PdDrive(const Model& model, const SimulationInput& start, const Clock& clock);
+  ControllerDrive(const Model& model, const SimulationInput& start, const Clock& clock);
   void begin(const SimulationInput& block) override { block_ = &block; }
   void end(Eigen::Index n_rows) override;
   const std::vector<double>& torque(Eigen::Index row, Eigen::Index step,
@@ -82,9 +82,14 @@ class PdDrive final : public Drive {
   Controller controller_;
   double period_, steps_per_row_, steps_per_command_;
   double n_commands_ = 0;
-  double rows_before_ = 0;              ///< of the present block
-  std::vector<double> quantum_;         ///< rad; 0: none
-  std::vector<double> previous_error_;  ///< rad, at the last command
+  double rows_before_ = 0;       ///< of the present block
+  std::vector<double> quantum_;  ///< rad; 0: none
+  struct Memory {
+    double error = 0, reference = 0, reference_rate = 0;  ///< at the last command
+    double integral = 0;                                  ///< of the error, rad s
+    double first_reference = 0;
+  };
+  std::vector<Memory> memory_;  ///< per joint
   std::vector<double> tau_;
   ActingTorque drive_;
 };

@@ -24,7 +24,7 @@ SimulationResult nothing_yet(Eigen::Index rows, Eigen::Index n_joints, Eigen::In
 
 std::unique_ptr<Drive> make_drive(const Model& model, const SimulationInput& start,
                                   const SimulationOptions& options, const Clock& clock) {
-  if (options.closed_loop) return std::make_unique<PdDrive>(model, start, clock);
+  if (options.closed_loop) return std::make_unique<ControllerDrive>(model, start, clock);
   return std::make_unique<ReplayDrive>(model, options, clock);
 }
 

@@ -10,7 +10,12 @@
 #include "cablefit/dynamic/instrumental_variables.hpp"
 #include "cablefit/dynamic/joint_estimates.hpp"
 #include "cablefit/dynamic/log_copy.hpp"
+#include "cablefit/dynamic/scaled_settings.hpp"
+#include "cablefit/estimate/held_out_moments.hpp"
+#include "cablefit/estimate/instruments.hpp"
 #include "cablefit/estimate/profile_interval.hpp"
+#include "cablefit/model/file/controller_text.hpp"
+#include "cablefit/samples/agreement.hpp"
 
 namespace cablefit::estimation {
 namespace {
@@ -57,6 +62,15 @@ std::string rows_of(const EstimationTask& task, const IvFit& fit) {
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", task.equations[k].equation.name,
                         fit.rows[k].counts.rows_used);
   return text;
+}
+
+/// What became of the controller; a found one as it is written in a rig file.
+void note_controller(const EstimationTask& task, const LoopPlan& plan, Estimation& out) {
+  out.fit.warnings.insert(out.fit.warnings.end(), plan.warnings.begin(), plan.warnings.end());
+  if (!plan.fitted) return;
+  out.decisions.push_back({label(task, "controller"), "found from the logs",
+                           plan.fitted->text(task.job.rig().linear_motion) +
+                               "; in the rig file: " + controller_text(plan.fitted->controller)});
 }
 
 void note_instruments(const EstimationTask& task, const LoopPlan& plan, const IvFit& fit,
@@ -181,6 +195,7 @@ Estimation estimate_iv(const EstimationTask& task) {
         verdict(j, "wls would do", "the iv estimates are used");
   }
   if (job.n_joints() == 1) out.joint = join_estimates(out.fit, influences, task.stage1());
+  note_controller(task, plan, out);
   note_instruments(task, plan, fit, out);
   return out;
 }
@@ -197,6 +212,65 @@ std::string all_p(const EstimationTask& task, const std::vector<Judgement>& judg
 bool any_wants(const std::vector<Judgement>& judgements) {
   return std::any_of(judgements.begin(), judgements.end(),
                      [](const Judgement& j) { return j.wants_instruments(); });
+}
+
+/// Whether this log proves instruments that come from a surrogate loop, which keeps encoder noise
+/// out but not what moved the robot.
+struct InstrumentProof {
+  bool agrees = false;  ///< with themselves at other cut-offs, within kAgreement
+  bool better = false;  ///< held-out residuals share less with them than by least squares
+  double moved = 0;     ///< sd, of the parameter that moves most between cut-offs
+  std::string parameter;
+
+  bool holds() const { return agrees && better; }
+  std::string text() const {
+    return fmt::format("{} moves by {:.2g} sd between cut-offs; {} than wls on held-out blocks",
+                       parameter, moved, better ? "better" : "not better");
+  }
+};
+
+constexpr double kOtherCutoffs[] = {0.71, 1.41};
+constexpr double kAgreement = 1;  // sd
+
+std::vector<InstrumentProof> prove_instruments(const EstimationTask& task, const TestRows& test,
+                                               const IvFit& fit) {
+  const DynamicJob& job = task.job;
+  std::vector<InstrumentProof> proofs(task.equations.size());
+  for (std::size_t k = 0; k < proofs.size(); ++k) {
+    const HeldOutMoments moments = held_out_moments(
+        fit.rows[k].rows, instrumented_problem(job, task.equations[k], task.model));
+    proofs[k].better = moments.with < moments.plain;
+  }
+  const double rate = sample_rates(job.logs, job.wanted).lowest;
+  int n_cutoffs = 0;
+  for (const double factor : kOtherCutoffs) {
+    if (factor * job.settings.rows.signal.cutoff > kMostShareOfRate * rate) continue;
+    const DynamicJob other = with_cutoff_scaled(job, factor);
+    const std::vector<EquationRows> equations = make_equations(other);
+    const IvFit again = fit_by_instruments(other, test.logs(job), equations, fit.solutions,
+                                           task.model, plan_loop(other, job.logs), 1);
+    if (!again.failure.empty()) return proofs;
+    ++n_cutoffs;
+    for (std::size_t k = 0; k < proofs.size(); ++k) {
+      const EstimateDifference moved = largest_difference(fit.solutions[k], again.solutions[k]);
+      if (moved.parameter < 0 || std::abs(moved.in_sd) < proofs[k].moved) continue;
+      proofs[k].moved = std::abs(moved.in_sd);
+      proofs[k].parameter =
+          task.equations[k].columns.parameters[static_cast<std::size_t>(moved.parameter)].name;
+    }
+  }
+  for (InstrumentProof& proof : proofs) proof.agrees = n_cutoffs > 0 && proof.moved < kAgreement;
+  return proofs;
+}
+
+/// Least squares stands, but what instruments would change is part of its sd.
+void keep_difference(const EquationRows& e, const LinearSolution& plain, const LinearSolution& with,
+                     DynamicFit& fit) {
+  for (Eigen::Index k = 0; k < e.columns.n_effects; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    if (plain.not_identifiable[at].empty() && with.not_identifiable[at].empty())
+      fit.estimator_difference[e.columns.parameters[at].name] = std::abs(with.x(k) - plain.x(k));
+  }
 }
 
 Estimation estimate_automatically(const EstimationTask& task) {
@@ -222,7 +296,15 @@ Estimation estimate_automatically(const EstimationTask& task) {
     fit = std::move(all);
     judgements = judge_all(task, plain, fit);
   }
-  const bool any = any_wants(judgements);
+  // Of each equation: as it wants, and where a surrogate makes the instruments, as it is proved.
+  std::vector<InstrumentProof> proofs;
+  if (any_wants(judgements) && !keeps_disturbances_out(plan.kind))
+    proofs = prove_instruments(task, test, fit);
+  const auto uses_instruments = [&](std::size_t k) {
+    return judgements[k].wants_instruments() && (proofs.empty() || proofs[k].holds());
+  };
+  bool any = false;
+  for (std::size_t k = 0; k < task.equations.size(); ++k) any = any || uses_instruments(k);
   Estimation out;
   out.fit.estimator = any ? "iv" : "wls";
   out.decisions.push_back(
@@ -230,15 +312,22 @@ Estimation estimate_automatically(const EstimationTask& task) {
        fmt::format("Durbin-Wu-Hausman: {}{}", all_p(task, judgements), test.note)});
   std::vector<EquationInfluence> influences;
   for (std::size_t k = 0; k < task.equations.size(); ++k) {
-    if (judgements[k].wants_instruments()) {
+    const EquationRows& e = task.equations[k];
+    std::string text = verdict(judgements[k], "wls stands", "the iv estimates are used");
+    if (uses_instruments(k)) {
       add_equation(task, k, fit.rows[k].rows, fit.solutions[k], influences, out);
     } else {
-      add_equation(task, k, *task.equations[k].rows, plain[k], influences, out);
+      add_equation(task, k, *e.rows, plain[k], influences, out);
+      if (judgements[k].wants_instruments()) {
+        keep_difference(e, plain[k], fit.solutions[k], out.fit);
+        text = verdict(judgements[k], "", "wls stands, with the difference in its sd") +
+               " (instruments not proved: " + proofs[k].text() + ")";
+      }
     }
-    out.fit.verdicts[verdict_key(task.equations[k])] =
-        verdict(judgements[k], "wls stands", "the iv estimates are used");
+    out.fit.verdicts[verdict_key(e)] = text;
   }
   if (job.n_joints() == 1) out.joint = join_estimates(out.fit, influences, task.stage1());
+  note_controller(task, plan, out);
   note_instruments(task, plan, fit, out);
   return out;
 }
@@ -252,7 +341,9 @@ Estimator iv() {
 }
 
 Estimator automatic() {
-  return {"auto", "wls, and iv for each equation that fails the Durbin-Wu-Hausman test",
+  return {"auto",
+          "wls, and iv for each equation that fails the Durbin-Wu-Hausman test, if instruments are "
+          "proved",
           "Janot et al. 2016", estimate_automatically};
 }
 

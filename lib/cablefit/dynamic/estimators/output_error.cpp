@@ -317,7 +317,7 @@ Estimation estimate(const EstimationTask& task) {
 Estimator output_error() {
   return {"output-error",
           "simulated positions follow the measured ones, torque noise and stiffness as unknowns",
-          "Jazwinski 1970, 5.3; Ljung 1999, 7.2", estimate};
+          "Jazwinski 1970, 5.3; Ljung 1999, 7.2", estimate, false};
 }
 
 }  // namespace cablefit::estimation

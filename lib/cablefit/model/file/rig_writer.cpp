@@ -1,6 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "cablefit/model/file/controller_text.hpp"
 #include "cablefit/model/file/writer.hpp"
 
 namespace cablefit::model_file {
@@ -25,7 +26,14 @@ Json load_json(const Load& load) {
 }
 
 Json controller_json(const Controller& controller) {
-  Json json{{"type", controller.type}, {"kp", controller.kp}, {"kd", controller.kd}};
+  const bool is_pd = controller.type == "pd";
+  Json json{{"type", is_pd ? "pd" : "pid"}, {"kp", controller.kp}, {"kd", controller.kd}};
+  if (!is_pd) {  // a cascade is the same law in other words
+    json["ki"] = controller.ki;
+    json["feedforward"] = {{"position", controller.feed_position},
+                           {"velocity", controller.feed_velocity},
+                           {"acceleration", controller.feed_acceleration}};
+  }
   if (std::isfinite(controller.limit)) json["limit"] = controller.limit;
   if (controller.period > 0) json["period"] = controller.period;
   json["reference"] = controller.reference;
@@ -123,3 +131,11 @@ Json rig_json(const Rig& rig) {
 }
 
 }  // namespace cablefit::model_file
+
+namespace cablefit {
+
+std::string controller_text(const Controller& controller) {
+  return model_file::controller_json(controller).dump();
+}
+
+}  // namespace cablefit

@@ -67,18 +67,64 @@ Arm read_arm(const JsonNode& node, const Rig& rig) {
   return arm;
 }
 
+namespace {
+
+double gain(const JsonNode& node, std::string_view name) {
+  const JsonNode* found = node.find(name);
+  return found == nullptr ? 0 : not_negative(*found);
+}
+
+/// Gains of either sign: what a fit found.
+void read_feedforward(const JsonNode& node, Controller& controller) {
+  const JsonNode* feed = node.find("feedforward");
+  if (feed == nullptr) return;
+  feed->allow_only({"position", "velocity", "acceleration"});
+  const auto read = [&](const char* name, double& to) {
+    if (const JsonNode* value = feed->find(name)) to += value->number();
+  };
+  read("position", controller.feed_position);
+  read("velocity", controller.feed_velocity);
+  read("acceleration", controller.feed_acceleration);
+}
+
+/// kv ((v - dtheta/dt) + ki integral of it), v = kp e + c dref/dt, as one law in e and the
+/// reference.
+void read_cascade(const JsonNode& node, Controller& controller) {
+  const double kp = not_negative(node.at("kp")), kv = not_negative(node.at("kv"));
+  const double ki = gain(node, "ki"), fed = gain(node, "velocity_share");
+  controller.kp = kv * (kp + ki);
+  controller.ki = kv * ki * kp;
+  controller.kd = kv;
+  controller.feed_velocity = kv * (fed - 1);
+  controller.feed_position = kv * ki * (fed - 1);
+}
+
+}  // namespace
+
 std::optional<Controller> read_controller(const JsonNode& node) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kTypes{
-      {{"pd", "pd"}, {"open_loop", "open_loop"}}};
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kTypes{
+      {{"pd", "pd"}, {"pid", "pid"}, {"cascade", "cascade"}, {"open_loop", "open_loop"}}};
   Controller controller;
   if (const JsonNode* type = node.find("type")) controller.type = choose(*type, kTypes);
   if (controller.type == "open_loop") {
     node.allow_only({"type"});
     return std::nullopt;
   }
-  node.allow_only({"type", "kp", "kd", "limit", "period", "reference"});
-  controller.kp = not_negative(node.at("kp"));
-  if (const JsonNode* kd = node.find("kd")) controller.kd = not_negative(*kd);
+  if (controller.type == "cascade") {
+    node.allow_only({"type", "kp", "kv", "ki", "velocity_share", "feedforward", "limit", "period",
+                     "reference"});
+    read_cascade(node, controller);
+  } else if (controller.type == "pid") {
+    node.allow_only({"type", "kp", "ki", "kd", "feedforward", "limit", "period", "reference"});
+    controller.kp = not_negative(node.at("kp"));
+    controller.ki = gain(node, "ki");
+    controller.kd = gain(node, "kd");
+  } else {
+    node.allow_only({"type", "kp", "kd", "limit", "period", "reference"});
+    controller.kp = not_negative(node.at("kp"));
+    controller.kd = gain(node, "kd");
+  }
+  if (controller.type != "pd") read_feedforward(node, controller);
   if (const JsonNode* limit = node.find("limit")) controller.limit = limit->positive();
   if (const JsonNode* period = node.find("period")) controller.period = period->positive();
   controller.reference = text_or(node, "reference", controller.reference);
