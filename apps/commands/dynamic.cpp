@@ -14,7 +14,7 @@
 #include "cablefit/base/quote.hpp"
 #include "cablefit/campaign/campaign.hpp"
 #include "cablefit/dynamic/estimators.hpp"
-#include "cablefit/elastic/elastic_fit.hpp"
+#include "cablefit/identify/elastic_stage.hpp"
 #include "cablefit/prove/prove.hpp"
 #include "cablefit/report/dynamic_document.hpp"
 #include "cablefit/report/dynamic_json.hpp"
@@ -132,7 +132,7 @@ Stage1 fit_stage1(const DynamicCommand& command, const std::vector<LogSurvey>& b
   const ElasticOptions options = stage1_options(command);
   const Progress progress(command.common.quiet, "fitting stage 1");
   Stage1 stage1;
-  stage1.result = fit_elastic(blocked, options);
+  stage1.result = fit_elastic_stage(blocked, options, ElongationMode::automatic);
   stage1.inputs = stage1.result.inputs;
   stage1.decision = {"stage 1", "from the blocked logs given", "there was no result of stage 1"};
   stage1.is_new = true;

@@ -5,12 +5,14 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/identify/elastic_search.hpp"
+#include "cablefit/identify/elastic_stage.hpp"
 #include "cablefit/prove/prove.hpp"
 #include "cablefit/report/elastic_document.hpp"
 #include "cablefit/report/elastic_json.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
+#include "commands/elongation_option.hpp"
 #include "commands/progress.hpp"
 
 namespace cablefit::apps {
@@ -20,7 +22,8 @@ constexpr const char* kElasticExample =
     "Example:\n"
     "  cablefit elastic data/low/blocked.csv data/high/blocked.csv --report table1.md\n";
 
-void add_elastic_options(CLI::App& app, ElasticOptions& elastic, bool& search, bool& order_auto) {
+void add_elastic_options(CLI::App& app, ElasticOptions& elastic, ElongationMode& elongations,
+                         bool& order_auto) {
   const auto take_order = [&elastic, &order_auto](const std::string& text) {
     elastic.order = 0;
     order_auto = text == "auto";
@@ -44,11 +47,7 @@ void add_elastic_options(CLI::App& app, ElasticOptions& elastic, bool& search, b
                                            : ZeroMode::automatic;
       },
       "what is unknown: the drive's offset, or the encoder's zero");
-  add_choice(
-      app, "--l_o", "mode", {"auto", "search"},
-      [&search](const std::string& name) { search = name == "search"; },
-      "initial elongations: those of the rig file (\"search\": looked for; none: 0), or search "
-      "all, several preloads together [auto]");
+  add_elongation_option(app, elongations);
   app.add_flag("--unconstrained", elastic.unconstrained,
                "plain least squares: let cables push, with a warning");
   add_number(
@@ -89,9 +88,10 @@ int run_elastic(const Arguments& arguments) {
   CommonOptions options;
   ElasticOptions elastic;
   add_log_options(app, options);
-  bool search = false, order_auto = false;
+  ElongationMode elongations = ElongationMode::automatic;
+  bool order_auto = false;
   std::size_t n_prove = 0;
-  add_elastic_options(app, elastic, search, order_auto);
+  add_elastic_options(app, elastic, elongations, order_auto);
   add_whole(
       app, "--prove", "N", {20, 100000},
       [&n_prove](long n) { n_prove = static_cast<std::size_t>(n); },
@@ -101,8 +101,9 @@ int run_elastic(const Arguments& arguments) {
   add_output_options(app, options);
   app.footer(kElasticExample);
   if (!parse(app, arguments)) return 0;
+  const bool search = elongations == ElongationMode::search;
   if (search && elastic.still)
-    throw usage_error("--l_o search and --still cannot be combined",
+    throw usage_error("--l-o search and --still cannot be combined",
                       "a moving log belongs to 'cablefit identify'");
 
   const std::vector<LogSurvey> logs = read_logs(options);
@@ -112,7 +113,8 @@ int run_elastic(const Arguments& arguments) {
   elastic.figures = wants_figures(options);
   const std::vector<LogSurvey> blocked = logs_with(
       logs, [&](const PartSurvey& part) { return elastic.still || part.phase == Phase::blocked; });
-  const bool searches = !blocked.empty() && !elastic.still && (search || wants_search(blocked));
+  const bool searches = !blocked.empty() && !elastic.still &&
+                        elongations != ElongationMode::known && (search || wants_search(blocked));
   if (searches) require_searchable(elastic, order_auto);
   if (searches && n_prove > 0)
     throw usage_error("--prove and a search of l_o cannot be combined",
@@ -120,8 +122,7 @@ int run_elastic(const Arguments& arguments) {
   // Without any blocked log the fit says what to do, for the logs that were given.
   ElasticResult result = [&] {
     const Progress progress(options.quiet, "fitting stage 1");
-    if (searches) return fit_elastic_with_search(blocked, elastic, search);
-    return fit_elastic(blocked.empty() ? logs : blocked, elastic);
+    return fit_elastic_stage(blocked.empty() ? logs : blocked, elastic, elongations);
   }();
   if (n_prove > 0) prove(options, blocked, elastic, n_prove, result);
   deliver(options, elastic_document(result), {{"elastic.json", elastic_json(result)}});

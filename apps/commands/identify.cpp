@@ -7,6 +7,7 @@
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
+#include "commands/elongation_option.hpp"
 #include "commands/file_names.hpp"
 #include "commands/progress.hpp"
 
@@ -23,15 +24,7 @@ void add_identify_options(CLI::App& app, IdentifyOptions& identify) {
       app, "--order", "N", {1, kMaxCableOrder},
       [&identify](long n) { identify.order = static_cast<int>(n); },
       "order of the cables' force [the rig file's, else 2]");
-  add_choice(
-      app, "--l_o", "mode", {"auto", "search", "known"},
-      [&identify](const std::string& name) {
-        identify.elongations = name == "search"  ? ElongationMode::search
-                               : name == "known" ? ElongationMode::known
-                                                 : ElongationMode::automatic;
-      },
-      "initial elongations: search them, or take those of the rig file (else 0) [auto: search "
-      "where the rig file says so, and without cables in it all of several preloads]");
+  add_elongation_option(app, identify.elongations);
   app.add_flag("--recursive", identify.recursive,
                "recursive least squares (R-LSA) too: its trace in OUT/identify_trace.csv");
   app.add_flag("--unconstrained", identify.unconstrained,

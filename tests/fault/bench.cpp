@@ -80,7 +80,7 @@ std::vector<Writer> writers() {
        {"simulate.json", "rows.csv"}},
       {"check", {"check", "log.csv", "--json", "out/check.json"}, {"check.json"}},
       {"identify",
-       {"identify", "log.csv", "moving.csv", "--l_o", "known", "--recursive", "--out", "out"},
+       {"identify", "log.csv", "moving.csv", "--l-o", "known", "--recursive", "--out", "out"},
        {"identify.json", "identify_trace.csv", "model_low.json"}}};
 }
 

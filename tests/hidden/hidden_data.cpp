@@ -2,11 +2,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "real.hpp"
+#include "user_log.hpp"
 #include "write.hpp"
 
 namespace {
@@ -99,6 +102,29 @@ int main(int argc, char** argv) try {
   plant.add_option("--ratio", real.ratio, "rms of the torque over what the base model leaves");
   plant.add_option("--seed", real.seed, "phases");
   plant.callback([&] { plant_real(data, real, out); });
+
+  UserSpec user;
+  int bits = 0;
+  auto& free = *app.add_subcommand("user", "an effect-free rig, logged as a user's bench would");
+  free.add_option("--out", out, "folder")->required();
+  free.add_option("--preload", user.preload, "low or high");
+  free.add_option("--seed", user.seed, "rig, motion, noise");
+  free.add_option("--seconds", user.seconds, "of the moving log");
+  free.add_option("--rate", user.rate, "Hz, of the moving log");
+  free.add_option("--torque-mean", user.torque_mean, "s");
+  free.add_option("--white", user.white, "N m");
+  free.add_option("--coloured", user.coloured, "N m");
+  free.add_option("--bits", bits, "of both encoders; 0: their own steps; -1: no steps");
+  free.add_option("--l-o", user.l_o, "rad, hidden, of the low preload");
+  free.add_option("--lost", user.lost, "share of the moving log's rows");
+  free.add_option("--stamp-jitter", user.stamp_jitter, "s");
+  free.add_option("--sample-jitter", user.sample_jitter, "s");
+  free.add_flag("--controller", user.controller, "write the controller and its reference");
+  free.callback([&] {
+    if (bits != 0)
+      user.quantum_q = user.quantum_theta = bits > 0 ? 2 * std::numbers::pi / std::exp2(bits) : 0;
+    write_user_rig(out, user);
+  });
 
   CLI11_PARSE(app, argc, argv);
   return 0;

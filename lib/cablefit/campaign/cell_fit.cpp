@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/identify/elastic_stage.hpp"
 #include "cablefit/prove/fitted_model.hpp"
 #include "cablefit/refine/refine.hpp"
 
@@ -121,7 +122,8 @@ CellResults fit_cell(const Campaign& campaign, const CampaignCell& cell, const C
   RefineLogs logs;
   logs.blocked = read(cell.blocked);
   results.elastic =
-      fit_elastic(logs.blocked, stage1_options(cell, options, with_figures(campaign)));
+      fit_elastic_stage(logs.blocked, stage1_options(cell, options, with_figures(campaign)),
+                        ElongationMode::automatic);
   if (cell.moving.empty()) return results;
   const std::vector<LogSurvey> moving = read(cell.moving);
   DynamicOptions dynamic = stage2_options(campaign, cell, options);

@@ -128,11 +128,12 @@ bool looks_preloaded(const Transmission& transmission, std::span<const Elongatio
 
 void note_closure(std::span<const ElongationRange> ranges, ElasticPreload& preload) {
   const ElasticFit& poly = preload.fits.back();
-  if (poly.model == "poly" && looks_preloaded(poly.transmission, ranges))
-    preload.warnings.emplace_back(
-        "the stiffness falls on both sides of zero, as with cables that are both taut there "
-        "(preload): with l_o = 0 "
-        "the coefficients describe the curve, not the cables");
+  if (poly.model != "poly" || !looks_preloaded(poly.transmission, ranges)) return;
+  preload.shape_doubt =
+      "the stiffness falls on both sides of zero, as with cables that are both taut there "
+      "(preload)";
+  preload.warnings.push_back(preload.shape_doubt +
+                             ": with l_o = 0 the coefficients describe the curve, not the cables");
 }
 
 }  // namespace cablefit

@@ -79,6 +79,9 @@ struct ElasticPreload {
   std::vector<std::string> selection;  ///< both criteria, in words
   std::vector<Decision> decisions;
   std::vector<std::string> warnings;
+  /// Why the fitted curve is not that of the cables, and stage 2 must not rest on it; empty:
+  /// nothing speaks against it.
+  std::string shape_doubt;
   bool linear_motion = false;
   std::string rig_path;  ///< empty: the default rig
   std::vector<Figure> figures;

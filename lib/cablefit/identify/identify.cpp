@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/elastic/elastic_fit.hpp"
 #include "cablefit/identify/identify_checks.hpp"
 #include "cablefit/identify/identify_description.hpp"
 #include "cablefit/identify/identify_estimates.hpp"
 #include "cablefit/identify/identify_figures.hpp"
+#include "cablefit/identify/identify_floor.hpp"
 #include "cablefit/identify/joint_solution.hpp"
 #include "cablefit/identify/preload_records.hpp"
 #include "cablefit/identify/recursive.hpp"
@@ -65,11 +67,32 @@ JointFit full_fit(std::span<const LogSurvey> logs, const IdentifyOptions& option
                         options.samples.threads);
 }
 
+/// Whether the blocked logs of one preload, without cables in the rig file, show a curve of cables
+/// that are both taut at zero: only a search of l_o describes it.
+bool curve_wants_search(std::span<const LogSurvey> logs, const IdentifyOptions& options) {
+  ElasticOptions elastic;
+  elastic.samples = options.samples;
+  elastic.preload = options.preload;
+  const auto is_blocked = [&](const PartSurvey& part) {
+    return part.phase == Phase::blocked &&
+           (options.preload.empty() || part.preload == options.preload);
+  };
+  if (preload_names(logs, is_blocked).size() != 1) return false;
+  if (first_log_with(logs, is_blocked).plan.rig.cables_given) return false;
+  return !fit_elastic(logs, elastic).preloads.at(0).shape_doubt.empty();
+}
+
 }  // namespace
 
-IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& options) {
+IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& given) {
   IdentifyResult result;
   require_channels(logs);
+  IdentifyOptions options = given;
+  if (options.elongations == ElongationMode::automatic && !options.unconstrained &&
+      curve_wants_search(logs, options)) {
+    options.elongations = ElongationMode::search;
+    options.search_reason = "the stiffness falls on both sides of zero";
+  }
   for (const LogSurvey& log : logs)
     result.inputs.push_back({log.plan.path, log.sha256, log.n_rows});
   result.warnings = input_warnings(logs);
@@ -89,8 +112,8 @@ IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& 
   Profiled found = judge_with_profiles(fit, std::move(point));
   const JudgedPoint& judged = found.judged;
   for (std::size_t j = 0; j < fit.jobs.size(); ++j) require_explained(fit, judged, j);
-  const std::vector<Estimate> estimates =
-      joint_estimates(fit, judged, found.profiles, options.honest_sd);
+  std::vector<Estimate> estimates = joint_estimates(fit, judged, found.profiles, options.honest_sd);
+  add_method_floor(logs, options, fit, judged, facts, estimates);
   describe(fit, judged, estimates, facts, options, result);
   result.profiles = std::move(found.profiles);
   if (options.recursive) result.trace = recursive_trace(fit, judged.point, estimates);

@@ -23,10 +23,11 @@ struct IdentifyOptions {
   SampleOptions samples;
   int order = 0;  ///< of the cables' force; 0: the rig file's, else 2
   ElongationMode elongations = ElongationMode::automatic;
-  bool unconstrained = false;  ///< cables may push
-  bool honest_sd = true;       ///< --sd honest | white
-  std::string preload;         ///< only this one; empty: all
-  bool recursive = false;      ///< R-LSA beside the direct fit: its trace
+  std::string search_reason = "given";  ///< why all are searched, when they are
+  bool unconstrained = false;           ///< cables may push
+  bool honest_sd = true;                ///< --sd honest | white
+  std::string preload;                  ///< only this one; empty: all
+  bool recursive = false;               ///< R-LSA beside the direct fit: its trace
   bool figures = false;
 };
 

@@ -68,7 +68,7 @@ std::string what_to_try(const JointFit& fit, std::size_t job) {
   return is_searched(fit.jobs[job])
              ? "check the rig file's cables and the encoder zeros of q and theta (`cablefit "
                "elastic` looks for theta_0)"
-             : "if the cables are preloaded try --l_o search; check the rig file's cables and the "
+             : "if the cables are preloaded try --l-o search; check the rig file's cables and the "
                "encoder zeros of q and theta (`cablefit elastic` looks for theta_0)";
 }
 
@@ -105,7 +105,7 @@ std::vector<std::string> misfit_warnings(const JointFit& fit, const JudgedPoint&
   if (!is_searched(fit.jobs[job]) && looks_preloaded(preload.transmission, preload.elongations))
     warnings.emplace_back(
         "the stiffness falls on both sides of zero, as with cables that are both taut there "
-        "(preload), but l_o = 0 was taken: give l_o in the rig file, or --l_o search");
+        "(preload), but l_o = 0 was taken: give l_o in the rig file, or --l-o search");
   return warnings;
 }
 

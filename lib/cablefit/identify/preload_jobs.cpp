@@ -48,7 +48,7 @@ std::vector<bool> searched_cables(const Rig& rig, const IdentifyOptions& options
     searched[c] = rig.search_elongation[c];
   reason = "by the rig file";
   if (options.elongations == ElongationMode::search) {
-    reason = "given";
+    reason = options.search_reason;
     return std::vector<bool>(n, true);
   }
   if (options.elongations == ElongationMode::known) {
@@ -56,7 +56,7 @@ std::vector<bool> searched_cables(const Rig& rig, const IdentifyOptions& options
         rig.cables_given ? "given; those of the rig file" : "given; 0, no cables in a rig file";
     if (std::find(searched.begin(), searched.end(), true) != searched.end())
       throw input_error({rig.path, 0, 0}, "the rig file says to search an initial elongation",
-                        "give a number, or leave --l_o known out");
+                        "give a number, or leave --l-o known out");
     return searched;
   }
   if (rig.cables_given) return searched;

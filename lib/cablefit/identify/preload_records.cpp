@@ -88,32 +88,35 @@ JointRecord first_moving_record(std::span<const LogSurvey> logs, const IdentifyO
   return record_of(facts.name, settings);
 }
 
-JointRecord moving_record(std::span<const LogSurvey> logs, const IdentifyOptions& options,
-                          const Transmission& fitted, const DeflectionRange& deflections,
-                          PreloadFacts& facts) {
-  const PartFilter wanted = moving_parts(facts.name);
-  for (std::string& warning : unloaded_warnings(logs, wanted))
-    facts.warnings.push_back(std::move(warning));
-  ElasticFit elastic;
+MovingJob::MovingJob(std::span<const LogSurvey> logs, const IdentifyOptions& options,
+                     const Transmission& fitted, const DeflectionRange& deflections,
+                     const PreloadFacts& facts)
+    : job{logs,  dynamic, facts.name, moving_parts(facts.name), {&elastic}, {"poly"},
+          false, {},      {}} {
   elastic.model = "poly";
   elastic.transmission = fitted;
+  dynamic.samples = options.samples;
   ElasticResult stage1;
   stage1.preloads.emplace_back();
   stage1.preloads.back().name = facts.name;
   stage1.preloads.back().deflection_low = deflections.low;
   stage1.preloads.back().deflection_high = deflections.high;
-  DynamicOptions dynamic;
-  dynamic.samples = options.samples;
-  DynamicJob job{logs, dynamic, facts.name, wanted, {&elastic}, {"poly"}, false, {}, {}};
-  DynamicPreload found;
   choose_settings(job, found, stage1);
-  facts.delay = found.delay;
-  facts.resonance = found.resonance;
-  for (const Decision& d : job.settings.decisions)
+}
+
+JointRecord moving_record(std::span<const LogSurvey> logs, const IdentifyOptions& options,
+                          const Transmission& fitted, const DeflectionRange& deflections,
+                          PreloadFacts& facts) {
+  for (std::string& warning : unloaded_warnings(logs, moving_parts(facts.name)))
+    facts.warnings.push_back(std::move(warning));
+  const MovingJob moving(logs, options, fitted, deflections, facts);
+  facts.delay = moving.found.delay;
+  facts.resonance = moving.found.resonance;
+  for (const Decision& d : moving.job.settings.decisions)
     facts.decisions.push_back({"moving: " + d.name, d.value, d.reason});
-  for (const auto* warnings : {&found.warnings, &job.settings.warnings})
+  for (const auto* warnings : {&moving.found.warnings, &moving.job.settings.warnings})
     facts.warnings.insert(facts.warnings.end(), warnings->begin(), warnings->end());
-  return record_of(facts.name, job.settings);
+  return record_of(facts.name, moving.job.settings);
 }
 
 }  // namespace cablefit

@@ -1,6 +1,7 @@
 // Which equations of which logs of a preload are fitted, read with which settings.
 #pragma once
 
+#include "cablefit/dynamic/dynamic_job.hpp"
 #include "cablefit/identify/preload_jobs.hpp"
 
 namespace cablefit {
@@ -13,6 +14,21 @@ JointRecord blocked_record(std::span<const LogSurvey> logs, const IdentifyOption
 /// Link and motor equation with settings that need no elastic fit yet.
 JointRecord first_moving_record(std::span<const LogSurvey> logs, const IdentifyOptions& options,
                                 const PreloadFacts& facts);
+
+/// The moving logs of a preload as stage 2 would fit them with these cables, settings chosen. It
+/// owns what its job refers to, and stays where it is.
+struct MovingJob {
+  MovingJob(std::span<const LogSurvey> logs, const IdentifyOptions& options,
+            const Transmission& fitted, const DeflectionRange& deflections,
+            const PreloadFacts& facts);
+  MovingJob(const MovingJob&) = delete;
+  MovingJob& operator=(const MovingJob&) = delete;
+
+  ElasticFit elastic;
+  DynamicOptions dynamic;
+  DynamicPreload found;  ///< resonance, torque delay, warnings
+  DynamicJob job;
+};
 
 /// The same with settings chosen by the elastic fit: filter by the resonance, torque hold.
 JointRecord moving_record(std::span<const LogSurvey> logs, const IdentifyOptions& options,

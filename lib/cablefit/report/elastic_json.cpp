@@ -104,6 +104,7 @@ Json preload_json(const ElasticPreload& preload) {
             {"modes", modes_json(preload)},
             {"decisions", report_json::decisions(preload.decisions)},
             {"warnings", preload.warnings}};
+  if (!preload.shape_doubt.empty()) json["shape_doubt"] = preload.shape_doubt;
   if (!preload.joints.empty()) json["joints"] = list_of(preload.joints, joint_json);
   return json;
 }

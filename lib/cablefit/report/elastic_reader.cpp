@@ -138,6 +138,7 @@ ElasticPreload read_preload(const JsonNode& node) {
   }
   const JsonNode& selected = node.at("selected");
   preload.selected = selected.text();
+  if (const JsonNode* doubt = node.find("shape_doubt")) preload.shape_doubt = doubt->text();
   if (preload.find(preload.selected) == nullptr) {
     throw selected.error(fmt::format("no fit of model '{:.40}'", preload.selected),
                          "name one of the fits above");

@@ -1,0 +1,21 @@
+#include "commands/elongation_option.hpp"
+
+#include "commands/command_line.hpp"
+
+namespace cablefit::apps {
+
+void add_elongation_option(CLI::App& app, ElongationMode& mode) {
+  add_choice(
+      app, "--l-o", "mode", {"auto", "search", "known"},
+      [&mode](const std::string& name) {
+        mode = name == "search"  ? ElongationMode::search
+               : name == "known" ? ElongationMode::known
+                                 : ElongationMode::automatic;
+      },
+      "initial elongations: search them, or take those of the rig file (else 0) [auto: search "
+      "where the rig file says so; without cables in it those of several preloads, and of one "
+      "whose "
+      "stiffness falls on both sides of zero]");
+}
+
+}  // namespace cablefit::apps

@@ -1,0 +1,20 @@
+// The method's floor (dynamic/method_floor.hpp) in the intervals of the one step.
+#pragma once
+
+#include <vector>
+
+#include "cablefit/identify/identify.hpp"
+#include "cablefit/identify/judged_point.hpp"
+#include "cablefit/identify/preload_jobs.hpp"
+
+namespace cablefit {
+
+/// Widens sd and interval of every inertia, friction and offset of moving logs by what filter,
+/// differences and rounding do to it, measured per preload on a simulated copy of its motion with
+/// the fitted cables; of a parameter that preloads share the largest counts. `estimates`: one per
+/// parameter of the layout.
+void add_method_floor(std::span<const LogSurvey> logs, const IdentifyOptions& options,
+                      const JointFit& fit, const JudgedPoint& judged,
+                      std::vector<PreloadFacts>& facts, std::vector<Estimate>& estimates);
+
+}  // namespace cablefit
