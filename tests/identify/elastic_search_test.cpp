@@ -2,6 +2,7 @@
 // result file as from any other.
 #include "cablefit/identify/elastic_search.hpp"
 
+#include "cablefit/identify/elastic_stage.hpp"
 #include "cablefit/report/elastic_json.hpp"
 #include "cablefit/report/elastic_reader.hpp"
 #include "tests/identify/simulated_rigs.hpp"
@@ -38,6 +39,37 @@ TEST_CASE("stage 1 finds l_o of the shipped blocked logs", "[identify][recover]"
   const DynamicResult stage2 = fit_dynamic(moving, read, {});
   check_recovered(stage2.preloads.at(0).fits.at(0).parameters, dynamic_truth(truth::Rig::high()),
                   3);
+}
+
+// One preload alone, no word of l_o: the curve itself says that both cables are taut at zero.
+TEST_CASE("a preload that the curve shows is searched without being asked", "[identify]") {
+  const std::vector<LogSurvey> logs = {shipped("low/blocked.csv"), shipped("high/blocked.csv")};
+  const ElasticResult r = fit_elastic_stage(logs, {}, ElongationMode::automatic);
+  REQUIRE(r.preloads.size() == 2);
+  CHECK(find_estimate(r.preloads[0].find("poly")->parameters, "l_o[1]") == nullptr);
+  NamedValues truth = elastic_truth(truth::Rig::high());
+  truth.emplace_back("l_o[1]", truth::Rig::high().cable_1.initial_elongation);
+  truth.emplace_back("l_o[2]", truth::Rig::high().cable_2.initial_elongation);
+  check_recovered(r.preloads[1].find("poly")->parameters, truth, 3);
+  CHECK(r.preloads[1].shape_doubt.empty());
+
+  const IdentifyResult joint = identify(std::span(logs).subspan(1), {});
+  CHECK(find_estimate(joint.preloads.at(0).parameters, "l_o[1]") != nullptr);
+}
+
+TEST_CASE("a curve that is not that of the cables gives no intervals", "[identify]") {
+  const std::vector<LogSurvey> logs = {shipped("high/blocked.csv")};
+  const ElasticResult known = fit_elastic_stage(logs, {}, ElongationMode::known);
+  CHECK(known.preloads.at(0).shape_doubt ==
+        "the stiffness falls on both sides of zero, as with cables that are both taut there "
+        "(preload)");
+  const TempFolder folder;
+  const ElasticResult read = read_elastic_result(folder.write("elastic.json", elastic_json(known)));
+  const std::vector<LogSurvey> moving = {shipped("high/moving_load30.csv")};
+  const DynamicResult stage2 = fit_dynamic(moving, read, {});
+  for (const Estimate& e : stage2.preloads.at(0).fits.at(0).parameters)
+    CHECK(e.not_identifiable.find("stage 1 does not describe the cables: the stiffness falls on "
+                                  "both sides of zero") == 0);
 }
 
 // What a stage says of its errors is of the coefficients it tells, not of a fit to one preload.

@@ -1,6 +1,7 @@
 // One simulated campaign of a rig, fitted as a user would.
 #pragma once
 
+#include "cablefit/identify/elastic_stage.hpp"
 #include "tests/support/recover.hpp"
 
 namespace cablefit::test {
@@ -12,7 +13,7 @@ inline std::vector<Estimate> both_stages(const truth::Rig& rig, std::uint64_t& s
   blocked.seed = seed++;
   Bench stage1;
   stage1.add(truth::simulate_blocked(rig, blocked));
-  const ElasticResult elastic = fit_elastic(stage1.logs(), {});
+  const ElasticResult elastic = fit_elastic_stage(stage1.logs(), {}, ElongationMode::automatic);
   Bench stage2;
   for (const double load : {30.0, -40.0}) {
     truth::MovingOptions moving;

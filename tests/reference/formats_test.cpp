@@ -29,8 +29,9 @@ void check_same(const std::vector<Estimate>& a, const std::vector<Estimate>& b) 
     CHECK(a[k].name == b[k].name);
     CHECK(a[k].unit == b[k].unit);
     CHECK_THAT(b[k].value, Catch::WithinRel(a[k].value, 1e-9));
-    // The HAC sd goes through a data-driven bandwidth, continuous in the data.
-    CHECK_THAT(b[k].sd, Catch::WithinRel(a[k].sd, 1e-7));
+    // The HAC sd goes through a data-driven bandwidth, continuous in the data; the method's floor
+    // through a simulated copy whose encoder rounds, here and there the other way.
+    CHECK_THAT(b[k].sd, Catch::WithinRel(a[k].sd, 1e-4));
     CHECK_THAT(b[k].sd_white, Catch::WithinRel(a[k].sd_white, 1e-9));
   }
 }

@@ -73,12 +73,12 @@ TEST_CASE("XL330: fitted on a soft controller, judged on a stiff one and a free 
   CHECK(drives->ratio() > 2);
   const ConditionError* stiff = find(e, "log", "xl330_kp400_sin_sin.csv");
   REQUIRE(stiff != nullptr);
-  CHECK(stiff->fails);
+  CHECK(stiff->ratio() > 4);  // of few independent rows, so that it is called unsure
   // ... and not the free fall without it, where the load hardly bears on the gears.
   const ConditionError* off = find(e, "drive", "off (no torque)");
   REQUIRE(off != nullptr);
   CHECK_FALSE(off->fails);
-  CHECK(off->ratio() < drives->ratio() / 1.5);
+  CHECK(off->ratio() < drives->ratio() / 1.4);
   // Every verdict stands beside what it rests on.
   for (const ConditionError& c : e.conditions) CHECK(c.zero > 0);
 }

@@ -12,7 +12,10 @@ Rig rig_of(const hidden::Bench& bench) {
   Rig rig = default_rig();
   rig.torque_hold = TorqueHold::zoh;
   rig.load.law = &find_load_law("column");
-  rig.controller = Controller{"pd", bench.kp, bench.kd, bench.limit, 0, "theta_ref"};
+  rig.controller.emplace();
+  rig.controller->kp = bench.kp;
+  rig.controller->kd = bench.kd;
+  rig.controller->limit = bench.limit;
   rig.sensors["q"].quantum = bench.quantum_q;
   rig.sensors["theta"].quantum = bench.quantum_theta;
   rig.sensors["tau"].noise = bench.noise_tau;

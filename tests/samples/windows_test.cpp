@@ -93,14 +93,14 @@ TEST_CASE("edge rows are dropped whatever their number", "[samples]") {
 }
 
 // An even clock that loses single rows: they are put back on a straight line, counted, and the log
-// stays one segment. Four rows in a row are a gap.
+// stays one segment. Eight in a row are a gap.
 TEST_CASE("lost rows of an even clock are bridged", "[samples]") {
   const Columns whole = noisy_log(4000, 5010);
   Columns log = whole;
   for (auto& column : log.columns) column.second.clear();
   std::size_t lost = 0;
   for (std::size_t i = 0; i < 4000; ++i) {
-    const bool is_lost = (i % 97 == 50) || i == 2000 || i == 2001 || (i >= 3000 && i < 3004);
+    const bool is_lost = (i % 251 == 50) || i == 2000 || i == 2001 || (i >= 3000 && i < 3008);
     lost += is_lost ? 1 : 0;
     for (std::size_t c = 0; !is_lost && c < log.columns.size(); ++c)
       log.columns[c].second.push_back(whole.columns[c].second[i]);
@@ -112,7 +112,7 @@ TEST_CASE("lost rows of an even clock are bridged", "[samples]") {
   const EquationBatch rows =
       all_rows(survey, settings_of(50, 4, 40), plain_equation(), 1, &windows);
   CHECK(windows.segments == 2);
-  CHECK(windows.rows_resampled == lost - 4);
+  CHECK(windows.rows_resampled == lost - 8);
   const EquationBatch exact =
       all_rows(whole_bench.add_text(whole.csv()), settings_of(50, 4, 40), plain_equation());
   CHECK(rows.rows.rows() > exact.rows.rows() - 30);  // the edges of one gap

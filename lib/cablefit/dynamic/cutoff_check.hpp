@@ -6,10 +6,13 @@
 namespace cablefit {
 
 /// Fits every equation again by least squares with half and twice the cut-off, and refuses the
-/// inertias of `estimation` whose 95 % intervals there and here do not meet and that move by more
-/// than kMovedInertia: filtered noise of speeds and torques has an "inertia" of its own, that of a
-/// drive is the same in every band. Not for links that share parameters.
+/// inertias of `estimation` whose 95 % intervals there and here do not meet and that become more
+/// than kMovedInertia times as large or small: filtered noise of speeds and torques has an
+/// "inertia" of its own, that of a drive is the same in every band. One that moves less, but by
+/// more than kMovementNoted, has the movement in its sd; so has one of an elastic drive, which
+/// stiffness as well bends. Refused too: an inertia of a rigid drive whose acceleration, from a
+/// speed channel, is noise. Not for links that share parameters.
 void refuse_moving_inertias(const EstimationTask& task, Estimation& estimation);
-inline constexpr double kMovedInertia = 0.2;
+inline constexpr double kMovedInertia = 2, kMovementNoted = 0.2;
 
 }  // namespace cablefit

@@ -72,6 +72,36 @@ void name_null_directions(const FreeFit& fit, const Words& words, LinearSolution
     if (!texts[k].empty()) out.not_identifiable[static_cast<std::size_t>(fit.free[k])] = texts[k];
 }
 
+/// Of two parameters that only show together the sum that does, with its value: "; offset + f_s =
+/// 3.05 +- 0.02 is determined".
+void tell_determined_sums(const FreeFit& fit, const Words& words, LinearSolution& out) {
+  const Eigen::MatrixXd directions = sparse_directions(fit.solve.null_directions);
+  for (Eigen::Index d = 0; d < directions.cols(); ++d) {
+    std::vector<Eigen::Index> members;
+    for (Eigen::Index k = 0; k < directions.rows(); ++k)
+      if (std::abs(directions(k, d)) >= kNullComponent) members.push_back(k);
+    if (members.size() != 2 || !(words.rms(members[0]) > 0) || !(words.rms(members[1]) > 0))
+      continue;
+    const Eigen::Index a = members[0], b = members[1];
+    const double share = -directions(b, d) * words.rms(a) / (directions(a, d) * words.rms(b));
+    const Eigen::Index at_a = fit.free[static_cast<std::size_t>(a)],
+                       at_b = fit.free[static_cast<std::size_t>(b)];
+    const Eigen::MatrixXd& c = out.covariance;
+    const double variance =
+        c(at_b, at_b) + 2 * share * c(at_a, at_b) + share * share * c(at_a, at_a);
+    const std::string text =
+        fmt::format("; {} {} {}{} = {:.4g} +- {:.2g} is determined",
+                    words.names[static_cast<std::size_t>(b)].name, share < 0 ? "-" : "+",
+                    std::abs(std::abs(share) - 1) < 1e-3 ? std::string()
+                                                         : fmt::format("{:.3g} ", std::abs(share)),
+                    words.names[static_cast<std::size_t>(a)].name,
+                    fit.solve.x(b) + share * fit.solve.x(a), std::sqrt(std::max(0.0, variance)));
+    for (const Eigen::Index k : {at_a, at_b})
+      if (std::string& said = out.not_identifiable[static_cast<std::size_t>(k)]; !said.empty())
+        said += text;
+  }
+}
+
 /// The fit under all inequalities; `unbounded` itself when it satisfies them.
 FreeFit fit_constrained(const RowStatistics& rows, const LinearProblem& problem,
                         const Instruments& seen, const FreeFit& unbounded, LinearSolution& out) {
@@ -178,6 +208,7 @@ LinearSolution solve(const RowStatistics& rows, const LinearProblem& problem) {
   const double dof = static_cast<double>(std::max<Eigen::Index>(1, out.n_rows - out.n_params));
   out.covariance_white = out.rss / dof * out.solve_operator;
   honest_covariance(rows, out);
+  tell_determined_sums(unbounded, words, out);
   out.unbounded_x = Eigen::VectorXd::Zero(p);
   for (std::size_t k = 0; k < unbounded.free.size(); ++k)
     out.unbounded_x(unbounded.free[k]) = unbounded.solve.x(static_cast<Eigen::Index>(k));

@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kMaxSum = 0.97;             // of the coefficients that prewhiten
-constexpr Eigen::Index kMaxOrder = 30;       // of an autoregression
 constexpr Eigen::Index kEntriesPerLag = 16;  // of the series, for each order
 
 double lag1_correlation(const Eigen::Ref<const Eigen::VectorXd>& x) {
@@ -125,19 +124,19 @@ double long_run_variance(const Eigen::VectorXd& covariance, const Prewhitening& 
   return total / ((1 - filter.sum) * (1 - filter.sum));
 }
 
-Eigen::Index lags_of_orders(Eigen::Index n) {
-  return 1 + std::clamp<Eigen::Index>(n / kEntriesPerLag, 1, kMaxOrder);
+Eigen::Index lags_of_orders(Eigen::Index n, Eigen::Index max_order) {
+  return 1 + std::clamp<Eigen::Index>(n / kEntriesPerLag, 1, max_order);
 }
 
 /// Puts back what the fit took out, prewhitening included; the diagonal's entries grow,
 /// correlations stay.
 void restore(const Eigen::Ref<const Eigen::MatrixXd>& series, const FittedOut& fitted,
-             LongRunCovariance& result) {
+             Eigen::Index max_order, LongRunCovariance& result) {
   constexpr int kPasses = 6;  // each adds less than a third of the one before
   const auto n = static_cast<double>(series.rows());
   const Eigen::Index n_lags = std::min<Eigen::Index>(
-      series.rows(), static_cast<Eigen::Index>(std::ceil(5 * result.bandwidth)) + kMaxOrder + 1);
-  const Eigen::Index n_orders = std::min(n_lags, lags_of_orders(series.rows()));
+      series.rows(), static_cast<Eigen::Index>(std::ceil(5 * result.bandwidth)) + max_order + 1);
+  const Eigen::Index n_orders = std::min(n_lags, lags_of_orders(series.rows(), max_order));
   for (Eigen::Index k = 0; k < series.cols(); ++k) {
     Component component(series.col(k), n_lags, &fitted, k);
     if (!(component.total > 0) || !(result.covariance(k, k) > 0)) continue;
@@ -157,9 +156,9 @@ void restore(const Eigen::Ref<const Eigen::MatrixXd>& series, const FittedOut& f
 }
 
 std::vector<Prewhitening> prewhitening_of(const Eigen::Ref<const Eigen::MatrixXd>& series,
-                                          const FittedOut* fitted) {
+                                          const FittedOut* fitted, Eigen::Index max_order) {
   const Eigen::Index n = series.rows();
-  const Eigen::Index n_lags = lags_of_orders(n);
+  const Eigen::Index n_lags = lags_of_orders(n, max_order);
   std::vector<Prewhitening> all;
   for (Eigen::Index k = 0; k < series.cols(); ++k)
     all.push_back(prewhitening_of(Component(series.col(k), n_lags, fitted, k).whole(),
@@ -220,7 +219,8 @@ FittedOut fitted_out(const std::vector<Eigen::MatrixXd>& information,
 }
 
 LongRunCovariance long_run_covariance(const Eigen::Ref<const Eigen::MatrixXd>& series,
-                                      double least_share, const FittedOut* fitted) {
+                                      double least_share, const FittedOut* fitted,
+                                      Eigen::Index max_order) {
   const Eigen::Index n = series.rows();
   const Eigen::Index p = series.cols();
   LongRunCovariance result;
@@ -230,7 +230,7 @@ LongRunCovariance long_run_covariance(const Eigen::Ref<const Eigen::MatrixXd>& s
     result.degrees_of_freedom = std::max<double>(1, static_cast<double>(n - p));
     return result;
   }
-  const std::vector<Prewhitening> filters = prewhitening_of(series, fitted);
+  const std::vector<Prewhitening> filters = prewhitening_of(series, fitted, max_order);
   Eigen::Index order = 0;
   for (const Prewhitening& one : filters) order = std::max(order, one.order());
   const Eigen::Index n_left = n - order;
@@ -253,13 +253,13 @@ LongRunCovariance long_run_covariance(const Eigen::Ref<const Eigen::MatrixXd>& s
   // int k^2 = 1 for the QS kernel. That of the prewhitening is added.
   const double relative_variance = 2 * result.bandwidth / n_white + of_coefficients;
   result.degrees_of_freedom = std::max(2.0, 2 / relative_variance);
-  if (fitted != nullptr) restore(series, *fitted, result);
+  if (fitted != nullptr) restore(series, *fitted, max_order, result);
   return result;
 }
 
 LongRunCovariance interval_covariance(const Eigen::Ref<const Eigen::MatrixXd>& series,
                                       const FittedOut* fitted) {
-  return long_run_covariance(series, kIntervalKernel, fitted);
+  return long_run_covariance(series, kIntervalKernel, fitted, kIntervalOrder);
 }
 
 double t_quantile_975(double dof) {

@@ -36,9 +36,12 @@ FittedOut fitted_out(const std::vector<Eigen::MatrixXd>& information,
 /// slow noise below white noise has a small correlation at lag 1 and a long tail (ARMA(1,1)), of
 /// which it missed 30 % of the variance. `series`: n x p, mean about zero (the scores of a fit),
 /// evenly spaced, zeros where rows are missing; n >= 8 or the white estimate is returned.
-/// `fitted`: what the fit took out of the series, see below; nullptr: nothing.
+/// `fitted`: what the fit took out of the series, see above; nullptr: nothing. `max_order`: of the
+/// autoregressions. Tests that ask whether there is any structure at all are better off with 1: a
+/// higher order takes the structure for slow noise.
 LongRunCovariance long_run_covariance(const Eigen::Ref<const Eigen::MatrixXd>& series,
-                                      double least_share = 0, const FittedOut* fitted = nullptr);
+                                      double least_share = 0, const FittedOut* fitted = nullptr,
+                                      Eigen::Index max_order = 1);
 
 /// `least_share` for intervals. Andrews' bandwidth supposes a spectrum with its peak at zero and
 /// smooths over a dip: slow noise times a fast regressor has one there, and its sd came out 1.4
@@ -47,8 +50,9 @@ LongRunCovariance long_run_covariance(const Eigen::Ref<const Eigen::MatrixXd>& s
 /// (Sun, Phillips & Jin 2008, Econometrica 76:175). Tests that ask whether there is any correlation
 /// at all are better off without.
 inline constexpr double kIntervalKernel = 1.0 / 64;
+inline constexpr Eigen::Index kIntervalOrder = 30;  ///< at most, of the autoregressions
 
-/// The one rule for sd and intervals: long_run_covariance() with that kernel.
+/// The one rule for sd and intervals: long_run_covariance() with that kernel and order.
 LongRunCovariance interval_covariance(const Eigen::Ref<const Eigen::MatrixXd>& series,
                                       const FittedOut* fitted = nullptr);
 

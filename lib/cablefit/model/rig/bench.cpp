@@ -110,6 +110,8 @@ std::optional<Controller> read_controller(const JsonNode& node) {
     node.allow_only({"type"});
     return std::nullopt;
   }
+  node.allow_only({"type", "kp", "kd", "ki", "kv", "velocity_share", "feedforward", "limit",
+                   "period", "reference"});
   if (controller.type == "cascade") {
     node.allow_only({"type", "kp", "kv", "ki", "velocity_share", "feedforward", "limit", "period",
                      "reference"});
