@@ -26,10 +26,11 @@ ElasticPreload with_search(std::span<const LogSurvey> logs, const ElasticOptions
     ElasticPreload found = fit_elastic_with_search(logs, own, true).preloads.at(0);
     const double after = found.fits.back().rms_error;
     if (after <= (1 - kSearchGain) * before) {
-      found.decisions.push_back(
-          {"initial elongation", "searched",
-           fmt::format("{}; the residual of the cables goes from {:.3g} to {:.3g} {} rms",
-                       plain.shape_doubt, before, after, plain.linear_motion ? "N" : "N m")});
+      for (Decision& d : found.decisions)
+        if (d.name == "l_o")
+          d.reason =
+              fmt::format("{}; the residual of the cables goes from {:.3g} to {:.3g} {} rms",
+                          plain.shape_doubt, before, after, plain.linear_motion ? "N" : "N m");
       return found;
     }
     plain.shape_doubt += fmt::format("; a search of l_o leaves the residual at {:.3g} {} rms",

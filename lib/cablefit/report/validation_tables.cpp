@@ -96,7 +96,11 @@ std::string depends_text(const JudgedEquation& e, const std::string& unit) {
   for (const ResidualTest* test : seen)
     text += fmt::format("{}{} ({} {} rms)", text.empty() ? "" : ", ", test->name,
                         significant(test->structure, 2), unit);
-  return text.empty() ? "nothing seen" : text;
+  if (!text.empty()) return text;
+  const bool testable = std::any_of(e.tests.begin(), e.tests.end(), [](const ResidualTest& test) {
+    return test.name != "whiteness" && test.finding != Finding::untestable;
+  });
+  return testable ? "nothing seen" : "too few independent rows to tell";
 }
 
 std::string torque_unit_of(const DynamicResult& result) {
