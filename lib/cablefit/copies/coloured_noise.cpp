@@ -8,8 +8,8 @@
 namespace cablefit {
 namespace {
 
-constexpr int kSettlingTimes = 20;            // of the order, before noise counts as stationary
-constexpr int kLeastSettling = 500;           // values
+constexpr int kSettlingTimes = 20;   // of the order, before noise counts as stationary
+constexpr int kLeastSettling = 500;  // values
 
 }  // namespace
 

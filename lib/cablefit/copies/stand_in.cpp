@@ -18,7 +18,7 @@ constexpr double kLargestGain = 0.3;  // kd period / J_motor; a sampled loop is 
 // Of a torque that is not held: commands in a row of the log, an even number, at least this often.
 constexpr int kLeastCommands = 4;
 constexpr double kCommandPeriod = 1e-3;  // s
-constexpr double kWidestBand = 0.4;   // of the rate, for the low-pass
+constexpr double kWidestBand = 0.4;      // of the rate, for the low-pass
 constexpr int kFilterOrder = 4;
 
 /// A PD controller of kBandwidth, as damped as the motor's inertia allows.

@@ -72,8 +72,8 @@ Eigen::MatrixXd recorded_rows(const TwinStretch& stretch, const SimulationResult
   return rows;
 }
 
-/// Of a finer simulation the rows of the log. A command is held over a fine row, so that a mean over
-/// the log's row, centred, is one of as many commands, half of them from before.
+/// Of a finer simulation the rows of the log. A command is held over a fine row, so that a mean
+/// over the log's row, centred, is one of as many commands, half of them from before.
 SimulationResult on_rows_of_log(SimulationResult fine, const TwinStretch& stretch) {
   if (stretch.fine == 1) return fine;
   const Eigen::Index n = stretch.fine, rows = stretch.measured.rows();
@@ -81,7 +81,8 @@ SimulationResult on_rows_of_log(SimulationResult fine, const TwinStretch& stretc
   SimulationResult out = fine;
   for (const auto channel : {&SimulationResult::q, &SimulationResult::theta, &SimulationResult::qd,
                              &SimulationResult::thetad, &SimulationResult::tension})
-    if ((fine.*channel).rows() > 0) out.*channel = Eigen::ArrayXXd((fine.*channel)(every, Eigen::all));
+    if ((fine.*channel).rows() > 0)
+      out.*channel = Eigen::ArrayXXd((fine.*channel)(every, Eigen::all));
   out.tau = Eigen::ArrayXXd::Zero(rows, fine.tau.cols());
   const Eigen::Index last = fine.tau.rows() - 1;
   for (Eigen::Index i = 0; i < rows; ++i)
