@@ -101,17 +101,22 @@ MethodFloor method_floor(const DynamicJob& job, const std::vector<EquationRows>&
                           {rows.signal.torque_held, rows.signal.cutoff, true, kStep});
     Random random(1);
     const auto motions = run_twin(twin, {}, random, job.options.samples.threads);
-    const auto exact = fit_copy(job, record_twin(twin, motions, random), which);
-    choose_encoders(twin, motions);
     for (const LinearSolution& solution : solutions)
       floor.variance.push_back(Eigen::VectorXd::Zero(solution.x.size()));
-    for (int draw = 0; draw < kFloorDraws; ++draw) {
-      const auto rounded =
-          fit_copy(job, record_twin(twin, moved_aside(twin, motions, random), random), which);
+    const auto add = [&](const std::vector<LinearSolution>& found, bool instruments, double share) {
       for (std::size_t k = 0; k < solutions.size(); ++k)
-        floor.variance[k] +=
-            squared_error(with_instruments[k] ? exact[k] : rounded[k], solutions[k]) / kFloorDraws;
-    }
+        if (with_instruments[k] == instruments)
+          floor.variance[k] += share * squared_error(found[k], solutions[k]);
+    };
+    const auto any = [&](bool instruments) {
+      return std::find(with_instruments.begin(), with_instruments.end(), instruments) !=
+             with_instruments.end();
+    };
+    if (any(true)) add(fit_copy(job, record_twin(twin, motions, random), which), true, 1);
+    choose_encoders(twin, motions);
+    for (int draw = 0; draw < kFloorDraws && any(false); ++draw)
+      add(fit_copy(job, record_twin(twin, moved_aside(twin, motions, random), random), which),
+          false, 1.0 / kFloorDraws);
     floor.note = "fit of a simulated copy of the motion without disturbances";
   } catch (const Error& error) {
     floor = {{}, fmt::format("not measured: {}", error.what())};

@@ -68,8 +68,12 @@ void describe_search(const IdentifyResult& joint, const IdentifyPreload& preload
       out.selection.push_back(fmt::format(
           "{} = {:.5g} +- {:.2g} {}, 95 % within {:.5g} .. {:.5g} by profile likelihood", e.name,
           scale * e.value, scale * e.sd, unit, scale * e.ci_low, scale * e.ci_high));
+  const auto is_there = [&](const Figure& figure) {
+    return std::any_of(out.figures.begin(), out.figures.end(),
+                       [&](const Figure& other) { return other.title == figure.title; });
+  };
   for (const Figure& figure : joint.figures)
-    if (figure.section == preload.name) out.figures.push_back(figure);
+    if (figure.section == preload.name && !is_there(figure)) out.figures.push_back(figure);
 }
 
 }  // namespace
