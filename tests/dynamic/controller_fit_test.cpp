@@ -77,7 +77,7 @@ TEST_CASE("controllers are found from reference, position and torque", "[dynamic
   CHECK_THAT(cascade.controller.feed_acceleration, Catch::WithinRel(0.05, 0.05));
 }
 
-TEST_CASE("a controller that did not make the torque is told from one that did", "[dynamic]") {
+TEST_CASE("the torque misfit separates a right controller from a wrong one", "[dynamic]") {
   Bench bench;
   bench.rig.controller.emplace();
   bench.rig.controller->kp = 400;
