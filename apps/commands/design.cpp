@@ -114,7 +114,8 @@ void add_sweep_options(CLI::App& app, DesignOptions& design) {
 void add_collision_options(CLI::App& app, DesignOptions& design) {
   add_number(
       app, "--noise", "N_M", {0}, [&design](double noise) { design.noise = noise; },
-      "sd of the torque from row to row, for collisions [the rig's sensor tau]");
+      "sd of the torque from row to row, white, for collisions [the residual of the fit, else the "
+      "rig's sensor tau]");
   add_number(
       app, "--floor", "N_M", {0}, [&design](double floor) { design.floor = floor; },
       "largest torque that even the cables get wrong, as stage 1 says; adds to every model's "

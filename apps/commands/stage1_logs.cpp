@@ -73,4 +73,20 @@ Stage1Logs stage1_logs(const std::string& result_path) {
   return logs;
 }
 
+Stage1Logs own_logs(const std::string& result_path) {
+  Stage1Logs logs;
+  const JsonNode root = read_json_file(result_path);
+  if (root.find("inputs") != nullptr) take_inputs(root, result_path, logs);
+  return logs;
+}
+
+bool is_model(const std::string& path) {
+  if (fs::path(path).extension() != ".json") return false;
+  try {
+    return schema_of(read_json_file(path)).starts_with("cablefit/");
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 }  // namespace cablefit::apps

@@ -18,4 +18,11 @@ struct Stage1Logs {
 /// none. Paths are from the current folder, else from the folder of the result.
 Stage1Logs stage1_logs(const std::string& result_path);
 
+/// All logs that a result was made from itself; a model file names none.
+Stage1Logs own_logs(const std::string& result_path);
+
+/// A model file or a result, by its "schema"; a log is neither. False for what cannot be read as
+/// JSON: reading it as a log says why.
+bool is_model(const std::string& path);
+
 }  // namespace cablefit::apps

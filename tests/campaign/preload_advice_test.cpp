@@ -32,15 +32,18 @@ TEST_CASE("the smallest collision follows from error and noise", "[campaign]") {
   const AdviceDetector detector;
   const PreloadAdvice low = preload_advice(shipped().cells, detector).front();
   CollisionDetector same;
-  same.noise = shipped().cells[0].dynamic->preloads[0].fits.back().torque_error.at("link").rms;
-  same.rate = 20;
-  same.window = 0.05;
+  const DynamicPreload& stage2 = shipped().cells[0].dynamic->preloads[0];
+  for (const JudgedEquation& e : stage2.residual_tests)
+    if (e.model == "poly" && e.equation == "link") same.mean_noise = sd_of_mean(e.means, 0.05);
+  REQUIRE(same.mean_noise.has_value());
+  CHECK(*same.mean_noise < stage2.fits.back().torque_error.at("link").rms);
   same.model_error = low.linear_error;
   same.false_alarm_rate = 1 / (3600 / 0.05);
   same.detection_rate = 0.99;
   CHECK(low.collision_linear == Approx(collision_threshold(same).torque));
   // z(1 - 1/72000) = 4.19, z(.99) = 2.33 (R: qnorm).
-  CHECK(low.collision_linear == Approx(2 * low.linear_error + 6.52 * same.noise).epsilon(1e-3));
+  CHECK(low.collision_linear ==
+        Approx(2 * low.linear_error + 6.52 * *same.mean_noise).epsilon(1e-3));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "cablefit/base/random.hpp"
 #include "cablefit/design/curve_models.hpp"
 #include "cablefit/design/equilibrium_preload.hpp"
+#include "cablefit/estimate/window_means.hpp"
 #include "tests/simulate/benches.hpp"
 
 namespace {
@@ -157,6 +158,45 @@ TEST_CASE("simulated contacts anywhere are detected at the stated rates or bette
   CHECK(alarms <= 0.02 + bound(0.02));
   CHECK(detected >= 0.95 - bound(0.95));
   CHECK(half < 0.95 - bound(0.95));
+}
+
+// 7 % of the variance over 0.2 s, the rest white: a threshold from white noise alone alarms far too
+// often, one from measured means as often as it says.
+TEST_CASE("slow noise alarms as often as it may", "[design]") {
+  constexpr int kWindow = 50;
+  const double keeps = std::exp(-1e-3 / 0.2), slow = 0.3 * std::sqrt(0.07);
+  const double white = 0.3 * std::sqrt(0.93);
+  Random random(8103);
+  double state = 0;
+  const auto row = [&] {
+    state = keeps * state + std::sqrt(1 - keeps * keeps) * slow * random.normal();
+    return state + white * random.normal();
+  };
+  WindowMeans means;
+  Eigen::VectorXd rows(400000);
+  std::vector<Eigen::Index> numbers(static_cast<std::size_t>(rows.size()));
+  for (Eigen::Index i = 0; i < rows.size(); ++i) {
+    rows(i) = row();
+    numbers[static_cast<std::size_t>(i)] = i;
+  }
+  means.add(numbers, rows);
+  CollisionDetector d = detector(0);
+  const double as_white = collision_threshold(d).threshold;
+  d.mean_noise = sd_of_mean(means.result(1e-3), d.window);
+  const double measured = collision_threshold(d).threshold;
+  int n_white = 0, n_measured = 0;
+  constexpr int kWindows = 40000;
+  for (int i = 0; i < kWindows; ++i) {
+    double sum = 0;
+    for (int k = 0; k < kWindow; ++k) sum += row();
+    n_white += std::abs(sum / kWindow) > as_white ? 1 : 0;
+    n_measured += std::abs(sum / kWindow) > measured ? 1 : 0;
+  }
+  std::printf("    false alarms: %.4f with a white threshold, %.4f with measured means (0.02)\n",
+              n_white / double{kWindows}, n_measured / double{kWindows});
+  // Windows are correlated over 8: 4 binomial sd of an eighth of them, and 3 % of the sd.
+  CHECK_THAT(n_measured / double{kWindows}, WithinAbs(0.02, 0.012));
+  CHECK(n_white / double{kWindows} > 0.1);
 }
 
 }  // namespace

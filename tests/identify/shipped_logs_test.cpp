@@ -89,4 +89,26 @@ TEST_CASE("one step agrees with the two stages and has smaller sd", "[identify]"
             estimate(stage2.preloads[0].fits[0].parameters, name));
 }
 
+// What the rig file gives stands in the result with an sd of 0, and the rest is fitted around it.
+TEST_CASE("an inertia that the rig gives is not fitted", "[identify]") {
+  std::vector<LogSurvey> logs = shipped_logs({"low"});
+  for (LogSurvey& log : logs) {
+    log.plan.rig.arm.kind = &find_arm_kind("independent");
+    log.plan.rig.arm.parameters.J_link = {0.35};
+  }
+  const IdentifyResult r = identify(logs, {});
+  const IdentifyPreload& p = r.preloads.at(0);
+  CHECK(find_estimate(r.parameters, "J_link") == nullptr);
+  const Estimate& given = estimate(p.parameters, "J_link");
+  CHECK(given.value == 0.35);
+  CHECK(given.sd == 0);
+  // 3 % too large an inertia takes its torque from the friction of the link.
+  const Estimate& f_v = estimate(p.parameters, "f_v");
+  CHECK(std::abs(f_v.value - truth::Rig::low().f_v) > f_v.sd);
+  CHECK(estimate(r.parameters, "J_motor").value == Approx(truth::Rig::low().J_motor).epsilon(0.05));
+  REQUIRE(p.model.has_value());
+  CHECK(inertia_of(p.model->joints.at(0).link) == 0.35);
+  CHECK(schema_errors("identify", identify_json(r)) == "");
+}
+
 }  // namespace

@@ -80,8 +80,10 @@ TEST_CASE("the model has the intervals of the profiles", "[identify]") {
   REQUIRE(r.profiles.size() == 2);
   for (const ElongationProfile& profile : r.profiles) {
     const Estimate& e = estimate(r.preloads[0].model->elastic, profile.name);
-    CHECK(e.ci_low == profile.low);
-    CHECK(e.ci_high == profile.high);
+    // What the method itself is off by is part of the interval and of no profile.
+    CHECK(e.ci_low <= profile.low);
+    CHECK(e.ci_high >= profile.high);
+    CHECK(e.ci_high - e.ci_low < 1.5 * (profile.high - profile.low));
   }
 }
 

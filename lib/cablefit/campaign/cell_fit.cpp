@@ -5,6 +5,7 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/identify/elastic_stage.hpp"
 #include "cablefit/prove/fitted_model.hpp"
+#include "cablefit/refine/own_base.hpp"
 #include "cablefit/refine/refine.hpp"
 
 namespace cablefit {
@@ -69,16 +70,17 @@ CellRefine verdict_of(const RefineResult& result) {
   return refine;
 }
 
-/// The model of stage 2 as refine starts from it.
-Model base_model(const ElasticResult& elastic, const DynamicResult& dynamic, const Rig& rig) {
+/// The model of stage 2 as refine starts from it; where that cannot move, refine's own.
+std::vector<Model> base_models(const ElasticResult& elastic, const DynamicResult& dynamic,
+                               const Rig& rig, const RefineLogs& logs, int threads) {
   const DynamicPreload& preload = dynamic.preloads.front();
   const DynamicFit* fit = chosen_fit(elastic, preload);
   std::string why_not = fit == nullptr ? "stage 2 has no fit to start from" : "";
   Model model;
   if (fit != nullptr) model = fitted_model(*fit, preload, rig, why_not);
-  if (!why_not.empty()) throw Error(ErrorKind::not_identifiable, why_not);
+  if (!why_not.empty()) return own_base(logs, threads).models;
   if (fit->elastic) model.elastic = fit->elastic->parameters;
-  return model;
+  return {model};
 }
 
 CellRefine refine_cell(const CampaignCell& cell, const CellResults& fitted, RefineLogs logs,
@@ -89,8 +91,9 @@ CellRefine refine_cell(const CampaignCell& cell, const CellResults& fitted, Refi
   refine_options.threads = options.samples.threads;
   try {
     const Rig rig = rig_for_log(cell.moving.front(), cell.rig);
-    const Model model = base_model(*fitted.elastic, *fitted.dynamic, rig);
-    return verdict_of(refine({&model, 1}, logs, refine_options));
+    const std::vector<Model> models =
+        base_models(*fitted.elastic, *fitted.dynamic, rig, logs, options.samples.threads);
+    return verdict_of(refine(models, logs, refine_options));
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::output) throw;  // a full disk says nothing about the robot
     CellRefine none;

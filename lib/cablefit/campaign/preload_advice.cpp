@@ -38,10 +38,19 @@ void take_closure(const ElasticFit& fit, PreloadAdvice& advice) {
   }
 }
 
+/// sd of the mean of the link's residual over a window; where no residual was looked at its rms,
+/// as if it did not average at all.
+double mean_noise(const DynamicPreload& stage2, const DynamicFit& fit, double window) {
+  const std::string_view link = to_string(Side::link);
+  for (const JudgedEquation& e : stage2.residual_tests)
+    if (e.model == fit.model && e.equation == link && !e.means.empty())
+      return sd_of_mean(e.means, window);
+  return fit.torque_error.at(std::string(link)).rms;
+}
+
 double smallest_collision(double noise, double model_error, const AdviceDetector& detector) {
   CollisionDetector d;
-  d.noise = noise;
-  d.rate = 1 / detector.window;
+  d.mean_noise = noise;
   d.window = detector.window;
   d.model_error = model_error;
   d.false_alarm_rate = false_alarm_rate_of(detector.false_alarms_per_hour, detector.window);
@@ -58,8 +67,7 @@ std::optional<PreloadAdvice> advice_of(const BatchCell& cell, const AdviceDetect
   const DynamicFit* fit = chosen_fit(*cell.elastic, stage2);
   if (line == nullptr || chosen == nullptr || fit == nullptr || line->transmission.n_joints > 1)
     return {};
-  const auto link = fit->torque_error.find("link");
-  if (link == fit->torque_error.end()) return {};
+  if (!fit->torque_error.contains(std::string(to_string(Side::link)))) return {};
   PreloadAdvice advice;
   advice.cell = cell.name;
   advice.deflection_low = stage1.deflection_low;
@@ -70,7 +78,7 @@ std::optional<PreloadAdvice> advice_of(const BatchCell& cell, const AdviceDetect
   advice.model_error = chosen->max_abs_error;
   take_friction(*fit, advice);
   take_closure(*chosen, advice);
-  const double noise = link->second.rms;
+  const double noise = mean_noise(stage2, *fit, detector.window);
   advice.collision_linear = smallest_collision(noise, advice.linear_error, detector);
   advice.collision_model = smallest_collision(noise, advice.model_error, detector);
   return advice;

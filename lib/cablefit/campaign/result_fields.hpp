@@ -111,6 +111,16 @@ void fields(Archive& a, ElasticJointErrors& v) {
 
 /// Without a proof, which campaigns do not make.
 template <class Archive>
+void fields(Archive& a, MisfitPoint& v) {
+  a("deflection", v.deflection), a("torque", v.torque), a("half_width", v.half_width);
+}
+
+template <class Archive>
+void fields(Archive& a, ElasticMisfit& v) {
+  a("points", v.points);
+}
+
+template <class Archive>
 void fields(Archive& a, ElasticFit& v) {
   a("model", v.model), a("order", v.order), a("parameters", v.parameters);
   a("transmission", v.transmission), a("offset", v.offset), a("covariance", v.covariance);
@@ -118,6 +128,7 @@ void fields(Archive& a, ElasticFit& v) {
   a("held_out_rms", v.held_out_rms), a("held_out_max", v.held_out_max), a("joints", v.joints);
   a("passive", v.passive), a("active_bounds", v.active_bounds), a("condition", v.condition);
   a("effective_rows", v.effective_rows), a("warnings", v.warnings), a("derived", v.derived);
+  a("misfit", v.misfit);
 }
 
 template <class Archive>
@@ -182,7 +193,8 @@ void fields(Archive& a, DynamicFit& v) {
   a("torque_error", v.torque_error), a("weight", v.weight), a("condition", v.condition);
   a("effective_rows", v.effective_rows), a("elastic", v.elastic), a("verdicts", v.verdicts);
   a("warnings", v.warnings), a("sd_reason", v.sd_reason), a("suspects", v.suspects);
-  a("trace", v.trace), a("derived", v.derived);
+  a("trace", v.trace), a("derived", v.derived), a("method_floor", v.method_floor);
+  a("estimator_difference", v.estimator_difference), a("stage1_misfit", v.stage1_misfit);
 }
 
 template <class Archive>
@@ -206,9 +218,15 @@ void fields(Archive& a, ResidualTest& v) {
 }
 
 template <class Archive>
+void fields(Archive& a, WindowMean& v) {
+  a("seconds", v.seconds), a("sd", v.sd);
+}
+
+template <class Archive>
 void fields(Archive& a, JudgedEquation& v) {
   a("model", v.model), a("equation", v.equation), a("noise_floor", v.noise_floor);
   a("floor_source", v.floor_source), a("conditions", v.conditions), a("tests", v.tests);
+  a("means", v.means);
 }
 
 template <class Archive>

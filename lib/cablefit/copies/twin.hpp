@@ -45,8 +45,9 @@ struct Twin {
   std::vector<std::vector<PartSurvey>> parts;
   std::vector<TwinStretch> stretches;
   std::vector<std::vector<TwinSensor>> sensors;  ///< by log and slot
-  double step = SimulationOptions{}.step;        ///< s, at most
-  std::vector<std::string> notes;                ///< what is simulated, in words
+  std::vector<double> jitter;  ///< s, sd of the time error of a row, by log (clock_jitter.hpp)
+  double step = SimulationOptions{}.step;  ///< s, at most
+  std::vector<std::string> notes;          ///< what is simulated, in words
 };
 
 /// What decides about the controller of a twin.
@@ -79,7 +80,7 @@ std::vector<LogSurvey> record_twin(const Twin& twin, const std::vector<Simulatio
                                    Random& random);
 
 /// Fills `sensors` from the rig files, and where they say nothing so that the twin's logs look as
-/// noisy as the measured ones: `motions` are those without disturbances.
+/// noisy as the measured ones, and `jitter`: `motions` are those without disturbances.
 void choose_sensors(Twin& twin, const std::vector<SimulationResult>& motions);
 
 }  // namespace cablefit

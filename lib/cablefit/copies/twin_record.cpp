@@ -5,6 +5,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/parallel.hpp"
+#include "cablefit/copies/clock_jitter.hpp"
 #include "cablefit/copies/twin.hpp"
 
 namespace cablefit {
@@ -51,6 +52,16 @@ Eigen::ArrayXd measure(const Eigen::ArrayXd& truth, const TwinSensor& sensor, Ra
     if (sensor.quantum > 0) out(i) = sensor.quantum * std::round(out(i) / sensor.quantum);
   }
   return out;
+}
+
+/// The motion as it was when each row was really read.
+SimulationResult read_late(SimulationResult motion, double jitter, Random& random) {
+  for (Eigen::Index i = 0; i < motion.q.rows(); ++i) {
+    const double late = jitter * random.normal();
+    motion.q.row(i) += late * motion.qd.row(i);
+    motion.theta.row(i) += late * motion.thetad.row(i);
+  }
+  return motion;
 }
 
 /// [t, slots] of a stretch.
@@ -113,10 +124,27 @@ struct StretchRun {
 
 bool is_position(Channel channel) { return channel == Channel::q || channel == Channel::theta; }
 
-/// White noise that the measured channel has more than the simulated one.
-double noise_left(const ChannelSurvey& measured, const ChannelSurvey& simulated) {
-  const double more = measured.noise * measured.noise - simulated.noise * simulated.noise;
+/// White noise that the measured channel has more than the simulated one; `known`: sd of what is
+/// simulated besides.
+double noise_left(const ChannelSurvey& measured, const ChannelSurvey& simulated, double known) {
+  const double more =
+      measured.noise * measured.noise - simulated.noise * simulated.noise - known * known;
   return more > 0 ? std::sqrt(more) : 0;
+}
+
+double jitter_of(const LogPlan& plan, const TwinStretch& stretch, const SimulationResult& motion) {
+  const int q = plan.find(Channel::q), theta = plan.find(Channel::theta);
+  if (q < 0 || theta < 0 || stretch.link_blocked) return 0;
+  return clock_jitter({stretch.measured.col(q), stretch.measured.col(theta)},
+                      {motion.q.col(0), motion.theta.col(0)},
+                      motion.qd.col(0) * motion.thetad.col(0));
+}
+
+/// sd of a position's noise by that jitter.
+double jitter_noise(const SimulationResult& motion, const Slot& slot, double jitter) {
+  if (!is_position(slot.channel)) return 0;
+  const Eigen::ArrayXXd& speed = slot.channel == Channel::q ? motion.qd : motion.thetad;
+  return jitter * std::sqrt(speed.col(slot.joint).square().mean());
 }
 
 }  // namespace
@@ -157,9 +185,13 @@ std::vector<LogSurvey> record_twin(const Twin& twin, const std::vector<Simulatio
       if (stretch.log != log) continue;
       if (stretch.part != last) parts.push_back(begin_part(twin.parts[log][stretch.part]));
       last = stretch.part;
-      const Eigen::MatrixXd rows = recorded_rows(
-          stretch, motions[k], twin.plans[log],
-          twin.sensors.empty() ? std::vector<TwinSensor>{} : twin.sensors[log], random);
+      const std::vector<TwinSensor> sensors =
+          twin.sensors.empty() ? std::vector<TwinSensor>{} : twin.sensors[log];
+      const double jitter = twin.jitter.empty() ? 0 : twin.jitter[log];
+      const Eigen::MatrixXd rows =
+          jitter > 0 ? recorded_rows(stretch, read_late(motions[k], jitter, random),
+                                     twin.plans[log], sensors, random)
+                     : recorded_rows(stretch, motions[k], twin.plans[log], sensors, random);
       Eigen::MatrixXd& all = parts.back().rows;
       all.conservativeResize(all.rows() + rows.rows(), rows.cols());
       all.bottomRows(rows.rows()) = rows;
@@ -171,6 +203,7 @@ std::vector<LogSurvey> record_twin(const Twin& twin, const std::vector<Simulatio
 
 void choose_sensors(Twin& twin, const std::vector<SimulationResult>& motions) {
   twin.sensors.clear();
+  twin.jitter.assign(twin.plans.size(), 0);
   for (std::size_t log = 0; log < twin.plans.size(); ++log) {
     const LogPlan& plan = twin.plans[log];
     std::vector<TwinSensor>& sensors = twin.sensors.emplace_back(plan.slots.size());
@@ -180,6 +213,7 @@ void choose_sensors(Twin& twin, const std::vector<SimulationResult>& motions) {
     if (first == twin.stretches.end()) continue;
     const auto& motion = motions[static_cast<std::size_t>(first - twin.stretches.begin())];
     const PartSurvey& part = twin.parts[log][first->part];
+    twin.jitter[log] = jitter_of(plan, *first, motion);
     for (std::size_t k = 0; k < plan.slots.size(); ++k) {
       const SensorInfo* info = sensor_of(plan, plan.slots[k]);
       const bool position = is_position(plan.slots[k].channel);
@@ -193,7 +227,8 @@ void choose_sensors(Twin& twin, const std::vector<SimulationResult>& motions) {
       Random none(0);
       ChannelScan scan;
       scan.add(measure(truth->col(plan.slots[k].joint), sensors[k], none));
-      sensors[k].noise = noise_left(part.channels[k], scan.result());
+      sensors[k].noise = noise_left(part.channels[k], scan.result(),
+                                    jitter_noise(motion, plan.slots[k], twin.jitter[log]));
     }
   }
 }

@@ -32,7 +32,7 @@ CollisionThreshold collision_threshold(const CollisionDetector& d) {
   CollisionThreshold out;
   // A window of 0.05 s at 1 kHz is 50 rows, however 0.05 * 1000 is rounded.
   out.n_rows = std::max(1, static_cast<int>(std::floor(d.window * d.rate + 1e-6)));
-  out.mean_noise = d.noise / std::sqrt(static_cast<double>(out.n_rows));
+  out.mean_noise = d.mean_noise.value_or(d.noise / std::sqrt(static_cast<double>(out.n_rows)));
   out.delay = 2 * d.window;
   if (out.mean_noise == 0) {
     out.threshold = d.model_error;

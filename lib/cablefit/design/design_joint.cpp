@@ -73,14 +73,9 @@ void add_closure(const JointCurve& curve, DesignJoint& out) {
 }
 
 std::optional<CollisionThreshold> collision(const DesignOptions& options, double model_error) {
-  if (!options.noise) return std::nullopt;
-  CollisionDetector detector;
-  detector.noise = *options.noise;
-  detector.rate = options.rate;
-  detector.window = options.window;
-  detector.model_error = model_error + options.floor;
-  detector.false_alarm_rate = false_alarm_rate_of(options.false_alarms_per_hour, options.window);
-  detector.detection_rate = options.detection_rate;
+  if (!options.detector) return std::nullopt;
+  CollisionDetector detector = *options.detector;
+  detector.model_error += model_error;
   return collision_threshold(detector);
 }
 

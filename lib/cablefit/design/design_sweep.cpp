@@ -90,23 +90,45 @@ DesignPoint describe_point(const Model& model, const Transmission& preloaded, do
   return point;
 }
 
-std::optional<double> noise_of(const Model& model, const DesignOptions& options,
-                               DesignResult& result) {
+/// Fills the noise of the detector; false: none is known. The residual of a fit is not white: its
+/// mean over the window was measured.
+bool take_noise(const Model& model, const DesignOptions& options, CollisionDetector& detector,
+                std::vector<Decision>& decisions) {
   if (options.noise) {
-    result.decisions.push_back({"noise", fmt::format("{:g}", *options.noise), "given"});
-    return options.noise;
+    detector.noise = *options.noise;
+    decisions.push_back({"noise", fmt::format("{:g}", *options.noise), "given, white"});
+    return true;
+  }
+  if (!model.link_residual.empty()) {
+    detector.mean_noise = sd_of_mean(model.link_residual, options.window);
+    decisions.push_back({"noise",
+                         fmt::format("{:.3g} over {:g} s", *detector.mean_noise, options.window),
+                         "means of the link's residual in the fit"});
+    return true;
   }
   const auto found = model.rig.sensors.find("tau");
   if (found == model.rig.sensors.end() || !found->second.noise) {
-    result.decisions.push_back(
-        {"noise", "none",
-         "no sensor \"tau\" with \"noise\" in the rig, no --noise: no collision "
-         "torques"});
-    return std::nullopt;
+    decisions.push_back({"noise", "none",
+                         "neither a residual of a fit, nor a sensor \"tau\" with \"noise\" in the "
+                         "rig, nor --noise: no collision torques"});
+    return false;
   }
-  result.decisions.push_back(
-      {"noise", fmt::format("{:g}", *found->second.noise), "of the rig's sensor tau"});
-  return found->second.noise;
+  detector.noise = *found->second.noise;
+  decisions.push_back(
+      {"noise", fmt::format("{:g}", detector.noise), "of the rig's sensor tau, taken as white"});
+  return true;
+}
+
+std::optional<CollisionDetector> detector_of(const Model& model, const DesignOptions& options,
+                                             std::vector<Decision>& decisions) {
+  CollisionDetector detector;
+  if (!take_noise(model, options, detector, decisions)) return std::nullopt;
+  detector.rate = options.rate;
+  detector.window = options.window;
+  detector.model_error = options.floor;
+  detector.false_alarm_rate = false_alarm_rate_of(options.false_alarms_per_hour, options.window);
+  detector.detection_rate = options.detection_rate;
+  return detector;
 }
 
 /// A curve fitted to preloaded cables as if they had no preload bends the wrong way.
@@ -167,15 +189,7 @@ DesignResult sweep_design(const Model& model, const DesignOptions& given) {
   result.torque = given.torque;
   result.false_alarms_per_hour = given.false_alarms_per_hour;
   DesignOptions options = given;
-  options.noise = noise_of(model, given, result);
-  if (options.noise)
-    result.detector =
-        CollisionDetector{*options.noise,
-                          options.rate,
-                          options.window,
-                          options.floor,
-                          false_alarm_rate_of(options.false_alarms_per_hour, options.window),
-                          options.detection_rate};
+  options.detector = result.detector = detector_of(model, given, result.decisions);
   warn_of_soft_cables(model, options.torque, result);
   for (const double factor : options.radius_factors) {
     const Transmission base = with_radii(model.transmission, factor);

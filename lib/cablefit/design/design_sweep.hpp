@@ -17,12 +17,15 @@ struct DesignOptions {
   std::vector<double> radius_factors = {1};
   std::vector<int> orders = {1};           ///< of the cables of simpler models; 1: piecewise linear
   std::optional<double> tension_friction;  ///< N m per N m, on the motor, beside the model's
-  std::optional<double> noise;             ///< N m, of the torque; nothing: the rig's sensor "tau"
+  /// N m, of the torque, white; nothing: the link's residual of the fit, else the rig's sensor
+  /// "tau".
+  std::optional<double> noise;
   double floor = 0;  ///< N m, of what even the cables get wrong, bound; adds to every model's error
   double window = 0.05;  ///< s, of the collision detector
   double rate = 1000;    ///< Hz, of the same
   double false_alarms_per_hour = 1;
   double detection_rate = 0.99;
+  std::optional<CollisionDetector> detector;  ///< made of these
   bool figures = false;
 };
 

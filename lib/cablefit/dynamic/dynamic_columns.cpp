@@ -40,6 +40,16 @@ void fill_elastic(const ElasticFit& fit, const DynamicColumns& c, const Signals&
   out.noalias() = basis * coefficients;
 }
 
+/// Its loop goes with the direction in which the deflection changes.
+void fill_misfit(const ElasticFit& fit, const JointSignals& s, Eigen::Ref<Eigen::MatrixXd> out) {
+  const double zero = fit.transmission.encoder_zero()(0);
+  for (Eigen::Index i = 0; i < out.rows(); ++i) {
+    const MisfitPoint point = fit.misfit.at(s.theta(i) - zero - s.q(i));
+    out(i, 0) = point.torque;
+    out(i, 1) = s.thetad(i) < s.qd(i) ? -point.half_width : point.half_width;
+  }
+}
+
 Eigen::Index n_columns(const std::vector<const Effect*>& effects) {
   std::size_t n = 0;
   for (const Effect* effect : effects) n += effect->parameters.size();
@@ -116,6 +126,9 @@ DynamicColumns dynamic_columns(Side side, const std::vector<const ElasticFit*>& 
     c.elastic.push_back(c.count);
     c.n_elastic.push_back(detail == ElasticDetail::torque ? 1 : elastic_coefficients(*fit).size());
     c.count += c.n_elastic.back();
+    const bool carried = place.n_joints == 1 && !fit->misfit.empty();
+    c.misfit.push_back(carried ? c.count : -1);
+    if (carried) c.count += 2;
   }
   if (!fits.empty()) c.deflection = c.count++;
   c.position = c.count++;
@@ -160,8 +173,10 @@ Equation dynamic_equation(const DynamicColumns& c, const std::vector<const Elast
     const JointSignals& s = signals.joints[own];
     if (c.n_arm > 0) fill_arm(c, signals, out.leftCols(c.n_effects));
     effect_columns(c.effects, c.side, s, out.middleCols(c.first_effect, n_columns(c.effects)));
-    for (std::size_t k = 0; k < fits.size(); ++k)
+    for (std::size_t k = 0; k < fits.size(); ++k) {
       fill_elastic(*fits[k], c, signals, out.middleCols(c.elastic[k], c.n_elastic[k]));
+      if (c.misfit[k] >= 0) fill_misfit(*fits[k], s, out.middleCols(c.misfit[k], 2));
+    }
     if (c.deflection >= 0) out.col(c.deflection) = s.theta - s.q;
     out.col(c.position) = position(c.side, s);
     out.col(c.torque).setZero();

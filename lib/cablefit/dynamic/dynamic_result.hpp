@@ -63,9 +63,10 @@ struct DynamicFit {
   std::optional<RecursiveTrace> trace = {};           ///< of a recursive one
   std::optional<Sweep> sweep = {};                    ///< when asked for
   /// By parameter, sd in its unit: what the method itself is off by on a simulated copy of the
-  /// motion (method_floor.hpp), and the difference to instrumental variables where neither is
-  /// proved. Part of every sd and interval.
-  std::map<std::string, double> method_floor = {}, estimator_difference = {};
+  /// motion (method_floor.hpp), the difference to instrumental variables where neither is proved,
+  /// and what the curve that stage 1 leaves does (ElasticFit::misfit). Part of every sd and
+  /// interval.
+  std::map<std::string, double> method_floor = {}, estimator_difference = {}, stage1_misfit = {};
   std::vector<Estimate> derived = {};  ///< stiffness, resonance, damping: of several parameters
 };
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "cablefit/estimate/long_run.hpp"
 #include "cablefit/estimate/parameter_estimate.hpp"
@@ -58,10 +60,20 @@ Eigen::MatrixXd stage1_covariance(const RowStatistics& rows, const DynamicColumn
                                   std::size_t which) {
   const Eigen::Index n = c.n_elastic[which];
   if (stage1.covariance.rows() != n) return Eigen::MatrixXd::Zero(s.x.size(), s.x.size());
-  const Eigen::MatrixXd cross =
-      (rows.r() * s.score_columns).transpose() * rows.r().middleCols(c.elastic[which], n);
-  const Eigen::MatrixXd sensitivity = s.solve_operator * cross;
+  const Eigen::MatrixXd sensitivity = moved_by(rows, s, c.elastic[which], n);
   return sensitivity * stage1.covariance * sensitivity.transpose();
+}
+
+/// By how much the curve and the loop that stage 1 leaves move each parameter; empty: there are
+/// none.
+std::map<std::string, double> misfit_sd(const RowStatistics& rows, const DynamicColumns& c,
+                                        const LinearSolution& s, std::size_t which) {
+  std::map<std::string, double> sd;
+  if (c.misfit.empty() || c.misfit[which] < 0) return sd;
+  const Eigen::MatrixXd shift = moved_by(rows, s, c.misfit[which], 2);
+  for (Eigen::Index k = 0; k < c.n_effects; ++k)
+    sd[c.parameters[static_cast<std::size_t>(k)].name] = shift.row(k).norm();
+  return sd;
 }
 
 /// "an inertial torque of 0.02 rms is too small ...; accelerate with ...". A size below its own sd
@@ -109,16 +121,6 @@ void judge_inertia(const RowStatistics& rows, const DynamicColumns& c, const Lin
         e.name, what, e.value, alternative));
 }
 
-/// An inertia that the rig file gives: exact.
-Estimate given_estimate(const DynamicParameter& parameter, bool linear_motion) {
-  Estimate e;
-  e.symbol = parameter.info.symbol;
-  e.unit = linear_motion ? linear_unit(parameter.info.unit) : std::string(parameter.info.unit);
-  e.value = e.ci_low = e.ci_high = *parameter.given;
-  e.sd = e.sd_white = 0;
-  return e;
-}
-
 /// The chosen sd and its quantile, where they are not those of the solution.
 void take_chosen(const ChosenSd& chosen, const LinearSolution& s, Eigen::Index k,
                  double extra_variance, double lower, Estimate& e) {
@@ -134,6 +136,22 @@ void take_chosen(const ChosenSd& chosen, const LinearSolution& s, Eigen::Index k
 }
 
 }  // namespace
+
+Eigen::MatrixXd moved_by(const RowStatistics& rows, const LinearSolution& s, Eigen::Index first,
+                         Eigen::Index n) {
+  return s.solve_operator *
+         ((rows.r() * s.score_columns).transpose() * rows.r().middleCols(first, n));
+}
+
+Estimate given_estimate(const DynamicParameter& parameter, bool linear_motion) {
+  Estimate e;
+  e.name = parameter.name;
+  e.symbol = parameter.info.symbol;
+  e.unit = linear_motion ? linear_unit(parameter.info.unit) : std::string(parameter.info.unit);
+  e.value = e.ci_low = e.ci_high = *parameter.given;
+  e.sd = e.sd_white = 0;
+  return e;
+}
 
 void refuse(Estimate& e, const std::string& why) {
   e.not_identifiable = why;
@@ -157,6 +175,7 @@ void add_estimates(const RowStatistics& rows, const DynamicColumns& c, const Lin
                    DynamicFit& fit) {
   Eigen::MatrixXd extra = Eigen::MatrixXd::Zero(s.x.size(), s.x.size());
   if (stage1 != nullptr && honest) extra = stage1_covariance(rows, c, s, *stage1, which);
+  if (stage1 != nullptr && honest) fit.stage1_misfit.merge(misfit_sd(rows, c, s, which));
   const std::optional<ChosenSd> chosen = honest ? std::optional(choose_sd(rows, s)) : std::nullopt;
   for (Eigen::Index k = 0; k < c.n_effects; ++k) {
     const DynamicParameter& parameter = c.parameters[static_cast<std::size_t>(k)];

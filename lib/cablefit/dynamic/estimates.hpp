@@ -16,6 +16,14 @@ void add_estimates(const RowStatistics& rows, const DynamicColumns& columns,
                    const LinearSolution& solution, const ElasticFit* stage1, std::size_t which,
                    bool linear_motion, bool honest, DynamicFit& fit);
 
+/// By how much the parameters move when one of the rows' columns from `first` on is added to
+/// the response: p x n. `rows`: those that `solution` was fitted to.
+Eigen::MatrixXd moved_by(const RowStatistics& rows, const LinearSolution& solution,
+                         Eigen::Index first, Eigen::Index n);
+
+/// An inertia that the rig file gives: exact.
+Estimate given_estimate(const DynamicParameter& parameter, bool linear_motion);
+
 /// Takes the numbers from an estimate and says why.
 void refuse(Estimate& e, const std::string& why);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cablefit/dynamic/estimates.hpp"
 #include "cablefit/elastic/elastic_quantities.hpp"
 #include "cablefit/estimate/long_run.hpp"
 
@@ -85,9 +86,8 @@ EquationInfluence influence_of(const RowStatistics& rows, const DynamicColumns& 
     out.cells.push_back(cell.id);
   }
   if (stage1 == nullptr || stage1->covariance.rows() != c.n_elastic[which]) return out;
-  const Eigen::MatrixXd cross = (rows.r() * s.score_columns).transpose() *
-                                rows.r().middleCols(c.elastic[which], c.n_elastic[which]);
-  out.sensitivity = sign_of(c.side) * (s.solve_operator * cross).topRows(c.n_effects);
+  out.sensitivity = sign_of(c.side) *
+                    moved_by(rows, s, c.elastic[which], c.n_elastic[which]).topRows(c.n_effects);
   return out;
 }
 

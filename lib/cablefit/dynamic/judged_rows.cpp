@@ -13,7 +13,7 @@
 namespace cablefit {
 namespace {
 
-constexpr double kMostShareOfRate = 0.45;  // as for --cutoff
+constexpr double kMostCutoff = 0.45;  // as for --cutoff
 // The drive is off when its torque stays below this share of its largest for so many rows.
 constexpr double kOffShare = 2e-3;
 constexpr Eigen::Index kOffRows = 10;
@@ -91,7 +91,7 @@ RowSettings settings_for(const DynamicJob& job, const LogSurvey& log, const Part
   RowSettings settings = job.settings.rows;
   const double own = sample_rates({&log, 1}, wanted).lowest;
   const double ratio = own / sample_rates(job.logs, job.wanted).lowest;
-  if (settings.signal.cutoff >= kMostShareOfRate * own)
+  if (settings.signal.cutoff >= kMostCutoff * own)
     throw input_error(
         {log.plan.path, 0, 0},
         fmt::format("its rate of {:.4g} Hz is too low for the fit's cut-off of {:.4g} "

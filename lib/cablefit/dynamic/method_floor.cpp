@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/copies/twin.hpp"
 #include "cablefit/dynamic/fitted_model.hpp"
 #include "cablefit/dynamic/log_copy.hpp"
 
@@ -20,6 +19,7 @@ constexpr double kAside = 16;  // encoder steps that a draw's motion is moved by
 struct CopiedLogs {
   std::vector<LogSurvey> stretches;
   std::span<const LogSurvey> logs;
+  double share = 1;  ///< of the rows
 };
 
 CopiedLogs logs_to_copy(const DynamicJob& job) {
@@ -28,9 +28,10 @@ CopiedLogs logs_to_copy(const DynamicJob& job) {
     for (const PartSurvey& part : log.parts)
       if (job.wanted(part)) all += static_cast<double>(part.n_rows);
   CopiedLogs out;
-  if (all > kFloorRows)
-    out.stretches = stretches_of(job.logs, job.wanted, kFloorRows / all,
-                                 bridge_seconds(job.settings.rows.signal));
+  out.share = std::min(1.0, kFloorRows / all);
+  if (out.share < 1)
+    out.stretches =
+        stretches_of(job.logs, job.wanted, out.share, bridge_seconds(job.settings.rows.signal));
   out.logs = out.stretches.empty() ? job.logs : std::span<const LogSurvey>(out.stretches);
   return out;
 }
@@ -74,9 +75,9 @@ std::vector<LinearSolution> fit_copy(const DynamicJob& job, const std::vector<Lo
   return solutions;
 }
 
-/// Squared differences, of parameters that both determine.
-Eigen::VectorXd squared_error(const LinearSolution& found, const LinearSolution& truth) {
-  Eigen::VectorXd error = (found.x - truth.x).cwiseAbs2();
+/// Differences of parameters that both determine.
+Eigen::VectorXd error_of(const LinearSolution& found, const LinearSolution& truth) {
+  Eigen::VectorXd error = found.x - truth.x;
   for (Eigen::Index k = 0; k < error.size(); ++k) {
     const auto at = static_cast<std::size_t>(k);
     if (!found.not_identifiable[at].empty() || !truth.not_identifiable[at].empty()) error(k) = 0;
@@ -86,6 +87,25 @@ Eigen::VectorXd squared_error(const LinearSolution& found, const LinearSolution&
 
 }  // namespace
 
+CopyDraws::CopyDraws(const DynamicJob& job, const Model& model, bool exact, bool rounded)
+    : rounded_(rounded), exact_(exact), random_(1) {
+  const CopiedLogs copied = logs_to_copy(job);
+  share_ = copied.share;
+  const SignalSettings& signal = job.settings.rows.signal;
+  twin_ =
+      make_twin(model, copied.logs, job.wanted, {signal.torque_held, signal.cutoff, true, kStep});
+  motions_ = run_twin(twin_, {}, random_, job.options.samples.threads);
+}
+
+void CopyDraws::for_each(const std::function<void(const CopyDraw&)>& use) {
+  if (exact_) use({record_twin(twin_, motions_, random_), true, 1, share_});
+  if (!rounded_) return;
+  choose_encoders(twin_, motions_);
+  for (int draw = 0; draw < kFloorDraws; ++draw)
+    use({record_twin(twin_, moved_aside(twin_, motions_, random_), random_), false,
+         1.0 / kFloorDraws, share_});
+}
+
 MethodFloor method_floor(const DynamicJob& job, const std::vector<EquationRows>& equations,
                          const std::vector<LinearSolution>& solutions,
                          const std::vector<bool>& with_instruments, std::size_t which) {
@@ -94,30 +114,22 @@ MethodFloor method_floor(const DynamicJob& job, const std::vector<EquationRows>&
     floor.note = "not measured: links that move each other are not simulated yet";
     return floor;
   }
+  const auto any = [&](bool instruments) {
+    return std::find(with_instruments.begin(), with_instruments.end(), instruments) !=
+           with_instruments.end();
+  };
   try {
-    const CopiedLogs copied = logs_to_copy(job);
-    const RowSettings& rows = job.settings.rows;
-    Twin twin = make_twin(fitted_model(job, equations, solutions, which), copied.logs, job.wanted,
-                          {rows.signal.torque_held, rows.signal.cutoff, true, kStep});
-    Random random(1);
-    const auto motions = run_twin(twin, {}, random, job.options.samples.threads);
     for (const LinearSolution& solution : solutions)
       floor.variance.push_back(Eigen::VectorXd::Zero(solution.x.size()));
-    const auto add = [&](const std::vector<LinearSolution>& found, bool instruments, double share) {
+    CopyDraws draws(job, fitted_model(job, equations, solutions, which), any(true), any(false));
+    draws.for_each([&](const CopyDraw& draw) {
+      const std::vector<LinearSolution> found = fit_copy(job, draw.logs, which);
       for (std::size_t k = 0; k < solutions.size(); ++k)
-        if (with_instruments[k] == instruments)
-          floor.variance[k] += share * squared_error(found[k], solutions[k]);
-    };
-    const auto any = [&](bool instruments) {
-      return std::find(with_instruments.begin(), with_instruments.end(), instruments) !=
-             with_instruments.end();
-    };
-    if (any(true)) add(fit_copy(job, record_twin(twin, motions, random), which), true, 1);
-    choose_encoders(twin, motions);
-    for (int draw = 0; draw < kFloorDraws && any(false); ++draw)
-      add(fit_copy(job, record_twin(twin, moved_aside(twin, motions, random), random), which),
-          false, 1.0 / kFloorDraws);
-    floor.note = "fit of a simulated copy of the motion without disturbances";
+        if (with_instruments[k] == draw.exact)
+          floor.variance[k] += draw.weight * error_of(found[k], solutions[k]);
+    });
+    for (Eigen::VectorXd& v : floor.variance) v = v.cwiseAbs2().eval();
+    floor.note = kFloorNote;
   } catch (const Error& error) {
     floor = {{}, fmt::format("not measured: {}", error.what())};
   }

@@ -8,6 +8,7 @@
 #include "cablefit/base/divided_up.hpp"
 #include "cablefit/estimate/binned_test.hpp"
 #include "cablefit/estimate/portmanteau.hpp"
+#include "cablefit/estimate/window_means.hpp"
 
 namespace cablefit {
 namespace {
@@ -165,6 +166,7 @@ std::vector<ResidualTest> residual_tests(const TestedRows& tested, const LinearS
   const Eigen::Index p = solution.x.size();
   std::vector<VariableTest> tests = new_tests(tested.rows, p);
   Portmanteau memory;
+  WindowMeans means;
   double squares = 0, n_rows = 0;
   tested.rows.rows->for_each(
       [&](const Eigen::MatrixXd& rows, std::span<const Eigen::Index> numbers) {
@@ -173,6 +175,7 @@ std::vector<ResidualTest> residual_tests(const TestedRows& tested, const LinearS
         squares += residual.squaredNorm();
         n_rows += static_cast<double>(residual.size());
         memory.add(numbers, residual);
+        means.add(numbers, residual);
         for (VariableTest& one : tests)
           one.test.add(numbers, rows.col(one.variable->column), residual, rows.leftCols(p));
       });
@@ -185,6 +188,7 @@ std::vector<ResidualTest> residual_tests(const TestedRows& tested, const LinearS
   }
   if (n_rows > 0 && tested.torque_rms > 0)
     equation.relative = std::sqrt(squares / n_rows) / tested.torque_rms;
+  equation.means = means.result(tested.row_seconds);
   equation.headline = headline(tested, equation.relative, tests, results);
   return out;
 }

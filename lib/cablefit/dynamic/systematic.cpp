@@ -34,6 +34,10 @@ double value_of(const std::map<std::string, double>& sd, const std::string& name
   return found == sd.end() ? 0 : found->second;
 }
 
+std::string in_words(const std::string& noted) {
+  return noted.empty() ? "small beside every sd" : noted;
+}
+
 void widen_joint(const std::string& name, double factor, Estimation& estimation) {
   if (!estimation.joint) return;
   const Eigen::Index k = estimation.joint->find(name);
@@ -52,20 +56,25 @@ void add_systematic(const EstimationTask& task, bool by_filtered_rows, Estimatio
     fit.method_floor = *task.job.options.method_floor;
   else if (by_filtered_rows)
     fit.method_floor = measured_floor(task, estimation, note);
-  std::string noted;
+  std::string noted, carried;
   for (Estimate& e : fit.parameters) {
     if (!e.not_identifiable.empty() || !(e.sd > 0)) continue;
     const double floor = value_of(fit.method_floor, e.name);
-    const double more = floor * floor + std::pow(value_of(fit.estimator_difference, e.name), 2);
+    const double misfit = value_of(fit.stage1_misfit, e.name);
+    const double more =
+        floor * floor + std::pow(value_of(fit.estimator_difference, e.name), 2) + misfit * misfit;
     const double factor = std::sqrt(1 + more / (e.sd * e.sd));
     if (floor * floor > kNoted * e.sd * e.sd)
       noted += fmt::format("{}{} {:.2g} sd", noted.empty() ? "" : ", ", e.name, floor / e.sd);
+    if (misfit * misfit > kNoted * e.sd * e.sd)
+      carried += fmt::format("{}{} {:.2g} sd", carried.empty() ? "" : ", ", e.name, misfit / e.sd);
     widen_interval(e, factor);
     widen_joint(e.name, factor, estimation);
   }
-  if (!note.empty())
+  if (!note.empty()) estimation.decisions.push_back({"method's floor", in_words(noted), note});
+  if (!fit.stage1_misfit.empty())
     estimation.decisions.push_back(
-        {"method's floor", noted.empty() ? "small beside every sd" : noted, note});
+        {"stage 1's misfit", in_words(carried), "its residual curve is carried into every sd"});
 }
 
 }  // namespace cablefit

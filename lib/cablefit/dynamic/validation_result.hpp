@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/base/window_mean.hpp"
+
 namespace cablefit {
 
 inline constexpr double kNotThere = std::numeric_limits<double>::quiet_NaN();
@@ -46,7 +48,8 @@ struct JudgedEquation {
   std::string floor_source;                ///< "repeats", "sensor noise"
   std::vector<ConditionError> conditions;  ///< empty for the logs that were fitted
   std::vector<ResidualTest> tests;
-  double relative = 0;   ///< rms of the residual over rms of the torque to be explained
+  double relative = 0;            ///< rms of the residual over rms of the torque to be explained
+  std::vector<WindowMean> means;  ///< of the residual, for detectors that average; may be empty
   std::string headline;  ///< that the model explains little, and what the residual depends on
 };
 

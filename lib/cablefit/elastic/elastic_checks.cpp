@@ -81,19 +81,24 @@ void select_joint_model(ElasticPreload& preload, double materiality) {
   preload.selected = linear_will_do ? "linear" : "poly";
 }
 
+bool depends_on_path(const LoopSeen& loop) {
+  if (!(loop.peak > 0)) return false;
+  const double share = loop.half_width / loop.peak, left = loop.rms / loop.peak;
+  // A friction band is as wide everywhere; what is left beyond it depends on the path.
+  return left > kPathShare && (share > kLoopShare || left > kLoopShare);
+}
+
 std::vector<std::string> loop_warnings(const LoopSeen& loop, bool linear_motion) {
   const char* unit = linear_motion ? "N" : "N m";
   std::vector<std::string> warnings;
-  const double share = loop.peak > 0 ? loop.half_width / loop.peak : 0;
-  const double left = loop.peak > 0 ? loop.rms / loop.peak : 0;
-  // A friction band is as wide everywhere; what is left beyond it depends on the path.
-  if (left > kPathShare && (share > kLoopShare || left > kLoopShare))
+  if (depends_on_path(loop))
     warnings.push_back(fmt::format(
         "no static law explains this loop: it is {:.3g} {} wide ({:.0f} % of the peak torque of "
         "{:.3g} {}) and {:.3g} "
         "{} rms remain beyond a constant friction band; suspect hysteresis or friction that grows "
         "with load",
-        2 * loop.half_width, unit, 200 * share, loop.peak, unit, loop.rms, unit));
+        2 * loop.half_width, unit, 200 * loop.half_width / loop.peak, loop.peak, unit, loop.rms,
+        unit));
   if (loop.plateaus)
     warnings.emplace_back(
         "the motor hardly moves between plateaus: torques at rest lie within the friction band, so "
@@ -102,14 +107,51 @@ std::vector<std::string> loop_warnings(const LoopSeen& loop, bool linear_motion)
   return warnings;
 }
 
+namespace {
+
+ElasticMisfit& misfit_of_selected(ElasticPreload& preload) {
+  return std::find_if(preload.fits.begin(), preload.fits.end(),
+                      [&](const ElasticFit& fit) { return fit.model == preload.selected; })
+      ->misfit;
+}
+
+double largest(const ElasticMisfit& misfit, double MisfitPoint::*part) {
+  double most = 0;
+  for (const MisfitPoint& point : misfit.points) most = std::max(most, std::abs(point.*part));
+  return most;
+}
+
+/// Where means by deflection do not show the loop, its half width is the rms of the residual.
+void add_loop(double left, ElasticPreload& preload) {
+  ElasticMisfit& misfit = misfit_of_selected(preload);
+  if (largest(misfit, &MisfitPoint::half_width) > 0) return;
+  if (misfit.empty()) misfit.points = {{preload.deflection_low}, {preload.deflection_high}};
+  for (MisfitPoint& point : misfit.points) point.half_width = left;
+}
+
+void note_misfit(ElasticPreload& preload) {
+  const ElasticMisfit& misfit = misfit_of_selected(preload);
+  if (misfit.empty()) return;
+  const char* unit = preload.linear_motion ? "N" : "N m";
+  preload.decisions.push_back({"misfit of the " + preload.selected + " fit",
+                               fmt::format("a curve of up to {:.2g} {}, a loop of +-{:.2g} {}",
+                                           largest(misfit, &MisfitPoint::torque), unit,
+                                           largest(misfit, &MisfitPoint::half_width), unit),
+                               "stage 2 carries it into its intervals"});
+}
+
+}  // namespace
+
 void note_loop(ElasticPreload& preload, double left, bool plateaus) {
   const ElasticFit& best = *preload.find(preload.selected);
   const Estimate* friction = find_estimate(best.parameters, "f_sm");
   preload.loop_half_width =
       friction != nullptr && friction->not_identifiable.empty() ? friction->value : 0;
-  for (std::string& warning : loop_warnings(
-           {preload.loop_half_width, preload.peak_torque, left, plateaus}, preload.linear_motion))
+  const LoopSeen loop{preload.loop_half_width, preload.peak_torque, left, plateaus};
+  for (std::string& warning : loop_warnings(loop, preload.linear_motion))
     preload.warnings.push_back(std::move(warning));
+  if (depends_on_path(loop)) add_loop(left, preload);
+  note_misfit(preload);
 }
 
 bool looks_preloaded(const Transmission& transmission, std::span<const ElongationRange> ranges) {

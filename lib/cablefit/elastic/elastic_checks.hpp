@@ -27,11 +27,13 @@ struct LoopSeen {
   double half_width = 0, peak = 0, rms = 0;  ///< friction band, peak torque, what the fit leaves
   bool plateaus = false;
 };
+/// What is left beyond a constant friction band is large beside the peak torque.
+bool depends_on_path(const LoopSeen& loop);
 /// Warnings of a torque that depends on the path, and of plateaus.
 std::vector<std::string> loop_warnings(const LoopSeen& loop, bool linear_motion);
 
-/// Fills loop_half_width; warns when the torque depends on the path. `left`: N m rms, by the
-/// selected fit.
+/// Fills loop_half_width; warns when the torque depends on the path, and adds a loop as wide as
+/// `left` to the misfit of the selected fit where that has none. `left`: N m rms, by that fit.
 void note_loop(ElasticPreload& preload, double left, bool plateaus);
 
 /// The curve of a pair of cables fitted with l_o = 0 looks like that of two taut ones (preload).

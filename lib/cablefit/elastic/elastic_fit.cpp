@@ -10,6 +10,7 @@
 #include "cablefit/elastic/elastic_figures.hpp"
 #include "cablefit/elastic/joints_fit.hpp"
 #include "cablefit/elastic/log_zeros.hpp"
+#include "cablefit/elastic/misfit.hpp"
 #include "cablefit/elastic/model_errors.hpp"
 #include "cablefit/elastic/preload_checks.hpp"
 #include "cablefit/samples/agreement.hpp"
@@ -163,6 +164,9 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
     check_passive(fit, longest_of(stage.rows.elongations),
                   {stage.job.rig().cables_given, preload.linear_motion});
   select_model(preload, stage.job.options.materiality);
+  for (std::size_t k = 0; k < candidates.size(); ++k)
+    if (preload.fits[k].model == preload.selected)
+      preload.fits[k].misfit = find_misfit(stage.rows, candidates[k], solutions[k]);
   const double left = note_log_zeros(stage.job, stage.rows, candidates, preload);
   note_loop(preload, left, stage.rows.plateaus);
   note_closure(stage.rows.elongations, preload);

@@ -1,6 +1,21 @@
 #include "cablefit/elastic/elastic_result.hpp"
 
+#include <algorithm>
+
 namespace cablefit {
+
+MisfitPoint ElasticMisfit::at(double deflection) const {
+  if (points.empty()) return {deflection, 0, 0};
+  const auto above =
+      std::lower_bound(points.begin(), points.end(), deflection,
+                       [](const MisfitPoint& point, double phi) { return point.deflection < phi; });
+  if (above == points.begin()) return points.front();
+  if (above == points.end()) return points.back();
+  const MisfitPoint& below = *(above - 1);
+  const double share = (deflection - below.deflection) / (above->deflection - below.deflection);
+  return {deflection, below.torque + share * (above->torque - below.torque),
+          below.half_width + share * (above->half_width - below.half_width)};
+}
 
 const ElasticFit* ElasticPreload::find(const std::string& model) const {
   for (const ElasticFit& fit : fits)

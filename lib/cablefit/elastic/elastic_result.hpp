@@ -21,6 +21,19 @@ struct ElasticJointErrors {
   double rms_error = 0, max_abs_error = 0, held_out_rms = 0, held_out_max = 0;
 };
 
+/// Torque that a fit leaves at one deflection: sum of `torque` and, with the sign of the motion,
+/// `half_width`, N m.
+struct MisfitPoint {
+  double deflection = 0, torque = 0, half_width = 0;
+};
+struct ElasticMisfit {
+  std::vector<MisfitPoint> points;  ///< by deflection, ascending; empty: nothing that matters
+
+  bool empty() const { return points.empty(); }
+  /// Linear between points, constant beyond them.
+  MisfitPoint at(double deflection) const;
+};
+
 struct ElasticFit {
   std::string model;                 ///< "linear", "poly"
   int order = 1;                     ///< of the force, per cable
@@ -40,6 +53,7 @@ struct ElasticFit {
   std::vector<std::string> warnings;
   std::vector<Estimate> derived = {};  ///< stiffness at rest, ...: of the coefficients
   std::optional<FitProof> proof = {};  ///< of a rerun on simulated logs, when it was asked for
+  ElasticMisfit misfit = {};           ///< of the selected fit of one joint
 };
 
 /// Rows by functioning mode, (12)-(13). Of several joints: rows of all their equations.

@@ -106,7 +106,9 @@ IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& 
   JointFit first;
   const JointPoint start = fit_first(logs, options, facts, blocked, jobs, first);
   JointFit fit = full_fit(logs, options, jobs, blocked, first, start, facts);
-  const bool apart = fit.layout.find("J_link", kShared) < 0 && fit.layout.find("J_link", 0) >= 0;
+  const bool apart =
+      std::any_of(fit.layout.parameters.begin(), fit.layout.parameters.end(),
+                  [](const JointParameter& p) { return p.inertia && p.preload != kShared; });
   JointPoint point = fit_all(fit, first, start);
   if (apart) point = share_inertias(fit, std::move(point), result);
   Profiled found = judge_with_profiles(fit, std::move(point));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cablefit/dynamic/estimates.hpp"
 #include "cablefit/dynamic/joint_estimates.hpp"
 #include "cablefit/elastic/elastic_quantities.hpp"
 #include "cablefit/elastic/passivity.hpp"
@@ -74,6 +75,14 @@ void add_with_loads(const JointFit& fit, const Estimate& of_link, IdentifyResult
   }
 }
 
+/// What the rig file gives stands in Table 2 as in stage 2.
+void add_given(const PreloadJob& job, IdentifyPreload& preload) {
+  for (const JointRecord& record : job.records)
+    for (const JointEquation& equation : record.equations)
+      for (const JointEquation::Given& given : equation.given)
+        preload.parameters.push_back(given_estimate(given.parameter, job.linear_motion));
+}
+
 void add_model(const PreloadFacts& facts, IdentifyResult& result, IdentifyPreload& preload) {
   std::string why_not;
   preload.model = model_of(result, preload, facts, why_not);
@@ -140,7 +149,7 @@ void describe(const JointFit& fit, const JudgedPoint& judged,
               const std::vector<Estimate>& estimates, const std::vector<PreloadFacts>& facts,
               const IdentifyOptions& options, IdentifyResult& result) {
   for (std::size_t j = 0; j < fit.jobs.size(); ++j)
-    result.preloads.push_back(preload_of(fit, judged, j, facts[j]));
+    add_given(fit.jobs[j], result.preloads.emplace_back(preload_of(fit, judged, j, facts[j])));
   for (std::size_t k = 0; k < estimates.size(); ++k) {
     if (estimates[k].name == kCreep) continue;
     const int preload = fit.layout.parameters[k].preload;

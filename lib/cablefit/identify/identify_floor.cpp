@@ -1,8 +1,10 @@
 #include "cablefit/identify/identify_floor.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <cmath>
 
+#include "cablefit/dynamic/fitted_model.hpp"
 #include "cablefit/dynamic/method_floor.hpp"
 #include "cablefit/estimate/parameter_estimate.hpp"
 #include "cablefit/identify/joint_solution.hpp"
@@ -11,33 +13,80 @@
 namespace cablefit {
 namespace {
 
-/// Place of a parameter among the estimates: the preload's own, else the shared one; -1: neither.
-Eigen::Index place_of(const JointFit& fit, const std::string& name, std::size_t job) {
-  const Eigen::Index own = fit.layout.find(name, static_cast<int>(job));
-  return own >= 0 ? own : fit.layout.find(name, kShared);
-}
-
 /// The fitted values as solutions of the two equations of stage 2.
-std::vector<LinearSolution> as_solutions(const JointFit& fit,
-                                         const std::vector<Estimate>& estimates,
+std::vector<LinearSolution> as_solutions(const JointFit& fit, const JudgedPoint& judged,
                                          const std::vector<EquationRows>& equations,
                                          std::size_t job) {
   std::vector<LinearSolution> solutions;
   for (const EquationRows& e : equations) {
     LinearSolution& s = solutions.emplace_back();
     s.x = Eigen::VectorXd::Zero(e.columns.n_effects);
-    s.not_identifiable.assign(static_cast<std::size_t>(e.columns.n_effects), "");
     for (Eigen::Index k = 0; k < e.columns.n_effects; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      const Eigen::Index place = place_of(fit, e.columns.parameters[at].name, job);
-      const Estimate* found = place < 0 ? nullptr : &estimates[static_cast<std::size_t>(place)];
-      if (found != nullptr && found->not_identifiable.empty())
-        s.x(k) = found->value;
-      else
-        s.not_identifiable[at] = "not fitted";
+      const Eigen::Index place = fit.layout.find(
+          e.columns.parameters[static_cast<std::size_t>(k)].name, static_cast<int>(job));
+      if (place < 0) continue;  // given by the rig file
+      const JointParameter& p = fit.layout.parameters[static_cast<std::size_t>(place)];
+      s.x(k) = judged.point.solution.x(place);
+      if (p.inertia && e.columns.side == Side::link) s.x(k) += fit.jobs[job].load_inertia;
     }
   }
   return solutions;
+}
+
+/// By how much a copy of one preload's moving logs moves the solution: its rows leave residuals
+/// with the values that it was simulated with, and the estimates follow them as they follow those
+/// of the logs.
+Eigen::VectorXd shift_by(const JointFit& fit, const JudgedPoint& judged, std::size_t job,
+                         const CopyDraw& draw) {
+  std::vector<PreloadJob> jobs = fit.jobs;
+  std::vector<double> weights;
+  std::size_t block = 0;
+  for (std::size_t j = 0; j < jobs.size(); ++j)
+    for (const JointRecord& record : fit.jobs[j].records)
+      for (std::size_t e = 0; e < record.equations.size(); ++e, ++block)
+        if (j == job && &record == &fit.jobs[job].records.back())
+          weights.push_back(fit.weights[block]);
+  for (PreloadJob& other : jobs) other.records.clear();
+  jobs[job].records = {fit.jobs[job].records.back()};
+  const JointRows rows = collect(draw.logs, jobs[job], {judged.point.l_o[job]}, false, fit.threads);
+  const std::vector<RowStatistics> none;
+  JointInput input{judged.point.l_o, std::vector(jobs.size(), &none)};
+  input.rows[job] = &rows.rows.front();
+  const JointProblem problem =
+      joint_problem(jobs, fit.layout, input, weights, {false, judged.point.solution.x});
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(problem.n_params());
+  x.head(fit.layout.n_linear) = judged.point.solution.x;
+  Eigen::VectorXd score = Eigen::VectorXd::Zero(problem.n_params());
+  for (const JointBlock& b : problem.blocks) {
+    const Eigen::MatrixXd columns = b.rows->r() * b.regressors;
+    score += b.weight / draw.share * columns.transpose() *
+             (b.rows->r() * (b.response - b.regressors * x));
+  }
+  return judged.linearised.solve_operator * score;
+}
+
+/// Adds the mean shift over the draws; returns how it was measured.
+std::string add_shift(std::span<const LogSurvey> logs, const IdentifyOptions& options,
+                      const JointFit& fit, const JudgedPoint& judged, std::size_t job,
+                      const PreloadFacts& facts, Eigen::VectorXd& shift) {
+  const Transmission cables =
+      fitted_cables(fit.jobs[job], judged.point.l_o[job], judged.point.solution.x);
+  const MovingJob moving(logs, options, cables,
+                         reference_deflections(cables, fit.elongations(job, judged.point.l_o[job])),
+                         facts);
+  const std::vector<EquationRows> equations = make_equations(moving.job);
+  const Model model =
+      fitted_model(moving.job, equations, as_solutions(fit, judged, equations, job), 0);
+  try {
+    Eigen::VectorXd own = Eigen::VectorXd::Zero(shift.size());
+    CopyDraws(moving.job, model, false, true).for_each([&](const CopyDraw& copy) {
+      own += copy.weight * shift_by(fit, judged, job, copy);
+    });
+    shift += own;
+    return kFloorNote;
+  } catch (const Error& error) {
+    return fmt::format("not measured: {}", error.what());
+  }
 }
 
 }  // namespace
@@ -46,32 +95,15 @@ void add_method_floor(std::span<const LogSurvey> logs, const IdentifyOptions& op
                       const JointFit& fit, const JudgedPoint& judged,
                       std::vector<PreloadFacts>& facts, std::vector<Estimate>& estimates) {
   if (!options.honest_sd) return;
-  std::vector<double> variance(estimates.size(), 0);
-  for (std::size_t j = 0; j < fit.jobs.size(); ++j) {
-    if (!facts[j].has_moving) continue;
-    const Transmission cables =
-        fitted_cables(fit.jobs[j], judged.point.l_o[j], judged.point.solution.x);
-    MovingJob moving(logs, options, cables,
-                     reference_deflections(cables, fit.elongations(j, judged.point.l_o[j])),
-                     facts[j]);
-    const std::vector<EquationRows> equations = make_equations(moving.job);
-    const MethodFloor floor =
-        method_floor(moving.job, equations, as_solutions(fit, estimates, equations, j),
-                     std::vector<bool>(equations.size(), false), 0);
-    for (std::size_t e = 0; e < floor.variance.size(); ++e)
-      for (Eigen::Index k = 0; k < equations[e].columns.n_effects; ++k) {
-        const Eigen::Index place =
-            place_of(fit, equations[e].columns.parameters[static_cast<std::size_t>(k)].name, j);
-        if (place < 0) continue;
-        double& of_parameter = variance[static_cast<std::size_t>(place)];
-        of_parameter = std::max(of_parameter, floor.variance[e](k));
-      }
-    facts[j].decisions.push_back({"moving: method's floor", "in every sd", floor.note});
-  }
+  Eigen::VectorXd shift = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(estimates.size()));
+  for (std::size_t j = 0; j < fit.jobs.size(); ++j)
+    if (facts[j].has_moving)
+      facts[j].decisions.push_back({"moving: method's floor", "in every sd",
+                                    add_shift(logs, options, fit, judged, j, facts[j], shift)});
   for (std::size_t k = 0; k < estimates.size(); ++k) {
     Estimate& e = estimates[k];
-    if (e.not_identifiable.empty() && e.sd > 0)
-      widen_interval(e, std::sqrt(1 + variance[k] / (e.sd * e.sd)));
+    const double error = shift(static_cast<Eigen::Index>(k));
+    if (e.not_identifiable.empty() && e.sd > 0) widen_interval(e, std::hypot(1, error / e.sd));
   }
 }
 

@@ -9,10 +9,10 @@
 
 namespace cablefit {
 
-/// Widens sd and interval of every inertia, friction and offset of moving logs by what filter,
-/// differences and rounding do to it, measured per preload on a simulated copy of its motion with
-/// the fitted cables; of a parameter that preloads share the largest counts. `estimates`: one per
-/// parameter of the layout.
+/// Widens sd and interval of every parameter by what filter, differences, rounding and an uneven
+/// clock do to it, measured per preload on simulated copies of its motion with the fitted cables;
+/// what several preloads do to a parameter that they share adds up. `estimates`: one per parameter
+/// of the layout.
 void add_method_floor(std::span<const LogSurvey> logs, const IdentifyOptions& options,
                       const JointFit& fit, const JudgedPoint& judged,
                       std::vector<PreloadFacts>& facts, std::vector<Estimate>& estimates);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cablefit/base/parameter.hpp"
+#include "cablefit/dynamic/dynamic_columns.hpp"
 #include "cablefit/elastic/elongation_range.hpp"
 #include "cablefit/estimate/row_statistics.hpp"
 #include "cablefit/model/cables.hpp"
@@ -21,8 +22,14 @@ struct JointEquation {
     std::string name;         ///< "J_motor", as in results
     Eigen::Index column = 0;  ///< of `base`
   };
+  /// An inertia that the rig file gives: its torque is known.
+  struct Given {
+    DynamicParameter parameter;
+    Eigen::Index column = 0;  ///< of `base`
+  };
   Equation base;
   std::vector<Own> own;
+  std::vector<Given> given = {};
   Eigen::Index response = 0;  ///< column of `base`: tau or tau_load
   bool motor_side = true;     ///< S Phi with sign +1, else P Phi with sign -1
 

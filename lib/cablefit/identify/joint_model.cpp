@@ -109,6 +109,8 @@ JointBlock block_of(const JointEquation& equation, const PreloadJob& job, int pl
     if (layout.parameters[static_cast<std::size_t>(k)].inertia && !equation.motor_side)
       block.response(own.column) -= job.load_inertia;
   }
+  for (const JointEquation::Given& given : equation.given)
+    block.response(given.column) -= *given.parameter.given;
   for (Eigen::Index k = 0; k < layout.n_coefficients; ++k)
     block.regressors(c.basis + k, k) = equation.sign();
   if (!form.coefficients) return block;

@@ -21,26 +21,34 @@ PartFilter moving_parts(const std::string& preload) {
   };
 }
 
-JointEquation equation_of(Side side, const ChosenSettings& settings) {
-  const DynamicColumns columns = dynamic_columns(side, {});
+const Arm* arm_of(const PreloadFacts& facts) {
+  return facts.rig.arm.kind != nullptr ? &facts.rig.arm : nullptr;
+}
+
+JointEquation equation_of(Side side, const ChosenSettings& settings, const PreloadFacts& facts) {
+  const DynamicColumns columns =
+      dynamic_columns(side, {}, ElasticDetail::coefficients, {0, 1, arm_of(facts)});
   JointEquation equation;
   equation.base =
       dynamic_equation(columns, {}, settings.rows.signal.torque_held,
                        side == Side::link ? settings.rest_speed_q : settings.rest_speed_theta);
   if (side == Side::link) equation.base.cutoff = settings.cutoff_q;
-  for (const Effect* effect : columns.effects)
-    for (const ParameterInfo& info : effect->parameters)
-      equation.own.push_back(
-          {std::string(info.name), static_cast<Eigen::Index>(equation.own.size())});
+  for (Eigen::Index k = 0; k < columns.n_effects; ++k) {
+    const DynamicParameter& parameter = columns.parameters[static_cast<std::size_t>(k)];
+    if (parameter.given)
+      equation.given.push_back({parameter, k});
+    else
+      equation.own.push_back({parameter.name, k});
+  }
   equation.response = columns.torque;
   equation.motor_side = side == Side::motor;
   return equation;
 }
 
-JointRecord record_of(const std::string& preload, const ChosenSettings& settings) {
-  return {moving_parts(preload),
+JointRecord record_of(const PreloadFacts& facts, const ChosenSettings& settings) {
+  return {moving_parts(facts.name),
           settings.rows,
-          {equation_of(Side::link, settings), equation_of(Side::motor, settings)}};
+          {equation_of(Side::link, settings, facts), equation_of(Side::motor, settings, facts)}};
 }
 
 }  // namespace
@@ -85,7 +93,7 @@ JointRecord first_moving_record(std::span<const LogSurvey> logs, const IdentifyO
   settings.rows.signal.torque_period = facts.rig.torque_period;
   settings.rows.signal.torque_held =
       options.samples.torque_hold.value_or(facts.rig.torque_hold) == TorqueHold::zoh;
-  return record_of(facts.name, settings);
+  return record_of(facts, settings);
 }
 
 MovingJob::MovingJob(std::span<const LogSurvey> logs, const IdentifyOptions& options,
@@ -93,6 +101,7 @@ MovingJob::MovingJob(std::span<const LogSurvey> logs, const IdentifyOptions& opt
                      const PreloadFacts& facts)
     : job{logs,  dynamic, facts.name, moving_parts(facts.name), {&elastic}, {"poly"},
           false, {},      {}} {
+  job.arm = arm_of(facts);
   elastic.model = "poly";
   elastic.transmission = fitted;
   dynamic.samples = options.samples;
@@ -116,7 +125,7 @@ JointRecord moving_record(std::span<const LogSurvey> logs, const IdentifyOptions
     facts.decisions.push_back({"moving: " + d.name, d.value, d.reason});
   for (const auto* warnings : {&moving.found.warnings, &moving.job.settings.warnings})
     facts.warnings.insert(facts.warnings.end(), warnings->begin(), warnings->end());
-  return record_of(facts.name, moving.job.settings);
+  return record_of(facts, moving.job.settings);
 }
 
 }  // namespace cablefit

@@ -89,9 +89,9 @@ Table refine_table(const BatchResult& result) {
   table.columns = {{"", "cell", "", true},
                    {"", "verdict", "", true},
                    {"", "effects", "", true},
-                   {"torque gap, unseen", "before", unit_of(result)},
-                   {"torque gap, unseen", "after", unit_of(result)},
-                   {"torque gap, unseen", "floor", unit_of(result)}};
+                   {"torque gap, test", "before", unit_of(result)},
+                   {"torque gap, test", "after", unit_of(result)},
+                   {"torque gap, test", "floor", unit_of(result)}};
   for (const BatchCell& cell : result.cells) {
     if (!cell.refine) continue;
     const CellRefine& refine = *cell.refine;

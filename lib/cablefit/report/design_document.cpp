@@ -127,10 +127,11 @@ Table cost_table(const Words& words) {
         "smallest collision: link torque that the residual's mean over {:g} s at {:g} "
         "Hz shows with "
         "a probability of {:g} within two windows, at {:g} false alarm{} an hour, "
-        "torque noise {:g} "
         "{}, whatever the model's error within its largest{}",
         d.window, d.rate, d.detection_rate, words.result.false_alarms_per_hour,
-        words.result.false_alarms_per_hour == 1 ? "" : "s", d.noise, words.torque,
+        words.result.false_alarms_per_hour == 1 ? "" : "s",
+        d.mean_noise ? fmt::format("sd of such a mean {:.3g} {}", *d.mean_noise, words.torque)
+                     : fmt::format("torque noise {:g} {}, white", d.noise, words.torque),
         d.model_error > 0 ? fmt::format(" and {:g} {}", d.model_error, words.torque) : ""));
   }
   return table;

@@ -125,7 +125,9 @@ Json excitation_json(const DesignResult& result) {
 
 Json detector_json(const DesignResult& result) {
   if (!result.detector) return {};
-  return Json{{"noise", result.detector->noise},
+  const std::optional<double>& mean = result.detector->mean_noise;
+  return Json{{"noise", mean ? Json(nullptr) : Json(result.detector->noise)},
+              {"mean_noise", mean ? Json(*mean) : Json(nullptr)},
               {"floor", result.detector->model_error},
               {"rate", result.detector->rate},
               {"window", result.detector->window},

@@ -72,6 +72,9 @@ Json fit_json(const DynamicFit& fit) {
             {"effective_rows", by_name(fit.effective_rows)}};
   if (fit.elastic) json["elastic"] = stage1_json(*fit.elastic);
   json["sd_reason"] = by_name(fit.sd_reason);
+  json["systematic"] = {{"method_floor", by_name(fit.method_floor)},
+                        {"estimator_difference", by_name(fit.estimator_difference)},
+                        {"stage1_misfit", by_name(fit.stage1_misfit)}};
   if (!fit.suspects.empty()) json["suspects"] = suspects_json(fit.suspects);
   if (fit.sweep) json["sweep"] = sweep_json(*fit.sweep);
   json["verdicts"] = by_name(fit.verdicts);

@@ -53,6 +53,11 @@ Json joint_json(const ElasticJoint& joint) {
               {"counts", report_json::row_counts(joint.counts)}};
 }
 
+Json misfit_json(const MisfitPoint& point) {
+  return Json{
+      {"deflection", point.deflection}, {"torque", point.torque}, {"half_width", point.half_width}};
+}
+
 Json fit_json(const ElasticPreload& preload, const ElasticFit& fit) {
   Json json{{"model", fit.model},
             {"order", fit.order},
@@ -71,6 +76,7 @@ Json fit_json(const ElasticPreload& preload, const ElasticFit& fit) {
             {"effective_rows", fit.effective_rows},
             {"condition", fit.condition},
             {"warnings", fit.warnings}};
+  if (!fit.misfit.empty()) json["misfit"] = list_of(fit.misfit.points, misfit_json);
   if (fit.proof) json["prove"] = proof_json(*fit.proof);
   if (!fit.joints.empty()) json["joints"] = list_of(fit.joints, joint_errors_json);
   return json;

@@ -126,6 +126,16 @@ std::vector<ElasticJointErrors> read_joint_errors(const JsonNode& node) {
   return joints;
 }
 
+ElasticMisfit read_misfit(const JsonNode& node) {
+  ElasticMisfit misfit;
+  const JsonNode* list = node.find("misfit");
+  if (list == nullptr) return misfit;
+  for (const JsonNode& item : list->items)
+    misfit.points.push_back({item.at("deflection").number(), item.at("torque").number(),
+                             item.at("half_width").number()});
+  return misfit;
+}
+
 }  // namespace
 
 ElasticFit read_elastic_fit(const JsonNode& node, const Rig& rig) {
@@ -144,6 +154,7 @@ ElasticFit read_elastic_fit(const JsonNode& node, const Rig& rig) {
   if (const JsonNode* warnings = node.find("warnings")) fit.warnings = warnings->texts();
   if (const JsonNode* derived = node.find("derived")) fit.derived = read_parameters(*derived);
   fit.joints = read_joint_errors(node);
+  fit.misfit = read_misfit(node);
   fit.rms_error = number_or_nan(node, "rms_error");
   fit.max_abs_error = number_or_nan(node, "max_abs_error");
   fit.held_out_rms = number_or_nan(node, "held_out_rms");

@@ -23,13 +23,17 @@ Json condition_json(const ConditionError& c) {
               {"fails", c.fails},         {"verdict", c.verdict}};
 }
 
+Json mean_json(const WindowMean& mean) { return Json{{"seconds", mean.seconds}, {"sd", mean.sd}}; }
+
 }  // namespace
 
 Json residual_tests(const std::vector<JudgedEquation>& equations) {
   Json json = Json::array();
   for (const JudgedEquation& e : equations)
-    json.push_back(
-        Json{{"model", e.model}, {"equation", e.equation}, {"tests", list_of(e.tests, test_json)}});
+    json.push_back(Json{{"model", e.model},
+                        {"equation", e.equation},
+                        {"tests", list_of(e.tests, test_json)},
+                        {"residual_means", list_of(e.means, mean_json)}});
   return json;
 }
 
