@@ -11,6 +11,7 @@
 #include "cablefit/model/read_models.hpp"
 #include "cablefit/refine/chance_tail.hpp"
 #include "cablefit/refine/model_set.hpp"
+#include "cablefit/refine/own_base.hpp"
 #include "cablefit/report/elastic_models.hpp"
 #include "cablefit/report/excite_csv.hpp"
 #include "cablefit/report/refine_document.hpp"
@@ -29,8 +30,9 @@ namespace cablefit::apps {
 namespace {
 
 constexpr const char* kRefineExample =
-    "Example, after 'cablefit elastic' and 'cablefit dynamic' (or 'cablefit identify'):\n"
-    "  cablefit refine cablefit-out/dynamic.json --train data/low/*.csv --draws 8\n"
+    "Examples:\n"
+    "  cablefit refine data/low/*.csv --draws 8\n"
+    "  cablefit refine cablefit-out/dynamic.json data/low/*.csv --draws 8\n"
     "Writes refined.json (refined_PRELOAD.json for several), a model with what was found.\n";
 
 constexpr const char* kResultFile = "refine.json";
@@ -39,6 +41,7 @@ constexpr std::size_t kLeastDraws = 4, kMostDraws = 100000, kMostEffects = 10;
 struct RefineCommand {
   CommonOptions common;  ///< its logs: all of them
   RefineOptions refine;
+  std::vector<std::string> files;  ///< models and logs as they were given
   std::vector<std::string> models, train, test, blocked;
   std::string model;  ///< --model
   double most_gap = kUnbounded;
@@ -55,9 +58,11 @@ struct RefineInput {
 };
 
 void add_file_options(CLI::App& app, RefineCommand& command) {
-  app.add_option("MODEL", command.models,
-                 "model file, or result of 'cablefit identify' or 'dynamic'; several for several "
-                 "preloads. A result of 'cablefit elastic': blocked logs alone")
+  app.add_option("MODEL LOG", command.files,
+                 "logs, moving or blocked, and a model to begin with: a model file, or a result of "
+                 "'cablefit dynamic' or 'identify'; several for several preloads; none: one fitted "
+                 "to the logs. A result of 'cablefit elastic': blocked logs alone. Without a log "
+                 "those that the result was made from")
       ->type_name("");
   const auto add_logs = [&app](const char* name, std::vector<std::string>& logs, const char* help) {
     // A script may have no log of a kind.
@@ -73,7 +78,7 @@ void add_file_options(CLI::App& app, RefineCommand& command) {
   };
   add_logs("--train", command.train, "logs to search and fit, moving or blocked");
   add_logs("--test", command.test,
-           "logs that have no say and show whether the gap shrinks [the last third of every moving "
+           "test logs, read once in the end: does the gap shrink? [the last third of every moving "
            "log of --train]");
   add_logs("--blocked", command.blocked, "further logs with the link blocked");
   add_choice_of_fit(app, command.model, command.common.preload, "all");
@@ -86,11 +91,15 @@ void add_search_options(CLI::App& app, RefineOptions& refine) {
   add_whole(
       app, "--draws", "N", {kLeastDraws, kMostDraws},
       [&refine](long n) { refine.n_draws = static_cast<std::size_t>(n); },
-      "simulated data sets without any effect, 4 or more: what a search finds by chance [24]");
+      "simulated data sets without any effect, at most, for the p-values [24]");
   add_number(
       app, "--materiality", "PERCENT", {0, 100},
       [&refine](double percent) { refine.materiality = percent / 100; },
       "least share of the squared residual that is worth a name [1]");
+  add_number(
+      app, "--material", "N_M", {0}, [&refine](double torque) { refine.material = torque; },
+      "residual torque below which nothing matters [1 % of the rms torque of the equation, or "
+      "20 % of the noise]");
   add_number(
       app, "--significance", "P", {0, 1}, [&refine](double p) { refine.significance = p; },
       "largest probability of such a find by chance [0.01]");
@@ -109,7 +118,7 @@ void add_excite_option(CLI::App& app, RefineCommand& command) {
 void add_gate_options(CLI::App& app, RefineCommand& command) {
   add_number(
       app, "--gate-gap", "X", {0}, [&command](double gap) { command.most_gap = gap; },
-      "exit 1 when the torque gap on unseen logs is larger in the end (N m; N on a linear axis)");
+      "exit 1 when the torque gap on the test logs is larger in the end (N m; N on a linear axis)");
   app.add_flag("--gate-new-effect", command.gate_new_effect, "exit 1 when an effect was named");
 }
 
@@ -149,16 +158,15 @@ void require_distinct(const RefineCommand& command) {
   add("--blocked", command.blocked);
 }
 
-Error no_log() { return usage_error("no log given", "name the logs to fit after --train"); }
+Error no_log() {
+  return usage_error("no log given", "name the logs to fit, or a result that names its own");
+}
 
-void require_files(const RefineCommand& command) {
-  if (command.models.empty())
-    throw usage_error("no model given", "name a model file, or a result of 'cablefit identify'");
-  std::error_code ignored;
-  const bool may_name_logs =
-      std::any_of(command.models.begin(), command.models.end(),
-                  [&](const std::string& path) { return std::filesystem::exists(path, ignored); });
-  if (command.train.empty() && command.blocked.empty() && !may_name_logs) throw no_log();
+/// Models by what is in the file, everything else logs of --train.
+void sort_files(RefineCommand& command) {
+  for (const std::string& path : command.files)
+    (is_model(path) ? command.models : command.train).push_back(path);
+  if (command.models.empty() && command.train.empty() && command.blocked.empty()) throw no_log();
   require_distinct(command);
 }
 
@@ -168,8 +176,11 @@ std::vector<Model> read_all_models(const RefineCommand& command, std::string& ch
   for (const std::string& path : command.models)
     problems.collect([&] {
       std::string taken;
-      const auto read = is_elastic_result(path) ? read_elastic_models : read_models;
-      for (Model& model : read(path, command.common.preload, command.model, taken))
+      for (Model& model :
+           is_elastic_result(path)
+               ? read_elastic_models(path, command.common.preload, command.model, taken)
+               : read_models(path, command.common.preload, command.model, taken,
+                             Completeness::as_it_is))
         models.push_back(std::move(model));
       choice += (choice.empty() ? "" : "; ") + taken;
     });
@@ -181,6 +192,10 @@ std::vector<Model> read_all_models(const RefineCommand& command, std::string& ch
 /// preload; without a rig file of its own it has to say itself which preload it is.
 LogSurvey read_log_for(const std::string& path, const std::string& rig_option,
                        const std::vector<Model>& models) {
+  if (models.empty()) {
+    const Rig rig = rig_for_log(path, rig_option);
+    return survey_log(plan_log(path, rig), rig.preload);
+  }
   if (models.size() == 1) return survey_for_simulation(path, rig_option, models.front());
   const std::string preload = rig_for_log(path, rig_option).preload;
   const auto found = std::find_if(models.begin(), models.end(), [&](const Model& model) {
@@ -236,9 +251,42 @@ void add_stage1_logs(RefineCommand& command, RefineInput& input) {
   }
 }
 
+/// The logs that a result was fitted to, where they are still the same.
+void take_own_logs(RefineCommand& command, RefineInput& input) {
+  if (!command.train.empty() || !command.blocked.empty()) return;
+  for (const std::string& model : command.models) {
+    const Stage1Logs logs = own_logs(model);
+    command.train.insert(command.train.end(), logs.paths.begin(), logs.paths.end());
+    command.common.logs.insert(command.common.logs.end(), logs.paths.begin(), logs.paths.end());
+    if (!logs.paths.empty())
+      input.decisions.push_back(
+          {"logs", fmt::format("{}", fmt::join(logs.paths, ", ")), "those of " + logs.source});
+    for (const std::string& gone : logs.gone)
+      input.decisions.push_back({"logs", "not all of " + model, gone});
+  }
+}
+
+/// What the models lack, or all of them.
+void complete_models(RefineCommand& command, RefineInput& input) {
+  std::vector<Decision> decisions;
+  if (input.models.empty()) {
+    OwnBase base = own_base(input.logs, command.common.samples.threads);
+    input.models = std::move(base.models);
+    std::erase_if(input.models, [&](const Model& model) {
+      return !command.common.preload.empty() && model.preload != command.common.preload;
+    });
+    input.choice = "fitted to the logs";
+    decisions = std::move(base.decisions);
+  } else {
+    decisions = fill_start_values(input.models);
+  }
+  input.decisions.insert(input.decisions.end(), decisions.begin(), decisions.end());
+}
+
 RefineInput read_input(RefineCommand& command) {
   RefineInput input;
   input.models = read_all_models(command, input.choice);
+  take_own_logs(command, input);
   const Progress progress(command.common.quiet, "reading logs");
   Problems problems;
   const auto read = [&](const std::vector<std::string>& paths, std::vector<LogSurvey>& logs) {
@@ -252,6 +300,7 @@ RefineInput read_input(RefineCommand& command) {
   problems.throw_if_any();
   add_stage1_logs(command, input);
   if (input.logs.train.empty() && input.logs.blocked.empty()) throw no_log();
+  complete_models(command, input);
   std::vector<LogSurvey> fitted = input.logs.train;
   fitted.insert(fitted.end(), input.logs.blocked.begin(), input.logs.blocked.end());
   input.models = models_with_logs(std::move(input.models), fitted);
@@ -292,7 +341,7 @@ std::vector<std::string> failed_gates(const RefineCommand& command, const Refine
   std::vector<std::string> failed;
   const std::string unit = result.linear_motion ? "N" : "N m";
   if (result.torque.test_after > command.most_gap)
-    failed.push_back(fmt::format("gate gap failed: {:.4g} {} on unseen logs, limit {:g} {}",
+    failed.push_back(fmt::format("gate gap failed: {:.4g} {} on the test logs, limit {:g} {}",
                                  result.torque.test_after, unit, command.most_gap, unit));
   if (command.gate_new_effect && !result.effects.empty())
     failed.push_back(fmt::format("gate new-effect failed: '{}' was named",
@@ -305,7 +354,7 @@ std::vector<std::string> failed_gates(const RefineCommand& command, const Refine
 int run_refine(const Arguments& arguments) {
   CLI::App app(
       "Where model and logs disagree, which effect is missing, and whether the gap shrinks on "
-      "unseen logs when it is added.",
+      "test logs when it is added.",
       "refine");
   RefineCommand command;
   add_file_options(app, command);
@@ -315,7 +364,7 @@ int run_refine(const Arguments& arguments) {
   add_output_options(app, command.common);
   app.footer(kRefineExample);
   if (!parse(app, arguments)) return 0;
-  require_files(command);
+  sort_files(command);
   require_enough_draws(command.refine);
 
   const RefineResult result = run(command);

@@ -69,7 +69,7 @@ RefineResult named() {
   r.floor_motor = 0.0854;
   r.rho_before = 1.308;
   r.rho_after = 1.023;
-  r.steps = {{"stribeck", "motor", true, "", 0.0864, 0.1016}};
+  r.steps = {{"stribeck", "motor", true, "", 0.0864, 0.0871, 0.1016}};
   r.torque = {0.0977, 0.0864, 0.1063, 0.1016, 0.0854, {}, {}, true};
   r.shifts = {{"J_motor", "kg m^2", 0.01528, 0.015284, 5.7e-5},
               {"f_vm", "N m s/rad", 1.0606, 1.1439, 0.0043},
@@ -147,6 +147,7 @@ TEST_CASE("a refinement as JSON: what scripts rely on") {
   CHECK(j["gap"]["torque"]["test_after_ci95"].is_null());
   CHECK(j["gap"]["simulation"]["test_after"] == 1.2e-4);
   CHECK(j["gap"]["simulation"]["test_after_ci95"] == json{1.1e-4, 1.3e-4});
+  CHECK(j["steps"][0]["gap_held_out"] == 0.0871);
   CHECK(j["steps"][0]["gap_test"] == 0.1016);
   CHECK(j["remainder"]["noise_floor_motor"] == 0.0854);
   CHECK(j["next_experiment"] == "slow sweeps through several speeds");
@@ -219,10 +220,10 @@ and        link equation, sgn(qd) = -1: 90 % of its squared gap in 50 % of its r
 verdict    named: stribeck (motor); 93 % of the squared gap above the noise floor closed
 effect     stribeck: a exp(-|thetad / v_s|^s) sgn(thetad); amplitude = 0.1821 +- 0.0077 N m, v_s = 0.1358 +-
            0.0068 rad/s, exponent = 1.88 +- 0.21; carries 0.0930 N m rms
-evidence   removes 24 % of the squared gap above the noise floor on unseen data; by chance p < 0.0004 (tail
-           fitted to 24 simulated data sets); the best in 100 % of resamples
+evidence   removes 24 % of the squared gap above the noise floor on held-out data; p < 0.0004 (tail fitted to
+           24 simulated data sets); the best in 100 % of resamples
 rivals     none; the next best, quadratic_drag (motor), removes 44 % alone
-gap        torque, N m rms: train 0.0977 -> 0.0864, unseen 0.106 -> 0.102, noise floor 0.0854
+gap        torque, N m rms: train 0.0977 -> 0.0864, test 0.106 -> 0.102, noise floor 0.0854
 remainder  link 0.00370 N m, motor 0.0150 N m rms above the noise floor
 shifts     f_vm 1.0606 -> 1.1439 +- 0.0043 N m s/rad (+19 sd), f_sm 2.8757 -> 2.7682 +- 0.0044 N m (-24 sd)
 model      refined.json
@@ -251,11 +252,11 @@ stribeck        link              -10          0  a negative friction
 
 Steps
 
-                      gap
-added     side    train  unseen  kept  why not
-                  [N m]   [N m]
-----------------------------------------------
-stribeck  motor  0.0864   0.102  yes
+                           gap
+added     side    train  held out   test  kept  why not
+                  [N m]     [N m]  [N m]
+-------------------------------------------------------
+stribeck  motor  0.0864    0.0871  0.102  yes
 
 Parameters before and after
 
@@ -281,10 +282,10 @@ TEST_CASE("look-alikes and the run that separates them, in the story") {
 and: link equation, sgn(qd) = -1: 90 % of its squared gap in 50 % of its rows; 0.0500 N m rms there, noise floor 0.0360
 verdict: ambiguous: stribeck (motor) or a look-alike; 93 % of the squared gap above the noise floor closed
 effect: stribeck: a exp(-|thetad / v_s|^s) sgn(thetad); amplitude = 0.1821 +- 0.0077 N m, v_s = 0.1358 +- 0.0068 rad/s, exponent = 1.88 +- 0.21; carries 0.0930 N m rms
-evidence: removes 24 % of the squared gap above the noise floor on unseen data; by chance p < 0.0004 (tail fitted to 24 simulated data sets); the best in 100 % of resamples
+evidence: removes 24 % of the squared gap above the noise floor on held-out data; p < 0.0004 (tail fitted to 24 simulated data sets); the best in 100 % of resamples
 rivals: quadratic_drag (motor) removes 85 %, 1.3 sd behind; asymmetric_coulomb (motor) is the same in any log of the usual kind
-gap: torque, N m rms: train 0.0977 -> 0.0864, unseen 0.106 -> 0.102, noise floor 0.0854; unseen: the last third of every moving log
-simulation: of unseen logs, mrad rms: 0.910 -> 0.120 (0.110 .. 0.130), noise floor 0.100
+gap: torque, N m rms: train 0.0977 -> 0.0864, test 0.106 -> 0.102, noise floor 0.0854; test: the last third of every moving log
+simulation: of the test logs, mrad rms: 0.910 -> 0.120 (0.110 .. 0.130), noise floor 0.100
 remainder: link 0.00370 N m, motor 0.0150 N m rms above the noise floor
 shifts: f_vm 1.0606 -> 1.1439 +- 0.0043 N m s/rad (+19 sd), f_sm 2.8757 -> 2.7682 +- 0.0044 N m (-24 sd)
 next run: slow sweeps through several speeds
@@ -298,9 +299,9 @@ std::string story_of(const RefineResult& result) {
   return story;
 }
 
-TEST_CASE("an event has its date, and a gain on unseen data where these can show it") {
+TEST_CASE("an event has its date, and a gain on held-out data where these can show it") {
   const auto judged_there =
-      Catch::Matchers::Contains("dated, so judged on the log that it is in; by");
+      Catch::Matchers::Contains("dated, so judged on the log that it is in; p");
   RefineResult r = named();
   RefinementInstance& slip = r.effects.front().instance;
   slip.refinement = &find_refinement("slip", Site::transmission);
@@ -321,7 +322,7 @@ TEST_CASE("a story without an effect") {
   std::string story;
   for (const SummaryLine& line : document.summary) story += line.label + ": " + line.text + "\n";
   CHECK(story == R"(verdict: none: nothing improves on the noise floor
-gap: torque, N m rms: train 0.0977, unseen 0.106, noise floor 0.0854
+gap: torque, N m rms: train 0.0977, test 0.106, noise floor 0.0854
 remainder: motor 0.0150 N m rms above the noise floor
 model: refined.json
 )");

@@ -48,9 +48,14 @@ Model read_model(const std::string& path, const std::string& preload, const std:
 
 Model parse_model(const JsonNode& root, const std::string& preload, const std::string& model,
                   std::string& choice) {
+  return parse_model(root, preload, model, choice, Completeness::can_move);
+}
+
+Model parse_model(const JsonNode& root, const std::string& preload, const std::string& model,
+                  std::string& choice, Completeness completeness) {
   const JsonNode& schema = root.at("schema");
   for (const auto& [name, reader] : kReaders) {
-    if (schema.text() == name) return reader(root, {preload, model}, &choice);
+    if (schema.text() == name) return reader(root, {preload, model, completeness}, &choice);
   }
   throw schema.error(fmt::format("schema {} is no model", cablefit::quoted(schema.text())),
                      fmt::format("expected '{}', or '{}' as `cablefit dynamic` writes it",

@@ -5,7 +5,8 @@
 namespace cablefit {
 
 std::vector<Model> read_models(const std::string& path, const std::string& preload,
-                               const std::string& model, std::string& choice) {
+                               const std::string& model, std::string& choice,
+                               Completeness completeness) {
   const JsonNode root = read_json_file(path);
   const JsonNode* preloads = root.find("preloads");
   std::vector<std::string> wanted = {preload};
@@ -17,7 +18,7 @@ std::vector<Model> read_models(const std::string& path, const std::string& prelo
   choice.clear();
   for (const std::string& name : wanted) {
     std::string taken;
-    models.push_back(parse_model(root, name, model, taken));
+    models.push_back(parse_model(root, name, model, taken, completeness));
     choice += (choice.empty() ? "" : "; ") + taken;
   }
   return models;

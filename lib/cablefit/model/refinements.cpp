@@ -37,6 +37,7 @@ const std::vector<Refinement>& table() {
       presliding(motor),
       friction_drift(link),
       friction_drift(motor),
+      load_friction(),
       cogging(),
       drive_efficiency(),
       cable_damping(),

@@ -20,7 +20,7 @@ enum class Site { link, motor, transmission, sensor, drive };
 std::string_view to_string(Site site);
 
 /// One joint at one time, as the equations of a refinement see it. SI, joint side. On a rigid drive
-/// q is theta, and nothing elastic is there.
+/// q is theta, nothing is elastic, and tau_elas is what the load asks of the motor: -load.
 struct JointState {
   double t = 0;            ///< s, since the log began
   double since_event = 0;  ///< s, negative before it; rows with `is_event` only
@@ -30,6 +30,7 @@ struct JointState {
   double deflection_rate = 0;
   double tau_elas = 0;   ///< N m, of the model's cables on the motor
   double stiffness = 0;  ///< N m/rad, d tau_elas / d deflection
+  double load = 0;       ///< N m, tau_load and that of the rig's law, on a rigid drive; else 0
   /// N m, sum of all cable forces, each at its motor pulley; |tau_elas| without cables.
   double tension = 0;
 };

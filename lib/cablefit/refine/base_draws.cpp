@@ -40,10 +40,8 @@ KindLevels BaseDraws::unfitted(std::uint64_t seed) const {
 }
 
 NullDraw BaseDraws::searched(std::uint64_t seed, const KindLevels& levels,
-                             const ScanSettings& settings, const RowWhitening& whitening) const {
-  Design drawn = design(seed);
-  drawn.whitening = whitening;
-  const BaseFit base = fit_base(std::move(drawn), settings.block_seconds, &levels);
+                             const ScanSettings& settings) const {
+  const BaseFit base = fit_base(design(seed), settings.block_seconds, &levels);
   NullDraw out;
   out.floor = base.fit.rms();
   for (const Candidate& candidate :

@@ -24,10 +24,10 @@ class BaseDraws {
   /// A draw's base fit: what noise alone leaves, row by row. `levels`: weights; nullptr: of its own
   /// residual.
   BaseFit fitted(std::uint64_t seed, const KindLevels* levels) const;
-  /// What the models leave as they are, nothing fitted: the floor of logs that had no say.
+  /// What the models leave as they are, nothing fitted: the floor of logs that were not fitted.
   KindLevels unfitted(std::uint64_t seed) const;
-  NullDraw searched(std::uint64_t seed, const KindLevels& levels, const ScanSettings& settings,
-                    const RowWhitening& whitening) const;
+  NullDraw searched(std::uint64_t seed, const KindLevels& levels,
+                    const ScanSettings& settings) const;
 
  private:
   Design design(std::uint64_t seed) const;

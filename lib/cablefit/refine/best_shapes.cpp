@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/refine/refined_model.hpp"
-
 namespace cablefit {
 namespace {
 
@@ -36,7 +34,6 @@ bool none_is_fixed(const Refinement& /*row*/) { return false; }
 
 RefineState with_best_shapes(const RefineBench& bench, RefineState state) {
   const double seconds = bench.scan.block_seconds;
-  const KindLevels& floor = bench.floor_of(state.design);
   bool moved = false;
   const auto fitted = [&](const Design& design) {
     return fit_blocks(block_grams(design, seconds), state.levels, false);
@@ -49,17 +46,13 @@ RefineState with_best_shapes(const RefineBench& bench, RefineState state) {
     if (largest(state.design, step->shapes) < kNothing) break;
     Design design = with_shapes(state.design, step->shapes, state.x + step->x);
     auto fit = fitted(design);
-    if (!fit || !(rho_of(*fit, floor) < rho_of(*best, floor))) break;
-    state.test = with_shapes(std::move(state.test), step->shapes, fit->x);
+    if (!fit || !(rho_of(*fit, bench.floor) < rho_of(*best, bench.floor))) break;
     state.design = std::move(design);
     state.x = fit->x;
     best = std::move(fit);
     moved = true;
   }
-  if (!moved) return state;
-  state.rho = bench.rho(state.design, *best);
-  state.unseen = gap_of(state.test, state.x, bench.test_floor, seconds);
-  state.simulated = bench.simulated(models_with(state.design, state.x));
+  if (moved) judge(bench, *best, state);
   return state;
 }
 

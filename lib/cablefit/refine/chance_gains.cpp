@@ -14,13 +14,19 @@ constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 /// is judged in sample.
 std::size_t occurrence_of(const Refinement& row) { return row.lasts() ? 0 : 1; }
 
+/// A gain as a log ratio of squared errors, which is not bounded by 1 (Wilks 1938).
+double log_ratio(double gain) {
+  constexpr double kMost = 1 - 1e-12;
+  return -std::log1p(-std::clamp(gain, 0.0, kMost));
+}
+
 }  // namespace
 
 ChanceGains::ChanceGains(const std::vector<NullDraw>& draws) {
   const std::size_t n = draws.size();
   for (std::size_t k = 0; k < n; ++k)
     for (const auto& [row, gain] : draws[k].gains)
-      gains_.try_emplace(row, n, 0.0).first->second[k] = std::max(0.0, gain);
+      gains_.try_emplace(row, n, 0.0).first->second[k] = log_ratio(gain);
 
   std::vector<double> of_rows;
   for (const auto& [row, gains] : gains_)
@@ -65,7 +71,12 @@ double ChanceGains::unit(const Refinement& row, std::size_t but) const {
   return std::max(kLeastUnit, std::hypot(rms_without(row, but), median_));
 }
 
-ChanceTail ChanceGains::tail(const Refinement& row, double gain) const {
+ChanceTail ChanceGains::tail_of_search(double gain) const {
+  return tail_of_largest(always_, log_ratio(gain));
+}
+
+ChanceTail ChanceGains::tail(const Refinement& row, double share) const {
+  const double gain = log_ratio(share);
   if (row.is_event) return tail_of_largest(events_, gain);
   const ChanceTail plain = tail_of_largest(always_, gain);
   const ChanceTail in_units = tail_of_largest(in_units_, gain / unit(row, kAll));
@@ -74,7 +85,8 @@ ChanceTail ChanceGains::tail(const Refinement& row, double gain) const {
   return smaller;
 }
 
-bool ChanceGains::is_beyond(const Refinement& row, double gain, double times) const {
+bool ChanceGains::is_beyond(const Refinement& row, double share, double times) const {
+  const double gain = log_ratio(share);
   const auto beats = [times](const std::vector<double>& largest, double value) {
     return largest.empty() || value > times * *std::max_element(largest.begin(), largest.end());
   };
@@ -84,7 +96,7 @@ bool ChanceGains::is_beyond(const Refinement& row, double gain, double times) co
 
 double ChanceGains::usual(const Refinement& row) const {
   if (always_.empty()) return 0;
-  return row.is_event ? mean_events_[occurrence_of(row)] : unit(row, kAll);
+  return -std::expm1(-(row.is_event ? mean_events_[occurrence_of(row)] : unit(row, kAll)));
 }
 
 }  // namespace cablefit

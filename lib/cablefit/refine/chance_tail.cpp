@@ -24,10 +24,13 @@ ChanceTail tail_of_largest(const std::vector<double>& largest, double gain) {
   const double counted = (1 + above) / (1 + n);
   if (above > 0) return {counted, false};
   // Gumbel: sd = pi/sqrt(6) scale, mean = mode + gamma scale (Johnson, Kotz & Balakrishnan 1995).
+  // Its upper tail is exponential, and mode and scale are known from few draws: the next value of
+  // an exponential distribution with an estimated scale has a Pareto tail.
   const double scale =
       std::max(1e-12, std::sqrt(squares / (n - 1)) * std::sqrt(6.0) / std::numbers::pi);
   const double mode = mean - std::numbers::egamma * scale;
-  const double tail = -std::expm1(-std::exp(-(gain - mode) / scale));
+  const double k = n - 1, reach = 1 + (gain - mode) / scale / k;
+  const double tail = reach > 0 ? -std::expm1(-std::pow(reach, -k)) : 1;
   if (tail >= counted) return {counted, false};
   return {std::max(least_tail(largest.size()), tail), true};
 }

@@ -12,9 +12,9 @@ struct ChanceTail {
   bool is_fitted = false;  ///< none of the draws came that far: by a distribution fitted to them
 };
 
-/// P(largest gain of a search >= gain) where there is nothing: (1 + count) / (1 + n), or the tail
-/// of a Gumbel distribution fitted by moments where none of the draws came that far, never below
-/// least_tail(n).
+/// P(largest gain of a search >= gain) where there is nothing: (1 + count) / (1 + n), or the
+/// predictive tail of a Gumbel distribution fitted by moments where none of the draws came that
+/// far, never below least_tail(n).
 ChanceTail tail_of_largest(const std::vector<double>& largest, double gain);
 
 /// The least p that n draws support: two decades beyond what they can count, and none below 1e-4.

@@ -67,10 +67,4 @@ double in_floors(const SimulatedGap& gap, const SimulatedGap& floor) {
   return ratio(gap.deflection, floor.deflection) + ratio(gap.tau, floor.tau);
 }
 
-const SimulatedGap& smaller(const SimulatedGap& a, const SimulatedGap& b,
-                            const SimulatedGap& floor) {
-  if (!a.known() || !b.known()) return a.known() ? a : b;
-  return in_floors(b, floor) < in_floors(a, floor) ? b : a;
-}
-
 }  // namespace cablefit

@@ -1,5 +1,5 @@
-// Does the refined model simulate unseen logs better? The last word on every name: what a term does
-// to the equation error may be an artefact of filters (Aguirre et al. 2010). Internal to refine/.
+// Does the refined model simulate the test logs better? What a term does to the equation error may
+// be an artefact of filters (Aguirre et al. 2010). Internal to refine/.
 #pragma once
 
 #include <span>
@@ -25,9 +25,5 @@ SimulatedGap simulated_gap(std::span<const Model> models, std::span<const LogSur
 
 /// Both gaps in units of their floor, squared and summed.
 double in_floors(const SimulatedGap& gap, const SimulatedGap& floor);
-
-/// The smaller one, or the one that is known.
-const SimulatedGap& smaller(const SimulatedGap& a, const SimulatedGap& b,
-                            const SimulatedGap& floor);
 
 }  // namespace cablefit

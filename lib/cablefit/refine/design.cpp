@@ -224,27 +224,6 @@ VariantColumns residuals(const std::vector<StretchRows>& rows, const Eigen::Vect
   return all;
 }
 
-std::vector<StretchRows> whitened(const Design& design, std::vector<StretchRows> rows) {
-  if (!design.whitening.is_needed()) return rows;
-  for (std::size_t s = 0; s < rows.size(); ++s) {
-    const Smoothing smoothing = design.smoothing_of(s);
-    for (KindRows& kind : rows[s].kinds) {
-      kind.base = design.whitening.of(kind, smoothing, kind.base);
-      kind.response = design.whitening.of(kind, smoothing, kind.response);
-    }
-  }
-  return rows;
-}
-
-VariantColumns whitened(const Design& design, VariantColumns columns) {
-  if (!design.whitening.is_needed()) return columns;
-  for (std::size_t s = 0; s < columns.size(); ++s)
-    for (std::size_t k = 0; k < columns[s].size(); ++k)
-      columns[s][k] =
-          design.whitening.of(design.rows[s].kinds[k], design.smoothing_of(s), columns[s][k]);
-  return columns;
-}
-
 Design with_variant(const Design& design, const Variant& variant, const Eigen::VectorXd& values) {
   Design out = design;
   const Refinement& row = *variant.refinement;

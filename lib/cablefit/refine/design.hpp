@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "cablefit/refine/row_whitening.hpp"
+#include "cablefit/refine/base_rows.hpp"
 
 namespace cablefit {
 
@@ -41,7 +41,6 @@ struct Design {
   std::vector<std::vector<JointState>> states;  ///< per stretch
   std::vector<Variant> added;
   LogScale scale;
-  RowWhitening whitening;  ///< of the rows before they are fitted
   Eigen::Index n_columns() const;
   /// Of the rows of a stretch.
   Smoothing smoothing_of(std::size_t stretch) const;
@@ -63,10 +62,6 @@ VariantColumns variant_columns(const Design& design, const Variant& variant,
 
 /// What the equations of these rows leave, N m (n_rows x 1): model minus measured.
 VariantColumns residuals(const std::vector<StretchRows>& rows, const Eigen::VectorXd& x);
-
-/// As they are fitted.
-std::vector<StretchRows> whitened(const Design& design, std::vector<StretchRows> rows);
-VariantColumns whitened(const Design& design, VariantColumns columns);
 
 /// These behind the columns that the rows have.
 void append(std::vector<StretchRows>& rows, const VariantColumns& columns);

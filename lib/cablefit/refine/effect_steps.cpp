@@ -7,10 +7,7 @@
 #include "cablefit/estimate/tail_probability.hpp"
 #include "cablefit/refine/conclusion.hpp"
 #include "cablefit/refine/effect_trial.hpp"
-#include "cablefit/refine/fit_bias.hpp"
-#include "cablefit/refine/refined_model.hpp"
 #include "cablefit/refine/verdict.hpp"
-#include "cablefit/refine/whitened_look.hpp"
 
 namespace cablefit {
 namespace {
@@ -23,12 +20,7 @@ RefineEvidence evidence_of(const RefineBench& bench, const RefineState& before,
   e.p_value = judgement.chance.p;
   e.is_fitted_tail = judgement.chance.is_fitted;
   e.inclusion = judgement.inclusion;
-  e.n_draws = bench.draws_of(before.design).size();
-  // On rows that had no say; on the training rows where those show no gap to close.
-  const bool visible = before.unseen.rho > kVisibleGap;
-  const double from = visible ? before.unseen.rho : before.rho;
-  const double to = visible ? after.unseen.rho : after.rho;
-  e.gain = from > 1 ? (from - to) / (from - 1) : 0;
+  e.n_draws = bench.draws.size();
   return e;
 }
 
@@ -39,24 +31,21 @@ RefineStep step_of(const RefineBench& bench, const Trial& trial, const std::stri
   step.added = row.name;
   step.side = to_string(row.site);
   step.gap_train = bench.unit() * std::sqrt(trial.after.rho);
-  step.gap_test = bench.unseen_unit() * std::sqrt(trial.after.unseen.rho);
+  step.gap_held_out = bench.unit() * std::sqrt(trial.after.held_out.rho);
   step.reason = reason;
   step.accepted = reason.empty();
   return step;
 }
 
-/// How much better the unseen rows fit, in sd over their blocks, weighted as the search was.
+/// How much better held-out blocks fit, in sd over the blocks, weighted as the search was.
 double sd_better(const RefineBench& bench, const RefineState& before, const RefineState& after) {
-  const auto error = [&](const RefineState& state) {
-    return gap_of(block_grams(state.test, bench.scan.block_seconds), state.x, after.levels).squares;
+  const auto gap = [&](const RefineState& state) {
+    const BlockGrams grams = block_grams(state.design, bench.scan.block_seconds);
+    return held_out_gap(grams, after.levels, after.levels);
   };
-  return paired(error(before), error(after)).in_sd();
-}
-
-/// Whether the unseen rows should show an event.
-bool is_after_event(const RefineBench& bench, const Variant& variant) {
-  const bool is_held_out = bench.held_back > 0;
-  return variant.refinement->lasts() && (is_held_out || !variant.ends_with_log);
+  const RowGap a = gap(before), b = gap(after);
+  const auto both = a.n_rows > 0 && b.n_rows > 0;
+  return paired(both.select(a.squares, 0), both.select(b.squares, 0)).in_sd();
 }
 
 /// Of the last effect's coefficients, with the sandwich over the blocks, whose residuals may wander
@@ -75,25 +64,25 @@ double chance_of_size(const RefineBench& bench, const RefineState& after) {
   return f_tail((b - p) / (p * b) * squared, p, b - p);
 }
 
-UnseenChange change_of(const RefineBench& bench, const Refinement& row, const RefineState& before,
-                       const RefineState& after, const SimulatedGap& simulated_before,
-                       const SimulatedGap& simulated_after) {
-  return {row,
-          before.unseen.rho,
-          after.unseen.rho,
-          simulated_before,
-          simulated_after,
-          bench.simulation_floor,
-          after.rho > kRemainder,
-          sd_better(bench, before, after),
-          is_after_event(bench, after.design.added.back()),
-          (before.rho - after.rho) / std::max(1e-9, before.rho - 1),
-          after.rho > kRemainder ? chance_of_size(bench, after) : 0};
+/// Mean over the blocks that both states predict.
+double shared_rho(const RowGap& gap, const RowGap& other) {
+  const auto both = gap.n_rows > 0 && other.n_rows > 0;
+  const double rows = both.select(gap.n_rows, 0).sum();
+  return rows > 0 ? both.select(gap.squares, 0).sum() / rows : gap.rho;
 }
 
-UnseenChange change_of(const RefineBench& bench, const Refinement& row, const RefineState& before,
-                       const RefineState& after) {
-  return change_of(bench, row, before, after, before.simulated, after.simulated);
+/// On the training logs alone: by held-out blocks.
+HeldOutChange change_of(const RefineBench& bench, const Refinement& row, const RefineState& before,
+                        const RefineState& after) {
+  return {row,
+          shared_rho(before.held_out, after.held_out),
+          shared_rho(after.held_out, before.held_out),
+          after.rho > kRemainder,
+          sd_better(bench, before, after),
+          row.lasts(),
+          (before.rho - after.rho) / std::max(1e-9, before.rho - 1),
+          chance_of_size(bench, after),
+          before.rho - after.rho};
 }
 
 /// Whether the rows fit as well with the last effect's coefficients at 0: what it stood for went
@@ -108,35 +97,11 @@ bool carries_nothing(const RefineBench& bench, const RefineState& after) {
   return rho < (1 + kNoLoss) * after.rho;
 }
 
-/// Reason against a step; empty: none. Where the unseen equations are sure of it but the simulation
-/// is not, the bias of either fit may hide what the effect is worth: the simulations without it
-/// decide. Unseen equations below their floor, which is that of values without bias, are judged
-/// without it as well.
+/// Reason against a step; empty: none.
 std::string why_not(const RefineBench& bench, const Refinement& row, const RefineState& before,
-                    const RefineState& after, bool is_first) {
-  const bool is_white = before.design.whitening.is_needed();
-  // Of whitened rows a test of its size tells more.
-  if (!is_white && carries_nothing(bench, after))
-    return "it carries nothing once all is fitted with it";
-  const UnseenChange change = change_of(bench, row, before, after);
-  std::string reason = why_not_added(change);
-  const bool both_known = change.before.known() && change.after.known();
-  const bool is_sure = change.sd_better >= kClearlyBetter;
-  const bool is_below_floor = change.rho_before < 1 && !change.leaves_remainder;
-  if (reason.empty() || !both_known || !(is_sure || is_below_floor)) return reason;
-  const auto bias =
-      is_first && !is_white ? std::optional(bench.base_bias) : fit_bias(bench, before);
-  const auto bias_after = fit_bias(bench, after);
-  if (is_sure) {
-    SimulatedGap best = simulated_best(bench, before, bias);
-    if (before.simulated_before)
-      best = smaller(best, *before.simulated_before, bench.simulation_floor);
-    return why_not_added(
-        change_of(bench, row, before, after, best, simulated_best(bench, after, bias_after)));
-  }
-  if (!bias || !bias_after) return reason;
-  return why_not_added(change_of(bench, row, without_bias(bench, before, *bias),
-                                 without_bias(bench, after, *bias_after)));
+                    const RefineState& after) {
+  if (carries_nothing(bench, after)) return "it carries nothing once all is fitted with it";
+  return why_not_added(change_of(bench, row, before, after));
 }
 
 NamedEffect effect_of(const RefineBench& bench, const RefineState& before, const RefineState& after,
@@ -147,120 +112,114 @@ NamedEffect effect_of(const RefineBench& bench, const RefineState& before, const
   return effect;
 }
 
-/// The first of what the trials name that unseen logs do not refuse. `state`: that they began with,
-/// and then the one with it.
-bool add_one(RefineBench& bench, Trials& trials, std::optional<Trial> trial, RefineState& state,
+/// The first of what the trials name that is not refused.
+bool add_one(RefineBench& bench, Trials& trials, std::optional<Trial> trial, Chain& chain,
              RefineResult& result) {
-  const bool is_first = result.effects.empty();
-  std::string reason;
-  for (; trial; trial = trials.next_alike(reason)) {
+  for (; trial; trial = trials.next_alike(result.steps.back().reason)) {
     const Refinement& row = *trial->winner.variant.refinement;
-    reason = why_not(bench, row, state, trial->after, is_first);
-    if (!reason.empty() && state.design.whitening.is_needed())
-      reason = "from rows freed of what wanders: " + reason;
+    const std::string reason = why_not(bench, row, chain.back(), trial->after);
     result.steps.push_back(step_of(bench, *trial, reason));
     if (reason.empty()) {
-      result.effects.push_back(effect_of(bench, state, trial->after, trial->judgement));
-      state = std::move(trial->after);
+      result.effects.push_back(effect_of(bench, chain.back(), trial->after, trial->judgement));
+      chain.push_back(std::move(trial->after));
       return true;
     }
-    // A crumb has many look-alikes, and one of them passes by chance. A date that is none says
-    // nothing of what is always there.
+    // A small effect has many look-alikes, and one of them passes under the null. A date that is
+    // none says nothing of what is always there.
     if (trial->after.rho > kRemainder && !row.is_event) break;
   }
   return false;
 }
 
-/// The first effect again, from whitened rows.
-bool add_whitened(RefineBench& bench, RefineState& state, RefineResult& result) {
-  auto white = whitened(bench, state);
-  if (!white) return false;
-  Trials trials(bench, *white, true);
-  if (!add_one(bench, trials, trials.best(), *white, result)) return false;
-  result.league = trials.league();
-  bench.first_search = trials.found();
-  state = std::move(*white);
-  return true;
+/// Two effects, the second found beside the first, as the whole result.
+void take_both(RefineBench& bench, Trial one, Trial two, Chain& chain, RefineResult& result) {
+  result.effects = {effect_of(bench, chain.front(), one.after, one.judgement),
+                    effect_of(bench, one.after, two.after, two.judgement)};
+  result.steps = {step_of(bench, one, ""), step_of(bench, two, "")};
+  chain.resize(1);
+  chain.push_back(std::move(one.after));
+  chain.push_back(std::move(two.after));
+  chain.back().is_joint = true;
 }
 
 /// What was refused alone may be half of the truth: with the next best beside it, both are judged
 /// together. Two names at once need more evidence than one.
-bool add_both(RefineBench& bench, RefineState& state, const Trial& one, RefineResult& result) {
+bool add_both(RefineBench& bench, Trial one, Chain& chain, RefineResult& result) {
+  if (one.winner.variant.refinement->is_event) return false;
   auto two = try_next(bench, one.after);
   if (!two) return false;
-  const UnseenChange change = change_of(bench, *two->winner.variant.refinement, state, two->after);
-  const std::string reason = why_not_both(change);
-  result.steps.push_back(step_of(bench, *two, reason));
-  if (!reason.empty()) return false;
-  result.steps = {step_of(bench, one, ""), result.steps.back()};
-  result.effects.push_back(effect_of(bench, state, one.after, one.judgement));
-  result.effects.push_back(effect_of(bench, one.after, two->after, two->judgement));
-  state = std::move(two->after);
-  return true;
+  const std::string reason =
+      why_not_both(change_of(bench, *two->winner.variant.refinement, chain.front(), two->after));
+  if (reason.empty())
+    take_both(bench, std::move(one), std::move(*two), chain, result);
+  else
+    result.steps.push_back(step_of(bench, *two, reason));
+  return reason.empty();
 }
 
 }  // namespace
 
-bool add_next_effect(RefineBench& bench, RefineState& state, RefineResult& result) {
+bool add_next_effect(RefineBench& bench, Chain& chain, RefineResult& result) {
   const bool is_first = result.effects.empty();
+  const RefineState state = chain.back();
   Trials trials(bench, state, is_first);
-  const auto best = trials.best();
+  auto best = trials.best();
   if (is_first) {
     result.league = trials.league();
+    result.search_p = trials.chance().p;
+    result.search_p_is_fitted = trials.chance().is_fitted;
+    result.n_draws = bench.draws.size();
     bench.first_search = trials.found();
   }
-  if (add_one(bench, trials, best, state, result)) return true;
-  if (!is_first) return false;
-  if (best && bench.options.most_effects > 1 && add_both(bench, state, *best, result)) return true;
-  return state.rho > kRemainder && !bench.elastic_only && add_whitened(bench, state, result);
+  if (add_one(bench, trials, best, chain, result)) return true;
+  return is_first && best && bench.options.most_effects > 1 &&
+         add_both(bench, std::move(*best), chain, result);
 }
 
-void name_first_again(RefineBench& bench, const RefineState& first, RefineState& state,
-                      RefineResult& result) {
+void name_first_again(RefineBench& bench, Chain& chain, RefineResult& result) {
+  const RefineState &first = chain.front(), &state = chain.back();
   Search found;
   found.levels = state.levels;
   found.fit.x = first.x;
-  Candidate second;
-  second.variant = state.design.added[bench.n_kept + 1];
-  const auto alone = with_candidate(bench, first, found, second);
-  if (!alone) return;
-  const auto trial = try_next(bench, *alone);
+  Trial alone;
+  alone.winner.variant = state.design.added[bench.n_kept + 1];
+  auto with_second = with_candidate(bench, first, found, alone.winner);
+  if (!with_second) return;
+  alone.after = std::move(*with_second);
+  auto trial = try_next(bench, alone.after);
   // A tie goes to what is named beside the other, or alone.
   constexpr double kTie = 1.01;
   const auto is_tie = [&](const RefineState& other) {
-    return other.rho <= kTie * state.rho && other.unseen.rho <= kTie * state.unseen.rho;
+    return other.rho <= kTie * state.rho && other.held_out.rho <= kTie * state.held_out.rho;
   };
-  Judgement kept;
-  kept.chance = {result.effects[1].evidence.p_value, result.effects[1].evidence.is_fitted_tail};
-  kept.inclusion = result.effects[1].evidence.inclusion;
-  kept.rivals = result.effects[1].rivals;
+  const RefineEvidence& evidence = result.effects[1].evidence;
+  alone.judgement.chance = {evidence.p_value, evidence.is_fitted_tail};
+  alone.judgement.inclusion = evidence.inclusion;
+  alone.judgement.rivals = result.effects[1].rivals;
   if (!trial) {
-    if (!is_tie(*alone)) return;
-    result.effects = {effect_of(bench, first, *alone, kept)};
-    result.steps = {step_of(bench, {kept, second, *alone}, "")};
-    state = *alone;
+    if (!is_tie(alone.after)) return;
+    result.effects = {effect_of(bench, first, alone.after, alone.judgement)};
+    result.steps = {step_of(bench, alone, "")};
+    chain.resize(1);
+    chain.push_back(std::move(alone.after));
     return;
   }
   const Refinement& row = *trial->winner.variant.refinement;
-  NamedEffect& named = result.effects.front();
   if (&row == state.design.added[bench.n_kept].refinement) {
-    named.rivals = trial->judgement.rivals;  // fewer: the second no longer blurs it
+    // Fewer: the second no longer blurs it.
+    result.effects.front().rivals = trial->judgement.rivals;
     return;
   }
-  if (!is_tie(trial->after) || !why_not_added(change_of(bench, row, *alone, trial->after)).empty())
-    return;
-  // In the order of the design: what was second alone, then the new one beside it.
-  result.effects = {effect_of(bench, first, *alone, kept),
-                    effect_of(bench, *alone, trial->after, trial->judgement)};
-  result.steps = {step_of(bench, {kept, second, *alone}, ""), step_of(bench, *trial, "")};
-  state = trial->after;
+  if (is_tie(trial->after) &&
+      why_not_added(change_of(bench, row, alone.after, trial->after)).empty())
+    take_both(bench, std::move(alone), std::move(*trial), chain, result);
 }
 
-void begin_otherwise(RefineBench& bench, const RefineState& first, RefineState& state,
-                     RefineResult& result) {
+void begin_otherwise(RefineBench& bench, Chain& chain, RefineResult& result) {
   constexpr std::size_t kBeginnings = 3;
+  const RefineState first = chain.front();
   const Search& found = bench.first_search;
-  const Refinement& taken = *state.design.added[bench.n_kept].refinement;
+  const Refinement& taken = *chain.back().design.added[bench.n_kept].refinement;
   const bool was_alone = result.effects.size() == 1;
   for (const Candidate* candidate : best_candidates(found.candidates, kBeginnings, taken)) {
     Trial one;
@@ -270,7 +229,7 @@ void begin_otherwise(RefineBench& bench, const RefineState& first, RefineState& 
     if (!after) continue;
     one.after = std::move(*after);
     auto two = try_next(bench, one.after);
-    if (!two || two->after.rho >= state.rho) continue;
+    if (!two || two->after.rho >= chain.back().rho) continue;
     const Refinement& row = *two->winner.variant.refinement;
     // Beside what was named alone, the beginning was too little to be named.
     if (was_alone && (&row == &taken || same_class(row, taken))) continue;
@@ -278,12 +237,9 @@ void begin_otherwise(RefineBench& bench, const RefineState& first, RefineState& 
     const SquaredGap gap{found.fit.held_out.sum(),
                          floor_error(found.fit, bench.floor, found.levels)};
     one.judgement = judge_candidate(*candidate, found.candidates, gap, bench.draws, bench.options);
-    result.effects = {effect_of(bench, first, one.after, one.judgement),
-                      effect_of(bench, one.after, two->after, two->judgement)};
-    result.steps = {step_of(bench, one, ""), step_of(bench, *two, "")};
-    state = std::move(two->after);
+    take_both(bench, std::move(one), std::move(*two), chain, result);
   }
-  if (result.effects.size() == 2) name_first_again(bench, first, state, result);
+  if (result.effects.size() == 2) name_first_again(bench, chain, result);
 }
 
 }  // namespace cablefit

@@ -4,8 +4,7 @@
 
 #include "cablefit/refine/conclusion.hpp"
 #include "cablefit/refine/golden.hpp"
-#include "cablefit/refine/refined_model.hpp"
-#include "cablefit/refine/whitened_look.hpp"
+#include "cablefit/refine/physical_values.hpp"
 
 namespace cablefit {
 namespace {
@@ -15,13 +14,10 @@ constexpr int kRelinearisations = 3;
 
 /// Fitted again and again, each time with what follows from the values before.
 std::optional<BlockFit> settled_fit(const RefineBench& bench, const KindLevels& levels, int rounds,
-                                    Design& design, Design* test) {
+                                    Design& design) {
   std::optional<BlockFit> fit;
   for (int round = 0; round < rounds; ++round) {
-    if (round > 0) {
-      design = relinearised(design, fit->x);
-      if (test != nullptr) *test = relinearised(*test, fit->x);
-    }
+    if (round > 0) design = relinearised(design, fit->x);
     fit = fit_blocks(block_grams(design, bench.scan.block_seconds), levels, false);
     if (!fit) return {};
   }
@@ -36,15 +32,15 @@ std::optional<RefineState> with_own_coefficients(const RefineBench& bench, const
   constexpr int kSettling = 8;
   if (!applies(state.design, winner.variant)) return {};
   Design design = with_variant(state.design, winner.variant, found.fit.x);
-  auto fit = settled_fit(bench, found.levels, kSettling, design, nullptr);
+  auto fit = settled_fit(bench, found.levels, kSettling, design);
   for (std::size_t i = 0; fit && i < winner.variant.shape.size(); ++i) {
     if (!is_free(winner.variant, i)) continue;
     double& value = winner.variant.shape[i];
     const auto rho_with = [&](double other) {
       design.added.back().shape[i] = other;
       if (fit) design = relinearised(design, fit->x);
-      if (fit) fit = settled_fit(bench, found.levels, kRelinearisations, design, nullptr);
-      return fit ? rho_of(*fit, bench.floor_of(design)) : kUnbounded;
+      if (fit) fit = settled_fit(bench, found.levels, kRelinearisations, design);
+      return fit ? rho_of(*fit, bench.floor) : kUnbounded;
     };
     value = golden((1 - kAround) * value, (1 + kAround) * value, rho_with);
     rho_with(value);
@@ -53,7 +49,6 @@ std::optional<RefineState> with_own_coefficients(const RefineBench& bench, const
   const Eigen::VectorXd own = fit->x.head(state.design.n_columns());
   RefineState there = state;
   there.design = relinearised(state.design, own);
-  there.test = relinearised(state.test, own);
   return with_candidate(bench, there, found, winner);
 }
 
@@ -61,59 +56,47 @@ std::optional<RefineState> with_own_coefficients(const RefineBench& bench, const
 /// and their floor is known less well. An effect that the model had leaves crumbs, like one that
 /// was added.
 bool is_at_floor(const RefineBench& bench, const RefineState& state) {
-  if (bench.elastic_only) return state.rho < kNoGap && state.unseen.rho < kVisibleGap;
+  if (bench.elastic_only) return state.rho < kNoGap && state.held_out.rho < kVisibleGap;
   const bool is_kept_base = bench.n_kept > 0 && state.design.added.size() == bench.n_kept;
   return is_kept_base ? state.rho < kNoGap : state.rho <= 1;
-}
-
-/// Of an event in the last log only the unseen logs can say whether it outlasted that one.
-bool may_have_ended(const RefineBench& bench, const RefineState& state, const Variant& variant) {
-  return variant.refinement->lasts() && bench.held_back == 0 &&
-         variant.event_log == state.design.stretches.back().log;
 }
 
 }  // namespace
 
 std::optional<RefineState> with_candidate(const RefineBench& bench, const RefineState& state,
                                           const Search& found, const Candidate& winner) {
-  if (!applies(state.design, winner.variant) || !applies(state.test, winner.variant)) return {};
+  if (!applies(state.design, winner.variant)) return {};
   RefineState next;
   next.design = with_variant(state.design, winner.variant, found.fit.x);
-  next.test = with_variant(state.test, winner.variant, found.fit.x);
   next.levels = found.levels;
-  const auto fit = settled_fit(bench, next.levels, kRelinearisations, next.design, &next.test);
+  const auto fit = settled_fit(bench, next.levels, kRelinearisations, next.design);
   if (!fit) return {};
-  next.x = fit->x;
-  next.rho = bench.rho(next.design, *fit);
-  next.unseen = gap_of(next.test, next.x, bench.test_floor, bench.scan.block_seconds);
-  next.simulated = bench.simulated(models_with(next.design, next.x));
+  next.x = physical_values(next.design, bench.scan.block_seconds, next.levels, fit->x);
+  judge(bench, *fit, next);
   return next;
 }
 
 Trials::Trials(RefineBench& bench, const RefineState& state, bool is_first)
-    : bench_(bench), state_(state), is_first_(is_first), options_(bench.options) {
+    : bench_(bench), state_(state), is_first_(is_first) {
   tell(bench.options, "search", 0);
-  found_ = search(state.design, bench.floor_of(state.design), bench.scan);
-  if (state.design.whitening.is_needed()) {
-    refuse_small(state.design, found_, options_.materiality);
-    options_.materiality = 0;
+  found_ = search(state.design, bench.floor, bench.scan);
+  // Draws end where more would hardly change the answer (Besag & Clifford 1991).
+  if (bench.draws.empty()) draw_more(bench, state, found_);
+  while (!judged().is_settled && draw_more(bench, state, found_)) {
   }
-  need_draws(bench, state, found_, options_);
 }
 
 Judgement Trials::judged() const {
-  const Design& design = state_.design;
-  SquaredGap gap{found_.fit.held_out.sum(),
-                 floor_error(found_.fit, bench_.floor_of(design), found_.levels)};
-  const Candidate* best = best_lasting(found_.candidates);
-  if (design.whitening.is_needed() && best != nullptr) gap.explained = best->gain * gap.total;
-  return judge_search(found_.candidates, gap, bench_.draws_of(design), options_,
-                      is_first_ && (bench_.n_kept == 0 || design.whitening.is_needed()));
+  const SquaredGap gap{found_.fit.held_out.sum(),
+                       floor_error(found_.fit, bench_.floor, found_.levels)};
+  return judge_search(found_.candidates, gap, bench_.draws, bench_.options,
+                      is_first_ && bench_.n_kept == 0);
 }
 
 std::optional<Trial> Trials::best() {
   Judgement judgement = judged();
   league_ = judgement.league;
+  chance_ = judgement.search;
   if (!judgement.is_named || is_at_floor(bench_, state_)) return {};
   last_ = judgement.best->variant.refinement;
   alike_ = judgement.rivals;
@@ -146,15 +129,6 @@ std::optional<Trial> Trials::tried(Judgement judgement) const {
                   ? with_own_coefficients(bench_, state_, found_, trial.winner)
                   : with_candidate(bench_, state_, found_, trial.winner);
   if (!next) return {};
-  if (may_have_ended(bench_, state_, trial.winner.variant) &&
-      next->unseen.rho > state_.unseen.rho) {
-    Candidate ended = trial.winner;
-    ended.variant.ends_with_log = true;
-    if (auto other = with_candidate(bench_, state_, found_, ended)) {
-      trial.winner = std::move(ended);
-      next = std::move(other);
-    }
-  }
   trial.after = std::move(*next);
   return trial;
 }

@@ -24,12 +24,14 @@ class Trials {
   /// The best name; nothing: there is none, or there is nothing to explain.
   std::optional<Trial> best();
 
-  /// Where the last one was refused: the best of those that the training rows do not tell from it,
-  /// as unseen logs may; nothing: there is none.
+  /// Where the last one was refused: the best of those that a search does not separate from it, as
+  /// a fit of all values may; nothing: there is none.
   std::optional<Trial> next_alike(const std::string& refusal);
 
   const Search& found() const { return found_; }
   const std::vector<Rival>& league() const { return league_; }
+  /// Of the largest gain that the search found.
+  const ChanceTail& chance() const { return chance_; }
 
  private:
   Judgement judged() const;
@@ -38,9 +40,9 @@ class Trials {
   RefineBench& bench_;
   const RefineState& state_;
   bool is_first_;
-  RefineOptions options_;
   Search found_;
   std::vector<Rival> league_;
+  ChanceTail chance_;
   const Refinement* last_ = nullptr;  ///< tried
   std::vector<Rival> alike_;          ///< of the best
 };

@@ -43,6 +43,11 @@ Eigen::MatrixXd weighted(const BlockGrams::Block& block, const KindLevels& level
   return sum;
 }
 
+bool has_rows(const BlockGrams::Block& block) {
+  return std::any_of(block.n_rows.begin(), block.n_rows.end(),
+                     [](Eigen::Index n) { return n > 0; });
+}
+
 /// x of the normal equations of a Gram matrix, columns scaled; empty: singular.
 struct Normal {
   Eigen::VectorXd x;
@@ -111,9 +116,7 @@ BlockGrams block_grams(const std::vector<StretchRows>& rows, const std::vector<S
 }
 
 BlockGrams block_grams(const Design& design, double block_seconds) {
-  if (!design.whitening.is_needed())
-    return block_grams(design.rows, design.stretches, block_seconds);
-  return block_grams(whitened(design, design.rows), design.stretches, block_seconds);
+  return block_grams(design.rows, design.stretches, block_seconds);
 }
 
 BlockGrams extended(const BlockGrams& base, const std::vector<StretchRows>& rows,
@@ -185,11 +188,7 @@ KindLevels BlockFit::rms() const {
 }
 
 Eigen::Index count_blocks(const BlockGrams& grams) {
-  return std::count_if(grams.blocks.begin(), grams.blocks.end(),
-                       [](const BlockGrams::Block& block) {
-                         return std::any_of(block.n_rows.begin(), block.n_rows.end(),
-                                            [](Eigen::Index n) { return n > 0; });
-                       });
+  return std::count_if(grams.blocks.begin(), grams.blocks.end(), has_rows);
 }
 
 double BlockFit::held_out_error(const BlockFit& base) const {
@@ -236,19 +235,30 @@ std::optional<BlockFit> fit_blocks(const BlockGrams& grams, const KindLevels& le
   return fit;
 }
 
+std::vector<std::optional<Eigen::VectorXd>> values_without_each(const BlockGrams& grams,
+                                                                const KindLevels& levels) {
+  const Eigen::MatrixXd total = weighted_sum(grams, levels);
+  std::vector<std::optional<Eigen::VectorXd>> without;
+  for (const BlockGrams::Block& block : grams.blocks) {
+    auto& x = without.emplace_back();
+    if (!has_rows(block)) continue;
+    if (auto others = solve_normal(total - weighted(block, levels, total.rows()), false, {}))
+      x = std::move(others->x);
+  }
+  return without;
+}
+
 std::optional<Eigen::MatrixXd> jackknife_covariance(const BlockGrams& grams,
                                                     const KindLevels& levels) {
   const Eigen::Index n = 1 + grams.n_columns;
-  const Eigen::MatrixXd total = weighted_sum(grams, levels);
+  const auto all = values_without_each(grams, levels);
   std::vector<Eigen::VectorXd> without;
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(n - 1);
-  for (const BlockGrams::Block& block : grams.blocks) {
-    const Eigen::MatrixXd own = weighted(block, levels, n);
-    if (!(own(0, 0) > 0)) continue;
-    const auto others = solve_normal(total - own, false, {});
-    if (!others) return {};
-    without.push_back(others->x);
-    mean += others->x;
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    if (!has_rows(grams.blocks[b])) continue;
+    if (!all[b]) return {};
+    without.push_back(*all[b]);
+    mean += *all[b];
   }
   const auto blocks = static_cast<double>(without.size());
   if (blocks < 2) return {};
@@ -258,12 +268,16 @@ std::optional<Eigen::MatrixXd> jackknife_covariance(const BlockGrams& grams,
   return (blocks - 1) / blocks * covariance;
 }
 
+double error_of(const BlockGrams::Block& block, const KindLevels& levels,
+                const Eigen::VectorXd& x) {
+  return squared_error(weighted(block, levels, 1 + x.size()), x);
+}
+
 Eigen::ArrayXd errors_of(const BlockGrams& grams, const KindLevels& levels,
                          const Eigen::VectorXd& x) {
   Eigen::ArrayXd errors(static_cast<Eigen::Index>(grams.blocks.size()));
   for (std::size_t b = 0; b < grams.blocks.size(); ++b)
-    errors(static_cast<Eigen::Index>(b)) =
-        squared_error(weighted(grams.blocks[b], levels, 1 + grams.n_columns), x);
+    errors(static_cast<Eigen::Index>(b)) = error_of(grams.blocks[b], levels, x);
   return errors;
 }
 

@@ -31,7 +31,7 @@ Eigen::Index count_blocks(const BlockGrams& grams);
 BlockGrams block_grams(const std::vector<StretchRows>& rows, const std::vector<Stretch>& stretches,
                        double block_seconds);
 
-/// Of a design's rows as they are fitted.
+/// Of a design's rows.
 BlockGrams block_grams(const Design& design, double block_seconds);
 
 /// The same with columns more, without forming again what is there.
@@ -76,13 +76,20 @@ struct OwnPart {
 std::optional<BlockFit> fit_blocks(const BlockGrams& grams, const KindLevels& levels,
                                    bool with_held_out = true, const OwnPart& own = {});
 
+/// x of a fit without each block in turn; nothing where the block has no rows, or where the others
+/// do not determine all columns.
+std::vector<std::optional<Eigen::VectorXd>> values_without_each(const BlockGrams& grams,
+                                                                const KindLevels& levels);
+
 /// Covariance of x by leaving out each block in turn, which no block can hide that has a pull of
 /// its own (jackknife; Efron & Stein 1981: on average not too small). Nothing where the rest of a
 /// block does not determine all columns.
 std::optional<Eigen::MatrixXd> jackknife_covariance(const BlockGrams& grams,
                                                     const KindLevels& levels);
 
-/// Squared error of given values, per block, weighted.
+/// Squared error of given values, weighted.
+double error_of(const BlockGrams::Block& block, const KindLevels& levels, const Eigen::VectorXd& x);
+/// The same per block.
 Eigen::ArrayXd errors_of(const BlockGrams& grams, const KindLevels& levels,
                          const Eigen::VectorXd& x);
 /// Unweighted, per kind.

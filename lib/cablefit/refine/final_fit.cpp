@@ -61,7 +61,7 @@ BlockGrams with_shape_columns(const Design& undone, const Design& design, const 
   for (std::size_t k = 0; k < design.added.size(); ++k)
     if (design.added[k].refinement->is_event)
       add(k, kDateStep, [](Variant& variant, double by) { variant.event_time += by; });
-  return block_grams(whitened(design, std::move(rows)), design.stretches, block_seconds);
+  return block_grams(rows, design.stretches, block_seconds);
 }
 
 /// Of an event that lies in one block no other block tells anything: by the noise of its rows.
@@ -115,7 +115,7 @@ FinalFit final_fit(const Design& undone, const Design& design, const KindLevels&
   Eigen::MatrixXd a(n, p);
   Eigen::VectorXd b(n);
   Eigen::Index at = 0;
-  for (const StretchRows& stretch : whitened(design, design.rows))
+  for (const StretchRows& stretch : design.rows)
     for (const KindRows& kind : stretch.kinds) {
       const double weight = 1 / levels[static_cast<std::size_t>(kind.kind)];
       a.middleRows(at, kind.response.size()) = weight * kind.base;

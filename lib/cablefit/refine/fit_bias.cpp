@@ -17,17 +17,6 @@ struct Values {
   Eigen::VectorXd x;
 };
 
-/// The same columns over other stretches. `bases`: the models with these values.
-Design design_like(const Values& values, std::span<const Model> bases,
-                   std::vector<Stretch> stretches) {
-  Design design =
-      with_variants(make_design(without_kept(bases), std::move(stretches), values.design.smoothing),
-                    values.design.added, values.x);
-  design.scale = values.design.scale;
-  design.whitening = values.design.whitening;
-  return design;
-}
-
 bool is_unrecorded(const Refinement& row) { return !is_recorded(row); }
 
 std::optional<ValueChange> bias_at(const RefineBench& bench, const Values& values,
@@ -38,7 +27,8 @@ std::optional<ValueChange> bias_at(const RefineBench& bench, const Values& value
     NullBench twin(models, bench.logs, bench.wanted, values.design.smoothing, threads);
     twin.hold_back(bench.held_back);
     twin.silence_torque();  // its noise has no bias to give; without it one draw is enough
-    const Design design = design_like(values, models, twin.draw(bench.options.seed, threads));
+    const Design design =
+        design_like(values.design, values.x, models, twin.draw(bench.options.seed, threads));
     if (design.n_columns() != values.x.size()) return {};
     auto bias = change_to_fit(design, values.x, levels, bench.scan.block_seconds, is_unrecorded);
     if (bias) forget_unrecorded(values.design, bias->x);
@@ -82,22 +72,11 @@ bool simulates_better_without(const RefineBench& bench, const RefineState& state
          in_floors(less, bench.simulation_floor) < in_floors(as_fitted, bench.simulation_floor);
 }
 
-RefineState without_bias(const RefineBench& bench, const RefineState& state,
-                         const ValueChange& bias) {
+RefineState without_bias(const RefineState& state, const ValueChange& bias) {
   RefineState out = state;
   out.x = state.x - bias.x;
   out.design = with_shapes(std::move(out.design), -bias.shapes, out.x);
-  out.test = with_shapes(std::move(out.test), -bias.shapes, out.x);
-  out.simulated = bench.simulated(models_with(out.design, out.x));
-  if (state.simulated.known() && !out.simulated.known()) return state;
-  out.unseen = gap_of(out.test, out.x, bench.test_floor, bench.scan.block_seconds);
   return out;
-}
-
-SimulatedGap simulated_best(const RefineBench& bench, const RefineState& state,
-                            const std::optional<ValueChange>& bias) {
-  const bool better = bias && simulates_better_without(bench, state, *bias);
-  return better ? without_bias(bench, state, *bias).simulated : state.simulated;
 }
 
 }  // namespace cablefit

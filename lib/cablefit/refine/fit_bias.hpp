@@ -17,14 +17,8 @@ std::optional<ValueChange> fit_bias(const RefineBench& bench, const RefineState&
 bool simulates_better_without(const RefineBench& bench, const RefineState& state,
                               const ValueChange& bias);
 
-/// What a simulation of the unseen logs leaves with the values that simulate best: with the bias or
-/// without it.
-SimulatedGap simulated_best(const RefineBench& bench, const RefineState& state,
-                            const std::optional<ValueChange>& bias);
-
-/// The state with its values less the bias. `rho` and `levels` stay those of the fit: floors of
-/// training rows know the same bias.
-RefineState without_bias(const RefineBench& bench, const RefineState& state,
-                         const ValueChange& bias);
+/// The state with its values less the bias. `rho`, `held_out` and `levels` stay those of the fit:
+/// floors of training rows know the same bias.
+RefineState without_bias(const RefineState& state, const ValueChange& bias);
 
 }  // namespace cablefit

@@ -153,6 +153,14 @@ Design with_variants(Design design, const std::vector<Variant>& variants,
   return design;
 }
 
+Design design_like(const Design& design, const Eigen::VectorXd& x, std::span<const Model> bases,
+                   std::vector<Stretch> stretches) {
+  Design like = with_variants(
+      make_design(without_kept(bases), std::move(stretches), design.smoothing), design.added, x);
+  like.scale = design.scale;  // bounds of what is fitted are those of the training rows
+  return like;
+}
+
 Design design_of(std::span<const Model> models, std::vector<Stretch> stretches,
                  const Smoothing& smoothing) {
   Design bare = make_design(without_kept(models), std::move(stretches), smoothing);

@@ -22,6 +22,10 @@ std::vector<Model> without_kept(std::span<const Model> models);
 Design with_variants(Design design, const std::vector<Variant>& variants,
                      const Eigen::VectorXd& values);
 
+/// The same columns over other stretches. `bases`: the design's models with the values `x`.
+Design design_like(const Design& design, const Eigen::VectorXd& x, std::span<const Model> bases,
+                   std::vector<Stretch> stretches);
+
 /// A design of models with all they have.
 Design design_of(std::span<const Model> models, std::vector<Stretch> stretches,
                  const Smoothing& smoothing);

@@ -84,6 +84,22 @@ RowGap gap_of(BlockGrams grams, const Eigen::VectorXd& x, const KindLevels& floo
   return gap;
 }
 
+RowGap held_out_gap(const BlockGrams& grams, const KindLevels& levels, const KindLevels& floor) {
+  const auto values = values_without_each(grams, levels);
+  const auto n = static_cast<Eigen::Index>(values.size());
+  RowGap gap{0, Eigen::ArrayXd::Zero(n), Eigen::ArrayXd::Zero(n)};
+  for (std::size_t b = 0; b < values.size(); ++b) {
+    if (!values[b]) continue;
+    const auto at = static_cast<Eigen::Index>(b);
+    gap.squares(at) = error_of(grams.blocks[b], floor, *values[b]);
+    for (const Eigen::Index rows : grams.blocks[b].n_rows)
+      gap.n_rows(at) += static_cast<double>(rows);
+  }
+  const double rows = gap.n_rows.sum();
+  gap.rho = rows > 0 ? gap.squares.sum() / rows : 0;
+  return gap;
+}
+
 double floor_error(const BlockFit& fit, const KindLevels& floor, const KindLevels& levels) {
   double sum = 0;
   for (std::size_t k = 0; k < kRowKinds; ++k)

@@ -26,10 +26,13 @@ struct RowGap {
   Eigen::ArrayXd squares, n_rows;                               ///< per block
   double quantile(double level, std::uint64_t seed = 1) const;  ///< of rho, blocks resampled
 };
-/// Of a design: its rows as they are, however they are fitted.
 RowGap gap_of(const Design& design, const Eigen::VectorXd& x, const KindLevels& floor,
               double block_seconds);
 RowGap gap_of(BlockGrams grams, const Eigen::VectorXd& x, const KindLevels& floor);
+
+/// Of the design's own rows, each block by a fit to the others with the weights of `levels`. Blocks
+/// that the others cannot predict count as without rows.
+RowGap held_out_gap(const BlockGrams& grams, const KindLevels& levels, const KindLevels& floor);
 
 /// What noise alone leaves of a weighted squared error of this fit.
 double floor_error(const BlockFit& fit, const KindLevels& floor, const KindLevels& levels);

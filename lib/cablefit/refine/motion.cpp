@@ -139,7 +139,14 @@ std::vector<JointState> joint_states(const SmoothMotion& m, const Model& model) 
     s.deflection = s.theta - zero - s.q;
     s.deflection_rate = s.thetad - s.qd;
   }
-  if (model.rigid) return states;
+  if (model.rigid) {
+    for (Eigen::Index i = 0; i < m.size(); ++i) {
+      JointState& s = states[static_cast<std::size_t>(i)];
+      s.load = m.tau_load(i);
+      s.tau_elas = -s.load;
+    }
+    return states;
+  }
   constexpr double kProbe = 1e-6;  // rad; curves bend over mrad
   const ElasticTorque tau = elastic_torque(model.transmission, m.q, m.theta);
   const ElasticTorque more = elastic_torque(model.transmission, m.q, m.theta + kProbe);

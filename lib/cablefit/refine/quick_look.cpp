@@ -43,8 +43,7 @@ double weight_of(const KindLevels& levels, RowKind kind) {
 }  // namespace
 
 QuickLook::QuickLook(const Design& design, const BlockGrams& grams, const KindLevels& levels)
-    : all_(design.rows), levels_(levels) {
-  if (design.whitening.is_needed()) own_rows_ = whitened(design, design.rows);
+    : rows_(design.rows), levels_(levels) {
   const Eigen::MatrixXd total = weighted_sum(grams, levels);
   const Eigen::Index p = total.rows() - 1;
   const Eigen::VectorXd diagonal = total.diagonal().tail(p);
@@ -68,7 +67,7 @@ QuickLook::Products QuickLook::products(const VariantColumns& columns) const {
   Products sum{Eigen::MatrixXd::Zero(1 + scale_.size(), n), Eigen::MatrixXd::Zero(n, n)};
   for (std::size_t s = 0; s < columns.size(); ++s)
     for (std::size_t k = 0; k < columns[s].size(); ++k) {
-      const KindRows& kind = rows()[s].kinds[k];
+      const KindRows& kind = rows_[s].kinds[k];
       add_products(kind, columns[s][k], weight_of(levels_, kind.kind), sum);
     }
   return sum;

@@ -12,10 +12,7 @@ class QuickLook {
   /// `grams`: of the design as it is. Throws Error(not_identifiable) when it is singular.
   QuickLook(const Design& design, const BlockGrams& grams, const KindLevels& levels);
 
-  /// The design's rows as they are fitted.
-  const std::vector<StretchRows>& rows() const { return own_rows_.empty() ? all_ : own_rows_; }
-
-  /// Weighted products of further columns C as they are fitted, in sample: [response, base]' C and
+  /// Weighted products of further columns C, in sample: [response, base]' C and
   /// C' C.
   struct Products {
     Eigen::MatrixXd cross, own;
@@ -31,8 +28,7 @@ class QuickLook {
   std::optional<Glance> with(const Products& products, Eigen::Index n, double least) const;
 
  private:
-  const std::vector<StretchRows>& all_;
-  std::vector<StretchRows> own_rows_;  ///< whitened; none: rows stay as they are
+  const std::vector<StretchRows>& rows_;
   KindLevels levels_;
   Eigen::VectorXd scale_, response_;  ///< of the columns; in the orthonormal base
   Eigen::MatrixXd lower_;             ///< Cholesky factor of the scaled columns' Gram matrix

@@ -5,19 +5,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "cablefit/refine/best_shapes.hpp"
 #include "cablefit/refine/conclusion.hpp"
 #include "cablefit/refine/effect_steps.hpp"
 #include "cablefit/refine/elastic_stage.hpp"
-#include "cablefit/refine/fit_bias.hpp"
 #include "cablefit/refine/kept_effects.hpp"
+#include "cablefit/refine/materiality.hpp"
 #include "cablefit/refine/next_run.hpp"
+#include "cablefit/refine/physical_values.hpp"
 #include "cablefit/refine/refine_bench.hpp"
 #include "cablefit/refine/refine_figures.hpp"
 #include "cablefit/refine/refined_model.hpp"
 #include "cablefit/refine/regimes.hpp"
 #include "cablefit/refine/separability.hpp"
+#include "cablefit/refine/test_reading.hpp"
 #include "cablefit/refine/unexplained.hpp"
 
 namespace cablefit {
@@ -31,20 +34,21 @@ bool simulates_an_event(const RefineResult& result) {
          });
 }
 
-void tell_gaps(const RefineBench& bench, const RefineState& first, const RefineState& last,
-               RefineResult& result) {
-  const double unit = bench.unseen_unit();
+void tell_gaps(const RefineBench& bench, const Chain& chain,
+               const std::vector<TestReading>& readings, RefineResult& result) {
+  const TestReading &first = readings.front(), &last = readings.back();
+  const double unit = bench.test_unit();
   GapStory& torque = result.torque;
   torque.known = true;
   torque.noise_floor = unit;
-  torque.train_before = bench.unit() * std::sqrt(first.rho);
-  torque.train_after = bench.unit() * std::sqrt(last.rho);
-  torque.test_before = unit * std::sqrt(first.unseen.rho);
-  torque.test_after = unit * std::sqrt(last.unseen.rho);
+  torque.train_before = bench.unit() * std::sqrt(chain.front().rho);
+  torque.train_after = bench.unit() * std::sqrt(chain.back().rho);
+  torque.test_before = unit * std::sqrt(first.gap.rho);
+  torque.test_after = unit * std::sqrt(last.gap.rho);
   for (std::size_t i = 0; i < 2; ++i) {
     const double level = i == 0 ? 0.025 : 0.975;
-    torque.test_before_ci[i] = unit * std::sqrt(first.unseen.quantile(level));
-    torque.test_after_ci[i] = unit * std::sqrt(last.unseen.quantile(level));
+    torque.test_before_ci[i] = unit * std::sqrt(first.gap.quantile(level));
+    torque.test_after_ci[i] = unit * std::sqrt(last.gap.quantile(level));
   }
   GapStory& simulation = result.simulation;
   simulation.known = first.simulated.known() && last.simulated.known();
@@ -60,8 +64,8 @@ void tell_gaps(const RefineBench& bench, const RefineState& first, const RefineS
   if (simulation.known && simulates_an_event(result)) {
     simulation.known = false;
     result.warnings.emplace_back(
-        "not simulated: the unseen rows are of logs in which the event happened, and the model "
-        "knows no date; give logs from after it with --test");
+        "not simulated: the last third is of logs in which the event happened, and the model does "
+        "not have its time; give logs from after it with --test");
   }
 }
 
@@ -118,6 +122,22 @@ std::string_view to_string(Verdict verdict) {
 
 namespace {
 
+/// Effects that the training logs confirm, one after the other.
+void find_effects(RefineBench& bench, Chain& chain, RefineResult& result) {
+  const std::size_t most = bench.options.most_effects;
+  while (result.effects.size() < most && add_next_effect(bench, chain, result)) {
+    if (result.effects.size() == 2) {
+      name_first_again(bench, chain, result);
+      if (chain.back().rho >= kNoGap && result.effects.size() == 2)
+        begin_otherwise(bench, chain, result);
+    }
+    if (chain.back().rho < kNoGap) break;
+  }
+  if (result.effects.size() == 1 && most > 1 && chain.back().rho > kRemainder)
+    begin_otherwise(bench, chain, result);
+  if (!result.effects.empty()) chain.back() = with_best_shapes(bench, std::move(chain.back()));
+}
+
 RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
                          const RefineOptions& options) {
   RefineResult result;
@@ -140,53 +160,43 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
   tell(options, "what can be told apart", 0);
   result.not_separable = find_not_separable(first.design, first.x, bench.floor, runs);
 
-  RefineState state = first;
-  // What took whitened rows to be told is the last: beside it the remainder stands as it did.
-  const auto is_white = [&] { return state.design.whitening.is_needed(); };
-  while (!is_white() && result.effects.size() < options.most_effects &&
-         add_next_effect(bench, state, result)) {
-    if (result.effects.size() == 2) {
-      name_first_again(bench, first, state, result);
-      if (state.rho >= kNoGap && result.effects.size() == 2)
-        begin_otherwise(bench, first, state, result);
-    }
-    if (state.rho < kNoGap) break;
-  }
-  if (!is_white() && result.effects.size() == 1 && options.most_effects > 1 &&
-      state.rho > kRemainder)
-    begin_otherwise(bench, first, state, result);
-
-  if (!result.effects.empty()) state = with_best_shapes(bench, std::move(state));
-  const Design& bare = bench.n_kept == 0 ? first.design : bench.bare;
-  FinalFit fit = final_fit(bare, state.design, state.levels, bench.scan.block_seconds);
+  Chain chain{first};
+  find_effects(bench, chain, result);
+  require_half_explained(chain, result);
+  const Confirmed confirmed = confirm_on_test(bench, chain, result);
+  const std::vector<TestReading>& readings = confirmed.readings;
+  RefineState& state = chain.back();
+  FinalFit fit = final_fit(bench.n_kept == 0 ? first.design : bench.bare, state.design,
+                           state.levels, bench.scan.block_seconds);
   if (state.rho > kRemainder)
     result.unexplained =
         describe_remainder(state.design, fit.x, bench.floor, bench.scan.block_seconds);
   tell_remainder(fit.rms, bench.floor, result);
+  result.remainders =
+      remainders_of(state.design, fit.x, bench.floor, bench.scan.block_seconds, options.material);
+  const RefineState before = confirmed.values.of(chain, 0);
   state.x = fit.x;
-  // What is told are the values that simulate.
-  const std::optional<ValueChange> bias =
-      result.effects.empty() ? bench.base_bias : fit_bias(bench, state);
-  const bool better = bias && simulates_better_without(bench, state, *bias);
-  const RefineState before = better ? without_bias(bench, first, bench.base_bias) : first;
-  const RefineState after = !better                  ? state
-                            : result.effects.empty() ? before
-                                                     : without_bias(bench, state, *bias);
-  fit.x = after.x;
+  const RefineState after = confirmed.values.of(chain, chain.size() - 1);
+  std::vector<Eigen::Index> held;
+  fit.x = physical_values(after.design, bench.scan.block_seconds, state.levels, after.x, &held);
+  for (const Eigen::Index column : held) {
+    fit.covariance.row(column).setConstant(std::numeric_limits<double>::quiet_NaN());
+    fit.covariance.col(column).setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
   tell_effects(models, named_effects(after.design, fit), result);
   result.shifts = parameter_shifts(first.design, before.x, after.design, fit);
   result.models = refined_models(after.design, fit);
-  result.whitened = is_white();
   result.rho_before = first.rho;
   result.rho_after = state.rho;
-  tell_gaps(bench, before, after, result);
+  tell_gaps(bench, chain, readings, result);
   conclude(result);
   choose_next_run({first.design, first.x, bench.floor, bench.first_search.candidates, runs},
                   result);
   if (options.figures)
     result.figures = refine_figures(
         result, {bench.all, first.design, first.x, state.design, state.x, bench.floor},
-        {bench.all, before.test, before.x, after.test, after.x, bench.test_floor});
+        {bench.all, readings.front().rows, readings.front().x, readings.back().rows,
+         readings.back().x, bench.test_floor});
   return result;
 }
 

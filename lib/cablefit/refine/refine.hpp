@@ -1,14 +1,16 @@
 // Where do model and measurement disagree, which effect is missing, and does the gap shrink on data
-// that had no say? The decision rule stands in two files: verdict.cpp, conclusion.cpp.
+// that it was not fitted to? The decision rule is in two files: verdict.cpp, conclusion.cpp.
 //
 // Method. Rows of the blocked, link and motor equations (base_rows.hpp) of all training logs are
 // fitted jointly; every row of the catalogue is tried as further columns with everything refitted
 // (never on a frozen base: Brynjarsdottir & O'Hagan 2014) and judged on held-out blocks of time.
-// What such a search finds by chance is known from logs simulated from the fitted base
-// (null_draws.hpp). A term stays only if it helps on the test logs too.
+// The null distribution of such a search comes from logs simulated from the fitted base
+// (null_draws.hpp). The test logs are read once, in the end (test_reading.hpp): they may take a
+// term away, not choose another.
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 
 #include "cablefit/refine/refine_result.hpp"
@@ -17,10 +19,11 @@
 namespace cablefit {
 
 struct RefineOptions {
-  std::size_t n_draws = 24;    ///< simulated data sets
-  unsigned long seed = 1;      ///< of the first; counted up from there
-  double materiality = 0.01;   ///< least share of the squared residual that is worth a name
-  double significance = 0.01;  ///< largest p value of a name
+  std::size_t n_draws = 24;        ///< simulated data sets
+  unsigned long seed = 1;          ///< of the first; counted up from there
+  double materiality = 0.01;       ///< least share of the squared residual that is worth a name
+  std::optional<double> material;  ///< N m that matter; nothing: see material_torque()
+  double significance = 0.01;      ///< largest p value of a name
   std::size_t most_effects = 3;
   int threads = 1;
   bool figures = false;

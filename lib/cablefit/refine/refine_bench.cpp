@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/parallel.hpp"
@@ -11,15 +12,14 @@
 #include "cablefit/refine/elastic_stage.hpp"
 #include "cablefit/refine/fit_bias.hpp"
 #include "cablefit/refine/kept_effects.hpp"
+#include "cablefit/refine/physical_values.hpp"
 #include "cablefit/refine/recorded_effects.hpp"
-#include "cablefit/refine/refined_model.hpp"
 #include "cablefit/refine/remainder.hpp"
-#include "cablefit/refine/verdict.hpp"
 
 namespace cablefit {
 namespace {
 
-constexpr std::size_t kFloorDraws = 4;  // the floor is then known to about 1 %
+constexpr std::size_t kFloorCopies = 4;  // the floor is then known to about 1 %
 constexpr double kHeldOutShare = 1.0 / 3;
 
 template <typename Draw>
@@ -48,8 +48,8 @@ KindLevels common_unit(const RefineBench& bench, KindLevels floor) {
   return floor;
 }
 
-/// Of rows that the unseen logs have none of: the training rows'.
-KindLevels unseen_floor(const RefineBench& bench, KindLevels floor) {
+/// Of rows that the test logs have none of: the training rows'.
+KindLevels test_floor_of(const RefineBench& bench, KindLevels floor) {
   floor = common_unit(bench, floor);
   for (std::size_t k = 0; k < kRowKinds; ++k)
     if (!(floor[k] > 0)) floor[k] = bench.floor[k];
@@ -61,12 +61,18 @@ KindLevels fitted_floor(RefineBench& bench, const Design& base, const Eigen::Vec
   std::vector<KindLevels> levels;
   Eigen::VectorXd bias = Eigen::VectorXd::Zero(x.size());
   std::vector<BaseFit> draws =
-      run_draws(bench, kFloorDraws, bench.options.seed, "noise floor",
+      run_draws(bench, kFloorCopies, bench.options.seed, "noise floor",
                 [&](std::uint64_t seed) { return bench.null->fitted(seed, nullptr); });
   for (const BaseFit& draw : draws) {
     levels.push_back(draw.fit.rms());
-    bias += (draw.fit.x - x) / static_cast<double>(kFloorDraws);
+    bias += (draw.fit.x - x) / static_cast<double>(kFloorCopies);
   }
+  const KindLevels draw_floor = positive(rms_over(levels));
+  double held_out = 0;
+  for (const BaseFit& draw : draws)
+    held_out +=
+        held_out_gap(draw.grams, draw.levels, draw_floor).rho / static_cast<double>(kFloorCopies);
+  if (held_out > 1) bench.held_out_unit = held_out;
   forget_unrecorded(base, bias);
   bench.base_bias.x = std::move(bias);
   bench.noise = std::move(draws.front());
@@ -77,22 +83,22 @@ KindLevels fitted_floor(RefineBench& bench, const Design& base, const Eigen::Vec
   return common_unit(bench, positive(floor));
 }
 
-/// Floors of the unseen logs: equations, and simulation beside what it was simulated from.
-void find_unseen_floors(RefineBench& bench, const BaseFit& base, const RefineLogs& logs) {
-  bench.unseen = logs.test.empty() ? logs.train : logs.test;
-  const BaseDraws unseen(base.design, base.fit.x, bench.unseen, bench.wanted,
-                         bench.options.threads);
+/// Floors of the test logs: equations, and simulation beside what it was simulated from.
+void find_test_floors(RefineBench& bench, const BaseFit& base, const RefineLogs& logs) {
+  bench.test_logs = logs.test.empty() ? logs.train : logs.test;
+  const BaseDraws draws(base.design, base.fit.x, bench.test_logs, bench.wanted,
+                        bench.options.threads);
   bench.test_floor =
       logs.test.empty()
           ? bench.floor
-          : unseen_floor(bench, rms_over(run_draws(
-                                    bench, kFloorDraws, bench.options.seed, "noise floor",
-                                    [&](std::uint64_t seed) { return unseen.unfitted(seed); })));
+          : test_floor_of(bench, rms_over(run_draws(
+                                     bench, kFloorCopies, bench.options.seed, "noise floor",
+                                     [&](std::uint64_t seed) { return draws.unfitted(seed); })));
   std::vector<LogSurvey> recorded;
-  for (NullBench::Recorded& one : unseen.logs().record(bench.options.seed, bench.options.threads))
+  for (NullBench::Recorded& one : draws.logs().record(bench.options.seed, bench.options.threads))
     recorded.insert(recorded.end(), one.logs.begin(), one.logs.end());
   bench.simulation_floor =
-      simulated_gap(unseen.models(), recorded, bench.options.threads, bench.compared());
+      simulated_gap(draws.models(), recorded, bench.options.threads, bench.compared());
 }
 
 /// What rows remember of what the best candidate leaves; of a draw, which has no such effect, all
@@ -133,7 +139,7 @@ void disturb_null(RefineBench& bench, const RefineState& state, const Search& fo
   if (is_quiet(first)) return;
   bench.null->logs().disturb(first);
   const std::vector<KindMemory> drawn =
-      run_draws(bench, kFloorDraws, bench.options.seed, "what is left", [&](std::uint64_t seed) {
+      run_draws(bench, kFloorCopies, bench.options.seed, "what is left", [&](std::uint64_t seed) {
         const BaseFit base = bench.null->fitted(seed, &found.levels);
         return memory_with(base.design, base.fit, best, found.levels, block_seconds);
       });
@@ -183,31 +189,34 @@ void tell(const RefineOptions& options, std::string_view what, double share) {
 }
 
 SimulatedGap RefineBench::simulated(std::span<const Model> models) const {
-  return simulated_gap(models, unseen, options.threads, compared());
+  return simulated_gap(models, test_logs, options.threads, compared());
 }
 
-double RefineBench::rho(const Design& design, const BlockFit& fit) const {
-  if (!design.whitening.is_needed()) return rho_of(fit, floor);
-  return gap_of(design, fit.x, floor, scan.block_seconds).rho;
+void judge(const RefineBench& bench, const BlockFit& fit, RefineState& state) {
+  state.rho = rho_of(fit, bench.floor);
+  state.held_out =
+      held_out_gap(block_grams(state.design, bench.scan.block_seconds), state.levels, bench.floor);
+  state.held_out.rho /= bench.held_out_unit;
+  state.held_out.squares /= bench.held_out_unit;
 }
 
-void need_disturbance(RefineBench& bench, const RefineState& state, const Search& found) {
-  if (!bench.is_disturbed) disturb_null(bench, state, found);
-  bench.is_disturbed = true;
-}
-
-void need_draws(RefineBench& bench, const RefineState& state, const Search& found,
-                const RefineOptions& options) {
-  const RowWhitening& whitening = state.design.whitening;
-  std::vector<NullDraw>& draws = whitening.is_needed() ? bench.white_draws : bench.draws;
-  if (!draws.empty() || !anything_material(found.candidates, options)) return;
-  need_disturbance(bench, state, found);
+bool draw_more(RefineBench& bench, const RefineState& state, const Search& found) {
+  constexpr std::size_t kAtOnce = 6;
+  const std::size_t before = bench.draws.size();
+  if (before >= bench.options.n_draws) return false;
+  if (before == 0) {
+    disturb_null(bench, state, found);
+    bench.draw_levels = found.levels;
+  }
   ScanSettings settings = bench.scan;
   settings.threads = 1;
-  draws = run_draws(bench, bench.options.n_draws, bench.options.seed + kFloorDraws, "chance",
-                    [&](std::uint64_t seed) {
-                      return bench.null->searched(seed, found.levels, settings, whitening);
-                    });
+  std::vector<NullDraw> more = run_draws(
+      bench, std::min(kAtOnce, bench.options.n_draws - before),
+      bench.options.seed + kFloorCopies + before, "null distribution",
+      [&](std::uint64_t seed) { return bench.null->searched(seed, bench.draw_levels, settings); });
+  bench.draws.insert(bench.draws.end(), std::make_move_iterator(more.begin()),
+                     std::make_move_iterator(more.end()));
+  return true;
 }
 
 RefineState prepare(RefineBench& bench, std::span<const Model> models, const RefineLogs& logs,
@@ -239,7 +248,12 @@ RefineState prepare(RefineBench& bench, std::span<const Model> models, const Ref
   result.warnings.insert(result.warnings.end(), kept.warnings.begin(), kept.warnings.end());
   BaseFit base = std::move(kept.base);
   check_blocks(base, bench.scan.block_seconds, result);
-  bench.smoothing = base.design.smoothing;
+  std::vector<Eigen::Index> held;
+  const auto to_physical = [&] {
+    base.fit.x =
+        physical_values(base.design, bench.scan.block_seconds, base.levels, base.fit.x, &held);
+  };
+  to_physical();
   bench.null.emplace(base.design, base.fit.x, bench.logs, bench.wanted, bench.options.threads);
   if (bench.null->logs().follows())
     result.warnings.emplace_back(
@@ -250,21 +264,21 @@ RefineState prepare(RefineBench& bench, std::span<const Model> models, const Ref
   bench.null->logs().hold_back(bench.held_back);
   bench.floor = fitted_floor(bench, base.design, base.fit.x);
   base = fit_base(std::move(base.design), bench.scan.block_seconds, &bench.floor);
-  const std::vector<Model> fitted = models_with(base.design, base.fit.x);
-  find_unseen_floors(bench, base,
-                     result.held_out_blocks ? RefineLogs{logs.train, {}, logs.blocked} : logs);
+  to_physical();
+  for (const Eigen::Index column : held)
+    result.warnings.push_back(fmt::format(
+        "the fitted {} of the base model is not physical (negative); simulations use {:.3g}",
+        base.design.layout.parameters[static_cast<std::size_t>(column)].name, base.fit.x(column)));
+  bench.test = std::move(test);
+  find_test_floors(bench, base,
+                   result.held_out_blocks ? RefineLogs{logs.train, {}, logs.blocked} : logs);
   RefineState state;
-  state.test = with_variants(make_design(without_kept(fitted), std::move(test), bench.smoothing),
-                             base.design.added, base.fit.x);
-  state.test.scale = base.design.scale;  // bounds of what is fitted are those of the training rows
   bench.n_kept = base.design.added.size();
   if (bench.n_kept > 0) bench.bare = relinearised(kept.bare, base.fit.x);
   state.x = base.fit.x;
   state.levels = bench.floor;
-  state.rho = rho_of(base.fit, bench.floor);
-  state.unseen = gap_of(state.test, state.x, bench.test_floor, bench.scan.block_seconds);
-  state.simulated = bench.simulated(fitted);
   state.design = std::move(base.design);
+  judge(bench, base.fit, state);
   if (!free_shapes(state.design).empty())  // of kept effects, which the draws above hold
     if (auto bias = fit_bias(bench, state)) bench.base_bias = std::move(*bias);
   return state;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,7 +40,7 @@ struct Rival {
 };
 
 struct RefineEvidence {
-  double gain = 0;                       ///< of the squared gap above the floor, unseen data
+  double gain = 0;                       ///< of the squared gap above the floor, held-out data
   double rho_before = 0, rho_after = 0;  ///< weighted squared residual over the floor
   double p_value = 1;                    ///< by parametric bootstrap of the whole pipeline
   bool is_fitted_tail = false;           ///< p of a distribution fitted to the draws, not counted
@@ -65,11 +66,13 @@ struct KeptEffect {
 struct RefineStep {
   std::string added, side;
   bool accepted = false;
-  std::string reason;                  ///< of a refusal
-  double gap_train = 0, gap_test = 0;  ///< N m rms weighted as one equation, after it
+  std::string reason;  ///< of a refusal
+  /// N m rms weighted as one equation, after it: training rows, the same held out block by block,
+  /// test logs (not a number: not read).
+  double gap_train = 0, gap_held_out = 0, gap_test = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// rms of a gap before and after, N m or rad; the floor is that of the unseen rows.
+/// rms of a gap before and after, N m or rad; the floor is that of the test rows.
 struct GapStory {
   double train_before = 0, train_after = 0, test_before = 0, test_after = 0, noise_floor = 0;
   std::array<double, 2> test_before_ci{}, test_after_ci{};  ///< 95 %, block bootstrap
@@ -112,6 +115,15 @@ struct NextRun {
   Eigen::ArrayXd theta_ref;  ///< rad
 };
 
+/// What one equation leaves beyond the sensors' noise, N m rms.
+struct EquationRemainder {
+  std::string equation;  ///< "link", "motor", "blocked"
+  double above = 0;
+  double at_least = 0;  ///< lower end of its 95 % interval, blocks of time independent
+  double noise = 0;     ///< floor
+  double material = 0;  ///< what would matter
+};
+
 struct RefineResult {
   std::vector<InputFile> inputs;
   std::string model_path, model_choice;
@@ -119,17 +131,22 @@ struct RefineResult {
   std::string rig_path;
   bool linear_motion = false, rigid = false, held_out_blocks = false;
   bool elastic_only = false;  ///< blocked logs alone
-  bool whitened = false;      ///< the effect was told from whitened rows, see whitened_look.hpp
   Verdict verdict = Verdict::none;
   std::string reason;  ///< one sentence
   std::vector<Regime> where;
   std::vector<NamedEffect> effects;
   std::vector<KeptEffect> kept;
   std::vector<Rival> league;  ///< of the first step
+  /// P that a search where nothing is missing gains as much as the first step's best, and of how
+  /// many simulated data sets it is known.
+  double search_p = 1;
+  bool search_p_is_fitted = false;
+  std::size_t n_draws = 0;
   std::vector<NotSeparable> not_separable;
   double remainder_link = 0, remainder_motor = 0, floor_link = 0, floor_motor = 0;  ///< N m rms
   std::optional<Unexplained> unexplained;
   double remainder_blocked = 0, floor_blocked = 0;  ///< N m rms
+  std::vector<EquationRemainder> remainders;        ///< of the equations with rows
   double rho_before = 0, rho_after = 0;
   std::vector<RefineStep> steps;
   GapStory torque, simulation;

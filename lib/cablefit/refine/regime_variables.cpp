@@ -15,7 +15,7 @@ constexpr RegimeVariable kVariables[] = {
     {"deflection", "theta - q", "theta - q", "rad",
      [](const JointState& s, bool, double) { return s.deflection; }},
     {"elastic torque", "tau_elas", "tau_elas", "N m",
-     [](const JointState& s, bool, double) { return s.tau_elas; }},
+     [](const JointState& s, bool, double) { return s.tau_elas + s.load; }},  // 0 on a rigid drive
     {"load", "tau_load", "tau_load", "N m",
      [](const JointState&, bool, double load) { return load; }},
     {"time", "t", "t", "s", [](const JointState& s, bool, double) { return s.t; }},

@@ -13,15 +13,6 @@ ArModel colour_of(const ResidualMemory& memory) {
   return fit_ar(memory.covariance, memory.period, memory.n_values);
 }
 
-/// Of the lags, both ways, up to where they change their sign: white noise with as much in the
-/// band that a kernel lets pass.
-double sum_of_kernel(const Eigen::VectorXd& covariance) {
-  double sum = covariance(0);
-  for (Eigen::Index lag = 1; lag < covariance.size() && covariance(lag) > 0; ++lag)
-    sum += 2 * covariance(lag);
-  return sum;
-}
-
 }  // namespace
 
 KindMemory memory_of(const Design& design, const Eigen::VectorXd& x) {
@@ -57,21 +48,6 @@ KindMemory corrected(KindMemory guess, const KindMemory& left, const KindMemory&
     if (is_known(guess[k]) && is_known(drawn[k]) && guess[k].covariance(0) > 0)
       guess[k].covariance += left[k].covariance - drawn[k].covariance;
   return guess;
-}
-
-RowWhitening whitening_of(const KindMemory& left, const KindMemory& noise, double block_seconds) {
-  std::array<Eigen::VectorXd, kRowKinds> wandering;
-  for (std::size_t k = 0; k < kRowKinds; ++k) {
-    if (!is_known(left[k]) || !is_known(noise[k])) continue;
-    const Eigen::VectorXd &all = left[k].covariance, &sensors = noise[k].covariance;
-    if (all(0) <= kVisible * sensors(0)) continue;
-    // Bartlett's window: the rows are too few to know the long lags.
-    const Eigen::VectorXd window =
-        1 - Eigen::ArrayXd::LinSpaced(all.size(), 0, 1 - 1 / static_cast<double>(all.size()));
-    wandering[k] = window.cwiseProduct(all - sensors);
-    wandering[k](0) += sum_of_kernel(sensors);
-  }
-  return {wandering, block_seconds};
 }
 
 TwinDisturbance as_disturbance(const KindMemory& remainder, bool moves) {

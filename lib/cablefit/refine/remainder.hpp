@@ -23,11 +23,6 @@ KindMemory remainder_of(const KindMemory& left, const KindLevels& floor);
 /// some of what is slow, and kernels some of what is fast, from both alike.
 KindMemory corrected(KindMemory guess, const KindMemory& left, const KindMemory& drawn);
 
-/// Whitens the rows that wander beyond their sensors' noise (`noise`: what the same rows remember
-/// of that alone), as if that noise were white as far as the kernels let it pass: what is faster
-/// is rounding and no more to be relied on than before.
-RowWhitening whitening_of(const KindMemory& left, const KindMemory& noise, double block_seconds);
-
 /// As torques of one joint, autoregressive. `moves`: any row is in motion, else the motor's torque
 /// is that of blocked rows.
 TwinDisturbance as_disturbance(const KindMemory& remainder, bool moves);

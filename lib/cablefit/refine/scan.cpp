@@ -36,9 +36,8 @@ struct Scanner {
   Scanner(const ScanStart& from, const ScanSettings& how)
       : start(from), settings(how), look(from.design, from.grams, from.levels) {}
 
-  /// As they are fitted.
   VariantColumns columns(const Variant& variant) const {
-    return whitened(start.design, variant_columns(start.design, variant, start.fit.x));
+    return variant_columns(start.design, variant, start.fit.x);
   }
 };
 
@@ -46,12 +45,12 @@ std::optional<BlockGrams> grams_with(const Scanner& scanner, const Variant& vari
   const Design& design = scanner.start.design;
   const double seconds = scanner.settings.block_seconds;
   if (replaces_rows(variant)) {
-    auto rows = replaced_rows(design, variant);
+    const auto rows = replaced_rows(design, variant);
     if (rows.empty()) return {};
-    return block_grams(whitened(design, std::move(rows)), design.stretches, seconds);
+    return block_grams(rows, design.stretches, seconds);
   }
-  return extended(scanner.start.grams, scanner.look.rows(), design.stretches,
-                  scanner.columns(variant), seconds);
+  return extended(scanner.start.grams, design.rows, design.stretches, scanner.columns(variant),
+                  seconds);
 }
 
 /// No candidate where the columns are not there or cannot be told from the others'.

@@ -89,8 +89,7 @@ std::optional<ValueChange> change_to_fit(const Design& design, const Eigen::Vect
     append(rows, derivative);
     moving.push_back(k);
   }
-  const BlockGrams grams =
-      block_grams(whitened(design, std::move(rows)), design.stretches, block_seconds);
+  const BlockGrams grams = block_grams(rows, design.stretches, block_seconds);
   if (grams.n_columns < x.size()) return {};
   const std::vector<Eigen::Index> told = told_columns(grams, levels, x.size(), kOwnPart);
   const auto fit = fit_blocks(with_columns(grams, told), levels, false);

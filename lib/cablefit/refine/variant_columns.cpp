@@ -108,13 +108,24 @@ Eigen::MatrixXd filtered(const Kernel& filter, const Eigen::MatrixXd& samples, E
   return out;
 }
 
+/// On the only axis of a rigid drive what acts on the link counts too, unless the catalogue has the
+/// same law for the motor.
+bool counts_on_rigid(const Refinement& row) {
+  const std::span<const Refinement> all = refinements();
+  return row.site == Site::link && std::none_of(all.begin(), all.end(), [&](const Refinement& r) {
+           return r.site == Site::motor && r.name == row.name;
+         });
+}
+
 std::vector<Eigen::MatrixXd> torque_columns(const Design& design, const Variant& variant,
                                             std::size_t k) {
   const Smoothing smoothing = design.smoothing_of(k);
   const Eigen::Index every = smoothing.every;
   const Kernel filter = gaussian(smoothing.columns, static_cast<double>(every) * smoothing.period);
-  const SomeTorques torques =
+  SomeTorques torques =
       some_torques(variant, design.stretches[k], design.states[k], every, 2 * filter.reach());
+  if (design.models.front().rigid && counts_on_rigid(*variant.refinement))
+    torques.motor += torques.link;
   const Eigen::Index n = n_linear(variant);
   std::vector<Eigen::MatrixXd> columns;
   for (const KindRows& kind : design.rows[k].kinds) {

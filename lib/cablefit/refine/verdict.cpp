@@ -24,7 +24,6 @@ constexpr double kSafety = 1.3;            // times the largest chance gain seen
 // largest gains is 2 to 3 times their median (exponential tails; Fisher & Tippett 1928).
 constexpr double kStandsOut = 4;
 constexpr double kAtFloor = 0.1;  // of the significance, where there is no gap to explain
-constexpr double kSecondLook = 0.5;
 constexpr int kResamples = 200;
 
 bool may_be_named(const Candidate& c) { return c.refused.empty() && c.gain > 0; }
@@ -73,8 +72,8 @@ bool are_comparable(const Candidate& a, const Candidate& b) {
 bool is_tie(const Candidate& a, const Candidate& b, const SquaredGap& gap) {
   if (!are_comparable(a, b)) return false;
   const Paired difference = paired(a.error, b.error);
-  return difference.sum < kEqualShare * gap.explainable() ||
-         (difference.sum < kTieShare * gap.explainable() && difference.in_sd() < kSureSd);
+  return difference.sum < kEqualShare * gap.above() ||
+         (difference.sum < kTieShare * gap.above() && difference.in_sd() < kSureSd);
 }
 
 Rival rival_of(const Candidate& c, const SquaredGap& gap) {
@@ -97,6 +96,8 @@ class Significance {
                const RefineOptions& options, bool is_first)
       : chance_(draws), gap_(gap), options_(options), is_first_(is_first) {}
 
+  ChanceTail of_search(double gain) const { return chance_.tail_of_search(gain); }
+
   ChanceTail tail(const Candidate& c) const { return chance_.tail(*c.variant.refinement, c.gain); }
 
   bool holds(const Candidate& c) const {
@@ -110,19 +111,27 @@ class Significance {
            tail(c).p <= significance();
   }
 
+  /// Whether more draws may change what holds() says: p is not ten times the significance or a
+  /// tenth of it.
+  bool is_open(const Candidate& c) const {
+    constexpr double kFar = 10;
+    const double p = tail(c).p;
+    return p <= kFar * options_.significance &&
+           p > std::max(least_tail(chance_.n_draws()), options_.significance / kFar);
+  }
+
   double beyond_chance(const Candidate& c) const {
     return c.gain - chance_.usual(*c.variant.refinement);
   }
 
  private:
-  bool is_at_floor() const { return !gap_.stays() && gap_.total < kNoGap * gap_.floor; }
+  bool is_at_floor() const { return gap_.total < kNoGap * gap_.floor; }
 
   /// Most logs in which nothing is missing are at the floor, and few in which something is: a name
-  /// there has the odds against it. Where a gap stays it is the second look (Bonferroni).
+  /// there has the odds against it.
   double significance() const {
-    const double share = is_at_floor() ? kAtFloor : gap_.stays() ? kSecondLook : 1;
-    if (share == 1) return options_.significance;
-    return std::max(least_tail(chance_.n_draws()), share * options_.significance);
+    if (!is_at_floor()) return options_.significance;
+    return std::max(least_tail(options_.n_draws), kAtFloor * options_.significance);
   }
 
   ChanceGains chance_;
@@ -181,9 +190,9 @@ bool is_alike(const Candidate& c, const Candidate& best, const Paired& differenc
               const SquaredGap& gap) {
   if (!are_comparable(c, best)) return false;
   if (n_parameters(c) > n_parameters(best) && difference.sum >= 0) return false;
-  const double apart = gap.explainable() > 0 ? difference.sum / gap.explainable() : kUnbounded;
-  return apart < kTieShare || (difference.sum < kLookAlikeSd * difference.se &&
-                               (gap.stays() || apart < kLookAlikeShare));
+  const double apart = gap.above() > 0 ? difference.sum / gap.above() : kUnbounded;
+  return apart < kTieShare ||
+         (difference.sum < kLookAlikeSd * difference.se && apart < kLookAlikeShare);
 }
 
 /// Aliases are listed by rule, also where their columns vanished beside each other.
@@ -202,10 +211,8 @@ void add_aliases(const Refinement& named, std::vector<Rival>& rivals) {
   }
 }
 
-/// `significance`: where most of the gap is there to stay, some date explains much of it by chance.
 std::vector<Rival> rivals_of(const Candidate& best, const std::vector<const Candidate*>& able,
-                             const std::vector<double>& share, const SquaredGap& gap,
-                             const Significance& significance) {
+                             const std::vector<double>& share, const SquaredGap& gap) {
   const Refinement& named = *best.variant.refinement;
   std::vector<Rival> rivals;
   for (std::size_t k = 0; k < able.size(); ++k) {
@@ -214,7 +221,6 @@ std::vector<Rival> rivals_of(const Candidate& best, const std::vector<const Cand
     const Paired difference = paired(able[k]->error, best.error);
     const bool by_rule = same_class(row, named);
     if (!by_rule && !is_alike(*able[k], best, difference, gap)) continue;
-    if (row.is_event && gap.stays() && !significance.holds(*able[k])) continue;
     Rival& rival = rivals.emplace_back(rival_of(*able[k], gap));
     rival.inclusion = share[k];
     rival.by_rule = by_rule;
@@ -246,12 +252,6 @@ bool same_class(const Refinement& a, const Refinement& b) {
   return !a.alias_class.empty() && a.alias_class == b.alias_class && !other_axis;
 }
 
-bool anything_material(const std::vector<Candidate>& candidates, const RefineOptions& options) {
-  return std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& c) {
-    return may_be_named(c) && c.gain >= options.materiality;
-  });
-}
-
 Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGap& gap,
                        const std::vector<NullDraw>& draws, const RefineOptions& options,
                        bool is_first) {
@@ -260,13 +260,21 @@ Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGa
   Judgement judgement;
   judgement.league = league_of(candidates, able, share, gap);
   const Significance significance(draws, gap, options, is_first);
+  const auto first = std::find_if(able.begin(), able.end(), [](const Candidate* c) {
+    return !c->variant.refinement->is_event;
+  });
+  if (first != able.end()) judgement.search = significance.of_search((*first)->gain);
   const auto best = best_of(able, significance, gap);
+  const double least_gain = best ? able[*best]->gain : 0;
+  judgement.is_settled = std::none_of(able.begin(), able.end(), [&](const Candidate* c) {
+    return c->gain >= least_gain && significance.is_open(*c);
+  });
   if (!best) return judgement;
   judgement.is_named = true;
   judgement.best = able[*best];
   judgement.chance = significance.tail(*judgement.best);
   judgement.inclusion = share[*best];
-  judgement.rivals = rivals_of(*judgement.best, able, share, gap, significance);
+  judgement.rivals = rivals_of(*judgement.best, able, share, gap);
   return judgement;
 }
 
@@ -279,7 +287,7 @@ Judgement judge_candidate(const Candidate& candidate, const std::vector<Candidat
   judgement.is_named = true;
   const Significance significance(draws, gap, options, true);
   judgement.chance = significance.tail(candidate);
-  judgement.rivals = rivals_of(candidate, able, share, gap, significance);
+  judgement.rivals = rivals_of(candidate, able, share, gap);
   for (std::size_t k = 0; k < able.size(); ++k)
     if (able[k]->variant.refinement == candidate.variant.refinement) judgement.inclusion = share[k];
   return judgement;

@@ -12,7 +12,9 @@ namespace cablefit {
 /// What one search tells.
 struct Judgement {
   const Candidate* best = nullptr;  ///< the largest gain of all that may be named; nullptr: none
-  ChanceTail chance;
+  ChanceTail chance;                ///< of the best
+  ChanceTail search;                ///< of the largest gain of what is always there, named or not
+  bool is_settled = true;  ///< more draws would hardly change whether something is named, and what
   bool is_named = false;
   std::vector<Rival> rivals;  ///< look-alikes of the best, likeliest first
   std::vector<Rival> league;  ///< all rows, by gain
@@ -22,10 +24,7 @@ struct Judgement {
 /// Squared held-out error of the base, and how much of it noise alone would leave (both weighted).
 struct SquaredGap {
   double total = 0, floor = 0;
-  double explained = kUnbounded;  ///< by the best of all, where a gap is known that stays
   double above() const { return std::max(0.0, total - floor); }
-  bool stays() const { return explained < kUnbounded; }
-  double explainable() const { return stays() ? explained : above(); }
 };
 
 /// `is_first`: a further effect has to carry more.
@@ -41,8 +40,5 @@ Judgement judge_candidate(const Candidate& candidate, const std::vector<Candidat
 /// Whether two rows are of one alias class, which no data tell apart. The same law on the link and
 /// on the motor is two.
 bool same_class(const Refinement& a, const Refinement& b);
-
-/// Whether any candidate is worth the bootstrap at all.
-bool anything_material(const std::vector<Candidate>& candidates, const RefineOptions& options);
 
 }  // namespace cablefit

@@ -51,7 +51,6 @@ Table league_table(const RefineResult& result) {
     table.rows.push_back(
         {row.name, row.side, percent(row.gain), percent(row.inclusion), row.refused});
   }
-  if (result.whitened) table.notes.emplace_back("of rows freed of what wanders");
   if (result.league.size() > n)
     table.notes.push_back(
         fmt::format("{} more candidates did no better", result.league.size() - n));
@@ -84,11 +83,12 @@ Table step_table(const RefineResult& result) {
   const std::string torque = torque_unit(result.linear_motion);
   Table table;
   table.title = "Steps";
-  table.columns = {{"", "added", "", true},   {"", "side", "", true}, {"gap", "train", torque},
-                   {"gap", "unseen", torque}, {"", "kept", "", true}, {"", "why not", "", true}};
+  table.columns = {{"", "added", "", true},     {"", "side", "", true},  {"gap", "train", torque},
+                   {"gap", "held out", torque}, {"gap", "test", torque}, {"", "kept", "", true},
+                   {"", "why not", "", true}};
   for (const RefineStep& step : result.steps)
-    table.rows.push_back({step.added, step.side, number(step.gap_train), number(step.gap_test),
-                          step.accepted ? "yes" : "no", step.reason});
+    table.rows.push_back({step.added, step.side, number(step.gap_train), number(step.gap_held_out),
+                          number(step.gap_test), step.accepted ? "yes" : "no", step.reason});
   return table;
 }
 

@@ -97,7 +97,8 @@ Json kept_json(const KeptEffect& kept) {
 Json step_json(const RefineStep& step) {
   return Json{{"added", step.added},         {"side", step.side},
               {"accepted", step.accepted},   {"reason", text_or_null(step.reason)},
-              {"gap_train", step.gap_train}, {"gap_test", step.gap_test}};
+              {"gap_train", step.gap_train}, {"gap_held_out", step.gap_held_out},
+              {"gap_test", step.gap_test}};
 }
 
 /// Numbers of a gap that is not known are null.
@@ -122,6 +123,11 @@ Json gap_json(const GapStory& gap, const std::string& unit, bool with_train) {
 Json remainder_json(const RefineResult& result) {
   const bool moves = !result.elastic_only;
   const auto if_there = [](bool there, double value) { return there ? Json(value) : Json(); };
+  const auto material = [&](std::string_view equation) {
+    for (const EquationRemainder& e : result.remainders)
+      if (e.equation == equation) return Json(e.material);
+    return Json();
+  };
   const bool has_link = moves && !result.rigid, has_blocked = result.floor_blocked > 0;
   return Json{{"unit", torque_unit(result.linear_motion)},
               {"link", if_there(has_link, result.remainder_link)},
@@ -129,7 +135,10 @@ Json remainder_json(const RefineResult& result) {
               {"blocked", if_there(has_blocked, result.remainder_blocked)},
               {"noise_floor_link", if_there(has_link, result.floor_link)},
               {"noise_floor_motor", if_there(moves, result.floor_motor)},
-              {"noise_floor_blocked", if_there(has_blocked, result.floor_blocked)}};
+              {"noise_floor_blocked", if_there(has_blocked, result.floor_blocked)},
+              {"material_link", material("link")},
+              {"material_motor", material("motor")},
+              {"material_blocked", material("blocked")}};
 }
 
 Json unexplained_json(const std::optional<Unexplained>& found, bool linear_motion) {
@@ -176,7 +185,6 @@ std::string refine_json(const RefineResult& result, std::span<const std::string>
   json["base_model"] = {{"path", result.model_path}, {"choice", result.model_choice}};
   json["verdict"] = to_string(result.verdict);
   json["reason"] = result.reason;
-  json["whitened"] = result.whitened;
   json["unexplained"] = unexplained_json(result.unexplained, result.linear_motion);
   json["preloads"] = result.preloads;
   json["where"] = list_of(result.where, regime_json);
@@ -191,6 +199,9 @@ std::string refine_json(const RefineResult& result, std::span<const std::string>
       {"torque", gap_json(result.torque, torque_unit(result.linear_motion), true)},
       {"simulation", gap_json(result.simulation, result.linear_motion ? "m" : "rad", false)}};
   json["test_held_out_of_train"] = result.held_out_blocks;
+  json["search"] = {{"p_value", result.search_p},
+                    {"p_is_fitted", result.search_p_is_fitted},
+                    {"draws", result.n_draws}};
   json["league"] = list_of(result.league, league_json);
   json["not_separable"] = list_of(result.not_separable, not_separable_json);
   json["parameter_shifts"] = list_of(result.shifts, shift_json);

@@ -111,7 +111,7 @@ std::string chance_text(const RefineEvidence& e) {
                      e.n_draws);
 }
 
-/// Whether it is in one log only, so that no unseen data can show it.
+/// Whether it is in one log only, so that no other data can show it.
 bool is_over(const NamedEffect& effect, bool held_out_blocks) {
   const RefinementInstance& instance = effect.instance;
   return instance.refinement->passes() || (instance.ends_with_log && !held_out_blocks);
@@ -122,9 +122,9 @@ SummaryLine evidence_line(const NamedEffect& effect, bool held_out_blocks) {
   const std::string gain =
       is_over(effect, held_out_blocks)
           ? "dated, so judged on the log that it is in"
-          : fmt::format("removes {} of the squared gap above the noise floor on unseen data",
+          : fmt::format("removes {} of the squared gap above the noise floor on held-out data",
                         percent(evidence.gain));
-  return {"evidence", fmt::format("{}; by chance {}; the best in {} of resamples", gain,
+  return {"evidence", fmt::format("{}; {}; the best in {} of resamples", gain,
                                   chance_text(evidence), percent(evidence.inclusion))};
 }
 
@@ -186,26 +186,26 @@ SummaryLine gap_line(const RefineResult& result) {
   const GapStory& gap = result.torque;
   const bool changed = !result.effects.empty();
   return {"gap",
-          fmt::format("torque, {} rms: train {}, unseen {}{}, noise floor {}",
+          fmt::format("torque, {} rms: train {}, test {}{}, noise floor {}",
                       torque_unit(result.linear_motion),
                       before_after(gap.train_before, gap.train_after, changed),
                       before_after(gap.test_before, gap.test_after, changed),
                       interval_text(gap.test_after_ci), number(gap.noise_floor)) +
-              (result.held_out_blocks ? fmt::format("; unseen: the last third of every {} log",
+              (result.held_out_blocks ? fmt::format("; test: the last third of every {} log",
                                                     result.elastic_only ? "blocked" : "moving")
                                       : "")};
 }
 
 SummaryLine simulation_line(const RefineResult& result) {
   const GapStory& gap = result.simulation;
-  if (result.elastic_only)
-    return {"simulation", "none: a blocked link does not move; unseen torques have the last word"};
-  return {"simulation",
-          fmt::format(
-              "of unseen logs, {} rms: {}{}, noise floor {}", result.linear_motion ? "mm" : "mrad",
-              before_after(1e3 * gap.test_before, 1e3 * gap.test_after, !result.effects.empty()),
-              interval_text({1e3 * gap.test_after_ci[0], 1e3 * gap.test_after_ci[1]}),
-              number(1e3 * gap.noise_floor))};
+  if (result.elastic_only) return {"simulation", "none: a blocked link does not move"};
+  return {
+      "simulation",
+      fmt::format(
+          "of the test logs, {} rms: {}{}, noise floor {}", result.linear_motion ? "mm" : "mrad",
+          before_after(1e3 * gap.test_before, 1e3 * gap.test_after, !result.effects.empty()),
+          interval_text({1e3 * gap.test_after_ci[0], 1e3 * gap.test_after_ci[1]}),
+          number(1e3 * gap.noise_floor))};
 }
 
 SummaryLine remainder_line(const RefineResult& result) {

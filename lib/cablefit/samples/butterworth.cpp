@@ -10,9 +10,9 @@ namespace cablefit {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kLanes =
+constexpr int kAtOnce =
     4;  // columns filtered side by side, so that the recursion fills the pipeline
-using Lane = Eigen::Array<double, kLanes, 1>;
+using Lane = Eigen::Array<double, kAtOnce, 1>;
 
 struct State {
   Lane s1 = Lane::Zero(), s2 = Lane::Zero();
@@ -88,8 +88,8 @@ void Butterworth::apply(Eigen::Ref<Eigen::MatrixXd> columns, bool odd_start, boo
   const Eigen::Index before = odd_start ? pad : 0;
   const Eigen::Index after = odd_end ? pad : 0;
   std::vector<Lane> x(static_cast<std::size_t>(before + n + after), Lane::Zero());
-  for (Eigen::Index first = 0; first < columns.cols(); first += kLanes) {
-    const int lanes = static_cast<int>(std::min<Eigen::Index>(kLanes, columns.cols() - first));
+  for (Eigen::Index first = 0; first < columns.cols(); first += kAtOnce) {
+    const int lanes = static_cast<int>(std::min<Eigen::Index>(kAtOnce, columns.cols() - first));
     for (int lane = 0; lane < lanes; ++lane) {
       const auto column = columns.col(first + lane);
       for (Eigen::Index i = 0; i < before; ++i)

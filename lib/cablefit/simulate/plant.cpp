@@ -88,14 +88,18 @@ void Plant::advance_links(const double* tau_load, double h) {
   }
 }
 
-JointState Plant::middle_of_step(std::size_t joint, double h) const {
+JointState Plant::middle_of_step(std::size_t joint, double load, double h) const {
   JointState state;
   state.t = t0_ + (n_steps_ + 0.5) * h;
   state.theta = theta_[joint];
   state.thetad = thetad_[joint];
   state.q = is_rigid_ ? state.theta : q_[joint];
   state.qd = is_rigid_ ? state.thetad : qd_[joint];
-  if (is_rigid_) return state;
+  if (is_rigid_) {
+    state.load = load;
+    state.tau_elas = -load;
+    return state;
+  }
   coupling_.look(joint, q_.data(), theta_.data(), state);
   state.tau_elas = elastic_motor_[joint];
   return state;
@@ -103,7 +107,7 @@ JointState Plant::middle_of_step(std::size_t joint, double h) const {
 
 void Plant::advance_refined(const double* tau, const double* tau_load, double h) {
   for (std::size_t k = 0; k < theta_.size(); ++k) {
-    const RefinedStep more = refined_[k].step(middle_of_step(k, h), h);
+    const RefinedStep more = refined_[k].step(middle_of_step(k, 0, h), h);
     thetad_[k] = motor_[k].advance(theta_[k], thetad_[k],
                                    tau[k] - elastic_motor_[k] - more.motor_torque, h, more.motor);
     if (link_blocked_) continue;
@@ -121,9 +125,9 @@ void Plant::advance_refined(const double* tau, const double* tau_load, double h)
 void Plant::advance_refined_rigid(const double* tau, const double* tau_load, double h) {
   for (std::size_t k = 0; k < theta_.size(); ++k) {
     theta_[k] += 0.5 * h * thetad_[k];
-    const RefinedStep more = refined_[k].step(middle_of_step(k, h), h);
-    const double torque =
-        tau[k] + tau_load[k] + load_at(theta_[k]) - more.motor_torque - more.link_torque;
+    const double load = tau_load[k] + load_at(theta_[k]);
+    const RefinedStep more = refined_[k].step(middle_of_step(k, load, h), h);
+    const double torque = tau[k] + load - more.motor_torque - more.link_torque;
     const Axis::Extra all{more.link.up + more.motor.up, more.link.down + more.motor.down,
                           more.link.inertia + more.motor.inertia};
     thetad_[k] = motor_[k].advance(theta_[k], thetad_[k], torque, h, all);

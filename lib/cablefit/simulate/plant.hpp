@@ -39,7 +39,8 @@ class Plant {
   /// The same with the refinements of the model.
   void advance_refined(const double* tau, const double* tau_load, double h);
   void advance_refined_rigid(const double* tau, const double* tau_load, double h);
-  JointState middle_of_step(std::size_t joint, double h) const;
+  /// `load`: N m, of a rigid drive.
+  JointState middle_of_step(std::size_t joint, double load, double h) const;
 
   bool is_rigid_, link_blocked_;
   Load load_;

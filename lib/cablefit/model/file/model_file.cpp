@@ -117,7 +117,7 @@ Model read_model_file(const JsonNode& root, const Wanted& wanted, std::string* c
     read_transmission(root.at("transmission"), &model);
   }
   if (const JsonNode* others = root.find("elastic")) read_other_results(*others, &model);
-  require_inertia(model, root.at("joints"));
+  if (wanted.completeness == Completeness::can_move) require_inertia(model, root.at("joints"));
   model.name = text_or(root, "name", default_model_name(model));
   require_wanted(root, "model", model.name, wanted.model);
   require_wanted(root, "preload", model.preload, wanted.preload);

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "cablefit/base/json_document.hpp"
-#include "cablefit/model/model.hpp"
+#include "cablefit/model/read_models.hpp"
 
 namespace cablefit::model_file {
 
@@ -15,6 +15,7 @@ inline constexpr std::string_view kResultSchema = "cablefit/dynamic/1";
 /// What the caller asked for; empty: nothing in particular.
 struct Wanted {
   std::string preload, model;
+  Completeness completeness = Completeness::can_move;
 };
 
 /// cablefit/model/1. `choice` says in words what was taken.

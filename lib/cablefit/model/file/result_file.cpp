@@ -165,6 +165,21 @@ void take_joints(FitParameters* parameters, Model* model) {
   }
 }
 
+std::vector<WindowMean> link_residual(const JsonNode& preload, const std::string& model) {
+  std::vector<WindowMean> means;
+  const JsonNode* tests = preload.find("residual_tests");
+  if (tests == nullptr) return means;
+  for (const JsonNode& item : tests->items) {
+    const JsonNode* list = item.find("residual_means");
+    if (list == nullptr || item.at("model").text() != model ||
+        item.at("equation").text() != to_string(Side::link))
+      continue;
+    for (const JsonNode& mean : list->items)
+      means.push_back({mean.at("seconds").positive(), mean.at("sd").number()});
+  }
+  return means;
+}
+
 }  // namespace
 
 Model read_result_file(const JsonNode& root, const Wanted& wanted, std::string* choice) {
@@ -182,7 +197,8 @@ Model read_result_file(const JsonNode& root, const Wanted& wanted, std::string* 
   take_joints(&parameters, &model);
   if (!model.rigid) take_transmission(&parameters, &model);
   parameters.require_all_used();
-  require_inertia(model, fit);
+  if (wanted.completeness == Completeness::can_move) require_inertia(model, fit);
+  model.link_residual = link_residual(preload, model.name);
   *choice = describe(preloads, preload, "preload", "name", wanted.preload) + ", " +
             describe(fits, fit, "model", "model", wanted.model);
   return model;

@@ -2,18 +2,24 @@
 
 #include "cablefit/model/refinements/rows.hpp"
 
-// Dry friction that grows with what the cables carry.
+// Dry friction that grows with what the drive carries.
 namespace cablefit::rows {
 namespace {
 
 constexpr ParameterInfo kMu[] = {
     {"mu", "mu", "", "dry friction per cable force at the pulley (N m per N m)", 0}};
+constexpr ParameterInfo kLoadMu[] = {{"mu", "mu", "", "dry friction per load torque", 0}};
 constexpr ParameterInfo kLoss[] = {
     {"loss", "a", "", "share of tau_elas lost while the motor drives", 0}};
 
 void tension_level(const JointState& state, double /*direction*/, const double* /*shape*/,
                    const double* /*z*/, double* level) {
   level[0] = state.tension;
+}
+
+void load_level(const JointState& state, double /*direction*/, const double* /*shape*/,
+                const double* /*z*/, double* level) {
+  level[0] = std::abs(state.load);
 }
 
 void driving_level(const JointState& state, double direction, const double* /*shape*/,
@@ -37,6 +43,19 @@ Refinement tension_friction(Site side) {
           .parameters = kMu,
           .is_static = side == Site::motor,
           .level = tension_level};
+}
+
+Refinement load_friction() {
+  return {.name = "load_friction",
+          .site = Site::motor,
+          .equation = "mu |tau_load| sgn(thetad), on a rigid drive",
+          .signature =
+              "dry friction that grows with the load; drive efficiency costs only while the "
+              "motor drives, and cables carry the load of an elastic drive: tension friction",
+          .experiment = "the same motion under two loads",
+          .source = "Duclusaud et al. 2025",
+          .parameters = kLoadMu,
+          .level = load_level};
 }
 
 Refinement drive_efficiency() {

@@ -14,8 +14,10 @@ constexpr ParameterInfo kPresliding[] = {
     {"amplitude", "a", "N m", "dry friction that is there only after presliding, at most all", 0},
     {"distance", "d", "rad", "way after which 63 % of it is there", 1e-6}};
 
+// Two to eight periods over the range: with fewer any smooth function of position passes for them,
+// as friction that grows with a load that depends on position.
 constexpr ShapeGrid kOrder[] = {
-    {.low = 0.3, .high = 6, .n_values = 16, .is_geometric = false, .unit = GridUnit::per_travel}};
+    {.low = 6.3, .high = 25, .n_values = 32, .is_geometric = false, .unit = GridUnit::per_travel}};
 constexpr ShapeGrid kDistance[] = {{.low = 0.2e-3, .high = 20e-3, .n_values = 9}};
 
 template <Site kSide>

@@ -4,10 +4,10 @@
 namespace cablefit::rows {
 namespace {
 
-constexpr ParameterInfo kGravity[] = {{"a_sin", "a_sin", "N m", "with sin(q)"},
-                                      {"a_cos", "a_cos", "N m", "with cos(q)"},
-                                      {"b_sin", "b_sin", "N m", "with sin(2 q)"},
-                                      {"b_cos", "b_cos", "N m", "with cos(2 q)"}};
+constexpr ParameterInfo kImbalance[] = {{"a_sin", "a_sin", "N m", "with sin(q)"},
+                                        {"a_cos", "a_cos", "N m", "with cos(q)"},
+                                        {"b_sin", "b_sin", "N m", "with sin(2 q)"},
+                                        {"b_cos", "b_cos", "N m", "with cos(2 q)"}};
 constexpr ParameterInfo kCogging[] = {
     {"a_sin", "a_sin", "N m", "with sin(n theta)"},
     {"a_cos", "a_cos", "N m", "with cos(n theta)"},
@@ -19,10 +19,11 @@ constexpr ParameterInfo kEccentricity[] = {{"a_sin", "a_sin", "rad", "deflection
                                            {"b_sin", "b_sin", "rad", "deflection with sin(2 q)"},
                                            {"b_cos", "b_cos", "rad", "deflection with cos(2 q)"}};
 
-// A quarter to ten periods over half the range; orders whose phases at its ends are 0.6 rad apart
+// Three to twenty periods over the range: with fewer any smooth curve passes for them, as what a
+// wrong torque constant leaves. Orders whose phases at the ends of half the range are 0.6 rad apart
 // are all but the same.
 constexpr ShapeGrid kOrder[] = {
-    {.low = 1.6, .high = 62, .n_values = 102, .is_geometric = false, .unit = GridUnit::per_travel}};
+    {.low = 9.4, .high = 62, .n_values = 89, .is_geometric = false, .unit = GridUnit::per_travel}};
 
 void gravity(const JointState& state, const double* /*shape*/, const double* /*z*/, double* link,
              double* /*motor*/) {
@@ -52,7 +53,7 @@ Refinement gravity_imbalance() {
               "like a wrong load law, or eccentric pulleys under one load",
           .experiment = "a slow sweep over more than 0.5 rad without load, both directions",
           .source = "Khalil & Dombre 2002",
-          .parameters = kGravity,
+          .parameters = kImbalance,
           .n_harmonics = 2,
           .torque = gravity};
 }

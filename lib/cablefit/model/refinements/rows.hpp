@@ -19,6 +19,7 @@ Refinement quadratic_drag(Site side);
 Refinement nonlinear_viscous(Site side);
 Refinement position_friction(Site side);
 Refinement tension_friction(Site side);
+Refinement load_friction();
 Refinement drive_efficiency();
 Refinement presliding(Site side);
 Refinement friction_drift(Site side);

@@ -1,0 +1,204 @@
+#include "cablefit/refine/own_base.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/identify/elastic_stage.hpp"
+#include "cablefit/identify/identify.hpp"
+#include "cablefit/model/model_parameters.hpp"
+
+namespace cablefit {
+namespace {
+
+// Not the straight line, even where it will do for stage 1: a gap to be explained is smaller.
+constexpr const char* kCables = "poly";
+constexpr double kAnyInertia = 1;  // kg m^2; it stands until the rows have told
+
+std::vector<EffectInstance> blank_effects(Side side, const Rig& rig) {
+  std::vector<EffectInstance> effects;
+  for (const Effect& effect : base_effects(side)) {
+    EffectInstance& instance = effects.emplace_back();
+    instance.effect = &effect;
+    for (const ParameterInfo& info : effect.parameters) {
+      Estimate& e = instance.parameters.emplace_back();
+      e.name = info.name;
+      e.symbol = info.symbol;
+      e.unit = unit_on(rig, info.unit);
+    }
+  }
+  return effects;
+}
+
+Model blank_model(const std::string& preload, const Rig& rig, bool rigid) {
+  Model model;
+  model.preload = preload;
+  model.rig = rig;
+  model.rigid = rigid;
+  JointModel& axes = model.joints.emplace_back();
+  if (!rigid) axes.link = blank_effects(Side::link, rig);
+  axes.motor = blank_effects(rigid ? Side::rigid : Side::motor, rig);
+  model.name = default_model_name(model);
+  return model;
+}
+
+std::vector<LogSurvey> all_logs(const RefineLogs& logs) {
+  std::vector<LogSurvey> all = logs.blocked;
+  all.insert(all.end(), logs.train.begin(), logs.train.end());
+  return all;
+}
+
+bool any_part(std::span<const LogSurvey> logs, const std::string& preload, Phase phase) {
+  return std::any_of(logs.begin(), logs.end(), [&](const LogSurvey& log) {
+    return std::any_of(log.parts.begin(), log.parts.end(), [&](const PartSurvey& part) {
+      return part.phase == phase && part.preload == preload;
+    });
+  });
+}
+
+/// Whether q is a copy of theta: both have the same ends in every part, to the last bit.
+bool is_copied(std::span<const LogSurvey> logs) {
+  return std::all_of(logs.begin(), logs.end(), [&](const LogSurvey& log) {
+    return std::all_of(log.parts.begin(), log.parts.end(), [&](const PartSurvey& part) {
+      const auto range = [&](Channel channel) {
+        return seen_range(
+            logs, [&](const PartSurvey& p) { return &p == &part; }, channel);
+      };
+      const ChannelRange q = range(Channel::q), theta = range(Channel::theta);
+      return q.low == theta.low && q.high == theta.high && q.width() > 0;
+    });
+  });
+}
+
+void take_cables(const ElasticFit& fit, Model& model) {
+  model.name = fit.model;
+  model.transmission = fit.transmission;
+  model.elastic = fit.parameters;
+}
+
+/// Coefficients are shared between preloads: of different orders the higher one for all.
+ElasticResult shared_stage1(std::span<const LogSurvey> logs, int threads) {
+  ElasticOptions options;
+  options.samples.threads = threads;
+  options.honest_sd = false;
+  ElasticResult result = fit_elastic_stage(logs, options, ElongationMode::automatic);
+  int lowest = kMaxCableOrder, highest = 0;
+  for (const ElasticPreload& preload : result.preloads) {
+    lowest = std::min(lowest, preload.find(kCables)->order);
+    highest = std::max(highest, preload.find(kCables)->order);
+  }
+  if (lowest == highest) return result;
+  options.order = highest;
+  return fit_elastic_stage(logs, options, ElongationMode::automatic);
+}
+
+void take_stage1(std::span<const LogSurvey> logs, int threads, std::vector<Model>& models,
+                 std::vector<Decision>& decisions) {
+  const ElasticResult stage1 = shared_stage1(logs, threads);
+  for (Model& model : models)
+    for (const ElasticPreload& preload : stage1.preloads)
+      if (preload.name == model.preload) take_cables(*preload.find(kCables), model);
+  decisions.push_back({"cables", kCables, "stage 1, from the blocked logs"});
+}
+
+/// One straight spring, whose stiffness the rows tell.
+void take_spring(std::vector<Model>& models) {
+  for (Model& model : models) {
+    model.name = "linear";
+    model.transmission.cables.clear();
+    model.transmission.linear_stiffness = Eigen::VectorXd::Ones(1);
+    model.transmission.theta_0 = Eigen::VectorXd::Zero(1);
+  }
+}
+
+void take_one_step(std::span<const LogSurvey> logs, int threads, std::vector<Model>& models,
+                   std::vector<Decision>& decisions) {
+  IdentifyOptions options;
+  options.samples.threads = threads;
+  options.honest_sd = false;
+  const IdentifyResult found = identify(logs, options);
+  for (Model& model : models)
+    for (const IdentifyPreload& preload : found.preloads)
+      if (preload.name == model.preload) {
+        model.name = kCables;
+        model.transmission = preload.transmission;
+      }
+  decisions.push_back({"cables", kCables, "one step, from the moving logs: no link is blocked"});
+}
+
+/// "J_link = 0.3 (cad)", or empty: there was a value.
+std::string fill(const Rig& rig, bool is_inertia, const ParameterInfo& info, Estimate& e) {
+  const bool is_there = std::isfinite(e.value) && !(is_inertia && e.value <= 0);
+  if (is_there) return "";
+  const auto cad = rig.cad.find(e.name);
+  const bool has_cad = cad != rig.cad.end() && (!is_inertia || cad->second > 0);
+  e.value = has_cad                     ? cad->second
+            : is_inertia                ? kAnyInertia
+            : std::isfinite(info.lower) ? info.lower
+                                        : 0;
+  e.not_identifiable.clear();
+  return e.name + (has_cad ? " (CAD)" : "");
+}
+
+}  // namespace
+
+OwnBase own_base(const RefineLogs& given, int threads) {
+  OwnBase base;
+  const std::vector<LogSurvey> logs = all_logs(given);
+  const std::vector<std::string> names =
+      preload_names(logs, [](const PartSurvey& /*part*/) { return true; });
+  const bool has_both = std::any_of(logs.begin(), logs.end(), [](const LogSurvey& log) {
+    return log.plan.has(Channel::q) && log.plan.has(Channel::theta);
+  });
+  const bool rigid = !has_both || is_copied(logs);
+  bool all_blocked = true;
+  for (const std::string& name : names) {
+    const Rig& rig =
+        first_log_with(logs, [&](const PartSurvey& part) { return part.preload == name; }).plan.rig;
+    if (rig.n_joints() > 1)
+      throw input_error(
+          {rig.path, 0, 0},
+          fmt::format("the rig has {} joints; refine is made for one", rig.n_joints()),
+          "give logs and a rig file of one of them");
+    base.models.push_back(blank_model(name, rig, rigid));
+    all_blocked = all_blocked && any_part(logs, name, Phase::blocked);
+  }
+  if (rigid)
+    base.decisions.push_back({"base", "a rigid drive",
+                              has_both ? "q is a copy of theta" : "no log has both q and theta"});
+  else if (all_blocked)
+    take_stage1(logs, threads, base.models, base.decisions);
+  else
+    try {
+      take_one_step(logs, threads, base.models, base.decisions);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::not_identifiable) throw;
+      take_spring(base.models);
+      base.decisions.push_back({"cables", "a straight spring", error.what()});
+    }
+  (void)fill_start_values(base.models);  // all of them: nothing to say
+  return base;
+}
+
+std::vector<Decision> fill_start_values(std::vector<Model>& models) {
+  std::vector<Decision> decisions;
+  for (Model& model : models) {
+    std::string filled;
+    for (JointModel& axes : model.joints)
+      for (auto* effects : {&axes.link, &axes.motor})
+        for (EffectInstance& instance : *effects)
+          for (std::size_t k = 0; k < instance.parameters.size(); ++k) {
+            const std::string name = fill(model.rig, instance.effect->inertia != nullptr,
+                                          instance.effect->parameters[k], instance.parameters[k]);
+            if (!name.empty()) filled += (filled.empty() ? "" : ", ") + name;
+          }
+    if (!filled.empty())
+      decisions.push_back({fmt::format("start values of preload '{}'", model.preload), filled,
+                           "the model has no value; refine estimates it"});
+  }
+  return decisions;
+}
+
+}  // namespace cablefit

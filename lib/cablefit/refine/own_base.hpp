@@ -1,0 +1,30 @@
+// The models that refine begins with when none is given, or what a given one lacks. Only their
+// structure and their cables count: all linear parameters are fitted to refine's own rows before
+// anything is looked for.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cablefit/refine/refine.hpp"
+
+namespace cablefit {
+
+struct OwnBase {
+  std::vector<Model> models;  ///< one per preload, in the order in which they come
+  std::vector<Decision> decisions;
+};
+
+/// Of the training and blocked logs: a rigid drive where no log has q, or q is a copy of theta.
+/// Else cables by stage 1 from the blocked logs, l_o searched where their curve asks for it (all
+/// preloads of one order, so that they share coefficients), or by one step from the moving logs
+/// where no link is blocked; where such cables do not explain these, one straight spring. The
+/// effects are those of stage 2. Throws Error(input) for several joints or missing channels, and
+/// what the stages throw.
+OwnBase own_base(const RefineLogs& logs, int threads);
+
+/// A missing value of an effect becomes the rig's "cad", else its bound; a missing inertia 1.
+/// refine estimates all of them. Returns which were missing.
+std::vector<Decision> fill_start_values(std::vector<Model>& models);
+
+}  // namespace cablefit

@@ -1,0 +1,133 @@
+// refine from logs alone, and with values that a robot cannot have.
+#include "cablefit/refine/own_base.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "cablefit/refine/levels.hpp"
+#include "cablefit/refine/null_draws.hpp"
+#include "cablefit/refine/physical_values.hpp"
+#include "tests/refine/hidden_logs.hpp"
+#include "tests/support/recover.hpp"
+
+namespace {
+
+using namespace cablefit;
+using namespace cablefit::test;
+
+double value_of(const Model& model, const std::string& name) {
+  for (const auto* effects : {&model.joints.at(0).link, &model.joints.at(0).motor})
+    for (const EffectInstance& instance : *effects)
+      for (const Estimate& e : instance.parameters)
+        if (e.name == name) return e.value;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+TEST_CASE("a base of its own has the cables of stage 1 and the effects of stage 2", "[refine]") {
+  RefineLogs logs;
+  logs.blocked = {shipped("low/blocked.csv")};
+  logs.train = {shipped("low/moving_load30.csv")};
+  const OwnBase base = own_base(logs, 1);
+  REQUIRE(base.models.size() == 1);
+  const Model& model = base.models.front();
+  CHECK(model.preload == "low");
+  CHECK_FALSE(model.rigid);
+  REQUIRE(model.transmission.cables.size() == 2);
+  CHECK(model.transmission.cables[0].coefficients.at(0) ==
+        Approx(truth::Rig::low().cable_1.stiffness[0]).epsilon(0.01));
+  CHECK(model.joints.at(0).link.size() == base_effects(Side::link).size());
+  CHECK(model.joints.at(0).motor.size() == base_effects(Side::motor).size());
+  CHECK(value_of(model, "J_link") == 0.3);  // the rig's "cad", until the rows have told
+}
+
+TEST_CASE("without q the base is a rigid drive", "[refine]") {
+  const HiddenLogs hidden = hidden_logs({});
+  RefineLogs logs;
+  logs.train = hidden.logs.train;
+  for (LogSurvey& log : logs.train)
+    for (Slot& slot : log.plan.slots)
+      if (slot.channel == Channel::q) slot.channel = Channel::theta_ref;
+  const OwnBase base = own_base(logs, 1);
+  REQUIRE(base.models.size() == 1);
+  CHECK(base.models.front().rigid);
+  CHECK(base.models.front().joints.at(0).link.empty());
+}
+
+/// As servo logs have it, whose only encoder is at the output.
+TEST_CASE("where q is a copy of theta the base is a rigid drive", "[refine]") {
+  RefineLogs logs;
+  logs.train = hidden_logs({}).logs.train;
+  for (LogSurvey& log : logs.train) {
+    const auto slot_of = [&](Channel channel) {
+      return std::find_if(log.plan.slots.begin(), log.plan.slots.end(),
+                          [&](const Slot& slot) { return slot.channel == channel; }) -
+             log.plan.slots.begin();
+    };
+    const auto q = static_cast<std::size_t>(slot_of(Channel::q)),
+               theta = static_cast<std::size_t>(slot_of(Channel::theta));
+    for (PartSurvey& part : log.parts) part.channels.at(q) = part.channels.at(theta);
+  }
+  const OwnBase base = own_base(logs, 1);
+  CHECK(base.models.front().rigid);
+  CHECK(base.decisions.at(0).reason == "q is a copy of theta");
+}
+
+TEST_CASE("what a model lacks begins at the CAD value, a bound or any inertia", "[refine]") {
+  Model model = hidden_logs({}).models.front();
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (auto* effects : {&model.joints[0].link, &model.joints[0].motor})
+    for (EffectInstance& instance : *effects)
+      for (Estimate& e : instance.parameters)
+        if (e.name == "J_motor" || e.name == "J_link" || e.name == "f_v") e.value = none;
+  model.rig.cad = {{"J_link", 0.3}};
+  std::vector<Model> models = {model};
+  const std::vector<Decision> decisions = fill_start_values(models);
+  CHECK(value_of(models[0], "J_link") == 0.3);
+  CHECK(value_of(models[0], "J_motor") > 0);
+  CHECK(value_of(models[0], "f_v") == 0);
+  REQUIRE(decisions.size() == 1);
+  CHECK(decisions[0].value == "J_link (CAD), f_v, J_motor");
+  CHECK(fill_start_values(models).empty());
+}
+
+TEST_CASE("what is simulated has inertias and frictions that a robot can have", "[refine]") {
+  const HiddenLogs hidden = hidden_logs({});
+  const auto any = [](const PartSurvey& /*part*/) { return true; };
+  std::vector<LogSurvey> logs = hidden.logs.blocked;
+  logs.insert(logs.end(), hidden.logs.train.begin(), hidden.logs.train.end());
+  std::vector<Stretch> stretches = read_stretches(logs, hidden.models, any);
+  const Smoothing smoothing = smoothing_for(finest_period(stretches, false));
+  const BaseFit base =
+      fit_base(make_design(hidden.models, std::move(stretches), smoothing), 2, nullptr);
+  const auto physical = [&](const Eigen::VectorXd& x, std::vector<Eigen::Index>* held = nullptr) {
+    return physical_values(base.design, 2, base.levels, x, held);
+  };
+  CHECK(physical(base.fit.x) == base.fit.x);  // to the last bit
+
+  Eigen::VectorXd beyond = base.fit.x;
+  const auto column = [&](const std::string& name) {
+    for (std::size_t k = 0; k < base.design.layout.parameters.size(); ++k)
+      if (base.design.layout.parameters[k].name == name) return static_cast<Eigen::Index>(k);
+    FAIL("no column " << name);
+    return Eigen::Index{0};
+  };
+  beyond(column("J_motor")) = -0.01;
+  std::vector<Eigen::Index> held;
+  const Eigen::VectorXd x = physical(beyond, &held);
+  CHECK(held == std::vector<Eigen::Index>{column("J_motor")});
+  CHECK(x(column("J_motor")) > 0);
+  // All others are the best beside these: no other value of one of them fits better.
+  const double least = errors_of(base.grams, base.levels, x).sum();
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    if (k == column("J_motor")) continue;
+    for (const double step : {-1e-3, 1e-3}) {
+      Eigen::VectorXd other = x;
+      other(k) *= 1 + step;
+      CHECK(errors_of(base.grams, base.levels, other).sum() >= least * (1 - 1e-9));
+    }
+  }
+}
+
+}  // namespace
