@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "random.hpp"
@@ -266,6 +267,11 @@ Case make_case(const CaseSpec& spec) {
   Case out;
   out.spec = spec;
   out.bench.rig = rig_of_seed(spec.seed);
+  out.bench.slow_noise_tau = spec.slow_noise;
+  if (spec.poor_sensors) {
+    out.bench.quantum_q = out.bench.quantum_theta = 2 * std::numbers::pi / std::exp2(14);
+    out.bench.noise_tau = 1;
+  }
   out.runs = design_of(spec.design).runs(spec.seed, out.bench);
   if (spec.extra) out.runs.push_back(extra_run(spec, out.bench, out.runs));
 

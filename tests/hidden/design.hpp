@@ -28,6 +28,9 @@ struct CaseSpec {
   std::uint64_t seed = 1;
   std::vector<Wish> effects;
   double clutter = 0;         ///< N m, sd of a wandering torque on the link
+  bool controller = true;     ///< written down, with its reference
+  bool poor_sensors = false;  ///< 14 bit encoders, 1 N m of torque noise
+  double slow_noise = 0;      ///< N m, sd of what the torque signal has with 0.2 s
   std::optional<double> rho;  ///< each effect is scaled until this is its rho by itself
   std::optional<Extra> extra;
 };

@@ -79,6 +79,10 @@ int main(int argc, char** argv) try {
   one.add_option("--seed", spec.seed, "rig, references, phases, noise");
   one.add_option("--design", spec.design, "which runs");
   one.add_option("--clutter", spec.clutter, "sd of a wandering torque on the link, N m");
+  bool no_controller = false;
+  one.add_flag("--no-controller", no_controller, "the rig file has none, the logs no theta_ref");
+  one.add_flag("--poor-sensors", spec.poor_sensors, "14 bit encoders, 1 N m of torque noise");
+  one.add_option("--slow-noise", spec.slow_noise, "sd of torque noise with 0.2 s, N m");
   auto* with_rho =
       one.add_option("--rho", rho, "scale each effect until this is its rho by itself");
   auto* with_load = one.add_option("--extra-load", extra_load, "a further run at this load, N m");
@@ -86,6 +90,7 @@ int main(int argc, char** argv) try {
                                    "a further run by columns t, theta_ref (and tau_load) of a CSV");
   one.callback([&] {
     for (const std::string& text : effects) spec.effects.push_back(wish_of(text));
+    spec.controller = !no_controller;
     if (with_rho->count() > 0) spec.rho = rho;
     if (with_load->count() + with_file->count() > 0)
       spec.extra = extra_file.empty() ? Extra{extra_load, {}} : extra_of(extra_file, extra_load);

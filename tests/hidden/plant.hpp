@@ -61,6 +61,7 @@ struct Bench {
   Rig rig;
   double kp = 300, kd = 6, limit = 250;  // N m/rad, N m s/rad, N m
   double quantum_q = 48e-6, quantum_theta = 24e-6, noise_tau = 0.3;
+  double slow_noise_tau = 0;                 ///< N m, sd; correlation time 0.2 s
   double theta_scale = 0, theta_offset = 0;  ///< true theta = (1 + scale) measured + offset
   double q_delay = 0;                        ///< the link encoder shows q(t - delay), s
   double tau_delay = 0;                      ///< a command acts this much later, s

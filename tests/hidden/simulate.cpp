@@ -9,7 +9,8 @@
 namespace hidden {
 namespace {
 
-constexpr int kSettle = 500;  // samples before t = 0
+constexpr int kSettle = 500;        // samples before t = 0
+constexpr double kSlowNoise = 0.2;  // s
 
 double counts(double x, double quantum) {
   return quantum > 0 ? quantum * std::round(x / quantum) : x;
@@ -158,7 +159,9 @@ Recording simulate(const Bench& given, const std::vector<Hooks>& hooks, const Ru
   Drive drive(bench, run.reference.front(), counts(encoder(), bench.quantum_theta));
   std::vector<double> past_q(static_cast<std::size_t>(q_late) + 1, now.q);  // a ring
   std::size_t newest = 0;
-  Random noise(run.noise, run.name);
+  Random noise(run.noise, run.name), slow(run.noise, run.name + " slow");
+  const double keeps = std::exp(-1 / (kRate * kSlowNoise));
+  double disturbance = slow.normal();
 
   Recording out;
   const auto n = static_cast<int>(run.reference.size());
@@ -176,7 +179,8 @@ Recording simulate(const Bench& given, const std::vector<Hooks>& hooks, const Ru
       };
       record(out.exact, q, theta, tau);
       record(out.logged, counts(q, bench.quantum_q), counts(theta, bench.quantum_theta),
-             tau + bench.noise_tau * noise.normal());
+             tau + bench.noise_tau * noise.normal() + bench.slow_noise_tau * disturbance);
+      disturbance = keeps * disturbance + std::sqrt(1 - keeps * keeps) * slow.normal();
     }
     for (int i = 0; i < substeps; ++i) {
       plant.step(now, drive.torque(i, tau_late, substeps), k / kRate + i * h, h);

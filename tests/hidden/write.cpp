@@ -1,6 +1,7 @@
 #include "write.hpp"
 
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -28,16 +29,13 @@ ordered_json rig_json(const Case& one, const Run& run) {
                    {"name", "hidden-effect rig"},
                    {"torque_hold", "zoh"},
                    {"load", {{"type", "column"}}},
-                   {"controller",
-                    {{"type", "pd"},
-                     {"kp", b.kp},
-                     {"kd", b.kd},
-                     {"limit", b.limit},
-                     {"reference", "theta_ref"}}},
                    {"sensors",
                     {{"q", {{"quantum", b.quantum_q}}},
                      {"theta", {{"quantum", b.quantum_theta}}},
-                     {"tau", {{"noise", b.noise_tau}}}}}};
+                     {"tau", {{"noise", std::hypot(b.noise_tau, b.slow_noise_tau)}}}}}};
+  if (one.spec.controller)
+    rig["controller"] = {
+        {"type", "pd"}, {"kp", b.kp}, {"kd", b.kd}, {"limit", b.limit}, {"reference", "theta_ref"}};
   if (run.preload.empty()) return rig;
   rig["preload"] = run.preload;
   // In cable space, because only there the rig file can say what l_o is. Pulleys of 1 m keep the
@@ -134,15 +132,15 @@ void write_text(const std::filesystem::path& file, const std::string& text) {
   if (!out) throw std::runtime_error("cannot write " + file.string());
 }
 
-void write_log(const std::filesystem::path& file, const Signals& log) {
-  std::string text =
-      log.blocked ? "t,q,theta,tau,theta_ref\n" : "t,q,theta,tau,tau_load,theta_ref\n";
+void write_log(const std::filesystem::path& file, const Signals& log, bool with_reference) {
+  std::string text = log.blocked ? "t,q,theta,tau" : "t,q,theta,tau,tau_load";
+  text += with_reference ? ",theta_ref\n" : "\n";
   text.reserve(log.q.size() * 64);
   for (std::size_t k = 0; k < log.q.size(); ++k) {
     append(text, static_cast<double>(k) / kRate);
     for (const double x : {log.q[k], log.theta[k], log.tau[k]}) append(text += ',', x);
     if (!log.blocked) append(text += ',', log.load);
-    append(text += ',', log.theta_ref[k]);
+    if (with_reference) append(text += ',', log.theta_ref[k]);
     text += '\n';
   }
   write_text(file, text);
@@ -153,7 +151,7 @@ void write_case(const std::filesystem::path& folder, const Case& one) {
     const Run& run = one.runs[i];
     const std::filesystem::path file = folder / file_of(run);
     std::filesystem::create_directories(file.parent_path());
-    write_log(file, one.recordings[i].logged);
+    write_log(file, one.recordings[i].logged, one.spec.controller);
     write_text(file.parent_path() / "rig.json", rig_json(one, run).dump(2) + '\n');
   }
   write_text(folder / "truth.json", truth_json(one).dump(2) + '\n');

@@ -51,7 +51,8 @@ std::span<const Row> drive_rows();
 std::span<const Row> transmission_rows();
 std::span<const Row> sensor_rows();
 std::span<const Row> event_rows();
-std::span<const Row> outside_rows();
+std::span<const Row> outside_rows();      ///< torques and modes
+std::span<const Row> outside_law_rows();  ///< laws of friction and stiffness
 
 /// All of them, in this order.
 const std::vector<Row>& all_rows();
@@ -66,6 +67,9 @@ std::string_view to_string(Form form);
 
 /// 0 before t = 0, then 1 - exp(-t/T): how things drift.
 double saturating(double t, double T);
+
+/// Of a path with a value per ms from t = -1 s on, straight between them.
+double value_at(const std::vector<double>& path, double t);
 
 /// +1, 0, -1.
 inline double sign(double x) { return static_cast<double>((x > 0) - (x < 0)); }

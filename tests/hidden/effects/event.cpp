@@ -1,4 +1,5 @@
 // What happens once, in one of the runs. A slip and a payload stay for the runs after it.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -12,11 +13,15 @@ bool has_happened(const Draw& draw, const Run& run, double t) {
   return run.number > draw.event_run || (run.number == draw.event_run && t >= draw.event_time);
 }
 
+/// At once, or within 0.3 s.
+template <bool kGradual>
 Planted slip(const Draw& draw, const Run& run, const Bench&) {
   const double a = draw.size * (draw.u < 0.5 ? 1 : -1);
   Hooks hooks;
   hooks.deflection = [=, before = run](const State& s) {
-    return has_happened(draw, before, s.t) ? a : 0;
+    if (!has_happened(draw, before, s.t)) return 0.0;
+    const bool is_over = before.number > draw.event_run;
+    return kGradual && !is_over ? a * std::min(1.0, (s.t - draw.event_time) / 0.3) : a;
   };
   return {hooks, {{"slip", a, "rad"}, {"t0", draw.event_time, "s"}}};
 }
@@ -55,7 +60,9 @@ using enum Form;
 
 constexpr std::array kRows{
     Row{"slip", "transmission", "", matched, "", 5e-4, "rad", Shows::opposite,
-        "tau_elas(phi + a) from t0 on", slip},
+        "tau_elas(phi + a) from t0 on", slip<false>},
+    Row{"slip", "transmission", "", other, "gradual", 5e-4, "rad", Shows::opposite,
+        "tau_elas(phi + a (t - t0)/0.3 s), then a", slip<true>},
     Row{"contact", "link", "", matched, "", 3, "N m", Shows::link,
         "- a (1 - cos(2 pi (t - t0)/w))/2 for w s", contact<false>},
     Row{"contact", "link", "", other, "knock", 4, "N m", Shows::link, "- a exp(-(t - t0)/(0.4 w))",

@@ -81,8 +81,9 @@ template <bool kMotor>
 Planted asymmetric_viscous(const Draw& draw, const Run&, const Bench&) {
   return asymmetric_power<kMotor>(1, draw);
 }
+template <bool kMotor>
 Planted asymmetric_viscous_bent(const Draw& draw, const Run&, const Bench&) {
-  return asymmetric_power<false>(1.4, draw);
+  return asymmetric_power<kMotor>(1.4, draw);
 }
 
 enum class Fall { gauss, lorentz, exponential };
@@ -120,10 +121,11 @@ Planted nonlinear_viscous(const Draw& draw, const Run&, const Bench&) {
               [=](const State& s) { return a * std::pow(std::abs(Own<kMotor>::speed(s)), power); }),
           {{"coefficient", a, "N m (s/rad)^exponent"}, {"exponent", power, ""}}};
 }
+template <bool kMotor>
 Planted hyperbolic_drag(const Draw& draw, const Run&, const Bench&) {
   const double a = 2 * draw.size, v_0 = 0.3 + 0.4 * draw.u;
-  return {coulomb<false>([=](const State& s) {
-            const double v = std::abs(s.qd);
+  return {coulomb<kMotor>([=](const State& s) {
+            const double v = std::abs(Own<kMotor>::speed(s));
             return a * v / (v + v_0);
           }),
           {{"limit", a, "N m"}, {"v_0", v_0, "rad/s"}}};
@@ -134,7 +136,7 @@ double triangle(double x) { return std::asin(std::sin(x)) * 2 / std::numbers::pi
 
 template <bool kMotor, bool kTriangle>
 Planted position_friction(const Draw& draw, const Run&, const Bench&) {
-  const double a = draw.size, n = 1 + 2 * draw.u, phase = kTwoPi * draw.w;
+  const double a = draw.size, n = 14 + 12 * draw.u, phase = kTwoPi * draw.w;
   return {coulomb<kMotor>([=](const State& s) {
             const double x = n * Own<kMotor>::angle(s) + phase;
             return a * (kTriangle ? triangle(x) : std::sin(x));
@@ -147,9 +149,10 @@ Planted tension_friction(const Draw& draw, const Run&, const Bench&) {
   const double mu = draw.size;
   return {coulomb<kMotor>([mu](const State& s) { return mu * s.tension; }), {{"mu", mu, ""}}};
 }
+template <bool kMotor>
 Planted tension_1_25(const Draw& draw, const Run&, const Bench&) {
   const double mu = draw.size, at = 30;
-  return {coulomb<true>([=](const State& s) { return mu * at * std::pow(s.tension / at, 1.25); }),
+  return {coulomb<kMotor>([=](const State& s) { return mu * at * std::pow(s.tension / at, 1.25); }),
           {{"mu", mu, ""}}};
 }
 
@@ -175,20 +178,22 @@ Planted presliding(const Draw& draw, const Run&, const Bench&) {
 }
 
 /// Iwan 1966: three sliders in parallel, each elastic up to its own distance.
+template <bool kMotor>
 Planted sliders(const Draw& draw, const Run&, const Bench&) {
   constexpr std::array distance{0.35, 1.2, 3.0}, share{0.45, 0.35, 0.2};
   const double d = draw.size;
   const auto z = std::make_shared<std::array<double, 3>>();
   const auto after = [=](const State& s, std::size_t i, double part) {
-    return std::clamp((*z)[i] + s.qd * part * s.h / (d * distance[i]), -1.0, 1.0);
+    return std::clamp((*z)[i] + Own<kMotor>::speed(s) * part * s.h / (d * distance[i]), -1.0, 1.0);
   };
   Hooks hooks;
   hooks.replaces_coulomb = true;
   hooks.sides = [=](const State& s, Sides& sides) {
     double now = 0;
     for (std::size_t i = 0; i < 3; ++i) now += share[i] * after(s, i, 0.5);
-    sides.link.torque += now * (now > 0 ? sides.link.up : sides.link.down);
-    sides.link.up = sides.link.down = 0;
+    Side& side = Own<kMotor>::side(sides);
+    side.torque += now * (now > 0 ? side.up : side.down);
+    side.up = side.down = 0;
   };
   hooks.advance = [=](const State& s) {
     for (std::size_t i = 0; i < 3; ++i) (*z)[i] = after(s, i, 1);
@@ -231,7 +236,9 @@ constexpr std::array kRows{
     Row{"asymmetric_viscous", "motor", "", matched, "", 0.4, "N m s/rad", kMotor, "+ a |v|",
         asymmetric_viscous<true>},
     Row{"asymmetric_viscous", "link", "", other, "bent", 0.5, "N m (s/rad)^1.4", kLink,
-        "+ a |v|^1.4", asymmetric_viscous_bent},
+        "+ a |v|^1.4", asymmetric_viscous_bent<false>},
+    Row{"asymmetric_viscous", "motor", "", other, "bent", 0.4, "N m (s/rad)^1.4", kMotor,
+        "+ a |v|^1.4", asymmetric_viscous_bent<true>},
     Row{"stribeck", "link", "", matched, "", 0.8, "N m", kLink, "+ a sgn v exp(-(v/v_s)^2)",
         stribeck<false, Fall::gauss>},
     Row{"stribeck", "motor", "", matched, "", 0.6, "N m", kMotor, "+ a sgn v exp(-(v/v_s)^2)",
@@ -251,31 +258,41 @@ constexpr std::array kRows{
     Row{"nonlinear_viscous", "motor", "", matched, "", 1.2, "N m (s/rad)^p", kMotor,
         "+ a sgn v |v|^p, p 0.35 to 0.65", nonlinear_viscous<true>},
     Row{"nonlinear_viscous", "link", "", other, "hyperbolic", 0.8, "N m", kLink,
-        "+ 2 a v / (|v| + v_0)", hyperbolic_drag},
+        "+ 2 a v / (|v| + v_0)", hyperbolic_drag<false>},
+    Row{"nonlinear_viscous", "motor", "", other, "hyperbolic", 0.8, "N m", kMotor,
+        "+ 2 a v / (|v| + v_0)", hyperbolic_drag<true>},
     Row{"position_friction", "link", "", matched, "", 0.6, "N m", kLink,
-        "+ a sgn v sin(n q + p), n 1 to 3", position_friction<false, false>},
+        "+ a sgn v sin(n q + p), n 14 to 26", position_friction<false, false>},
     Row{"position_friction", "motor", "", matched, "", 0.5, "N m", kMotor,
-        "+ a sgn v sin(n theta + p), n 1 to 3", position_friction<true, false>},
+        "+ a sgn v sin(n theta + p), n 14 to 26", position_friction<true, false>},
     Row{"position_friction", "link", "", other, "triangle", 0.6, "N m", kLink,
         "+ a sgn v triangle(n q + p)", position_friction<false, true>},
+    Row{"position_friction", "motor", "", other, "triangle", 0.5, "N m", kMotor,
+        "+ a sgn v triangle(n theta + p)", position_friction<true, true>},
     Row{"tension_friction", "link", "", matched, "", 0.04, "", kLink, "+ mu (T1 + T2) sgn v",
         tension_friction<false>},
     Row{"tension_friction", "motor", "", matched, "", 0.04, "", kMotor, "+ mu (T1 + T2) sgn v",
         tension_friction<true>},
     Row{"tension_friction", "motor", "", other, "power_1_25", 0.04, "", kMotor,
-        "+ mu 30 ((T1 + T2)/30)^1.25 sgn v", tension_1_25},
+        "+ mu 30 ((T1 + T2)/30)^1.25 sgn v", tension_1_25<true>},
+    Row{"tension_friction", "link", "", other, "power_1_25", 0.04, "", kLink,
+        "+ mu 30 ((T1 + T2)/30)^1.25 sgn v", tension_1_25<false>},
     Row{"presliding", "link", "", matched, "", 6e-3, "rad", kLink, "f_s z, dz/dq = (1 - z sgn v)/d",
         presliding<false>},
     Row{"presliding", "motor", "", matched, "", 6e-3, "rad", kMotor,
         "f_sm z, dz/dtheta = (1 - z sgn v)/d", presliding<true>},
     Row{"presliding", "link", "", other, "three_sliders", 6e-3, "rad", kLink,
-        "f_s times three elastic sliders of 0.35 d, 1.2 d, 3 d", sliders},
+        "f_s times three elastic sliders of 0.35 d, 1.2 d, 3 d", sliders<false>},
+    Row{"presliding", "motor", "", other, "three_sliders", 6e-3, "rad", kMotor,
+        "f_sm times three elastic sliders of 0.35 d, 1.2 d, 3 d", sliders<true>},
     Row{"friction_drift", "link", "", matched, "", 0.25, "", kLink,
         "friction times 1 - a (1 - exp(-t/T))", friction_drift<false, false>},
     Row{"friction_drift", "motor", "", matched, "", 0.25, "", kMotor,
         "friction times 1 - a (1 - exp(-t/T))", friction_drift<true, false>},
     Row{"friction_drift", "motor", "", other, "root", 0.25, "", kMotor,
         "friction times 1 - a sqrt(t/20 s)", friction_drift<true, true>},
+    Row{"friction_drift", "link", "", other, "root", 0.25, "", kLink,
+        "friction times 1 - a sqrt(t/20 s)", friction_drift<false, true>},
 };
 
 }  // namespace

@@ -77,12 +77,7 @@ Planted wander(const Draw& draw, const Run& run, const Bench&) {
     path->push_back(draw.size * x);
     x = keep * x + fresh * random.normal();
   }
-  return {torque<false>([path](const State& s) {
-            const double at = (s.t + 1) * kRate;
-            const auto k = static_cast<std::size_t>(at);
-            const double share = at - static_cast<double>(k);
-            return (1 - share) * (*path)[k] + share * (*path)[k + 1];
-          }),
+  return {torque<false>([path](const State& s) { return value_at(*path, s.t); }),
           {{"sd", draw.size, "N m"}}};
 }
 

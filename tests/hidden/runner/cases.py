@@ -2,8 +2,10 @@
 import json
 import random
 import subprocess
+import zlib
 
-SETS = ("controls", "effects", "outside", "pairs", "clutter", "one_load", "preloads", "real")
+SETS = ("controls", "poor", "slow", "effects", "outside", "pairs", "clutter", "one_load", "preloads",
+        "real")
 FLAGSHIP = "tension_friction.link=5"  # mu 0.2: Table 2's link friction, 3.3 to 7.0 N m with preload
 
 
@@ -22,8 +24,8 @@ def tables(program):
 
 def case(kind, seed, effects=(), design="full", **more):
     size = "".join(f"-rho{more['rho']}" if "rho" in more else "")
-    if "clutter" in more:
-        size += f"-clutter{more['clutter']}"
+    for name in ("clutter", "slow_noise"):
+        size += f"-{name}{more[name]}" if name in more else ""
     key = "-".join([kind, design, *effects]) + f"{size}-s{seed}"
     return {"key": key, "kind": kind, "seed": seed, "effects": list(effects), "design": design, **more}
 
@@ -58,6 +60,12 @@ def per_size(kind, options, rows, design):
                 yield case(kind, seed, [effect], design, **more)
 
 
+def free(kind, options, design, **more):
+    """Nothing hidden, a quarter as often as the controls."""
+    for seed in range(1, max(1, options.controls // 4) + 1):
+        yield case(kind, seed, design=design, **more)
+
+
 def pairs(options, rows, design):
     """Random pairs of different names and alias classes, each of rho 2.5 by itself: both can be seen."""
     draw = random.Random("pairs")
@@ -71,8 +79,7 @@ def pairs(options, rows, design):
 
 
 def clutter(options, rows, design):
-    for seed in range(1, max(1, options.controls // 4) + 1):
-        yield case("clutter_controls", seed, design=design, clutter=0.1)
+    yield from free("clutter_controls", options, design, clutter=0.1)
     for row in rows:
         for size in ("0.1", "0.3"):
             yield case("clutter", 1, [f"{row['id']}={size}"], design, clutter=0.1)
@@ -86,6 +93,14 @@ def real(options, table):
                        "seed": seed, "ratio": ratio, **one}
 
 
+def half_without_controller(some):
+    """Half of a set, drawn by its keys, as from a user who does not know it."""
+    for one in some:
+        if zlib.crc32(one["key"].encode()) % 2 == 1:
+            one = {**one, "key": one["key"] + "-no_controller", "no_controller": True}
+        yield one
+
+
 def all_cases(options):
     table = tables(options.data)
     rows = [row for row in table["effects"] if row["form"] != "outside"]
@@ -97,6 +112,8 @@ def all_cases(options):
         design, options.seeds, options.controls, options.sizes = "short", 1, 8, "1"
     makers = {
         "controls": lambda: controls(options, rows, design),
+        "poor": lambda: free("poor", options, design, poor_sensors=True),
+        "slow": lambda: free("slow", options, design, slow_noise=0.08),
         "effects": lambda: per_size("effects", options, named, design),
         "outside": lambda: per_size("outside", options, outside, design),
         "pairs": lambda: pairs(options, matched, design),
@@ -107,5 +124,6 @@ def all_cases(options):
         "real": lambda: real(options, table) if options.shared else (),
     }
     wanted = options.sets.split(",")
-    chosen = [list(makers[name]()) for name in SETS if name in wanted]
+    chosen = [list(makers[name]() if name == "real" else half_without_controller(makers[name]()))
+              for name in SETS if name in wanted]
     return [one for some in chosen for one in (spread(some, REDUCED) if options.reduced else some)]

@@ -9,12 +9,11 @@ import sys
 import tempfile
 import time
 
-COMMAND = ("{cablefit} {fit} --out out --quiet >/dev/null && {cablefit} refine {model} --train {train} "
-           "{test_option} {blocked_option} {excite_option} --out out --quiet --json -")
+COMMAND = "{prepare}{cablefit} refine {given} {test_option} {excite_option} --out out --quiet --json -"
+PREPARE = "{cablefit} {fit} --out out --quiet >/dev/null && "
 FITS = {"emps": ("dynamic --model rigid {train}", "out/dynamic.json"),
         "xl330": ("dynamic --model rigid {train}", "out/dynamic.json"),
         "sea": ("elastic {blocked}", "out/elastic.json")}
-FIT = ("identify {blocked} {train}", "out/identify.json")
 ADVISED_LOAD = -40  # N m, of the further run when the tool writes no reference of its own
 TIMEOUT = 600  # s, of one run of the tool
 
@@ -28,9 +27,12 @@ def make(case, options, folder, extra=()):
         words = ["case", "--design", case["design"]]
         for effect in case["effects"]:
             words += ["--effect", effect]
-        for name in ("rho", "clutter"):
+        for name in ("rho", "clutter", "slow_noise"):
             if name in case:
-                words += [f"--{name}", str(case[name])]
+                words += ["--" + name.replace("_", "-"), str(case[name])]
+        for name in ("no_controller", "poor_sensors"):
+            if case.get(name):
+                words.append("--" + name.replace("_", "-"))
     words += ["--seed", str(case["seed"]), "--out", str(folder), *extra]
     subprocess.run([os.path.abspath(options.data), *words], check=True, stdin=subprocess.DEVNULL)
     file = folder / "truth.json"
@@ -42,14 +44,17 @@ def make(case, options, folder, extra=()):
 def ask(case, truth, options, folder, truth_file):
     """Runs the tool; returns its answer (None when it gave none), exit code, seconds and complaint."""
     logs = {role: " ".join(map(shlex.quote, files)) for role, files in truth["logs"].items()}
-    fit, model = FITS.get(case.get("set"), FIT)
     # The tool runs in the folder of the logs, where a relative path leads nowhere.
     tool = os.path.abspath(options.cablefit) if "/" in options.cablefit else options.cablefit
-    fields = {"cablefit": shlex.quote(tool), "fit": fit.format(**logs), "model": model,
-              "truth": shlex.quote(str(truth_file)), **logs,
+    fields = {"cablefit": shlex.quote(tool), "truth": shlex.quote(str(truth_file)), **logs,
+              "prepare": "", "given": " ".join(filter(None, (logs["blocked"], logs["train"]))),
+              "test_option": f"--test {logs['test']}" if logs["test"] else "",
               "excite_option": "--excite advised.csv" if case["kind"] == "one_load" else ""}
-    for role in ("test", "blocked"):
-        fields[role + "_option"] = f"--{role} {logs[role]}" if logs[role] else ""
+    if case.get("set") in FITS:  # a model of an earlier stage, which moves or is blocked
+        fit, model = FITS[case["set"]]
+        fields["prepare"] = PREPARE.format(cablefit=fields["cablefit"], fit=fit.format(**logs))
+        blocked = f" --blocked {logs['blocked']}" if logs["blocked"] else ""
+        fields["given"] = f"{model} --train {logs['train']}{blocked}"
     start = time.monotonic()
     try:
         done = subprocess.run(options.command.format(**fields), shell=True, cwd=folder, text=True,

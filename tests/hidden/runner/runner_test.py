@@ -167,7 +167,7 @@ class Whole(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             seen, tool = pathlib.Path(folder) / "seen", pathlib.Path(folder) / "tool"
             tool.write_text(f'#!/bin/sh\necho "$@" >> {seen}\n'
-                            '[ "$1" = identify ] || echo \'{"verdict": "none", "effects": []}\'\n')
+                            'echo \'{"verdict": "none", "effects": []}\'\n')
             tool.chmod(0o755)
             done = subprocess.run([sys.executable, str(HERE.parent / "run"), "--data", PROGRAM, "--reduced",
                                    "--results", f"{folder}/results", "--cablefit", str(tool), "--limit", "1",
@@ -175,14 +175,13 @@ class Whole(unittest.TestCase):
             self.assertIn("controls-short-s1: none", done.stderr)
             train = "slow_load30.csv fast_load-40.csv slow_load0.csv fast_load0.csv"
             self.assertEqual(seen.read_text().splitlines(), [
-                f"identify blocked.csv {train} --out out --quiet",
-                f"refine out/identify.json --train {train} --test test_medium_load20.csv "
-                "test_fast_load-25.csv --blocked blocked.csv --out out --quiet --json -"])
+                f"refine blocked.csv {train} --test test_medium_load20.csv "
+                "test_fast_load-25.csv --out out --quiet --json -"])
 
     def test_usage(self):
         done = self.run_stub("x", "none", sets="control")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("no set control; there are: controls, effects, outside", done.stderr)
+        self.assertIn("no set control; there are: controls, poor, slow, effects, outside", done.stderr)
 
 
 if __name__ == "__main__":
