@@ -94,6 +94,7 @@ JointState random_state(std::mt19937& engine) {
   state.thetad = state.qd + random(0.5);
   state.thetadd = random(80);
   state.deflection_rate = state.thetad - state.qd;
+  state.load = random(10);
   set_elastic(paper_cables(), Eigen::VectorXd::Constant(1, state.q),
               Eigen::VectorXd::Constant(1, state.theta), 0, state);
   return state;
@@ -105,6 +106,7 @@ TEST_CASE("the catalogue is the contract's list", "[conformance]") {
                          {"asymmetric_coulomb", "link", "constant"},
                          {"asymmetric_coulomb", "motor", "constant"},
                          {"gravity_imbalance", "link", ""},
+                         {"load_friction", "motor", ""},
                          {"cogging", "motor", ""},
                          {"drive_efficiency", "motor", ""},
                          {"dead_zone", "transmission", "l_o"},
@@ -267,6 +269,7 @@ double work_over_cycle(const Refinement& row, const Transmission& transmission,
     state.thetad = state.qd + state.deflection_rate;
     set_elastic(transmission, Eigen::VectorXd::Constant(1, state.q),
                 Eigen::VectorXd::Constant(1, state.theta), 0, state);
+    state.load = 12;
     if (row.advance) row.advance(state, shape.data(), 0.5 * h, z.data());
     const double v = row.site == Site::link ? state.qd : state.thetad;
     const Torques torques = act(row, state, v > 0 ? 1 : -1, shape, z);
@@ -295,8 +298,8 @@ TEST_CASE("what cannot be negative takes energy over every cycle", "[conformance
         CHECK(work_over_cycle(row, transmission, shape) > 0);
   }
   // stribeck, quadratic_drag, nonlinear_viscous, tension_friction, presliding on two sides;
-  // drive_efficiency, cable_damping, cable_hysteresis, creep.
-  CHECK(n_rows == 14);
+  // load_friction, drive_efficiency, cable_damping, cable_hysteresis, creep.
+  CHECK(n_rows == 15);
 }
 
 TEST_CASE("states are bounded and do not depend on the step", "[conformance]") {
