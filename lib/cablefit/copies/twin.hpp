@@ -56,6 +56,10 @@ struct TwinDrive {
   double cutoff = 0;     ///< Hz, of the low-pass on what a stand-in follows; 0: none
   bool follows = false;  ///< a stand-in, also where the rig's controller is known
   double step = SimulationOptions{}.step;  ///< s, at most, of the simulation
+  /// Hz: up to here a stand-in's feed-forward holds what the measured torque does faster than
+  /// `cutoff`, as far as the measured motion confirms that it acted (encoder steps through a
+  /// controller do, noise of the torque sensor does not); 0: none of it.
+  double dither_cutoff = 0;
 };
 
 /// The parts of the logs for which `wanted` says true, in closed loop: the rig's controller where

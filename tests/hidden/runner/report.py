@@ -2,8 +2,8 @@
 import collections
 import csv
 
-from score import (aliases_listed, both_named, coefficients, judge, names_something, planted_named,
-                   quantile, removed, truths, upper_bound)
+from score import (aliases_listed, both_named, coefficients, judge, kolmogorov, names_something,
+                   planted_named, quantile, removed, search_p, truths, upper_bound)
 
 
 class Table:
@@ -55,6 +55,11 @@ def show_controls(table, results):
         named = [names_something(one["answer"]) for one in some]
         bound = f"rate below {100 * upper_bound(sum(named), len(named)):.1f} % (95 %)" if some else ""
         table.rate(label, named, goal, least=False, note=bound)
+    chances = [p for p in map(search_p, of_kind(results, "controls")) if p is not None]
+    if chances:
+        distance, chance = kolmogorov(chances)
+        table.add("p of the search, effect-free: at most 0.05", sum(p <= 0.05 for p in chances) / len(chances),
+                  len(chances), note=f"Kolmogorov's distance from uniform {distance:.3f}, p = {chance:.2g}")
     for kind, label in (("controls", "effect-free"), ("poor", "poor sensors"), ("slow", "slow noise")):
         table.rate(f"none, {label}", (said(one) == "none" for one in of_kind(results, kind)),
                    0.95 if kind == "slow" else None)
@@ -87,6 +92,7 @@ def show_others(table, results):
     strange = [one for one in of_kind(results, "outside") if rho(one) >= 1.3]
     table.rate("outside the catalogue: unexplained, rho >= 1.3",
                (said(one) == "unexplained" for one in strange), 0.9)
+    table.rate("  no name (too small to matter is none)", (said(one) in ("unexplained", "none") for one in strange))
     table.rate("two effects, both named", (both_named(one) for one in of_kind(results, "pairs")), 0.85)
     for m, goal in ((0.1, 0.85), (0.3, 0.93)):
         chosen = [one for one in of_kind(results, "clutter") if abs(truths(one)[0]["m"] - m) < 1e-9]

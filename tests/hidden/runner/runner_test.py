@@ -103,6 +103,15 @@ class Figures(unittest.TestCase):
         self.assertAlmostEqual(score.upper_bound(0, 300), 1 - 0.05 ** (1 / 300), places=9)
         self.assertAlmostEqual(score.upper_bound(1, 475), 0.00995, places=5)
 
+    def test_distance_from_uniform(self):
+        # Against scipy.stats.kstest, whose chance is exact.
+        near = [0.02, 0.11, 0.15, 0.31, 0.33, 0.48, 0.52, 0.7, 0.77, 0.93]
+        distance, chance = score.kolmogorov(near)
+        self.assertAlmostEqual(distance, 0.18, places=9)
+        self.assertAlmostEqual(chance, 0.8473, delta=0.03)
+        self.assertLess(score.kolmogorov([0.6 + 0.02 * i for i in range(20)])[1], 1e-5)
+        self.assertIsNone(score.kolmogorov([]))
+
     def test_quantile(self):
         self.assertEqual(score.quantile([4, 1, 3, 2], 0.5), 2.5)
         self.assertAlmostEqual(score.quantile(list(range(11)), 0.1), 1)

@@ -126,6 +126,25 @@ def upper_bound(hits, n, level=0.95):
     return high
 
 
+def kolmogorov(values):
+    """Distance of the distribution of `values` from a uniform one on 0 .. 1, and the chance of such a
+    distance (Kolmogorov 1933, for finite n by Stephens 1970); nothing for no values."""
+    if not values:
+        return None
+    n = len(values)
+    ordered = sorted(values)
+    distance = max(max((i + 1) / n - v, v - i / n) for i, v in enumerate(ordered))
+    root = math.sqrt(n)
+    x = (root + 0.12 + 0.11 / root) * distance
+    chance = 2 * sum((-1) ** (k - 1) * math.exp(-2 * k * k * x * x) for k in range(1, 101)) if x > 0.2 else 1
+    return distance, min(1.0, max(0.0, chance))
+
+
+def search_p(result):
+    """p of the whole search; None: not told."""
+    return ((result["answer"] or {}).get("search") or {}).get("p_value")
+
+
 def quantile(values, share):
     """Linear between order statistics."""
     if not values:
