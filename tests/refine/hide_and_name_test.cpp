@@ -134,8 +134,10 @@ TEST_CASE("the yield of a hidden hysteresis has no bias", "[refine][slow]") {
 TEST_CASE("a short contact is as long as it was", "[refine][slow]") {
   const HiddenLogs hidden = hidden_logs({"contact.link=1"});
   const RefineResult result = named(hidden, "contact");
-  for (const char* name : {"torque", "width"})
+  for (const char* name : {"torque", "width"}) {
+    INFO(name << " sd " << parameter(result, name).sd);
     CHECK(parameter(result, name).value == Approx(truth(hidden, name)).epsilon(0.1));
+  }
   CHECK(result.effects[0].instance.event_time == Approx(truth(hidden, "t0")).margin(0.05));
 }
 

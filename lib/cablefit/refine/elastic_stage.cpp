@@ -101,10 +101,8 @@ Smoothing widened(const Smoothing& narrowest, double signals, double period) {
   const double factor = signals / narrowest.signals;
   s.signals *= factor;
   s.columns *= factor;
-  // As smoothing_for: rows a little more than a width of the kernel apart.
   s.every = std::max<Eigen::Index>(1, std::llround(factor)) * narrowest.every;
-  s.stride = s.every * std::max<Eigen::Index>(1, std::llround(1.2 * s.columns / period /
-                                                              static_cast<double>(s.every)));
+  s.stride = stride_for(s.columns, period, s.every);
   return s;
 }
 

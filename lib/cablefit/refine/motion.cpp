@@ -46,15 +46,19 @@ std::string_view to_string(RowKind kind) {
   return kind == RowKind::link ? "link" : kind == RowKind::motor ? "motor" : "blocked";
 }
 
+Eigen::Index stride_for(double columns, double period, Eigen::Index every) {
+  const double evaluations = kRowSpacing * columns / period / static_cast<double>(every);
+  return every * std::max<Eigen::Index>(1, std::llround(evaluations));
+}
+
 Smoothing smoothing_for(double period) {
+  constexpr double kRounding = 1e-6;
   Smoothing s;
   s.signals = std::max(s.signals, kSamplesPerWidth * period);
   s.columns = 2 * s.signals;
-  const double samples = s.columns / period;
-  // A kernel sampled at less than half its width is as good as one sampled finely.
-  s.every = samples >= 4 ? 2 : 1;
-  s.stride = s.every *
-             std::max<Eigen::Index>(1, std::llround(1.2 * samples / static_cast<double>(s.every)));
+  const double samples = kEvaluationSpacing * s.columns / period;
+  s.every = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(samples + kRounding));
+  s.stride = stride_for(s.columns, period, s.every);
   s.period = period;
   return s;
 }
@@ -70,8 +74,7 @@ Smoothing suited(const Smoothing& smoothing, double period) {
   s.signals *= wider;
   s.columns *= wider;
   const double every = static_cast<double>(smoothing.every) * smoothing.period;
-  // Coarser than half its width a kernel is not sampled.
-  s.every = samples(std::min(every, s.columns / 2), 1);
+  s.every = samples(std::min(every, kEvaluationSpacing * s.columns), 1);
   s.stride = samples(wider * static_cast<double>(smoothing.stride) * smoothing.period, s.every);
   s.period = period;
   return s;

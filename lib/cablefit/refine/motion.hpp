@@ -16,12 +16,20 @@ namespace cablefit {
 /// Widths of the kernels, s.
 struct Smoothing {
   double signals = 2.5e-3, columns = 5e-3;
-  Eigen::Index stride = 6;  ///< samples from row to row
+  Eigen::Index stride = 8;  ///< samples from row to row
   Eigen::Index every = 2;   ///< samples from one evaluation of a candidate to the next
   double period = 1e-3;     ///< s, of these samples
   double row_period() const { return static_cast<double>(stride) * period; }  ///< s, row to row
   double least_speed_theta = 0, least_speed_q = 0;  ///< rad/s; slower rows are at rest
 };
+
+/// In widths of the columns' kernel. Rows at this distance tell of slow signals what denser ones
+/// tell, and of the edges of fast ones nearly that. A candidate is evaluated more often than the
+/// kernel alone needs: noise of accelerations would fold into its columns.
+inline constexpr double kRowSpacing = 1.6, kEvaluationSpacing = 0.5;
+
+/// Samples from row to row, a multiple of `every`.
+Eigen::Index stride_for(double columns, double period, Eigen::Index every);
 
 /// For a recording of this period (s): the widths above, wider where the sampling is coarse.
 Smoothing smoothing_for(double period);

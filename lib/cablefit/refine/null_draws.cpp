@@ -15,7 +15,12 @@ namespace cablefit {
 namespace {
 
 constexpr std::uint64_t kSensors = 11, kCalibration = 12;
-constexpr double kFollowCutoff = 40;  // Hz, of what a stand-in controller follows
+// Hz, of what a stand-in controller follows, and of what the drive adds to that. Beyond the second
+// the kernels of the rows leave nothing.
+constexpr double kFollowCutoff = 40, kDitherCutoff = 150;
+// s: a mode of 100 Hz is off by (2 pi 100 h)^2 / 24 = 2e-4 of its frequency, far less than draws
+// scatter.
+constexpr double kDrawStep = 1e-4;
 
 /// The same motion a little aside, so that its rounding is another.
 void move_aside(Twin& twin, Random& random) {
@@ -92,7 +97,8 @@ NullBench::NullBench(std::span<const Model> models, std::span<const LogSurvey> l
     twin.model = m;
     const bool held = model.rig.torque_hold != TorqueHold::none;
     const auto run = [&](bool follows) {
-      twin.twin = make_twin(model, logs, of_model, {held, kFollowCutoff, follows});
+      twin.twin = make_twin(model, logs, of_model,
+                            {held, kFollowCutoff, follows, kDrawStep, kDitherCutoff});
       Random calibration(1, kCalibration);
       return run_twin(twin.twin, {}, calibration, threads);
     };

@@ -163,6 +163,7 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
   Chain chain{first};
   find_effects(bench, chain, result);
   require_half_explained(chain, result);
+  require_one_law(bench, chain, result);
   const Confirmed confirmed = confirm_on_test(bench, chain, result);
   const std::vector<TestReading>& readings = confirmed.readings;
   RefineState& state = chain.back();

@@ -193,6 +193,23 @@ std::optional<Candidate> best_fitting(const Scanner& scanner,
   return best;
 }
 
+/// A limit or a band of the drive acts in full: what its correction changes has, as a column, the
+/// coefficient 1. The coefficient is another where something else is only a little like it.
+bool acts_in_full(const Scanner& scanner, const Variant& variant) {
+  constexpr double kAround = 0.3, kSd = 2;
+  const ScanStart& start = scanner.start;
+  VariantColumns change = residuals(replaced_rows(start.design, variant), start.fit.x);
+  const VariantColumns before = residuals(start.design.rows, start.fit.x);
+  for (std::size_t k = 0; k < change.size(); ++k)
+    for (std::size_t i = 0; i < change[k].size(); ++i) change[k][i] -= before[k][i];
+  const auto fit = fit_blocks(extended(start.grams, start.design.rows, start.design.stretches,
+                                       change, scanner.settings.block_seconds),
+                              start.levels, false);
+  if (!fit) return false;
+  const Eigen::Index last = fit->x.size() - 1;
+  return std::abs(fit->x(last) - 1) < kAround + kSd * std::sqrt(fit->covariance(last, last));
+}
+
 /// The same of variants that replace rows.
 std::optional<Candidate> best_replacing(const Scanner& scanner,
                                         const std::vector<Variant>& variants) {
@@ -201,6 +218,10 @@ std::optional<Candidate> best_replacing(const Scanner& scanner,
     auto candidate = try_variant(scanner, variant);
     if (candidate && (!best || is_better(*candidate, *best))) best = std::move(candidate);
   }
+  const bool is_physical = best && best->refused.empty();
+  if (is_physical && best->variant.refinement->correct != nullptr &&
+      !acts_in_full(scanner, best->variant))
+    best->refused = "the logs ask for another share of it than all";
   return best;
 }
 

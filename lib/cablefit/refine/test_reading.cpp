@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/refine/agreement.hpp"
 #include "cablefit/refine/conclusion.hpp"
 #include "cablefit/refine/fit_bias.hpp"
 #include "cablefit/refine/kept_effects.hpp"
@@ -158,6 +159,26 @@ void require_half_explained(Chain& chain, RefineResult& result) {
       too_little({first.rho, last.rho, first.held_out.rho, last.held_out.rho, has_event(last, n)},
                  n, "held-out blocks");
   if (!reason.empty()) drop_all(reason, chain, result);
+}
+
+void require_one_law(const RefineBench& bench, Chain& chain, RefineResult& result) {
+  const auto why_not = [&](std::size_t effect) {
+    const RefineState& last = chain.back();
+    return why_not_one_law(last.design, last.x, last.levels, bench.n_kept + effect,
+                           bench.scan.block_seconds);
+  };
+  while (!result.effects.empty()) {
+    const std::string reason = why_not(result.effects.size() - 1);
+    if (reason.empty()) break;
+    const bool is_joint = chain.back().is_joint;
+    drop_last(reason, chain, result);
+    if (is_joint) drop_last(reason, chain, result);
+    require_half_explained(chain, result);
+  }
+  for (std::size_t k = 0; k + 1 < result.effects.size(); ++k) {
+    const std::string reason = why_not(k);
+    if (!reason.empty()) drop_all(reason, chain, result);
+  }
 }
 
 Confirmed confirm_on_test(const RefineBench& bench, Chain& chain, RefineResult& result) {

@@ -44,4 +44,7 @@ Confirmed confirm_on_test(const RefineBench& bench, Chain& chain, RefineResult& 
 /// the training logs. They are a hint then.
 void require_half_explained(Chain& chain, RefineResult& result);
 
+/// Takes effects away that are no one law (agreement.hpp), and then what no longer closes half.
+void require_one_law(const RefineBench& bench, Chain& chain, RefineResult& result);
+
 }  // namespace cablefit

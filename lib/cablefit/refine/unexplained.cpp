@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cablefit/refine/kept_effects.hpp"
 #include "cablefit/refine/residual_spectrum.hpp"
 
 namespace cablefit {
@@ -70,6 +71,14 @@ const Refinement& attached_mass(bool link) {
   static const Refinement kLink = row(Site::link, shake_link, react_link);
   static const Refinement kMotor = row(Site::motor, shake_motor, react_motor);
   return link ? kLink : kMotor;
+}
+
+/// The rows of a search hold what is slow; a hum or a mode may be twice as fast.
+Design with_dense_rows(const Design& design, const Eigen::VectorXd& x) {
+  Smoothing dense = design.smoothing;
+  dense.every = std::max<Eigen::Index>(1, dense.every / 2);
+  dense.stride = stride_for(dense.columns / 2, dense.period, dense.every);
+  return with_variants(make_design(design.models, design.stretches, dense), design.added, x);
 }
 
 /// What there is of one equation beyond its floor, (N m)^2 summed over its rows.
@@ -219,8 +228,9 @@ double correlation_time(const Design& design, const Eigen::VectorXd& x, const Eq
 
 }  // namespace
 
-std::optional<Unexplained> describe_remainder(const Design& design, const Eigen::VectorXd& x,
+std::optional<Unexplained> describe_remainder(const Design& searched, const Eigen::VectorXd& x,
                                               const KindLevels& floor, double block_seconds) {
+  const Design design = with_dense_rows(searched, x);
   const EquationGap gap = largest_gap(design, x, floor);
   if (!(gap.n_rows > 0)) return {};
   constexpr double kLowest = 0.5;  // Hz: what is slower wanders
