@@ -18,6 +18,7 @@ namespace {
 // Of a candidate's columns, scaled: the squared part that the others leave. With less, a base that
 // is off by a per cent passes for the effect.
 constexpr double kTolerance = 1e-4;
+constexpr std::string_view kCompliance = "rad/(N m)";
 
 /// `x`: of the variant's own columns.
 bool is_out_of_bounds(const Refinement& row, const Eigen::VectorXd& x) {
@@ -28,13 +29,37 @@ bool is_out_of_bounds(const Refinement& row, const Eigen::VectorXd& x) {
   return false;
 }
 
+/// rad/(N m), of the model's cables on average; 0: there are none.
+double mean_compliance(const Design& design) {
+  double sum = 0, n = 0;
+  for (const std::vector<JointState>& states : design.states)
+    for (const JointState& state : states) {
+      sum += state.stiffness;
+      n += 1;
+    }
+  return sum > 0 ? n / sum : 0;
+}
+
 /// What every function here needs.
 struct Scanner {
   const ScanStart& start;
   const ScanSettings& settings;
   QuickLook look;
+  double compliance;  ///< rad/(N m)
   Scanner(const ScanStart& from, const ScanSettings& how)
-      : start(from), settings(how), look(from.design, from.grams, from.levels) {}
+      : start(from),
+        settings(how),
+        look(from.design, from.grams, from.levels),
+        compliance(mean_compliance(from.design)) {}
+
+  /// A cable that gives way in time by more than at once is no cable: cables creep by some per
+  /// cent.
+  bool gives_way_too_much(const Refinement& row, const Eigen::VectorXd& x) const {
+    for (Eigen::Index p = 0; p < x.size(); ++p)
+      if (row.parameters[static_cast<std::size_t>(p)].unit == kCompliance && x(p) > compliance)
+        return true;
+    return false;
+  }
 
   VariantColumns columns(const Variant& variant) const {
     return variant_columns(start.design, variant, start.fit.x);
@@ -74,7 +99,9 @@ std::optional<Candidate> try_variant(const Scanner& scanner, Variant variant) {
   c.gain = 1 - c.error.sum() / before.sum();
   const Eigen::Index dry = row.takes_dry_friction ? dry_column(start.design, row) : -1;
   const bool too_dry = dry >= 0 && n > 0 && fit->x(fit->x.size() - n) > fit->x(dry);
-  if (too_dry || is_out_of_bounds(row, fit->x.tail(n))) c.refused = "beyond its physical bound";
+  const Eigen::VectorXd own = fit->x.tail(n);
+  if (too_dry || is_out_of_bounds(row, own) || scanner.gives_way_too_much(row, own))
+    c.refused = "beyond its physical bound";
   return c;
 }
 

@@ -36,11 +36,11 @@ SampleRange active_samples(const Variant& variant, const Stretch& stretch, doubl
   return {first, std::min(n, sample_at(variant.event_time + variant.shape.front()) + 2)};
 }
 
-/// Torque per unit of each linear parameter, on link and motor: row i is that of sample from + i;
-/// all others are 0.
+/// Torque per unit of each linear parameter, on link and motor: column i is that of sample from +
+/// i; all others are 0.
 struct SomeTorques {
   Eigen::Index from = 0;
-  Eigen::MatrixXd link, motor;  ///< samples x n_linear
+  Eigen::MatrixXd link, motor;  ///< n_linear x samples
 };
 
 /// Adds what a level of dry friction does in motion to its own side's torques.
@@ -64,11 +64,10 @@ SomeTorques some_torques(const Variant& variant, const Stretch& stretch,
   const auto samples = (static_cast<Eigen::Index>(states.size()) + every - 1) / every;
   const double h = static_cast<double>(every) * stretch.recording.period;
   const SampleRange active = active_samples(variant, stretch, h, samples);
-  const Eigen::Index n_rows = active.last - active.first + 2 * margin;
-  SomeTorques out{active.first - margin, Eigen::MatrixXd::Zero(n_rows, n),
-                  Eigen::MatrixXd::Zero(n_rows, n)};
+  const Eigen::Index all = active.last - active.first + 2 * margin;
+  SomeTorques out{active.first - margin, Eigen::MatrixXd::Zero(n, all),
+                  Eigen::MatrixXd::Zero(n, all)};
   std::vector<double> z(row.n_states), level(row.n_linear());
-  Eigen::RowVectorXd link(n), motor(n);
   JointState dated;  // of an event, whose age is not the state's own
   for (Eigen::Index i = active.first; i < active.last; ++i) {
     const JointState* state = &states[static_cast<std::size_t>(i * every)];
@@ -78,33 +77,31 @@ SomeTorques some_torques(const Variant& variant, const Stretch& stretch,
       if (dated.since_event < 0) continue;
       state = &dated;
     }
-    link.setZero();
-    motor.setZero();
+    double* link = out.link.col(i - out.from).data();
+    double* motor = out.motor.col(i - out.from).data();
     // Half of the step before, half after: what they remember stands where the motion is.
     if (row.advance != nullptr) row.advance(*state, variant.shape.data(), h / 2, z.data());
-    if (row.torque != nullptr)
-      row.torque(*state, variant.shape.data(), z.data(), link.data(), motor.data());
+    if (row.torque != nullptr) row.torque(*state, variant.shape.data(), z.data(), link, motor);
     if (row.level != nullptr)
-      add_level(row, *state, variant.shape.data(), z.data(), level, link.data(), motor.data());
-    out.link.row(i - out.from) = link;
-    out.motor.row(i - out.from) = motor;
+      add_level(row, *state, variant.shape.data(), z.data(), level, link, motor);
     if (row.advance != nullptr) row.advance(*state, variant.shape.data(), h / 2, z.data());
   }
   return out;
 }
 
-/// The first `n` columns filtered, at those of `at` that the filter can reach; 0 elsewhere.
-/// `samples`: from number `from` on, with twice the filter's reach of zeros at either end.
+/// The first `n` rows filtered, at those of `at` that the filter can reach; 0 elsewhere. `samples`:
+/// from number `from` on, with twice the filter's reach of zeros at either end.
 Eigen::MatrixXd filtered(const Kernel& filter, const Eigen::MatrixXd& samples, Eigen::Index from,
                          Eigen::Index n, const std::vector<Eigen::Index>& at, Eigen::Index every) {
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(at.size()), n);
-  const Eigen::Index reach = filter.reach();
+  const Eigen::Index reach = filter.reach(), width = filter.weights.size();
   const auto begin = std::lower_bound(at.begin(), at.end(), (from + reach) * every);
-  const auto end = std::lower_bound(begin, at.end(), (from + samples.rows() - reach) * every);
-  std::vector<Eigen::Index> rows;
-  for (auto i = begin; i != end; ++i) rows.push_back(*i / every - from);
-  if (!rows.empty())
-    out.middleRows(begin - at.begin(), end - begin) = apply_at(filter, samples.leftCols(n), rows);
+  const auto end = std::lower_bound(begin, at.end(), (from + samples.cols() - reach) * every);
+  Eigen::VectorXd sum(samples.rows());
+  for (auto i = begin; i != end; ++i) {
+    sum.noalias() = samples.middleCols(*i / every - from - reach, width) * filter.weights.matrix();
+    out.row(i - at.begin()) = sum.head(n).transpose();
+  }
   return out;
 }
 
