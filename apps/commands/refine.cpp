@@ -95,14 +95,14 @@ void add_search_options(CLI::App& app, RefineOptions& refine) {
   add_number(
       app, "--materiality", "PERCENT", {0, 100},
       [&refine](double percent) { refine.materiality = percent / 100; },
-      "least share of the squared residual that is worth a name [1]");
+      "least share of the squared residual that an effect removes [1]");
   add_number(
       app, "--material", "N_M", {0}, [&refine](double torque) { refine.material = torque; },
       "residual torque below which nothing matters [1 % of the rms torque of the equation, or "
       "20 % of the noise]");
   add_number(
       app, "--significance", "P", {0, 1}, [&refine](double p) { refine.significance = p; },
-      "largest probability of such a find by chance [0.01]");
+      "largest p-value of an identified effect [0.01]");
   add_whole(
       app, "--effects", "N", {1, kMostEffects},
       [&refine](long n) { refine.most_effects = static_cast<std::size_t>(n); },

@@ -97,10 +97,10 @@ TEST_CASE("the simulated residual is that of the log") {
   CHECK(p.scatter < J.sd * 2);
 }
 
-TEST_CASE("without a controller in the rig file a stand-in follows the motion") {
+TEST_CASE("without a controller in the rig file a surrogate follows the motion") {
   const Proved proved = prove_drive(true, false, 20);
   print(proved.proof());
-  CHECK(proved.proof().notes.front().find("controller: a stand-in") == 0);
+  CHECK(proved.proof().notes.front().find("controller: a surrogate controller") == 0);
   CHECK(proved.proof().n_failed == 0);
   // The motion is the same, so J is known about as well as with the rig's own controller.
   const Proved own = prove_drive(true, true, 20);

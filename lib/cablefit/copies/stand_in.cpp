@@ -187,7 +187,7 @@ std::string choose(const Model& model, const LogSurvey& log, const TwinDrive& dr
   if (drive.follows || !has_reference(plan)) {
     follow_measured(model, plan, drive, stretch);
     return fmt::format(
-        "a stand-in of {:g} Hz that follows the measured theta, the measured torque as "
+        "a surrogate controller of {:g} Hz that follows the measured theta, the measured torque as "
         "feed-forward",
         kBandwidth);
   }

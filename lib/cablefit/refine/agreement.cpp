@@ -91,8 +91,8 @@ std::string why_not_one_law(const Design& design, const Eigen::VectorXd& x,
     const double sd = std::sqrt(fit->covariance(last, last));
     if (std::abs(difference) > kSureApart * sd && least < most / kApartBy)
       return fmt::format(
-          "it is not one law: its size is {:.2g} of that of all samples in the half of them with "
-          "the lower {}, {:.2g} in the other",
+          "its size differs between halves of the samples: {:.2g} at the lower {}, {:.2g} at the "
+          "higher (all samples: 1)",
           below, variable.regime, above);
   }
   return "";

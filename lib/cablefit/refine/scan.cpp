@@ -248,7 +248,7 @@ std::optional<Candidate> best_replacing(const Scanner& scanner,
   const bool is_physical = best && best->refused.empty();
   if (is_physical && best->variant.refinement->correct != nullptr &&
       !acts_in_full(scanner, best->variant))
-    best->refused = "the logs ask for another share of it than all";
+    best->refused = "as a regressor its coefficient is not 1";
   return best;
 }
 

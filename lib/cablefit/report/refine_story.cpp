@@ -232,8 +232,9 @@ std::string unexplained_text(const Unexplained& found, bool linear_motion) {
   if (found.kind == "hum")
     return fmt::format("{} equation, {}: like a hum of {} Hz, whatever the motion ({} of it)",
                        found.equation, size, number(found.frequency), share);
-  return fmt::format("{} equation, {}: wanders with a correlation time of {} s; no line, no mode",
-                     found.equation, size, significant(found.correlation_time, 2));
+  return fmt::format(
+      "{} equation, {}: low-frequency disturbance (correlation time {} s), no line, no mode",
+      found.equation, size, significant(found.correlation_time, 2));
 }
 
 /// Whether it is worth a word: by its sd, or where that is not known by its size.
