@@ -1,5 +1,7 @@
 #include "cablefit/refine/effect_steps.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -100,6 +102,12 @@ bool carries_nothing(const RefineBench& bench, const RefineState& after) {
 /// Reason against a step; empty: none.
 std::string why_not(const RefineBench& bench, const Refinement& row, const RefineState& before,
                     const RefineState& after) {
+  // Dates are many, and most logs without a visible gap have no event.
+  if (row.is_event && before.rho < kVisibleGap)
+    return fmt::format(
+        "the squared residual without it is {:.3g} times the noise floor; an event "
+        "needs {:g}",
+        before.rho, kVisibleGap);
   if (carries_nothing(bench, after)) return "it carries nothing once all is fitted with it";
   return why_not_added(change_of(bench, row, before, after));
 }

@@ -1,6 +1,7 @@
 """The acceptance table and the confusion matrix."""
 import collections
 import csv
+import random
 
 from score import (aliases_listed, both_named, coefficients, judge, kolmogorov, names_something,
                    planted_named, quantile, removed, search_p, truths, upper_bound)
@@ -55,11 +56,17 @@ def show_controls(table, results):
         named = [names_something(one["answer"]) for one in some]
         bound = f"rate below {100 * upper_bound(sum(named), len(named)):.1f} % (95 %)" if some else ""
         table.rate(label, named, goal, least=False, note=bound)
-    chances = [p for p in map(search_p, of_kind(results, "controls")) if p is not None]
-    if chances:
+    draw = random.Random("search p").random
+    for without in (False, True):
+        chances = [search_p(one, draw) for one in of_kind(results, "controls")
+                   if bool(one["case"].get("no_controller")) == without]
+        chances = [p for p in chances if p is not None]
+        if not chances:
+            continue
         distance, chance = kolmogorov(chances)
-        table.add("p of the search, effect-free: at most 0.05", sum(p <= 0.05 for p in chances) / len(chances),
-                  len(chances), note=f"Kolmogorov's distance from uniform {distance:.3f}, p = {chance:.2g}")
+        table.rate(f"p of the search at most 0.05, controller {'not known' if without else 'known'}",
+                   (p <= 0.05 for p in chances),
+                   note=f"Kolmogorov's distance from uniform {distance:.3f}, p = {chance:.2g}")
     for kind, label in (("controls", "effect-free"), ("poor", "poor sensors"), ("slow", "slow noise")):
         table.rate(f"none, {label}", (said(one) == "none" for one in of_kind(results, kind)),
                    0.95 if kind == "slow" else None)

@@ -112,6 +112,15 @@ class Figures(unittest.TestCase):
         self.assertLess(score.kolmogorov([0.6 + 0.02 * i for i in range(20)])[1], 1e-5)
         self.assertIsNone(score.kolmogorov([]))
 
+    def test_a_counted_p_is_spread_over_its_step(self):
+        def answer(**search):
+            return {"answer": {"search": search}}
+        counted = answer(p_value=2 / 7, p_is_fitted=False, draws=6)
+        self.assertAlmostEqual(score.search_p(counted, lambda: 0.5), 1.5 / 7)
+        fitted = answer(p_value=0.003, p_is_fitted=True, draws=6)
+        self.assertEqual(score.search_p(fitted, lambda: 0.5), 0.003)
+        self.assertIsNone(score.search_p({"answer": None}, lambda: 0.5))
+
     def test_quantile(self):
         self.assertEqual(score.quantile([4, 1, 3, 2], 0.5), 2.5)
         self.assertAlmostEqual(score.quantile(list(range(11)), 0.1), 1)

@@ -140,9 +140,14 @@ def kolmogorov(values):
     return distance, min(1.0, max(0.0, chance))
 
 
-def search_p(result):
-    """p of the whole search; None: not told."""
-    return ((result["answer"] or {}).get("search") or {}).get("p_value")
+def search_p(result, draw):
+    """p of the whole search; None: not told. One that is counted among n simulated data sets has steps
+    of 1 / (1 + n): `draw` (uniform on 0 .. 1) chooses in its step."""
+    search = (result["answer"] or {}).get("search") or {}
+    p = search.get("p_value")
+    if p is None or search.get("p_is_fitted") or not search.get("draws"):
+        return p
+    return p - draw() / (1 + search["draws"])
 
 
 def quantile(values, share):
