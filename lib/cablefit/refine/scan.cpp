@@ -220,10 +220,11 @@ std::optional<Candidate> best_fitting(const Scanner& scanner,
   return best;
 }
 
-/// A limit or a band of the drive acts in full: what its correction changes has, as a column, the
-/// coefficient 1. The coefficient is another where something else is only a little like it.
+/// A limit or a band of the drive acts in full: what its correction changes has, as a column, a
+/// coefficient of about 1 (1.3 where the grid misses the limit by half a step), and another where
+/// something else is only a little like it.
 bool acts_in_full(const Scanner& scanner, const Variant& variant) {
-  constexpr double kAround = 0.3, kSd = 2;
+  constexpr double kAtLeast = 0.5, kAtMost = 2, kSd = 2;
   const ScanStart& start = scanner.start;
   VariantColumns change = residuals(replaced_rows(start.design, variant), start.fit.x);
   const VariantColumns before = residuals(start.design.rows, start.fit.x);
@@ -234,7 +235,8 @@ bool acts_in_full(const Scanner& scanner, const Variant& variant) {
                               start.levels, false);
   if (!fit) return false;
   const Eigen::Index last = fit->x.size() - 1;
-  return std::abs(fit->x(last) - 1) < kAround + kSd * std::sqrt(fit->covariance(last, last));
+  const double share = fit->x(last), margin = kSd * std::sqrt(fit->covariance(last, last));
+  return share > kAtLeast - margin && share < kAtMost + margin;
 }
 
 /// The same of variants that replace rows.
