@@ -19,19 +19,13 @@ constexpr double kLeastPart = 0.2;
 // a base has of qd.
 constexpr double kOwnPart = 0.01;
 
-double value_at(const Design& design, std::size_t stretch, RowKind kind, Eigen::Index at,
-                const RegimeVariable& variable) {
-  const JointState& state = design.states[stretch][static_cast<std::size_t>(at)];
-  return variable.value(state, kind == RowKind::link, design.rows[stretch].motion->tau_load(at));
-}
-
 /// Half of the rows are above it; of two values, as of a direction, between them.
 double middle_of(const Design& design, const RegimeVariable& variable) {
   std::vector<double> values;
   for (std::size_t s = 0; s < design.rows.size(); ++s)
     for (const KindRows& rows : design.rows[s].kinds)
       for (const Eigen::Index at : rows.at)
-        values.push_back(value_at(design, s, rows.kind, at, variable));
+        values.push_back(value_at(variable, design, s, rows.kind, at));
   if (values.empty()) return 0;
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   if (*low == -1 && *high == 1) return 0;
@@ -57,7 +51,7 @@ Halved halved(const Design& design, const Eigen::VectorXd& x, Eigen::Index first
       const Eigen::VectorXd torque = rows.base.middleCols(first, n) * x.segment(first, n);
       Eigen::VectorXd above = torque;
       for (Eigen::Index i = 0; i < above.size(); ++i)
-        if (value_at(design, s, rows.kind, rows.at[static_cast<std::size_t>(i)], variable) < middle)
+        if (value_at(variable, design, s, rows.kind, rows.at[static_cast<std::size_t>(i)]) < middle)
           above(i) = 0;
       const Eigen::Index after = rows.base.cols() - first - n;
       Eigen::MatrixXd base(rows.base.rows(), first + after + 2);

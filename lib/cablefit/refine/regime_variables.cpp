@@ -25,6 +25,13 @@ constexpr RegimeVariable kVariables[] = {
 
 std::span<const RegimeVariable> regime_variables() { return kVariables; }
 
+double value_at(const RegimeVariable& variable, const Design& design, std::size_t stretch,
+                RowKind kind, Eigen::Index sample) {
+  const JointState& state = design.states[stretch][static_cast<std::size_t>(sample)];
+  return variable.value(state, kind == RowKind::link,
+                        design.rows[stretch].motion->tau_load(sample));
+}
+
 std::string regime_unit(std::string_view regime, bool linear_motion) {
   for (const RegimeVariable& variable : kVariables)
     if (variable.regime == regime)

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "cablefit/model/refinements.hpp"
+#include "cablefit/refine/design.hpp"
 
 namespace cablefit {
 
@@ -19,6 +19,10 @@ struct RegimeVariable {
 
 /// In order: speed, direction, position, deflection, elastic torque, load, time.
 std::span<const RegimeVariable> regime_variables();
+
+/// Its value at a sample of a stretch.
+double value_at(const RegimeVariable& variable, const Design& design, std::size_t stretch,
+                RowKind kind, Eigen::Index sample);
 
 /// The unit of a regime's variable, empty for none.
 std::string regime_unit(std::string_view regime, bool linear_motion);

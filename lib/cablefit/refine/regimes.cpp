@@ -25,11 +25,8 @@ std::vector<Point> points_of(const Design& design, const Eigen::VectorXd& x, Row
       if (kind.kind != wanted) continue;
       const Eigen::VectorXd residual = kind.response - kind.base * x;
       for (std::size_t i = 0; i < kind.at.size(); ++i) {
-        const auto at = static_cast<std::size_t>(kind.at[i]);
-        const double value = variable.value(design.states[s][at], wanted == RowKind::link,
-                                            design.rows[s].motion->tau_load(kind.at[i]));
         const double r = residual(static_cast<Eigen::Index>(i));
-        points.push_back({value, r * r});
+        points.push_back({value_at(variable, design, s, wanted, kind.at[i]), r * r});
       }
     }
   return points;

@@ -13,12 +13,10 @@ namespace {
 constexpr double kPause = 1;  // s between logs on the time axis
 
 std::vector<double> variables_at(const Design& design, std::size_t stretch, Eigen::Index at,
-                                 bool link) {
-  const JointState& state = design.states[stretch][static_cast<std::size_t>(at)];
-  const double load = design.rows[stretch].motion->tau_load(at);
+                                 RowKind kind) {
   std::vector<double> values;
   for (const RegimeVariable& variable : regime_variables())
-    values.push_back(variable.value(state, link, load));
+    values.push_back(value_at(variable, design, stretch, kind, at));
   return values;
 }
 
@@ -61,7 +59,7 @@ ShownRows shown_rows(const Design& design, const Eigen::VectorXd& x, RowKind wan
       for (std::size_t i = 0; i < kind.at.size(); ++i) {
         const double t = time.begins[s] + static_cast<double>(kind.at[i]) * period;
         const double r = residual(static_cast<Eigen::Index>(i));
-        shown.rows.push_back({t, variables_at(design, s, kind.at[i], wanted == RowKind::link), r});
+        shown.rows.push_back({t, variables_at(design, s, kind.at[i], wanted), r});
         shown.numbers.push_back(first + kind.at[i] / smoothing.stride);
         squares += r * r;
       }
