@@ -6,9 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "cablefit/copies/fast_motion.hpp"
 #include "cablefit/model/least_inertias.hpp"
-#include "cablefit/samples/butterworth.hpp"
-#include "cablefit/simulate/coupling.hpp"
 
 namespace cablefit {
 namespace {
@@ -19,8 +18,6 @@ constexpr double kLargestGain = 0.3;  // kd period / J_motor; a sampled loop is 
 // Of a torque that is not held: commands in a row of the log, an even number, at least this often.
 constexpr int kLeastCommands = 4;
 constexpr double kCommandPeriod = 1e-3;  // s
-constexpr double kWidestBand = 0.4;      // of the rate, for the low-pass
-constexpr int kFilterOrder = 4;
 
 /// A PD controller of kBandwidth, as damped as the motor's inertia allows.
 Controller stand_in(const LeastInertias& inertias, double period) {
@@ -30,13 +27,6 @@ Controller stand_in(const LeastInertias& inertias, double period) {
   controller.kp = controller.kd * omega / 2;
   controller.period = period;
   return controller;
-}
-
-Eigen::MatrixXd smooth(const Eigen::MatrixXd& columns, double period, double cutoff) {
-  Eigen::MatrixXd out = columns;
-  if (cutoff > 0 && cutoff < kWidestBand / period)
-    Butterworth(kFilterOrder, cutoff, 1 / period).apply(out, true, true);
-  return out;
 }
 
 /// theta_ref with which the controller's torque at theta is exactly tau: theta + e, where
@@ -86,56 +76,6 @@ void take_load(const LogPlan& plan, TwinStretch& stretch) {
   stretch.input.tau_load = refined(load, stretch.fine).array();
 }
 
-Eigen::ArrayXd acceleration(const Eigen::ArrayXd& x, double period) {
-  Eigen::ArrayXd out = Eigen::ArrayXd::Zero(x.size());
-  const Eigen::Index n = x.size() - 2;
-  if (n > 0) out.segment(1, n) = (x.head(n) - 2 * x.segment(1, n) + x.tail(n)) / (period * period);
-  return out;
-}
-
-/// What the cables of one joint do on its motor where they were measured.
-Eigen::VectorXd elastic_torque(const Model& model, const LogPlan& plan,
-                               const Eigen::MatrixXd& measured) {
-  Eigen::VectorXd torque = Eigen::VectorXd::Zero(measured.rows());
-  if (model.rigid) return torque;
-  const Coupling coupling(model.transmission);
-  const int q = plan.find(Channel::q, 0), theta = plan.find(Channel::theta, 0);
-  for (Eigen::Index i = 0; i < torque.size(); ++i) {
-    double on_link = 0;
-    coupling.torques(&measured(i, q), &measured(i, theta), &on_link, &torque(i));
-  }
-  return torque;
-}
-
-/// Share of the torque's variance that the model's motion asks for: what acted moved the motor,
-/// what its sensor added did not. Columns: theta, tau, elastic torque.
-/// An acceleration by differences is that of the middle between two torques that are held.
-double share_that_acts(const Eigen::MatrixXd& band, double period, double inertia, bool is_held) {
-  Eigen::VectorXd acted = band.col(1);
-  const Eigen::Index n = acted.size() - 1;
-  if (is_held && n > 0) acted.tail(n) = 0.5 * (band.col(1).head(n) + band.col(1).tail(n));
-  const double all = acted.squaredNorm();
-  if (!(all > 0)) return 0;
-  const Eigen::VectorXd asked =
-      inertia * acceleration(band.col(0).array(), period).matrix() + band.col(2);
-  return std::clamp(asked.dot(acted) / all, 0.0, 1.0);
-}
-
-/// What of the torque of a single joint acted faster than the feed-forward's cut-off.
-Eigen::VectorXd fast_torque(const Model& model, const LogPlan& plan, const TwinDrive& drive,
-                            const TwinStretch& stretch) {
-  const bool is_wanted = drive.cutoff > 0 && drive.dither_cutoff > drive.cutoff;
-  if (!is_wanted || plan.rig.n_joints() > 1) return Eigen::VectorXd::Zero(stretch.measured.rows());
-  Eigen::MatrixXd columns(stretch.measured.rows(), 3);
-  columns << stretch.measured.col(plan.find(Channel::theta, 0)),
-      stretch.measured.col(plan.find(Channel::tau, 0)),
-      elastic_torque(model, plan, stretch.measured);
-  const Eigen::MatrixXd band = smooth(columns, stretch.period, drive.dither_cutoff) -
-                               smooth(columns, stretch.period, drive.cutoff);
-  const double inertia = least_inertias(model, stretch.link_blocked).motor;
-  return std::sqrt(share_that_acts(band, stretch.period, inertia, drive.torque_held)) * band.col(1);
-}
-
 void follow_measured(const Model& model, const LogPlan& plan, const TwinDrive& drive,
                      TwinStretch& stretch) {
   stretch.fine = commands_per_row(stretch.period, drive.torque_held);
@@ -148,7 +88,12 @@ void follow_measured(const Model& model, const LogPlan& plan, const TwinDrive& d
     both.col(0) = stretch.measured.col(plan.find(Channel::theta, joint));
     both.col(1) = stretch.measured.col(plan.find(Channel::tau, joint));
     both = smooth(both, stretch.period, drive.cutoff);
-    both.col(1) += fast_torque(model, plan, drive, stretch);
+    if (n_joints == 1 && drive.cutoff > 0) {
+      const FastMotion fast =
+          fast_motion(model, plan, stretch, {drive.cutoff, drive.dither_cutoff}, drive.torque_held);
+      both.col(0) += fast.theta;
+      both.col(1) += fast.tau;
+    }
     both = refined(both, stretch.fine);
     stretch.input.theta_ref.col(joint) =
         reference_for(both.col(0).array(), both.col(1).array(), controller, period);
