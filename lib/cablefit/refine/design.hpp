@@ -57,8 +57,12 @@ Eigen::Index dry_column(const Design& design, const Refinement& row);
 /// Columns of a variant, per stretch and kind of row (n_rows x n_linear). Rows that a variant
 /// replaces are not its business, see replaced_rows.
 using VariantColumns = std::vector<std::vector<Eigen::MatrixXd>>;
+/// How often the torque of a candidate is evaluated. `coarse`, once per row, is enough to choose
+/// among many; noise of the speed folds into such columns, so that they are not for a fit.
+enum class Evaluation { fine, coarse };
 VariantColumns variant_columns(const Design& design, const Variant& variant,
-                               const Eigen::VectorXd& values);
+                               const Eigen::VectorXd& values,
+                               Evaluation evaluation = Evaluation::fine);
 
 /// What the equations of these rows leave, N m (n_rows x 1): model minus measured.
 VariantColumns residuals(const std::vector<StretchRows>& rows, const Eigen::VectorXd& x);

@@ -112,7 +112,7 @@ std::vector<Eigen::Index> moving_rows(const Eigen::ArrayXd& speed, double least_
                                       double period, const Smoothing& smoothing) {
   const Eigen::Index reach = gaussian(smoothing.columns, period).reach();
   const Eigen::Index margin = reach + gaussian(smoothing.signals, period).reach();
-  const Eigen::Index edge = (margin / smoothing.every + 2) * smoothing.every;
+  const Eigen::Index edge = (margin / smoothing.stride + 2) * smoothing.stride;
   const Eigen::Index n = speed.size();
   std::vector<Eigen::Index> rows;
   Eigen::Index last_slow = -1;

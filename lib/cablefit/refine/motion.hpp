@@ -58,8 +58,8 @@ SmoothMotion smooth_motion_of(const Recording& recording, double t0, bool held,
 /// Only its tau.
 Eigen::ArrayXd smooth_torque(const Recording& recording, bool held, const Smoothing& smoothing);
 
-/// Samples at which an equation has a row: far enough from the ends, and no rest of the own axis
-/// within reach of the kernel.
+/// Samples at which an equation has a row, multiples of the stride: far enough from the ends, and
+/// no rest of the own axis within reach of the kernel.
 std::vector<Eigen::Index> moving_rows(const Eigen::ArrayXd& speed, double least_speed,
                                       double period, const Smoothing& smoothing);
 

@@ -61,8 +61,8 @@ struct Scanner {
     return false;
   }
 
-  VariantColumns columns(const Variant& variant) const {
-    return variant_columns(start.design, variant, start.fit.x);
+  VariantColumns columns(const Variant& variant, Evaluation evaluation) const {
+    return variant_columns(start.design, variant, start.fit.x, evaluation);
   }
 };
 
@@ -74,8 +74,8 @@ std::optional<BlockGrams> grams_with(const Scanner& scanner, const Variant& vari
     if (rows.empty()) return {};
     return block_grams(rows, design.stretches, seconds);
   }
-  return extended(scanner.start.grams, design.rows, design.stretches, scanner.columns(variant),
-                  seconds);
+  return extended(scanner.start.grams, design.rows, design.stretches,
+                  scanner.columns(variant, Evaluation::fine), seconds);
 }
 
 /// No candidate where the columns are not there or cannot be told from the others'.
@@ -153,14 +153,14 @@ double median_error(const ErrorsByBlock& errors) {
 }
 
 /// The variant with its nonlinear parameters (and date) where its squared error is least.
-Variant moved_shape(const Scanner& scanner, Variant variant) {
+Variant moved_shape(const Scanner& scanner, Variant variant, Evaluation evaluation) {
   const Design& design = scanner.start.design;
   const Refinement& row = *variant.refinement;
   const int rounds = row.passes() ? 3 : 2;  // place and length of what passes pull at each other
   const auto error_with = [&](const Variant& other) {
     if (!replaces_rows(other)) {
       const auto looked =
-          looked_at(scanner.look, scanner.look.products(scanner.columns(other)), other);
+          looked_at(scanner.look, scanner.look.products(scanner.columns(other, evaluation)), other);
       return looked && looked->is_physical ? looked->error : kUnbounded;
     }
     const auto tried = try_variant(scanner, other);
@@ -202,7 +202,7 @@ std::optional<Candidate> best_fitting(const Scanner& scanner,
   std::optional<Looked> plain, full;
   ErrorsByBlock errors;
   for (const Variant& variant : variants) {
-    const auto products = look.products(scanner.columns(variant));
+    const auto products = look.products(scanner.columns(variant, Evaluation::coarse));
     const auto looked = looked_at(look, products, variant);
     if (looked) keep_least(errors, *looked, scanner.settings.block_seconds);
     keep_better(full, looked);
@@ -212,7 +212,8 @@ std::optional<Candidate> best_fitting(const Scanner& scanner,
     if (!looked) return {};
     // Blocks that a coarse date is wrong in would speak against what lasts.
     const bool lasts = looked->variant.refinement->lasts();
-    return try_variant(scanner, lasts ? moved_shape(scanner, looked->variant) : looked->variant);
+    return try_variant(scanner, lasts ? moved_shape(scanner, looked->variant, Evaluation::coarse)
+                                      : looked->variant);
   };
   auto best = simpler(tried(plain), tried(full));
   if (best && best->variant.refinement->passes())
@@ -287,7 +288,7 @@ Candidate refined_shape(const ScanStart& start, const ScanSettings& settings,
                         const Candidate& candidate) {
   const Scanner scanner(start, settings);
   const auto moved = [&](const Variant& variant) {
-    return try_variant(scanner, moved_shape(scanner, variant));
+    return try_variant(scanner, moved_shape(scanner, variant, Evaluation::fine));
   };
   auto best = moved(candidate.variant);
   if (has_plain_form(*candidate.variant.refinement)) {

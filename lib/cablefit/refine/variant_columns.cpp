@@ -115,9 +115,10 @@ bool counts_on_rigid(const Refinement& row) {
 }
 
 std::vector<Eigen::MatrixXd> torque_columns(const Design& design, const Variant& variant,
-                                            std::size_t k) {
+                                            std::size_t k, Evaluation evaluation) {
   const Smoothing smoothing = design.smoothing_of(k);
-  const Eigen::Index every = smoothing.every;
+  const bool is_coarse = evaluation == Evaluation::coarse && variant.refinement->n_states == 0;
+  const Eigen::Index every = is_coarse ? smoothing.stride : smoothing.every;
   const Kernel filter = gaussian(smoothing.columns, static_cast<double>(every) * smoothing.period);
   SomeTorques torques =
       some_torques(variant, design.stretches[k], design.states[k], every, 2 * filter.reach());
@@ -167,12 +168,12 @@ std::vector<Eigen::MatrixXd> sensor_columns(const Design& design, const Variant&
 }  // namespace
 
 VariantColumns variant_columns(const Design& design, const Variant& variant,
-                               const Eigen::VectorXd& values) {
+                               const Eigen::VectorXd& values, Evaluation evaluation) {
   VariantColumns columns;
   for (std::size_t k = 0; k < design.stretches.size(); ++k)
     columns.push_back(variant.refinement->correct != nullptr
                           ? sensor_columns(design, variant, values, k)
-                          : torque_columns(design, variant, k));
+                          : torque_columns(design, variant, k, evaluation));
   return columns;
 }
 
