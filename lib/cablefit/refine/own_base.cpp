@@ -15,6 +15,7 @@ namespace {
 
 // Not the straight line, even where it will do for stage 1: a gap to be explained is smaller.
 constexpr const char* kCables = "poly";
+constexpr int kPlainOrder = 2;
 constexpr double kAnyInertia = 1;  // kg m^2; it stands until the rows have told
 
 std::vector<EffectInstance> blank_effects(Side side, const Rig& rig) {
@@ -78,7 +79,8 @@ void take_cables(const ElasticFit& fit, Model& model) {
   model.elastic = fit.parameters;
 }
 
-/// Coefficients are shared between preloads: of different orders the higher one for all.
+/// Coefficients are shared between preloads: of different orders the higher one for all. At most
+/// the second order of the paper: a higher one is an effect to be found (stiffness_order).
 ElasticResult shared_stage1(std::span<const LogSurvey> logs, int threads) {
   ElasticOptions options;
   options.samples.threads = threads;
@@ -89,8 +91,8 @@ ElasticResult shared_stage1(std::span<const LogSurvey> logs, int threads) {
     lowest = std::min(lowest, preload.find(kCables)->order);
     highest = std::max(highest, preload.find(kCables)->order);
   }
-  if (lowest == highest) return result;
-  options.order = highest;
+  if (lowest == highest && highest <= kPlainOrder) return result;
+  options.order = std::min(highest, kPlainOrder);
   return fit_elastic_stage(logs, options, ElongationMode::automatic);
 }
 
