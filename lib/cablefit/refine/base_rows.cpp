@@ -71,6 +71,31 @@ std::vector<RowKind> kinds_of(const Stretch& stretch, const Model& model) {
   return {RowKind::link, RowKind::motor};
 }
 
+/// Samples from one evaluation of cables and torques to the next.
+Eigen::Index spacing(const Smoothing& smoothing, Evaluation evaluation) {
+  return evaluation == Evaluation::coarse ? smoothing.stride : 1;
+}
+
+/// Every so many of the samples; of a coarse motion only positions and torques.
+SmoothMotion thinned(const SmoothMotion& m, Eigen::Index every) {
+  if (every == 1) return m;
+  const auto some = Eigen::seq(0, m.size() - 1, every);
+  SmoothMotion out;
+  out.t0 = m.t0;
+  out.period = static_cast<double>(every) * m.period;
+  out.q = m.q(some);
+  out.theta = m.theta(some);
+  out.tau = m.tau(some);
+  out.tau_load = m.tau_load(some);
+  return out;
+}
+
+/// The numbers of the same samples there.
+std::vector<Eigen::Index> thinned(std::vector<Eigen::Index> at, Eigen::Index every) {
+  for (Eigen::Index& i : at) i /= every;
+  return at;
+}
+
 }  // namespace
 
 BaseLayout base_layout(const Model& model) {
@@ -138,32 +163,39 @@ StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayo
 }
 
 StretchRows rows_of_torque(const StretchRows& kept, const Stretch& changed, const Model& model,
-                           const Smoothing& wanted) {
+                           const Smoothing& wanted, Evaluation evaluation) {
   StretchRows rows = kept;
   const Recording& r = changed.recording;
   const Smoothing smoothing = suited(wanted, r.period);
-  SmoothMotion motion = *kept.motion;
-  motion.tau = smooth_torque(r, model.rig.torque_hold != TorqueHold::none, smoothing);
-  const Kernel filter = gaussian(smoothing.columns, r.period);
+  const Eigen::Index every = spacing(smoothing, evaluation);
+  SmoothMotion motion = thinned(*kept.motion, every);
+  motion.tau = smooth_torque(r, model.rig.torque_hold != TorqueHold::none, smoothing, every);
+  const Kernel filter = gaussian(smoothing.columns, motion.period);
   for (KindRows& k : rows.kinds)
-    k.response = apply_at(filter, response_of(k.kind, motion, model).matrix(), k.at);
-  rows.motion = std::make_shared<const SmoothMotion>(std::move(motion));
+    k.response =
+        apply_at(filter, response_of(k.kind, motion, model).matrix(), thinned(k.at, every));
+  if (evaluation == Evaluation::fine)
+    rows.motion = std::make_shared<const SmoothMotion>(std::move(motion));
   return rows;
 }
 
 StretchRows rows_of_cables(const StretchRows& kept, const BaseLayout& before, const Model& model,
-                           const BaseLayout& layout, const Smoothing& smoothing) {
+                           const BaseLayout& layout, const Smoothing& wanted,
+                           Evaluation evaluation) {
   StretchRows rows = kept;
-  const Kernel filter =
-      gaussian(suited(smoothing, kept.motion->period).columns, kept.motion->period);
+  const Smoothing smoothing = suited(wanted, kept.motion->period);
+  const Eigen::Index every = spacing(smoothing, evaluation);
+  const SmoothMotion motion = thinned(*kept.motion, every);
+  const Kernel filter = gaussian(smoothing.columns, motion.period);
   const Eigen::Index effects = before.n_link + before.n_motor;
   for (KindRows& k : rows.kinds) {
-    Eigen::MatrixXd elastic(kept.motion->size(), layout.n_elastic);
-    fill_elastic(model, *kept.motion, k.kind == RowKind::link, elastic);
+    Eigen::MatrixXd elastic(motion.size(), layout.n_elastic);
+    fill_elastic(model, motion, k.kind == RowKind::link, elastic);
     const Eigen::MatrixXd old = std::move(k.base);
     const Eigen::Index more = old.cols() - before.n();
     k.base.resize(old.rows(), layout.n() + more);
-    k.base << old.leftCols(effects), apply_at(filter, elastic, k.at), old.rightCols(more);
+    k.base << old.leftCols(effects), apply_at(filter, elastic, thinned(k.at, every)),
+        old.rightCols(more);
   }
   return rows;
 }

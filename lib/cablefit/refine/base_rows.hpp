@@ -53,8 +53,9 @@ StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayo
 /// The rows of a stretch again where positions are as they were: of another torque, or of a model
 /// with other cables. `kept`: rows with the columns of `before`, and what was added to them.
 StretchRows rows_of_torque(const StretchRows& kept, const Stretch& changed, const Model& model,
-                           const Smoothing& wanted);
+                           const Smoothing& wanted, Evaluation evaluation);
 StretchRows rows_of_cables(const StretchRows& kept, const BaseLayout& before, const Model& model,
-                           const BaseLayout& layout, const Smoothing& smoothing);
+                           const BaseLayout& layout, const Smoothing& wanted,
+                           Evaluation evaluation);
 
 }  // namespace cablefit

@@ -82,31 +82,13 @@ bool same_positions(const Recording& a, const Recording& b) {
   return (a.q == b.q).all() && (a.theta == b.theta).all() && (a.tau_load == b.tau_load).all();
 }
 
-/// What was added before stays as it is.
-StretchRows rows_of_correction(const Design& design, const Variant& variant, std::size_t k) {
-  Stretch stretch = design.stretches[k];
-  if (const auto correct = variant.refinement->correct)
-    correct(variant.shape.data(), stretch.recording);
-  const Model& model = design.models[stretch.model];
-  if (same_positions(stretch.recording, design.stretches[k].recording))
-    return rows_of_torque(design.rows[k], stretch, model, design.smoothing);
-  StretchRows rows = base_rows(stretch, model, design.layout, design.smoothing, &design.rows[k]);
-  for (std::size_t i = 0; i < rows.kinds.size(); ++i) {
-    Eigen::MatrixXd& base = rows.kinds[i].base;
-    const Eigen::MatrixXd& old = design.rows[k].kinds[i].base;
-    const Eigen::Index own = base.cols(), more = old.cols() - design.layout.n();
-    base.conservativeResize(Eigen::NoChange, own + more);
-    base.rightCols(more) = old.rightCols(more);
-  }
-  return rows;
-}
-
 /// The column of dry friction with what the row does to all of it.
-std::vector<StretchRows> rows_of_dry_friction(const Design& design, Variant variant) {
+std::vector<StretchRows> rows_of_dry_friction(const Design& design, Variant variant,
+                                              Evaluation evaluation) {
   const Eigen::Index dry = dry_column(design, *variant.refinement);
   if (dry < 0) return {};
   variant.is_plain = false;
-  const VariantColumns columns = variant_columns(design, variant, {});
+  const VariantColumns columns = variant_columns(design, variant, {}, evaluation);
   std::vector<StretchRows> rows = design.rows;
   for (std::size_t k = 0; k < rows.size(); ++k)
     for (std::size_t i = 0; i < rows[k].kinds.size(); ++i)
@@ -167,9 +149,28 @@ Eigen::Index dry_column(const Design& design, const Refinement& row) {
   return row.site == Site::link ? design.layout.dry_link : design.layout.dry_motor;
 }
 
-std::vector<StretchRows> replaced_rows(const Design& design, const Variant& variant) {
+StretchRows corrected_rows(const Design& design, std::size_t k, const Refinement& row,
+                           const std::vector<double>& parameters, Evaluation evaluation) {
+  Stretch stretch = design.stretches[k];
+  if (row.correct != nullptr) row.correct(parameters.data(), stretch.recording);
+  const Model& model = design.models[stretch.model];
+  if (same_positions(stretch.recording, design.stretches[k].recording))
+    return rows_of_torque(design.rows[k], stretch, model, design.smoothing, evaluation);
+  StretchRows rows = base_rows(stretch, model, design.layout, design.smoothing, &design.rows[k]);
+  for (std::size_t i = 0; i < rows.kinds.size(); ++i) {
+    Eigen::MatrixXd& base = rows.kinds[i].base;
+    const Eigen::MatrixXd& old = design.rows[k].kinds[i].base;
+    const Eigen::Index own = base.cols(), more = old.cols() - design.layout.n();
+    base.conservativeResize(Eigen::NoChange, own + more);
+    base.rightCols(more) = old.rightCols(more);
+  }
+  return rows;
+}
+
+std::vector<StretchRows> replaced_rows(const Design& design, const Variant& variant,
+                                       Evaluation evaluation) {
   const Refinement& row = *variant.refinement;
-  if (row.takes_dry_friction) return rows_of_dry_friction(design, variant);
+  if (row.takes_dry_friction) return rows_of_dry_friction(design, variant, evaluation);
   std::vector<Model> models = design.models;
   BaseLayout layout = design.layout;
   if (row.change != nullptr) {
@@ -184,9 +185,10 @@ std::vector<StretchRows> replaced_rows(const Design& design, const Variant& vari
   std::vector<StretchRows> rows;
   for (std::size_t k = 0; k < design.stretches.size(); ++k) {
     const Model& model = models[design.stretches[k].model];
-    rows.push_back(row.change != nullptr ? rows_of_cables(design.rows[k], design.layout, model,
-                                                          layout, design.smoothing)
-                                         : rows_of_correction(design, variant, k));
+    rows.push_back(row.change != nullptr
+                       ? rows_of_cables(design.rows[k], design.layout, model, layout,
+                                        design.smoothing, evaluation)
+                       : corrected_rows(design, k, row, variant.shape, evaluation));
   }
   return rows;
 }

@@ -57,9 +57,6 @@ Eigen::Index dry_column(const Design& design, const Refinement& row);
 /// Columns of a variant, per stretch and kind of row (n_rows x n_linear). Rows that a variant
 /// replaces are not its business, see replaced_rows.
 using VariantColumns = std::vector<std::vector<Eigen::MatrixXd>>;
-/// How often the torque of a candidate is evaluated. `coarse`, once per row, is enough to choose
-/// among many; noise of the speed folds into such columns, so that they are not for a fit.
-enum class Evaluation { fine, coarse };
 VariantColumns variant_columns(const Design& design, const Variant& variant,
                                const Eigen::VectorXd& values,
                                Evaluation evaluation = Evaluation::fine);
@@ -70,10 +67,17 @@ VariantColumns residuals(const std::vector<StretchRows>& rows, const Eigen::Vect
 /// These behind the columns that the rows have.
 void append(std::vector<StretchRows>& rows, const VariantColumns& columns);
 
+/// The rows of a stretch with what `row` corrects in its recording. What was added before stays as
+/// it is.
+StretchRows corrected_rows(const Design& design, std::size_t stretch, const Refinement& row,
+                           const std::vector<double>& parameters,
+                           Evaluation evaluation = Evaluation::fine);
+
 /// Whether a variant has no columns but other base columns or responses (other cables, a clipped
 /// torque), and these. Empty: it makes no sense for this model.
 bool replaces_rows(const Variant& variant);
-std::vector<StretchRows> replaced_rows(const Design& design, const Variant& variant);
+std::vector<StretchRows> replaced_rows(const Design& design, const Variant& variant,
+                                       Evaluation evaluation = Evaluation::fine);
 
 /// Whether the variant's cables can be made of the design's: some need what another effect made of
 /// them first.

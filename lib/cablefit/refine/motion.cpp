@@ -101,11 +101,18 @@ SmoothMotion smooth_motion_of(const Recording& r, double t0, bool held,
   return m;
 }
 
-Eigen::ArrayXd smooth_torque(const Recording& r, bool held, const Smoothing& smoothing) {
+Eigen::ArrayXd smooth_torque(const Recording& r, bool held, const Smoothing& smoothing,
+                             Eigen::Index every) {
   Eigen::ArrayXd tau = r.tau;
   if (held)
     for (Eigen::Index i = tau.size() - 1; i > 0; --i) tau(i) = 0.5 * (tau(i) + tau(i - 1));
-  return apply(gaussian(smoothing.signals, r.period), tau);
+  const Kernel kernel = gaussian(smoothing.signals, r.period);
+  if (every == 1) return apply(kernel, tau);
+  Eigen::ArrayXd out = Eigen::ArrayXd::Zero((tau.size() + every - 1) / every);
+  const Eigen::Index reach = kernel.reach(), first = (reach + every - 1) / every;
+  for (Eigen::Index i = first; i * every + reach < tau.size(); ++i)
+    out(i) = (kernel.weights * tau.segment(i * every - reach, 2 * reach + 1)).sum();
+  return out;
 }
 
 std::vector<Eigen::Index> moving_rows(const Eigen::ArrayXd& speed, double least_speed,

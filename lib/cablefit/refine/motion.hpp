@@ -37,6 +37,10 @@ Smoothing smoothing_for(double period);
 /// rows and evaluations as far apart.
 Smoothing suited(const Smoothing& smoothing, double period);
 
+/// How often a candidate is evaluated. `coarse`, once per row, is enough to choose among many;
+/// noise of the speed folds into such columns, so that they are not for a fit.
+enum class Evaluation { fine, coarse };
+
 enum class RowKind { link, motor, blocked };
 inline constexpr std::size_t kRowKinds = 3;
 std::string_view to_string(RowKind kind);
@@ -55,8 +59,9 @@ struct SmoothMotion {
 SmoothMotion smooth_motion_of(const Recording& recording, double t0, bool held,
                               const Smoothing& smoothing);
 
-/// Only its tau.
-Eigen::ArrayXd smooth_torque(const Recording& recording, bool held, const Smoothing& smoothing);
+/// Only its tau, at every so many of the samples. Fewer than all: 0 within the kernel of the ends.
+Eigen::ArrayXd smooth_torque(const Recording& recording, bool held, const Smoothing& smoothing,
+                             Eigen::Index every = 1);
 
 /// Samples at which an equation has a row, multiples of the stride: far enough from the ends, and
 /// no rest of the own axis within reach of the kernel.

@@ -66,22 +66,24 @@ struct Scanner {
   }
 };
 
-std::optional<BlockGrams> grams_with(const Scanner& scanner, const Variant& variant) {
+std::optional<BlockGrams> grams_with(const Scanner& scanner, const Variant& variant,
+                                     Evaluation evaluation) {
   const Design& design = scanner.start.design;
   const double seconds = scanner.settings.block_seconds;
   if (replaces_rows(variant)) {
-    const auto rows = replaced_rows(design, variant);
+    const auto rows = replaced_rows(design, variant, evaluation);
     if (rows.empty()) return {};
     return block_grams(rows, design.stretches, seconds);
   }
   return extended(scanner.start.grams, design.rows, design.stretches,
-                  scanner.columns(variant, Evaluation::fine), seconds);
+                  scanner.columns(variant, evaluation), seconds);
 }
 
 /// No candidate where the columns are not there or cannot be told from the others'.
-std::optional<Candidate> try_variant(const Scanner& scanner, Variant variant) {
+std::optional<Candidate> try_variant(const Scanner& scanner, Variant variant,
+                                     Evaluation evaluation = Evaluation::fine) {
   const ScanStart& start = scanner.start;
-  const auto grams = grams_with(scanner, variant);
+  const auto grams = grams_with(scanner, variant, evaluation);
   if (!grams) return {};
   const Refinement& row = *variant.refinement;
   const Eigen::Index n = n_linear(variant);
@@ -163,7 +165,7 @@ Variant moved_shape(const Scanner& scanner, Variant variant, Evaluation evaluati
           looked_at(scanner.look, scanner.look.products(scanner.columns(other, evaluation)), other);
       return looked && looked->is_physical ? looked->error : kUnbounded;
     }
-    const auto tried = try_variant(scanner, other);
+    const auto tried = try_variant(scanner, other, evaluation);
     return tried && tried->refused.empty() ? tried->error.sum() : kUnbounded;
   };
   for (int round = 0; round < rounds; ++round) {
@@ -198,6 +200,8 @@ std::optional<Candidate> simpler(std::optional<Candidate> plain, std::optional<C
 /// Of variants with as many parameters, all fitted, the one that fits best; the plain form apart.
 std::optional<Candidate> best_fitting(const Scanner& scanner,
                                       const std::vector<Variant>& variants) {
+  const bool is_only_one = variants.size() == 1 && !plain_of(variants.front());
+  if (is_only_one) return try_variant(scanner, variants.front());
   const QuickLook& look = scanner.look;
   std::optional<Looked> plain, full;
   ErrorsByBlock errors;
@@ -245,9 +249,10 @@ std::optional<Candidate> best_replacing(const Scanner& scanner,
                                         const std::vector<Variant>& variants) {
   std::optional<Candidate> best;
   for (const Variant& variant : variants) {
-    auto candidate = try_variant(scanner, variant);
+    auto candidate = try_variant(scanner, variant, Evaluation::coarse);
     if (candidate && (!best || is_better(*candidate, *best))) best = std::move(candidate);
   }
+  if (best) best = try_variant(scanner, best->variant);
   const bool is_physical = best && best->refused.empty();
   if (is_physical && best->variant.refinement->correct != nullptr &&
       !acts_in_full(scanner, best->variant))

@@ -117,7 +117,7 @@ bool counts_on_rigid(const Refinement& row) {
 std::vector<Eigen::MatrixXd> torque_columns(const Design& design, const Variant& variant,
                                             std::size_t k, Evaluation evaluation) {
   const Smoothing smoothing = design.smoothing_of(k);
-  const bool is_coarse = evaluation == Evaluation::coarse && variant.refinement->n_states == 0;
+  const bool is_coarse = evaluation == Evaluation::coarse;
   const Eigen::Index every = is_coarse ? smoothing.stride : smoothing.every;
   const Kernel filter = gaussian(smoothing.columns, static_cast<double>(every) * smoothing.period);
   SomeTorques torques =
@@ -141,14 +141,6 @@ std::vector<double> parameters_of(const Variant& variant, double linear) {
   return all;
 }
 
-StretchRows corrected_rows(const Design& design, std::size_t k, const Refinement& row,
-                           const std::vector<double>& parameters) {
-  Stretch stretch = design.stretches[k];
-  row.correct(parameters.data(), stretch.recording);
-  return base_rows(stretch, design.models[stretch.model], design.layout, design.smoothing,
-                   &design.rows[k]);
-}
-
 /// What a small error of a sensor changes in what the equations leave.
 std::vector<Eigen::MatrixXd> sensor_columns(const Design& design, const Variant& variant,
                                             const Eigen::VectorXd& values, std::size_t k) {
@@ -158,7 +150,7 @@ std::vector<Eigen::MatrixXd> sensor_columns(const Design& design, const Variant&
   std::vector<Eigen::MatrixXd> columns;
   for (std::size_t i = 0; i < corrected.kinds.size(); ++i) {
     const KindRows &after = corrected.kinds[i], &before = design.rows[k].kinds[i];
-    columns.push_back(((after.base * own - after.response) -
+    columns.push_back(((after.base.leftCols(own.size()) * own - after.response) -
                        (before.base.leftCols(own.size()) * own - before.response)) /
                       row.step);
   }
