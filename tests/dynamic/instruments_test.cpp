@@ -64,16 +64,18 @@ TEST_CASE("iv says where its instruments come from", "[dynamic]") {
     for (Slot& slot : log.plan.slots)
       if (slot.channel == Channel::theta_ref) slot.channel = Channel::w;
   const DynamicPreload unknown = fit(logs, "iv");
-  CHECK(decision(unknown, "instruments")
-            .reason.find("no controller in the rig file: a stand-in follows theta smoothed at ") ==
-        0);
+  CHECK(
+      decision(unknown, "instruments")
+          .reason.find(
+              "no controller in the rig file: a surrogate controller follows theta smoothed at ") ==
+      0);
   check_recovered(unknown.fits.at(0).parameters, dynamic_truth(truth::Rig::low()), 3);
 }
 
-// A stand-in reverses some 17 ms after a drive that is filtered at 26 Hz: with rows by its rest
-// alone the drive's own reversals stay in, and f_s comes out 5.3 % too small, 2 sd of a log of
-// 20 s. Over 8 logs the mean scatters by 0.35 sd: three of that.
-TEST_CASE("reversals stay out when a stand-in is late", "[dynamic][monte-carlo]") {
+// A surrogate controller reverses some 17 ms after a drive that is filtered at 26 Hz: with rows by
+// its rest alone the drive's own reversals stay in, and f_s comes out 5.3 % too small, 2 sd of a
+// log of 20 s. Over 8 logs the mean scatters by 0.35 sd: three of that.
+TEST_CASE("reversals stay out when a surrogate controller is late", "[dynamic][monte-carlo]") {
   const truth::Drive drive;
   double off = 0;
   constexpr int kLogs = 8;

@@ -194,7 +194,8 @@ double mean_error(const std::string& estimator, truth::DriveOptions options,
   return mean;
 }
 
-const char* const kStandIn = "no controller in the rig file: a stand-in follows theta smoothed at ";
+const char* const kSurrogate =
+    "no controller in the rig file: a surrogate controller follows theta smoothed at ";
 
 // 2 N m of white disturbance on a drive in closed loop come back through the controller into the
 // motion: without instruments output error finds J 0.5 % too small, 2.8 sd of a log of 20 s (0.19
@@ -210,12 +211,12 @@ TEST_CASE("output error keeps a disturbance out that comes back through the cont
 }
 
 // A torque sensor with 1 N m of noise that is correlated over 0.1 s, which moves nothing: without
-// instruments of a stand-in J came out 0.34 % too small on these logs. Over 8 logs of 20 s the mean
-// scatters by 0.09 %: nearly three of that.
+// instruments of a surrogate controller J came out 0.34 % too small on these logs. Over 8 logs of
+// 20 s the mean scatters by 0.09 %: nearly three of that.
 TEST_CASE("output error does not mind coloured torque noise", "[dynamic][monte-carlo]") {
   truth::DriveOptions options = drive_options();
   options.open_loop = options.on_sensor = true;
-  CHECK(std::abs(mean_error("output-error", options, drive_rig, kStandIn)) < 0.0025);
+  CHECK(std::abs(mean_error("output-error", options, drive_rig, kSurrogate)) < 0.0025);
 }
 
 // The disturbance without any loop: the torque is a command, and the disturbance moves the drive.
@@ -226,7 +227,7 @@ TEST_CASE("a commanded torque makes instruments", "[dynamic][monte-carlo]") {
   for (const char* estimator : {"iv", "output-error"}) {
     INFO(estimator);
     CHECK(std::abs(mean_error(estimator, options, drive_rig, "the log's torque replayed")) < 0.002);
-    CHECK(mean_error(estimator, options, silent_drive_rig, kStandIn) < -0.003);
+    CHECK(mean_error(estimator, options, silent_drive_rig, kSurrogate) < -0.003);
   }
 }
 

@@ -147,8 +147,8 @@ TEST_CASE("encoder noise in a stiff loop: wls is biased, iv is not", "[recover][
   check_coverage(c);
 }
 
-// No controller in the rig file: the stand-in keeps the noise of q out of the instruments, the
-// disturbance only in so far as it did not move theta.
+// No controller in the rig file: the surrogate controller keeps the noise of q out of the
+// instruments, the disturbance only in so far as it did not move theta.
 TEST_CASE("encoder noise with an unknown controller", "[recover][monte-carlo]") {
   const Comparison c = compare({800, 6, 160.0, false}, n_runs());
   const RunTable& wls = table_of(c.wls, "J_link");

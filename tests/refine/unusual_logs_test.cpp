@@ -135,8 +135,8 @@ TEST_CASE("the noise floor is that of the logs when the controller is not known"
   for (auto* logs : {&hidden.logs.blocked, &hidden.logs.train, &hidden.logs.test})
     for (LogSurvey& log : *logs) log.plan.rig.controller.reset();
   const RefineResult unknown = refined(hidden);
-  std::printf("    floor of the motor equation: %.4f N m, %.4f by a stand-in\n", known.floor_motor,
-              unknown.floor_motor);
+  std::printf("    floor of the motor equation: %.4f N m, %.4f by a surrogate controller\n",
+              known.floor_motor, unknown.floor_motor);
   CHECK(unknown.floor_motor == Approx(known.floor_motor).epsilon(0.1));
   CHECK(unknown.rho_before < 1.2);
 }

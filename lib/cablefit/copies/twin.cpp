@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/copies/stand_in.hpp"
+#include "cablefit/copies/surrogate.hpp"
 #include "cablefit/samples/noise.hpp"
 #include "cablefit/simulate/start_state.hpp"
 

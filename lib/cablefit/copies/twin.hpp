@@ -53,19 +53,19 @@ struct Twin {
 /// What decides about the controller of a twin.
 struct TwinDrive {
   bool torque_held = true;
-  double cutoff = 0;     ///< Hz, of the low-pass on what a stand-in follows; 0: none
-  bool follows = false;  ///< a stand-in, also where the rig's controller is known
+  double cutoff = 0;     ///< Hz, of the low-pass on what a surrogate controller follows; 0: none
+  bool follows = false;  ///< a surrogate controller, also where the rig's controller is known
   double step = SimulationOptions{}.step;  ///< s, at most, of the simulation
-  /// Hz: up to here a stand-in's feed-forward holds what the measured torque does faster than
-  /// `cutoff`, as far as the measured motion confirms that it acted (encoder steps through a
-  /// controller do, noise of the torque sensor does not); 0: none of it.
+  /// Hz: up to here a surrogate controller's feed-forward holds what the measured torque does
+  /// faster than `cutoff`, as far as the measured motion confirms that it acted (encoder steps
+  /// through a controller do, noise of the torque sensor does not); 0: none of it.
   double dither_cutoff = 0;
 };
 
 /// The parts of the logs for which `wanted` says true, in closed loop: the rig's controller where
-/// it and its reference are known, else a stand-in that follows the measured theta with the
-/// measured torque as feed-forward. Blocked parts have their link held. Throws Error(input) for a
-/// missing channel.
+/// it and its reference are known, else a surrogate controller that follows the measured theta with
+/// the measured torque as feed-forward. Blocked parts have their link held. Throws Error(input) for
+/// a missing channel.
 Twin make_twin(const Model& model, std::span<const LogSurvey> logs, const PartFilter& wanted,
                const TwinDrive& drive);
 

@@ -16,13 +16,13 @@ namespace {
 constexpr int kTries = 5;         // of a scale
 constexpr double kMargin = 0.99;  // of the limit that was broken, at the next try
 constexpr double kDamping = 0.7;
-constexpr double kStandInBandwidth = 15;  // Hz
-constexpr double kLargestGain = 0.3;      // kd period / J_motor; a sampled loop is unstable at 2
+constexpr double kSurrogateBandwidth = 15;  // Hz
+constexpr double kLargestGain = 0.3;        // kd period / J_motor; a sampled loop is unstable at 2
 
 /// A PD controller, damped for what swings along and stable with the motor alone.
-Controller stand_in(const Model& model, double period) {
+Controller surrogate(const Model& model, double period) {
   const auto [motor, all] = least_inertias(model);
-  const double omega = 2 * std::numbers::pi * kStandInBandwidth;
+  const double omega = 2 * std::numbers::pi * kSurrogateBandwidth;
   Controller c;
   c.kd = std::min(2 * kDamping * all * omega, kLargestGain * motor / period);
   c.kp = std::min(all * omega * omega, c.kd * omega / (2 * kDamping));
@@ -94,9 +94,10 @@ Model excitable(const Model& model, double rate, std::string& words) {
     words = "the rig's controller";
     return moved;
   }
-  moved.rig.controller = stand_in(model, 1 / rate);
-  words = fmt::format("a stand-in (kp {:.3g}, kd {:.3g}), as the rig names no controller",
-                      moved.rig.controller->kp, moved.rig.controller->kd);
+  moved.rig.controller = surrogate(model, 1 / rate);
+  words =
+      fmt::format("a surrogate controller (kp {:.3g}, kd {:.3g}), as the rig names no controller",
+                  moved.rig.controller->kp, moved.rig.controller->kd);
   return moved;
 }
 

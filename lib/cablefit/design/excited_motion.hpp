@@ -31,9 +31,9 @@ struct ExcitedMotion {
   double position_share = 0, speed_share = 0, torque_share = 0;
 };
 
-/// The model with a controller to simulate with: the rig's, else a stand-in that follows its
-/// reference as fast as the motor's inertia allows (`words` says which). Throws Error(input) for
-/// what cannot be simulated: no inertias, links that move each other.
+/// The model with a controller to simulate with: the rig's, else a surrogate controller that
+/// follows its reference as fast as the motor's inertia allows (`words` says which). Throws
+/// Error(input) for what cannot be simulated: no inertias, links that move each other.
 Model excitable(const Model& model, double rate, std::string& words);
 
 /// Largest share of a scaled reference at which no limit is broken, by the simulation itself: from

@@ -21,8 +21,8 @@ struct InstrumentedRows {
 /// would depend on the disturbance that instruments are to keep out (f_s of the link -13 % at 3 N m
 /// of it). Elastic motors rest by either: disturbances act on the link, not in their equation, and
 /// what a motor's friction is where it really sticks no regressor says (f_vm -12 % at low gain). A
-/// stand-in keeps no disturbance out and reverses later than the drive, so that there all rest by
-/// either (f_s -5 %, f_v +4 % with an encoder of 12 bits).
+/// surrogate controller keeps no disturbance out and reverses later than the drive, so that there
+/// all rest by either (f_s -5 %, f_v +4 % with an encoder of 12 bits).
 Equation with_instruments(const EquationRows& equation, int n_joints, LoopKind loop);
 
 /// All wanted rows of logs with simulated channels, per equation.

@@ -21,9 +21,9 @@ namespace {
 constexpr double kLoopStep = 200e-6;  // s
 // Of the regression's cut-off: acceleration noise goes with bandwidth^2.5, so that 1/32 of its
 // variance is left in the instruments.
-constexpr double kStandInShare = 0.5;
+constexpr double kSurrogateShare = 0.5;
 constexpr double kUnfilteredShare = 0.05;  // of the rate, where the regression has no cut-off
-constexpr int kStandInOrder = 4;
+constexpr int kSurrogateOrder = 4;
 constexpr double kDamping = 0.7;
 constexpr double kLargestGain = 0.5;  // of kd h / J_motor, which is unstable from about 1 on
 constexpr Eigen::Index kMinRows = 8;  // of a stretch, as of a part
@@ -37,7 +37,7 @@ std::string no_known_loop(const LogPlan& plan) {
 
 /// Follows its reference within the bandwidth, whatever inertia swings along; damped for the motor
 /// alone, which is what it turns above the resonance.
-Controller stand_in(const Model& model, double bandwidth, double h) {
+Controller surrogate(const Model& model, double bandwidth, double h) {
   const auto [motor, total] = least_inertias(model);  // of the lightest joint: stable for all
   const double omega = 2 * std::numbers::pi * bandwidth;
   Controller c;
@@ -93,8 +93,8 @@ class LogLoop {
     Eigen::MatrixXd reference(window.data.rows(), n_joints());
     for (int joint = 0; joint < n_joints(); ++joint)
       reference.col(joint) = window.data.col(log_.plan.find(input_channel(plan_.kind), joint));
-    if (plan_.kind == LoopKind::stand_in)
-      Butterworth(kStandInOrder, plan_.bandwidth, 1 / window.period)
+    if (plan_.kind == LoopKind::surrogate)
+      Butterworth(kSurrogateOrder, plan_.bandwidth, 1 / window.period)
           .apply(reference, window.starts_segment, window.ends_segment);
     return reference;
   }
@@ -115,9 +115,9 @@ class LogLoop {
 
   void start(const Window& window, const Eigen::MatrixXd& reference) {
     Model model = model_;
-    if (plan_.kind == LoopKind::stand_in) {
+    if (plan_.kind == LoopKind::surrogate) {
       const double n = std::max(1.0, std::ceil(window.period / options_.step - 1e-6));
-      model.rig.controller = stand_in(model_, plan_.bandwidth, window.period / n);
+      model.rig.controller = surrogate(model_, plan_.bandwidth, window.period / n);
     }
     const Eigen::Index rows = window.data.rows() - (window.begin - window.first);
     SimulationInput first = input(window, reference, std::min<Eigen::Index>(2, rows));
@@ -152,8 +152,8 @@ class LogLoop {
 /// Rows around a window's own that its loop looks at.
 Eigen::Index halo(const LoopPlan& plan, double rate) {
   Eigen::Index rows = kStartRows;
-  if (plan.kind == LoopKind::stand_in)
-    rows = std::max(rows, Butterworth(kStandInOrder, plan.bandwidth, rate).settling_rows());
+  if (plan.kind == LoopKind::surrogate)
+    rows = std::max(rows, Butterworth(kSurrogateOrder, plan.bandwidth, rate).settling_rows());
   return rows + 1;  // the row that a block steps on to
 }
 
@@ -192,11 +192,10 @@ std::string source_of_instruments(const LoopPlan& plan) {
       return "noise-free loop of the rig's controller and the log's reference";
     case LoopKind::command:
       return "the log's torque replayed without noise, as the rig file says that it is a command";
-    case LoopKind::stand_in:
+    case LoopKind::surrogate:
       return fmt::format(
-          "{}: a stand-in follows theta smoothed at {:.3g} Hz; encoder noise is kept out, "
-          "disturbances "
-          "that moved the robot are not",
+          "{}: a surrogate controller follows theta smoothed at {:.3g} Hz; encoder noise is kept "
+          "out, disturbances that moved the robot are not",
           plan.reason, plan.bandwidth);
     case LoopKind::none:
       break;
@@ -226,7 +225,7 @@ void look_at_controller(const DynamicJob& job, std::span<const LogSurvey> logs, 
   if (plan.kind == LoopKind::known) {
     const std::optional<ControllerFit> given = check_controller(looked_at, job.wanted);
     if (!given || given->fits()) return;
-    plan.kind = LoopKind::stand_in;
+    plan.kind = LoopKind::surrogate;
     plan.reason = fmt::format("the rig's controller does not make the log's torque ({})",
                               given->text(linear));
     plan.warnings.push_back(plan.reason + ": it is not used; check its gains, units and reference");
@@ -253,7 +252,7 @@ LoopPlan plan_loop(const DynamicJob& job, std::span<const LogSurvey> logs) {
     n_commanded += log.plan.rig.open_loop ? 1 : 0;
     const std::string obstacle = no_known_loop(log.plan);
     if (obstacle.empty()) continue;
-    plan.kind = LoopKind::stand_in;
+    plan.kind = LoopKind::surrogate;
     plan.reason = obstacle;
   }
   if (n_logs > 0 && n_commanded == n_logs) {
@@ -267,7 +266,7 @@ LoopPlan plan_loop(const DynamicJob& job, std::span<const LogSurvey> logs) {
   for (int joint = 0; joint < job.n_joints(); ++joint)
     cutoff = std::min(cutoff, job.settings_of(joint).rows.signal.cutoff);
   plan.bandwidth =
-      cutoff > 0 ? std::min(kStandInShare * cutoff, 0.4 * rate) : kUnfilteredShare * rate;
+      cutoff > 0 ? std::min(kSurrogateShare * cutoff, 0.4 * rate) : kUnfilteredShare * rate;
   return plan;
 }
 

@@ -15,10 +15,10 @@ namespace cablefit {
 
 /// Where the reference of the loop comes from.
 enum class LoopKind {
-  known,     ///< a controller follows the log's reference: the rig's, or one found from the logs
-  command,   ///< the rig says that the torque is a command: it is replayed, there is no loop
-  stand_in,  ///< a stiff PD controller follows the measured theta, smoothed
-  none       ///< nothing can be simulated
+  known,      ///< a controller follows the log's reference: the rig's, or one found from the logs
+  command,    ///< the rig says that the torque is a command: it is replayed, there is no loop
+  surrogate,  ///< a stiff PD controller follows the measured theta, smoothed
+  none        ///< nothing can be simulated
 };
 
 struct LoopPlan {

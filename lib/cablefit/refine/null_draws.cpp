@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/copies/stand_in.hpp"
+#include "cablefit/copies/surrogate.hpp"
 #include "cablefit/copies/twin.hpp"
 #include "cablefit/refine/blocked_twin.hpp"
 #include "cablefit/refine/elastic_stage.hpp"
@@ -15,7 +15,7 @@ namespace cablefit {
 namespace {
 
 constexpr std::uint64_t kSensors = 11, kCalibration = 12;
-// Hz, of what a stand-in controller follows, and of what the drive adds to that. Beyond the second
+// Hz, of what a surrogate controller follows, and of what the drive adds to that. Beyond the second
 // the kernels of the rows leave nothing.
 constexpr double kFollowCutoff = 40, kDitherCutoff = 150;
 // s: a mode of 100 Hz is off by (2 pi 100 h)^2 / 24 = 2e-4 of its frequency, far less than draws

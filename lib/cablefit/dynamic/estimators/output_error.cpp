@@ -81,8 +81,9 @@ FittedRows rows_of(const DynamicJob& job) {
           std::move(parts)};
 }
 
-/// Even a stand-in, which follows what was measured and so keeps out no disturbance, knows nothing
-/// of the torque's noise, which the smoothed motion has: J -0.4 % where that noise is coloured.
+/// Even a surrogate controller, which follows what was measured and so keeps out no disturbance,
+/// knows nothing of the torque's noise, which the smoothed motion has: J -0.4 % where that noise is
+/// coloured.
 LoopPlan add_noise_free_loop(const DynamicJob& job, const FittedRows& rows,
                              OutputErrorOptions& options) {
   const std::span<const LogSurvey> logs =

@@ -1,4 +1,4 @@
-#include "cablefit/copies/stand_in.hpp"
+#include "cablefit/copies/surrogate.hpp"
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ constexpr int kLeastCommands = 4;
 constexpr double kCommandPeriod = 1e-3;  // s
 
 /// A PD controller of kBandwidth, as damped as the motor's inertia allows.
-Controller stand_in(const LeastInertias& inertias, double period) {
+Controller surrogate(const LeastInertias& inertias, double period) {
   const double omega = 2 * std::numbers::pi * kBandwidth;
   Controller controller;
   controller.kd = std::min(2 * inertias.all * omega, kLargestGain * inertias.motor / period);
@@ -80,7 +80,7 @@ void follow_measured(const Model& model, const LogPlan& plan, const TwinDrive& d
                      TwinStretch& stretch) {
   stretch.fine = commands_per_row(stretch.period, drive.torque_held);
   const double period = stretch.input.period = stretch.period / stretch.fine;
-  const Controller controller = stand_in(least_inertias(model, stretch.link_blocked), period);
+  const Controller controller = surrogate(least_inertias(model, stretch.link_blocked), period);
   const int n_joints = plan.rig.n_joints();
   stretch.input.theta_ref.resize((stretch.measured.rows() - 1) * stretch.fine + 1, n_joints);
   for (int joint = 0; joint < n_joints; ++joint) {
