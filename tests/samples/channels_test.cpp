@@ -31,6 +31,23 @@ TEST_CASE("units in the header become SI factors", "[samples]") {
   CHECK_FALSE(plan.has(Channel::w));
 }
 
+TEST_CASE("a lone speed is integrated, a lone position beside a torque is the drive's",
+          "[samples]") {
+  const LogPlan by_speed = Logs().plan("t,w,tau\n0,0,0\n");
+  CHECK_FALSE(by_speed.has_measured(Channel::theta));
+  REQUIRE(by_speed.has(Channel::theta));
+  CHECK(by_speed.slots.at(static_cast<std::size_t>(by_speed.find(Channel::theta))).column == 1);
+
+  const LogPlan one_position = Logs().plan("t,q,tau\n0,0,0\n");
+  CHECK(one_position.q_is_theta);
+  CHECK(one_position.has_measured(Channel::theta));
+  CHECK_FALSE(one_position.has(Channel::q));
+
+  const LogPlan no_torque = Logs().plan("t,q\n0,0\n");
+  CHECK(no_torque.has(Channel::q));
+  CHECK_FALSE(no_torque.has(Channel::theta));
+}
+
 TEST_CASE("a rig file maps names, signs, scales, units and shifts", "[samples]") {
   Rig rig = default_rig();
   rig.columns["tau"] = {"i_q", -0.083, 0, "N m"};

@@ -27,6 +27,18 @@ TEST_CASE("the clock of an even log", "[samples]") {
   CHECK(part.jitter < 1e-6);  // rounding of t: eps * 5 / 1e-3, and sqrt(eps) of the difference
 }
 
+TEST_CASE("a speed is integrated over time, across its gaps too", "[samples]") {
+  // w = t, so that theta = t^2 / 2, which the trapezoidal rule has exactly.
+  std::string text = "t,w,tau\n";
+  for (int i = 0; i < 100; ++i)
+    if (i < 40 || i > 60) text += fmt::format("{},{},{}\n", 0.01 * i, 0.01 * i, i % 3);
+  Bench bench;
+  const ChannelSurvey& theta = channel(bench.add_text(text), Channel::theta);
+  CHECK(theta.min == 0);
+  CHECK_THAT(theta.max, Catch::WithinRel(0.99 * 0.99 / 2, 1e-12));
+  CHECK(theta.quantum == 0);
+}
+
 TEST_CASE("jitter is measured and decides about resampling", "[samples]") {
   // Steps T (1 + a(u[i] - u[i-1])), u uniform in [-1, 1): sd a sqrt(2/3) of the period.
   const auto jittered = [](double a, std::uint64_t seed) {

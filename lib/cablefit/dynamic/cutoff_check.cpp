@@ -58,7 +58,7 @@ void judge(Estimate& e, double there, double cutoff, double factor, bool is_rigi
 double noise_share(const EstimationTask& task, const EquationRows& e) {
   const DynamicJob& job = task.job;
   const LogPlan& plan = job.first_log().plan;
-  if (!job.rigid || plan.has(Channel::theta) || !plan.has(Channel::w)) return 0;
+  if (!job.rigid || plan.has_measured(Channel::theta) || !plan.has(Channel::w)) return 0;
   const auto slot = static_cast<std::size_t>(plan.find(Channel::w));
   double noise = 0;
   for (const LogSurvey& log : job.logs)

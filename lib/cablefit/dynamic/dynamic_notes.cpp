@@ -60,7 +60,7 @@ void note_load(const DynamicJob& job, DynamicPreload& preload) {
     const bool by_position =
         load.law->torque(load.parameters, 0.1) != load.law->torque(load.parameters, -0.2);
     if (job.rigid && !load.law->from_column && by_position)
-      require_channel(job.first_log().plan, Channel::theta, "a load that depends on position");
+      require_measured(job.first_log().plan, Channel::theta, "a load that depends on position");
     return;
   }
   if (job.rigid) return;

@@ -246,7 +246,10 @@ LoopPlan plan_loop(const DynamicJob& job, std::span<const LogSurvey> logs) {
   plan.kind = LoopKind::known;
   for (const LogSurvey& log : logs) {
     if (std::none_of(log.parts.begin(), log.parts.end(), job.wanted)) continue;
-    if (!log.plan.has_for_all(Channel::theta))
+    bool has_theta = true;
+    for (int joint = 0; joint < job.n_joints(); ++joint)
+      has_theta = has_theta && log.plan.has_measured(Channel::theta, joint);
+    if (!has_theta)
       return {LoopKind::none, fmt::format("{} has no theta to follow", log.plan.path), 0};
     ++n_logs;
     n_commanded += log.plan.rig.open_loop ? 1 : 0;

@@ -51,7 +51,7 @@ const ElasticFit& find_stage1(const ElasticResult& elastic, const std::string& p
 void require_channels(const LogPlan& plan, bool rigid) {
   require_channel(plan, Channel::tau, rigid ? "the rigid model" : "stage 2");
   if (rigid) {
-    if (!plan.has(Channel::w)) require_channel(plan, Channel::theta, "the rigid model");
+    require_channel(plan, Channel::theta, "the rigid model");
     return;
   }
   require_channel(plan, Channel::q, "an elastic model",

@@ -134,6 +134,39 @@ void resolve_time(LogPlan& plan) {
   if (mapped != plan.rig.columns.end()) plan.time_factor *= mapped->second.scale;
 }
 
+// A rigid drive has one position, whatever the log calls it, and a speed tells it but for its zero.
+void complete_theta(LogPlan& plan, int joint) {
+  if (plan.has(Channel::theta, joint)) return;
+  const int q = plan.find(Channel::q, joint), w = plan.find(Channel::w, joint);
+  if (q >= 0 && plan.has(Channel::tau, joint)) {
+    plan.slots[static_cast<std::size_t>(q)].channel = Channel::theta;
+    plan.q_is_theta = true;
+  } else if (q < 0 && w >= 0) {
+    Slot theta = plan.slots[static_cast<std::size_t>(w)];
+    theta.channel = Channel::theta;
+    theta.integrated = true;
+    plan.slots.push_back(theta);
+  }
+}
+
+int first_without(const LogPlan& plan, Channel channel, bool measured) {
+  for (int joint = 0; joint < plan.rig.n_joints(); ++joint)
+    if (measured ? !plan.has_measured(channel, joint) : !plan.has(channel, joint)) return joint;
+  return -1;
+}
+
+Error missing_channel(const LogPlan& plan, Channel channel, int joint, std::string_view why,
+                      std::string_view hint) {
+  // Of a lone position it is the other one that is missing.
+  if (channel == Channel::q && plan.q_is_theta) channel = Channel::theta;
+  std::string name(channel_name(channel));
+  if (plan.rig.n_joints() > 1) name += std::to_string(joint + 1);
+  return input_error(
+      {plan.path, plan.header.columns.empty() ? 1 : plan.header.columns[0].place.line, 0},
+      fmt::format("missing column '{}', needed for {}", name, why),
+      fmt::format("{}; columns are {}", hint, names_of(plan.header)));
+}
+
 }  // namespace
 
 std::string_view channel_name(Channel channel) { return info_of(channel).name; }
@@ -142,6 +175,11 @@ bool LogPlan::has_for_all(Channel channel) const {
   for (int joint = 0; joint < rig.n_joints(); ++joint)
     if (!has(channel, joint)) return false;
   return true;
+}
+
+bool LogPlan::has_measured(Channel channel, int joint) const {
+  const int k = find(channel, joint);
+  return k >= 0 && !slots[static_cast<std::size_t>(k)].integrated;
 }
 
 int LogPlan::find(Channel channel, int joint) const {
@@ -168,6 +206,7 @@ LogPlan plan_log(const std::string& path, const Rig& rig) {
         column = reference_column(plan.header, rig, joint);
       if (column) plan.slots.push_back(make_slot(plan.header, rig, info, joint, *column, channel));
     }
+  for (int joint = 0; joint < rig.n_joints(); ++joint) complete_theta(plan, joint);
   plan.preload_column = column_of(plan.header, rig, "preload");
   plan.phase_column = column_of(plan.header, rig, "phase");
   plan.run_column = column_of(plan.header, rig, "run");
@@ -187,16 +226,14 @@ void require_unchanged(const LogPlan& plan) {
 
 void require_channel(const LogPlan& plan, Channel channel, std::string_view why,
                      std::string_view hint) {
-  const int n = plan.rig.n_joints();
-  int missing = 0;
-  while (missing < n && plan.has(channel, missing)) ++missing;
-  if (missing == n) return;
-  std::string name(channel_name(channel));
-  if (n > 1) name += std::to_string(missing + 1);
-  throw input_error(
-      {plan.path, plan.header.columns.empty() ? 1 : plan.header.columns[0].place.line, 0},
-      fmt::format("missing column '{}', needed for {}", name, why),
-      fmt::format("{}; columns are {}", hint, names_of(plan.header)));
+  const int joint = first_without(plan, channel, false);
+  if (joint >= 0) throw missing_channel(plan, channel, joint, why, hint);
+}
+
+void require_measured(const LogPlan& plan, Channel channel, std::string_view why,
+                      std::string_view hint) {
+  const int joint = first_without(plan, channel, true);
+  if (joint >= 0) throw missing_channel(plan, channel, joint, why, hint);
 }
 
 void require_one_joint(const LogPlan& plan, std::string_view what) {

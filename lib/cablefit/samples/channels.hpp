@@ -21,12 +21,14 @@ inline constexpr std::array kChannels = {Channel::q,   Channel::theta,    Channe
 std::string_view channel_name(Channel channel);
 
 /// One numeric channel of one joint and the column it is read from: SI = factor * raw + shift.
+/// Of an `integrated` one that is the rate, and the values are its integral over time, from 0.
 struct Slot {
   Channel channel = Channel::q;
   int joint = 0;
   std::size_t column = 0;  ///< index into the log's header
   double factor = 1;
   double shift = 0;
+  bool integrated = false;
 };
 
 /// How one log is read. `slots` are the columns of every sample block, in this order.
@@ -39,14 +41,17 @@ struct LogPlan {
   std::optional<std::size_t> time_column;
   double time_factor = 1;
   std::optional<std::size_t> preload_column, phase_column, run_column;
+  bool q_is_theta = false;  ///< the log's only position, q, is taken for a rigid drive's
 
   /// Position of a channel among `slots`, or -1.
   int find(Channel channel, int joint = 0) const;
   bool has(Channel channel, int joint = 0) const { return find(channel, joint) >= 0; }
-  bool has_for_all(Channel channel) const;  ///< of every joint
+  bool has_for_all(Channel channel) const;                  ///< of every joint
+  bool has_measured(Channel channel, int joint = 0) const;  ///< and not as an integral
 };
 
-/// Opens the log, reads its header and resolves every channel by the rig file or by name. Throws
+/// Opens the log, reads its header and resolves every channel by the rig file or by name. Of one
+/// joint a lone w is integrated to theta, and without theta a q beside tau is read as it. Throws
 /// Error(input) at the header cell for a unit of the wrong kind, for a mapped column that is not
 /// there, when there is neither t nor a sample rate, and when no channel is found at all.
 LogPlan plan_log(const std::string& path, const Rig& rig);
@@ -74,6 +79,10 @@ auto undisturbed(const LogPlan& plan, Pass pass) {
 /// With several joints: of every joint.
 void require_channel(const LogPlan& plan, Channel channel, std::string_view why,
                      std::string_view hint = "add it, or map it in a rig file");
+
+/// The same for what an integral, whose zero is unknown, cannot serve.
+void require_measured(const LogPlan& plan, Channel channel, std::string_view why,
+                      std::string_view hint = "add it, or map it in a rig file");
 
 /// For what handles one joint only. Throws Error(input) for a rig with more; `what` may say what
 /// does not: "'--zero theta_0' is made for one".

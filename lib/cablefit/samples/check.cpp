@@ -36,6 +36,7 @@ std::vector<CheckedChannel> channels_of(const LogSurvey& log, const PartSurvey& 
   const Rig& rig = log.plan.rig;
   for (std::size_t k = 0; k < log.plan.slots.size(); ++k) {
     const Slot& slot = log.plan.slots[k];
+    if (slot.integrated) continue;
     const std::string name = indexed_name(slot.channel, slot.joint, rig);
     const std::string unit = unit_of(slot.channel, rig.linear_motion);
     channels.push_back({name, unit, unit == "rad", part.channels[k]});
@@ -47,7 +48,7 @@ std::vector<CheckedChannel> channels_of(const LogSurvey& log, const PartSurvey& 
 std::optional<Channel> motion_channel(const LogPlan& plan, int joint) {
   std::optional<Channel> best;
   for (const Channel channel : {Channel::q, Channel::w, Channel::theta}) {
-    if (plan.has(channel, joint)) best = channel;
+    if (plan.has_measured(channel, joint)) best = channel;
   }
   return best;
 }
@@ -127,7 +128,7 @@ std::vector<std::string> identified_by(const LogPlan& plan, const PartSurvey& pa
     const int k = plan.find(channel);
     return k >= 0 && part.channels[static_cast<std::size_t>(k)].range() > 0;
   };
-  const bool drive_moves = moves(Channel::theta) || moves(Channel::w);
+  const bool drive_moves = moves(Channel::theta);
   if (part.phase == Phase::blocked) {
     return q && tau && drive_moves ? std::vector<std::string>{"elastic"}
                                    : std::vector<std::string>{};
@@ -164,6 +165,7 @@ void note_motion(const LogPlan& plan, CheckedPart& part) {
         "nothing can be identified from this part: stage 1 needs q, theta and tau with the link "
         "blocked; stage 2 the same with the link moving; a rigid drive theta or w, and tau");
   }
+  if (plan.q_is_theta) warn("q is the only position: it is read as theta, that of a rigid drive");
   if (part.survey.uneven) warn("the clock is uneven: rows will be made anew on an even grid");
   if (part.survey.phase == Phase::blocked || e.channel.empty()) return;
   if (e.share_at_rest > kMostlyAtRest) {

@@ -64,11 +64,8 @@ JointSignals joint_signals(const Eigen::MatrixXd& data, const LogPlan& plan, int
   s.tau_load = column(data, plan, Channel::tau_load, joint);
   if (s.q.size() > 0) s.qd = first_derivative(s.q, h);
   if (s.theta.size() > 0) s.thetad = first_derivative(s.theta, h);
-  const bool by_speed = s.theta.size() == 0 && plan.has(Channel::w, joint);
-  if (by_speed) {
-    s.thetad = column(data, plan, Channel::w, joint);
-    s.theta = Eigen::ArrayXd::Zero(s.thetad.size());  // no position: nothing may depend on it
-  }
+  const bool by_speed = plan.has(Channel::w, joint) && !plan.has_measured(Channel::theta, joint);
+  if (by_speed) s.thetad = column(data, plan, Channel::w, joint);
   if (!settings.quasi_static) {
     if (s.q.size() > 0) s.qdd = second_derivative(s.q, h);
     if (s.theta.size() > 0)

@@ -55,7 +55,10 @@ struct PartScan {
 
   PartSurvey result(const LogPlan& plan) {
     PartSurvey part{clock.result(), key.preload, key.run, Phase::moving, !key.phase.empty(), {}};
-    for (const ChannelScan& channel : channels) part.channels.push_back(channel.result());
+    for (std::size_t k = 0; k < channels.size(); ++k) {
+      ChannelSurvey& channel = part.channels.emplace_back(channels[k].result());
+      if (plan.slots[k].integrated) channel.quantum = channel.noise = 0;  // no sensor's
+    }
     part.phase = phase_of(key, part, plan);
     return part;
   }
@@ -132,7 +135,19 @@ class LogScan {
       const Slot& slot = plan_.slots[k];
       rows_.col(static_cast<Eigen::Index>(1 + k)) =
           column(k + (plan_.time_column ? 1 : 0)) * slot.factor + slot.shift;
+      if (slot.integrated) integrate(rows_.col(static_cast<Eigen::Index>(1 + k)));
       require_physical(slot, static_cast<Eigen::Index>(1 + k), chunk);
+    }
+  }
+
+  /// Rates to their integral, by the trapezoidal rule from the rows before; time that starts anew,
+  /// in another part, adds nothing.
+  void integrate(Eigen::Ref<Eigen::VectorXd> values) {
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+      const double t = rows_(i, 0), rate = values(i);
+      if (t > integral_.t) integral_.value += (t - integral_.t) * (integral_.rate + rate) / 2;
+      integral_ = {t, rate, integral_.value};
+      values(i) = integral_.value;
     }
   }
 
@@ -193,6 +208,9 @@ class LogScan {
   std::vector<PartScan> scans_;
   std::size_t current_ = 0, n_rows_ = 0;
   Eigen::MatrixXd rows_;  // of one chunk, [t, slots]
+  struct {
+    double t = kUnbounded, rate = 0, value = 0;
+  } integral_;
 };
 
 }  // namespace

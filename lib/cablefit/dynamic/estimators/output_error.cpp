@@ -42,7 +42,8 @@ std::string obstacle(const EstimationTask& task, const Model& start) {
   for (const LogSurvey& log : job.logs) {
     if (std::none_of(log.parts.begin(), log.parts.end(), job.wanted)) continue;
     for (int joint = 0; joint < job.n_joints(); ++joint)
-      if (!log.plan.has(Channel::theta, joint) || (!job.rigid && !log.plan.has(Channel::q, joint)))
+      if (!log.plan.has_measured(Channel::theta, joint) ||
+          (!job.rigid && !log.plan.has(Channel::q, joint)))
         return fmt::format("{} has no positions to compare with", log.plan.path);
   }
   for (const ModelParameter& p : model_parameters(start))
