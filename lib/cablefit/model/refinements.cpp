@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -78,6 +79,11 @@ double ShapeGrid::value(int i, const LogScale& scale) const {
   const double from = lowest(scale), to = highest(scale);
   if (!is_geometric) return from + share * (to - from);
   return from * std::pow(to / from, share);
+}
+
+double ShapeGrid::lowest(const LogScale& scale) const {
+  const double plain = low * factor(scale);
+  return is_rare ? std::min(std::max(plain, scale.usual), highest(scale)) : plain;
 }
 
 double ShapeGrid::factor(const LogScale& scale) const {

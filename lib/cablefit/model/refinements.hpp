@@ -49,6 +49,7 @@ struct Recording {
 /// How large the motion of the logs is, which some grids are counted in.
 struct LogScale {
   double peak = 0;    ///< N m, largest |tau|
+  double usual = 0;   ///< N m, three quarters of |tau| are below
   double travel = 0;  ///< rad, half the range of the positions
   /// All but the largest hundredth of |thetad|, rad/s, and of |theta - theta_0 - q|, rad.
   double speed = 0, deflection = 0;
@@ -68,12 +69,13 @@ struct ShapeGrid {
   bool is_geometric = true;  ///< even in its logarithm
   GridUnit unit = GridUnit::si;
   bool is_whole = false;  ///< values are whole numbers, and nothing lies between them
+  bool is_rare = false;   ///< of torques: no value is below LogScale::usual
   double canonical = 0;   ///< the value of the textbooks, an exponent of 2; 0: none is special
 
   /// Value i = 0 .. n_values-1, in SI.
   double value(int i, const LogScale& scale) const;
   /// The bounds of the parameter in SI.
-  double lowest(const LogScale& scale) const { return low * factor(scale); }
+  double lowest(const LogScale& scale) const;
   double highest(const LogScale& scale) const { return high * factor(scale); }
 
  private:

@@ -49,10 +49,10 @@ LogScale scale_of(const Design& design) {
   constexpr double kLeast = 1e-9;
   LogScale scale;
   double low = kUnbounded, high = -kUnbounded;
-  std::vector<double> speeds, deflections;
+  std::vector<double> speeds, deflections, torques;
   for (std::size_t k = 0; k < design.stretches.size(); ++k) {
     const Stretch& stretch = design.stretches[k];
-    scale.peak = std::max(scale.peak, stretch.recording.tau.abs().maxCoeff());
+    for (const double tau : stretch.recording.tau) torques.push_back(std::abs(tau));
     low = std::min(low, stretch.recording.theta.minCoeff());
     high = std::max(high, stretch.recording.theta.maxCoeff());
     for (const JointState& state : design.states[k]) {
@@ -60,6 +60,10 @@ LogScale scale_of(const Design& design) {
       deflections.push_back(std::abs(state.deflection));
     }
   }
+  scale.peak = *std::max_element(torques.begin(), torques.end());
+  const auto at = torques.begin() + static_cast<std::ptrdiff_t>(3 * torques.size() / 4);
+  std::nth_element(torques.begin(), at, torques.end());
+  scale.usual = *at;
   scale.speed = std::max(kLeast, most_of(std::move(speeds)));
   scale.deflection = std::max(kLeast, most_of(std::move(deflections)));
   scale.travel = std::max(1e-9, (high - low) / 2);

@@ -225,6 +225,28 @@ std::optional<Candidate> best_fitting(const Scanner& scanner,
   return best;
 }
 
+/// What a limit takes away stands out from what the rows that it leaves alone show without it: the
+/// peaks of a torque that wanders by itself are cut by a limit as well.
+bool stands_out(const VariantColumns& change, const VariantColumns& residuals) {
+  constexpr double kShareOfMost = 0.1, kTimes = 2;
+  double most = 0;
+  for (const auto& stretch : change)
+    for (const Eigen::MatrixXd& kind : stretch)
+      if (kind.size() > 0) most = std::max(most, kind.cwiseAbs().maxCoeff());
+  double taken = 0, left = 0, n_taken = 0, n_left = 0;
+  for (std::size_t k = 0; k < change.size(); ++k)
+    for (std::size_t i = 0; i < change[k].size(); ++i) {
+      if (change[k][i].isZero(0)) continue;  // of another equation, or no rows
+      for (Eigen::Index row = 0; row < change[k][i].rows(); ++row) {
+        const double here = change[k][i](row), before = residuals[k][i](row);
+        const bool is_taken = std::abs(here) > kShareOfMost * most;
+        (is_taken ? taken : left) += is_taken ? here * here : before * before;
+        (is_taken ? n_taken : n_left) += 1;
+      }
+    }
+  return taken * n_left > kTimes * kTimes * left * n_taken;
+}
+
 /// A limit or a band of the drive acts in full: what its correction changes has, as a column, a
 /// coefficient of about 1 (1.3 where the grid misses the limit by half a step), and another where
 /// something else is only a little like it.
@@ -235,6 +257,8 @@ bool acts_in_full(const Scanner& scanner, const Variant& variant) {
   const VariantColumns before = residuals(start.design.rows, start.fit.x);
   for (std::size_t k = 0; k < change.size(); ++k)
     for (std::size_t i = 0; i < change[k].size(); ++i) change[k][i] -= before[k][i];
+  const ShapeGrid& grid = variant.refinement->shape.front();
+  if (grid.is_rare && !stands_out(change, before)) return false;
   const auto fit = fit_blocks(extended(start.grams, start.design.rows, start.design.stretches,
                                        change, scanner.settings.block_seconds),
                               start.levels, false);
@@ -256,7 +280,7 @@ std::optional<Candidate> best_replacing(const Scanner& scanner,
   const bool is_physical = best && best->refused.empty();
   if (is_physical && best->variant.refinement->correct != nullptr &&
       !acts_in_full(scanner, best->variant))
-    best->refused = "as a regressor its coefficient is not 1";
+    best->refused = "what it takes away is not what the rows lack";
   return best;
 }
 

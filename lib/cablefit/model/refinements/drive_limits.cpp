@@ -9,9 +9,14 @@ namespace {
 constexpr ParameterInfo kLimit[] = {{"limit", "T", "N m", "largest torque that acts", 0}};
 constexpr ParameterInfo kBand[] = {{"band", "b", "N m", "largest command that does nothing", 0}};
 
-// Nearer to the peak a limit shows in a few rows only, further down it is no limit any more.
-constexpr ShapeGrid kLimits[] = {
-    {.low = 0.4, .high = 0.99, .n_values = 13, .is_geometric = false, .unit = GridUnit::peak}};
+// Nearer to the peak a limit shows in a few rows only, further down it is no limit any more: what
+// clips most rows makes them a constant, which any model explains.
+constexpr ShapeGrid kLimits[] = {{.low = 0.4,
+                                  .high = 0.99,
+                                  .n_values = 13,
+                                  .is_geometric = false,
+                                  .unit = GridUnit::peak,
+                                  .is_rare = true}};
 // A band near the peak leaves no torque to explain, which any model does.
 constexpr ShapeGrid kBands[] = {
     {.low = 7e-4, .high = 0.05, .n_values = 10, .unit = GridUnit::peak}};
