@@ -163,6 +163,7 @@ int run_batch(const Arguments& arguments) {
   CommonOptions& options = command.common;
   add_batch_options(app, command);
   add_sd_option(app, options);
+  add_reading_options(app, options.reading);
   add_sample_options(app, options);
   add_output_options(app, options);
   app.footer(kBatchExample);
@@ -170,6 +171,7 @@ int run_batch(const Arguments& arguments) {
 
   const Campaign campaign = read_campaign(command.campaign);
   BatchOptions& batch = command.batch;
+  batch.reading = options.reading;
   batch.samples = options.samples;
   batch.honest_sd = options.honest_sd;
   batch.seed = options.seed;

@@ -47,8 +47,8 @@ void require_file(const std::string& path) {
 LogSurvey read_log(const std::string& path, const CommonOptions& options) {
   require_file(path);
   const Rig rig = rig_for_log(path, options.rig);
-  return survey_log(plan_log(path, rig), rig.preload.empty() ? options.preload : rig.preload,
-                    options.samples.threads);
+  return survey_log(plan_log(path, rig, options.reading),
+                    rig.preload.empty() ? options.preload : rig.preload, options.samples.threads);
 }
 
 void require_preload(const std::vector<LogSurvey>& logs, const std::string& wanted) {
@@ -66,11 +66,17 @@ int default_threads() {
   return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads));
 }
 
+void add_reading_options(CLI::App& app, Reading& reading) {
+  app.add_flag("--trust-units", reading.trust_units,
+               "go on where the units or signs of a log cannot be right");
+}
+
 void add_log_options(CLI::App& app, CommonOptions& options) {
   app.add_option("LOG", options.logs, "logs: CSV or JSON, also .gz and .zst")->type_name("");
   app.add_option("--rig", options.rig, "rig file; default: rig.json beside each log")
       ->type_name("FILE");
   app.add_option("--preload", options.preload, "only this preload")->type_name("NAME");
+  add_reading_options(app, options.reading);
 }
 
 void add_output_options(CLI::App& app, CommonOptions& options) {

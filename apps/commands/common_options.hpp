@@ -20,6 +20,7 @@ struct CommonOptions {
   std::vector<std::string> reports;
   bool quiet = false;
   bool verbose = false;
+  Reading reading;
   SampleOptions samples;
   std::string preload;
   bool honest_sd = true;
@@ -28,7 +29,9 @@ struct CommonOptions {
 
 /// One per core, at most 8.
 int default_threads();
-/// LOG..., --rig, --preload.
+/// --trust-units.
+void add_reading_options(CLI::App& app, Reading& reading);
+/// LOG..., --rig, --preload, and how logs are read.
 void add_log_options(CLI::App& app, CommonOptions& options);
 /// --model and --preload: which fit of a result. `preload_default`: what it is without.
 void add_choice_of_fit(CLI::App& app, std::string& model, std::string& preload,

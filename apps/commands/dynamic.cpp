@@ -216,8 +216,8 @@ std::vector<LogSurvey> campaign_logs(const CommonOptions& options) {
                         "name the logs of one, or fit each for itself by 'cablefit batch'");
     for (const auto* paths : {&cell.blocked, &cell.moving})
       for (const std::string& path : *paths)
-        logs.push_back(survey_log(plan_log(path, rig_for_log(path, cell.rig)), cell.preload,
-                                  options.samples.threads));
+        logs.push_back(survey_log(plan_log(path, rig_for_log(path, cell.rig), options.reading),
+                                  cell.preload, options.samples.threads));
   }
   if (logs.empty())
     throw usage_error(fmt::format("{} has no preload '{}'", kCampaignHere, options.preload),

@@ -190,20 +190,21 @@ std::vector<Model> read_all_models(const RefineCommand& command, std::string& ch
 
 /// A log of one of several preloads takes what its rig file leaves open from the model of that
 /// preload; without a rig file of its own it has to say itself which preload it is.
-LogSurvey read_log_for(const std::string& path, const std::string& rig_option,
+LogSurvey read_log_for(const std::string& path, const CommonOptions& options,
                        const std::vector<Model>& models) {
   if (models.empty()) {
-    const Rig rig = rig_for_log(path, rig_option);
-    return survey_log(plan_log(path, rig), rig.preload);
+    const Rig rig = rig_for_log(path, options.rig);
+    return survey_log(plan_log(path, rig, options.reading), rig.preload);
   }
-  if (models.size() == 1) return survey_for_simulation(path, rig_option, models.front());
-  const std::string preload = rig_for_log(path, rig_option).preload;
+  if (models.size() == 1)
+    return survey_for_simulation(path, options.rig, models.front(), options.reading);
+  const std::string preload = rig_for_log(path, options.rig).preload;
   const auto found = std::find_if(models.begin(), models.end(), [&](const Model& model) {
     return !preload.empty() && model.preload == preload;
   });
   Model model = found != models.end() ? *found : models.front();
   if (found == models.end()) model.preload = model.rig.preload = "";
-  return survey_for_simulation(path, rig_option, model);
+  return survey_for_simulation(path, options.rig, model, options.reading);
 }
 
 bool has_blocked(const std::vector<LogSurvey>& logs) {
@@ -237,7 +238,7 @@ void add_stage1_logs(RefineCommand& command, RefineInput& input) {
     std::string used;
     for (const std::string& path : logs.paths) {
       if (is_given(path, command.common)) continue;
-      LogSurvey log = read_log_for(path, command.common.rig, input.models);
+      LogSurvey log = read_log_for(path, command.common, input.models);
       if (!is_wanted(log, input.models)) continue;
       input.logs.blocked.push_back(std::move(log));
       command.common.logs.push_back(path);
@@ -291,8 +292,7 @@ RefineInput read_input(RefineCommand& command) {
   Problems problems;
   const auto read = [&](const std::vector<std::string>& paths, std::vector<LogSurvey>& logs) {
     for (const std::string& path : paths)
-      problems.collect(
-          [&] { logs.push_back(read_log_for(path, command.common.rig, input.models)); });
+      problems.collect([&] { logs.push_back(read_log_for(path, command.common, input.models)); });
   };
   read(command.train, input.logs.train);
   read(command.test, input.logs.test);
@@ -361,6 +361,7 @@ int run_refine(const Arguments& arguments) {
   add_search_options(app, command.refine);
   add_gate_options(app, command);
   add_excite_option(app, command);
+  add_reading_options(app, command.common.reading);
   add_output_options(app, command.common);
   app.footer(kRefineExample);
   if (!parse(app, arguments)) return 0;

@@ -96,7 +96,8 @@ std::vector<LogSurvey> read_logs_for(const Model& model, const CommonOptions& op
   std::vector<LogSurvey> logs;
   Problems problems;
   for (const std::string& path : options.logs) {
-    problems.collect([&] { logs.push_back(survey_for_simulation(path, options.rig, model)); });
+    problems.collect(
+        [&] { logs.push_back(survey_for_simulation(path, options.rig, model, options.reading)); });
   }
   problems.throw_if_any();
   return logs;
@@ -156,6 +157,7 @@ int run_simulate(const Arguments& arguments) {
   SimulateCommand command;
   add_model_options(app, command);
   add_replay_options(app, command.replay);
+  add_reading_options(app, command.common.reading);
   add_output_options(app, command.common);
   app.footer(kSimulateExample);
   if (!parse(app, arguments)) return 0;

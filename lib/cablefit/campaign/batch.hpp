@@ -78,6 +78,7 @@ struct BatchProgress {
 };
 
 struct BatchOptions {
+  Reading reading;
   SampleOptions samples;   ///< its `threads` are for one cell
   ElasticOptions elastic;  ///< its `samples` and `preload` are replaced
   bool honest_sd = true;

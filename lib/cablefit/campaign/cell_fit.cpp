@@ -12,10 +12,11 @@ namespace cablefit {
 namespace {
 
 std::vector<LogSurvey> survey(const std::vector<std::string>& paths, const CampaignCell& cell,
-                              int threads) {
+                              const BatchOptions& options) {
   std::vector<LogSurvey> logs;
   for (const std::string& path : paths)
-    logs.push_back(survey_log(plan_log(path, rig_for_log(path, cell.rig)), cell.preload, threads));
+    logs.push_back(survey_log(plan_log(path, rig_for_log(path, cell.rig), options.reading),
+                              cell.preload, options.samples.threads));
   return logs;
 }
 
@@ -117,7 +118,7 @@ const DynamicFit* chosen_fit(const ElasticResult& elastic, const DynamicPreload&
 CellResults fit_cell(const Campaign& campaign, const CampaignCell& cell, const CellKey& key,
                      const BatchOptions& options) {
   const auto read = [&](const std::vector<std::string>& paths) {
-    std::vector<LogSurvey> logs = survey(paths, cell, options.samples.threads);
+    std::vector<LogSurvey> logs = survey(paths, cell, options);
     require_unchanged(logs, key);
     return logs;
   };

@@ -188,10 +188,11 @@ int LogPlan::find(Channel channel, int joint) const {
   return -1;
 }
 
-LogPlan plan_log(const std::string& path, const Rig& rig) {
+LogPlan plan_log(const std::string& path, const Rig& rig, const Reading& reading) {
   LogPlan plan;
   plan.path = path;
   plan.rig = rig;
+  plan.reading = reading;
   plan.stamp = stamp_of(path);
   plan.header = open_log(path)->header();
   resolve_time(plan);

@@ -12,6 +12,7 @@
 #include "cablefit/base/input_file.hpp"
 #include "cablefit/log/log_reader.hpp"
 #include "cablefit/model/rig.hpp"
+#include "cablefit/samples/reading.hpp"
 
 namespace cablefit {
 
@@ -36,6 +37,7 @@ struct LogPlan {
   std::string path;
   FileStamp stamp;  ///< of the file that everything here was read from
   Rig rig;
+  Reading reading = {};
   LogHeader header;
   std::vector<Slot> slots;
   std::optional<std::size_t> time_column;
@@ -54,7 +56,7 @@ struct LogPlan {
 /// joint a lone w is integrated to theta, and without theta a q beside tau is read as it. Throws
 /// Error(input) at the header cell for a unit of the wrong kind, for a mapped column that is not
 /// there, when there is neither t nor a sample rate, and when no channel is found at all.
-LogPlan plan_log(const std::string& path, const Rig& rig);
+LogPlan plan_log(const std::string& path, const Rig& rig, const Reading& reading = {});
 
 /// A log is read several times. Throws Error(input) when its file was written to or replaced since
 /// it was planned: later passes rest on what earlier ones found.

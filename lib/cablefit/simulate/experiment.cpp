@@ -117,9 +117,10 @@ Rig rig_for_simulation(const std::string& log_path, const std::string& rig_optio
 }
 
 LogSurvey survey_for_simulation(const std::string& log_path, const std::string& rig_option,
-                                const Model& model) {
+                                const Model& model, const Reading& reading) {
   const Rig rig = rig_for_simulation(log_path, rig_option, model);
-  return survey_log(plan_log(log_path, rig), rig.preload.empty() ? model.preload : rig.preload);
+  return survey_log(plan_log(log_path, rig, reading),
+                    rig.preload.empty() ? model.preload : rig.preload);
 }
 
 Experiment plan_experiment(const Model& model, const LogSurvey& log, const PartSurvey& part,

@@ -42,7 +42,7 @@ Rig rig_for_simulation(const std::string& log_path, const std::string& rig_optio
 /// Surveys a log with that rig. Parts without a preload of their own get the rig's, else the
 /// model's.
 LogSurvey survey_for_simulation(const std::string& log_path, const std::string& rig_option,
-                                const Model& model);
+                                const Model& model, const Reading& reading = {});
 
 struct Experiment {
   Model model;  ///< with the log's rig
