@@ -10,6 +10,7 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/model/rig.hpp"
 #include "cablefit/report/writers.hpp"
+#include "cablefit/samples/weigh/weigh.hpp"
 #include "commands/command_line.hpp"
 #include "commands/problems.hpp"
 #include "commands/progress.hpp"
@@ -165,6 +166,7 @@ std::vector<LogSurvey> read_logs(const CommonOptions& options) {
   }
   problems.throw_if_any();
   require_preload(logs, options.preload);
+  weigh_logs(logs);
   return logs;
 }
 

@@ -21,6 +21,7 @@
 #include "cablefit/report/elastic_json.hpp"
 #include "cablefit/report/elastic_reader.hpp"
 #include "cablefit/report/trace_csv.hpp"
+#include "cablefit/samples/weigh/weigh.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
@@ -222,6 +223,7 @@ std::vector<LogSurvey> campaign_logs(const CommonOptions& options) {
   if (logs.empty())
     throw usage_error(fmt::format("{} has no preload '{}'", kCampaignHere, options.preload),
                       "see its cells");
+  weigh_logs(logs);
   return logs;
 }
 

@@ -16,6 +16,7 @@
 #include "cablefit/report/excite_csv.hpp"
 #include "cablefit/report/refine_document.hpp"
 #include "cablefit/report/refine_json.hpp"
+#include "cablefit/samples/weigh/weigh.hpp"
 #include "cablefit/simulate/experiment.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
@@ -284,6 +285,17 @@ void complete_models(RefineCommand& command, RefineInput& input) {
   input.decisions.insert(input.decisions.end(), decisions.begin(), decisions.end());
 }
 
+/// All logs together: what one of them is read with, the others are.
+void weigh_input(RefineLogs& logs) {
+  std::vector<LogSurvey> all;
+  for (auto* some : {&logs.train, &logs.test, &logs.blocked})
+    for (LogSurvey& log : *some) all.push_back(std::move(log));
+  weigh_logs(all);
+  auto next = all.begin();
+  for (auto* some : {&logs.train, &logs.test, &logs.blocked})
+    for (LogSurvey& log : *some) log = std::move(*next++);
+}
+
 RefineInput read_input(RefineCommand& command) {
   RefineInput input;
   input.models = read_all_models(command, input.choice);
@@ -298,6 +310,7 @@ RefineInput read_input(RefineCommand& command) {
   read(command.test, input.logs.test);
   read(command.blocked, input.logs.blocked);
   problems.throw_if_any();
+  weigh_input(input.logs);
   add_stage1_logs(command, input);
   if (input.logs.train.empty() && input.logs.blocked.empty()) throw no_log();
   complete_models(command, input);

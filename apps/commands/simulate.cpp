@@ -8,6 +8,7 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/report/simulate_document.hpp"
 #include "cablefit/report/simulate_json.hpp"
+#include "cablefit/samples/weigh/weigh.hpp"
 #include "cablefit/simulate/replay.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
@@ -100,6 +101,7 @@ std::vector<LogSurvey> read_logs_for(const Model& model, const CommonOptions& op
         [&] { logs.push_back(survey_for_simulation(path, options.rig, model, options.reading)); });
   }
   problems.throw_if_any();
+  weigh_logs(logs);
   return logs;
 }
 

@@ -7,6 +7,7 @@
 #include "cablefit/prove/fitted_model.hpp"
 #include "cablefit/refine/own_base.hpp"
 #include "cablefit/refine/refine.hpp"
+#include "cablefit/samples/weigh/weigh.hpp"
 
 namespace cablefit {
 namespace {
@@ -17,6 +18,7 @@ std::vector<LogSurvey> survey(const std::vector<std::string>& paths, const Campa
   for (const std::string& path : paths)
     logs.push_back(survey_log(plan_log(path, rig_for_log(path, cell.rig), options.reading),
                               cell.preload, options.samples.threads));
+  weigh_logs(logs);
   return logs;
 }
 

@@ -167,6 +167,7 @@ DynamicResult fit_dynamic(std::span<const LogSurvey> logs, const ElasticResult& 
                           const DynamicOptions& options) {
   check_names(options);
   DynamicResult result;
+  result.warnings = input_warnings(logs);
   for (const LogSurvey& log : logs) {
     result.inputs.push_back({log.plan.path, log.sha256, log.n_rows});
   }

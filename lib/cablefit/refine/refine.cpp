@@ -22,6 +22,7 @@
 #include "cablefit/refine/separability.hpp"
 #include "cablefit/refine/test_reading.hpp"
 #include "cablefit/refine/unexplained.hpp"
+#include "cablefit/samples/agreement.hpp"
 
 namespace cablefit {
 namespace {
@@ -219,6 +220,8 @@ RefineResult refine(std::span<const Model> models, const RefineLogs& logs,
                     const RefineOptions& options) {
   std::vector<Model> bases(models.begin(), models.end());
   std::vector<std::string> warnings;
+  for (const auto* some : {&logs.train, &logs.test, &logs.blocked})
+    for (std::string& warning : input_warnings(*some)) warnings.push_back(std::move(warning));
   for (;;) {
     RefineResult result = refine_once(bases, logs, options);
     const Refinement* gone = unphysical(result);

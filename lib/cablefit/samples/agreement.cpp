@@ -25,7 +25,7 @@ void require_same_rig(const LogSurvey& first, const LogSurvey& log, const std::s
 /// "q2, theta2, tau2" of a log that is read as one of one joint.
 std::string second_joint(const LogPlan& plan) {
   std::string names;
-  if (plan.rig.n_joints() > 1) return names;
+  if (plan.rig.n_joints() > 1 || plan.rig.columns.contains("tau")) return names;
   for (std::size_t k = 0; k < plan.header.columns.size(); ++k) {
     const std::string& name = plan.header.columns[k].name;
     const bool is_read = std::any_of(plan.slots.begin(), plan.slots.end(),
@@ -95,16 +95,11 @@ std::vector<std::string> unloaded_warnings(std::span<const LogSurvey> logs,
 }
 
 std::vector<std::string> input_warnings(std::span<const LogSurvey> logs) {
-  std::vector<std::string> warnings = unread_joints(logs);
-  for (std::size_t b = 0; b < logs.size(); ++b)
-    for (std::size_t a = 0; a < b; ++a) {
-      if (logs[a].sha256 != logs[b].sha256) continue;
-      warnings.push_back(
-          fmt::format("{} has the same content as {}: what it says counts twice, and every sd is "
-                      "too small",
-                      logs[b].plan.path, logs[a].plan.path));
-      break;
-    }
+  std::vector<std::string> warnings;
+  for (const LogSurvey& log : logs)
+    warnings.insert(warnings.end(), log.warnings.begin(), log.warnings.end());
+  const std::vector<std::string> unread = unread_joints(logs);
+  warnings.insert(warnings.end(), unread.begin(), unread.end());
   return warnings;
 }
 

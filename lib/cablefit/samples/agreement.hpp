@@ -19,8 +19,8 @@ void require_agreement(std::span<const LogSurvey> logs, const PartFilter& wanted
 std::vector<std::string> unloaded_warnings(std::span<const LogSurvey> logs,
                                            const PartFilter& wanted);
 
-/// What is odd about the logs whatever they are used for: files with the same content, whose rows
-/// count twice; and columns of further joints that a rig of one joint does not read.
+/// What is odd about the logs whatever they are used for: what weigh_logs() found, then columns of
+/// further joints that a rig of one joint does not read.
 std::vector<std::string> input_warnings(std::span<const LogSurvey> logs);
 
 /// Samples per second of the wanted parts. They may differ: the slowest log bounds the cut-off and

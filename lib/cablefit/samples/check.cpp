@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "cablefit/samples/agreement.hpp"
 #include "cablefit/samples/signals.hpp"
 #include "cablefit/samples/speed_histogram.hpp"
 
@@ -213,6 +214,7 @@ bool CheckedLog::usable() const {
 
 CheckResult check_logs(std::span<const LogSurvey> logs, const SampleOptions& options) {
   CheckResult result;
+  result.warnings = input_warnings(logs);
   for (const LogSurvey& log : logs) {
     CheckedLog checked{log.plan.path,
                        log.sha256,

@@ -34,6 +34,7 @@ struct LogSurvey {
   std::size_t n_rows = 0;
   std::vector<PartSurvey> parts;
   std::shared_ptr<const SampleStore> samples;  ///< what all later passes read
+  std::vector<std::string> warnings = {};      ///< of weigh_logs(), the first to be told
 };
 
 /// Reads the whole log, its text for the only time, on up to `threads` threads. Throws Error(input)

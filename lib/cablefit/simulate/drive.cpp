@@ -6,6 +6,8 @@
 namespace cablefit {
 namespace {
 
+constexpr double kMostSteps = 1000;  // per row: bounds the work on a log of a few rows a second
+
 bool is_whole(double value) { return std::abs(value - std::round(value)) < 1e-6; }
 
 double controller_period(const Model& model, const SimulationInput& input) {
@@ -34,7 +36,7 @@ double first_value(const Eigen::ArrayXXd& table, Eigen::Index joint) {
 
 Clock make_clock(const Model& model, const SimulationInput& input,
                  const SimulationOptions& options) {
-  const auto least = std::max(1.0, std::ceil(input.period / options.step - 1e-6));
+  const auto least = std::clamp(std::ceil(input.period / options.step - 1e-6), 1.0, kMostSteps);
   double n = least;
   if (options.closed_loop) {
     const double commands_per_row = input.period / controller_period(model, input);

@@ -12,6 +12,7 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/parallel.hpp"
 #include "cablefit/base/quote.hpp"
+#include "cablefit/samples/agreement.hpp"
 #include "cablefit/simulate/part_replay.hpp"
 #include "cablefit/simulate/replay_figures.hpp"
 #include "cablefit/simulate/trajectory_file.hpp"
@@ -152,6 +153,7 @@ void run_logs(std::vector<LogReplay>& replays, int threads, const TrajectorySink
 SimulateResult simulate_logs(const Model& model, std::span<const LogSurvey> logs,
                              const ReplayOptions& options) {
   SimulateResult result;
+  result.warnings = input_warnings(logs);
   result.model_name = model.name;
   result.preload = model.preload;
   result.rig_path = model.rig.path;

@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "cablefit/samples/weigh/checks.hpp"
+
+namespace cablefit::weighing {
+namespace {
+
+constexpr double kClearSlope = 0.7;  // correlation of torque and deflection
+constexpr double kOtherUnit =
+    5;  // ratio of the slopes of two logs; a cable that softens stays below
+
+struct BlockedSlope {
+  const CoarsePart* part;
+  CoarseLine line;
+};
+
+}  // namespace
+
+Findings blocked_slope(const Logs& logs) {
+  Findings findings;
+  std::map<std::string, BlockedSlope> first;  // by rig, preload and joint
+  for (const CoarsePart& part : logs.parts) {
+    const LogPlan& plan = logs.plan(part);
+    if (logs.survey(part).phase != Phase::blocked || plan.rig.n_joints() > 1) continue;
+    const CoarsePart::Joint& joint = part.joints.front();
+    if (joint.tau.size() == 0 || joint.theta.size() == 0) continue;
+    const CoarseLine line = coarse_line(joint.theta, joint.tau);
+    if (std::abs(line.correlation) < kClearSlope) continue;
+    if (line.slope < 0) {
+      findings.push_back({part.log, 0, true,
+                          fmt::format("tau falls as theta grows while the link is blocked (slope "
+                                      "{:.3g} N m/rad): tau or theta is turned round",
+                                      line.slope),
+                          mending_line(plan, Channel::tau, 0, -1) + ", or the same of theta"});
+      continue;
+    }
+    const std::string key = plan.rig.path + '\n' + logs.survey(part).preload;
+    const auto [found, is_new] = first.insert({key, {&part, line}});
+    if (is_new) continue;
+    const double ratio = line.slope / found->second.line.slope;
+    if (ratio < kOtherUnit && ratio > 1 / kOtherUnit) continue;
+    findings.push_back(
+        {part.log, 0, true,
+         fmt::format("tau per theta is {:.3g} times that of {}, with the same rig and preload",
+                     ratio, logs.plan(*found->second.part).path),
+         "give each log its own unit or scale, or its own preload"});
+  }
+  return findings;
+}
+
+}  // namespace cablefit::weighing

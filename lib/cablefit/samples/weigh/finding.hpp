@@ -1,0 +1,31 @@
+// What a log's own numbers say against the units, signs and columns it is read with.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "cablefit/samples/channels.hpp"
+
+namespace cablefit {
+
+struct Finding {
+  std::size_t log = 0;     ///< index of the log it was found in
+  std::uint64_t line = 0;  ///< 0: the whole log
+  bool wrong = false;      ///< cannot be right; else it is odd
+  std::string what;        ///< with its size
+  std::string remedy;      ///< the rig line that mends it, or what to do
+  bool hopeless = false;   ///< refused even when units are trusted: the work would have no bound
+};
+
+/// The line of a rig file that multiplies a channel by `factor`:
+/// "theta": {"column": "motor", "scale": -1}.
+std::string mending_line(const LogPlan& plan, Channel channel, int joint, double factor);
+
+/// The same that names its unit: "theta": {"column": "motor", "unit": "deg"}.
+std::string mending_unit(const LogPlan& plan, Channel channel, int joint, std::string_view unit);
+
+/// "theta", or "theta2" on a rig of several joints.
+std::string weighed_name(const LogPlan& plan, Channel channel, int joint);
+
+}  // namespace cablefit

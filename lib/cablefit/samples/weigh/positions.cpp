@@ -1,0 +1,218 @@
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "cablefit/samples/weigh/checks.hpp"
+
+namespace cablefit::weighing {
+namespace {
+
+constexpr double kFollows = 0.95;                  // correlation of theta and q of one joint
+constexpr double kLowRatio = 0.5, kHighRatio = 2;  // stretch and resonance stay within
+constexpr double kSameUnit = 0.03;                 // relative deviation from a unit's factor
+constexpr double kMostTurns = 2;                   // of a link that cables hold
+constexpr double kOddTurns = 1;
+constexpr double kMostDeflection = 1;  // rad, against a blocked link
+constexpr double kAlike = 0.99, kLowAlike = 0.8, kHighAlike = 1.25;
+constexpr double kStandsOut = 0.2;
+constexpr double kSameMotion = 0.995;  // correlation of a link that only looks blocked
+constexpr double kStandsStill = 0.02;  // of the other position's range
+constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr Eigen::Index kFewBlocks = 20;
+
+struct UnitRatio {
+  double ratio;
+  const char* unit;
+  const char* symbol;
+};
+constexpr std::array<UnitRatio, 2> kUnitRatios = {
+    {{kDegrees, "degrees", "deg"}, {1000, "mrad", "mrad"}}};
+
+/// Where theta would be on stiff cables: theta = S^+ P^T q from the couplings at rest. Empty when
+/// the motors' radii do not determine it.
+Eigen::MatrixXd stiff_motors(const Rig& rig) {
+  const int n = rig.n_joints();
+  if (!rig.cables_given) return Eigen::MatrixXd::Identity(n, n);
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n);
+  const Eigen::MatrixXd link = rig.transmission.link_coupling(zero).transpose();
+  const Eigen::MatrixXd motor = rig.transmission.motor_coupling(zero).transpose();
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(motor);
+  if (qr.rank() < n) return {};
+  return qr.solve(link);
+}
+
+/// Whether the rig file or the log's header names the unit.
+bool has_unit(const LogPlan& plan, Channel channel, int joint) {
+  const auto mapped = plan.rig.columns.find(weighed_name(plan, channel, joint));
+  if (mapped != plan.rig.columns.end() && !mapped->second.unit.empty()) return true;
+  const auto slot = static_cast<std::size_t>(plan.find(channel, joint));
+  return !plan.header.columns[plan.slots[slot].column].unit.empty();
+}
+
+Finding ratio_finding(const LogPlan& plan, const CoarsePart& part, int joint, double slope) {
+  const std::string theta = weighed_name(plan, Channel::theta, joint);
+  const std::string q = weighed_name(plan, Channel::q, joint);
+  const double size = std::abs(slope);
+  const auto finding = [&](const std::string& what, const std::string& remedy) {
+    return Finding{part.log, 0, true, what, remedy};
+  };
+  const auto is = [&](double x, double unit) { return std::abs(x / unit - 1) < kSameUnit; };
+  for (const UnitRatio& unit : kUnitRatios) {
+    const bool by_theta = is(size, unit.ratio);
+    if (!by_theta && !is(1 / size, unit.ratio)) continue;
+    // The unit is missing on one side, or wrongly given on the other.
+    const Channel larger = by_theta ? Channel::theta : Channel::q;
+    const Channel smaller = by_theta ? Channel::q : Channel::theta;
+    const bool given = has_unit(plan, smaller, joint) && !has_unit(plan, larger, joint);
+    return finding(
+        fmt::format("{} moves {:.1f} times as much as {}: {} {}in {}?", by_theta ? theta : q,
+                    by_theta ? slope : 1 / slope, by_theta ? q : theta,
+                    weighed_name(plan, given ? smaller : larger, joint), given ? "not " : "",
+                    unit.unit),
+        given ? fmt::format("take the unit of {} out of the rig file or the header",
+                            weighed_name(plan, smaller, joint))
+              : mending_unit(plan, larger, joint, unit.symbol));
+  }
+  return finding(fmt::format("{} moves {:.3g} times as much as {}: a reduction?", theta, slope, q),
+                 mending_line(plan, Channel::theta, joint, 1 / slope));
+}
+
+/// Work of the drive says which of two positions that run against each other is turned.
+bool drive_turns_back(const CoarsePart& part, const CoarsePart::Joint& joint) {
+  if (joint.tau.size() == 0) return false;
+  const Eigen::ArrayXd power = at_inner(part, joint.tau) * coarse_rates(part, joint.theta).first;
+  return power.sum() < 0;
+}
+
+/// Two channels hold the same quantity: one of them is read from the other's column.
+bool are_alike(const Eigen::ArrayXd& a, const Eigen::ArrayXd& b) {
+  const CoarseLine line = coarse_line(a, b);
+  return std::abs(line.correlation) > kAlike && line.slope > kLowAlike && line.slope < kHighAlike;
+}
+
+Finding swapped(const LogPlan& plan, const CoarsePart& part, int joint, const std::string& why,
+                Channel one, Channel other) {
+  return {part.log, 0, true,
+          fmt::format("{}: are {} and {} swapped?", why, weighed_name(plan, one, joint),
+                      weighed_name(plan, other, joint)),
+          "exchange their columns in the rig file"};
+}
+
+/// Columns that changed places, of one joint. `expected`: where theta would be on stiff cables.
+std::optional<Finding> swapped_columns(const LogPlan& plan, const CoarsePart& part, int j,
+                                       const Eigen::ArrayXd& expected) {
+  const CoarsePart::Joint& joint = part.joints[static_cast<std::size_t>(j)];
+  if (joint.tau.size() == 0) return std::nullopt;
+  const auto name = [&](Channel channel) { return weighed_name(plan, channel, j); };
+  const auto alike = [&](Channel a, Channel b) {
+    return fmt::format("{} and {} are alike", name(a), name(b));
+  };
+  if (std::abs(coarse_line(expected, joint.theta).correlation) > kFollows) return std::nullopt;
+  if (are_alike(expected, joint.tau))
+    return swapped(plan, part, j, alike(Channel::tau, Channel::q), Channel::tau, Channel::theta);
+  const double theta_range = coarse_range(joint.theta), q_range = coarse_range(expected);
+  if (are_alike(joint.theta, joint.tau) && theta_range < kStandsOut * q_range)
+    return swapped(plan, part, j, alike(Channel::tau, Channel::theta), Channel::tau, Channel::q);
+  if (theta_range < kStandsStill * q_range)
+    return swapped(
+        plan, part, j,
+        fmt::format("{} stands still while {} moves", name(Channel::theta), name(Channel::q)),
+        Channel::q, Channel::theta);
+  return std::nullopt;
+}
+
+Finding turned_position(const LogPlan& plan, const CoarsePart& part, int j, double slope) {
+  const CoarsePart::Joint& joint = part.joints[static_cast<std::size_t>(j)];
+  const Channel turned = drive_turns_back(part, joint) ? Channel::theta : Channel::q;
+  return {part.log, 0, true,
+          fmt::format("{} is turned round: the slope of {} on {} is {:.2f}",
+                      weighed_name(plan, turned, j), weighed_name(plan, Channel::theta, j),
+                      weighed_name(plan, Channel::q, j), slope),
+          mending_line(plan, turned, j, -1)};
+}
+
+std::optional<Finding> weigh_ratio(const LogPlan& plan, const CoarsePart& part, int j,
+                                   const Eigen::ArrayXd& expected) {
+  const CoarsePart::Joint& joint = part.joints[static_cast<std::size_t>(j)];
+  const CoarseLine line = coarse_line(expected, joint.theta);
+  if (std::abs(line.correlation) < kFollows) return std::nullopt;
+  const double size = std::abs(line.slope);
+  const bool usual = size > kLowRatio && size < kHighRatio;
+  if (usual && line.slope > 0) return std::nullopt;
+  // Without torque, a link that swings on a drive at rest may run against it.
+  if (joint.tau.size() == 0 && size < kHighRatio) return std::nullopt;
+  if (usual) return turned_position(plan, part, j, line.slope);
+  return ratio_finding(plan, part, j, line.slope);
+}
+
+bool is_unit_ratio(double slope) {
+  return std::any_of(kUnitRatios.begin(), kUnitRatios.end(), [&](const UnitRatio& unit) {
+    return std::abs(slope / unit.ratio - 1) < kSameUnit ||
+           std::abs(1 / slope / unit.ratio - 1) < kSameUnit;
+  });
+}
+
+/// Of two units a moving link can look blocked; a blocked one follows theta by its compliance.
+bool weighs_ratio(const Logs& logs, const CoarsePart& part, int j, const Eigen::ArrayXd& expected) {
+  const PartSurvey& survey = logs.survey(part);
+  if (survey.phase == Phase::moving || survey.phase_given) return survey.phase == Phase::moving;
+  const CoarseLine line = coarse_line(expected, part.joints[static_cast<std::size_t>(j)].theta);
+  return line.correlation > kSameMotion && is_unit_ratio(line.slope);
+}
+
+void weigh_columns(const Logs& logs, const CoarsePart& part, Findings& findings) {
+  const LogPlan& plan = logs.plan(part);
+  const Eigen::MatrixXd stiff = stiff_motors(plan.rig);
+  const int n = plan.rig.n_joints();
+  for (int j = 0; j < n; ++j)
+    if (!plan.has_measured(Channel::q, j) || !plan.has_measured(Channel::theta, j)) return;
+  if (stiff.size() == 0 || part.t.size() < kFewBlocks) return;
+  for (int j = 0; j < n; ++j) {
+    Eigen::ArrayXd expected = Eigen::ArrayXd::Zero(part.t.size());
+    for (int k = 0; k < n; ++k)
+      expected += stiff(j, k) * part.joints[static_cast<std::size_t>(k)].q;
+    std::optional<Finding> finding;
+    if (weighs_ratio(logs, part, j, expected)) finding = weigh_ratio(plan, part, j, expected);
+    if (!finding) finding = swapped_columns(plan, part, j, expected);
+    if (finding) findings.push_back(*std::move(finding));
+  }
+}
+
+void weigh_range(const Logs& logs, const CoarsePart& part, Findings& findings) {
+  const LogPlan& plan = logs.plan(part);
+  if (plan.rig.linear_motion) return;
+  const bool blocked = logs.survey(part).phase == Phase::blocked;
+  for (int j = 0; j < plan.rig.n_joints(); ++j) {
+    if (!plan.has_measured(Channel::q, j) || !plan.has_measured(Channel::theta, j)) continue;
+    const CoarsePart::Joint& joint = part.joints[static_cast<std::size_t>(j)];
+    const Channel channel = blocked ? Channel::theta : Channel::q;
+    const double range = coarse_range(blocked ? joint.theta : joint.q);
+    const double turn = 2 * std::numbers::pi;
+    const double odd = blocked ? kMostDeflection : kOddTurns * turn;
+    if (range < odd) continue;
+    findings.push_back(
+        {part.log, 0, range > (blocked ? turn : kMostTurns * turn),
+         fmt::format("{} moves {:.3g} rad{}: degrees, or another column?",
+                     weighed_name(plan, channel, j), range,
+                     blocked ? " against a blocked link" : ""),
+         fmt::format("\"unit\": \"deg\" of {} and {} in the rig file's columns",
+                     weighed_name(plan, Channel::q, j), weighed_name(plan, Channel::theta, j))});
+  }
+}
+
+}  // namespace
+
+Findings positions(const Logs& logs) {
+  Findings findings;
+  for (const CoarsePart& part : logs.parts) weigh_columns(logs, part, findings);
+  if (!findings.empty()) return findings;
+  for (const CoarsePart& part : logs.parts) weigh_range(logs, part, findings);
+  return findings;
+}
+
+}  // namespace cablefit::weighing

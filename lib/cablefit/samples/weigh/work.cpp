@@ -1,0 +1,72 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cablefit/samples/weigh/checks.hpp"
+
+namespace cablefit::weighing {
+namespace {
+
+constexpr double kReturned = 0.05;  // of the range: the motion is closed
+constexpr double kNegative = -0.1;  // of the work exchanged; delays alone make less
+constexpr Eigen::Index kFewBlocksOfWork = 40;
+
+struct Work {
+  double sum = 0, exchanged = 0;
+};
+
+/// Number of blocks up to the last one at which every joint is back where it began.
+Eigen::Index closed_blocks(const CoarsePart& part, Channel channel) {
+  const auto position = [&](const CoarsePart::Joint& joint) -> const Eigen::ArrayXd& {
+    return channel == Channel::q ? joint.q : joint.theta;
+  };
+  for (Eigen::Index i = part.t.size() - 1; i > 0; --i) {
+    bool all = true;
+    for (const CoarsePart::Joint& joint : part.joints) {
+      const Eigen::ArrayXd& x = position(joint);
+      all = all && std::abs(x(i) - x(0)) <= kReturned * coarse_range(x);
+    }
+    if (all) return i + 1;
+  }
+  return 0;
+}
+
+/// Trapezoidal, over blocks that follow one another.
+Work drive_work(const CoarsePart& part, Channel channel, Eigen::Index n) {
+  Work work;
+  for (const CoarsePart::Joint& joint : part.joints) {
+    const Eigen::ArrayXd& x = channel == Channel::q ? joint.q : joint.theta;
+    for (Eigen::Index i = 1; i < n; ++i) {
+      const double d = (joint.tau(i) + joint.tau(i - 1)) / 2 * (x(i) - x(i - 1));
+      work.sum += d;
+      work.exchanged += std::abs(d);
+    }
+  }
+  return work;
+}
+
+}  // namespace
+
+Findings work(const Logs& logs) {
+  Findings findings;
+  for (const CoarsePart& part : logs.parts) {
+    const LogPlan& plan = logs.plan(part);
+    if (logs.survey(part).phase != Phase::moving || !plan.has_for_all(Channel::tau)) continue;
+    const Channel channel = plan.has_for_all(Channel::theta) ? Channel::theta : Channel::q;
+    if (!plan.has_for_all(channel)) continue;
+    const Eigen::Index n = closed_blocks(part, channel);
+    if (n < kFewBlocksOfWork) continue;
+    const Work work = drive_work(part, channel, n);
+    if (!(work.exchanged > 0) || work.sum > kNegative * work.exchanged) continue;
+    findings.push_back(
+        {part.log, 0, true,
+         fmt::format("tau brakes: over a closed motion it does {:.3g} J of work, of {:.3g} J "
+                     "exchanged; tau is turned round against "
+                     "the positions",
+                     work.sum, work.exchanged),
+         mending_line(plan, Channel::tau, 0, -1)});
+  }
+  return findings;
+}
+
+}  // namespace cablefit::weighing
