@@ -2,6 +2,7 @@
 #include "cablefit/dynamic/dynamic_fit.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -27,6 +28,7 @@
 #include "commands/delivery.hpp"
 #include "commands/file_names.hpp"
 #include "commands/progress.hpp"
+#include "commands/stage1_logs.hpp"
 
 namespace cablefit::apps {
 namespace {
@@ -163,6 +165,35 @@ Stage1 stage1_from_logs(const DynamicCommand& command, const std::vector<LogSurv
                     "with --elastic FILE, or use --model rigid");
 }
 
+/// Throws Error(input) where a log is read with another rig than stage 1 was fitted with.
+void require_same_rig(const Stage1& stage1, const std::vector<LogSurvey>& moving) {
+  for (const LogSurvey& log : moving)
+    for (const PartSurvey& part : log.parts)
+      for (const ElasticPreload& preload : stage1.result.preloads) {
+        if (part.phase != Phase::moving || part.preload != preload.name) continue;
+        const std::string changed = changed_fact(preload.rig_facts, elastic_facts(log.plan.rig));
+        if (!changed.empty())
+          throw input_error({stage1.inputs.front().path, 0, 0},
+                            fmt::format("stage 1 was fitted {}", changed),
+                            "run 'cablefit elastic' again, or give the blocked logs here");
+      }
+}
+
+/// Without logs and campaign: the logs with moving parts that the result of stage 1 was made from.
+std::optional<Decision> take_stage1_logs(DynamicCommand& command) {
+  CommonOptions& options = command.common;
+  std::error_code ignored;
+  const std::string result = default_elastic_file(options);
+  if (!options.logs.empty() || std::filesystem::exists(kCampaignHere, ignored) ||
+      !std::filesystem::exists(result, ignored))
+    return std::nullopt;
+  const Stage1Logs logs = own_logs(result);
+  if (logs.paths.empty()) return std::nullopt;
+  options.logs = logs.paths;
+  return Decision{"logs", fmt::format("{}", fmt::join(logs.paths, ", ")),
+                  fmt::format("none was given: those of {}", result)};
+}
+
 void add_stage1(const Stage1& stage1, DynamicResult& result) {
   result.inputs.insert(result.inputs.end(), stage1.inputs.begin(), stage1.inputs.end());
   for (DynamicPreload& preload : result.preloads) {
@@ -205,7 +236,8 @@ std::vector<ResultFile> trace_files(const DynamicResult& result) {
 std::vector<LogSurvey> campaign_logs(const CommonOptions& options) {
   std::error_code ignored;
   if (!std::filesystem::exists(kCampaignHere, ignored))
-    throw usage_error(fmt::format("no log given and no {} here", kCampaignHere),
+    throw usage_error(fmt::format("no log given, no {} here and no {}", kCampaignHere,
+                                  default_elastic_file(options)),
                       "name one or more log files");
   std::vector<LogSurvey> logs;
   std::set<std::string> preloads;
@@ -264,11 +296,17 @@ int run_dynamic(const Arguments& arguments) {
   if (!parse(app, arguments)) return 0;
   require_unseen(command);
   std::optional<Stage1> earlier = earlier_stage1(command);
+  const std::optional<Decision> own_logs = take_stage1_logs(command);
   const std::vector<LogSurvey> logs =
       options.logs.empty() ? campaign_logs(options) : read_logs(options);
   command.fit.validation = read_unseen(command);
   const std::vector<LogSurvey> moving =
       logs_with(logs, [](const PartSurvey& part) { return part.phase == Phase::moving; });
+  if (own_logs && moving.empty())
+    throw usage_error(
+        fmt::format("no log given, no {} here, and the logs of {} have no moving parts",
+                    kCampaignHere, default_elastic_file(options)),
+        "name one or more logs in which the link moves");
   command.fit.samples = options.samples;
   command.fit.preload = options.preload;
   command.fit.honest_sd = options.honest_sd;
@@ -276,7 +314,15 @@ int run_dynamic(const Arguments& arguments) {
   command.fit.figures = wants_figures(options);
   Stage1 stage1;
   const bool takes_stage1 = is_elastic(command) && !moving.empty() && have_torque(moving);
-  if (takes_stage1) stage1 = earlier ? *std::move(earlier) : stage1_from_logs(command, logs);
+  // Logs given win over an earlier result, unless that is named.
+  const bool is_named = !command.elastic_file.empty() || own_logs;
+  if (takes_stage1 && earlier && (is_named || blocked_of(logs).empty())) {
+    require_same_rig(*earlier, moving);
+    stage1 = *std::move(earlier);
+  } else if (takes_stage1) {
+    stage1 = stage1_from_logs(command, logs);
+    if (earlier) stage1.decision.reason = "logs given win over " + earlier->inputs.front().path;
+  }
   for (const InputFile& input : stage1.inputs)
     if (!stage1.is_new) options.more_inputs.push_back(input.path);
   DynamicResult result = [&] {
@@ -285,6 +331,9 @@ int run_dynamic(const Arguments& arguments) {
   }();
   if (command.prove > 0) prove(command, moving, blocked_of(logs), stage1, result);
   if (takes_stage1) add_stage1(stage1, result);
+  if (own_logs)
+    for (DynamicPreload& preload : result.preloads)
+      preload.decisions.insert(preload.decisions.begin(), *own_logs);
 
   std::vector<ResultFile> files = {{"dynamic.json", dynamic_json(result)}};
   if (stage1.is_new) files.push_back({"elastic.json", elastic_json(stage1.result)});

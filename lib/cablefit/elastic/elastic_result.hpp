@@ -11,6 +11,7 @@
 #include "cablefit/estimate/fit_proof.hpp"
 #include "cablefit/figure/figure.hpp"
 #include "cablefit/model/cables.hpp"
+#include "cablefit/model/rig_facts.hpp"
 #include "cablefit/samples/input_file.hpp"
 #include "cablefit/samples/settings.hpp"
 
@@ -98,6 +99,7 @@ struct ElasticPreload {
   std::string shape_doubt;
   bool linear_motion = false;
   std::string rig_path;  ///< empty: the default rig
+  RigFacts rig_facts;    ///< what the fit takes from it; empty: an old result did not keep it
   std::vector<Figure> figures;
 
   const ElasticFit* find(const std::string& model) const;

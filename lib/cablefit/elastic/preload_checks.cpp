@@ -42,6 +42,7 @@ ElasticPreload begin_preload(const ElasticJob& job, const std::string& name) {
   preload.linear_motion = job.rig().linear_motion;
   preload.unit = preload.linear_motion ? "m" : "rad";
   preload.rig_path = job.rig().path;
+  preload.rig_facts = elastic_facts(job.rig());
   preload.decisions = job.settings.decisions;
   preload.warnings = job.settings.warnings;
   if (job.options.unconstrained)

@@ -143,6 +143,9 @@ ElasticPreload read_preload(const JsonNode& node) {
     throw selected.error(fmt::format("no fit of model '{:.40}'", preload.selected),
                          "name one of the fits above");
   }
+  if (const JsonNode* facts = node.find("rig_content"))
+    for (const auto& [name, value] : facts->members)
+      preload.rig_facts.emplace_back(name, value.text());
   preload.selection = texts(node, "selection");
   preload.decisions = read_decisions(node);
   preload.warnings = texts(node, "warnings");

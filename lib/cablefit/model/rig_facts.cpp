@@ -1,0 +1,69 @@
+#include "cablefit/model/rig_facts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <type_traits>
+#include <variant>
+
+namespace cablefit {
+namespace {
+
+void add_column(const Rig& rig, const std::string& channel, RigFacts& facts) {
+  const auto mapped = rig.columns.find(channel);
+  const ColumnMapping mapping = mapped == rig.columns.end() ? ColumnMapping{} : mapped->second;
+  facts.emplace_back(channel + " scale", fmt::format("{}", mapping.scale));
+  facts.emplace_back(channel + " shift", fmt::format("{}", mapping.shift));
+  facts.emplace_back(channel + " unit", mapping.unit.empty() ? "of the log" : mapping.unit);
+}
+
+std::string map_text(const DisplacementMap& map) {
+  std::string text(map.kind->name);
+  for (const auto& [key, value] : map.kind->entries(map.parameters))
+    std::visit(
+        [&](const auto& v) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(v)>, double>) {
+            text += fmt::format(" {}", v);
+          } else {
+            for (const double x : v) text += fmt::format(" {}", x);
+          }
+        },
+        value);
+  return text;
+}
+
+void add_cable(const Cable& cable, RigFacts& facts) {
+  const std::string name = "cable " + cable.name;
+  facts.emplace_back(name + " law", std::string(cable.law->name));
+  for (std::size_t k = 0; k < cable.motor_map.size(); ++k) {
+    const std::string joint = cable.motor_map.size() == 1 ? "" : fmt::format(" {}", k + 1);
+    facts.emplace_back(name + " motor_radius" + joint, map_text(cable.motor_map[k]));
+    facts.emplace_back(name + " link_radius" + joint, map_text(cable.link_map[k]));
+  }
+}
+
+}  // namespace
+
+RigFacts elastic_facts(const Rig& rig) {
+  RigFacts facts = {{"motion", rig.linear_motion ? "linear" : "rotary"},
+                    {"number of joints", std::to_string(rig.n_joints())}};
+  const bool one = rig.n_joints() == 1;
+  for (const std::string channel : {"q", "theta", "tau"})
+    for (int joint = 0; joint < rig.n_joints(); ++joint)
+      add_column(rig, one ? channel : channel + std::to_string(joint + 1), facts);
+  facts.emplace_back("number of cables", std::to_string(rig.transmission.cables.size()));
+  for (const Cable& cable : rig.transmission.cables) add_cable(cable, facts);
+  return facts;
+}
+
+std::string changed_fact(const RigFacts& before, const RigFacts& now) {
+  for (const auto& [name, value] : before) {
+    const auto same =
+        std::find_if(now.begin(), now.end(), [&](const auto& fact) { return fact.first == name; });
+    if (same != now.end() && same->second != value)
+      return fmt::format("with {} {}, the rig now says {}", name, value, same->second);
+  }
+  return "";
+}
+
+}  // namespace cablefit
