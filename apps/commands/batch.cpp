@@ -33,7 +33,7 @@ constexpr const char* kBatchExample =
 struct BatchCommand {
   CommonOptions common;
   BatchOptions batch;
-  std::string campaign, cell, junit;
+  std::string campaign, cell, junit, accept;
   bool lists_cells = false;
 };
 
@@ -97,8 +97,39 @@ void add_batch_options(CLI::App& app, BatchCommand& command) {
   app.add_flag("--list-cells", command.lists_cells, "print the names of the cells, fit nothing");
   app.add_option("--junit", command.junit, "cells and gates as JUnit XML, for CI servers")
       ->type_name("FILE");
+  app.add_option("--accept", command.accept,
+                 "make this run the baseline: write its batch.json there, gates passed or not; the "
+                 "first run needs no baseline yet")
+      ->type_name("FILE");
   app.add_flag("--unconstrained", command.batch.elastic.unconstrained,
                "stage 1 by plain least squares: let cables push, with a warning");
+}
+
+/// The first run cannot be held against the baseline that it is to make.
+void leave_out_new_baseline(const BatchCommand& command, Campaign& campaign) {
+  std::error_code ignored;
+  std::string& baseline = campaign.limits.drift_baseline;
+  const auto whole = [&](const std::string& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path), ignored);
+  };
+  if (command.accept.empty() || baseline.empty() || whole(baseline) != whole(command.accept))
+    return;
+  if (!std::filesystem::exists(baseline, ignored)) baseline.clear();
+}
+
+/// A run with cells that could not be fitted is no baseline.
+int accept(const BatchCommand& command, const BatchResult& result, int code) {
+  if (command.accept.empty()) return code;
+  if (code > kGateFailed) {
+    complain(
+        printable(fmt::format("not accepted as {}: not every cell was fitted", command.accept)) +
+        "\n");
+    return code;
+  }
+  write_whole(command.accept, batch_json(result));
+  if (!command.common.quiet && command.common.json != "-")
+    write_whole("-", printable(fmt::format("accepted as {}", command.accept)) + "\n");
+  return 0;
 }
 
 /// Threads are shared out: cells need nothing of each other, so more of them at a time come first.
@@ -169,7 +200,8 @@ int run_batch(const Arguments& arguments) {
   app.footer(kBatchExample);
   if (!parse(app, arguments)) return 0;
 
-  const Campaign campaign = read_campaign(command.campaign);
+  Campaign campaign = read_campaign(command.campaign);
+  leave_out_new_baseline(command, campaign);
   BatchOptions& batch = command.batch;
   batch.reading = options.reading;
   batch.samples = options.samples;
@@ -190,7 +222,7 @@ int run_batch(const Arguments& arguments) {
   problems.collect([&] { deliver(options, batch_document(result), files_of(command, result)); });
   complain_about(result);
   problems.throw_if_any();
-  return exit_code(result);
+  return accept(command, result, exit_code(result));
 }
 
 }  // namespace cablefit::apps

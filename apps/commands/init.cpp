@@ -55,7 +55,8 @@ std::string campaign_name(const InitCommand& command) {
 std::string found_text(const FoundLogs& found) {
   std::string text;
   for (const FoundCell& cell : found.cells)
-    text += fmt::format("{}: {} blocked, {} moving{}\n", printable(cell.preload),
+    text += fmt::format("{}{}: {} blocked, {} moving{}\n", printable(cell.preload),
+                        cell.date.empty() ? "" : ", " + cell.date + " by the folder's name",
                         cell.blocked.size(), cell.moving.size(),
                         is_complete(cell) ? "" : "; left out: stage 1 needs a blocked log");
   for (const UnreadLog& log : found.unread)

@@ -19,7 +19,7 @@ CampaignLimits read_limits(const JsonNode& node, const FindFiles& find_files) {
   if (const JsonNode* effect = node.find("new_effect")) limits.new_effect = effect->boolean();
   if (const JsonNode* drift = node.find("drift")) {
     drift->allow_only({"baseline", "percent"});
-    limits.drift_baseline = matches(drift->at("baseline"), find_files).front();
+    limits.drift_baseline = beside(node.place.file, drift->at("baseline").text());
     limits.drift_percent = drift->at("percent").positive();
   }
   return limits;

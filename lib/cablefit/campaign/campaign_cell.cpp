@@ -19,18 +19,17 @@ constexpr std::size_t kMaxPathBytes = 4096;
 constexpr int kLeastDraws = 4, kMostDraws = 100'000;  // as of 'cablefit refine'
 constexpr std::size_t kMaxDateBytes = 19;             // std::regex calls itself for every character
 
-std::string beside(const std::string& campaign, const std::string& path) {
-  const std::filesystem::path p(path);
-  if (p.is_absolute()) return path;
-  return (std::filesystem::path(campaign).parent_path() / p).lexically_normal().string();
-}
-
-/// A log in two lists would count double, or judge what was made from it.
+/// A log in two lists would count double, or judge what was made from it. One that has blocked and
+/// moving parts belongs to both of these.
 class NamedLogs {
  public:
   void add(const JsonNode& item, const std::string& path, const std::string& list) {
     const auto [same, is_new] = seen_.emplace(path, list);
     if (is_new) return;
+    if (same->second == "blocked" && list == "moving") {
+      same->second = list;
+      return;
+    }
     throw item.error(
         fmt::format("{} is a log of '{}' already", cablefit::quoted(path), same->second),
         "name each log of a cell once");
@@ -138,6 +137,12 @@ void name_cells(std::vector<CampaignCell>& cells) {
 }
 
 }  // namespace
+
+std::string beside(const std::string& campaign, const std::string& path) {
+  const std::filesystem::path p(path);
+  if (p.is_absolute()) return path;
+  return (std::filesystem::path(campaign).parent_path() / p).lexically_normal().string();
+}
 
 std::vector<std::string> matches(const JsonNode& node, const FindFiles& find_files) {
   const std::string& named = node.text();

@@ -7,6 +7,9 @@
 
 namespace cablefit {
 
+/// A path of a campaign file: relative ones are relative to it.
+std::string beside(const std::string& campaign, const std::string& path);
+
 /// The files that the path or pattern of `node` matches, sorted, at least one. Throws Error(input).
 std::vector<std::string> matches(const JsonNode& node, const FindFiles& find_files);
 

@@ -106,6 +106,12 @@ CellRefine refine_cell(const CampaignCell& cell, const CellResults& fitted, Refi
   }
 }
 
+/// A log with blocked and moving parts is given once to refine, which takes each for what it is.
+bool holds(const std::vector<LogSurvey>& logs, const LogSurvey& log) {
+  return std::any_of(logs.begin(), logs.end(),
+                     [&](const LogSurvey& other) { return other.plan.path == log.plan.path; });
+}
+
 }  // namespace
 
 const DynamicFit* chosen_fit(const ElasticResult& elastic, const DynamicPreload& preload) {
@@ -138,6 +144,7 @@ CellResults fit_cell(const Campaign& campaign, const CampaignCell& cell, const C
   if (!cell.refine) return results;
   logs.train = cell.refine->train.empty() ? moving : read(cell.refine->train);
   logs.test = read(cell.refine->test);
+  std::erase_if(logs.blocked, [&](const LogSurvey& log) { return holds(logs.train, log); });
   results.refine = refine_cell(cell, results, std::move(logs), options);
   return results;
 }

@@ -8,6 +8,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/json_document.hpp"
+#include "cablefit/campaign/folder_date.hpp"
 #include "cablefit/samples/survey.hpp"
 
 namespace cablefit {
@@ -89,7 +90,7 @@ class Finder {
     }
   }
   FoundLogs take() {
-    for (auto& [preload, cell] : cells_) found_.cells.push_back(std::move(cell));
+    for (auto& [key, cell] : cells_) found_.cells.push_back(std::move(cell));
     for (auto& [path, folder] : without_rig_) found_.without_rig.push_back(std::move(folder));
     return std::move(found_);
   }
@@ -100,15 +101,20 @@ class Finder {
   }
   std::string preload_of(const fs::path& path, const Rig& rig) const {
     if (!rig.preload.empty()) return rig.preload;
-    const std::string folder = fs::path(relative(path)).parent_path().filename().string();
-    return folder.empty() ? "default" : folder;
+    fs::path folder = fs::path(relative(path)).parent_path();
+    if (date_of_folder(folder.filename().string())) folder = folder.parent_path();
+    return folder.filename().empty() ? "default" : folder.filename().string();
+  }
+  std::string date_of(const fs::path& path) const {
+    return date_of_folder(fs::path(relative(path)).parent_path().filename().string()).value_or("");
   }
   void add(const fs::path& path, const Rig& rig, const LogSurvey& log) {
     std::set<std::string> preloads;
     for (const PartSurvey& part : log.parts) {
       preloads.insert(part.preload);
-      FoundCell& cell = cells_[part.preload];
+      FoundCell& cell = cells_[{part.preload, date_of(path)}];
       cell.preload = part.preload;
+      cell.date = date_of(path);
       if (!rig.path.empty()) cell.rig = relative(rig.path);
       auto& logs = part.phase == Phase::blocked ? cell.blocked : cell.moving;
       if (logs.empty() || logs.back() != relative(path)) logs.push_back(relative(path));
@@ -133,7 +139,7 @@ class Finder {
   fs::path folder_;
   int threads_;
   FoundLogs found_;
-  std::map<std::string, FoundCell> cells_;
+  std::map<std::pair<std::string, std::string>, FoundCell> cells_;  // by preload and date
   std::map<std::string, FolderWithoutRig> without_rig_;
 };
 

@@ -9,7 +9,8 @@ namespace cablefit {
 /// Logs of one preload. Paths relative to the folder that was searched.
 struct FoundCell {
   std::string preload;
-  std::string rig;  ///< rig file beside the logs; empty: there is none
+  std::string date;  ///< ISO 8601, of a folder called by a date; may be empty
+  std::string rig;   ///< rig file beside the logs; empty: there is none
   std::vector<std::string> blocked, moving;
 };
 
@@ -28,14 +29,15 @@ struct FolderWithoutRig {
 };
 
 struct FoundLogs {
-  std::vector<FoundCell> cells;  ///< by preload; each log in one list, or in both
+  std::vector<FoundCell> cells;  ///< by preload and date; each log in one list, or in both
   std::vector<UnreadLog> unread;
   std::vector<FolderWithoutRig> without_rig;
 };
 
 /// Looks at every .csv, .tsv, .txt and .json (also .gz, .zst) in the folder and up to three levels
 /// below; JSON files with a "schema" are no logs, nor are the folders of cablefit's results. The
-/// preload is that of a column, else of the rig file, else the folder's name. Throws Error(input)
+/// preload is that of a column, else of the rig file, else the folder's name; a folder called by a
+/// date tells that, and the one above it the preload. Throws Error(input)
 /// for a folder that cannot be listed.
 FoundLogs find_logs(const std::string& folder, int threads);
 

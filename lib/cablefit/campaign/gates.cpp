@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include "cablefit/base/json_document.hpp"
@@ -13,6 +14,7 @@
 namespace cablefit {
 namespace {
 
+constexpr double kChanceSds = 3;  // a change this small is chance
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Whether a percentage of the parameter's value says anything.
@@ -67,53 +69,81 @@ const JsonNode* baseline_cell(const JsonNode& cells, const BatchCell& cell) {
   return latest;
 }
 
-/// Value of parameter `name` in the fit of `model`, NaN when not there.
-double baseline_value(const JsonNode* cell, std::string_view stage, const std::string& model,
-                      const std::string& name) {
+/// What a drift is measured from.
+struct Baseline {
+  double value = kNone, sd = kNone;
+};
+
+/// Of parameter `name` in the fit of `model`; NaN when not there.
+Baseline baseline_of(const JsonNode* cell, std::string_view stage, const std::string& model,
+                     const std::string& name) {
   const JsonNode* result = cell == nullptr ? nullptr : cell->find(stage);
-  if (result == nullptr || !result->is_object()) return kNone;
+  if (result == nullptr || !result->is_object()) return {};
   for (const JsonNode& preload : result->at("preloads").items)
     for (const JsonNode& fit : preload.at("fits").items) {
       if (fit.at("model").text() != model) continue;
       for (const JsonNode& parameter : fit.at("parameters").items)
-        if (parameter.at("name").text() == name && parameter.at("value").is_number())
-          return parameter.at("value").number();
+        if (parameter.at("name").text() == name && parameter.at("value").is_number()) {
+          const JsonNode* sd = parameter.find("sd");
+          return {parameter.at("value").number(),
+                  sd != nullptr && sd->is_number() ? sd->number() : kNone};
+        }
     }
-  return kNone;
+  return {};
 }
 
-Gate drift_gate(const BatchCell& cell, const std::string& name, double value, double baseline,
-                double limit) {
-  const double drift = 100 * std::abs(value - baseline) / std::abs(baseline);
-  Gate g{"drift " + name, cell.name, limit, drift, drift <= limit, ""};
-  if (std::isnan(value)) {
+/// A change beyond the limit counts only when it is not chance: a coefficient that is known to 50 %
+/// may move by 20 %.
+Gate drift_gate(const BatchCell& cell, const std::string& name, const Estimate& now,
+                const Baseline& before, double limit) {
+  const double change = std::abs(now.value - before.value);
+  const double drift = change == 0 ? 0 : 100 * change / std::abs(before.value);
+  const double sds = change / std::hypot(now.sd, before.sd);
+  const bool is_chance = sds < kChanceSds;
+  Gate g{"drift " + name, cell.name, limit, drift, drift <= limit || is_chance, ""};
+  if (std::isnan(now.value)) {
     g.text = fmt::format("FAILED: {}: drift {}: it is not identifiable now", cell.name, name);
-  } else if (std::isnan(baseline)) {
+  } else if (std::isnan(before.value)) {
     g.text = fmt::format("FAILED: {}: drift {}: the baseline does not have it", cell.name, name);
   } else {
-    g.text =
-        fmt::format("{}: {}: drift of {} is {:.3g} % ({:.5g} against {:.5g}), limit {:.4g} %",
-                    g.passed ? "passed" : "FAILED", cell.name, name, drift, value, baseline, limit);
+    g.text = fmt::format(
+        "{}: {}: drift of {} is {:.3g} % ({:.5g} against {:.5g}), limit {:.4g} %{}",
+        g.passed ? "passed" : "FAILED", cell.name, name, drift, now.value, before.value, limit,
+        drift > limit && is_chance ? fmt::format("; not significant ({:.1f} sd)", sds) : "");
   }
   return g;
+}
+
+/// Offset and encoder zero have no size that a percentage could be of.
+bool has_drift(const Estimate& e) { return e.name != "offset" && e.name != "theta_0"; }
+
+void judge_elastic_drift(const BatchCell& cell, const JsonNode* before, double limit,
+                         std::vector<Gate>& gates) {
+  for (const ElasticPreload& preload : cell.elastic->preloads)
+    for (const ElasticFit& fit : preload.fits) {
+      const bool is_selected = fit.model == preload.selected;
+      for (const Estimate& e : fit.parameters) {
+        const bool is_stiffness = e.name == "K";
+        if (!has_drift(e) || (!is_selected && !is_stiffness)) continue;
+        const std::string name = e.name == "f_sm" ? "f_sm of stage 1" : e.name;
+        gates.push_back(
+            drift_gate(cell, name, e, baseline_of(before, "elastic", fit.model, e.name), limit));
+      }
+    }
 }
 
 void judge_drift(const Campaign& campaign, const JsonNode& baseline, const BatchCell& cell,
                  std::vector<Gate>& gates) {
   const JsonNode* before = baseline_cell(baseline.at("cells"), cell);
   const double limit = campaign.limits.drift_percent;
-  for (const ElasticPreload& preload : cell.elastic->preloads)
-    if (const ElasticFit* line = preload.find("linear"))
-      if (const Estimate* k = find_estimate(line->parameters, "K"))
-        gates.push_back(drift_gate(cell, k->name, k->value,
-                                   baseline_value(before, "elastic", "linear", k->name), limit));
+  judge_elastic_drift(cell, before, limit, gates);
   if (!cell.dynamic) return;
   for (const DynamicPreload& preload : cell.dynamic->preloads)
     if (const DynamicFit* fit = chosen_fit(*cell.elastic, preload))
       for (const Estimate& e : fit->parameters)
         if (is_physical(e.name))
-          gates.push_back(drift_gate(cell, e.name, e.value,
-                                     baseline_value(before, "dynamic", fit->model, e.name), limit));
+          gates.push_back(drift_gate(cell, e.name, e,
+                                     baseline_of(before, "dynamic", fit->model, e.name), limit));
 }
 
 /// Fails when refine named an effect, or could not say.
@@ -156,7 +186,13 @@ JsonNode read_baseline(const std::string& path) {
 
 void check_baseline(const Campaign& campaign) {
   const std::string& path = campaign.limits.drift_baseline;
-  if (!path.empty()) read_baseline(path);
+  if (path.empty()) return;
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored))
+    throw input_error(
+        {campaign.path}, fmt::format("the baseline {} is not there", path),
+        fmt::format("make it by 'cablefit batch {} --accept {}'", campaign.path, path));
+  read_baseline(path);
 }
 
 std::vector<Gate> judge(const Campaign& campaign, const std::vector<BatchCell>& cells) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <string_view>
 
 #include "cablefit/base/json_document.hpp"
@@ -136,6 +137,17 @@ const ResultKind& kind_of(const JsonNode& root) {
   return *kind;
 }
 
+/// Logs that a result was judged by only: they did not go into its estimates.
+std::set<std::string> validation_logs(const JsonNode& root) {
+  std::set<std::string> logs;
+  const JsonNode* preloads = root.find("preloads");
+  if (preloads == nullptr) return logs;
+  for (const JsonNode& preload : preloads->items)
+    if (const JsonNode* validation = preload.find("validation"))
+      for (const std::string& path : validation->at("logs").texts()) logs.insert(path);
+  return logs;
+}
+
 }  // namespace
 
 RecordedResult read_recorded_result(const std::string& path) {
@@ -145,9 +157,11 @@ RecordedResult read_recorded_result(const std::string& path) {
   kind_of(root).add(root, result.sets);
   result.version = text_or_nothing(root, "cablefit_version");
   result.command = text_or_nothing(root, "command");
+  const std::set<std::string> judged = validation_logs(root);
   for (const JsonNode& input : root.at("inputs").items)
-    result.inputs.push_back({input.at("path").text(), input.at("sha256").text(),
-                             static_cast<std::size_t>(input.at("rows").number())});
+    if (!judged.contains(input.at("path").text()))
+      result.inputs.push_back({input.at("path").text(), input.at("sha256").text(),
+                               static_cast<std::size_t>(input.at("rows").number())});
   return result;
 }
 

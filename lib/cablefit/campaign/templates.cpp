@@ -27,6 +27,7 @@ std::string list(const std::vector<std::string>& paths, const std::string& margi
 
 std::string cell_text(const FoundCell& cell) {
   std::string text = "    {\"preload\": " + json(cell.preload);
+  if (!cell.date.empty()) text += ", \"date\": " + json(cell.date);
   if (!cell.rig.empty()) text += ", \"rig\": " + json(cell.rig);
   text += ",\n     \"blocked\": " + list(cell.blocked, "                 ");
   if (!cell.moving.empty()) text += ",\n     \"moving\": " + list(cell.moving, "                ");
