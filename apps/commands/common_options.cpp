@@ -70,6 +70,25 @@ int default_threads() {
 void add_reading_options(CLI::App& app, Reading& reading) {
   app.add_flag("--trust-units", reading.trust_units,
                "go on where the units or signs of a log cannot be right");
+  add_choice(
+      app, "--missing", "way with missing cells", {"drop", "hold"},
+      [&reading](const std::string& way) {
+        reading.mending.missing = way == "drop" ? Missing::drop : Missing::hold;
+      },
+      "rows with a missing cell: leave them out, or hold the value before; both are counted");
+  add_choice(
+      app, "--repeated", "way with repeated times", {"first"},
+      [&reading](const std::string&) { reading.mending.first_of_repeated = true; },
+      "of rows with the same time keep the first; the others are counted");
+  add_whole(
+      app, "--skip", "N", {0, 1e6},
+      [&reading](long n) { reading.skipped_lines = static_cast<std::size_t>(n); },
+      "lines of a CSV log before its header");
+  app.add_flag("--units-row", reading.units_row,
+               "the line behind the header of a CSV log holds units");
+  add_number(
+      app, "--rate", "HZ", {1e-3, 1e9}, [&reading](double hz) { reading.rate = hz; },
+      "rate of the rows of a log without time column");
 }
 
 void add_log_options(CLI::App& app, CommonOptions& options) {

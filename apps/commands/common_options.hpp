@@ -29,7 +29,7 @@ struct CommonOptions {
 
 /// One per core, at most 8.
 int default_threads();
-/// --trust-units.
+/// --trust-units, --missing, --repeated, --skip, --units-row, --rate.
 void add_reading_options(CLI::App& app, Reading& reading);
 /// LOG..., --rig, --preload, and how logs are read.
 void add_log_options(CLI::App& app, CommonOptions& options);

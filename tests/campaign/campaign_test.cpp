@@ -68,8 +68,8 @@ TEST_CASE("a bad campaign is refused with its place") {
  "cells": [{"preload": "p", "blocked": ["b.csv"]}]})",
        ":1:48: unknown estimator 'wsl'; did you mean 'wls'?"},
       {R"({"schema": "cablefit/campaign/1",
- "cells": [{"preload": "p", "blocked": ["b.csv"], "moving": ["*.csv"]}]})",
-       ":2:62: 'FOLDER/b.csv' is a log of 'blocked' already; name each log of a cell once"},
+ "cells": [{"preload": "p", "blocked": ["b.csv"], "validation": ["*.csv"]}]})",
+       ":2:66: 'FOLDER/b.csv' is a log of 'blocked' already; name each log of a cell once"},
       {R"({"schema": "cablefit/campaign/1",
  "cells": [{"preload": "p", "blocked": ["b.csv"], "refine": true}]})",
        ":2:61: 'refine' has no model to start from; give the cell 'moving' logs: stage 2 makes the "

@@ -53,7 +53,7 @@ Session in_terminal(const std::string& command, bool interrupt) {
 std::string slow_check(const FaultBench& bench) {
   std::string rows = "t,q,theta,tau\n";
   for (int i = 0; rows.size() < (2u << 20); ++i) {
-    rows += std::to_string(i) + "e-3,0," + std::to_string(i % 100) + ",1\n";
+    rows += std::to_string(i) + "e-3,0," + std::to_string(i % 100) + "e-3,1\n";
   }
   std::ofstream(bench.path("big.csv")) << rows;
   return "env LD_PRELOAD=" CABLEFIT_FAILING_CALLS

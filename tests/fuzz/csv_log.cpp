@@ -8,7 +8,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t n_b
   fuzz::succeeds_or_complains([&] {
     const std::size_t block_bytes = 16 + n_bytes % 61;
     auto source = std::make_unique<MemorySource>(fuzz::as_text(bytes, n_bytes));
-    fuzz::read_to_the_end(*open_csv(std::move(source), fuzz::kName, block_bytes));
+    fuzz::read_to_the_end(*open_csv(std::move(source), fuzz::kName, {}, block_bytes));
   });
   return 0;
 }

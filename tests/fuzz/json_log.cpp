@@ -6,7 +6,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t n_b
   using namespace cablefit;
   fuzz::succeeds_or_complains([&] {
     auto source = std::make_unique<MemorySource>(fuzz::as_text(bytes, n_bytes));
-    fuzz::read_to_the_end(*open_json(std::move(source), fuzz::kName));
+    fuzz::read_to_the_end(*open_json(std::move(source), fuzz::kName, {}));
   });
   return 0;
 }

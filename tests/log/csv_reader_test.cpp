@@ -9,6 +9,7 @@
 #include <limits>
 #include <random>
 
+#include "cablefit/log/log_formats.hpp"
 #include "tests/log/log_support.hpp"
 #include "tests/support/message.hpp"
 
@@ -33,14 +34,16 @@ class TextSource final : public ByteSource {
   std::size_t n_given_ = 0;
 };
 
-std::unique_ptr<LogReader> open_text(std::string text, std::size_t block_bytes = 1u << 18) {
-  return open_csv(std::make_unique<TextSource>(std::move(text)), "log.csv", block_bytes);
+std::unique_ptr<LogReader> open_text(std::string text, std::size_t block_bytes = 1u << 18,
+                                     const LogText& layout = {}) {
+  return open_csv(std::make_unique<TextSource>(std::move(text)), "log.csv", layout, block_bytes);
 }
 
 std::string read_message(const std::string& text, const std::vector<std::string>& numbers,
-                         const std::vector<std::string>& texts = {}) {
+                         const std::vector<std::string>& texts = {},
+                         std::size_t block_bytes = 1u << 18) {
   return test::message_of([&] {
-    const auto reader = open_text(text);
+    const auto reader = open_text(text, block_bytes);
     read_all(*reader, numbers, texts);
   });
 }
@@ -199,22 +202,94 @@ TEST_CASE("a cell that is no finite number is an error at its place") {
   };
   CHECK(tau("abc") == "log.csv:3:4: 'abc' in column 'tau' is not a number" + hint);
   CHECK(tau("1.5x") == "log.csv:3:4: '1.5x' in column 'tau' is not a number" + hint);
-  CHECK(tau("nan") == "log.csv:3:4: 'nan' in column 'tau' is not a number" + hint);
+  CHECK(tau("nan") ==
+        std::string("log.csv:3:4: 'nan' in column 'tau' is not a number; ") + kMissingHint);
   CHECK(tau("-inf") == "log.csv:3:4: '-inf' in column 'tau' is not a number" + hint);
   CHECK(tau("1e999") == "log.csv:3:4: '1e999' in column 'tau' is not a number" + hint);
   CHECK(tau("+-1") == "log.csv:3:4: '+-1' in column 'tau' is not a number" + hint);
   CHECK(tau("0x10") == "log.csv:3:4: '0x10' in column 'tau' is not a number" + hint);
   CHECK(tau("\"x\"") == "log.csv:3:4: 'x' in column 'tau' is not a number" + hint);
-  CHECK(tau("") == "log.csv:3:4: empty cell in column 'tau'; fill it or take the row out");
+  CHECK(tau("") == std::string("log.csv:3:4: empty cell in column 'tau'; ") + kMissingHint);
   CHECK(tau(std::string("\0", 1)) == "log.csv:3:4: '\\x00' in column 'tau' is not a number" + hint);
   CHECK(tau("\"1.5") == "log.csv:3:4: quote is not closed; write a cell as \"a, b\"");
 }
 
-TEST_CASE("a decimal comma is recognised") {
-  const std::string hint = " is not a number; write the decimal comma as a point, as in 1.5";
-  CHECK(read_message("t;tau\n0;1,5\n", {"tau"}) == "log.csv:2:3: '1,5' in column 'tau'" + hint);
-  CHECK(read_message("t\ttau\n0\t-0,5e3\n", {"tau"}) ==
-        "log.csv:2:3: '-0,5e3' in column 'tau'" + hint);
+TEST_CASE("decimal commas are read where the delimiter leaves them free") {
+  const std::string text = GENERATE("t;tau\n0;1\n1;-0,5e3\n2;+1,25\n3;,5\n",  //
+                                    "t\ttau\n0\t1\n1\t-0,5e3\n2\t1,25\n3\t0,5\n",
+                                    "t tau\n0 1\n1 -0,5e3\n2 1,25\n3 0,5\n");
+  INFO(text);
+  CHECK(read_all(*open_text(text), {"tau"}).numbers[0] == Numbers{1, -500, 1.25, 0.5});
+}
+
+TEST_CASE("points and commas do not mix") {
+  CHECK(read_message("t,tau\n0,\"1,5\"\n", {"tau"}) ==
+        "log.csv:2:3: '1,5' in column 'tau' is not a number; write the decimal comma as a point, "
+        "as in 1.5");
+  CHECK(read_message("t;tau\n0;1.5\n1;1,5\n", {"tau"}) ==
+        "log.csv:3:3: '1,5' in column 'tau' is not a number; write the decimal comma as a point, "
+        "as in 1.5");
+  // 20 kB of decimal commas, then a point.
+  std::string text = "t;tau\n";
+  for (int i = 0; i < 2000; ++i) text += "0,1;1,5\n";
+  CHECK(read_message(text + "1;1.5\n", {"tau"}, {}, 64) ==
+        "log.csv:2002:3: '1.5' in column 'tau' is not a number; numbers of this log have a decimal "
+        "comma, as 1,5 or -3e-4");
+}
+
+TEST_CASE("missing cells are NaN where they may miss") {
+  const LogText text{0, false, true};
+  const auto log =
+      read_all(*open_text("t,tau,q\n0,,1\n1, NaN ,2\n2,n/a,\n3,\"\",-\n4,1.5,2\n", 1u << 18, text),
+               {"t", "tau", "q"});
+  for (std::size_t i = 0; i < 4; ++i) CHECK(std::isnan(log.numbers[1][i]));
+  CHECK(log.numbers[1][4] == 1.5);
+  CHECK(std::isnan(log.numbers[2][2]));
+  CHECK(std::isnan(log.numbers[2][3]));
+  CHECK(log.lines == std::vector<std::uint64_t>{2, 3, 4, 5, 6});
+  CHECK(test::message_of([&] {
+          read_all(*open_text("t,tau\n0,inf\n", 1u << 18, text), {"tau"});
+        }) == "log.csv:2:3: 'inf' in column 'tau' is not a number; write numbers as 1.5 or -3e-4");
+}
+
+TEST_CASE("dates are seconds from the first one's midnight") {
+  const auto reader = open_text(
+      "stamp,q\n2026-11-09T23:59:59.5Z,1\n2026-11-10T00:00:00.250Z,2\n"
+      "2026-11-10T01:00:00.250+01:00,3\n");
+  CHECK(reader->header().columns[0].is_date);
+  CHECK_FALSE(reader->header().columns[1].is_date);
+  CHECK(read_all(*reader, {"stamp"}).numbers[0] == Numbers{86399.5, 86400.25, 86400.25});
+  CHECK(read_message("stamp,q\n2026-11-09T23:59:59Z,1\nnow,2\n", {"stamp"}) ==
+        "log.csv:3:1: 'now' in column 'stamp' is not a date; write dates as "
+        "2026-11-09T10:00:00.125Z");
+}
+
+TEST_CASE("a preamble and a row of units are told with the option that reads them") {
+  CHECK(open_message("Bench 3\n\nt,q\n0,1\n") ==
+        "log.csv:1: this line is no header; line 3 names the columns; leave out what stands before "
+        "it by --skip 2");
+  CHECK(open_message("rig,no 3\nt,q\ns,rad\n0,1\n") ==
+        "log.csv:1: this line is no header; line 2 names the columns; leave out what stands before "
+        "it by --skip 1");
+  CHECK(open_message("t,q\n[s],deg\n0,1\n") ==
+        "log.csv:2: this line holds units, not numbers; read it as the columns' units by "
+        "--units-row");
+  // What is refused for another reason keeps that reason.
+  CHECK(open_message("t,q\na,b\nc,d\n") == "no error");
+  CHECK(open_message("t,run\n0,s\n") == "no error");
+
+  const auto skipped = open_text("Bench 3\n\nt,q\n0,1\n", 1u << 18, {2, false, false});
+  CHECK(read_all(*skipped, {"q"}).lines == std::vector<std::uint64_t>{4});
+  const auto units = open_text("t,q,w (rpm),run\n[ms],deg,,-\n0,1,2,a\n", 1, {0, true, false});
+  CHECK(units->header().columns[0].unit == "ms");
+  CHECK(units->header().columns[1].unit == "deg");
+  CHECK(units->header().columns[2].unit == "rpm");
+  CHECK(units->header().columns[3].unit.empty());
+  CHECK(read_all(*units, {"q"}).numbers[0] == Numbers{1});
+  CHECK(test::message_of([] {
+          open_text("t,q\ns\n0,1\n", 1u << 18, {0, true, false});
+        }) ==
+        "log.csv:2: 1 units of 2 columns; give every column a unit, or leave --units-row out");
 }
 
 TEST_CASE("ragged rows are errors, whatever is selected") {

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "cablefit/log/log_formats.hpp"
 #include "cablefit/log/log_reader.hpp"
 #include "tests/log/log_support.hpp"
 #include "tests/support/message.hpp"
@@ -102,10 +103,39 @@ TEST_CASE("a temporary folder without room is named") {
         "to a folder with room");
 }
 
+TEST_CASE("records one a line are read as those of an array") {
+  const test::TempFolder folder;
+  const std::string path = folder.write("log",
+                                        "{\"t\": 0, \"run\": \"{a\\\"\"}\n{\"run\": \"b\", \"t\": "
+                                        "1}\r\n\n {\"t\": 2, \"run\": \"b\"}");
+  const auto reader = open_log(path);
+  const auto log = test::read_all(*reader, {"t"}, {"run"});
+  CHECK(log.numbers[0] == std::vector<double>{0, 1, 2});
+  CHECK(log.texts[0] == std::vector<std::string>{"{a\"", "b", "b"});
+  CHECK(log.lines == std::vector<std::uint64_t>{1, 2, 4});
+}
+
+TEST_CASE("a record that is broken is told at its line and column") {
+  CHECK(open_message("{\"t\": 0}\n{\"t\": 1}\n{\"t\": x}\n") ==
+        "log.json:3:7: no JSON value starts like this; write texts in double quotes, numbers as "
+        "1.5 or -3e-4");
+  CHECK(open_message("{\"t\": 0}\n{\"q\": 1}\n") == "log.json:2:2: unknown key 'q'; known: t");
+  CHECK(open_message("{\"t\": 0}\n{\"t\": 1}\n3\n") ==
+        "log.json:3:1: a number among the records; write {\"t\": 0, \"q\": 1}");
+}
+
+TEST_CASE("dates of JSON logs are seconds from the first one's midnight") {
+  const test::TempFolder folder;
+  const auto reader = open_log(folder.write(
+      "log", "[{\"t\": \"2026-11-09T10:00:00Z\"}, {\"t\": \"2026-11-10T00:00:00.5Z\"}]"));
+  CHECK(reader->header().columns[0].is_date);
+  CHECK(test::read_all(*reader, {"t"}).numbers[0] == std::vector<double>{36000, 86400.5});
+}
+
 TEST_CASE("values in the wrong place are errors at their start") {
   const std::string number_hint = " is not a number; write numbers as 1.5 or -3e-4";
   CHECK(open_message("{\"channels\": {\"q\": [1,\n null]}}") ==
-        "log.json:2:2: null in channel 'q'" + number_hint);
+        std::string("log.json:2:2: null in channel 'q' is not a number; ") + kMissingHint);
   CHECK(open_message("{\"channels\": {\"q\": {\"values\": [true]}}}") ==
         "log.json:1:32: true in channel 'q'" + number_hint);
   CHECK(open_message("{\"channels\": {\"q\": [[1]]}}") ==
@@ -178,7 +208,7 @@ TEST_CASE("records need one set of keys") {
   CHECK(open_message("[{\"t\": 0},\n {\"t\": 1, \"t\": 1}]") ==
         "log.json:2:11: key 't' appears twice; keep one of them");
   CHECK(open_message("[{\"t\": null}]") ==
-        "log.json:1:8: null in column 't' is not a number; write numbers as 1.5 or -3e-4");
+        std::string("log.json:1:8: null in column 't' is not a number; ") + kMissingHint);
   CHECK(open_message("[{\"t\": [1]}]") ==
         "log.json:1:8: an array in column 't' is not a number; write numbers as 1.5 or -3e-4");
   CHECK(open_message("[{\"t\": {}}]") ==

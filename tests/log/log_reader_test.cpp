@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "tests/log/log_support.hpp"
@@ -99,13 +100,22 @@ TEST_CASE("a packed log that breaks off is an error of next()") {
 }
 
 TEST_CASE("the table of formats has names and descriptions") {
-  REQUIRE(log_formats().size() == 2);
+  REQUIRE(log_formats().size() == 3);
   for (const LogFormat& format : log_formats()) {
     CHECK_FALSE(format.name.empty());
     CHECK_FALSE(format.description.empty());
   }
-  CHECK(log_formats()[0].recognises("\xef\xbb\xbf \n{"));
-  CHECK_FALSE(log_formats()[0].recognises("t,q"));
+  const auto recognised = [](std::string_view head) {
+    const auto formats = log_formats();
+    return std::find_if(formats.begin(), formats.end(),
+                        [&](const LogFormat& format) { return format.recognises(head); })
+        ->name;
+  };
+  CHECK(recognised("\xef\xbb\xbf \n{\"t\": 0}\n{\"t\": 1}") == "json-lines");
+  CHECK(recognised("\xef\xbb\xbf \n{") == "json");
+  CHECK(recognised(" [{\"t\": 0}, {\"t\": 1}]") == "json");
+  CHECK(recognised("{\"channels\": {\"t\": [0]}}\n") == "json");
+  CHECK(recognised("t,q") == "csv");
 }
 
 }  // namespace cablefit

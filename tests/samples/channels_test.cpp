@@ -79,7 +79,8 @@ TEST_CASE("what does not fit is told at its place", "[samples]") {
         "the rig file");
   CHECK(logs.message("theta,tau\n0,0\n") ==
         "log.csv:1: no column 't' and no sample rate; name the time column 't' or map it in the "
-        "rig file; columns are theta, tau");
+        "rig file, or give the rate by --rate HZ or \"sample_rate\" in the rig file; columns are "
+        "theta, tau");
   CHECK(logs.message("t,a,b\n0,0,0\n") ==
         "log.csv:1: no column is called q, theta, w, tau or tau_load; rename columns or write a "
         "rig file that maps them; columns are t, a, b");

@@ -167,7 +167,8 @@ TEST_CASE("time must run forward, and a part be long enough to move", "[samples]
     return message_of([&] { bench.add_text(text); }, folder);
   };
   CHECK(message("t,theta\n0,1\n1,2\n1,3\n") ==
-        "log0.csv:4: time stands still at t = 1 s; remove the duplicate row");
+        "log0.csv:4: time stands still at t = 1 s; remove the duplicate row, or keep the first by "
+        "--repeated first");
   CHECK(message("t,theta\n0,1\n1,2\n0.5,3\n") ==
         "log0.csv:4: time runs back to t = 0.5 s; sort the rows, or tell runs apart with a 'run' "
         "column");

@@ -33,6 +33,8 @@ class JsonCursor {
     return block_.empty();
   }
   char current() const { return block_[at_]; }
+  /// Bytes before the one that advance() takes next.
+  std::size_t offset() const { return here_.offset; }
   void advance() {
     track(current());
     ++at_;

@@ -59,6 +59,7 @@ std::string unexpected_token(std::string_view theirs) {
   return std::string(theirs.substr(begin, theirs.find("; expected", begin) - begin));
 }
 
+/// `n_bytes_read`: from the beginning of the text.
 TextPosition error_position(std::string_view theirs, const JsonCursor& cursor,
                             std::size_t n_bytes_read) {
   if (mentions(theirs, "unexpected end of input")) return cursor.end();
@@ -102,11 +103,13 @@ class Adapter final : public nlohmann::json::json_sax_t {
   bool end_object() override { return --depth_, events_.end_object(bracket()), true; }
   bool end_array() override { return --depth_, events_.end_array(bracket()), true; }
   bool binary(nlohmann::json::binary_t&) override { return false; }  // not in JSON text
+  /// Where the value that comes begins.
+  void begin_at(std::size_t byte) { first_byte_ = byte; }
   bool parse_error(std::size_t n_bytes_read, const std::string&,
                    const nlohmann::json::exception& error) override {
     const std::string_view theirs = without_quote(error.what());
     const auto& [needle, what, hint] = find_rewording(theirs);
-    throw input_error(place(error_position(theirs, cursor_, n_bytes_read)),
+    throw input_error(place(error_position(theirs, cursor_, first_byte_ + n_bytes_read)),
                       what.empty() ? unexpected_token(theirs) : std::string(what),
                       std::string(hint));
   }
@@ -128,7 +131,17 @@ class Adapter final : public nlohmann::json::json_sax_t {
   const std::string& name_;
   JsonEvents& events_;
   int depth_ = 0;
+  std::size_t first_byte_ = 0;
 };
+
+bool skip_blanks(JsonCursor& cursor) {
+  while (!cursor.at_end()) {
+    const char c = cursor.current();
+    if (c != ' ' && c != '\t' && c != '\r' && c != '\n') return true;
+    cursor.advance();
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -139,6 +152,18 @@ void parse_json_events(const NextBlock& next_block, const std::string& name, Jso
   Adapter adapter(cursor, name, events);
   nlohmann::json::sax_parse(JsonIterator(cursor), JsonIterator(), &adapter,
                             nlohmann::json::input_format_t::json, kStrict, kIgnoreComments);
+}
+
+void parse_json_values(const NextBlock& next_block, const std::string& name, JsonEvents& events) {
+  constexpr bool kStrict = false;
+  constexpr bool kIgnoreComments = true;
+  JsonCursor cursor(next_block, name);
+  Adapter adapter(cursor, name, events);
+  while (skip_blanks(cursor)) {
+    adapter.begin_at(cursor.offset());
+    nlohmann::json::sax_parse(JsonIterator(cursor), JsonIterator(), &adapter,
+                              nlohmann::json::input_format_t::json, kStrict, kIgnoreComments);
+  }
 }
 
 }  // namespace cablefit

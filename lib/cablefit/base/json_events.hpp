@@ -38,4 +38,7 @@ using NextBlock = std::function<std::string_view()>;
 /// stands for the file in the messages.
 void parse_json_events(const NextBlock& next_block, const std::string& name, JsonEvents& events);
 
+/// The same of any number of values one behind the other.
+void parse_json_values(const NextBlock& next_block, const std::string& name, JsonEvents& events);
+
 }  // namespace cablefit

@@ -125,7 +125,7 @@ void judge_elastic_drift(const BatchCell& cell, const JsonNode* before, double l
       for (const Estimate& e : fit.parameters) {
         const bool is_stiffness = e.name == "K";
         if (!has_drift(e) || (!is_selected && !is_stiffness)) continue;
-        const std::string name = e.name == "f_sm" ? "f_sm of stage 1" : e.name;
+        const std::string name = e.name.starts_with("f_") ? e.name + " of stage 1" : e.name;
         gates.push_back(
             drift_gate(cell, name, e, baseline_of(before, "elastic", fit.model, e.name), limit));
       }

@@ -149,13 +149,19 @@ void fields(Archive& a, ElasticJoint& v) {
 }
 
 template <class Archive>
+void fields(Archive& a, RigFact& v) {
+  a("name", v.name), a("value", v.value);
+}
+
+template <class Archive>
 void fields(Archive& a, ElasticPreload& v) {
   a("name", v.name), a("unit", v.unit), a("low", v.deflection_low), a("high", v.deflection_high);
   a("peak_torque", v.peak_torque), a("loop_half_width", v.loop_half_width);
   a("both_branches", v.both_branches), a("joints", v.joints), a("counts", v.counts);
   a("modes", v.modes), a("windows", v.windows), a("fits", v.fits), a("selected", v.selected);
   a("selection", v.selection), a("decisions", v.decisions), a("warnings", v.warnings);
-  a("linear_motion", v.linear_motion), a("rig_path", v.rig_path), a("figures", v.figures);
+  a("linear_motion", v.linear_motion), a("rig_path", v.rig_path), a("rig_facts", v.rig_facts);
+  a("shape_doubt", v.shape_doubt), a("figures", v.figures);
 }
 
 template <class Archive>

@@ -5,7 +5,10 @@
 #include <string>
 
 #include "cablefit/base/quote.hpp"
+#include "cablefit/log/csv_look_ahead.hpp"
 #include "cablefit/log/csv_row.hpp"
+#include "cablefit/log/iso_time.hpp"
+#include "cablefit/log/log_formats.hpp"
 
 namespace cablefit {
 namespace {
@@ -15,37 +18,34 @@ std::string label(const LogHeader& header, std::size_t column) {
   return name.empty() ? std::to_string(column + 1) : quoted(name);
 }
 
-bool is_number(std::string_view text) {
+bool is_number(std::string_view text, const LogHeader& header) {
   double value = 0;
   const char* end = text.data() + text.size();
-  return read_number(text.data(), end, value) == end;
+  const char point = header.decimal_comma ? ',' : '.';
+  return read_number(text.data(), end, value, point) == end;
 }
 
-// "1,5" or "-0,25e3"
-bool has_decimal_comma(std::string text) {
-  const std::size_t comma = text.find(',');
-  if (comma == std::string::npos) return false;
-  text[comma] = '.';
-  return is_number(text);
-}
-
-std::string number_hint(const std::string& text) {
-  if (has_decimal_comma(text)) return "write the decimal comma as a point, as in 1.5";
+std::string number_hint(const std::string& text, const LogHeader& header) {
+  if (header.decimal_comma) return "numbers of this log have a decimal comma, as 1,5 or -3e-4";
+  if (is_decimal_comma_number(text)) return "write the decimal comma as a point, as in 1.5";
   return "write numbers as 1.5 or -3e-4";
 }
 
-Error number_complaint(const std::string& text, const std::string& column, const Place& place) {
-  if (text.empty()) {
-    return input_error(place, "empty cell in column " + column, "fill it or take the row out");
-  }
-  return input_error(place, quoted(text) + " in column " + column + " is not a number",
-                     number_hint(text));
+Error number_complaint(const std::string& text, const LogHeader& header, std::size_t k,
+                       const Place& place) {
+  const std::string column = label(header, k);
+  if (text.empty()) return input_error(place, "empty cell in column " + column, kMissingHint);
+  const std::string what = quoted(text) + " in column " + column;
+  if (is_missing_cell(text)) return input_error(place, what + " is not a number", kMissingHint);
+  if (header.columns[k].is_date)
+    return input_error(place, what + " is not a date", "write dates as 2026-11-09T10:00:00.125Z");
+  return input_error(place, what + " is not a number", number_hint(text, header));
 }
 
 }  // namespace
 
 Error row_complaint(const CsvLine& line, const LogHeader& header, Delimiter delimiter,
-                    const std::vector<std::size_t>& numbers) {
+                    const std::vector<std::size_t>& numbers, bool may_miss) {
   const std::vector<Cell> cells = split_row(line.text, delimiter);
   const auto place = [&](const Cell& cell) {
     return Place{header.path, line.number, cell.offset + 1};
@@ -62,9 +62,10 @@ Error row_complaint(const CsvLine& line, const LogHeader& header, Delimiter deli
   }
   for (const std::size_t column : numbers) {
     const Cell& cell = cells[column];
-    if (!is_number(cell.text)) {
-      return number_complaint(cell.text, label(header, column), place(cell));
-    }
+    const bool is_missing = may_miss && is_missing_cell(cell.text);
+    const bool is_date = header.columns[column].is_date && read_iso_time(cell.text);
+    if (!is_missing && !is_date && !is_number(cell.text, header))
+      return number_complaint(cell.text, header, column, place(cell));
   }
   return input_error({header.path, line.number}, "row cannot be read", "check its quotes");
 }

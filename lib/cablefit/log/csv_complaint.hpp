@@ -14,8 +14,9 @@ struct CsvLine {
   std::uint64_t number = 0;
 };
 
-/// The error for a row that is ragged or has no number in one of the `numbers` columns.
+/// The error for a row that is ragged or has no number in one of the `numbers` columns, of which
+/// cells may miss or not.
 Error row_complaint(const CsvLine& line, const LogHeader& header, Delimiter delimiter,
-                    const std::vector<std::size_t>& numbers);
+                    const std::vector<std::size_t>& numbers, bool may_miss);
 
 }  // namespace cablefit

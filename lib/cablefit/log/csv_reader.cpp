@@ -1,25 +1,35 @@
 #include "cablefit/log/csv_reader.hpp"
 
 #include <cassert>
+#include <limits>
 #include <optional>
 #include <utility>
 
 #include "cablefit/log/chunk_rows.hpp"
 #include "cablefit/log/csv_complaint.hpp"
 #include "cablefit/log/csv_header.hpp"
+#include "cablefit/log/csv_look_ahead.hpp"
 #include "cablefit/log/csv_row.hpp"
 #include "cablefit/log/csv_selection.hpp"
+#include "cablefit/log/iso_time.hpp"
 #include "cablefit/log/words.hpp"
 
 namespace cablefit {
 namespace {
 
+/// How the cells of numeric columns are written.
+struct NumberCells {
+  char point = '.';
+  bool may_miss = false;
+  long date_origin = 0;
+};
+
 /// Rows of a block of whole lines.
 template <Delimiter kDelimiter>
 class CsvPiece final : public LogPiece {
  public:
-  explicit CsvPiece(const CsvSelection& selection)
-      : selection_(selection), words_(selection.texts().size()) {
+  CsvPiece(const CsvSelection& selection, const NumberCells& cells)
+      : selection_(selection), cells_(cells), words_(selection.texts().size()) {
     rows_.numbers.resize(selection.numbers().size());
     rows_.texts.resize(selection.texts().size());
   }
@@ -72,8 +82,8 @@ class CsvPiece final : public LogPiece {
       if (target.text != CsvSelection::kNowhere || target.number == CsvSelection::kNowhere)
         return nullptr;
       double& value = rows_.numbers[target.number][row];
-      const char* next = read_plain_number(p, value);
-      p = next != nullptr ? next : read_number(p, end, value);
+      const char* next = read_plain_number(p, value, cells_.point);
+      p = next != nullptr ? next : read_number(p, end, value, cells_.point);
       if (p == nullptr) return nullptr;
     }
     if (*p == '\r') ++p;
@@ -115,7 +125,24 @@ class CsvPiece final : public LogPiece {
       if (target.number == CsvSelection::kNowhere) return text_end;
     }
     if (target.number == CsvSelection::kNowhere) return Syntax::skip_cell(p, end);
-    return Syntax::number_cell(p, end, rows_.numbers[target.number][row]);
+    double& value = rows_.numbers[target.number][row];
+    const char* number_end = Syntax::number_cell(p, end, value, cells_.point);
+    return number_end != nullptr ? number_end : read_unusual(p, end, target.is_date, value);
+  }
+
+  /// A date, or nothing where a number may miss.
+  const char* read_unusual(const char* p, const char* end, bool is_date, double& value) {
+    if (!is_date && !cells_.may_miss) return nullptr;
+    std::string_view text;
+    p = Syntax::text_cell(p, end, text, scratch_);
+    if (p == nullptr) return nullptr;
+    if (const auto time = is_date ? read_iso_time(text) : std::nullopt) {
+      value = seconds_from(*time, cells_.date_origin);
+      return p;
+    }
+    if (!cells_.may_miss || !is_missing_cell(text)) return nullptr;
+    value = std::numeric_limits<double>::quiet_NaN();
+    return p;
   }
 
   const char* read_text(const char* p, const char* end, std::size_t k, std::size_t row) {
@@ -126,6 +153,7 @@ class CsvPiece final : public LogPiece {
   }
 
   const CsvSelection& selection_;
+  const NumberCells& cells_;
   LogChunk rows_;             // texts are indices into words_
   std::vector<Words> words_;  // of this piece, per selected text column
   std::string scratch_;
@@ -136,10 +164,11 @@ class CsvPiece final : public LogPiece {
 template <Delimiter kDelimiter>
 class CsvReader final : public LogReader {
  public:
-  CsvReader(LogHeader header, LineBuffer lines)
+  CsvReader(LogHeader header, LineBuffer lines, const NumberCells& cells)
       : header_(std::move(header)),
         lines_(std::move(lines)),
-        selection_(header_.columns.size(), {}, {}),
+        cells_(cells),
+        selection_(header_.columns, {}, {}),
         n_lines_(lines_.line_number()) {}
 
   const LogHeader& header() const override { return header_; }
@@ -147,7 +176,7 @@ class CsvReader final : public LogReader {
   void select(std::vector<std::size_t> numbers, std::vector<std::size_t> texts) override {
     assert(n_rows_ == 0);
     words_.resize(texts.size());
-    selection_ = CsvSelection(header_.columns.size(), std::move(numbers), std::move(texts));
+    selection_ = CsvSelection(header_.columns, std::move(numbers), std::move(texts));
   }
 
   const std::vector<std::string>& words(std::size_t k) const override {
@@ -157,7 +186,7 @@ class CsvReader final : public LogReader {
   /// An empty piece is the last one: finish() then knows how many rows there were.
   std::unique_ptr<LogPiece> take() override {
     if (is_at_end_) return nullptr;
-    auto piece = std::make_unique<Piece>(selection_);
+    auto piece = std::make_unique<Piece>(selection_, cells_);
     lines_.take_lines(piece->lines);
     is_at_end_ = piece->lines.empty();
     return piece;
@@ -191,11 +220,13 @@ class CsvReader final : public LogReader {
 
   Error complaint(std::string_view line, std::uint64_t number) const {
     if (line.size() > LineBuffer::kMaxLineBytes) return too_long_line({header_.path, number});
-    return row_complaint({line, number}, header_, kDelimiter, selection_.numbers());
+    return row_complaint({line, number}, header_, kDelimiter, selection_.numbers(),
+                         cells_.may_miss);
   }
 
   LogHeader header_;
   LineBuffer lines_;
+  NumberCells cells_;
   CsvSelection selection_;
   std::vector<Words> words_;  // per selected text column
   std::size_t n_rows_ = 0;
@@ -204,11 +235,13 @@ class CsvReader final : public LogReader {
 };
 
 template <Delimiter kDelimiter>
-std::unique_ptr<LogReader> make_reader(LogHeader header, LineBuffer lines) {
-  return std::make_unique<CsvReader<kDelimiter>>(std::move(header), std::move(lines));
+std::unique_ptr<LogReader> make_reader(LogHeader header, LineBuffer lines,
+                                       const NumberCells& cells) {
+  return std::make_unique<CsvReader<kDelimiter>>(std::move(header), std::move(lines), cells);
 }
 
-using MakeReader = std::unique_ptr<LogReader> (*)(LogHeader header, LineBuffer lines);
+using MakeReader = std::unique_ptr<LogReader> (*)(LogHeader header, LineBuffer lines,
+                                                  const NumberCells& cells);
 
 MakeReader maker_for(Delimiter delimiter) {
   switch (delimiter) {
@@ -229,10 +262,11 @@ MakeReader maker_for(Delimiter delimiter) {
 bool looks_like_csv(std::string_view head) { return !head.empty(); }
 
 std::unique_ptr<LogReader> open_csv(std::unique_ptr<ByteSource> source, const std::string& path,
-                                    std::size_t block_bytes) {
+                                    const LogText& text, std::size_t block_bytes) {
   LineBuffer lines(std::move(source), path, block_bytes);
-  CsvHeader header = read_csv_header(lines, path);
-  return maker_for(header.delimiter)(std::move(header.log), std::move(lines));
+  CsvHeader header = read_csv_header(lines, path, text);
+  const NumberCells cells{header.log.decimal_comma ? ',' : '.', text.may_miss, header.date_origin};
+  return maker_for(header.delimiter)(std::move(header.log), std::move(lines), cells);
 }
 
 }  // namespace cablefit

@@ -16,6 +16,7 @@ bool looks_like_csv(std::string_view head);
 
 /// `block_bytes`: how much is read at once.
 std::unique_ptr<LogReader> open_csv(std::unique_ptr<ByteSource> source, const std::string& path,
+                                    const LogText& text = {},
                                     std::size_t block_bytes = LineBuffer::kBlockBytes);
 
 }  // namespace cablefit

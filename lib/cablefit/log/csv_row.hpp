@@ -21,7 +21,8 @@ namespace cablefit {
 /// by something else than 'e'; nullptr for any other. The text must go on behind it. Both the
 /// digits as an integer and the power of ten are exact doubles then, so their quotient is the
 /// nearest one to the decimal number (Clinger 1990).
-inline const char* read_plain_number(const char* p, double& value) {
+/// `point`: the decimal point, or a comma.
+inline const char* read_plain_number(const char* p, double& value, char point = '.') {
   constexpr double kPowers[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
   const auto digit = [](char c) { return static_cast<unsigned>(c) - '0'; };
@@ -31,10 +32,10 @@ inline const char* read_plain_number(const char* p, double& value) {
   std::uint64_t digits = 0;
   for (; digit(*p) < 10; ++p) digits = 10 * digits + digit(*p);
   std::ptrdiff_t n_digits = p - begin, n_decimals = 0;
-  if (*p == '.') {
-    const char* const point = p++;
+  if (*p == point) {
+    const char* const decimals = ++p;
     for (; digit(*p) < 10; ++p) digits = 10 * digits + digit(*p);
-    n_decimals = p - point - 1;
+    n_decimals = p - decimals;
   }
   n_digits += n_decimals;
   if (n_digits == 0 || n_digits > 15 || n_decimals == n_digits || (*p | 0x20) == 'e')
@@ -45,9 +46,10 @@ inline const char* read_plain_number(const char* p, double& value) {
 }
 
 /// Reads a finite number with an optional sign at the very start of [p, end); returns its end.
-inline const char* read_number(const char* p, const char* end, double& value) {
+inline const char* read_number(const char* p, const char* end, double& value, char point = '.') {
   if (end - p > 1 && *p == '+' && p[1] != '-' && p[1] != '+') ++p;
-  const auto [rest, status] = fast_float::from_chars(p, end, value);
+  const fast_float::parse_options options{fast_float::chars_format::general, point};
+  const auto [rest, status] = fast_float::from_chars_advanced(p, end, value, options);
   // Out of range is judged by the value: an infinity is refused, a tiny number is zero.
   const bool is_read = status == std::errc() || status == std::errc::result_out_of_range;
   return is_read && std::isfinite(value) ? rest : nullptr;
@@ -118,9 +120,9 @@ struct RowSyntax {
     return p == nullptr ? nullptr : finish_cell(p, end);
   }
 
-  static const char* number_cell(const char* p, const char* end, double& value) {
+  static const char* number_cell(const char* p, const char* end, double& value, char point) {
     const bool is_quoted = p != end && *p == '"';
-    p = read_number(p + (is_quoted ? 1 : 0), end, value);
+    p = read_number(p + (is_quoted ? 1 : 0), end, value, point);
     if (p == nullptr) return nullptr;
     if (is_quoted && (p == end || *p++ != '"')) return nullptr;
     return finish_cell(p, end);

@@ -4,9 +4,10 @@
 
 namespace cablefit {
 
-CsvSelection::CsvSelection(std::size_t n_columns, std::vector<std::size_t> numbers,
-                           std::vector<std::size_t> texts)
-    : numbers_(std::move(numbers)), texts_(std::move(texts)), targets_(n_columns) {
+CsvSelection::CsvSelection(const std::vector<ColumnHeader>& columns,
+                           std::vector<std::size_t> numbers, std::vector<std::size_t> texts)
+    : numbers_(std::move(numbers)), texts_(std::move(texts)), targets_(columns.size()) {
+  for (std::size_t k = 0; k < columns.size(); ++k) targets_[k].is_date = columns[k].is_date;
   // Backwards, so that the first request for a column is the one that stays.
   for (std::size_t k = numbers_.size(); k-- > 0;) targets_.at(numbers_[k]).number = k;
   for (std::size_t k = texts_.size(); k-- > 0;) targets_.at(texts_[k]).text = k;

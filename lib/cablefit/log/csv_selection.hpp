@@ -16,9 +16,10 @@ class CsvSelection {
   struct Target {
     std::size_t number = kNowhere;
     std::size_t text = kNowhere;
+    bool is_date = false;
   };
 
-  CsvSelection(std::size_t n_columns, std::vector<std::size_t> numbers,
+  CsvSelection(const std::vector<ColumnHeader>& columns, std::vector<std::size_t> numbers,
                std::vector<std::size_t> texts);
 
   const std::vector<Target>& targets() const { return targets_; }

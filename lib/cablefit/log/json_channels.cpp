@@ -12,6 +12,7 @@
 #include "cablefit/base/catalog.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/log/column_header.hpp"
+#include "cablefit/log/log_formats.hpp"
 
 namespace cablefit {
 namespace {
@@ -31,7 +32,13 @@ class ChannelsLayout final : public JsonLayout {
  public:
   explicit ChannelsLayout(JsonTable& table) : table_(table) {}
 
-  void null(TextPosition at) override { scalar("null", at); }
+  void null(TextPosition at) override {
+    if (where_ != Where::values) return scalar("null", at);
+    if (!table_.may_miss)
+      throw error(at, "null in channel " + quoted(column().header.name) + " is not a number",
+                  kMissingHint);
+    append(table_.missing_entry(column(), at));
+  }
   void boolean(bool value, TextPosition at) override { scalar(value ? "true" : "false", at); }
 
   void number(double value, TextPosition at) override {

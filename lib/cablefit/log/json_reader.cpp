@@ -78,7 +78,11 @@ class JsonReader final : public LogReader {
   };
 
   static void require_numbers(const JsonColumn& column) {
-    if (column.kind == JsonColumn::Kind::number) return;
+    using Kind = JsonColumn::Kind;
+    if (column.kind == Kind::number || column.kind == Kind::date) return;
+    if (column.kind == Kind::unknown)
+      throw input_error(column.header.place, "column " + quoted(column.header.name) + " is empty",
+                        "leave it out");
     throw input_error(column.header.place,
                       "column " + quoted(column.header.name) + " holds texts, not numbers",
                       "write numbers without quotes");
@@ -126,12 +130,16 @@ class JsonReader final : public LogReader {
   std::size_t n_taken_ = 0;
 };
 
-void parse(ByteSource& source, JsonLayout& layout, const std::string& path) {
+using ParseEvents = void (*)(const NextBlock& next_block, const std::string& name,
+                             JsonEvents& events);
+
+void parse(ByteSource& source, JsonLayout& layout, const std::string& path,
+           ParseEvents parse_events) {
   std::vector<char> block(kBlockBytes);
   const NextBlock next_block = [&]() -> std::string_view {
     return {block.data(), source.read(block.data(), block.size())};
   };
-  parse_json_events(next_block, path, layout);
+  parse_events(next_block, path, layout);
   layout.finish();
 }
 
@@ -142,21 +150,58 @@ void check(const JsonTable& table) {
   if (table.n_rows == 0) throw input_error({table.path}, "no values", "a log needs samples");
 }
 
+using MakeLayout = std::unique_ptr<JsonLayout> (*)(JsonTable& table);
+
+std::unique_ptr<LogReader> open_table(ByteSource& text, const std::string& path,
+                                      const LogText& options, MakeLayout make_layout,
+                                      ParseEvents parse_events) {
+  auto table = std::make_unique<JsonTable>();
+  table->path = path;
+  table->may_miss = options.may_miss;
+  parse(text, *make_layout(*table), path, parse_events);
+  check(*table);
+  return std::make_unique<JsonReader>(std::move(table));
+}
+
+/// Behind the bracket that closes the first one of `text`; npos when it stays open.
+std::size_t end_of_object(std::string_view text) {
+  int depth = 0;
+  bool in_text = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_text && c == '\\') ++i;
+    if (c == '"') in_text = !in_text;
+    if (in_text) continue;
+    if (c == '{') ++depth;
+    if (c == '}' && --depth == 0) return i + 1;
+  }
+  return std::string_view::npos;
+}
+
 }  // namespace
 
 bool looks_like_json(std::string_view head) {
   return first_byte(head) == '{' || first_byte(head) == '[';
 }
 
-std::unique_ptr<LogReader> open_json(std::unique_ptr<ByteSource> source, const std::string& path) {
-  PeekableSource text(std::move(source));
-  auto table = std::make_unique<JsonTable>();
-  table->path = path;
-  const bool is_records = first_byte(text.peek(kHeadBytes)) == '[';
-  const auto layout = is_records ? make_records_layout(*table) : make_channels_layout(*table);
-  parse(text, *layout, path);
-  check(*table);
-  return std::make_unique<JsonReader>(std::move(table));
+bool looks_like_json_lines(std::string_view head) {
+  if (first_byte(head) != '{') return false;
+  head.remove_prefix(head.find('{'));
+  const std::size_t end = end_of_object(head);
+  return end != std::string_view::npos && first_byte(head.substr(end)) == '{';
+}
+
+std::unique_ptr<LogReader> open_json(std::unique_ptr<ByteSource> source, const std::string& path,
+                                     const LogText& text) {
+  PeekableSource peekable(std::move(source));
+  const bool is_records = first_byte(peekable.peek(kHeadBytes)) == '[';
+  return open_table(peekable, path, text, is_records ? make_records_layout : make_channels_layout,
+                    parse_json_events);
+}
+
+std::unique_ptr<LogReader> open_json_lines(std::unique_ptr<ByteSource> source,
+                                           const std::string& path, const LogText& text) {
+  return open_table(*source, path, text, make_lines_layout, parse_json_values);
 }
 
 }  // namespace cablefit

@@ -1,4 +1,4 @@
-// JSON logs, in both layouts. The text is parsed once when the log is opened; its values wait in a
+// JSON logs, in all layouts. The text is parsed once when the log is opened; its values wait in a
 // temporary file, so memory does not grow with the log.
 #pragma once
 
@@ -12,7 +12,12 @@
 namespace cablefit {
 
 bool looks_like_json(std::string_view head);
+/// A record and another one behind it, not in an array.
+bool looks_like_json_lines(std::string_view head);
 
-std::unique_ptr<LogReader> open_json(std::unique_ptr<ByteSource> source, const std::string& path);
+std::unique_ptr<LogReader> open_json(std::unique_ptr<ByteSource> source, const std::string& path,
+                                     const LogText& text);
+std::unique_ptr<LogReader> open_json_lines(std::unique_ptr<ByteSource> source,
+                                           const std::string& path, const LogText& text);
 
 }  // namespace cablefit

@@ -8,6 +8,7 @@
 #include "cablefit/base/catalog.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/log/column_header.hpp"
+#include "cablefit/log/log_formats.hpp"
 
 namespace cablefit {
 namespace {
@@ -18,7 +19,8 @@ constexpr std::size_t kMaxColumns = 10'000;
 // order. Rows go to the spill file whole, each followed by its line number.
 class RecordsLayout final : public JsonLayout {
  public:
-  explicit RecordsLayout(JsonTable& table) : table_(table) {}
+  /// `depth`: brackets around the records that are open already.
+  RecordsLayout(JsonTable& table, int depth) : table_(table), depth_(depth) {}
 
   void start_array(TextPosition at) override {
     if (depth_ > 0) throw misplaced("an array", at);
@@ -38,7 +40,9 @@ class RecordsLayout final : public JsonLayout {
     --depth_;
     if (table_.n_rows == 0) complete_header();
     for (std::size_t k = 0; k < keys_.size(); ++k) {
-      if (!is_given_[k]) throw error(record_, "record lacks " + quoted(keys_[k]), kSameKeys);
+      if (is_given_[k]) continue;
+      if (!table_.may_miss) throw error(record_, "record lacks " + quoted(keys_[k]), kSameKeys);
+      row_[k] = table_.missing_entry(table_.columns[k], record_);
     }
     for (const double value : row_) table_.values.append(value);
     table_.values.append(static_cast<double>(record_.line));
@@ -53,6 +57,11 @@ class RecordsLayout final : public JsonLayout {
     next_ = column_ + 1;
   }
 
+  void null(TextPosition at) override {
+    if (depth_ < 2) throw misplaced("null", at);
+    if (!table_.may_miss) throw missing(at);
+    row_[column_] = table_.missing_entry(table_.columns[column_], at);
+  }
   void number(double value, TextPosition at) override {
     if (depth_ < 2) throw misplaced("a number", at);
     row_[column_] = table_.entry(table_.columns[column_], value, at);
@@ -80,6 +89,9 @@ class RecordsLayout final : public JsonLayout {
 
   Error error(TextPosition at, const std::string& what, const std::string& hint) const {
     return table_.error(at, what, hint);
+  }
+  Error missing(TextPosition at) const {
+    return error(at, "null in column " + quoted(keys_[column_]) + " is not a number", kMissingHint);
   }
 
   // In the first record.
@@ -119,14 +131,18 @@ class RecordsLayout final : public JsonLayout {
   std::vector<bool> is_given_;
   std::size_t column_ = 0;  // of the key read last
   std::size_t next_ = 0;    // the column expected next
-  int depth_ = 0;
+  int depth_;
   TextPosition record_;
 };
 
 }  // namespace
 
 std::unique_ptr<JsonLayout> make_records_layout(JsonTable& table) {
-  return std::make_unique<RecordsLayout>(table);
+  return std::make_unique<RecordsLayout>(table, 0);
+}
+
+std::unique_ptr<JsonLayout> make_lines_layout(JsonTable& table) {
+  return std::make_unique<RecordsLayout>(table, 1);
 }
 
 }  // namespace cablefit

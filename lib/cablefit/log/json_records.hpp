@@ -1,4 +1,4 @@
-// JSON logs as an array of records: [{"t": 0, "q": 1}, {"t": 1e-3, "q": 2}].
+// JSON logs as records: an array of them, [{"t": 0, "q": 1}, {"t": 1e-3, "q": 2}], or one a line.
 #pragma once
 
 #include <memory>
@@ -8,5 +8,7 @@
 namespace cablefit {
 
 std::unique_ptr<JsonLayout> make_records_layout(JsonTable& table);
+/// For records that no array holds.
+std::unique_ptr<JsonLayout> make_lines_layout(JsonTable& table);
 
 }  // namespace cablefit

@@ -14,17 +14,19 @@
 namespace cablefit {
 
 struct JsonColumn {
-  enum class Kind { unknown, number, text };
+  enum class Kind { unknown, number, text, date };
 
   ColumnHeader header;
   Kind kind = Kind::unknown;  ///< decided by the first value
   Words words;                ///< of a text column; its values are indices of these
+  long date_origin = 0;       ///< of a date column: day of its first value
   std::size_t first = 0;      ///< where its first value stands in the spill file
   std::size_t n_values = 0;
 };
 
 struct JsonTable {
   std::string path;
+  bool may_miss = false;  ///< null stands for a missing number
   std::optional<double> sample_rate;
   std::vector<JsonColumn> columns;
   std::size_t n_rows = 0;
@@ -36,6 +38,8 @@ struct JsonTable {
   /// What is stored for a value of `column`. Throws Error(input) when it is not of its kind.
   double entry(JsonColumn& column, double value, TextPosition at) const;
   double entry(JsonColumn& column, const std::string& text, TextPosition at) const;
+  /// NaN, for a null that may stand there.
+  double missing_entry(JsonColumn& column, TextPosition at) const;
 
  private:
   void require(JsonColumn& column, JsonColumn::Kind kind, TextPosition at) const;

@@ -71,6 +71,13 @@ void LineBuffer::take_lines(std::string& lines) {
   begin_ = next_begin;
 }
 
+std::string_view LineBuffer::ahead() {
+  while (find_line_end(begin_, end_) == nullptr) {
+    if (static_cast<std::size_t>(end_ - begin_) > kMaxLineBytes || !refill()) break;
+  }
+  return {begin_, static_cast<std::size_t>(end_ - begin_)};
+}
+
 void LineBuffer::require_length(std::size_t n_bytes) const {
   if (n_bytes <= kMaxLineBytes) return;
   throw too_long_line({path_, line_number_ + 1});

@@ -29,6 +29,9 @@ class LineBuffer {
   /// line feed gets one. Empty at the end of the text. A line of more than 1 MiB comes cut off
   /// there: it is for the caller, who counts lines, to refuse it.
   void take_lines(std::string& lines);
+  /// What is in memory already of the text to come, at least a line of it; empty at its end. Valid
+  /// until the next call.
+  std::string_view ahead();
   /// Of the line that next() gave last; counted from 1.
   std::uint64_t line_number() const { return line_number_; }
 

@@ -9,13 +9,14 @@
 namespace cablefit {
 namespace {
 
-std::unique_ptr<LogReader> open_csv_log(std::unique_ptr<ByteSource> source,
-                                        const std::string& path) {
-  return open_csv(std::move(source), path);
+std::unique_ptr<LogReader> open_csv_log(std::unique_ptr<ByteSource> source, const std::string& path,
+                                        const LogText& text) {
+  return open_csv(std::move(source), path, text);
 }
 
 // CSV takes every text, so it comes last.
 constexpr std::array kRows{
+    LogFormatRow{{"json-lines", "a record per line", looks_like_json_lines}, open_json_lines},
     LogFormatRow{{"json", "channels of equal length, or an array of records", looks_like_json},
                  open_json},
     LogFormatRow{

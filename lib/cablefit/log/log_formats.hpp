@@ -10,10 +10,13 @@
 
 namespace cablefit {
 
+inline constexpr const char* kMissingHint =
+    "fill it, or leave the row out by --missing drop, or hold the value before by --missing hold";
+
 struct LogFormatRow {
   LogFormat format;
-  std::unique_ptr<LogReader> (*open)(std::unique_ptr<ByteSource> source,
-                                     const std::string& path) = nullptr;
+  std::unique_ptr<LogReader> (*open)(std::unique_ptr<ByteSource> source, const std::string& path,
+                                     const LogText& text) = nullptr;
 };
 
 /// In the order in which they are tried.

@@ -24,11 +24,11 @@ void check_is_text(std::string_view head, const std::string& path) {
 }
 
 std::unique_ptr<LogReader> open_unpacked(std::unique_ptr<PeekableSource> source,
-                                         const std::string& path) {
+                                         const std::string& path, const LogText& text) {
   const std::string_view head = source->peek(kHeadBytes);
   check_is_text(head, path);
   for (const LogFormatRow& row : log_format_rows()) {
-    if (row.format.recognises(head)) return row.open(std::move(source), path);
+    if (row.format.recognises(head)) return row.open(std::move(source), path, text);
   }
   throw input_error({path}, "format is not known", "give CSV or JSON");
 }
@@ -44,12 +44,13 @@ bool LogReader::next(LogChunk& chunk) {
   return false;
 }
 
-std::unique_ptr<LogReader> open_log(const std::string& path, Sha256* digest) {
-  return open_unpacked(open_bytes(path, digest), path);
+std::unique_ptr<LogReader> open_log(const std::string& path, const LogText& text, Sha256* digest) {
+  return open_unpacked(open_bytes(path, digest), path, text);
 }
 
-std::unique_ptr<LogReader> open_log(std::unique_ptr<ByteSource> bytes, const std::string& path) {
-  return open_unpacked(unpacked(std::move(bytes), path), path);
+std::unique_ptr<LogReader> open_log(std::unique_ptr<ByteSource> bytes, const std::string& path,
+                                    const LogText& text) {
+  return open_unpacked(unpacked(std::move(bytes), path), path, text);
 }
 
 }  // namespace cablefit

@@ -18,25 +18,36 @@ namespace cablefit {
 /// A column as its header names it: "theta [deg]" or "theta (deg)" is name "theta", unit "deg".
 struct ColumnHeader {
   std::string name;
-  std::string unit;  ///< empty: none given
-  Place place;       ///< of the header cell
+  std::string unit;      ///< empty: none given
+  Place place;           ///< of the header cell
+  bool is_date = false;  ///< ISO 8601 dates, delivered in s from the first one's midnight
 };
 
 struct LogHeader {
   std::string path;
   std::vector<ColumnHeader> columns;
   std::optional<double>
-      sample_rate;  ///< Hz, from JSON "sample_rate"; then there may be no column t
+      sample_rate;             ///< Hz, from JSON "sample_rate"; then there may be no column t
+  bool decimal_comma = false;  ///< of a CSV log whose delimiter leaves it free
+};
+
+/// How the text of a log is laid out, where that has to be told.
+struct LogText {
+  std::size_t skipped_lines = 0;  ///< of a CSV log, before its header
+  bool units_row = false;         ///< of a CSV log: the line behind the header holds units
+  bool may_miss = false;          ///< an empty cell, "nan" or null is NaN; else an error
 };
 
 /// Consecutive rows of the selected columns. Arrays are indexed [selected column][row].
 struct LogChunk {
   std::size_t first_row = 0;  ///< index of row 0 within the log
   std::size_t n_rows = 0;
-  std::vector<std::vector<double>> numbers;  ///< of the selected numeric columns, all finite
+  /// Of the selected numeric columns: finite, or NaN where cells may miss.
+  std::vector<std::vector<double>> numbers;
   std::vector<std::vector<std::uint32_t>>
       texts;                         ///< of the selected text columns: index into words()
   std::vector<std::uint64_t> lines;  ///< line of each row in the file (JSON records too; 0 unknown)
+  std::vector<std::size_t> offsets;  ///< of each row from first_row; empty: 0, 1, 2, ...
 };
 
 /// What of a log lies between two places, not read yet. Each format has its own kind.
@@ -75,11 +86,13 @@ class LogReader {
 /// Throws Error(input) for a missing, empty or binary file, a header without columns or with two
 /// columns of one name. `digest`, which must outlive the reader, has seen every byte of the file
 /// when the reader is at its end.
-std::unique_ptr<LogReader> open_log(const std::string& path, Sha256* digest = nullptr);
+std::unique_ptr<LogReader> open_log(const std::string& path, const LogText& text = {},
+                                    Sha256* digest = nullptr);
 
 class ByteSource;
 /// The same from bytes that are open already; `path` is for messages.
-std::unique_ptr<LogReader> open_log(std::unique_ptr<ByteSource> bytes, const std::string& path);
+std::unique_ptr<LogReader> open_log(std::unique_ptr<ByteSource> bytes, const std::string& path,
+                                    const LogText& text = {});
 
 /// A row of the table of formats, for `cablefit list formats`.
 struct LogFormat {

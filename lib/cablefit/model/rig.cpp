@@ -40,15 +40,16 @@ Rig default_rig() {
 }
 
 Rig parse_rig(const JsonNode& node) {
-  node.allow_only({"schema", "name", "preload", "columns", "motion", "torque_hold", "torque_period",
-                   "load", "controller", "sensors", "cad", "joints", "cables", "reference_pose",
-                   "arm"});
+  node.allow_only({"schema", "name", "preload", "columns", "sample_rate", "motion", "torque_hold",
+                   "torque_period", "load", "controller", "sensors", "cad", "joints", "cables",
+                   "reference_pose", "arm"});
   check_schema(node, "cablefit/rig/1");
   Rig rig;
   rig.path = node.place.file;
   rig.name = text_or(node, "name", "");
   rig.preload = text_or(node, "preload", "");
   if (const JsonNode* motion = node.find("motion")) rig.linear_motion = choose(*motion, kMotions);
+  if (const JsonNode* rate = node.find("sample_rate")) rig.sample_rate = rate->positive();
   read_torque_hold(node, &rig);
 
   if (const JsonNode* joints = node.find("joints")) rig.joints = rig_parts::read_joints(*joints);

@@ -52,6 +52,7 @@ struct Rig {
   std::string preload;  ///< name of the preload setting, may be empty
   std::map<std::string, ColumnMapping>
       columns;                 ///< by channel: "t", "q", "theta", "tau", "tau_load", "q1", ...
+  double sample_rate = 0;      ///< Hz, of logs without a time column; 0: not given
   bool linear_motion = false;  ///< m, N, kg instead of rad, N m, kg m^2
   TorqueHold torque_hold = TorqueHold::automatic;
   double torque_period = 0;  ///< s; 0: the log's

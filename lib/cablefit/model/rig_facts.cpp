@@ -12,9 +12,9 @@ namespace {
 void add_column(const Rig& rig, const std::string& channel, RigFacts& facts) {
   const auto mapped = rig.columns.find(channel);
   const ColumnMapping mapping = mapped == rig.columns.end() ? ColumnMapping{} : mapped->second;
-  facts.emplace_back(channel + " scale", fmt::format("{}", mapping.scale));
-  facts.emplace_back(channel + " shift", fmt::format("{}", mapping.shift));
-  facts.emplace_back(channel + " unit", mapping.unit.empty() ? "of the log" : mapping.unit);
+  facts.push_back({channel + " scale", fmt::format("{}", mapping.scale)});
+  facts.push_back({channel + " shift", fmt::format("{}", mapping.shift)});
+  facts.push_back({channel + " unit", mapping.unit.empty() ? "of the log" : mapping.unit});
 }
 
 std::string map_text(const DisplacementMap& map) {
@@ -34,11 +34,11 @@ std::string map_text(const DisplacementMap& map) {
 
 void add_cable(const Cable& cable, RigFacts& facts) {
   const std::string name = "cable " + cable.name;
-  facts.emplace_back(name + " law", std::string(cable.law->name));
+  facts.push_back({name + " law", std::string(cable.law->name)});
   for (std::size_t k = 0; k < cable.motor_map.size(); ++k) {
     const std::string joint = cable.motor_map.size() == 1 ? "" : fmt::format(" {}", k + 1);
-    facts.emplace_back(name + " motor_radius" + joint, map_text(cable.motor_map[k]));
-    facts.emplace_back(name + " link_radius" + joint, map_text(cable.link_map[k]));
+    facts.push_back({name + " motor_radius" + joint, map_text(cable.motor_map[k])});
+    facts.push_back({name + " link_radius" + joint, map_text(cable.link_map[k])});
   }
 }
 
@@ -51,17 +51,17 @@ RigFacts elastic_facts(const Rig& rig) {
   for (const std::string channel : {"q", "theta", "tau"})
     for (int joint = 0; joint < rig.n_joints(); ++joint)
       add_column(rig, one ? channel : channel + std::to_string(joint + 1), facts);
-  facts.emplace_back("number of cables", std::to_string(rig.transmission.cables.size()));
+  facts.push_back({"number of cables", std::to_string(rig.transmission.cables.size())});
   for (const Cable& cable : rig.transmission.cables) add_cable(cable, facts);
   return facts;
 }
 
 std::string changed_fact(const RigFacts& before, const RigFacts& now) {
-  for (const auto& [name, value] : before) {
-    const auto same =
-        std::find_if(now.begin(), now.end(), [&](const auto& fact) { return fact.first == name; });
-    if (same != now.end() && same->second != value)
-      return fmt::format("with {} {}, the rig now says {}", name, value, same->second);
+  for (const RigFact& fact : before) {
+    const auto other =
+        std::find_if(now.begin(), now.end(), [&](const RigFact& f) { return f.name == fact.name; });
+    if (other != now.end() && other->value != fact.value)
+      return fmt::format("with {} {}, the rig now says {}", fact.name, fact.value, other->value);
   }
   return "";
 }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "cablefit/model/rig.hpp"
@@ -13,7 +12,10 @@ namespace cablefit {
 /// ("tau scale", "0.51"), ...: unit, scale and shift of q, theta and tau, the motion, the number of
 /// joints, and the cables but for l_o, which stage 1 may search. Numbers in the shortest form that
 /// reads back as the same bits.
-using RigFacts = std::vector<std::pair<std::string, std::string>>;
+struct RigFact {
+  std::string name, value;
+};
+using RigFacts = std::vector<RigFact>;
 RigFacts elastic_facts(const Rig& rig);
 
 /// "with tau scale 0.51, the rig now says 0.255" of the first fact that differs; empty: none does.

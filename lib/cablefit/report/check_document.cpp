@@ -53,6 +53,9 @@ Table parts_table(const CheckedLog& log) {
          part.identifies.empty() ? "nothing"
                                  : fmt::format("{}", fmt::join(part.identifies, ", "))});
   }
+  for (const Decision& decision : log.decisions)
+    table.notes.push_back(
+        fmt::format("{}: {} ({})", decision.name, decision.value, decision.reason));
   if (!log.unused_columns.empty()) {
     table.notes.push_back(fmt::format("not used: {}", fmt::join(log.unused_columns, ", ")));
   }

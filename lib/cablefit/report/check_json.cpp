@@ -63,6 +63,7 @@ Json log_json(const CheckedLog& log) {
               {"linear_motion", log.linear_motion},
               {"usable", log.usable()},
               {"unused_columns", log.unused_columns},
+              {"decisions", report_json::decisions(log.decisions)},
               {"parts", list_of(log.parts, part_json)}};
 }
 

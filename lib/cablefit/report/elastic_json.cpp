@@ -110,7 +110,7 @@ Json preload_json(const ElasticPreload& preload) {
             {"modes", modes_json(preload)},
             {"decisions", report_json::decisions(preload.decisions)},
             {"warnings", preload.warnings}};
-  for (const auto& [name, value] : preload.rig_facts) json["rig_content"][name] = value;
+  for (const RigFact& fact : preload.rig_facts) json["rig_content"][fact.name] = fact.value;
   if (!preload.shape_doubt.empty()) json["shape_doubt"] = preload.shape_doubt;
   if (!preload.joints.empty()) json["joints"] = list_of(preload.joints, joint_json);
   return json;

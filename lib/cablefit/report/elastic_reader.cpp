@@ -145,7 +145,7 @@ ElasticPreload read_preload(const JsonNode& node) {
   }
   if (const JsonNode* facts = node.find("rig_content"))
     for (const auto& [name, value] : facts->members)
-      preload.rig_facts.emplace_back(name, value.text());
+      preload.rig_facts.push_back({name, value.text()});
   preload.selection = texts(node, "selection");
   preload.decisions = read_decisions(node);
   preload.warnings = texts(node, "warnings");

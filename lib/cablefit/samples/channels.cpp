@@ -8,6 +8,7 @@
 #include "cablefit/base/catalog.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/base/units.hpp"
+#include "cablefit/samples/unit_suffix.hpp"
 
 namespace cablefit {
 namespace {
@@ -44,6 +45,17 @@ std::optional<std::size_t> find_column(const LogHeader& header, std::string_view
   return std::nullopt;
 }
 
+/// Of a column that is called as the channel, maybe with a unit behind it: tau_mNm.
+std::optional<std::size_t> find_channel_column(const LogHeader& header, std::string_view channel,
+                                               const Dimension& dimension) {
+  if (const auto column = find_column(header, channel)) return column;
+  for (std::size_t k = 0; k < header.columns.size(); ++k) {
+    const auto suffixed = split_unit_suffix(header.columns[k].name, dimension);
+    if (suffixed && suffixed->stem == channel) return k;
+  }
+  return std::nullopt;
+}
+
 std::string names_of(const LogHeader& header) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < std::min<std::size_t>(header.columns.size(), 20); ++k)
@@ -53,9 +65,12 @@ std::string names_of(const LogHeader& header) {
 
 // The column a channel is read from: the rig file's when it names one, else the channel's own name.
 std::optional<std::size_t> column_of(const LogHeader& header, const Rig& rig,
-                                     const std::string& channel) {
+                                     const std::string& channel,
+                                     const std::optional<Dimension>& dimension = {}) {
   const auto mapped = rig.columns.find(channel);
-  if (mapped == rig.columns.end()) return find_column(header, channel);
+  if (mapped == rig.columns.end())
+    return dimension ? find_channel_column(header, channel, *dimension)
+                     : find_column(header, channel);
   if (const auto column = find_column(header, mapped->second.column)) return column;
   std::vector<std::string_view> known;
   for (const ColumnHeader& c : header.columns) known.push_back(c.name);
@@ -97,41 +112,97 @@ void require_clear_speed(const std::string& unit, const Place& place, const std:
                     "write rev/s, rpm or rad/s in the header or in the rig file");
 }
 
-Slot make_slot(const LogHeader& header, const Rig& rig, const ChannelInfo& info, int joint,
-               std::size_t column, const std::string& channel) {
-  Slot slot{info.channel, joint, column, 1, 0};
-  const ColumnHeader& cell = header.columns[column];
+/// A current is no torque until the motor's constant makes it one.
+void require_torque(const ColumnHeader& cell, const ColumnMapping& mapping,
+                    const std::string& channel) {
+  if (mapping.scale != 1 || !is_current_name(cell.name)) return;
+  throw input_error(cell.place,
+                    fmt::format("column {} is a current by its name, {} a torque",
+                                cablefit::quoted(cell.name), channel),
+                    fmt::format("give the torque constant: \"{}\": {{\"column\": \"{}\", "
+                                "\"scale\": 0.083, \"unit\": \"N m\"}} in the rig file's columns",
+                                channel, cell.name));
+}
+
+ColumnMapping mapping_of(const Rig& rig, const std::string& channel) {
   const auto mapped = rig.columns.find(channel);
-  const ColumnMapping mapping = mapped == rig.columns.end() ? ColumnMapping{} : mapped->second;
-  const std::string& unit_text = mapping.unit.empty() ? cell.unit : mapping.unit;
+  return mapped == rig.columns.end() ? ColumnMapping{} : mapped->second;
+}
+
+/// The unit that a column is in: of the rig file, else of the header, else by the column's name,
+/// which is told. Empty: none is given.
+std::string unit_of(LogPlan& plan, const ColumnHeader& cell, const ColumnMapping& mapping,
+                    const Dimension& dimension) {
+  if (!mapping.unit.empty()) return mapping.unit;
+  if (!cell.unit.empty()) return cell.unit;
+  const auto suffixed = split_unit_suffix(cell.name, dimension);
+  if (!suffixed) return {};
+  plan.decisions.push_back({"unit of column " + cablefit::quoted(cell.name),
+                            std::string(suffixed->unit), "by the end of its name"});
+  return std::string(suffixed->unit);
+}
+
+void require_no_dates(const ColumnHeader& cell) {
+  if (!cell.is_date) return;
+  throw input_error(cell.place,
+                    "column " + cablefit::quoted(cell.name) + " holds dates, not numbers",
+                    "name another column for it in the rig file");
+}
+
+Slot make_slot(LogPlan& plan, const ChannelInfo& info, int joint, std::size_t column,
+               const std::string& channel) {
+  Slot slot{info.channel, joint, column, 1, 0};
+  const ColumnHeader& cell = plan.header.columns[column];
+  require_no_dates(cell);
+  const ColumnMapping mapping = mapping_of(plan.rig, channel);
+  const Dimension& dimension = plan.rig.linear_motion ? info.linear : info.rotary;
+  const std::string unit = unit_of(plan, cell, mapping, dimension);
   double unit_scale = 1;
-  if (info.channel == Channel::w) require_clear_speed(unit_text, cell.place, cell.name);
-  if (!unit_text.empty())
-    unit_scale = checked_unit(unit_text, cell.place, rig.linear_motion ? info.linear : info.rotary,
-                              "column " + cablefit::quoted(cell.name), info.quantity)
+  if (info.channel == Channel::w) require_clear_speed(unit, cell.place, cell.name);
+  if (unit.empty() && (dimension == kTorque || dimension == kForce))
+    require_torque(cell, mapping, channel);
+  if (!unit.empty())
+    unit_scale = checked_unit(unit, cell.place, dimension, "column " + cablefit::quoted(cell.name),
+                              info.quantity)
                      .scale;
   slot.factor = mapping.scale * unit_scale;
   slot.shift = mapping.shift * unit_scale;
+  slot.has_unit = !unit.empty();
   return slot;
 }
 
+/// The rate of rows that a user, the rig file or the log gives; 0: none of them.
+double given_rate(const LogPlan& plan) {
+  if (plan.reading.rate > 0) return plan.reading.rate;
+  if (plan.rig.sample_rate > 0) return plan.rig.sample_rate;
+  return plan.header.sample_rate.value_or(0);
+}
+
 void resolve_time(LogPlan& plan) {
-  plan.time_column = column_of(plan.header, plan.rig, "t");
+  plan.time_column = column_of(plan.header, plan.rig, "t", kTime);
+  plan.sample_rate = given_rate(plan);
+  // A rate that somebody gives for this log stands for its time column too.
+  const bool replaces = plan.reading.rate > 0 || plan.rig.sample_rate > 0;
+  if (replaces && plan.time_column) {
+    plan.decisions.push_back(
+        {"clock", fmt::format("{:g} Hz", plan.sample_rate), "given; column 't' is not read"});
+    plan.time_column.reset();
+  }
   if (!plan.time_column) {
-    if (plan.header.sample_rate) return;
+    if (plan.sample_rate > 0) return;
     throw input_error(
         {plan.path, 1, 0}, "no column 't' and no sample rate",
-        fmt::format("name the time column 't' or map it in the rig file; columns are {}",
+        fmt::format("name the time column 't' or map it in the rig file, or give the rate by "
+                    "--rate HZ or \"sample_rate\" in the rig file; columns are {}",
                     names_of(plan.header)));
   }
   const ColumnHeader& cell = plan.header.columns[*plan.time_column];
-  const auto mapped = plan.rig.columns.find("t");
-  const std::string& unit = mapped != plan.rig.columns.end() && !mapped->second.unit.empty()
-                                ? mapped->second.unit
-                                : cell.unit;
+  const ColumnMapping mapping = mapping_of(plan.rig, "t");
+  if (cell.is_date) return;
+  const std::string unit = unit_of(plan, cell, mapping, kTime);
   if (!unit.empty())
     plan.time_factor = checked_unit(unit, cell.place, kTime, "column 't'", "a time").scale;
-  if (mapped != plan.rig.columns.end()) plan.time_factor *= mapped->second.scale;
+  plan.time_factor *= mapping.scale;
 }
 
 // A rigid drive has one position, whatever the log calls it, and a speed tells it but for its zero.
@@ -194,18 +265,20 @@ LogPlan plan_log(const std::string& path, const Rig& rig, const Reading& reading
   plan.rig = rig;
   plan.reading = reading;
   plan.stamp = stamp_of(path);
-  plan.header = open_log(path)->header();
+  plan.header = open_log(path, reading.text())->header();
   resolve_time(plan);
   for (int joint = 0; joint < rig.n_joints(); ++joint)
     for (const ChannelInfo& info : kInfo) {
       const std::string indexed = fmt::format("{}{}", info.name, joint + 1);
       const bool plain_first = rig.n_joints() == 1;
       std::string channel = plain_first ? std::string(info.name) : indexed;
-      auto column = column_of(plan.header, rig, channel);
-      if (!column && plain_first) column = column_of(plan.header, rig, channel = indexed);
+      const Dimension& dimension = rig.linear_motion ? info.linear : info.rotary;
+      auto column = column_of(plan.header, rig, channel, dimension);
+      if (!column && plain_first)
+        column = column_of(plan.header, rig, channel = indexed, dimension);
       if (!column && info.channel == Channel::theta_ref)
         column = reference_column(plan.header, rig, joint);
-      if (column) plan.slots.push_back(make_slot(plan.header, rig, info, joint, *column, channel));
+      if (column) plan.slots.push_back(make_slot(plan, info, joint, *column, channel));
     }
   for (int joint = 0; joint < rig.n_joints(); ++joint) complete_theta(plan, joint);
   plan.preload_column = column_of(plan.header, rig, "preload");
@@ -217,6 +290,25 @@ LogPlan plan_log(const std::string& path, const Rig& rig, const Reading& reading
         fmt::format("rename columns or write a rig file that maps them; columns are {}",
                     names_of(plan.header)));
   return plan;
+}
+
+std::vector<std::size_t> LogPlan::numeric_columns() const {
+  std::vector<std::size_t> columns;
+  if (time_column) columns.push_back(*time_column);
+  for (const Slot& slot : slots) columns.push_back(slot.column);
+  return columns;
+}
+
+std::vector<std::size_t> LogPlan::text_columns() const {
+  std::vector<std::size_t> columns;
+  for (const auto& column : {preload_column, phase_column, run_column})
+    if (column) columns.push_back(*column);
+  return columns;
+}
+
+std::unique_ptr<MendedLog> open_planned(const LogPlan& plan, Sha256* digest) {
+  return std::make_unique<MendedLog>(open_log(plan.path, plan.reading.text(), digest),
+                                     plan.reading.mending, plan.time_column);
 }
 
 void require_unchanged(const LogPlan& plan) {

@@ -12,6 +12,7 @@
 #include "cablefit/base/input_file.hpp"
 #include "cablefit/log/log_reader.hpp"
 #include "cablefit/model/rig.hpp"
+#include "cablefit/samples/decision.hpp"
 #include "cablefit/samples/reading.hpp"
 
 namespace cablefit {
@@ -30,6 +31,7 @@ struct Slot {
   double factor = 1;
   double shift = 0;
   bool integrated = false;
+  bool has_unit = false;  ///< the rig file, the header or the column's name gives one
 };
 
 /// How one log is read. `slots` are the columns of every sample block, in this order.
@@ -42,14 +44,20 @@ struct LogPlan {
   std::vector<Slot> slots;
   std::optional<std::size_t> time_column;
   double time_factor = 1;
+  double sample_rate = 0;  ///< Hz, where there is no time column
   std::optional<std::size_t> preload_column, phase_column, run_column;
-  bool q_is_theta = false;  ///< the log's only position, q, is taken for a rigid drive's
+  bool q_is_theta = false;          ///< the log's only position, q, is taken for a rigid drive's
+  std::vector<Decision> decisions;  ///< what is read otherwise than it stands there
 
   /// Position of a channel among `slots`, or -1.
   int find(Channel channel, int joint = 0) const;
   bool has(Channel channel, int joint = 0) const { return find(channel, joint) >= 0; }
   bool has_for_all(Channel channel) const;                  ///< of every joint
   bool has_measured(Channel channel, int joint = 0) const;  ///< and not as an integral
+  /// To select in the reader: time first when there is a column of it, then the slots.
+  std::vector<std::size_t> numeric_columns() const;
+  /// The preload, phase and run columns, those that there are.
+  std::vector<std::size_t> text_columns() const;
 };
 
 /// Opens the log, reads its header and resolves every channel by the rig file or by name. Of one
@@ -57,6 +65,9 @@ struct LogPlan {
 /// Error(input) at the header cell for a unit of the wrong kind, for a mapped column that is not
 /// there, when there is neither t nor a sample rate, and when no channel is found at all.
 LogPlan plan_log(const std::string& path, const Rig& rig, const Reading& reading = {});
+
+/// A pass over the log as its plan wants it read. `digest` as of open_log().
+std::unique_ptr<MendedLog> open_planned(const LogPlan& plan, Sha256* digest = nullptr);
 
 /// A log is read several times. Throws Error(input) when its file was written to or replaced since
 /// it was planned: later passes rest on what earlier ones found.

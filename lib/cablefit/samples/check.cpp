@@ -223,6 +223,7 @@ CheckResult check_logs(std::span<const LogSurvey> logs, const SampleOptions& opt
                        log.plan.rig.linear_motion,
                        unused_columns(log.plan),
                        {}};
+    checked.decisions = log.plan.decisions;
     for (const PartSurvey& part : log.parts) {
       checked.parts.push_back(check_part(log, part, options));
     }

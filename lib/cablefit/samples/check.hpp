@@ -49,7 +49,8 @@ struct CheckedLog {
   bool linear_motion = false;
   std::vector<std::string> unused_columns;
   std::vector<CheckedPart> parts;
-  std::vector<Figure> figures = {};  ///< check_figures(), when somebody asked for them
+  std::vector<Decision> decisions = {};  ///< what is read otherwise than it stands there
+  std::vector<Figure> figures = {};      ///< check_figures(), when somebody asked for them
 
   /// Whether any part is good for anything.
   bool usable() const;

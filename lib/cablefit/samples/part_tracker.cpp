@@ -21,10 +21,8 @@ void check_phase(const std::string& phase, const LogPlan& plan, std::uint64_t li
 
 PartTracker::PartTracker(const LogPlan& plan, std::string default_preload)
     : plan_(plan),
-      default_preload_(default_preload.empty() ? "default" : std::move(default_preload)) {
-  for (const auto& column : {plan.preload_column, plan.phase_column, plan.run_column})
-    if (column) texts_.push_back(*column);
-}
+      default_preload_(default_preload.empty() ? "default" : std::move(default_preload)),
+      texts_(plan.text_columns()) {}
 
 std::size_t PartTracker::end_of_part(const LogChunk& chunk, std::size_t begin) {
   std::size_t end = chunk.n_rows;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/samples/decision.hpp"
 #include "cablefit/samples/row_stream.hpp"
 
 namespace cablefit {
@@ -20,11 +21,6 @@ struct SampleOptions {
   std::optional<double> rest_speed;  ///< rad/s; 0: keep all
   std::optional<TorqueHold> torque_hold;
   int threads = 1;
-};
-
-/// A choice as printed: "cutoff", "126 Hz", "2 f0, f0 = 63 Hz from the elastic fit".
-struct Decision {
-  std::string name, value, reason;
 };
 
 struct ChosenSettings {

@@ -49,6 +49,21 @@ void choose_filter_order(ChosenSettings& chosen, const SampleOptions& options) {
          options.filter_order ? kByOption : "Butterworth, forward and backward");
 }
 
+/// What the logs are read as, once for all that are read alike.
+void tell_reading(std::span<const LogSurvey> logs, const PartFilter& wanted,
+                  ChosenSettings& chosen) {
+  for (const LogSurvey& log : logs) {
+    if (std::none_of(log.parts.begin(), log.parts.end(), wanted)) continue;
+    for (const Decision& decision : log.plan.decisions) {
+      const auto same = [&](const Decision& other) {
+        return other.name == decision.name && other.value == decision.value;
+      };
+      if (std::none_of(chosen.decisions.begin(), chosen.decisions.end(), same))
+        chosen.decisions.push_back(decision);
+    }
+  }
+}
+
 bool are_one(const RateRange& rates) { return rates.highest <= kRateSpread * rates.lowest; }
 
 }  // namespace
@@ -74,6 +89,7 @@ ChosenSettings begin_settings(std::span<const LogSurvey> logs, const PartFilter&
         "the logs have rates of {:.4g} to {:.4g} Hz: the slowest bounds the filter for all",
         rates.lowest, rates.highest));
   check_options(logs, wanted, options, rates.lowest);
+  tell_reading(logs, wanted, chosen);
   choose_filter_order(chosen, options);
   return chosen;
 }

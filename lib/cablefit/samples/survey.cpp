@@ -15,6 +15,8 @@ namespace {
 
 constexpr std::size_t kMinRows = 8;
 constexpr std::size_t kMaxParts = 1000;  // each costs memory here, and passes over the log later
+constexpr std::size_t kFewSteps = 20;    // too few to call a column no clock
+constexpr double kMostBack = 0.2;        // share of the steps of a clock with some faults
 constexpr double kAbsurd = 1e30;         // in SI; nothing a joint does comes near
 // A link whose position varies less than this share of the motor's is blocked.
 constexpr double kStillShare = 0.02;
@@ -87,13 +89,6 @@ class LogScan {
   LogScan(const LogPlan& plan, const std::string& preload)
       : plan_(plan), tracker_(plan, preload), samples_(std::make_shared<SampleStore>()) {}
 
-  /// Columns to select in the reader: time first when there is one, then the slots.
-  std::vector<std::size_t> numeric_columns() const {
-    std::vector<std::size_t> columns;
-    if (plan_.time_column) columns.push_back(*plan_.time_column);
-    for (const Slot& slot : plan_.slots) columns.push_back(slot.column);
-    return columns;
-  }
   const std::vector<std::size_t>& text_columns() const { return tracker_.text_columns(); }
 
   void add(const LogReader& reader, const LogChunk& chunk) {
@@ -127,9 +122,10 @@ class LogScan {
     if (plan_.time_column) {
       rows_.col(0) = column(0) * plan_.time_factor;
     } else {
-      for (Eigen::Index i = 0; i < n; ++i)
-        rows_(i, 0) = static_cast<double>(chunk.first_row + static_cast<std::size_t>(i)) /
-                      *plan_.header.sample_rate;
+      for (std::size_t i = 0; i < chunk.n_rows; ++i)
+        rows_(static_cast<Eigen::Index>(i), 0) =
+            static_cast<double>(chunk.first_row + (chunk.offsets.empty() ? i : chunk.offsets[i])) /
+            plan_.sample_rate;
     }
     for (std::size_t k = 0; k < plan_.slots.size(); ++k) {
       const Slot& slot = plan_.slots[k];
@@ -159,6 +155,27 @@ class LogScan {
         throw absurd_value(plan_, slot, rows_(i, k), chunk.lines[static_cast<std::size_t>(i)]);
   }
 
+  /// Whether the time has jumped at row `i` of [begin, end). Time that often runs back is another
+  /// column's, whatever row shows it first.
+  bool add_time(PartScan& scan, std::size_t i, bool continues, std::size_t begin, std::size_t end,
+                const LogChunk& chunk) const {
+    const double* const t = rows_.col(0).data();
+    try {
+      return scan.clock.add(t[i], continues, plan_.path, chunk.lines[i]);
+    } catch (const Error&) {
+      std::size_t n_back = 0;
+      for (std::size_t k = begin + 1; k < end; ++k) n_back += t[k] < t[k - 1];
+      const double share = static_cast<double>(n_back) /
+                           static_cast<double>(std::max<std::size_t>(1, end - 1 - begin));
+      if (share < kMostBack || end - begin < kFewSteps || !plan_.time_column) throw;
+      throw input_error(
+          {plan_.path, chunk.lines[i], 0},
+          fmt::format("column {} is no clock: it runs back in {:.0f} % of its steps",
+                      cablefit::quoted(plan_.header.columns[*plan_.time_column].name), 100 * share),
+          "name the time column in the rig file's columns, as \"t\": \"stamp\"");
+    }
+  }
+
   void add_part(const PartTracker::Key& key, const LogChunk& chunk, std::size_t begin,
                 std::size_t end) {
     const std::size_t before = current_;
@@ -172,7 +189,7 @@ class LogScan {
     for (std::size_t i = begin; i < end; ++i) {
       if (continues || i > begin) i += scan.clock.add_usual({t + i, t + end});
       if (i == end) break;
-      const bool jumped = scan.clock.add(t[i], continues || i > begin, plan_.path, chunk.lines[i]);
+      const bool jumped = add_time(scan, i, continues || i > begin, begin, end, chunk);
       if (!jumped) continue;
       look_at(scan, smooth, i);
       for (ChannelScan& channel : scan.channels) channel.restart();
@@ -252,11 +269,30 @@ ChannelRange seen_range(std::span<const LogSurvey> logs,
 
 namespace {
 
+std::string counted(std::size_t n, std::string_view what) {
+  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
+/// What was left out or filled as the user asked for.
+std::vector<std::string> mending_warnings(const LogPlan& plan, const MendedCounts& counts) {
+  std::vector<std::string> warnings;
+  if (counts.rows_missing > 0)
+    warnings.push_back(fmt::format("{}: {} with missing cells left out", plan.path,
+                                   counted(counts.rows_missing, "row")));
+  if (counts.cells_held > 0)
+    warnings.push_back(fmt::format("{}: {} filled with the value before", plan.path,
+                                   counted(counts.cells_held, "missing cell")));
+  if (counts.rows_repeated > 0)
+    warnings.push_back(fmt::format("{}: {} with the time of the row before left out", plan.path,
+                                   counted(counts.rows_repeated, "row")));
+  return warnings;
+}
+
 LogSurvey survey_once(const LogPlan& plan, const std::string& preload, int threads) {
   Sha256 digest;
-  const auto reader = open_log(plan.path, &digest);
+  const auto reader = open_planned(plan, &digest);
   LogScan scan(plan, preload);
-  reader->select(scan.numeric_columns(), scan.text_columns());
+  reader->select(plan.numeric_columns(), scan.text_columns());
   LogChunk chunk;
   using Piece = std::unique_ptr<LogPiece>;
   ordered_pipeline<Piece>(
@@ -272,7 +308,12 @@ LogSurvey survey_once(const LogPlan& plan, const std::string& preload, int threa
         reader->finish(*piece, chunk);
         scan.add(*reader, chunk);
       });
-  return scan.result(digest.hex());
+  LogSurvey survey = scan.result(digest.hex());
+  if (survey.n_rows == 0)
+    throw input_error({plan.path}, "every row has a missing cell",
+                      "choose other columns, or use --missing hold");
+  survey.warnings = mending_warnings(plan, reader->counts());
+  return survey;
 }
 
 }  // namespace

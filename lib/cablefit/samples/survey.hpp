@@ -34,7 +34,8 @@ struct LogSurvey {
   std::size_t n_rows = 0;
   std::vector<PartSurvey> parts;
   std::shared_ptr<const SampleStore> samples;  ///< what all later passes read
-  std::vector<std::string> warnings = {};      ///< of weigh_logs(), the first to be told
+  /// Of rows left out or filled and of weigh_logs(): the first to be told.
+  std::vector<std::string> warnings = {};
 };
 
 /// Reads the whole log, its text for the only time, on up to `threads` threads. Throws Error(input)

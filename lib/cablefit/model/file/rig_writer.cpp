@@ -110,6 +110,7 @@ Json rig_json(const Rig& rig) {
   if (!rig.name.empty()) json["name"] = rig.name;
   if (!rig.preload.empty()) json["preload"] = rig.preload;
   add_map(&json, "columns", rig.columns, column_json);
+  if (rig.sample_rate > 0) json["sample_rate"] = rig.sample_rate;
   if (rig.linear_motion) json["motion"] = "linear";
   if (rig.torque_hold != TorqueHold::automatic) json["torque_hold"] = name_of(rig.torque_hold);
   if (rig.torque_period > 0) json["torque_period"] = rig.torque_period;

@@ -46,12 +46,8 @@ Eigen::MatrixXd stiff_motors(const Rig& rig) {
   return qr.solve(link);
 }
 
-/// Whether the rig file or the log's header names the unit.
 bool has_unit(const LogPlan& plan, Channel channel, int joint) {
-  const auto mapped = plan.rig.columns.find(weighed_name(plan, channel, joint));
-  if (mapped != plan.rig.columns.end() && !mapped->second.unit.empty()) return true;
-  const auto slot = static_cast<std::size_t>(plan.find(channel, joint));
-  return !plan.header.columns[plan.slots[slot].column].unit.empty();
+  return plan.slots[static_cast<std::size_t>(plan.find(channel, joint))].has_unit;
 }
 
 Finding ratio_finding(const LogPlan& plan, const CoarsePart& part, int joint, double slope) {

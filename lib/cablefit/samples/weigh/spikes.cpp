@@ -70,11 +70,11 @@ Spike largest_spike(const LogSurvey& log, std::size_t part, Eigen::Index column)
 }
 
 std::uint64_t line_of_row(const LogPlan& plan, std::size_t row) {
-  const auto reader = open_log(plan.path);
-  reader->select({}, {});
+  const auto reader = open_planned(plan);
+  reader->select(plan.numeric_columns(), plan.text_columns());
   LogChunk chunk;
-  while (reader->next(chunk))
-    if (row < chunk.first_row + chunk.n_rows) return chunk.lines[row - chunk.first_row];
+  for (std::size_t n_before = 0; reader->next(chunk); n_before += chunk.n_rows)
+    if (row < n_before + chunk.n_rows) return chunk.lines[row - n_before];
   return 0;
 }
 
