@@ -341,15 +341,15 @@ int run_dynamic(const Arguments& arguments) {
     require_same_rig(*earlier, moving);
     stage1 = *std::move(earlier);
   } else if (takes_stage1) {
-    stage1 = stage1_from_logs(command, logs);
+    stage1 = or_why(logs, [&] { return stage1_from_logs(command, logs); });
     if (earlier) stage1.decision.reason = "logs given win over " + earlier->inputs.front().path;
   }
   for (const InputFile& input : stage1.inputs)
     if (!stage1.is_new) options.more_inputs.push_back(input.path);
-  DynamicResult result = [&] {
+  DynamicResult result = or_why(logs, [&] {
     const Progress progress(options.quiet, "fitting stage 2");
     return fit_dynamic(moving.empty() ? logs : moving, stage1.result, command.fit);
-  }();
+  });
   if (command.prove > 0) prove(command, moving, blocked_of(logs), stage1, result);
   if (takes_stage1) add_stage1(stage1, result);
   if (own_logs) add_own_logs(*own_logs, result);
