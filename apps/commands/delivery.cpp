@@ -58,6 +58,12 @@ std::vector<std::string> inputs_of(const CommonOptions& options) {
 
 }  // namespace
 
+void complain_of(std::span<const LogSurvey> logs) {
+  for (const LogSurvey& log : logs)
+    for (const std::string& warning : log.warnings)
+      complain(fmt::format("warning: {}\n", printable(warning)));
+}
+
 void refuse_collisions(const CommonOptions& options, const std::vector<ResultFile>& results) {
   const std::vector<std::string> paths = targets(options, results);
   const auto same = [](const std::string& a, const std::string& b) {

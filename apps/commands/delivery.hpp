@@ -1,10 +1,13 @@
 // A result on its way out: screen, result files and reports.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
+#include "cablefit/base/error.hpp"
 #include "cablefit/report/document.hpp"
+#include "cablefit/samples/survey.hpp"
 #include "commands/common_options.hpp"
 
 namespace cablefit::apps {
@@ -18,6 +21,20 @@ struct ResultFile {
 /// A result never replaces what it was made from, nor another result of the same run: throws
 /// Error(usage). deliver() sees to it too, but after the work is done.
 void refuse_collisions(const CommonOptions& options, const std::vector<ResultFile>& results);
+
+/// What is odd about logs, to stderr.
+void complain_of(std::span<const LogSurvey> logs);
+
+/// What `fit` returns. Where it fails, what is odd about its logs is told first: it may be why.
+template <typename Fit>
+auto or_why(std::span<const LogSurvey> logs, const Fit& fit) {
+  try {
+    return fit();
+  } catch (const Error&) {
+    complain_of(logs);
+    throw;
+  }
+}
 
 /// Prints the document (warnings to stderr under --quiet or --json -), then writes the result files
 /// below --out, --json (the first result) and every --report. Throws Error(output) listing all that

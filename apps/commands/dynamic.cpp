@@ -179,8 +179,14 @@ void require_same_rig(const Stage1& stage1, const std::vector<LogSurvey>& moving
       }
 }
 
+/// Logs that take the place of those not given.
+struct OwnLogs {
+  Decision decision;
+  std::vector<std::string> warnings;
+};
+
 /// Without logs and campaign: the logs with moving parts that the result of stage 1 was made from.
-std::optional<Decision> take_stage1_logs(DynamicCommand& command) {
+std::optional<OwnLogs> take_stage1_logs(DynamicCommand& command) {
   CommonOptions& options = command.common;
   std::error_code ignored;
   const std::string result = default_elastic_file(options);
@@ -188,10 +194,19 @@ std::optional<Decision> take_stage1_logs(DynamicCommand& command) {
       !std::filesystem::exists(result, ignored))
     return std::nullopt;
   const Stage1Logs logs = own_logs(result);
+  if (logs.paths.empty() && !logs.gone.empty())
+    throw input_error({result, 0, 0},
+                      fmt::format("no log given, and those of this result are missing: {}",
+                                  fmt::join(logs.gone, ", ")),
+                      "name one or more log files");
   if (logs.paths.empty()) return std::nullopt;
   options.logs = logs.paths;
-  return Decision{"logs", fmt::format("{}", fmt::join(logs.paths, ", ")),
-                  fmt::format("none was given: those of {}", result)};
+  OwnLogs own{{"logs", fmt::format("{}", fmt::join(logs.paths, ", ")),
+               fmt::format("none was given: those of {}", result)},
+              {}};
+  for (const std::string& gone : logs.gone)
+    own.warnings.push_back(fmt::format("{}: {}; it is left out", result, gone));
+  return own;
 }
 
 void add_stage1(const Stage1& stage1, DynamicResult& result) {
@@ -199,6 +214,12 @@ void add_stage1(const Stage1& stage1, DynamicResult& result) {
   for (DynamicPreload& preload : result.preloads) {
     preload.decisions.insert(preload.decisions.begin(), stage1.decision);
   }
+}
+
+void add_own_logs(const OwnLogs& own, DynamicResult& result) {
+  for (DynamicPreload& preload : result.preloads)
+    preload.decisions.insert(preload.decisions.begin(), own.decision);
+  result.warnings.insert(result.warnings.begin(), own.warnings.begin(), own.warnings.end());
 }
 
 void require_unseen(const DynamicCommand& command) {
@@ -296,7 +317,7 @@ int run_dynamic(const Arguments& arguments) {
   if (!parse(app, arguments)) return 0;
   require_unseen(command);
   std::optional<Stage1> earlier = earlier_stage1(command);
-  const std::optional<Decision> own_logs = take_stage1_logs(command);
+  const std::optional<OwnLogs> own_logs = take_stage1_logs(command);
   const std::vector<LogSurvey> logs =
       options.logs.empty() ? campaign_logs(options) : read_logs(options);
   command.fit.validation = read_unseen(command);
@@ -320,20 +341,18 @@ int run_dynamic(const Arguments& arguments) {
     require_same_rig(*earlier, moving);
     stage1 = *std::move(earlier);
   } else if (takes_stage1) {
-    stage1 = stage1_from_logs(command, logs);
+    stage1 = or_why(logs, [&] { return stage1_from_logs(command, logs); });
     if (earlier) stage1.decision.reason = "logs given win over " + earlier->inputs.front().path;
   }
   for (const InputFile& input : stage1.inputs)
     if (!stage1.is_new) options.more_inputs.push_back(input.path);
-  DynamicResult result = [&] {
+  DynamicResult result = or_why(logs, [&] {
     const Progress progress(options.quiet, "fitting stage 2");
     return fit_dynamic(moving.empty() ? logs : moving, stage1.result, command.fit);
-  }();
+  });
   if (command.prove > 0) prove(command, moving, blocked_of(logs), stage1, result);
   if (takes_stage1) add_stage1(stage1, result);
-  if (own_logs)
-    for (DynamicPreload& preload : result.preloads)
-      preload.decisions.insert(preload.decisions.begin(), *own_logs);
+  if (own_logs) add_own_logs(*own_logs, result);
 
   std::vector<ResultFile> files = {{"dynamic.json", dynamic_json(result)}};
   if (stage1.is_new) files.push_back({"elastic.json", elastic_json(stage1.result)});

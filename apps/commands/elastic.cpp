@@ -120,10 +120,10 @@ int run_elastic(const Arguments& arguments) {
     throw usage_error("--prove and a search of l_o cannot be combined",
                       "the intervals of l_o are profile likelihoods; prove a fit with l_o given");
   // Without any blocked log the fit says what to do, for the logs that were given.
-  ElasticResult result = [&] {
+  ElasticResult result = or_why(logs, [&] {
     const Progress progress(options.quiet, "fitting stage 1");
     return fit_elastic_stage(blocked.empty() ? logs : blocked, elastic, elongations);
-  }();
+  });
   if (n_prove > 0) prove(options, blocked, elastic, n_prove, result);
   deliver(options, elastic_document(result), {{"elastic.json", elastic_json(result)}});
   return 0;

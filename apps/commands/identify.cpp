@@ -62,10 +62,10 @@ int run_identify(const Arguments& arguments) {
   fit.preload = options.preload;
   fit.honest_sd = options.honest_sd;
   fit.figures = wants_figures(options);
-  const IdentifyResult result = [&] {
+  const IdentifyResult result = or_why(logs, [&] {
     const Progress progress(options.quiet, "identifying");
     return identify(logs, fit);
-  }();
+  });
   std::vector<ResultFile> files = {{"identify.json", identify_json(result)}};
   add_models(result, files);
   if (result.trace) files.push_back({"identify_trace.csv", trace_csv(*result.trace)});

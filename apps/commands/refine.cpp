@@ -56,6 +56,8 @@ struct RefineInput {
   std::string choice;
   RefineLogs logs;
   std::vector<Decision> decisions;
+  std::vector<std::string> warnings;
+  std::vector<std::string> gone;  ///< own logs of the models: "a.csv is gone"
 };
 
 void add_file_options(CLI::App& app, RefineCommand& command) {
@@ -208,12 +210,15 @@ LogSurvey read_log_for(const std::string& path, const CommonOptions& options,
   return survey_for_simulation(path, options.rig, model, options.reading);
 }
 
-bool has_blocked(const std::vector<LogSurvey>& logs) {
-  return std::any_of(logs.begin(), logs.end(), [](const LogSurvey& log) {
+bool have_phase(const std::vector<LogSurvey>& logs, Phase phase) {
+  return std::any_of(logs.begin(), logs.end(), [phase](const LogSurvey& log) {
     return std::any_of(log.parts.begin(), log.parts.end(),
-                       [](const PartSurvey& part) { return part.phase == Phase::blocked; });
+                       [phase](const PartSurvey& part) { return part.phase == phase; });
   });
 }
+
+bool has_blocked(const std::vector<LogSurvey>& logs) { return have_phase(logs, Phase::blocked); }
+bool has_moving(const std::vector<LogSurvey>& logs) { return have_phase(logs, Phase::moving); }
 
 /// Blocked, and of a preload that there is a model of.
 bool is_wanted(const LogSurvey& log, const std::vector<Model>& models) {
@@ -229,6 +234,15 @@ bool is_given(const std::string& path, const CommonOptions& common) {
   return std::any_of(common.logs.begin(), common.logs.end(), [&](const std::string& given) {
     return std::filesystem::equivalent(given, path, ignored);
   });
+}
+
+/// What a result was made from and cannot be used again; told once.
+void add_gone(const Stage1Logs& logs, RefineInput& input) {
+  for (const std::string& gone : logs.gone) {
+    std::string warning = fmt::format("{}: {}; it is left out", logs.source, gone);
+    if (std::find(input.warnings.begin(), input.warnings.end(), warning) == input.warnings.end())
+      input.warnings.push_back(std::move(warning));
+  }
 }
 
 /// Blocked logs of stage 1 say what the cables do: they are used again unless others are given.
@@ -248,9 +262,16 @@ void add_stage1_logs(RefineCommand& command, RefineInput& input) {
     if (!used.empty())
       input.decisions.push_back(
           {"blocked logs", used, "of stage 1, by " + logs.source + "; --blocked gives others"});
-    for (const std::string& gone : logs.gone)
-      input.decisions.push_back({"blocked logs", "not all of stage 1's", gone});
+    add_gone(logs, input);
   }
+}
+
+/// Throws Error(input): the result's own logs are not there to be fitted again.
+[[noreturn]] void refuse_without_logs(const std::string& result, const std::string& which,
+                                      const std::vector<std::string>& gone) {
+  throw input_error({result, 0, 0},
+                    fmt::format("no {} left of this result: {}", which, fmt::join(gone, ", ")),
+                    "put back the logs, or name others");
 }
 
 /// The logs that a result was fitted to, where they are still the same.
@@ -263,9 +284,18 @@ void take_own_logs(RefineCommand& command, RefineInput& input) {
     if (!logs.paths.empty())
       input.decisions.push_back(
           {"logs", fmt::format("{}", fmt::join(logs.paths, ", ")), "those of " + logs.source});
-    for (const std::string& gone : logs.gone)
-      input.decisions.push_back({"logs", "not all of " + model, gone});
+    else if (!logs.gone.empty())
+      refuse_without_logs(model, "log", logs.gone);
+    add_gone(logs, input);
+    input.gone.insert(input.gone.end(), logs.gone.begin(), logs.gone.end());
   }
+}
+
+/// A result of moving logs is not judged by the blocked ones alone because the others are gone.
+void require_moving(const RefineCommand& command, const RefineInput& input) {
+  if (input.gone.empty() || has_moving(input.logs.train)) return;
+  for (const std::string& model : command.models)
+    if (!is_elastic_result(model)) refuse_without_logs(model, "moving log", input.gone);
 }
 
 /// What the models lack, or all of them.
@@ -310,6 +340,7 @@ RefineInput read_input(RefineCommand& command) {
   read(command.test, input.logs.test);
   read(command.blocked, input.logs.blocked);
   problems.throw_if_any();
+  require_moving(command, input);
   weigh_input(input.logs);
   add_stage1_logs(command, input);
   if (input.logs.train.empty() && input.logs.blocked.empty()) throw no_log();
@@ -335,6 +366,7 @@ RefineResult run(RefineCommand& command) {
     display.rename(fmt::format("refining: {} {:.0f} %", what, 100 * share));
   };
   RefineResult result = refine(input.models, input.logs, command.refine);
+  result.warnings.insert(result.warnings.begin(), input.warnings.begin(), input.warnings.end());
   result.model_path = fmt::format("{}", fmt::join(command.models, ", "));
   result.model_choice = input.choice;
   result.decisions.insert(result.decisions.begin(), input.decisions.begin(), input.decisions.end());

@@ -4,6 +4,7 @@
 
 #include "cablefit/base/digest.hpp"
 #include "cablefit/base/json_document.hpp"
+#include "cablefit/campaign/recorded_estimates.hpp"
 
 namespace cablefit::apps {
 namespace {
@@ -15,12 +16,14 @@ std::string schema_of(const JsonNode& root) {
   return schema != nullptr && schema->is_string() ? schema->text() : "";
 }
 
-/// Empty: it is at neither place.
+/// From the current folder, from that of the result, or from the one above, where the result was
+/// made: OUT is a folder in it. Empty: at none of them.
 std::string locate(const std::string& named, const std::string& inside) {
   std::error_code ignored;
-  if (fs::exists(named, ignored)) return named;
-  const fs::path beside = fs::path(inside).parent_path() / named;
-  return fs::exists(beside, ignored) ? beside.string() : "";
+  const fs::path folder = fs::path(inside).parent_path();
+  for (const fs::path& path : {fs::path(named), folder / named, folder / ".." / named})
+    if (fs::exists(path, ignored)) return path.lexically_normal().string();
+  return "";
 }
 
 /// The input where it is still what it was; else why it is not.
@@ -28,19 +31,21 @@ std::string same_file(const JsonNode& input, const std::string& inside, std::str
   const std::string& named = input.at("path").text();
   const std::string path = locate(named, inside);
   if (path.empty()) {
-    why = named + " is not there";
+    why = named + " is gone";
     return "";
   }
   if (sha256_of_file(path) == input.at("sha256").text()) return path;
-  why = path + " has changed since";
+  why = path + " has changed since then";
   return "";
 }
 
 void take_inputs(const JsonNode& root, const std::string& path, Stage1Logs& logs) {
   logs.source = path;
+  const std::set<std::string> judged = validation_logs(root);
   for (const JsonNode& input : root.at("inputs").items) {
     const std::string& name = input.at("path").text();
     if (fs::path(name).extension() == ".json" && input.at("rows").number() == 0) continue;
+    if (judged.contains(name)) continue;
     std::string why;
     std::string found = same_file(input, path, why);
     if (found.empty())
@@ -64,7 +69,9 @@ Stage1Logs stage1_logs(const std::string& result_path) {
     std::string why;
     const std::string path = same_file(input, result_path, why);
     if (path.empty()) {
-      if (fs::path(input.at("path").text()).extension() == ".json") logs.gone.push_back(why);
+      if (fs::path(input.at("path").text()).extension() != ".json") continue;
+      logs.source = result_path;
+      logs.gone.push_back("stage 1, " + why);
       continue;
     }
     const JsonNode elastic = read_json_file(path);

@@ -10,15 +10,16 @@ namespace cablefit::apps {
 struct Stage1Logs {
   std::vector<std::string> paths;  ///< of those that are there, with the bytes they had
   std::string source;              ///< the result that names them: "cablefit-out/elastic.json"
-  std::vector<std::string> gone;   ///< "low/blocked.csv is not there", "... has changed since"
+  std::vector<std::string> gone;   ///< "low/blocked.csv is gone", "... has changed since then"
 };
 
 /// Logs of stage 1 behind a result: those of the elastic.json that a result of `dynamic` names (if
 /// it is still the same), those of a result of `elastic` or `identify` itself. Model files name
-/// none. Paths are from the current folder, else from the folder of the result.
+/// none. Paths are from the current folder, else from the folder of the result or the one above.
 Stage1Logs stage1_logs(const std::string& result_path);
 
-/// All logs that a result was made from itself; a model file names none.
+/// All logs that a result was fitted to, without those that it was only validated on; a model file
+/// names none.
 Stage1Logs own_logs(const std::string& result_path);
 
 /// A model file or a result, by its "schema"; a log is neither. False for what cannot be read as

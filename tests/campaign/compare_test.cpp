@@ -111,6 +111,27 @@ TEST_CASE("results of the same logs differ by method, not by chance", "[compare]
   CHECK(r.warnings.size() == 1);
 }
 
+TEST_CASE("logs fitted in both results are named", "[compare]") {
+  RecordedResult a = result("a", {recorded_estimate("f_s", 10, 1)}),
+                 b = result("b", {recorded_estimate("f_s", 11, 1)});
+  a.inputs.push_back({"both.csv", "both", 10});
+  b.inputs = {{"copy/both.csv", "both", 10}};
+  CHECK(compare(a, b, {}).warnings ==
+        std::vector<std::string>{
+            "both results were fitted to both.csv (1 of 2 logs of a.json, the only log of b.json): "
+            "they differ less by chance than independent results, so fewer differences are found"});
+}
+
+TEST_CASE("a stage 1 of both results is no log", "[compare]") {
+  RecordedResult a = result("a", {recorded_estimate("f_s", 10, 1)}),
+                 b = result("b", {recorded_estimate("f_s", 11, 1)});
+  for (RecordedResult* r : {&a, &b}) r->inputs.push_back({"out/elastic.json", "stage 1", 0});
+  CHECK(compare(a, b, {}).warnings ==
+        std::vector<std::string>{
+            "both results use out/elastic.json: they differ less by chance than independent "
+            "results, so fewer differences are found"});
+}
+
 TEST_CASE("two preloads of one result are not the same logs", "[compare]") {
   RecordedResult both = result("a", {recorded_estimate("f_s", 10, 1)});
   both.sets.push_back(both.sets.front());

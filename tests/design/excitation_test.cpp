@@ -206,7 +206,7 @@ TEST_CASE("what cannot be planned is told", "[design]") {
   CHECK(
       message_of([&] { (void)plan_excitation(low_rig(), hurried, false); }) ==
       "0.1 s are too short for a motion of this drive; it can be moved at up to 18 Hz (a third of "
-      "its resonance, a fortieth of the rows): give --duration of at least 0.22");
+      "its free resonance at rest, a fortieth of the rows): give --duration of at least 0.22");
 }
 
 }  // namespace

@@ -107,6 +107,20 @@ TEST_CASE("time goes on from run to run of a log", "[refine]") {
   }
 }
 
+/// Ten rows, then nothing for a day: its clock says nothing of where the samples are.
+TEST_CASE("a third of a log that is mostly a gap is a third of its samples", "[refine]") {
+  HiddenLogs hidden = hidden_logs({});
+  const LogSurvey& whole = hidden.logs.train.front();
+  Eigen::MatrixXd rows = rows_of(whole);
+  rows.col(0).tail(rows.rows() - 10).array() += 86400;
+  std::vector<Stretch> train =
+      read_stretches(std::vector<LogSurvey>{log_of(whole, {rows})}, hidden.models, every_part);
+  const std::vector<Stretch> held = hold_out(train, 1.0 / 3, HoldOut::moving);
+  REQUIRE(held.size() == 1);
+  const auto n = static_cast<double>(held[0].recording.theta.size());
+  CHECK(static_cast<double>(held[0].rows_from) == Approx(2 * n / 3).margin(2));
+}
+
 /// The end of a log with a hole is the end of its time, not of each stretch.
 TEST_CASE("the held-out third of a log with a hole is its end", "[refine]") {
   HiddenLogs hidden = hidden_logs({});

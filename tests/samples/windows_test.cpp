@@ -151,6 +151,19 @@ TEST_CASE("nothing is differenced across a gap", "[samples]") {
   }
 }
 
+// Three rows 10 us apart, every 20 ms: at the rate of the bursts the holes hold 667 times the rows.
+TEST_CASE("holes between bursts of rows are not filled", "[samples]") {
+  Columns log = noisy_log(3000, 5006);
+  for (std::size_t i = 0; i < 3000; ++i)
+    log.columns[0].second[i] =
+        0.02 * static_cast<double>(i / 3) + 1e-5 * static_cast<double>(i % 3);
+  Bench bench;
+  const LogSurvey& survey = bench.add_text(log.csv());
+  const auto ignore = [](Window&&) { return true; };
+  const WindowCounts counts = for_each_window(survey, kAllParts, 0, 1, 0.025, ignore);
+  CHECK(counts.rows_out <= 5 * counts.rows_read);
+}
+
 TEST_CASE("short segments are left out and counted", "[samples]") {
   Columns log = noisy_log(3000, 5004);
   for (std::size_t i = 1000; i < 3000; ++i) log.columns[0].second[i] += 1;

@@ -73,11 +73,21 @@ ComparedParameter parameter_of(const EstimatePair& pair, const CompareOptions& o
   return p;
 }
 
-std::vector<std::string> hashes(const RecordedResult& result) {
-  std::vector<std::string> all;
-  for (const InputFile& input : result.inputs) all.push_back(input.sha256);
-  std::sort(all.begin(), all.end());
+/// A log, not an earlier result.
+bool is_log(const InputFile& input) { return input.rows > 0; }
+
+/// What was fitted, by content: the same log may be named by two paths.
+std::set<std::string> hashes(const RecordedResult& result) {
+  std::set<std::string> all;
+  for (const InputFile& input : result.inputs) all.insert(input.sha256);
   return all;
+}
+
+std::size_t n_logs(const RecordedResult& result) {
+  std::set<std::string> logs;
+  for (const InputFile& input : result.inputs)
+    if (is_log(input)) logs.insert(input.sha256);
+  return logs.size();
 }
 
 /// "estimator: iv, then wls"
@@ -105,12 +115,41 @@ void tell_settings(const std::vector<EstimatePair>& pairs, CompareResult& result
   tell_change("estimator", estimators[0], estimators[1], result.settings);
 }
 
-/// How many logs went into both.
-std::size_t n_shared(const RecordedResult& first, const RecordedResult& second) {
-  const std::vector<std::string> a = hashes(first), b = hashes(second);
+/// Paths of what was fitted in both: the logs, or the earlier results.
+std::vector<std::string> fitted_in_both(const RecordedResult& first, const RecordedResult& second,
+                                        bool logs) {
+  const std::set<std::string> there = hashes(second);
+  std::set<std::string> told;
   std::vector<std::string> both;
-  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
-  return both.size();
+  for (const InputFile& input : first.inputs)
+    if (is_log(input) == logs && there.contains(input.sha256) && told.insert(input.sha256).second)
+      both.push_back(input.path);
+  return both;
+}
+
+/// "the only log of a.json", "all 2 logs of a.json", "1 of 2 logs of a.json".
+std::string share_of_logs(std::size_t n, const RecordedResult& result) {
+  const std::size_t all = n_logs(result);
+  if (all == 1) return "the only log of " + result.path;
+  if (n == all) return fmt::format("all {} logs of {}", all, result.path);
+  return fmt::format("{} of {} logs of {}", n, all, result.path);
+}
+
+/// What both results rest on: it makes them more alike than independent results are.
+std::string shared_warning(const RecordedResult& first, const RecordedResult& second) {
+  const std::vector<std::string> logs = fitted_in_both(first, second, true);
+  const std::vector<std::string> stage1 = fitted_in_both(first, second, false);
+  std::string shared;
+  if (!logs.empty())
+    shared = fmt::format("both results were fitted to {} ({}, {})", fmt::join(logs, ", "),
+                         share_of_logs(logs.size(), first), share_of_logs(logs.size(), second));
+  if (!stage1.empty())
+    shared += fmt::format("{}{}", shared.empty() ? "both results use " : " and use ",
+                          fmt::join(stage1, ", "));
+  if (shared.empty()) return {};
+  return shared +
+         ": they differ less by chance than independent results, so fewer differences "
+         "are found";
 }
 
 /// Two preloads of one result share its list of logs, not their logs.
@@ -190,18 +229,15 @@ CompareResult compare(RecordedResult first, RecordedResult second, const Compare
   result.first = first;
   result.second = second;
   tell_settings(pairs, result);
-  const std::size_t shared = are_same_preloads(pairs) ? n_shared(first, second) : 0;
-  const bool same_logs = shared > 0 && hashes(first) == hashes(second);
-  if (same_logs) {
-    result.warnings.emplace_back(
-        "both results are of the same logs: what differs is how they were made, and is judged by "
-        "the margin alone");
-  } else if (shared > 0) {
-    result.warnings.push_back(
-        fmt::format("{} of {} logs went into both results: these differ less by chance than "
-                    "results of different logs, so fewer differences are found",
-                    shared, std::min(first.inputs.size(), second.inputs.size())));
-  }
+  const bool same_preloads = are_same_preloads(pairs);
+  const bool same_logs = same_preloads && !first.inputs.empty() && hashes(first) == hashes(second);
+  if (same_logs)
+    result.warnings.push_back(fmt::format(
+        "both results are of the same logs ({}): what differs is how they were made, and is judged "
+        "by the margin alone",
+        fmt::join(fitted_in_both(first, second, true), ", ")));
+  else if (std::string shared = shared_warning(first, second); same_preloads && !shared.empty())
+    result.warnings.push_back(std::move(shared));
   for (const EstimatePair& pair : pairs) {
     result.parameters.push_back(parameter_of(pair, options));
     judge_difference(result.parameters.back(), dof_of(*pair.first), dof_of(*pair.second),

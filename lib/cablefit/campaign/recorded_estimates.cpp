@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 #include <string_view>
 
 #include "cablefit/base/json_document.hpp"
@@ -137,18 +136,28 @@ const ResultKind& kind_of(const JsonNode& root) {
   return *kind;
 }
 
-/// Logs that a result was judged by only: they did not go into its estimates.
-std::set<std::string> validation_logs(const JsonNode& root) {
-  std::set<std::string> logs;
-  const JsonNode* preloads = root.find("preloads");
-  if (preloads == nullptr) return logs;
-  for (const JsonNode& preload : preloads->items)
+/// The list of that name, or nothing.
+const std::vector<JsonNode>& items_of(const JsonNode& object, std::string_view key) {
+  static const std::vector<JsonNode> kNothing;
+  const JsonNode* list = object.is_object() ? object.find(key) : nullptr;
+  return list == nullptr ? kNothing : list->items;
+}
+
+void add_validation_logs(const JsonNode& result, std::set<std::string>& logs) {
+  for (const JsonNode& preload : items_of(result, "preloads"))
     if (const JsonNode* validation = preload.find("validation"))
       for (const std::string& path : validation->at("logs").texts()) logs.insert(path);
-  return logs;
 }
 
 }  // namespace
+
+std::set<std::string> validation_logs(const JsonNode& result) {
+  std::set<std::string> logs;
+  add_validation_logs(result, logs);
+  for (const JsonNode& cell : items_of(result, "cells"))
+    if (const JsonNode* dynamic = cell.find("dynamic")) add_validation_logs(*dynamic, logs);
+  return logs;
+}
 
 RecordedResult read_recorded_result(const std::string& path) {
   const JsonNode root = read_json_file(path);

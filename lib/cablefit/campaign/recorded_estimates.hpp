@@ -2,9 +2,11 @@
 #pragma once
 
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "cablefit/base/json_document.hpp"
 #include "cablefit/base/parameter.hpp"
 #include "cablefit/samples/input_file.hpp"
 
@@ -27,12 +29,15 @@ struct EstimateSet {
 
 struct RecordedResult {
   std::string path, version, command;
-  std::vector<InputFile> inputs;
+  std::vector<InputFile> inputs;  ///< what was fitted: logs, and earlier results (0 rows)
   std::vector<EstimateSet> sets;
 };
 
 /// Reads a result of `elastic`, `dynamic`, `identify` or `batch`. Throws Error(input) at
 /// file:line:column.
 RecordedResult read_recorded_result(const std::string& path);
+
+/// Paths of the inputs that a result was only judged by: they did not go into its estimates.
+std::set<std::string> validation_logs(const JsonNode& result);
 
 }  // namespace cablefit

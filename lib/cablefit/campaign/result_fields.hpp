@@ -214,7 +214,7 @@ void fields(Archive& a, ConditionError& v) {
   a("condition", v.condition), a("value", v.value), a("rows", v.n_rows);
   a("rms", v.rms), a("mean", v.mean), a("max_abs", v.max_abs), a("relative", v.relative);
   a("zero", v.zero), a("linear", v.linear), a("fitted", v.fitted), a("fails", v.fails);
-  a("verdict", v.verdict);
+  a("floor", v.floor), a("verdict", v.verdict);
 }
 
 template <class Archive>

@@ -53,9 +53,8 @@ ShapeFrame frame_of(const Model& model, const ExcitationLimits& limits) {
   if (frame.highest_frequency * frame.duration < kPeriods)
     throw usage_error(
         fmt::format("{:g} s are too short for a motion of this drive", frame.duration),
-        fmt::format("it can be moved at up to {:.3g} Hz (a third of its resonance, a fortieth of "
-                    "the rows): "
-                    "give --duration of at least {:.2g}",
+        fmt::format("it can be moved at up to {:.3g} Hz (a third of its free resonance at rest, a "
+                    "fortieth of the rows): give --duration of at least {:.2g}",
                     frame.highest_frequency, kPeriods / frame.highest_frequency));
   return frame;
 }

@@ -47,7 +47,7 @@ void judge(Estimate& e, double there, double cutoff, double factor, bool is_rigi
     fit.verdicts[e.name] = "not identifiable";
     return;
   }
-  fit.warnings.push_back(
+  fit.doubts.push_back(
       fmt::format("{}: {:.3g} at a cut-off of {:.3g} Hz is {:.3g} at {:.3g} Hz; "
                   "the difference is part of its sd",
                   e.name, e.value, cutoff, there, factor * cutoff));

@@ -13,6 +13,7 @@
 #include "cablefit/dynamic/estimates.hpp"
 #include "cablefit/dynamic/estimators.hpp"
 #include "cablefit/dynamic/joint_estimates.hpp"
+#include "cablefit/dynamic/low_cutoff.hpp"
 #include "cablefit/dynamic/ratios.hpp"
 #include "cablefit/dynamic/requirements.hpp"
 #include "cablefit/dynamic/sweep.hpp"
@@ -82,6 +83,7 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
     fit.model = job.models[m];
     if (fit.estimator.empty()) fit.estimator = estimator.name;
     if (!job.rigid && !fit.elastic) fit.elastic = *job.elastic[m];
+    if (estimator.by_filtered_rows) note_low_cutoff(task, estimation, fit);
     add_largest_errors(job, equations, estimation.solutions, m, fit);
     add_cad(fit, job.rig());
     if (estimation.joint && fit.elastic)
@@ -140,6 +142,7 @@ DynamicPreload fit_preload(DynamicJob job, const ElasticResult& elastic) {
   note_free_fall(job.rig().load, equations, preload);
   fit_models(job, equations, preload);
   note_extrapolations(job, equations, elastic, preload);
+  keep_causes(job, equations, elastic, preload);
   refuse_doubtful(elastic, preload);
   preload.decisions.insert(preload.decisions.begin(), job.settings.decisions.begin(),
                            job.settings.decisions.end());

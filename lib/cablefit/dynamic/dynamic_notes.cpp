@@ -11,6 +11,7 @@ namespace cablefit {
 namespace {
 
 constexpr double kRangeSlack = 0.02;  // of stage 1's range: rounding, not extrapolation
+constexpr double kFarBeyond = 2;      // of stage 1's range: the curve there is a guess
 
 /// Stage 1's range is where its curve was fitted; beyond it the curve is a guess.
 struct Range {
@@ -23,34 +24,91 @@ Range deflections_of(const ElasticPreload& stage1, int joint) {
   return {own.deflection_low, own.deflection_high};
 }
 
-void note_extrapolation(const ElasticPreload& stage1, const std::vector<EquationRows>& equations,
-                        int joint, double theta_0, DynamicPreload& preload) {
-  const Range known = deflections_of(stage1, joint);
-  const double slack = kRangeSlack * (known.high - known.low);
-  double low = kUnbounded, high = -kUnbounded;
+/// Of the moving logs, as stage 1 counts them.
+Range deflections_of(const std::vector<EquationRows>& equations, int joint, double theta_0) {
+  Range seen;
   for (const EquationRows& e : equations) {
     if (e.columns.place.joint != joint) continue;
-    low = std::min(low, e.deflection_low - theta_0);
-    high = std::max(high, e.deflection_high - theta_0);
+    seen.low = std::min(seen.low, e.deflection_low - theta_0);
+    seen.high = std::max(seen.high, e.deflection_high - theta_0);
   }
-  if (low >= known.low - slack && high <= known.high + slack) return;
-  preload.warnings.push_back(fmt::format(
+  return seen;
+}
+
+std::string extrapolation(const ElasticPreload& stage1, const Range& known, const Range& seen,
+                          int joint) {
+  const double slack = kRangeSlack * (known.high - known.low);
+  if (seen.low >= known.low - slack && seen.high <= known.high + slack) return {};
+  return fmt::format(
       "{}deflections of {:.3g} to {:.3g} {} leave the range of stage 1 ({:.3g} to {:.3g}): the "
       "elastic torque is extrapolated there",
-      stage1.joints.empty() ? "" : fmt::format("joint {}: ", joint + 1), low, high, stage1.unit,
-      known.low, known.high));
+      stage1.joints.empty() ? "" : fmt::format("joint {}: ", joint + 1), seen.low, seen.high,
+      stage1.unit, known.low, known.high);
+}
+
+/// Stage 1 of the job's preload; nullptr: there is none, as for a rigid drive.
+const ElasticPreload* stage1_of(const DynamicJob& job, const ElasticResult& elastic) {
+  if (job.rigid) return nullptr;
+  for (const ElasticPreload& stage1 : elastic.preloads)
+    if (stage1.name == job.preload) return &stage1;
+  return nullptr;
+}
+
+bool is_far_beyond(const DynamicJob& job, const std::vector<EquationRows>& equations,
+                   const ElasticResult& elastic) {
+  const ElasticPreload* const stage1 = stage1_of(job, elastic);
+  if (stage1 == nullptr) return false;
+  for (int joint = 0; joint < job.n_joints(); ++joint) {
+    const Range known = deflections_of(*stage1, joint);
+    const Range seen =
+        deflections_of(equations, joint, job.elastic.front()->transmission.theta_0(joint));
+    if (seen.high - seen.low > kFarBeyond * (known.high - known.low)) return true;
+  }
+  return false;
+}
+
+/// The equation of a fit that explains least, among those that explain little; nullptr: none does.
+const JudgedEquation* worst_equation(const DynamicPreload& preload, const std::string& model) {
+  const JudgedEquation* worst = nullptr;
+  for (const JudgedEquation& e : preload.residual_tests)
+    if (e.model == model && !e.headline.empty() &&
+        (worst == nullptr || e.relative > worst->relative))
+      worst = &e;
+  return worst;
 }
 
 }  // namespace
 
 void note_extrapolations(const DynamicJob& job, const std::vector<EquationRows>& equations,
                          const ElasticResult& elastic, DynamicPreload& preload) {
-  if (job.rigid) return;
-  for (const ElasticPreload& stage1 : elastic.preloads)
-    for (int joint = 0; joint < job.n_joints(); ++joint)
-      if (stage1.name == job.preload)
-        note_extrapolation(stage1, equations, joint,
-                           job.elastic.front()->transmission.theta_0(joint), preload);
+  const ElasticPreload* const stage1 = stage1_of(job, elastic);
+  if (stage1 == nullptr || has_trusted_finding(job.logs, job.wanted)) return;
+  std::vector<std::string> warnings;
+  for (int joint = 0; joint < job.n_joints(); ++joint) {
+    const double theta_0 = job.elastic.front()->transmission.theta_0(joint);
+    std::string warning = extrapolation(*stage1, deflections_of(*stage1, joint),
+                                        deflections_of(equations, joint, theta_0), joint);
+    if (!warning.empty()) warnings.push_back(std::move(warning));
+  }
+  preload.warnings.insert(preload.warnings.begin(), warnings.begin(), warnings.end());
+}
+
+void keep_causes(const DynamicJob& job, const std::vector<EquationRows>& equations,
+                 const ElasticResult& elastic, DynamicPreload& preload) {
+  const bool trusted = has_trusted_finding(job.logs, job.wanted);
+  const bool explained = trusted || is_far_beyond(job, equations, elastic);
+  if (trusted) std::erase(preload.warnings, preload.delay.warning);
+  std::vector<std::string> headlines;
+  for (DynamicFit& fit : preload.fits) {
+    const JudgedEquation* const worst = worst_equation(preload, fit.model);
+    if (!explained && worst != nullptr)
+      headlines.push_back(
+          fmt::format("{} equation, {}: {}", worst->equation, fit.model, worst->headline));
+    if (!explained && worst == nullptr)
+      fit.warnings.insert(fit.warnings.end(), fit.doubts.begin(), fit.doubts.end());
+    fit.doubts.clear();
+  }
+  preload.warnings.insert(preload.warnings.begin(), headlines.begin(), headlines.end());
 }
 
 void note_load(const DynamicJob& job, DynamicPreload& preload) {

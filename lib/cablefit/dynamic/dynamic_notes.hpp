@@ -5,7 +5,7 @@
 
 namespace cablefit {
 
-/// Deflections beyond those that stage 1 saw.
+/// Deflections beyond those that stage 1 saw, before all else.
 void note_extrapolations(const DynamicJob& job, const std::vector<EquationRows>& equations,
                          const ElasticResult& elastic, DynamicPreload& preload);
 
@@ -16,5 +16,11 @@ void note_load(const DynamicJob& job, DynamicPreload& preload);
 /// A hanging mass that the link outruns is not the load that the law says.
 void note_free_fall(const Load& load, const std::vector<EquationRows>& equations,
                     DynamicPreload& preload);
+
+/// One cause, one message. Of every fit that explains little its worst equation is told, and not
+/// what follows from that; nothing of both where the logs are read in units that cannot be right
+/// (--trust-units), or where stage 1 saw less than half of the deflections: these are told first.
+void keep_causes(const DynamicJob& job, const std::vector<EquationRows>& equations,
+                 const ElasticResult& elastic, DynamicPreload& preload);
 
 }  // namespace cablefit

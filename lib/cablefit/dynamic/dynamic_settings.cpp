@@ -77,12 +77,11 @@ SampleOptions wide_band(const DynamicJob& job, double rate) {
   return wide;
 }
 
-/// f0 of every joint, 0 when it lies beyond half the rate.
-std::vector<double> find_resonances(DynamicJob& job, const ElasticResult& elastic) {
+/// Free resonance of every joint by a preliminary fit with the job's settings; 0: it lies beyond
+/// half the rate, or no inertia comes out.
+std::vector<double> pilot_resonances(DynamicJob& job, const ElasticResult& elastic) {
   const double rate = sample_rates(job.logs, job.wanted).lowest;
   const int n = job.n_joints();
-  choose_joint_settings(job, wide_band(job, rate),
-                        std::vector<double>(static_cast<std::size_t>(n)));
   const Arm* arm = std::exchange(job.arm, nullptr);  // each link for itself: near enough
   const std::vector<EquationRows> pilot = pilot_equations(job, kPilotWindows);
   job.arm = arm;
@@ -100,6 +99,32 @@ std::vector<double> find_resonances(DynamicJob& job, const ElasticResult& elasti
     const double f0 = resonance(stiffness, j_link, j_motor);
     resonances.push_back(f0 < rate / 2 ? f0 : 0);
   }
+  return resonances;
+}
+
+/// Noise of the encoders keeps some joint's cut-off below what its resonance asks for.
+bool is_noise_limited(const DynamicJob& job) {
+  for (int joint = 0; joint < job.n_joints(); ++joint) {
+    const ChosenSettings& own = job.settings_of(joint);
+    if (own.resonance > 0 && own.rows.signal.cutoff < own.resonance) return true;
+  }
+  return false;
+}
+
+/// Chooses the settings by the free resonances. The wide band of the first look lets encoder noise
+/// in, which makes inertias too small and resonances too high: where the chosen cut-off shows that,
+/// a second look goes by it.
+std::vector<double> choose_by_resonances(DynamicJob& job, const ElasticResult& elastic) {
+  const double rate = sample_rates(job.logs, job.wanted).lowest;
+  choose_joint_settings(job, wide_band(job, rate),
+                        std::vector<double>(static_cast<std::size_t>(job.n_joints())));
+  std::vector<double> resonances = pilot_resonances(job, elastic);
+  choose_joint_settings(job, job.options.samples, resonances);
+  if (job.options.samples.cutoff || !is_noise_limited(job)) return resonances;
+  const std::vector<double> second = pilot_resonances(job, elastic);
+  for (std::size_t k = 0; k < second.size(); ++k)
+    if (second[k] > 0) resonances[k] = second[k];
+  choose_joint_settings(job, job.options.samples, resonances);
   return resonances;
 }
 
@@ -125,9 +150,11 @@ TorqueDelay find_delay(const DynamicJob& job) {
 
 void choose_settings(DynamicJob& job, DynamicPreload& preload, const ElasticResult& elastic) {
   std::vector<double> resonances = {0};
-  if (!job.rigid) resonances = find_resonances(job, elastic);
+  if (job.rigid)
+    choose_joint_settings(job, job.options.samples, resonances);
+  else
+    resonances = choose_by_resonances(job, elastic);
   preload.resonance = *std::max_element(resonances.begin(), resonances.end());
-  choose_joint_settings(job, job.options.samples, resonances);
   job.settings.rows.signal.torque_period = job.rig().torque_period;
   preload.delay = find_delay(job);
   const TorqueHold hold = job.options.samples.torque_hold.value_or(job.rig().torque_hold);

@@ -188,7 +188,7 @@ void add_estimates(const RowStatistics& rows, const DynamicColumns& c, const Lin
     if (!e.active_bound.empty() && parameter.info.lower == 0)
       e.active_bound = fmt::format("{} >= 0", e.name);
     if (parameter.is_inertia && !parameter.given)
-      judge_inertia(rows, c, s, k, which, linear_motion, e, fit.warnings);
+      judge_inertia(rows, c, s, k, which, linear_motion, e, fit.doubts);
     fit.verdicts[e.name] = parameter.given              ? "given"
                            : e.not_identifiable.empty() ? "identified"
                                                         : "not identifiable";

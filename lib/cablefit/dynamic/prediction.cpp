@@ -151,6 +151,9 @@ void predict(const Group& group, const SampleOptions& samples, Prediction& out) 
   const std::vector<double> noise = noise_of(job, equations);
   for (const std::vector<std::size_t>& system : systems_of(equations))
     out.equations.push_back(predict_system(job, equations, system, noise));
+  // Advice on the motion is worth nothing where the units are wrong.
+  if (has_trusted_finding(job.logs, job.wanted))
+    for (PredictedEquation& e : out.equations) e.sentences.clear();
 }
 
 }  // namespace

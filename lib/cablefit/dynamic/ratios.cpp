@@ -72,25 +72,33 @@ LinearProblem ratio_problem() {
   return problem;
 }
 
-/// What only a measured torque would tell: said by name.
-void refuse_absolute(DynamicFit& fit) {
+bool have_torque(std::span<const LogSurvey> logs, const PartFilter& wanted) {
+  return std::any_of(logs.begin(), logs.end(), [&](const LogSurvey& log) {
+    return log.plan.has(Channel::tau) && std::any_of(log.parts.begin(), log.parts.end(), wanted);
+  });
+}
+
+/// What only a torque would tell: said by name.
+void refuse_absolute(bool has_torque, DynamicFit& fit) {
   for (const char* absolute : {"J_link", "J_motor", "f_v", "f_s", "f_vm", "f_sm", "offset"}) {
     Estimate e;
     e.name = e.symbol = absolute;
-    e.not_identifiable = "no torque is measured: only ratios to J_link show";
+    e.not_identifiable = has_torque ? "model ratios does not use the torque: fit model poly"
+                                    : "no torque is measured: only ratios to J_link show";
     fit.verdicts[absolute] = "not identifiable";
     fit.parameters.push_back(e);
   }
 }
 
-DynamicFit make_fit(const LinearSolution& s, const DynamicOptions& options, bool linear_motion) {
+DynamicFit make_fit(const LinearSolution& s, const DynamicOptions& options, bool linear_motion,
+                    bool has_torque) {
   DynamicFit fit;
   fit.model = "ratios";
   fit.estimator = options.estimator;
   for (std::size_t k = 0; k < 3; ++k)
     fit.parameters.push_back(estimate_of(kRatios[k], linear_motion, s, static_cast<Eigen::Index>(k),
                                          {options.honest_sd}));
-  refuse_absolute(fit);
+  refuse_absolute(has_torque, fit);
   fit.effective_rows["link"] = s.effective_rows;
   fit.condition["link"] = s.condition;
   fit.warnings = s.warnings;
@@ -118,13 +126,15 @@ DynamicPreload fit_ratios(std::span<const LogSurvey> logs, const std::string& na
   const RowStatistics rows = collect(logs, wanted, options, settings.rows, equation, preload);
   const LinearProblem problem = ratio_problem();
   const LinearSolution s = solve(rows, problem);
-  preload.fits.push_back(make_fit(s, options, preload.linear_motion));
+  const bool has_torque = have_torque(logs, wanted);
+  preload.fits.push_back(make_fit(s, options, preload.linear_motion, has_torque));
   if (options.figures)
     preload.figures = ratio_figures({logs, wanted, settings.rows, options.samples.threads, equation,
                                      problem.response, s.residual_combination, s.rms()},
                                     preload);
-  preload.warnings.emplace_back(
-      "no torque in the log: ratios to J_link are all that can be identified");
+  if (!has_torque)
+    preload.warnings.emplace_back(
+        "no torque in the moving logs: ratios to J_link are all that can be identified");
   return preload;
 }
 

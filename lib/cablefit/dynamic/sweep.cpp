@@ -36,6 +36,11 @@ std::vector<double> changes(const DynamicJob& job, const Estimator& estimator, s
 
 std::string value_text(const SweepPoint& point) { return fmt::format("{:.3g}", point.value); }
 
+/// " (3.1 %)"; nothing of a value of 0.
+std::string share_text(double share) {
+  return std::isfinite(share) ? fmt::format(" ({:.2g} %)", 100 * share) : "";
+}
+
 /// How far each parameter moves over a setting, against its sd: an error that a setting makes and
 /// no interval holds.
 SweepVerdict judged(const Sweep& sweep, const std::string& setting, const std::string& unit) {
@@ -55,8 +60,8 @@ SweepVerdict judged(const Sweep& sweep, const std::string& setting, const std::s
     const double range = high - low;
     largest = std::max(largest, range);
     if (!(range > kFlat)) continue;
-    moved += fmt::format("{}{} moves by {:.1f} sd ({:.2g} %)", moved.empty() ? "" : ", ",
-                         sweep.parameters[k], range, 100 * range * sweep.relative_sd[k]);
+    moved += fmt::format("{}{} moves by {:.1f} sd{}", moved.empty() ? "" : ", ",
+                         sweep.parameters[k], range, share_text(range * sweep.relative_sd[k]));
     verdict.is_flat = false;
   }
   verdict.text = fmt::format(

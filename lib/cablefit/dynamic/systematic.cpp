@@ -12,23 +12,6 @@ namespace {
 
 constexpr double kNoted = 0.1;  // of a variance: less changes no digit of an sd
 
-/// The floor's sd by parameter; `note`: how it was measured.
-std::map<std::string, double> measured_floor(const EstimationTask& task,
-                                             const Estimation& estimation, std::string& note) {
-  std::vector<bool> with_instruments;
-  for (const LinearSolution& solution : estimation.solutions)
-    with_instruments.push_back(!solution.instruments.empty());
-  const MethodFloor floor =
-      method_floor(task.job, task.equations, estimation.solutions, with_instruments, task.model);
-  note = floor.note;
-  std::map<std::string, double> sd;
-  for (std::size_t k = 0; k < floor.variance.size(); ++k)
-    for (Eigen::Index i = 0; i < task.equations[k].columns.n_effects; ++i)
-      sd[task.equations[k].columns.parameters[static_cast<std::size_t>(i)].name] =
-          std::sqrt(floor.variance[k](i));
-  return sd;
-}
-
 double value_of(const std::map<std::string, double>& sd, const std::string& name) {
   const auto found = sd.find(name);
   return found == sd.end() ? 0 : found->second;
@@ -48,6 +31,22 @@ void widen_joint(const std::string& name, double factor, Estimation& estimation)
 
 }  // namespace
 
+std::map<std::string, double> measured_floor(const EstimationTask& task,
+                                             const Estimation& estimation, std::string* note) {
+  std::vector<bool> with_instruments;
+  for (const LinearSolution& solution : estimation.solutions)
+    with_instruments.push_back(!solution.instruments.empty());
+  const MethodFloor floor =
+      method_floor(task.job, task.equations, estimation.solutions, with_instruments, task.model);
+  if (note != nullptr) *note = floor.note;
+  std::map<std::string, double> sd;
+  for (std::size_t k = 0; k < floor.variance.size(); ++k)
+    for (Eigen::Index i = 0; i < task.equations[k].columns.n_effects; ++i)
+      sd[task.equations[k].columns.parameters[static_cast<std::size_t>(i)].name] =
+          std::sqrt(floor.variance[k](i));
+  return sd;
+}
+
 void add_systematic(const EstimationTask& task, bool by_filtered_rows, Estimation& estimation) {
   DynamicFit& fit = estimation.fit;
   if (!task.job.options.honest_sd) return;
@@ -55,7 +54,7 @@ void add_systematic(const EstimationTask& task, bool by_filtered_rows, Estimatio
   if (task.job.options.method_floor)
     fit.method_floor = *task.job.options.method_floor;
   else if (by_filtered_rows)
-    fit.method_floor = measured_floor(task, estimation, note);
+    fit.method_floor = measured_floor(task, estimation, &note);
   std::string noted, carried;
   for (Estimate& e : fit.parameters) {
     if (!e.not_identifiable.empty() || !(e.sd > 0)) continue;
@@ -71,7 +70,10 @@ void add_systematic(const EstimationTask& task, bool by_filtered_rows, Estimatio
     widen_interval(e, factor);
     widen_joint(e.name, factor, estimation);
   }
-  if (!note.empty()) estimation.decisions.push_back({"method's floor", in_words(noted), note});
+  const bool measured = !fit.method_floor.empty();
+  if (!note.empty())
+    estimation.decisions.push_back(
+        {"method's floor", measured ? in_words(noted) : "not in the sd", note});
   if (!fit.stage1_misfit.empty())
     estimation.decisions.push_back(
         {"stage 1's misfit", in_words(carried), "its residual curve is carried into every sd"});

@@ -10,4 +10,10 @@ namespace cablefit {
 /// the decisions of which it is a tenth of the variance. Nothing where white sd are asked for.
 void add_systematic(const EstimationTask& task, bool by_filtered_rows, Estimation& estimation);
 
+/// The floor alone, as an sd by parameter; empty: it cannot be measured. `note`: how it was, or why
+/// it was not.
+std::map<std::string, double> measured_floor(const EstimationTask& task,
+                                             const Estimation& estimation,
+                                             std::string* note = nullptr);
+
 }  // namespace cablefit

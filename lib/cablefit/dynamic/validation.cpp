@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/dynamic/conditions.hpp"
@@ -99,21 +100,63 @@ struct Unseen {
   std::vector<Repeat> repeats;
 };
 
+/// File names, or paths where two are alike.
+std::vector<std::string> names_of(const std::vector<LogSurvey>& logs) {
+  std::vector<std::string> names, paths;
+  for (const LogSurvey& log : logs) {
+    names.push_back(std::filesystem::path(log.plan.path).filename().string());
+    paths.push_back(log.plan.path);
+  }
+  return std::set<std::string>(names.begin(), names.end()).size() == names.size() ? names : paths;
+}
+
 Unseen look_at_unseen(const FittedModels& fitted) {
   const DynamicJob& job = fitted.job;
   Unseen unseen;
   for (const LogSurvey& log : job.options.validation) {
     if (std::none_of(log.parts.begin(), log.parts.end(), job.wanted)) continue;
     unseen.logs.push_back(log);
-    unseen.names.push_back(std::filesystem::path(log.plan.path).filename().string());
   }
+  unseen.names = names_of(unseen.logs);
   if (unseen.logs.empty()) return unseen;
   unseen.rows = judged_rows(job, fitted.equations, unseen.logs, 0);
   unseen.repeats = find_repeats(job, unseen.logs);
   return unseen;
 }
 
-/// The floor of every equation for one model.
+/// Repeats that one log is part of.
+std::vector<Repeat> repeats_of(const std::vector<Repeat>& repeats, std::size_t log) {
+  std::vector<Repeat> own;
+  for (const Repeat& repeat : repeats)
+    if (repeat.first == log || repeat.second == log) own.push_back(repeat);
+  return own;
+}
+
+/// The row of one log among the conditions; nullptr: it has no rows.
+ConditionError* row_of(JudgedEquation& e, const std::string& log) {
+  for (ConditionError& c : e.conditions)
+    if (c.condition == "log" && c.value == log) return &c;
+  return nullptr;
+}
+
+/// Each log has a floor of its own: another log's sensors or repeats say nothing of it.
+void add_floors_of_logs(const FittedModels& fitted, const Unseen& unseen,
+                        const std::vector<Eigen::VectorXd>& residuals,
+                        std::vector<JudgedEquation>& equations) {
+  for (std::size_t log = 0; log < unseen.logs.size(); ++log) {
+    const std::vector<double> sensors =
+        sensor_floor(fitted.job, fitted.equations, {&unseen.logs[log], 1}, residuals);
+    const std::vector<Repeat> repeats = repeats_of(unseen.repeats, log);
+    for (const JudgedRows& rows : unseen.rows) {
+      ConditionError* const row = row_of(equations[rows.equation], unseen.names[log]);
+      if (row == nullptr) continue;
+      row->floor =
+          repeat_floor(rows, repeats, residuals[rows.equation]).value_or(sensors[rows.equation]);
+    }
+  }
+}
+
+/// The floor of every equation for one model: of all logs together, and of each.
 void add_floors(const FittedModels& fitted, const Unseen& unseen, std::size_t m,
                 std::vector<JudgedEquation>& equations) {
   std::vector<Eigen::VectorXd> residuals;
@@ -125,7 +168,9 @@ void add_floors(const FittedModels& fitted, const Unseen& unseen, std::size_t m,
     const auto repeats = repeat_floor(rows, unseen.repeats, residuals[rows.equation]);
     e.noise_floor = repeats ? *repeats : sensors[rows.equation];
     e.floor_source = repeats ? "repeats" : "sensor noise";
+    if (!e.conditions.empty()) e.conditions.front().floor = e.noise_floor;
   }
+  add_floors_of_logs(fitted, unseen, residuals, equations);
 }
 
 std::vector<JudgedEquation> judged_on(const FittedModels& fitted, const Unseen& unseen,
@@ -157,15 +202,11 @@ void judge(const FittedModels& fitted, DynamicPreload& preload) {
       JudgedEquation& judged = preload.residual_tests.back();
       judged.tests =
           residual_tests(tested(fitted, rows, true, m), fitted.solutions[m][rows.equation], judged);
-      if (!judged.headline.empty())
-        preload.warnings.insert(
-            preload.warnings.begin(),
-            fmt::format("{} equation, {}: {}", judged.equation, judged.model, judged.headline));
     }
   const Unseen unseen = look_at_unseen(fitted);
   if (unseen.logs.empty()) return;
   Validation& validation = preload.validation.emplace();
-  validation.logs = unseen.names;
+  for (const LogSurvey& log : unseen.logs) validation.logs.push_back(log.plan.path);
   validation.linear_name = linear_name(job);
   for (std::size_t m = 0; m < job.models.size(); ++m)
     for (JudgedEquation& e : judged_on(fitted, unseen, own, m))

@@ -20,9 +20,10 @@ struct ConditionError {
   double relative = 0;        ///< rms of the error over rms of the torque to be explained
   double zero = 0;            ///< rms of a model that says 0: of the torque to be explained
   double linear = kNotThere;  ///< rms of the linear model; NaN: this is it, or there is none
-  double fitted = 0;    ///< rms on the rows that were fitted, of the same condition if they have it
-  bool fails = false;   ///< significantly and materially worse than `fitted`
-  std::string verdict;  ///< "fails, 3.2 times": of `fitted`
+  double fitted = 0;  ///< rms on the rows that were fitted, of the same condition if they have it
+  double floor = kNotThere;  ///< rms that no model can get below; NaN: measured by log only
+  bool fails = false;        ///< significantly and materially worse than `fitted`
+  std::string verdict;       ///< "fails, 3.2 times": of `fitted`
 
   double ratio() const { return fitted > 0 ? rms / fitted : 0; }
 };
@@ -54,8 +55,8 @@ struct JudgedEquation {
 };
 
 struct Validation {
-  std::vector<std::string> logs;
-  std::string linear_name;  ///< what the linear baseline is
+  std::vector<std::string> logs;  ///< paths, as in the inputs of the result
+  std::string linear_name;        ///< what the linear baseline is
   std::vector<JudgedEquation> equations;
 };
 

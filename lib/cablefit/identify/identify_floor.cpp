@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cablefit/dynamic/fitted_model.hpp"
+#include "cablefit/dynamic/low_cutoff.hpp"
 #include "cablefit/dynamic/method_floor.hpp"
 #include "cablefit/estimate/parameter_estimate.hpp"
 #include "cablefit/identify/joint_solution.hpp"
@@ -65,10 +66,10 @@ Eigen::VectorXd shift_by(const JointFit& fit, const JudgedPoint& judged, std::si
   return judged.linearised.solve_operator * score;
 }
 
-/// Adds the mean shift over the draws; returns how it was measured.
-std::string add_shift(std::span<const LogSurvey> logs, const IdentifyOptions& options,
-                      const JointFit& fit, const JudgedPoint& judged, std::size_t job,
-                      const PreloadFacts& facts, Eigen::VectorXd& shift) {
+/// Adds the mean shift over the draws; returns how it was measured, or why it was not.
+Decision add_shift(std::span<const LogSurvey> logs, const IdentifyOptions& options,
+                   const JointFit& fit, const JudgedPoint& judged, std::size_t job,
+                   const PreloadFacts& facts, Eigen::VectorXd& shift) {
   const Transmission cables =
       fitted_cables(fit.jobs[job], judged.point.l_o[job], judged.point.solution.x);
   const MovingJob moving(logs, options, cables,
@@ -83,9 +84,18 @@ std::string add_shift(std::span<const LogSurvey> logs, const IdentifyOptions& op
       own += copy.weight * shift_by(fit, judged, job, copy);
     });
     shift += own;
-    return kFloorNote;
+    return {"moving: method's floor", "in every sd", kFloorNote};
   } catch (const Error& error) {
-    return fmt::format("not measured: {}", error.what());
+    return {"moving: method's floor", "not in the sd",
+            fmt::format("not measured: {}", error.what())};
+  }
+}
+
+void note_low_cutoffs(const Estimate& j_motor, double error, std::vector<PreloadFacts>& facts) {
+  for (PreloadFacts& preload : facts) {
+    std::string warning =
+        low_cutoff_warning(preload.cutoff, preload.resonance, j_motor, error, true);
+    if (!warning.empty()) preload.warnings.push_back(std::move(warning));
   }
 }
 
@@ -98,12 +108,12 @@ void add_method_floor(std::span<const LogSurvey> logs, const IdentifyOptions& op
   Eigen::VectorXd shift = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(estimates.size()));
   for (std::size_t j = 0; j < fit.jobs.size(); ++j)
     if (facts[j].has_moving)
-      facts[j].decisions.push_back({"moving: method's floor", "in every sd",
-                                    add_shift(logs, options, fit, judged, j, facts[j], shift)});
+      facts[j].decisions.push_back(add_shift(logs, options, fit, judged, j, facts[j], shift));
   for (std::size_t k = 0; k < estimates.size(); ++k) {
     Estimate& e = estimates[k];
     const double error = shift(static_cast<Eigen::Index>(k));
     if (e.not_identifiable.empty() && e.sd > 0) widen_interval(e, std::hypot(1, error / e.sd));
+    if (e.name == "J_motor") note_low_cutoffs(e, error, facts);
   }
 }
 

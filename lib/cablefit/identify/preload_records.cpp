@@ -121,6 +121,7 @@ JointRecord moving_record(std::span<const LogSurvey> logs, const IdentifyOptions
   const MovingJob moving(logs, options, fitted, deflections, facts);
   facts.delay = moving.found.delay;
   facts.resonance = moving.found.resonance;
+  facts.cutoff = moving.job.settings.rows.signal.cutoff;
   for (const Decision& d : moving.job.settings.decisions)
     facts.decisions.push_back({"moving: " + d.name, d.value, d.reason});
   for (const auto* warnings : {&moving.found.warnings, &moving.job.settings.warnings})

@@ -112,14 +112,46 @@ double finest_period(std::span<const Stretch> stretches, bool blocked) {
   return finest;
 }
 
+namespace {
+
+constexpr double kMostlyGaps = 0.5;  // of the time of a part
+
+double duration(const Stretch& stretch) {
+  return static_cast<double>(stretch.recording.theta.size()) * stretch.recording.period;
+}
+
+/// When the last share of a part begins. A part that is mostly gaps is shared by the time that was
+/// recorded: its clock says nothing of where the samples are.
+double beginning_of_last(double share, const Stretch& of, const std::vector<Stretch>& stretches) {
+  const auto is_same_part = [&](const Stretch& other) {
+    return other.log == of.log && other.part_begin == of.part_begin;
+  };
+  const double end = of.part_end + of.recording.period;
+  double recorded = 0;
+  for (const Stretch& stretch : stretches)
+    if (is_same_part(stretch)) recorded += duration(stretch);
+  if (recorded > kMostlyGaps * (end - of.part_begin)) return end - share * (end - of.part_begin);
+  double left = share * recorded;
+  for (auto stretch = stretches.rbegin(); stretch != stretches.rend(); ++stretch) {
+    if (!is_same_part(*stretch)) continue;
+    if (duration(*stretch) >= left) return stretch->t0 + duration(*stretch) - left;
+    left -= duration(*stretch);
+  }
+  return of.part_begin;
+}
+
+}  // namespace
+
 std::vector<Stretch> hold_out(std::vector<Stretch>& stretches, double share, HoldOut which) {
   std::vector<Stretch> held;
-  for (Stretch& stretch : stretches) {
+  std::vector<double> held_from;
+  for (const Stretch& stretch : stretches)
+    held_from.push_back(beginning_of_last(share, stretch, stretches));
+  for (std::size_t k = 0; k < stretches.size(); ++k) {
+    Stretch& stretch = stretches[k];
     if (stretch.blocked && which == HoldOut::moving) continue;
     const Eigen::Index n = stretch.recording.theta.size();
-    const double period = stretch.recording.period, end = stretch.part_end + period;
-    const double from = end - share * (end - stretch.part_begin);
-    const double samples = std::round((from - stretch.t0) / period);
+    const double samples = std::round((held_from[k] - stretch.t0) / stretch.recording.period);
     const auto kept = static_cast<Eigen::Index>(std::clamp(samples, 0.0, static_cast<double>(n)));
     if (kept < n) {
       held.push_back(stretch);

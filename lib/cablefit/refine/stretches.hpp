@@ -32,9 +32,9 @@ double finest_period(std::span<const Stretch> stretches, bool blocked);
 
 enum class HoldOut { moving, all };
 
-/// The last `share` (0..1) of the time of every part, taken from its stretches (`which`: those of
-/// moving parts alone, or all); with what came before in the stretch as history for effects that
-/// remember it.
+/// The last `share` (0..1) of the time of every part (of the recorded time where it is mostly
+/// gaps), taken from its stretches (`which`: those of moving parts alone, or all); with what came
+/// before in the stretch as history for effects that remember it.
 std::vector<Stretch> hold_out(std::vector<Stretch>& stretches, double share, HoldOut which);
 
 }  // namespace cablefit

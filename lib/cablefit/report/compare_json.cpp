@@ -1,5 +1,6 @@
 #include "cablefit/report/compare_json.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "cablefit/report/json_list.hpp"
@@ -15,7 +16,8 @@ Json result_json(const RecordedResult& result) {
   return Json{{"path", result.path},
               {"command", result.command},
               {"cablefit_version", result.version},
-              {"logs", result.inputs.size()}};
+              {"logs", std::count_if(result.inputs.begin(), result.inputs.end(),
+                                     [](const InputFile& input) { return input.rows > 0; })}};
 }
 
 Json parameter_json(const ComparedParameter& p) {

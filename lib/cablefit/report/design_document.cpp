@@ -106,8 +106,8 @@ Table cost_table(const Words& words) {
                           {"largest error", "of torque", "%"},
                           {"largest error", "at", words.angle},
                           {"", "position under load", words.angle},
-                          {"resonance", "from", "Hz"},
-                          {"resonance", "to", "Hz"},
+                          {"free resonance", "from", "Hz"},
+                          {"free resonance", "to", "Hz"},
                           {"", "smallest collision", words.torque}});
   for_each_joint(words.result, [&](const DesignPoint& point, const DesignJoint& joint) {
     for (const ModelCost& cost : joint.models)

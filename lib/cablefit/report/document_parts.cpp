@@ -125,10 +125,23 @@ Table derived_table() {
   return table;
 }
 
+namespace {
+
+/// "f_0 (free resonance at rest)": symbols of different papers mean different resonances.
+std::string quantity_text(const std::string& name) {
+  if (name == "K_rest") return name + " (stiffness at rest)";
+  if (name == "f_0") return name + " (free resonance at rest)";
+  if (name == "zeta") return name + " (its damping ratio)";
+  return name;
+}
+
+}  // namespace
+
 void add_derived(Table& table, const std::string& where, const std::vector<Estimate>& derived) {
   for (const Estimate& e : derived)
-    table.rows.push_back({where, e.name, e.unit, value_text(e.value, e.sd), sd_text(e.value, e.sd),
-                          value_text(e.ci_low, e.sd), value_text(e.ci_high, e.sd)});
+    table.rows.push_back({where, quantity_text(e.name), e.unit, value_text(e.value, e.sd),
+                          sd_text(e.value, e.sd), value_text(e.ci_low, e.sd),
+                          value_text(e.ci_high, e.sd)});
 }
 
 std::string torque_unit(bool linear_motion) { return linear_motion ? "N" : "N m"; }

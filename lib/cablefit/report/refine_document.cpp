@@ -16,7 +16,9 @@ constexpr int kDigits = 3;
 constexpr std::size_t kLeagueRows = 8;
 
 std::string number(double value) { return significant(value, kDigits); }
-std::string percent(double share) { return fmt::format("{:.0f}", 100 * share); }
+std::string percent(double share) {
+  return std::isfinite(share) ? fmt::format("{:.0f}", 100 * share) : kNoNumber;
+}
 
 Table where_table(const RefineResult& result) {
   const std::string torque = torque_unit(result.linear_motion);
@@ -159,7 +161,9 @@ Document refine_document(const RefineResult& result, const std::vector<std::stri
     if (!table.rows.empty()) document.tables.push_back(std::move(table));
   if (!result.model_choice.empty())
     document.paragraphs.push_back(
-        fmt::format("Model: {}, from {}.", result.model_choice, result.model_path));
+        result.model_path.empty()
+            ? fmt::format("Model: {}.", result.model_choice)
+            : fmt::format("Model: {}, from {}.", result.model_choice, result.model_path));
   add_decisions(document, "", result.decisions);
   finish_decisions(document, 0);
   add_warnings(document, "", result.warnings);

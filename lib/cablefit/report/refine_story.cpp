@@ -22,6 +22,7 @@ constexpr double kMovedShare = 0.02;  // where there is no sd
 std::string number(double value) { return significant(value, kDigits); }
 
 std::string percent(double share) {
+  if (std::isnan(share)) return "an unknown share";
   return fmt::format("{:.0f} %", 100 * std::clamp(share, 0.0, 1.0));
 }
 

@@ -20,7 +20,8 @@ Json condition_json(const ConditionError& c) {
               {"mean", c.mean},           {"max_abs", c.max_abs},
               {"relative", c.relative},   {"fitted_rms", c.fitted},
               {"linear_rms", c.linear},   {"zero_rms", c.zero},
-              {"fails", c.fails},         {"verdict", c.verdict}};
+              {"noise_floor", c.floor},   {"fails", c.fails},
+              {"verdict", c.verdict}};
 }
 
 Json mean_json(const WindowMean& mean) { return Json{{"seconds", mean.seconds}, {"sd", mean.sd}}; }

@@ -35,7 +35,7 @@ Table condition_table(const std::string& unit, const std::string& linear) {
   table.notes.push_back(
       "fitted rows: of the logs that were fitted, under the same condition where they have it, and "
       "what the verdict goes by; zero model: says 0, so its error is the torque to be explained; "
-      "noise floor: what no model can explain");
+      "noise floor: what no model can explain, of all logs together and of each");
   if (!linear.empty()) table.notes.back() += "; linear: " + linear;
   return table;
 }
@@ -45,7 +45,7 @@ void add_conditions(Table& table, const DynamicPreload& preload, const JudgedEqu
     table.rows.push_back({preload.name, e.model, e.equation, c.condition, c.value,
                           std::to_string(c.n_rows), number(c.rms), number(c.mean),
                           number(c.max_abs), number(100 * c.relative), number(c.fitted),
-                          number(c.linear), number(c.zero), number(e.noise_floor), c.verdict});
+                          number(c.linear), number(c.zero), number(c.floor), c.verdict});
 }
 
 Table test_table(const std::string& title) {

@@ -158,7 +158,7 @@ void note_channels(CheckedPart& part) {
   }
 }
 
-void note_motion(const LogPlan& plan, CheckedPart& part) {
+void note_motion(const LogPlan& plan, bool trusted, CheckedPart& part) {
   const auto warn = [&part](const std::string& text) { part.warnings.push_back(text); };
   const CheckedExcitation& e = part.excitation;
   if (part.identifies.empty()) {
@@ -169,10 +169,10 @@ void note_motion(const LogPlan& plan, CheckedPart& part) {
   if (plan.q_is_theta) warn("q is the only position: it is read as theta, that of a rigid drive");
   if (part.survey.uneven) warn("the clock is uneven: rows will be made anew on an even grid");
   if (part.survey.phase == Phase::blocked || e.channel.empty()) return;
-  if (e.share_at_rest > kMostlyAtRest) {
+  if (e.share_at_rest > kMostlyAtRest && !trusted) {
     warn(fmt::format("the drive rests in {:.0f} % of the rows", 100 * e.share_at_rest));
   }
-  if (e.speed_bands == 1) {
+  if (e.speed_bands == 1 && !trusted) {
     warn("one speed only: viscous and Coulomb friction cannot be told apart");
   }
   const bool has_load = plan.has(Channel::tau_load) || plan.rig.load.law != nullptr;
@@ -188,8 +188,9 @@ CheckedPart check_part(const LogSurvey& log, const PartSurvey& survey,
   part.channels = channels_of(log, survey);
   part.excitation = least_excitation(log, survey, options);
   part.identifies = identified_by(log.plan, survey);
-  note_channels(part);
-  note_motion(log.plan, part);
+  const bool trusted = has_trusted_finding({&log, 1}, [](const PartSurvey&) { return true; });
+  if (!trusted) note_channels(part);
+  note_motion(log.plan, trusted, part);
   return part;
 }
 

@@ -92,21 +92,16 @@ void choose_moving_cutoff(ChosenSettings& chosen, std::span<const LogSurvey> log
                             ? std::min(kResonanceFactor * resonance, kMaxShareOfRate * rate)
                             : kRigidShareOfRate * rate;
     cutoff = quiet_cutoff(logs, wanted, chosen.rows, motion, Channel::theta, wish, rate);
-    std::string reason =
-        resonance > 0 && wish < kMaxShareOfRate * rate
-            ? fmt::format("{:g} times the resonance f0 = {:.3g} Hz", kResonanceFactor, resonance)
-            : fmt::format("{:g} of the sample rate", wish / rate);
+    std::string reason = resonance > 0 && wish < kMaxShareOfRate * rate
+                             ? fmt::format("{:g} times the free resonance under load, {:.3g} Hz",
+                                           kResonanceFactor, resonance)
+                             : fmt::format("{:g} of the sample rate", wish / rate);
     if (cutoff < wish)
       reason = fmt::format("position noise below {:g} % of the acceleration's variance",
                            100 * kNoiseBias);
     decide(chosen, "cut-off", fmt::format("{:.4g} Hz", cutoff), reason);
   }
   choose_link_cutoff(chosen, logs, wanted, options, motion, rate);
-  if (resonance > 0 && cutoff > 0 && cutoff < 2 * resonance)
-    chosen.warnings.push_back(fmt::format(
-        "the cut-off of {:.4g} Hz is below twice the resonance f0 = {:.3g} Hz: J_motor will "
-        "be wrong by percents; record at a higher rate or with a finer encoder",
-        cutoff, resonance));
 }
 
 }  // namespace
@@ -116,6 +111,7 @@ ChosenSettings moving_settings(std::span<const LogSurvey> logs, const PartFilter
   const RateRange rates = sample_rates(logs, wanted);
   const double rate = rates.lowest;  // what the slowest log can carry, all others can
   ChosenSettings chosen = begin_settings(logs, wanted, options, rates);
+  chosen.resonance = resonance;
   PilotMotion motion(logs, wanted, joint);
   choose_moving_cutoff(chosen, logs, wanted, options, motion, resonance, rate);
   choose_decimation(chosen, options, rate);

@@ -28,6 +28,7 @@ struct ChosenSettings {
   double cutoff_q = 0;          ///< Hz, for equations that differentiate q twice; 0: no filter
   double rest_speed_theta = 0;  ///< rad/s, for equations of the motor (or rigid) side
   double rest_speed_q = 0;      ///< rad/s, for equations of the link side
+  double resonance = 0;         ///< Hz, of the elastic drive as it was given; 0: none
   std::vector<Decision> decisions;
   std::vector<std::string> warnings;
 };

@@ -216,8 +216,15 @@ class Resampler {
 // the few rows concerned, and an end of a segment would cost a row's whole neighbourhood.
 constexpr double kBridgedPeriods = 4.5;
 
+// Rows made by bridging, at most, for each that is there: bursts of rows with holes between them
+// would else be filled at the rate of the bursts, whatever that costs.
+constexpr double kMostBridged = 4;
+
 double longest_step(const PartSurvey& part, double bridge) {
   const double factor = part.uneven ? gap_factor(true) : kBridgedPeriods;
+  if (part.n_gaps > 0)
+    bridge = std::min(bridge, kMostBridged * static_cast<double>(part.n_rows) * part.period /
+                                  static_cast<double>(part.n_gaps));
   return std::max(factor * part.period, bridge);
 }
 

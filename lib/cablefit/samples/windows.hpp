@@ -44,7 +44,8 @@ inline constexpr Eigen::Index kWindowRows = 8192;
 
 /// One pass over the parts for which `wanted` says true. `halo` rows on either side where there are
 /// any. `bridge`: holes up to this long (s) are interpolated over, a quarter period of the cut-off,
-/// say; of an even clock those of up to three rows in any case. Longer ones begin a new segment.
+/// say; of an even clock those of up to three rows in any case; none so long that filling them all
+/// would make more than four rows for each that is there. Longer ones begin a new segment.
 /// Segments shorter than `min_rows` are left out and counted. Return false from `sink` to stop.
 WindowCounts for_each_window(const LogSurvey& log,
                              const std::function<bool(const PartSurvey&)>& wanted,

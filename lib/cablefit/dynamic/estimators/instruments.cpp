@@ -82,7 +82,7 @@ void note_instruments(const EstimationTask& task, const LoopPlan& plan, const Iv
                    keeps_disturbances_out(plan.kind) ? "its" : "its and the drive's",
                    rows_of(task, fit))});
   if (!fit.converged())
-    out.fit.warnings.push_back(
+    out.fit.doubts.push_back(
         fmt::format("the instruments have not settled after {} simulations: the last one moved an "
                     "estimate by {:.2g} sd",
                     fit.n_simulations, fit.last_change));
@@ -151,8 +151,10 @@ std::string verdict(const Judgement& j, const char* stands, const char* used) {
   const std::string p = j.test.p_text();
   if (!is_rejected(j.test)) return fmt::format("regressors are exogenous: {} ({})", stands, p);
   if (j.name.empty()) return fmt::format("correlated with the residual ({}): {}", p, used);
-  const std::string difference = fmt::format("{} differs most, by {:+.2g} sd or {:+.2g} %", j.name,
-                                             j.difference.in_sd, 100 * j.difference.relative);
+  std::string difference =
+      fmt::format("{} differs most, by {:+.2g} sd", j.name, j.difference.in_sd);
+  if (std::isfinite(j.difference.relative))  // of an estimate that is not 0
+    difference += fmt::format(" or {:+.2g} %", 100 * j.difference.relative);
   switch (judge_difference(j.difference)) {
     case Difference::none:
       return fmt::format("correlated with the residual ({}), but that does not matter: {}: {}", p,

@@ -57,9 +57,13 @@ double total_inertia(const std::vector<EffectInstance>& effects) {
 
 /// The rig file named in another file, see read_rig_reference.
 std::filesystem::path locate(const std::string& named, const std::string& inside) {
-  const auto beside = std::filesystem::path(inside).parent_path() / named;
+  const auto folder = std::filesystem::path(inside).parent_path();
+  const std::filesystem::path path(named);
   std::error_code ignored;
-  return std::filesystem::exists(beside, ignored) ? beside : std::filesystem::path(named);
+  // A result names paths from where it was made: the folder above OUT.
+  for (const auto& place : {folder / path, path, folder / ".." / path})
+    if (std::filesystem::exists(place, ignored)) return place.lexically_normal();
+  return path;
 }
 
 }  // namespace
