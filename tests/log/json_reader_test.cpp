@@ -200,7 +200,9 @@ TEST_CASE("logs without values are refused") {
 
 TEST_CASE("records need one set of keys") {
   CHECK(open_message("[{\"t\": 0, \"q\": 1},\n {\"t\": 1}]") ==
-        "log.json:2:2: record lacks 'q'; every record needs the keys of the first one");
+        std::string(
+            "log.json:2:2: record lacks 'q'; every record needs the keys of the first one; ") +
+            kMissingHint);
   CHECK(open_message("[{\"t\": 0, \"tau\": 1},\n {\"t\": 1, \"tua\": 1}]") ==
         "log.json:2:11: unknown key 'tua'; did you mean 'tau'?");
   CHECK(open_message("[{\"t\": 0, \"t\": 1}]") ==

@@ -35,6 +35,9 @@ TEST_CASE("rows with missing cells are left out and counted") {
   CHECK(all.log.lines == std::vector<std::uint64_t>{2, 5});
   CHECK(all.counts.rows_missing == 2);
   CHECK(all.counts.cells_held == 0);
+  CHECK(all.counts.rows_kept == 2);
+  CHECK(all.counts.n_rows() == 4);
+  CHECK(all.counts.cells_missing == std::vector<std::size_t>{1, 1});
 }
 
 TEST_CASE("missing cells hold the value before, where there is one") {

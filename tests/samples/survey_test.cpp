@@ -176,4 +176,104 @@ TEST_CASE("time must run forward, and a part be long enough to move", "[samples]
         "log0.csv: 3 rows of preload 'default'; at least 8 rows are needed to see any motion");
 }
 
+TEST_CASE("a blocked log needs no column of the load or the reference", "[samples]") {
+  Bench bench;
+  bench.rig.columns["tau_load"] = {"load_cell", 1, 0, ""};
+  bench.rig.columns["theta_ref"] = {"ref", 1, 0, ""};
+  const auto text = [](double q_share) {
+    std::string log = "t,q,theta,tau,loadcell\n";
+    for (int i = 0; i < 200; ++i)
+      log +=
+          fmt::format("{},{},{},0,0\n", 0.01 * i, q_share * std::sin(0.1 * i), std::sin(0.1 * i));
+    return log;
+  };
+  const LogSurvey& blocked = bench.add_text(text(0));
+  CHECK(blocked.parts.at(0).phase == Phase::blocked);
+  CHECK_FALSE(blocked.plan.has(Channel::tau_load));
+  CHECK(message_of([&] { bench.add_text(text(0.5)); }, bench.folder().path().string()) ==
+        "log1.csv:1: no column 'load_cell', which the rig file names for tau_load; did you mean "
+        "'loadcell'?");
+}
+
+class MendedLogs {
+ public:
+  explicit MendedLogs(const MendingRules& rules) { reading_.mending = rules; }
+  LogSurvey survey(const std::string& text) const {
+    return survey_log(plan_log(folder_.write("log.csv", text), default_rig(), reading_), "");
+  }
+  std::string message(const std::string& text) const {
+    return message_of([&] { survey(text); }, folder_.path().string());
+  }
+  std::string warning(const std::string& text) const {
+    const LogSurvey log = survey(text);
+    REQUIRE(log.warnings.size() == 1);
+    return log.warnings[0].substr(folder_.path().string().size() + 1);
+  }
+
+ private:
+  TempFolder folder_;
+  Reading reading_;
+};
+
+/// 1000 rows, of which each `every`th of the first `n` lacks tau.
+std::string holed(int n, int every) {
+  std::string text = "t,theta,tau,spare\n";
+  for (int i = 0; i < 1000; ++i)
+    text += fmt::format("{},{},{},\n", 0.01 * i, i, i < n && i % every == 0 ? "" : "1");
+  return text;
+}
+
+TEST_CASE("few rows may lack a cell", "[samples]") {
+  const MendedLogs drop({Missing::drop, false}), hold({Missing::hold, false});
+  CHECK(drop.message(holed(600, 1)) ==
+        "log.csv: 600 of 1000 rows have missing cells; choose other columns, or record again");
+  CHECK(drop.warning(holed(500, 1)) == "log.csv: 500 rows (50 %) with missing cells left out");
+  CHECK(drop.warning(holed(10, 1)) == "log.csv: 10 rows with missing cells left out");
+  // Of three cells a row; the first row has nothing before it.
+  std::string text = holed(1000, 5);
+  text.replace(text.find(",0,,"), 4, ",0,1,");
+  CHECK(hold.warning(text) == "log.csv: 199 missing cells (7 %) filled with the value before");
+  const char* const empty =
+      "log.csv: no cell of 'tau' has a number; choose other columns, or "
+      "record again";
+  CHECK(drop.message(holed(1000, 1)) == empty);
+  CHECK(hold.message(holed(1000, 1)) == empty);
+  CHECK(drop.message("t,theta,tau\n0,,1\n1,1,\n") ==
+        "log.csv: every row has a missing cell; choose other columns, or use --missing hold");
+}
+
+TEST_CASE("few rows may repeat a time", "[samples]") {
+  const MendedLogs first({Missing::refuse, true});
+  const auto text = [](int digits) {
+    std::string log = "t,theta\n";
+    for (int i = 0; i < 1600; ++i) log += fmt::format("{:.{}f},{}\n", 1e-3 * i, digits, i);
+    return log;
+  };
+  // 0.00 to 1.60 s are 161 times.
+  CHECK(first.message(text(2)) ==
+        "log.csv: 1439 of 1600 rows have the time of the row before: t has too few digits, or the "
+        "logger repeats samples; give the rate by --rate HZ");
+  CHECK(first.survey(text(3)).warnings.empty());
+  std::string some = "t,theta\n";
+  for (int i = 0; i < 1000; ++i) some += fmt::format("{},{}\n", 0.01 * (i - i % 10 / 9), i);
+  CHECK(first.warning(some) == "log.csv: 100 rows (10 %) with the time of the row before left out");
+}
+
+TEST_CASE("a contradiction that is trusted is the first warning", "[samples]") {
+  const TempFolder folder;
+  Reading reading;
+  reading.trust_units = true;
+  reading.rate = 500;
+  std::string text = "t,theta\n";
+  for (int i = 0; i < 100; ++i) text += fmt::format("{:.3f},{}\n", 1e-3 * i, i);
+  const LogSurvey log =
+      survey_log(plan_log(folder.write("log.csv", text), default_rig(), reading), "");
+  REQUIRE(log.warnings.size() == 1);
+  CHECK(
+      log.warnings[0].ends_with("log.csv:1:1: column 't' has 1000 Hz, the rate given is 500 Hz; "
+                                "leave --rate out, or take the right one"));
+  CHECK(log.has_trusted_finding);
+  CHECK_THAT(log.parts.at(0).period, Catch::WithinRel(2e-3, 1e-12));
+}
+
 }  // namespace

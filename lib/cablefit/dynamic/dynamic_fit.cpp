@@ -133,7 +133,7 @@ DynamicPreload fit_preload(DynamicJob job, const ElasticResult& elastic) {
   std::vector<EquationRows> equations = make_equations(job);
   preload.windows = collect_rows(job, equations);
   for (const EquationRows& e : equations) {
-    require_rows(e, job.preload);
+    require_rows(e, job);
     preload.counts[e.equation.name] = e.counts;
   }
   if (std::string unused = unused_rows_warning(preload.windows, equations.front().counts);

@@ -1,7 +1,5 @@
 #include "cablefit/dynamic/prediction.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -87,11 +85,11 @@ std::vector<double> noise_of(const DynamicJob& job, const std::vector<EquationRo
   return sensor_noise(job, equations, combinations);
 }
 
-void require_rows(const std::vector<EquationRows>& equations) {
+void require_rows(const DynamicJob& job, const std::vector<EquationRows>& equations) {
   for (const EquationRows& e : equations)
     if (e.rows->n_rows() < kRowsPerParameter * e.columns.n_effects)
-      throw Error(ErrorKind::not_identifiable, fmt::format("only {} rows in motion on the {} side",
-                                                           e.rows->n_rows(), e.equation.name));
+      throw Error(ErrorKind::not_identifiable,
+                  too_few_rows(job, e, static_cast<std::size_t>(e.rows->n_rows())));
 }
 
 PredictedEquation predict_system(const DynamicJob& job, const std::vector<EquationRows>& equations,
@@ -147,7 +145,7 @@ void predict(const Group& group, const SampleOptions& samples, Prediction& out) 
   out.cutoff = job.settings.rows.signal.cutoff;
   std::vector<EquationRows> equations = make_equations(job);
   collect_rows(job, equations);
-  require_rows(equations);
+  require_rows(job, equations);
   const std::vector<double> noise = noise_of(job, equations);
   for (const std::vector<std::size_t>& system : systems_of(equations))
     out.equations.push_back(predict_system(job, equations, system, noise));

@@ -1,10 +1,9 @@
 #include "cablefit/dynamic/rough_stage1.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "cablefit/dynamic/joint_settings.hpp"
+#include "cablefit/dynamic/requirements.hpp"
 #include "cablefit/estimate/scaled_solve.hpp"
 #include "cablefit/samples/agreement.hpp"
 
@@ -56,11 +55,11 @@ Eigen::VectorXd shared_coefficients(const std::vector<const EquationRows*>& moto
   return solve_scaled(a, b).x.tail(n_elastic);
 }
 
-void require_rows(const std::vector<const EquationRows*>& motors) {
+void require_rows(const DynamicJob& job, const std::vector<const EquationRows*>& motors) {
   for (const EquationRows* e : motors)
-    if (e->rows->n_rows() < 4 * e->columns.count)
-      throw Error(ErrorKind::not_identifiable, fmt::format("only {} rows in motion on the {} side",
-                                                           e->rows->n_rows(), e->equation.name));
+    if (e->rows->n_rows() < kRowsPerParameter * e->columns.count)
+      throw Error(ErrorKind::not_identifiable,
+                  too_few_rows(job, *e, static_cast<std::size_t>(e->rows->n_rows())));
 }
 
 ElasticPreload ranges_of(const std::vector<const EquationRows*>& motors, const std::string& name) {
@@ -88,7 +87,7 @@ ElasticResult rough_stage1(DynamicJob& job) {
   job.settings.rows.signal.torque_held = job.rig().torque_hold == TorqueHold::zoh;
   const std::vector<EquationRows> pilot = pilot_equations(job, kPilotWindows);
   const std::vector<const EquationRows*> motors = motors_of(pilot);
-  require_rows(motors);
+  require_rows(job, motors);
   const Eigen::VectorXd coefficients = shared_coefficients(motors);
   Eigen::Index next = 0;
   for (Cable& cable : fit.transmission.cables)

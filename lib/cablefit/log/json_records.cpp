@@ -41,7 +41,7 @@ class RecordsLayout final : public JsonLayout {
     if (table_.n_rows == 0) complete_header();
     for (std::size_t k = 0; k < keys_.size(); ++k) {
       if (is_given_[k]) continue;
-      if (!table_.may_miss) throw error(record_, "record lacks " + quoted(keys_[k]), kSameKeys);
+      if (!table_.may_miss) throw lacks(keys_[k]);
       row_[k] = table_.missing_entry(table_.columns[k], record_);
     }
     for (const double value : row_) table_.values.append(value);
@@ -85,13 +85,16 @@ class RecordsLayout final : public JsonLayout {
   }
 
  private:
-  static constexpr const char* kSameKeys = "every record needs the keys of the first one";
-
   Error error(TextPosition at, const std::string& what, const std::string& hint) const {
     return table_.error(at, what, hint);
   }
   Error missing(TextPosition at) const {
     return error(at, "null in column " + quoted(keys_[column_]) + " is not a number", kMissingHint);
+  }
+
+  Error lacks(const std::string& key) const {
+    return error(record_, "record lacks " + quoted(key),
+                 std::string("every record needs the keys of the first one; ") + kMissingHint);
   }
 
   // In the first record.

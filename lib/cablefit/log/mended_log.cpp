@@ -26,6 +26,7 @@ void MendedLog::select(std::vector<std::size_t> numbers, std::vector<std::size_t
   const auto time =
       time_column_ ? std::find(numbers.begin(), numbers.end(), *time_column_) : numbers.end();
   if (time != numbers.end()) time_ = static_cast<std::size_t>(time - numbers.begin());
+  counts_.cells_missing.assign(numbers.size(), 0);
   log_->select(std::move(numbers), std::move(texts));
 }
 
@@ -41,6 +42,7 @@ void MendedLog::mend(LogChunk& chunk) {
     counts_.rows_missing += fate == Fate::missing;
     counts_.rows_repeated += fate == Fate::repeated;
     if (fate != Fate::kept) continue;
+    ++counts_.rows_kept;
     remember(chunk, row);
     move_row(chunk, row, offsets.size());
     offsets.push_back(row);
@@ -70,7 +72,11 @@ bool MendedLog::belongs_to_last(const LogChunk& chunk, std::size_t row) const {
 /// Whether all numbers of the row are there in the end.
 bool MendedLog::fill(LogChunk& chunk, std::size_t row, bool has_last) {
   std::size_t n_missing = 0;
-  for (const std::vector<double>& numbers : chunk.numbers) n_missing += std::isnan(numbers[row]);
+  for (std::size_t k = 0; k < chunk.numbers.size(); ++k) {
+    const bool is_missing = std::isnan(chunk.numbers[k][row]);
+    counts_.cells_missing[k] += is_missing;
+    n_missing += is_missing;
+  }
   if (n_missing == 0) return true;
   const bool has_time = !time_ || !std::isnan(chunk.numbers[*time_][row]);
   if (rules_.missing != Missing::hold || !has_last || !has_time) return false;

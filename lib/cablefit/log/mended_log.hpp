@@ -26,6 +26,10 @@ struct MendedCounts {
   std::size_t rows_missing = 0;   ///< left out
   std::size_t cells_held = 0;     ///< filled by the value before
   std::size_t rows_repeated = 0;  ///< left out
+  std::size_t rows_kept = 0;
+  std::vector<std::size_t> cells_missing = {};  ///< per selected number, before any is filled
+
+  std::size_t n_rows() const { return rows_missing + rows_repeated + rows_kept; }
 };
 
 class MendedLog final : public LogReader {
@@ -40,7 +44,7 @@ class MendedLog final : public LogReader {
   void finish(LogPiece& piece, LogChunk& chunk) override;
   const std::vector<std::string>& words(std::size_t k) const override { return log_->words(k); }
 
-  /// So far.
+  /// So far; none where the rules are to refuse everything.
   const MendedCounts& counts() const { return counts_; }
 
  private:

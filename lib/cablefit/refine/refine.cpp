@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "cablefit/refine/best_shapes.hpp"
+#include "cablefit/refine/bounded_work.hpp"
 #include "cablefit/refine/conclusion.hpp"
 #include "cablefit/refine/effect_steps.hpp"
 #include "cablefit/refine/elastic_stage.hpp"
@@ -218,6 +219,7 @@ const Refinement* unphysical(const RefineResult& result) {
 
 RefineResult refine(std::span<const Model> models, const RefineLogs& logs,
                     const RefineOptions& options) {
+  require_bounded_work(logs);
   std::vector<Model> bases(models.begin(), models.end());
   std::vector<std::string> warnings;
   for (const auto* some : {&logs.train, &logs.test, &logs.blocked})

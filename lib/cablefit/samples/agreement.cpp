@@ -95,16 +95,8 @@ std::vector<std::string> unloaded_warnings(std::span<const LogSurvey> logs,
 }
 
 bool has_trusted_finding(std::span<const LogSurvey> logs, const PartFilter& wanted) {
-  // Such a finding comes with what to change in the rig file, or is a wild sample; others, as a
-  // copy of a log, explain nothing.
-  const auto explains_rest = [](const std::string& warning) {
-    return warning.find("in the rig file") != std::string::npos ||
-           warning.find("is a single sample") != std::string::npos;
-  };
   return std::any_of(logs.begin(), logs.end(), [&](const LogSurvey& log) {
-    return log.plan.reading.trust_units &&
-           std::any_of(log.parts.begin(), log.parts.end(), wanted) &&
-           std::any_of(log.warnings.begin(), log.warnings.end(), explains_rest);
+    return log.has_trusted_finding && std::any_of(log.parts.begin(), log.parts.end(), wanted);
   });
 }
 

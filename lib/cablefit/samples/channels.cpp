@@ -1,16 +1,16 @@
 #include "cablefit/samples/channels.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
-#include "cablefit/base/catalog.hpp"
 #include "cablefit/base/quote.hpp"
-#include "cablefit/base/units.hpp"
-#include "cablefit/samples/unit_suffix.hpp"
+#include "cablefit/samples/plan_parts.hpp"
 
 namespace cablefit {
+
+using namespace plan_parts;
+
 namespace {
 
 // A row of the table of channels: name and dimension (m, kg, s, A) on a rotary and a linear axis.
@@ -20,10 +20,6 @@ struct ChannelInfo {
   std::string_view quantity;
   Dimension rotary, linear;
 };
-
-constexpr Dimension kNumber{0, 0, 0, 0}, kLength{1, 0, 0, 0}, kTime{0, 0, 1, 0};
-constexpr Dimension kRate{0, 0, -1, 0}, kSpeed{1, 0, -1, 0};
-constexpr Dimension kTorque{2, 1, -2, 0}, kForce{1, 1, -2, 0};
 
 constexpr std::array<ChannelInfo, 6> kInfo = {{
     {Channel::q, "q", "a position", kNumber, kLength},
@@ -39,107 +35,12 @@ const ChannelInfo& info_of(Channel channel) {
                        [&](const ChannelInfo& row) { return row.channel == channel; });
 }
 
-std::optional<std::size_t> find_column(const LogHeader& header, std::string_view name) {
-  for (std::size_t k = 0; k < header.columns.size(); ++k)
-    if (header.columns[k].name == name) return k;
-  return std::nullopt;
-}
-
-/// Of a column that is called as the channel, maybe with a unit behind it: tau_mNm.
-std::optional<std::size_t> find_channel_column(const LogHeader& header, std::string_view channel,
-                                               const Dimension& dimension) {
-  if (const auto column = find_column(header, channel)) return column;
-  for (std::size_t k = 0; k < header.columns.size(); ++k) {
-    const auto suffixed = split_unit_suffix(header.columns[k].name, dimension);
-    if (suffixed && suffixed->stem == channel) return k;
-  }
-  return std::nullopt;
-}
-
-std::string names_of(const LogHeader& header) {
-  std::vector<std::string> names;
-  for (std::size_t k = 0; k < std::min<std::size_t>(header.columns.size(), 20); ++k)
-    names.push_back(shortened(header.columns[k].name));
-  return fmt::format("{}{}", fmt::join(names, ", "), header.columns.size() > 20 ? ", ..." : "");
-}
-
-// The column a channel is read from: the rig file's when it names one, else the channel's own name.
-std::optional<std::size_t> column_of(const LogHeader& header, const Rig& rig,
-                                     const std::string& channel,
-                                     const std::optional<Dimension>& dimension = {}) {
-  const auto mapped = rig.columns.find(channel);
-  if (mapped == rig.columns.end())
-    return dimension ? find_channel_column(header, channel, *dimension)
-                     : find_column(header, channel);
-  if (const auto column = find_column(header, mapped->second.column)) return column;
-  std::vector<std::string_view> known;
-  for (const ColumnHeader& c : header.columns) known.push_back(c.name);
-  throw input_error({header.path, header.columns.empty() ? 1 : header.columns[0].place.line, 0},
-                    fmt::format("no column '{}', which the rig file names for {}",
-                                mapped->second.column, channel),
-                    suggestion(mapped->second.column, known));
-}
-
 // The controller names the column of its reference itself; on a rig of several joints the joint's
 // number follows the name. A log need not have it.
 std::optional<std::size_t> reference_column(const LogHeader& header, const Rig& rig, int joint) {
   if (!rig.controller) return std::nullopt;
   const std::string& name = rig.controller->reference;
   return find_column(header, rig.n_joints() == 1 ? name : fmt::format("{}{}", name, joint + 1));
-}
-
-Unit checked_unit(const std::string& text, const Place& place, const Dimension& expected,
-                  std::string_view what, std::string_view quantity) {
-  Unit unit;
-  try {
-    unit = parse_unit(text);
-  } catch (const Error& error) {
-    throw Error(ErrorKind::input, fmt::format("{}: {}: {}", to_string(place), what, error.what()));
-  }
-  if (unit.dimension != expected)
-    throw input_error(place, fmt::format("unit '{}' of {} is not {}'s", text, what, quantity),
-                      "correct the unit in the header or in the rig file");
-  return unit;
-}
-
-/// Hertz count turns to some and radians to others, and so does what is told a minute.
-void require_clear_speed(const std::string& unit, const Place& place, const std::string& column) {
-  const bool per_minute = unit == "1/min" || unit == "min^-1" || unit == "min-1";
-  if (!unit.ends_with("Hz") && !per_minute) return;
-  throw input_error(place,
-                    fmt::format("unit '{}' of column {} may be turns or radians a second",
-                                shortened(unit), cablefit::quoted(column)),
-                    "write rev/s, rpm or rad/s in the header or in the rig file");
-}
-
-/// A current is no torque until the motor's constant makes it one.
-void require_torque(const ColumnHeader& cell, const ColumnMapping& mapping,
-                    const std::string& channel) {
-  if (mapping.scale != 1 || !is_current_name(cell.name)) return;
-  throw input_error(cell.place,
-                    fmt::format("column {} is a current by its name, {} a torque",
-                                cablefit::quoted(cell.name), channel),
-                    fmt::format("give the torque constant: \"{}\": {{\"column\": \"{}\", "
-                                "\"scale\": 0.083, \"unit\": \"N m\"}} in the rig file's columns",
-                                channel, cell.name));
-}
-
-ColumnMapping mapping_of(const Rig& rig, const std::string& channel) {
-  const auto mapped = rig.columns.find(channel);
-  return mapped == rig.columns.end() ? ColumnMapping{} : mapped->second;
-}
-
-/// The unit that a column is in: of the rig file, else of the header, else by the column's name,
-/// which is told. Empty: none is given.
-std::string unit_of(LogPlan& plan, const ColumnHeader& cell, const ColumnMapping& mapping,
-                    const Dimension& dimension) {
-  if (!mapping.unit.empty()) return mapping.unit;
-  if (!cell.unit.empty()) return cell.unit;
-  const auto suffixed = split_unit_suffix(cell.name, dimension);
-  if (!suffixed) return {};
-  plan.decisions.push_back({"unit of column " + cablefit::quoted(cell.name),
-                            std::string(suffixed->unit), "by the end of its name"});
-  return std::string(suffixed->unit);
 }
 
 void require_no_dates(const ColumnHeader& cell) {
@@ -159,8 +60,7 @@ Slot make_slot(LogPlan& plan, const ChannelInfo& info, int joint, std::size_t co
   const std::string unit = unit_of(plan, cell, mapping, dimension);
   double unit_scale = 1;
   if (info.channel == Channel::w) require_clear_speed(unit, cell.place, cell.name);
-  if (unit.empty() && (dimension == kTorque || dimension == kForce))
-    require_torque(cell, mapping, channel);
+  if (unit.empty() && is_torque(dimension)) require_torque(cell, mapping, channel);
   if (!unit.empty())
     unit_scale = checked_unit(unit, cell.place, dimension, "column " + cablefit::quoted(cell.name),
                               info.quantity)
@@ -171,38 +71,30 @@ Slot make_slot(LogPlan& plan, const ChannelInfo& info, int joint, std::size_t co
   return slot;
 }
 
-/// The rate of rows that a user, the rig file or the log gives; 0: none of them.
-double given_rate(const LogPlan& plan) {
-  if (plan.reading.rate > 0) return plan.reading.rate;
-  if (plan.rig.sample_rate > 0) return plan.rig.sample_rate;
-  return plan.header.sample_rate.value_or(0);
+/// What a blocked log can do without.
+bool is_optional(Channel channel) {
+  return channel == Channel::tau_load || channel == Channel::theta_ref;
 }
 
-void resolve_time(LogPlan& plan) {
-  plan.time_column = column_of(plan.header, plan.rig, "t", kTime);
-  plan.sample_rate = given_rate(plan);
-  // A rate that somebody gives for this log stands for its time column too.
-  const bool replaces = plan.reading.rate > 0 || plan.rig.sample_rate > 0;
-  if (replaces && plan.time_column) {
-    plan.decisions.push_back(
-        {"clock", fmt::format("{:g} Hz", plan.sample_rate), "given; column 't' is not read"});
-    plan.time_column.reset();
+/// Finds the channel's column: on a rig of one joint q or q1, else q1, q2, ...
+void resolve_channel(LogPlan& plan, const ChannelInfo& info, int joint) {
+  const Rig& rig = plan.rig;
+  const Dimension& dimension = rig.linear_motion ? info.linear : info.rotary;
+  std::vector<std::string> names = {fmt::format("{}{}", info.name, joint + 1)};
+  if (rig.n_joints() == 1) names.insert(names.begin(), std::string(info.name));
+  for (const std::string& name : names) {
+    if (auto absent = absent_column(plan.header, rig, name); absent && is_optional(info.channel)) {
+      if (!plan.absent) plan.absent.emplace(*absent);
+      return;
+    }
+    if (const auto column = column_of(plan.header, rig, name, dimension)) {
+      plan.slots.push_back(make_slot(plan, info, joint, *column, name));
+      return;
+    }
   }
-  if (!plan.time_column) {
-    if (plan.sample_rate > 0) return;
-    throw input_error(
-        {plan.path, 1, 0}, "no column 't' and no sample rate",
-        fmt::format("name the time column 't' or map it in the rig file, or give the rate by "
-                    "--rate HZ or \"sample_rate\" in the rig file; columns are {}",
-                    names_of(plan.header)));
-  }
-  const ColumnHeader& cell = plan.header.columns[*plan.time_column];
-  const ColumnMapping mapping = mapping_of(plan.rig, "t");
-  if (cell.is_date) return;
-  const std::string unit = unit_of(plan, cell, mapping, kTime);
-  if (!unit.empty())
-    plan.time_factor = checked_unit(unit, cell.place, kTime, "column 't'", "a time").scale;
-  plan.time_factor *= mapping.scale;
+  if (info.channel != Channel::theta_ref) return;
+  if (const auto column = reference_column(plan.header, rig, joint))
+    plan.slots.push_back(make_slot(plan, info, joint, *column, names.back()));
 }
 
 // A rigid drive has one position, whatever the log calls it, and a speed tells it but for its zero.
@@ -268,18 +160,7 @@ LogPlan plan_log(const std::string& path, const Rig& rig, const Reading& reading
   plan.header = open_log(path, reading.text())->header();
   resolve_time(plan);
   for (int joint = 0; joint < rig.n_joints(); ++joint)
-    for (const ChannelInfo& info : kInfo) {
-      const std::string indexed = fmt::format("{}{}", info.name, joint + 1);
-      const bool plain_first = rig.n_joints() == 1;
-      std::string channel = plain_first ? std::string(info.name) : indexed;
-      const Dimension& dimension = rig.linear_motion ? info.linear : info.rotary;
-      auto column = column_of(plan.header, rig, channel, dimension);
-      if (!column && plain_first)
-        column = column_of(plan.header, rig, channel = indexed, dimension);
-      if (!column && info.channel == Channel::theta_ref)
-        column = reference_column(plan.header, rig, joint);
-      if (column) plan.slots.push_back(make_slot(plan, info, joint, *column, channel));
-    }
+    for (const ChannelInfo& info : kInfo) resolve_channel(plan, info, joint);
   for (int joint = 0; joint < rig.n_joints(); ++joint) complete_theta(plan, joint);
   plan.preload_column = column_of(plan.header, rig, "preload");
   plan.phase_column = column_of(plan.header, rig, "phase");

@@ -46,8 +46,12 @@ struct LogPlan {
   double time_factor = 1;
   double sample_rate = 0;  ///< Hz, where there is no time column
   std::optional<std::size_t> preload_column, phase_column, run_column;
-  bool q_is_theta = false;          ///< the log's only position, q, is taken for a rigid drive's
-  std::vector<Decision> decisions;  ///< what is read otherwise than it stands there
+  bool q_is_theta = false;  ///< the log's only position, q, is taken for a rigid drive's
+  /// The rig file maps tau_load or theta_ref to a column that is not there. A blocked log needs
+  /// neither, and which logs are blocked shows in the survey only.
+  std::optional<Error> absent;
+  std::vector<std::string> trusted;  ///< contradictions that --trust-units goes on with
+  std::vector<Decision> decisions;   ///< what is read otherwise than it stands there
 
   /// Position of a channel among `slots`, or -1.
   int find(Channel channel, int joint = 0) const;
@@ -62,8 +66,9 @@ struct LogPlan {
 
 /// Opens the log, reads its header and resolves every channel by the rig file or by name. Of one
 /// joint a lone w is integrated to theta, and without theta a q beside tau is read as it. Throws
-/// Error(input) at the header cell for a unit of the wrong kind, for a mapped column that is not
-/// there, when there is neither t nor a sample rate, and when no channel is found at all.
+/// Error(input) at the header cell for a unit of the wrong kind or another one than the rig file's,
+/// for a time column with another rate than the one given, for a mapped column that is not there,
+/// when there is neither t nor a sample rate, and when no channel is found at all.
 LogPlan plan_log(const std::string& path, const Rig& rig, const Reading& reading = {});
 
 /// A pass over the log as its plan wants it read. `digest` as of open_log().

@@ -14,7 +14,6 @@
 namespace cablefit {
 namespace {
 
-constexpr double kSaturated = 0.01;  // share of rows at the limits of tau
 constexpr double kMostlyAtRest = 0.8;
 constexpr double kFewSteps = 100;  // a position that spans fewer encoder steps
 
@@ -143,13 +142,6 @@ std::vector<std::string> identified_by(const LogPlan& plan, const PartSurvey& pa
 void note_channels(CheckedPart& part) {
   for (const CheckedChannel& channel : part.channels) {
     const ChannelSurvey& s = channel.survey;
-    if (channel.name.rfind("tau", 0) == 0 && channel.name.rfind("tau_load", 0) != 0 &&
-        s.at_limits > kSaturated) {
-      part.warnings.push_back(
-          fmt::format("{} stands at its limits in {:.1f} % of the rows: saturation? clipped torque "
-                      "biases every parameter",
-                      channel.name, 100 * s.at_limits));
-    }
     if (channel.is_angle && s.quantum > 0 && s.range() < kFewSteps * s.quantum) {
       if (part.survey.phase == Phase::blocked && channel.name.front() == 'q') continue;
       part.warnings.push_back(fmt::format("{} spans only {:.0f} steps of its encoder", channel.name,

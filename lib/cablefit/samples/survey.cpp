@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "cablefit/base/digest.hpp"
 #include "cablefit/base/parallel.hpp"
@@ -18,6 +19,9 @@ constexpr std::size_t kMaxParts = 1000;  // each costs memory here, and passes o
 constexpr std::size_t kFewSteps = 20;    // too few to call a column no clock
 constexpr double kMostBack = 0.2;        // share of the steps of a clock with some faults
 constexpr double kAbsurd = 1e30;         // in SI; nothing a joint does comes near
+// Of more rows left out than these shares nothing is known of the motion between those kept.
+constexpr double kMostMissing = 0.5, kMostRepeated = 0.2;
+constexpr double kSmallShare = 0.01;  // not told in percent
 // A link whose position varies less than this share of the motor's is blocked.
 constexpr double kStillShare = 0.02;
 
@@ -273,19 +277,75 @@ std::string counted(std::size_t n, std::string_view what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
+/// "12 rows", "300 rows (3 %)" of so many.
+std::string counted_of(std::size_t n, std::size_t all, std::string_view what) {
+  const double share = static_cast<double>(n) / static_cast<double>(all);
+  if (share <= kSmallShare) return counted(n, what);
+  return fmt::format("{} ({:.0f} %)", counted(n, what), 100 * share);
+}
+
 /// What was left out or filled as the user asked for.
 std::vector<std::string> mending_warnings(const LogPlan& plan, const MendedCounts& counts) {
   std::vector<std::string> warnings;
+  const std::size_t n_rows = counts.n_rows();
   if (counts.rows_missing > 0)
     warnings.push_back(fmt::format("{}: {} with missing cells left out", plan.path,
-                                   counted(counts.rows_missing, "row")));
+                                   counted_of(counts.rows_missing, n_rows, "row")));
   if (counts.cells_held > 0)
-    warnings.push_back(fmt::format("{}: {} filled with the value before", plan.path,
-                                   counted(counts.cells_held, "missing cell")));
+    warnings.push_back(fmt::format(
+        "{}: {} filled with the value before", plan.path,
+        counted_of(counts.cells_held, n_rows * counts.cells_missing.size(), "missing cell")));
   if (counts.rows_repeated > 0)
     warnings.push_back(fmt::format("{}: {} with the time of the row before left out", plan.path,
-                                   counted(counts.rows_repeated, "row")));
+                                   counted_of(counts.rows_repeated, n_rows, "row")));
   return warnings;
+}
+
+/// "'tau', 'q'": the columns without a single number.
+std::string empty_columns(const LogPlan& plan, const MendedCounts& counts) {
+  const std::vector<std::size_t> columns = plan.numeric_columns();
+  std::set<std::size_t> told;  // two channels may be read from one column
+  std::string names;
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    if (counts.cells_missing[k] == counts.n_rows() && told.insert(columns[k]).second)
+      names += (names.empty() ? "" : ", ") + cablefit::quoted(plan.header.columns[columns[k]].name);
+  return names;
+}
+
+Error no_complete_row(const LogPlan& plan, const MendedCounts& counts) {
+  const std::string empty = empty_columns(plan, counts);
+  if (!empty.empty())
+    return input_error({plan.path}, fmt::format("no cell of {} has a number", empty),
+                       "choose other columns, or record again");
+  return input_error({plan.path}, "every row has a missing cell",
+                     "choose other columns, or use --missing hold");
+}
+
+/// Rows that the user has left out must be few.
+void require_most_kept(const LogPlan& plan, const MendedCounts& counts) {
+  const std::size_t n_rows = counts.n_rows();
+  if (n_rows == 0) return;
+  if (counts.rows_kept == 0) throw no_complete_row(plan, counts);
+  const auto share = [&](std::size_t n) {
+    return static_cast<double>(n) / static_cast<double>(n_rows);
+  };
+  if (share(counts.rows_missing) > kMostMissing)
+    throw input_error({plan.path},
+                      fmt::format("{} of {} rows have missing cells", counts.rows_missing, n_rows),
+                      "choose other columns, or record again");
+  if (share(counts.rows_repeated) > kMostRepeated)
+    throw input_error({plan.path},
+                      fmt::format("{} of {} rows have the time of the row before: t has too few "
+                                  "digits, or the logger repeats samples",
+                                  counts.rows_repeated, n_rows),
+                      "give the rate by --rate HZ");
+}
+
+/// A moving log needs every column that the rig file names.
+void require_mapped_columns(const LogSurvey& survey) {
+  const bool moves = std::any_of(survey.parts.begin(), survey.parts.end(),
+                                 [](const PartSurvey& p) { return p.phase == Phase::moving; });
+  if (moves && survey.plan.absent) throw Error(*survey.plan.absent);
 }
 
 LogSurvey survey_once(const LogPlan& plan, const std::string& preload, int threads) {
@@ -308,11 +368,13 @@ LogSurvey survey_once(const LogPlan& plan, const std::string& preload, int threa
         reader->finish(*piece, chunk);
         scan.add(*reader, chunk);
       });
+  require_most_kept(plan, reader->counts());
   LogSurvey survey = scan.result(digest.hex());
-  if (survey.n_rows == 0)
-    throw input_error({plan.path}, "every row has a missing cell",
-                      "choose other columns, or use --missing hold");
-  survey.warnings = mending_warnings(plan, reader->counts());
+  require_mapped_columns(survey);
+  survey.warnings = plan.trusted;
+  survey.has_trusted_finding = !plan.trusted.empty();
+  const std::vector<std::string> mended = mending_warnings(plan, reader->counts());
+  survey.warnings.insert(survey.warnings.end(), mended.begin(), mended.end());
   return survey;
 }
 

@@ -34,13 +34,16 @@ struct LogSurvey {
   std::size_t n_rows = 0;
   std::vector<PartSurvey> parts;
   std::shared_ptr<const SampleStore> samples;  ///< what all later passes read
-  /// Of rows left out or filled and of weigh_logs(): the first to be told.
+  /// Of LogPlan::trusted, of rows left out or filled and of weigh_logs(): the first to be told.
   std::vector<std::string> warnings = {};
+  /// Units, signs or samples cannot be right and are trusted all the same: they explain the rest.
+  bool has_trusted_finding = false;
 };
 
 /// Reads the whole log, its text for the only time, on up to `threads` threads. Throws Error(input)
-/// at file:line:column for time that stands still or runs back, an unknown phase, and a part with
-/// fewer than 8 rows.
+/// at file:line:column for time that stands still or runs back, an unknown phase, a part with fewer
+/// than 8 rows, and more than half of the rows left out for missing cells or a fifth for repeated
+/// times; of a moving log for LogPlan::absent.
 /// `preload`: name for parts without a preload column (the rig's, or an option); empty: "default".
 LogSurvey survey_log(const LogPlan& plan, const std::string& preload, int threads = 1);
 

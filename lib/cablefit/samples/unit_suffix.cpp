@@ -1,6 +1,8 @@
 #include "cablefit/samples/unit_suffix.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 
 namespace cablefit {
 namespace {
@@ -20,20 +22,35 @@ constexpr std::array<Suffix, 24> kSuffixes = {{
     {"_s", "s"},         {"_mm", "mm"},           {"_m", "m"},
 }};
 
+bool same_letter(char a, char b) {
+  return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+}
+
+bool ends_in(std::string_view name, std::string_view ending) {
+  if (name.size() <= ending.size()) return false;
+  const std::string_view end = name.substr(name.size() - ending.size());
+  if (ending.size() == 2) return end == ending;
+  return std::equal(end.begin(), end.end(), ending.begin(), same_letter);
+}
+
 }  // namespace
 
 std::optional<SuffixedName> split_unit_suffix(std::string_view column, const Dimension& wanted) {
   for (const Suffix& suffix : kSuffixes) {
-    const bool fits = column.size() > suffix.ending.size() && column.ends_with(suffix.ending) &&
-                      parse_unit(suffix.unit).dimension == wanted;
-    if (fits)
+    if (ends_in(column, suffix.ending) && parse_unit(suffix.unit).dimension == wanted)
       return SuffixedName{column.substr(0, column.size() - suffix.ending.size()), suffix.unit};
   }
   return std::nullopt;
 }
 
+bool is_milliampere_name(std::string_view column) { return ends_in(column, "_mA"); }
+
 bool is_current_name(std::string_view column) {
-  return column.size() > 2 && (column.ends_with("_A") || column.ends_with("_mA"));
+  return ends_in(column, "_A") || is_milliampere_name(column);
+}
+
+std::string_view stem_of_current(std::string_view column) {
+  return is_current_name(column) ? column.substr(0, column.rfind('_')) : std::string_view();
 }
 
 }  // namespace cablefit

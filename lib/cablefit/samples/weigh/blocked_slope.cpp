@@ -13,6 +13,16 @@ constexpr double kClearSlope = 0.7;  // correlation of torque and deflection
 constexpr double kOtherUnit =
     5;  // ratio of the slopes of two logs; a cable that softens stays below
 
+constexpr double kNoSlope = 0.3;     // of a log that only seems blocked
+constexpr double kDeadRange = 0.05;  // rad; less is a deflection
+constexpr Eigen::Index kFewBlocks = 50;
+
+/// The link was taken for blocked since q stands still, but tau does not follow theta.
+bool has_dead_q(const PartSurvey& survey, const CoarsePart::Joint& joint, const CoarseLine& line) {
+  return !survey.phase_given && joint.tau.size() > kFewBlocks &&
+         std::abs(line.correlation) < kNoSlope && coarse_range(joint.theta) > kDeadRange;
+}
+
 struct BlockedSlope {
   const CoarsePart* part;
   CoarseLine line;
@@ -29,6 +39,14 @@ Findings blocked_slope(const Logs& logs) {
     const CoarsePart::Joint& joint = part.joints.front();
     if (joint.tau.size() == 0 || joint.theta.size() == 0) continue;
     const CoarseLine line = coarse_line(joint.theta, joint.tau);
+    if (has_dead_q(logs.survey(part), joint, line))
+      findings.push_back(
+          {part.log, 0, true,
+           fmt::format("q stands still while theta moves {:.3g}, and tau does not follow theta "
+                       "(correlation {:.2f}): is q dead, or another column?",
+                       coarse_range(joint.theta), line.correlation),
+           "read q from the column of the link's encoder; of a link that is blocked, give a column "
+           "'phase' with 'blocked'"});
     if (std::abs(line.correlation) < kClearSlope) continue;
     if (line.slope < 0) {
       findings.push_back({part.log, 0, true,
@@ -47,7 +65,7 @@ Findings blocked_slope(const Logs& logs) {
         {part.log, 0, true,
          fmt::format("tau per theta is {:.3g} times that of {}, with the same rig and preload",
                      ratio, logs.plan(*found->second.part).path),
-         "give each log its own unit or scale, or its own preload"});
+         "give each log its own unit or scale, or its own preload", false, true});
   }
   return findings;
 }

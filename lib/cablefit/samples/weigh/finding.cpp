@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "cablefit/base/quote.hpp"
 
 namespace cablefit {
@@ -22,6 +24,14 @@ std::string column_name(const LogPlan& plan, Channel channel, int joint) {
 
 }  // namespace
 
+double nice_factor(double measured) {
+  constexpr double kNear = 0.01;
+  const double size = std::abs(measured), larger = size < 1 ? 1 / size : size;
+  const double whole = std::round(larger);
+  if (whole < 2 || std::abs(larger / whole - 1) > kNear) return measured;
+  return std::copysign(size < 1 ? 1 / whole : whole, measured);
+}
+
 std::string mending_line(const LogPlan& plan, Channel channel, int joint, double factor) {
   const std::string name = weighed_name(plan, channel, joint);
   const auto mapped = plan.rig.columns.find(name);
@@ -33,6 +43,15 @@ std::string mending_line(const LogPlan& plan, Channel channel, int joint, double
 std::string mending_unit(const LogPlan& plan, Channel channel, int joint, std::string_view unit) {
   return fmt::format("\"{}\": {{\"column\": \"{}\", \"unit\": \"{}\"}} in the rig file's columns",
                      weighed_name(plan, channel, joint), column_name(plan, channel, joint), unit);
+}
+
+std::uint64_t line_of_row(const LogPlan& plan, std::size_t row) {
+  const auto reader = open_planned(plan);
+  reader->select(plan.numeric_columns(), plan.text_columns());
+  LogChunk chunk;
+  for (std::size_t n_before = 0; reader->next(chunk); n_before += chunk.n_rows)
+    if (row < n_before + chunk.n_rows) return chunk.lines[row - n_before];
+  return 0;
 }
 
 }  // namespace cablefit

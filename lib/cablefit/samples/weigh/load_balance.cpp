@@ -4,75 +4,94 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 
 #include "cablefit/samples/weigh/checks.hpp"
 
 namespace cablefit::weighing {
 namespace {
 
-constexpr double kLeastShare = 0.3;                       // of tau's rms: a load that large shows
 constexpr double kOddBalance = 1.4, kWrongBalance = 1.8;  // ratio to what balances the load
-constexpr double kKnownTo = 0.1;                          // relative sd of the ratio
+constexpr double kFollowsLoad = 0.95;                     // correlation beside inertia and friction
+constexpr double kFollowsClosely = 0.97;                  // for a ratio that is only odd
+constexpr double kBrakes = 0.5;                           // of the power that the load exchanges
+constexpr double kOwnShare = 0.3;   // of the load's variation that is not the motion's
+constexpr double kVaries = 0.1;     // of the largest load: an offset does not pass for it
+constexpr double kLeastLoad = 0.1;  // of the motion's torque: an offset would do for a smaller one
+constexpr double kStandsOut = 3;    // a constant torque, in rms of what remains beside it
+constexpr double kGravity = 9.80665, kSameFactor = 0.02;  // N per kg
 constexpr double kUnitMatch = 0.15, kConstant = 1e-3;
-constexpr double kVaries = 0.1;  // of the largest load: an offset does not pass for it
 constexpr Eigen::Index kFewBalanced = 40;
 
 using PartList = std::vector<const CoarsePart*>;
 
-/// Columns [load, acceleration, speed, direction, 1] and tau, of all parts.
+/// Columns [1, acceleration, speed, direction] of the motion, load and tau, of all parts.
 struct BalanceRows {
-  Eigen::MatrixXd columns;
-  Eigen::VectorXd tau;
+  Eigen::MatrixXd motion;
+  Eigen::VectorXd load, tau;
 };
 
 BalanceRows balance_rows(const PartList& parts) {
   Eigen::Index n = 0;
   for (const CoarsePart* part : parts) n += static_cast<Eigen::Index>(part->inner.size());
-  BalanceRows rows{Eigen::MatrixXd(n, 5), Eigen::VectorXd(n)};
+  BalanceRows rows{Eigen::MatrixXd(n, 4), Eigen::VectorXd(n), Eigen::VectorXd(n)};
   Eigen::Index at = 0;
   for (const CoarsePart* part : parts) {
     const CoarsePart::Joint& joint = part->joints.front();
     const CoarseRates motion = coarse_rates(*part, joint.theta.size() > 0 ? joint.theta : joint.q);
     const auto m = static_cast<Eigen::Index>(part->inner.size());
-    auto block = rows.columns.middleRows(at, m);
-    block.col(0) = at_inner(*part, joint.load).matrix();
+    auto block = rows.motion.middleRows(at, m);
+    block.col(0).setOnes();
     block.col(1) = motion.second.matrix();
     block.col(2) = motion.first.matrix();
     block.col(3) = motion.first.sign().matrix();
-    block.col(4).setOnes();
+    rows.load.segment(at, m) = at_inner(*part, joint.load).matrix();
     rows.tau.segment(at, m) = at_inner(*part, joint.tau).matrix();
     at += m;
   }
   return rows;
 }
 
+/// The columns in units of their size, so that none is taken for zero.
+Eigen::MatrixXd scaled_columns(const Eigen::MatrixXd& columns, Eigen::VectorXd& scale) {
+  scale = columns.colwise().norm();
+  scale = (scale.array() > 0).select(scale, 1);
+  return columns * scale.cwiseInverse().asDiagonal();
+}
+
+double rms(const Eigen::VectorXd& x) {
+  return x.size() == 0 ? 0 : x.norm() / std::sqrt(static_cast<double>(x.size()));
+}
+
+bool is_usual(double ratio) { return ratio > 1 / kWrongBalance && ratio < kWrongBalance; }
+
 struct Balance {
   double ratio = 0;  // tau over what balances the load
   bool known = false;
 };
 
+/// A load that always opposes the motion: friction that grows with it looks like a larger load.
+bool is_brake(const BalanceRows& rows) {
+  const Eigen::ArrayXd power = rows.load.array() * rows.motion.col(2).array();
+  return power.sum() < -kBrakes * power.abs().sum();
+}
+
+/// By the part of the load that no inertia and friction could pass for. Friction that follows the
+/// load, or a load that follows the direction of motion, leaves the scale unknown.
 Balance fitted_balance(const BalanceRows& rows) {
   const Eigen::Index n = rows.tau.size();
   if (n < kFewBalanced) return {};
-  const Eigen::ArrayXd load = rows.columns.col(0).array();
-  if (coarse_range(load) < kVaries * load.abs().maxCoeff()) return {};
-  const Eigen::VectorXd scale = rows.columns.colwise().norm();
-  if ((scale.array() <= 0).any()) return {};
-  const Eigen::MatrixXd scaled = rows.columns * scale.cwiseInverse().asDiagonal();
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
-  if (qr.rank() < scaled.cols()) return {};
-  const Eigen::VectorXd x = qr.solve(rows.tau);
-  const double variance = (rows.tau - scaled * x).squaredNorm() / static_cast<double>(n / 10);
-  const Eigen::MatrixXd inverse =
-      (scaled.transpose() * scaled)
-          .ldlt()
-          .solve(Eigen::MatrixXd::Identity(scaled.cols(), scaled.cols()));
-  Balance balance;
-  balance.ratio = -x(0) / scale(0);
-  const double sd = std::sqrt(variance * inverse(0, 0)) / scale(0);
-  balance.known = std::abs(balance.ratio) > 0 && sd < kKnownTo * std::abs(balance.ratio);
-  return balance;
+  const Eigen::VectorXd about = rows.load.array() - rows.load.mean();
+  if (rms(about) < kVaries * rows.load.cwiseAbs().maxCoeff()) return {};
+  if (is_brake(rows)) return {};
+  Eigen::VectorXd scale;
+  const Eigen::MatrixXd motion = scaled_columns(rows.motion, scale);
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(motion);
+  const Eigen::VectorXd load = rows.load - motion * qr.solve(rows.load);
+  const Eigen::VectorXd tau = rows.tau - motion * qr.solve(rows.tau);
+  if (load.norm() < kOwnShare * about.norm() || !(tau.norm() > 0)) return {};
+  const double correlation = load.dot(tau) / (load.norm() * tau.norm());
+  const double ratio = -load.dot(tau) / load.squaredNorm();
+  return {ratio, std::abs(correlation) > (is_usual(ratio) ? kFollowsClosely : kFollowsLoad)};
 }
 
 /// In these columns the constant load is called tau and the torque tau_load.
@@ -82,25 +101,29 @@ bool is_swapped(const CoarsePart& part) {
          coarse_range(joint.load) > kVaries * joint.load.abs().maxCoeff();
 }
 
-bool has_load(const CoarsePart& part) {
-  const CoarsePart::Joint& joint = part.joints.front();
-  if (joint.tau.size() == 0 || joint.load.size() == 0) return false;
-  const double load = std::sqrt(joint.load.square().mean());
-  return load > kLeastShare * std::sqrt(joint.tau.square().mean());
-}
-
 bool is_milli(double ratio) {
   return std::abs(ratio / 1000 - 1) < kUnitMatch || std::abs(ratio * 1000 - 1) < kUnitMatch;
 }
 
-/// Where a constant load stands beside an unknown offset, only a gross ratio shows.
-Balance mean_balance(const CoarsePart& part) {
-  const CoarsePart::Joint& joint = part.joints.front();
-  const double load = joint.load.mean();
-  const Eigen::ArrayXd about = joint.tau - joint.tau.mean();
+/// Of a load that hardly varies, by the constant part of tau: a gross ratio shows in it, beside an
+/// offset that is unknown.
+Balance constant_balance(const CoarsePart& part) {
+  const BalanceRows rows = balance_rows({&part});
+  if (rows.tau.size() < kFewBalanced) return {};
+  const double load = rows.load.mean();
+  const Eigen::VectorXd about = rows.load.array() - load;
+  if (rms(about) > kVaries * std::abs(load)) return {};
+  Eigen::VectorXd scale;
+  const Eigen::MatrixXd motion = scaled_columns(rows.motion, scale);
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(motion);
+  const Eigen::VectorXd x = qr.solve(rows.tau);
+  const double constant = x(0) / scale(0);
+  const double remains = rms(rows.tau - motion * x);
+  const double of_motion = rms(rows.tau.array() - constant);
   Balance balance;
-  balance.ratio = load == 0 ? 0 : -joint.tau.mean() / load;
-  balance.known = std::abs(load) > std::sqrt(about.square().mean()) || is_milli(balance.ratio);
+  balance.ratio = load == 0 ? 0 : -constant / load;
+  const bool counts = std::abs(load) > kLeastLoad * of_motion || is_milli(balance.ratio);
+  balance.known = counts && std::abs(constant) > kStandsOut * remains;
   return balance;
 }
 
@@ -116,40 +139,42 @@ Finding balance_finding(const LogPlan& plan, std::size_t log, double ratio) {
     return {log, 0, true, fmt::format("{}: {} in mN m?", what, channel_name(channel)),
             mending_unit(plan, channel, 0, "mN m")};
   }
+  if (std::abs(ratio / kGravity - 1) < kSameFactor)
+    return {log, 0, true, what + ": the load in kg m?",
+            mending_line(plan, Channel::tau_load, 0, kGravity)};
   const bool wrong = ratio < 0 || size > kWrongBalance || size < 1 / kWrongBalance;
-  return {log, 0, wrong, what, mending_line(plan, Channel::tau, 0, 1 / ratio)};
+  return {log, 0, wrong, what, mending_line(plan, Channel::tau, 0, nice_factor(1 / ratio))};
 }
 
-/// One log of several whose unit is another.
-std::optional<Finding> other_unit(const Logs& logs, const PartList& parts) {
-  const CoarsePart* other = nullptr;
+/// Logs of several whose torque or load is read otherwise than the others'.
+Findings odd_ones_out(const Logs& logs, const PartList& parts) {
+  Findings findings;
   bool any_usual = false;
   for (const CoarsePart* part : parts) {
-    const double ratio = mean_balance(*part).ratio;
-    if (is_milli(ratio)) other = part;
-    any_usual = any_usual || (ratio > 1 / kWrongBalance && ratio < kWrongBalance);
+    const Balance balance = constant_balance(*part);
+    if (!balance.known) continue;
+    any_usual = any_usual || is_usual(balance.ratio);
+    if (!is_usual(balance.ratio))
+      findings.push_back(balance_finding(logs.plan(*part), part->log, balance.ratio));
   }
-  if (other == nullptr || !any_usual) return std::nullopt;
-  return balance_finding(logs.plan(*other), other->log, mean_balance(*other).ratio);
+  return any_usual ? findings : Findings{};
 }
 
-std::optional<Finding> weigh_group(const Logs& logs, const PartList& parts) {
+Findings weigh_group(const Logs& logs, const PartList& parts) {
   const CoarsePart& first = *parts.front();
   if (is_swapped(first))
-    return Finding{first.log, 0, true,
-                   "tau is constant while the joint moves and tau_load varies: are they swapped?",
-                   "exchange their columns in the rig file"};
-  if (const auto finding = other_unit(logs, parts)) return finding;
-  const bool any_load =
-      std::any_of(parts.begin(), parts.end(), [](auto* part) { return has_load(*part); });
-  Balance balance;
-  if (any_load) balance = fitted_balance(balance_rows(parts));
-  if (!balance.known && parts.size() == 1 && (any_load || is_milli(mean_balance(first).ratio)))
-    balance = mean_balance(first);
+    return {{first.log, 0, true,
+             "tau is constant while the joint moves and tau_load varies: are they swapped?",
+             "exchange their columns in the rig file"}};
+  if (Findings odd = odd_ones_out(logs, parts); !odd.empty()) return odd;
+  Balance balance = fitted_balance(balance_rows(parts));
+  if (!balance.known) balance = constant_balance(first);
   const double size = std::abs(balance.ratio);
-  if (!balance.known) return std::nullopt;
-  if (balance.ratio > 0 && size < kOddBalance && size > 1 / kOddBalance) return std::nullopt;
-  return balance_finding(logs.plan(first), first.log, balance.ratio);
+  if (!balance.known) return {};
+  if (balance.ratio > 0 && size < kOddBalance && size > 1 / kOddBalance) return {};
+  Finding finding = balance_finding(logs.plan(first), first.log, balance.ratio);
+  finding.whole_rig = true;
+  return {finding};
 }
 
 }  // namespace
@@ -166,7 +191,8 @@ Findings load_balance(const Logs& logs) {
   }
   Findings findings;
   for (const auto& [key, parts] : groups) {
-    if (const auto finding = weigh_group(logs, parts)) findings.push_back(*finding);
+    const Findings found = weigh_group(logs, parts);
+    findings.insert(findings.end(), found.begin(), found.end());
   }
   return findings;
 }

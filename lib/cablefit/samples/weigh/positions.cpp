@@ -17,7 +17,9 @@ constexpr double kLowRatio = 0.5, kHighRatio = 2;  // stretch and resonance stay
 constexpr double kSameUnit = 0.03;                 // relative deviation from a unit's factor
 constexpr double kMostTurns = 2;                   // of a link that cables hold
 constexpr double kOddTurns = 1;
-constexpr double kMostDeflection = 1;  // rad, against a blocked link
+constexpr double kMostDeflection = 2;  // rad, against a blocked link
+constexpr double kLinkMoves = 0.05;  // rad; the compliance of what blocks a link lets it move less
+constexpr double kSmallTorque = 1;   // N m; positions read as torque stay below
 constexpr double kAlike = 0.99, kLowAlike = 0.8, kHighAlike = 1.25;
 constexpr double kStandsOut = 0.2;
 constexpr double kSameMotion = 0.995;  // correlation of a link that only looks blocked
@@ -32,6 +34,7 @@ struct UnitRatio {
 };
 constexpr std::array<UnitRatio, 2> kUnitRatios = {
     {{kDegrees, "degrees", "deg"}, {1000, "mrad", "mrad"}}};
+constexpr double kTurn = 2 * std::numbers::pi;
 
 /// Where theta would be on stiff cables: theta = S^+ P^T q from the couplings at rest. Empty when
 /// the motors' radii do not determine it.
@@ -74,8 +77,16 @@ Finding ratio_finding(const LogPlan& plan, const CoarsePart& part, int joint, do
                             weighed_name(plan, smaller, joint))
               : mending_unit(plan, larger, joint, unit.symbol));
   }
-  return finding(fmt::format("{} moves {:.3g} times as much as {}: a reduction?", theta, slope, q),
-                 mending_line(plan, Channel::theta, joint, 1 / slope));
+  const std::string more =
+      fmt::format("{} moves {:.3g} times as much as {}: ", theta, nice_factor(slope), q);
+  if (is(size, kTurn) || is(1 / size, kTurn)) {
+    const Channel turns = is(size, kTurn) ? Channel::q : Channel::theta;
+    return finding(
+        fmt::format("{}{} in revolutions, or a reduction?", more, weighed_name(plan, turns, joint)),
+        mending_unit(plan, turns, joint, "rev"));
+  }
+  return finding(more + "a reduction?",
+                 mending_line(plan, Channel::theta, joint, nice_factor(1 / slope)));
 }
 
 /// Work of the drive says which of two positions that run against each other is turned.
@@ -153,12 +164,14 @@ bool is_unit_ratio(double slope) {
   });
 }
 
-/// Of two units a moving link can look blocked; a blocked one follows theta by its compliance.
+/// Of two units, or before a gear, a moving link can look blocked; a blocked one follows theta by
+/// the compliance of what blocks it.
 bool weighs_ratio(const Logs& logs, const CoarsePart& part, int j, const Eigen::ArrayXd& expected) {
   const PartSurvey& survey = logs.survey(part);
   if (survey.phase == Phase::moving || survey.phase_given) return survey.phase == Phase::moving;
   const CoarseLine line = coarse_line(expected, part.joints[static_cast<std::size_t>(j)].theta);
-  return line.correlation > kSameMotion && is_unit_ratio(line.slope);
+  const bool moves = !logs.plan(part).rig.linear_motion && coarse_range(expected) > kLinkMoves;
+  return std::abs(line.correlation) > kSameMotion && (moves || is_unit_ratio(line.slope));
 }
 
 void weigh_columns(const Logs& logs, const CoarsePart& part, Findings& findings) {
@@ -188,11 +201,18 @@ void weigh_range(const Logs& logs, const CoarsePart& part, Findings& findings) {
     const CoarsePart::Joint& joint = part.joints[static_cast<std::size_t>(j)];
     const Channel channel = blocked ? Channel::theta : Channel::q;
     const double range = coarse_range(blocked ? joint.theta : joint.q);
-    const double turn = 2 * std::numbers::pi;
-    const double odd = blocked ? kMostDeflection : kOddTurns * turn;
+    const double odd = blocked ? kMostDeflection : kOddTurns * kTurn;
     if (range < odd) continue;
+    if (blocked && range > kTurn && joint.tau.size() > 0 &&
+        coarse_range(joint.tau) < kSmallTorque) {
+      findings.push_back(swapped(plan, part, j,
+                                 fmt::format("{} moves {:.3g} rad against a blocked link",
+                                             weighed_name(plan, channel, j), range),
+                                 Channel::theta, Channel::tau));
+      continue;
+    }
     findings.push_back(
-        {part.log, 0, range > (blocked ? turn : kMostTurns * turn),
+        {part.log, 0, range > (blocked ? kTurn : kMostTurns * kTurn),
          fmt::format("{} moves {:.3g} rad{}: degrees, or another column?",
                      weighed_name(plan, channel, j), range,
                      blocked ? " against a blocked link" : ""),

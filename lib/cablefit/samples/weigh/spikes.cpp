@@ -69,15 +69,6 @@ Spike largest_spike(const LogSurvey& log, std::size_t part, Eigen::Index column)
   return largest;
 }
 
-std::uint64_t line_of_row(const LogPlan& plan, std::size_t row) {
-  const auto reader = open_planned(plan);
-  reader->select(plan.numeric_columns(), plan.text_columns());
-  LogChunk chunk;
-  for (std::size_t n_before = 0; reader->next(chunk); n_before += chunk.n_rows)
-    if (row < n_before + chunk.n_rows) return chunk.lines[row - n_before];
-  return 0;
-}
-
 }  // namespace
 
 Findings spikes(const Logs& logs) {

@@ -18,20 +18,46 @@ struct WeighingRow {
 };
 
 /// Causes before their consequences.
-constexpr std::array<WeighingRow, 9> kWeighings = {{{weighing::clock, true, true},
-                                                    {weighing::spikes, true, true},
-                                                    {weighing::positions, false, true},
-                                                    {weighing::velocity, false, false},
-                                                    {weighing::work, false, true},
-                                                    {weighing::deflection, false, true},
-                                                    {weighing::blocked_slope, false, true},
-                                                    {weighing::load_balance, false, true},
-                                                    {weighing::duplicates, false, false}}};
+constexpr std::array<WeighingRow, 12> kWeighings = {{{weighing::clock, true, true},
+                                                     {weighing::spikes, true, true},
+                                                     {weighing::jumps, true, true},
+                                                     {weighing::positions, false, true},
+                                                     {weighing::velocity, false, false},
+                                                     {weighing::work, false, true},
+                                                     {weighing::deflection, false, true},
+                                                     {weighing::blocked_slope, false, true},
+                                                     {weighing::load_balance, false, true},
+                                                     {weighing::saturation, true, false},
+                                                     {weighing::duplicates, false, false},
+                                                     {weighing::overlaps, true, false}}};
 
 /// One rig file's mistake shows in each of its logs; it is told of the first.
 std::string with_count(const std::string& what, std::size_t others) {
   if (others == 0) return what;
   return fmt::format("{} (and {} more log{})", what, others, others == 1 ? "" : "s");
+}
+
+/// Whether another log with the same rig file and the same kind of parts is right as it is.
+bool others_are_right(const std::vector<LogSurvey>& logs, const std::set<std::size_t>& told,
+                      const Finding& finding) {
+  const auto moves = [](const LogSurvey& log) {
+    return std::any_of(log.parts.begin(), log.parts.end(),
+                       [](const PartSurvey& part) { return part.phase == Phase::moving; });
+  };
+  if (finding.whole_rig) return false;
+  const LogSurvey& wrong = logs[finding.log];
+  for (std::size_t k = 0; k < logs.size(); ++k)
+    if (!told.contains(k) && logs[k].plan.rig.path == wrong.plan.rig.path &&
+        moves(logs[k]) == moves(wrong))
+      return true;
+  return false;
+}
+
+std::string remedy_of(const std::vector<LogSurvey>& logs, const std::set<std::size_t>& told,
+                      const Finding& finding) {
+  if (finding.line > 0 || !finding.wrong || !others_are_right(logs, told, finding))
+    return finding.remedy;
+  return finding.remedy + "; of this log alone: give it a folder and a rig.json of its own";
 }
 
 void take(std::vector<LogSurvey>& logs, const weighing::Findings& findings, bool only_first) {
@@ -41,9 +67,11 @@ void take(std::vector<LogSurvey>& logs, const weighing::Findings& findings, bool
     LogSurvey& log = logs[finding.log];
     const std::string what =
         with_count(finding.what, only_first && finding.wrong ? told.size() - 1 : 0);
-    const Error error = input_error({log.plan.path, finding.line, 0}, what, finding.remedy);
+    const Error error =
+        input_error({log.plan.path, finding.line, 0}, what, remedy_of(logs, told, finding));
     if (finding.hopeless || (finding.wrong && !log.plan.reading.trust_units)) throw error;
     log.warnings.emplace_back(error.what());
+    log.has_trusted_finding = log.has_trusted_finding || (finding.wrong && only_first);
     if (only_first && finding.wrong) return;
   }
 }

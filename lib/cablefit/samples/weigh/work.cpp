@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string>
 
 #include "cablefit/samples/weigh/checks.hpp"
 
@@ -9,6 +10,7 @@ namespace {
 
 constexpr double kReturned = 0.05;  // of the range: the motion is closed
 constexpr double kNegative = -0.1;  // of the work exchanged; delays alone make less
+constexpr double kClearlyNegative = -0.3;
 constexpr Eigen::Index kFewBlocksOfWork = 40;
 
 struct Work {
@@ -32,17 +34,26 @@ Eigen::Index closed_blocks(const CoarsePart& part, Channel channel) {
 }
 
 /// Trapezoidal, over blocks that follow one another.
-Work drive_work(const CoarsePart& part, Channel channel, Eigen::Index n) {
+Work drive_work(const CoarsePart::Joint& joint, Channel channel, Eigen::Index n) {
   Work work;
-  for (const CoarsePart::Joint& joint : part.joints) {
-    const Eigen::ArrayXd& x = channel == Channel::q ? joint.q : joint.theta;
-    for (Eigen::Index i = 1; i < n; ++i) {
-      const double d = (joint.tau(i) + joint.tau(i - 1)) / 2 * (x(i) - x(i - 1));
-      work.sum += d;
-      work.exchanged += std::abs(d);
-    }
+  const Eigen::ArrayXd& x = channel == Channel::q ? joint.q : joint.theta;
+  for (Eigen::Index i = 1; i < n; ++i) {
+    const double d = (joint.tau(i) + joint.tau(i - 1)) / 2 * (x(i) - x(i - 1));
+    work.sum += d;
+    work.exchanged += std::abs(d);
   }
   return work;
+}
+
+/// The joint whose drive brakes; -1: all drive. Joints hand work to one another, so that of several
+/// one has to brake clearly.
+int braking_joint(const CoarsePart& part, Channel channel, Eigen::Index n, Work& work) {
+  const double limit = part.joints.size() == 1 ? kNegative : kClearlyNegative;
+  for (std::size_t j = 0; j < part.joints.size(); ++j) {
+    work = drive_work(part.joints[j], channel, n);
+    if (work.exchanged > 0 && work.sum < limit * work.exchanged) return static_cast<int>(j);
+  }
+  return -1;
 }
 
 }  // namespace
@@ -56,15 +67,16 @@ Findings work(const Logs& logs) {
     if (!plan.has_for_all(channel)) continue;
     const Eigen::Index n = closed_blocks(part, channel);
     if (n < kFewBlocksOfWork) continue;
-    const Work work = drive_work(part, channel, n);
-    if (!(work.exchanged > 0) || work.sum > kNegative * work.exchanged) continue;
+    Work work;
+    const int joint = braking_joint(part, channel, n, work);
+    if (joint < 0) continue;
+    const std::string tau = weighed_name(plan, Channel::tau, joint);
     findings.push_back(
         {part.log, 0, true,
-         fmt::format("tau brakes: over a closed motion it does {:.3g} J of work, of {:.3g} J "
-                     "exchanged; tau is turned round against "
-                     "the positions",
-                     work.sum, work.exchanged),
-         mending_line(plan, Channel::tau, 0, -1)});
+         fmt::format("{0} brakes: over a closed motion it does {1:.3g} J of work, of {2:.3g} J "
+                     "exchanged; {0} is turned round against the positions",
+                     tau, work.sum, work.exchanged),
+         mending_line(plan, Channel::tau, joint, -1)});
   }
   return findings;
 }

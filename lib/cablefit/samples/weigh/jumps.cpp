@@ -1,0 +1,123 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cablefit/samples/weigh/checks.hpp"
+
+namespace cablefit::weighing {
+namespace {
+
+constexpr double kOdd = 30, kWrong = 100;  // times the step that 99.9 % of all stay below
+constexpr double kUsualShare = 0.999;
+constexpr double kAlone = 5;         // times the steps around it
+constexpr double kLeastJump = 0.02;  // of the range: smaller ones are for a fit to judge
+constexpr std::size_t kFewSteps = 1000;
+constexpr std::size_t kKeptSteps = 20000;
+constexpr double kGap = 1.5;  // periods: over a gap a position may move
+
+struct Jump {
+  double size = 0, usual = 0;
+  std::size_t row = 0;  // in the log, behind the jump
+};
+
+/// Steps of one channel from row to row, without those over gaps, and the largest of those that
+/// stand alone: motion that sets in has a large step behind a large one.
+class Steps {
+ public:
+  Steps(std::size_t n_rows, double period)
+      : stride_(n_rows / kKeptSteps + 1), longest_(kGap * period) {}
+
+  void begin() {
+    has_last_ = false;
+    recent_.fill({});
+  }
+  void add(double t, double x, std::size_t row) {
+    if (has_last_ && t - last_t_ <= longest_) {
+      take({std::abs(x - last_x_), 0, row});
+    } else {
+      recent_.fill({});
+    }
+    last_t_ = t, last_x_ = x, has_last_ = true;
+  }
+  Jump result() {
+    if (kept_.size() < kFewSteps) return {};
+    const auto at = kept_.begin() + static_cast<std::ptrdiff_t>(
+                                        kUsualShare * static_cast<double>(kept_.size() - 1));
+    std::nth_element(kept_.begin(), at, kept_.end());
+    largest_.usual = *at;
+    return largest_;
+  }
+
+ private:
+  void take(const Jump& step) {
+    if (n_++ % stride_ == 0) kept_.push_back(step.size);
+    std::shift_left(recent_.begin(), recent_.end(), 1);
+    recent_.back() = step;
+    // The step after a wrong sample leads back.
+    const double before = std::max(recent_[0].size, recent_[1].size);
+    const double after = std::min(recent_[3].size, recent_[4].size);
+    const Jump& middle = recent_[2];
+    if (middle.size > largest_.size && middle.size > kAlone * std::max(before, after))
+      largest_ = middle;
+  }
+
+  std::size_t stride_, n_ = 0;
+  double longest_, last_t_ = 0, last_x_ = 0;
+  bool has_last_ = false;
+  std::array<Jump, 5> recent_{};
+  std::vector<double> kept_;
+  Jump largest_;
+};
+
+Jump largest_jump(const LogSurvey& log, std::size_t part, Eigen::Index column) {
+  Steps steps(log.parts[part].n_rows, log.parts[part].period);
+  Eigen::MatrixXd rows;
+  std::size_t row = 0;
+  for (const SamplePiece& piece : log.samples->pieces()) {
+    const std::size_t begin = row;
+    row += static_cast<std::size_t>(piece.n_rows);
+    if (piece.part != part) continue;
+    if (!piece.follows) steps.begin();
+    log.samples->read(piece, rows);
+    for (Eigen::Index i = 0; i < rows.rows(); ++i)
+      steps.add(rows(i, 0), rows(i, column), begin + static_cast<std::size_t>(i));
+  }
+  return steps.result();
+}
+
+bool is_position(const Slot& slot) {
+  return !slot.integrated && (slot.channel == Channel::q || slot.channel == Channel::theta);
+}
+
+}  // namespace
+
+/// A joint has inertia: its position does not jump from one sample to the next. One sample off, a
+/// wrapped encoder, lost counts and logs put together show so.
+Findings jumps(const Logs& logs) {
+  Findings findings;
+  for (std::size_t l = 0; l < logs.logs.size(); ++l) {
+    const LogSurvey& log = logs.logs[l];
+    for (std::size_t p = 0; p < log.parts.size(); ++p)
+      for (std::size_t k = 0; k < log.plan.slots.size(); ++k) {
+        const Slot& slot = log.plan.slots[k];
+        const ChannelSurvey& seen = log.parts[p].channels[k];
+        if (!is_position(slot)) continue;
+        const Jump jump = largest_jump(log, p, static_cast<Eigen::Index>(k) + 1);
+        const double usual = std::max(jump.usual, seen.quantum);
+        if (!(usual > 0) || jump.size < kOdd * usual || jump.size < kLeastJump * seen.range())
+          continue;
+        findings.push_back(
+            {l, line_of_row(log.plan, jump.row), jump.size > kWrong * usual,
+             fmt::format("{} jumps by {:.3g} in one sample, {:.2g} times what others do: a single "
+                         "wrong sample, a wrapped encoder, lost counts, or two logs in one",
+                         weighed_name(log.plan, slot.channel, slot.joint), jump.size,
+                         jump.size / usual),
+             "mend the log, or tell runs apart with a 'run' column"});
+      }
+  }
+  return findings;
+}
+
+}  // namespace cablefit::weighing
