@@ -12,7 +12,8 @@ namespace cablefit::apps {
 namespace {
 
 constexpr std::size_t kBarWidth = 20;
-constexpr double kQuietSeconds = 1;  // without new bytes: something else is being done
+constexpr double kLeastShare = 0.005;  // read; less says nothing of the time left
+constexpr double kQuietSeconds = 1;    // without new bytes: something else is being done
 
 std::string bar(double share) {
   const auto n_full = static_cast<std::size_t>(share * kBarWidth);
@@ -47,7 +48,7 @@ std::string ProgressLine::at(double seconds, const ReadProgress& now, std::size_
                            ? 1.0
                            : static_cast<double>(now.n_bytes) / static_cast<double>(now.n_expected);
   const bool is_reading = share < 1 && seconds - latest_read_ < kQuietSeconds;
-  if (!is_reading || !(elapsed > 0) || now.n_bytes == 0) {
+  if (!is_reading || !(elapsed > 0) || share < kLeastShare) {
     return at_most(width, fmt::format("{} ... {}", what_, duration(seconds - start_)));
   }
   const double rate = static_cast<double>(now.n_bytes) / elapsed;  // bytes/s

@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 #include <csignal>
+#include <cstdlib>
 
 #include "tests/fault/bench.hpp"
 
@@ -53,7 +54,8 @@ Session in_terminal(const std::string& command, bool interrupt) {
 std::string slow_check(const FaultBench& bench) {
   std::string rows = "t,q,theta,tau\n";
   for (int i = 0; rows.size() < (2u << 20); ++i) {
-    rows += std::to_string(i) + "e-3,0," + std::to_string(i % 100) + "e-3,1\n";
+    const std::string sweep = std::to_string(std::abs(i % 200 - 100));
+    rows += std::to_string(i) + "e-3,0," + sweep + "e-3," + sweep + "\n";
   }
   std::ofstream(bench.path("big.csv")) << rows;
   return "env LD_PRELOAD=" CABLEFIT_FAILING_CALLS

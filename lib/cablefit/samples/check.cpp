@@ -150,14 +150,31 @@ void note_channels(CheckedPart& part) {
   }
 }
 
+/// What a log lacks of which nothing can be identified, and what would help.
+std::string why_nothing(const LogPlan& plan) {
+  const bool q = plan.has(Channel::q), theta = plan.has(Channel::theta);
+  const bool tau = plan.has(Channel::tau);
+  if (!tau && q && theta && plan.rig.n_joints() > 1)
+    return "q and theta without tau: of several joints nothing can be identified; a rig file of "
+           "one "
+           "joint with its columns gives ratios to J_link, stiffness and friction need tau";
+  if (!tau)
+    return fmt::format(
+        "{} without tau: how it moves, not what moves it; log the drive's torque or current",
+        q && theta             ? "q and theta"
+        : q                    ? "q"
+        : plan.has(Channel::w) ? "w"
+                               : "theta");
+  if (!theta && !q && !plan.has(Channel::w))
+    return "tau without a position or a speed; log theta or w";
+  return "nothing can be identified from this part: stage 1 needs q, theta and tau with the link "
+         "blocked; stage 2 the same with the link moving; a rigid drive theta or w, and tau";
+}
+
 void note_motion(const LogPlan& plan, bool trusted, CheckedPart& part) {
   const auto warn = [&part](const std::string& text) { part.warnings.push_back(text); };
   const CheckedExcitation& e = part.excitation;
-  if (part.identifies.empty()) {
-    warn(
-        "nothing can be identified from this part: stage 1 needs q, theta and tau with the link "
-        "blocked; stage 2 the same with the link moving; a rigid drive theta or w, and tau");
-  }
+  if (part.identifies.empty()) warn(why_nothing(plan));
   if (plan.q_is_theta) warn("q is the only position: it is read as theta, that of a rigid drive");
   if (part.survey.uneven) warn("the clock is uneven: rows will be made anew on an even grid");
   if (part.survey.phase == Phase::blocked || e.channel.empty()) return;
