@@ -98,8 +98,8 @@ void add_batch_options(CLI::App& app, BatchCommand& command) {
   app.add_option("--junit", command.junit, "cells and gates as JUnit XML, for CI servers")
       ->type_name("FILE");
   app.add_option("--accept", command.accept,
-                 "make this run the baseline: write its batch.json there, gates passed or not; the "
-                 "first run needs no baseline yet")
+                 "make this run the baseline: write its batch.json there, gates passed or not "
+                 "(exit 0); the first run needs no baseline yet")
       ->type_name("FILE");
   app.add_flag("--unconstrained", command.batch.elastic.unconstrained,
                "stage 1 by plain least squares: let cables push, with a warning");
@@ -115,6 +115,24 @@ void leave_out_new_baseline(const BatchCommand& command, Campaign& campaign) {
   if (command.accept.empty() || baseline.empty() || whole(baseline) != whole(command.accept))
     return;
   if (!std::filesystem::exists(baseline, ignored)) baseline.clear();
+}
+
+/// Throws Error(usage) where the baseline would take the place of what is read, or cannot be whole.
+void require_acceptable(const BatchCommand& command, const Campaign& campaign) {
+  if (command.accept.empty()) return;
+  if (!command.cell.empty())
+    throw usage_error("--accept makes a baseline of all cells", "leave --cell out");
+  std::error_code ignored;
+  const auto is_target = [&](const std::string& path) {
+    return std::filesystem::equivalent(path, command.accept, ignored);
+  };
+  bool is_input = is_target(command.campaign);
+  for (const CampaignCell& cell : campaign.cells)
+    for (const auto* paths : {&cell.blocked, &cell.moving, &cell.validation})
+      is_input = is_input || std::any_of(paths->begin(), paths->end(), is_target);
+  if (is_input)
+    throw usage_error(fmt::format("--accept {} is a file that is read", command.accept),
+                      "name the baseline");
 }
 
 /// A run with cells that could not be fitted is no baseline.
@@ -201,6 +219,7 @@ int run_batch(const Arguments& arguments) {
   if (!parse(app, arguments)) return 0;
 
   Campaign campaign = read_campaign(command.campaign);
+  require_acceptable(command, campaign);
   leave_out_new_baseline(command, campaign);
   BatchOptions& batch = command.batch;
   batch.reading = options.reading;

@@ -179,6 +179,11 @@ void require_same_rig(const Stage1& stage1, const std::vector<LogSurvey>& moving
       }
 }
 
+/// The result of stage 1 that is read: the one named, or that of an earlier run.
+std::string named_elastic_file(const DynamicCommand& command) {
+  return command.elastic_file.empty() ? default_elastic_file(command.common) : command.elastic_file;
+}
+
 /// Logs that take the place of those not given.
 struct OwnLogs {
   Decision decision;
@@ -189,7 +194,7 @@ struct OwnLogs {
 std::optional<OwnLogs> take_stage1_logs(DynamicCommand& command) {
   CommonOptions& options = command.common;
   std::error_code ignored;
-  const std::string result = default_elastic_file(options);
+  const std::string result = named_elastic_file(command);
   if (!options.logs.empty() || std::filesystem::exists(kCampaignHere, ignored) ||
       !std::filesystem::exists(result, ignored))
     return std::nullopt;
@@ -211,6 +216,12 @@ std::optional<OwnLogs> take_stage1_logs(DynamicCommand& command) {
 
 void add_stage1(const Stage1& stage1, DynamicResult& result) {
   result.inputs.insert(result.inputs.end(), stage1.inputs.begin(), stage1.inputs.end());
+  // Of blocked logs that were read just now: nobody has reported them yet.
+  if (stage1.is_new)
+    for (const std::string& warning : stage1.result.warnings)
+      if (std::find(result.warnings.begin(), result.warnings.end(), warning) ==
+          result.warnings.end())
+        result.warnings.push_back(warning);
   for (DynamicPreload& preload : result.preloads) {
     preload.decisions.insert(preload.decisions.begin(), stage1.decision);
   }
@@ -261,7 +272,7 @@ std::vector<LogSurvey> campaign_logs(const CommonOptions& options) {
                                   default_elastic_file(options)),
                       "name one or more log files");
   std::vector<LogSurvey> logs;
-  std::set<std::string> preloads;
+  std::set<std::string> preloads, seen;  // a log with both kinds of parts stands in both lists
   for (const CampaignCell& cell : read_campaign(kCampaignHere).cells) {
     if (!options.preload.empty() && options.preload != cell.preload) continue;
     if (!preloads.insert(cell.preload).second)
@@ -270,8 +281,9 @@ std::vector<LogSurvey> campaign_logs(const CommonOptions& options) {
                         "name the logs of one, or fit each for itself by 'cablefit batch'");
     for (const auto* paths : {&cell.blocked, &cell.moving})
       for (const std::string& path : *paths)
-        logs.push_back(survey_log(plan_log(path, rig_for_log(path, cell.rig), options.reading),
-                                  cell.preload, options.samples.threads));
+        if (seen.insert(path).second)
+          logs.push_back(survey_log(plan_log(path, rig_for_log(path, cell.rig), options.reading),
+                                    cell.preload, options.samples.threads));
   }
   if (logs.empty())
     throw usage_error(fmt::format("{} has no preload '{}'", kCampaignHere, options.preload),
@@ -326,7 +338,7 @@ int run_dynamic(const Arguments& arguments) {
   if (own_logs && moving.empty())
     throw usage_error(
         fmt::format("no log given, no {} here, and the logs of {} have no moving parts",
-                    kCampaignHere, default_elastic_file(options)),
+                    kCampaignHere, named_elastic_file(command)),
         "name one or more logs in which the link moves");
   command.fit.samples = options.samples;
   command.fit.preload = options.preload;

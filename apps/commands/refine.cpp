@@ -341,8 +341,8 @@ RefineInput read_input(RefineCommand& command) {
   read(command.blocked, input.logs.blocked);
   problems.throw_if_any();
   require_moving(command, input);
-  weigh_input(input.logs);
   add_stage1_logs(command, input);
+  weigh_input(input.logs);
   if (input.logs.train.empty() && input.logs.blocked.empty()) throw no_log();
   complete_models(command, input);
   std::vector<LogSurvey> fitted = input.logs.train;

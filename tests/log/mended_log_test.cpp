@@ -90,6 +90,35 @@ TEST_CASE("rows that are left out keep their places") {
   CHECK(chunk.offsets == std::vector<std::size_t>{0, 2});
 }
 
+TEST_CASE("a row left out of one piece does not move those of the next") {
+  std::string text = "[";
+  for (int i = 0; i < 20'000; ++i)
+    text += (i == 0 ? "" : ",") +
+            (i == 5 ? std::string("{\"q\": null}") : "{\"q\": " + std::to_string(i) + "}");
+  const test::TempFolder folder;
+  MendedLog log(open_log(folder.write("log", text + "]"), {0, false, true}), {Missing::drop, false},
+                std::nullopt);
+  log.select({0}, {});
+  LogChunk chunk;
+  std::size_t n_rows = 0;
+  while (log.next(chunk)) {
+    for (std::size_t i = 0; i < chunk.n_rows; ++i) {
+      const std::size_t row = chunk.first_row + (chunk.offsets.empty() ? i : chunk.offsets.at(i));
+      REQUIRE(chunk.numbers[0][i] == static_cast<double>(row));
+    }
+    n_rows += chunk.n_rows;
+  }
+  CHECK(n_rows == 19'999);
+}
+
+TEST_CASE("a missing label is none") {
+  const test::TempFolder folder;
+  const auto log =
+      open_log(folder.write("log", "[{\"t\": 0, \"run\": null}, {\"t\": 1, \"run\": \"a\"}]"),
+               {0, false, true});
+  CHECK(test::read_all(*log, {"t"}, {"run"}).texts[0] == std::vector<std::string>{"", "a"});
+}
+
 TEST_CASE("ISO 8601 times") {
   const auto seconds = [](const char* text) {
     const auto time = read_iso_time(text);

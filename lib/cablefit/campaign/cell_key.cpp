@@ -13,7 +13,7 @@
 namespace cablefit {
 namespace {
 
-constexpr int kFormat = 3;  // of the cells' files; to be raised when they change
+constexpr int kFormat = 4;  // of the cells' files; to be raised when they change
 constexpr std::size_t kMostCellsWithFigures = 6;
 
 template <class T>
@@ -30,6 +30,13 @@ std::string samples_text(const SampleOptions& samples) {
       given(samples.drop_edge), given(samples.rest_speed), given(hold));
 }
 
+std::string reading_text(const Reading& reading) {
+  return fmt::format("trust {}\nmissing {}\nrepeated {}\nskip {}\nunits row {}\nrate {}\n",
+                     reading.trust_units, static_cast<int>(reading.mending.missing),
+                     reading.mending.first_of_repeated, reading.skipped_lines, reading.units_row,
+                     reading.rate);
+}
+
 std::string options_text(const Campaign& campaign, const CampaignCell& cell,
                          const BatchOptions& options) {
   std::string text =
@@ -40,6 +47,7 @@ std::string options_text(const Campaign& campaign, const CampaignCell& cell,
   text += fmt::format("order {} {}\nmateriality {}\nstill {}\nzero {}\nunconstrained {}\n",
                       elastic.order, elastic.max_order, elastic.materiality, elastic.still,
                       static_cast<int>(elastic.zero), elastic.unconstrained);
+  text += reading_text(options.reading);
   text += samples_text(options.samples);
   if (cell.refine) text += fmt::format("refine {} {}\n", options.seed, cell.refine->n_draws);
   return text;

@@ -15,6 +15,7 @@ namespace cablefit {
 namespace {
 
 constexpr double kChanceSds = 3;  // a change this small is chance
+constexpr double kWorse = 2;      // times the sd of the baseline
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Whether a percentage of the parameter's value says anything.
@@ -99,7 +100,9 @@ Gate drift_gate(const BatchCell& cell, const std::string& name, const Estimate& 
   const double change = std::abs(now.value - before.value);
   const double drift = change == 0 ? 0 : 100 * change / std::abs(before.value);
   const double sds = change / std::hypot(now.sd, before.sd);
-  const bool is_chance = sds < kChanceSds;
+  // One that is known much worse than before hides any change.
+  const bool is_known = !(now.sd > kWorse * before.sd);
+  const bool is_chance = sds < kChanceSds && is_known;
   Gate g{"drift " + name, cell.name, limit, drift, drift <= limit || is_chance, ""};
   if (std::isnan(now.value)) {
     g.text = fmt::format("FAILED: {}: drift {}: it is not identifiable now", cell.name, name);

@@ -171,6 +171,8 @@ DynamicResult fit_dynamic(std::span<const LogSurvey> logs, const ElasticResult& 
   check_names(options);
   DynamicResult result;
   result.warnings = input_warnings(logs);
+  for (std::string& warning : input_warnings(options.validation))
+    result.warnings.push_back(std::move(warning));
   for (const LogSurvey& log : logs) {
     result.inputs.push_back({log.plan.path, log.sha256, log.n_rows});
   }

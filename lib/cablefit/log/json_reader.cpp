@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "cablefit/base/quote.hpp"
@@ -91,12 +92,14 @@ class JsonReader final : public LogReader {
   void read_texts(std::size_t k, LogChunk& chunk) {
     const JsonColumn& column = table_->columns[texts_[k]];
     if (column.kind == JsonColumn::Kind::text) {
-      return read(column.first, chunk, chunk.texts[k],
-                  [](double value) { return static_cast<std::uint32_t>(value); });
+      return read(column.first, chunk, chunk.texts[k], [&](double value) {
+        return std::isnan(value) ? words_[k].index_of("") : static_cast<std::uint32_t>(value);
+      });
     }
     // Numbers are labels too: "run": [1, 1, 2].
     read(column.first, chunk, chunk.texts[k], [&](double value) {
-      const std::uint32_t index = words_[k].index_of(fmt::format("{}", value));
+      const std::string label = std::isnan(value) ? "" : fmt::format("{}", value);
+      const std::uint32_t index = words_[k].index_of(label);
       if (words_[k].is_full()) throw too_many_words(column.header);
       return index;
     });

@@ -31,6 +31,7 @@ void MendedLog::select(std::vector<std::size_t> numbers, std::vector<std::size_t
 }
 
 void MendedLog::finish(LogPiece& piece, LogChunk& chunk) {
+  chunk.offsets.clear();  // of the chunk before
   log_->finish(piece, chunk);
   if (rules_.missing != Missing::refuse || rules_.first_of_repeated) mend(chunk);
 }

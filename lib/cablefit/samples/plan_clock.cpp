@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "cablefit/base/quote.hpp"
 #include "cablefit/samples/plan_parts.hpp"
@@ -14,6 +15,8 @@ namespace {
 constexpr double kSlowestClock = 5, kFastestClock = 100'000;
 constexpr double kRateAgrees = 0.01;  // relative
 constexpr std::size_t kClockRows = 20'000;
+constexpr double kDriftRows = 10;  // rows that a burst may be late
+constexpr double kRounding = 1.5;  // steps of a time with few digits
 
 /// The rate of rows that a user, the rig file or the log gives; 0: none of them.
 struct GivenRate {
@@ -27,59 +30,79 @@ GivenRate given_rate(const LogPlan& plan) {
             true};
   if (plan.rig.sample_rate > 0)
     return {plan.rig.sample_rate, "\"sample_rate\" in the rig file is",
-            "leave it out, or take the right one", true};
+            "leave it out, or take the right one", false};
   return {plan.header.sample_rate.value_or(0), "\"sample_rate\" of the log is",
           "correct the one that is wrong", false};
 }
 
-/// The steps of a time column between the first rows of a log, backward ones left out.
-struct ClockSteps {
-  double sum = 0, largest = 0, last = 0;  // last: the time of the row before
-  std::size_t n_rows = 0, n_steps = 0;
+/// The time of the first rows of a log.
+struct ClockLook {
+  std::vector<double> t, steps;
 
-  void add(double t) {
-    if (!std::isfinite(t)) return;
-    if (n_rows > 0 && t >= last) {
-      sum += t - last;
-      largest = std::max(largest, t - last);
-      ++n_steps;
-    }
-    last = t;
-    ++n_rows;
+  void add(double time) {
+    if (!std::isfinite(time)) return;
+    if (!t.empty()) steps.push_back(time - t.back());
+    t.push_back(time);
   }
-  double rate() const { return sum > 0 ? static_cast<double>(n_steps) / sum : 0; }
-  /// Relative; a time with few digits stands still between its steps.
-  double uncertainty() const { return largest / sum; }
+  /// Hz, of the usual step: gaps do not count. A time with few digits mostly stands still; then of
+  /// the mean step.
+  double rate() const {
+    if (steps.empty()) return 0;
+    std::vector<double> sorted = steps;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    if (*middle > 0) return 1 / *middle;
+    const double duration = t.back() - t.front();
+    return duration > 0 ? static_cast<double>(steps.size()) / duration : 0;
+  }
+  double smallest_step() const {
+    double smallest = kUnbounded;
+    for (const double step : steps)
+      if (step > 0) smallest = std::min(smallest, step);
+    return smallest;
+  }
+  /// Largest deviation from rows at that rate, s.
+  double drift(double rate) const {
+    double largest = 0;
+    for (std::size_t i = 0; i < t.size(); ++i)
+      largest = std::max(largest, std::abs(t[i] - t[0] - static_cast<double>(i) / rate));
+    return largest;
+  }
 };
 
-ClockSteps clock_steps(const LogPlan& plan, std::size_t column, double factor) {
-  ClockSteps steps;
+ClockLook look_at_clock(const LogPlan& plan, std::size_t column, double factor) {
+  ClockLook look;
   LogText text = plan.reading.text();
   text.may_miss = true;
   try {
     const auto reader = open_log(plan.path, text);
     reader->select({column}, {});
     LogChunk chunk;
-    while (steps.n_rows < kClockRows && reader->next(chunk))
-      for (const double t : chunk.numbers.front()) steps.add(t * factor);
+    while (look.t.size() < kClockRows && reader->next(chunk))
+      for (const double t : chunk.numbers.front()) look.add(t * factor);
   } catch (const Error&) {
     return {};  // no numbers: no clock
   }
-  return steps;
+  return look;
 }
 
 /// Where a log has a clock and a rate is given as well, they must agree: one of them is wrong.
 void require_one_rate(LogPlan& plan, std::size_t column, double factor, const GivenRate& given) {
-  const ClockSteps steps = clock_steps(plan, column, factor);
-  const double rate = steps.rate();
+  const ClockLook look = look_at_clock(plan, column, factor);
+  const double rate = look.rate();
   if (!(rate >= kSlowestClock && rate <= kFastestClock)) return;
-  if (std::abs(rate / given.rate - 1) <= kRateAgrees + steps.uncertainty()) return;
+  const double resolution = kDriftRows / given.rate + kRounding * look.smallest_step();
+  const bool drifts = look.drift(given.rate) > resolution;
+  if (!drifts) return;
   const ColumnHeader& cell = plan.header.columns[column];
-  refuse_untrusted(
-      plan, input_error(cell.place,
-                        fmt::format("column {} has {:.4g} Hz, {} {:.4g} Hz",
-                                    cablefit::quoted(cell.name), rate, given.who, given.rate),
-                        given.remedy));
+  const bool agrees = std::abs(rate / given.rate - 1) <= kRateAgrees;
+  if (agrees && !given.replaces_clock) return;  // gaps, which the clock that is read shows
+  const std::string what =
+      agrees ? fmt::format("column {} has gaps or drifts, which rows at {:.4g} Hz would hide",
+                           cablefit::quoted(cell.name), given.rate)
+             : fmt::format("column {} has {:.4g} Hz, {} {:.4g} Hz", cablefit::quoted(cell.name),
+                           rate, given.who, given.rate);
+  refuse_untrusted(plan, input_error(cell.place, what, given.remedy));
 }
 
 /// Of a time column that is not read: 0 where its unit is none of time.

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "cablefit/samples/weigh/checks.hpp"
 
@@ -23,6 +23,15 @@ bool has_dead_q(const PartSurvey& survey, const CoarsePart::Joint& joint, const 
          std::abs(line.correlation) < kNoSlope && coarse_range(joint.theta) > kDeadRange;
 }
 
+/// Cables that stiffen make large ratios too, but none of a unit.
+bool is_unit(double ratio) {
+  constexpr double kSame = 0.1;
+  for (const double unit : {1000.0, 180 / std::numbers::pi, 2 * std::numbers::pi})
+    for (const double factor : {unit, 1 / unit})
+      if (std::abs(ratio / factor - 1) < kSame) return true;
+  return false;
+}
+
 struct BlockedSlope {
   const CoarsePart* part;
   CoarseLine line;
@@ -41,7 +50,9 @@ Findings blocked_slope(const Logs& logs) {
     const CoarseLine line = coarse_line(joint.theta, joint.tau);
     if (has_dead_q(logs.survey(part), joint, line))
       findings.push_back(
-          {part.log, 0, true,
+          {part.log,
+           {},
+           true,
            fmt::format("q stands still while theta moves {:.3g}, and tau does not follow theta "
                        "(correlation {:.2f}): is q dead, or another column?",
                        coarse_range(joint.theta), line.correlation),
@@ -49,10 +60,12 @@ Findings blocked_slope(const Logs& logs) {
            "'phase' with 'blocked'"});
     if (std::abs(line.correlation) < kClearSlope) continue;
     if (line.slope < 0) {
-      findings.push_back({part.log, 0, true,
+      findings.push_back({part.log,
+                          {},
+                          true,
                           fmt::format("tau falls as theta grows while the link is blocked (slope "
-                                      "{:.3g} N m/rad): tau or theta is turned round",
-                                      line.slope),
+                                      "{:.3g} {}): tau or theta is turned round",
+                                      line.slope, plan.rig.linear_motion ? "N/m" : "N m/rad"),
                           mending_line(plan, Channel::tau, 0, -1) + ", or the same of theta"});
       continue;
     }
@@ -62,10 +75,14 @@ Findings blocked_slope(const Logs& logs) {
     const double ratio = line.slope / found->second.line.slope;
     if (ratio < kOtherUnit && ratio > 1 / kOtherUnit) continue;
     findings.push_back(
-        {part.log, 0, true,
+        {part.log,
+         {},
+         true,
          fmt::format("tau per theta is {:.3g} times that of {}, with the same rig and preload",
                      ratio, logs.plan(*found->second.part).path),
-         "give each log its own unit or scale, or its own preload", false, true});
+         "give each log its own unit or scale, or its own preload",
+         false,
+         true});
   }
   return findings;
 }

@@ -67,7 +67,7 @@ Findings clock(const Logs& logs) {
         what = fmt::format("the log lasts {:.3g} s, {:.0f} days", duration, duration / 86400);
       if (what.empty()) continue;
       const bool hopeless = rate < std::min(slowest, kSlowCrawl) || rate > kNeverFaster;
-      findings.push_back({l, 0, true, what, time_remedy(plan, rate), hopeless});
+      findings.push_back({l, {}, true, what, time_remedy(plan, rate), hopeless});
       break;
     }
   }

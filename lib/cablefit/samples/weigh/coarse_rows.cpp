@@ -6,10 +6,10 @@
 namespace cablefit {
 namespace {
 
-constexpr double kCoarseRate = 50;           // Hz, of the block means
-constexpr Eigen::Index kMostBlocks = 20000;  // bounds time and memory
-constexpr std::size_t kFewestBlocks = 200;   // of a short part, as far as it has rows
-constexpr double kBlockGap = 1.5;            // times its usual length: a block spans a gap
+constexpr double kCoarseRate = 50;          // Hz, of the block means
+constexpr std::size_t kMostBlocks = 20000;  // of a log; bounds time and memory
+constexpr std::size_t kFewestBlocks = 200;  // of a short part, as far as it has rows
+constexpr double kBlockGap = 1.5;           // times its usual length: a block spans a gap
 
 std::size_t block_rows(const PartSurvey& part) {
   const double by_rate = std::min(1 / part.period / kCoarseRate, 1e6);
@@ -20,12 +20,13 @@ std::size_t block_rows(const PartSurvey& part) {
 /// Means of [t, slots] over blocks, in the order of the rows.
 class BlockMeans {
  public:
-  BlockMeans(const PartSurvey& part, std::size_t n_columns)
-      : n_rows_(static_cast<Eigen::Index>(block_rows(part))),
+  BlockMeans(const PartSurvey& part, std::size_t n_columns, std::size_t n_parts)
+      : most_(std::max(kFewestBlocks, kMostBlocks / n_parts)),
+        n_rows_(static_cast<Eigen::Index>(block_rows(part))),
         longest_(kBlockGap * part.period * static_cast<double>(n_rows_)),
         sum_(Eigen::RowVectorXd::Zero(static_cast<Eigen::Index>(n_columns))) {}
 
-  bool full() const { return static_cast<Eigen::Index>(means_.size()) >= kMostBlocks; }
+  bool full() const { return means_.size() >= most_; }
   void begin_stretch() {
     n_ = 0;
     sum_.setZero();
@@ -54,6 +55,7 @@ class BlockMeans {
   }
 
  private:
+  std::size_t most_;
   Eigen::Index n_rows_, n_ = 0;
   double longest_, first_t_ = 0;
   Eigen::RowVectorXd sum_;
@@ -61,7 +63,7 @@ class BlockMeans {
 };
 
 BlockMeans block_means(const LogSurvey& log, std::size_t part) {
-  BlockMeans means(log.parts[part], 1 + log.plan.slots.size());
+  BlockMeans means(log.parts[part], 1 + log.plan.slots.size(), log.parts.size());
   Eigen::MatrixXd rows;
   for (const SamplePiece& piece : log.samples->pieces()) {
     if (piece.part != part || means.full()) continue;

@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "cablefit/samples/weigh/checks.hpp"
 
 namespace cablefit::weighing {
 namespace {
 
 constexpr double kAgainstDeflection = -0.8;  // correlation
+constexpr double kOneSine = 0.95;            // correlation of a position and its acceleration
 constexpr Eigen::Index kFewDeflections = 20;
 
 }  // namespace
@@ -22,7 +25,14 @@ Findings deflection(const Logs& logs) {
     if (joint.tau.size() < kFewDeflections) continue;
     const double correlation = coarse_line(joint.theta - joint.q, joint.tau).correlation;
     if (correlation > kAgainstDeflection) continue;
-    findings.push_back({part.log, 0, true,
+    // Above its resonance a link swings against the drive.
+    if (std::abs(
+            coarse_line(at_inner(part, joint.q), coarse_rates(part, joint.q).second).correlation) >
+        kOneSine)
+      continue;
+    findings.push_back({part.log,
+                        {},
+                        true,
                         fmt::format("tau falls as theta - q grows (correlation {:.2f}): are q and "
                                     "theta swapped?",
                                     correlation),

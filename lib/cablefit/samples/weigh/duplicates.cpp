@@ -38,7 +38,9 @@ Findings duplicates(const Logs& logs) {
       const CoarsePart &first = logs.parts[a], &second = logs.parts[b];
       if (logs.survey(first).n_rows != logs.survey(second).n_rows) continue;
       if (!same_samples(first, second)) continue;
-      findings.push_back({second.log, 0, false,
+      findings.push_back({second.log,
+                          {},
+                          false,
                           first.log == second.log
                               ? std::string("two parts of the log hold the same samples")
                               : fmt::format("holds the same samples as {}", logs.plan(first).path),

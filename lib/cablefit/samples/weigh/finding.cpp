@@ -35,9 +35,13 @@ double nice_factor(double measured) {
 std::string mending_line(const LogPlan& plan, Channel channel, int joint, double factor) {
   const std::string name = weighed_name(plan, channel, joint);
   const auto mapped = plan.rig.columns.find(name);
-  const double scale = mapped == plan.rig.columns.end() ? 1 : mapped->second.scale;
-  return fmt::format("\"{}\": {{\"column\": \"{}\", \"scale\": {:.4g}}} in the rig file's columns",
-                     name, column_name(plan, channel, joint), scale * factor);
+  const ColumnMapping mapping = mapped == plan.rig.columns.end() ? ColumnMapping{} : mapped->second;
+  std::string more;
+  if (mapping.shift != 0) more += fmt::format(", \"shift\": {:g}", mapping.shift * factor);
+  if (!mapping.unit.empty()) more += fmt::format(", \"unit\": \"{}\"", mapping.unit);
+  return fmt::format(
+      "\"{}\": {{\"column\": \"{}\", \"scale\": {:.4g}{}}} in the rig file's columns", name,
+      column_name(plan, channel, joint), mapping.scale * factor, more);
 }
 
 std::string mending_unit(const LogPlan& plan, Channel channel, int joint, std::string_view unit) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -10,13 +11,13 @@
 namespace cablefit {
 
 struct Finding {
-  std::size_t log = 0;     ///< index of the log it was found in
-  std::uint64_t line = 0;  ///< 0: the whole log
-  bool wrong = false;      ///< cannot be right; else it is odd
-  std::string what;        ///< with its size
-  std::string remedy;      ///< the rig line that mends it, or what to do
-  bool hopeless = false;   ///< refused even when units are trusted: the work would have no bound
-  bool whole_rig = false;  ///< found in all logs of its rig together; else in this log alone
+  std::size_t log = 0;                  ///< index of the log it was found in
+  std::optional<std::size_t> row = {};  ///< in the log as it is read; none: the whole log
+  bool wrong = false;                   ///< cannot be right; else it is odd
+  std::string what;                     ///< with its size
+  std::string remedy;                   ///< the rig line that mends it, or what to do
+  bool always_refused = false;  ///< even when units are trusted: the work would have no bound
+  bool whole_rig = false;       ///< found in all logs of its rig together; else in this log alone
 };
 
 /// A measured factor, or the reduction it is within 1 % of: 0.05 for 0.0501, 5 for 5.002.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
+#include "cablefit/samples/weigh/channel_pass.hpp"
 #include "cablefit/samples/weigh/checks.hpp"
 
 namespace cablefit::weighing {
@@ -11,8 +13,9 @@ namespace {
 
 constexpr double kOdd = 30, kWrong = 100;  // times the step that 99.9 % of all stay below
 constexpr double kUsualShare = 0.999;
-constexpr double kAlone = 5;         // times the steps around it
-constexpr double kLeastJump = 0.02;  // of the range: smaller ones are for a fit to judge
+constexpr double kAlone = 5;          // times the steps around it
+constexpr double kLeastJump = 0.02;   // of the range: smaller ones are for a fit to judge
+constexpr double kFastPeriod = 5e-3;  // s
 constexpr std::size_t kFewSteps = 1000;
 constexpr std::size_t kKeptSteps = 20000;
 constexpr double kGap = 1.5;  // periods: over a gap a position may move
@@ -71,24 +74,29 @@ class Steps {
   Jump largest_;
 };
 
-Jump largest_jump(const LogSurvey& log, std::size_t part, Eigen::Index column) {
-  Steps steps(log.parts[part].n_rows, log.parts[part].period);
-  Eigen::MatrixXd rows;
-  std::size_t row = 0;
-  for (const SamplePiece& piece : log.samples->pieces()) {
-    const std::size_t begin = row;
-    row += static_cast<std::size_t>(piece.n_rows);
-    if (piece.part != part) continue;
-    if (!piece.follows) steps.begin();
-    log.samples->read(piece, rows);
-    for (Eigen::Index i = 0; i < rows.rows(); ++i)
-      steps.add(rows(i, 0), rows(i, column), begin + static_cast<std::size_t>(i));
-  }
-  return steps.result();
-}
-
 bool is_position(const Slot& slot) {
   return !slot.integrated && (slot.channel == Channel::q || slot.channel == Channel::theta);
+}
+
+std::optional<Finding> jump_finding(const LogSurvey& log, std::size_t part, std::size_t slot,
+                                    const Jump& jump) {
+  const PartSurvey& survey = log.parts[part];
+  const ChannelSurvey& seen = survey.channels[slot];
+  const double usual = std::max(jump.usual, seen.quantum);
+  if (!(usual > 0) || jump.size < kOdd * usual || jump.size < kLeastJump * seen.range())
+    return std::nullopt;
+  // Between rare samples a joint that sticks may slip as far.
+  const bool is_fast = survey.phase == Phase::moving && survey.period < kFastPeriod;
+  const Slot& at = log.plan.slots[slot];
+  Finding finding;
+  finding.row = jump.row;
+  finding.wrong = is_fast && jump.size > kWrong * usual;
+  finding.what = fmt::format(
+      "{} jumps by {:.3g} in one sample, {:.2g} times what others do: a single wrong sample, a "
+      "wrapped encoder, lost counts, or two logs in one",
+      weighed_name(log.plan, at.channel, at.joint), jump.size, jump.size / usual);
+  finding.remedy = "mend the log, or tell runs apart with a 'run' column";
+  return finding;
 }
 
 }  // namespace
@@ -99,23 +107,15 @@ Findings jumps(const Logs& logs) {
   Findings findings;
   for (std::size_t l = 0; l < logs.logs.size(); ++l) {
     const LogSurvey& log = logs.logs[l];
+    std::vector<std::vector<Steps>> steps;
+    for (const PartSurvey& part : log.parts)
+      steps.emplace_back(log.plan.slots.size(), Steps(part.n_rows, part.period));
+    over_channels(log, steps);
     for (std::size_t p = 0; p < log.parts.size(); ++p)
-      for (std::size_t k = 0; k < log.plan.slots.size(); ++k) {
-        const Slot& slot = log.plan.slots[k];
-        const ChannelSurvey& seen = log.parts[p].channels[k];
-        if (!is_position(slot)) continue;
-        const Jump jump = largest_jump(log, p, static_cast<Eigen::Index>(k) + 1);
-        const double usual = std::max(jump.usual, seen.quantum);
-        if (!(usual > 0) || jump.size < kOdd * usual || jump.size < kLeastJump * seen.range())
-          continue;
-        findings.push_back(
-            {l, line_of_row(log.plan, jump.row), jump.size > kWrong * usual,
-             fmt::format("{} jumps by {:.3g} in one sample, {:.2g} times what others do: a single "
-                         "wrong sample, a wrapped encoder, lost counts, or two logs in one",
-                         weighed_name(log.plan, slot.channel, slot.joint), jump.size,
-                         jump.size / usual),
-             "mend the log, or tell runs apart with a 'run' column"});
-      }
+      for (std::size_t k = 0; k < log.plan.slots.size(); ++k)
+        if (is_position(log.plan.slots[k]))
+          if (const auto finding = jump_finding(log, p, k, steps[p][k].result()))
+            findings.push_back({l, finding->row, finding->wrong, finding->what, finding->remedy});
   }
   return findings;
 }

@@ -17,6 +17,7 @@ constexpr double kBrakes = 0.5;                           // of the power that t
 constexpr double kOwnShare = 0.3;   // of the load's variation that is not the motion's
 constexpr double kVaries = 0.1;     // of the largest load: an offset does not pass for it
 constexpr double kLeastLoad = 0.1;  // of the motion's torque: an offset would do for a smaller one
+constexpr double kNoOffset = 0.5;   // of the motion's torque
 constexpr double kStandsOut = 3;    // a constant torque, in rms of what remains beside it
 constexpr double kGravity = 9.80665, kSameFactor = 0.02;  // N per kg
 constexpr double kUnitMatch = 0.15, kConstant = 1e-3;
@@ -63,6 +64,8 @@ double rms(const Eigen::VectorXd& x) {
 }
 
 bool is_usual(double ratio) { return ratio > 1 / kWrongBalance && ratio < kWrongBalance; }
+
+bool is_close(double ratio) { return ratio > 1 / kOddBalance && ratio < kOddBalance; }
 
 struct Balance {
   double ratio = 0;  // tau over what balances the load
@@ -122,7 +125,10 @@ Balance constant_balance(const CoarsePart& part) {
   const double of_motion = rms(rows.tau.array() - constant);
   Balance balance;
   balance.ratio = load == 0 ? 0 : -constant / load;
-  const bool counts = std::abs(load) > kLeastLoad * of_motion || is_milli(balance.ratio);
+  // What the load leaves of the constant torque has to be more than an offset is.
+  const bool counts = (std::abs(load) > kLeastLoad * of_motion &&
+                       std::abs(constant + load) > kNoOffset * of_motion) ||
+                      is_close(balance.ratio) || is_milli(balance.ratio);
   balance.known = counts && std::abs(constant) > kStandsOut * remains;
   return balance;
 }
@@ -130,20 +136,30 @@ Balance constant_balance(const CoarsePart& part) {
 Finding balance_finding(const LogPlan& plan, std::size_t log, double ratio) {
   const double size = std::abs(ratio);
   if (ratio < 0 && size < kOddBalance && size > 1 / kOddBalance)
-    return {log, 0, true, "tau_load is turned round: tau acts in the same direction as the load",
+    return {log,
+            {},
+            true,
+            "tau_load is turned round: tau acts in the same direction as the load",
             plan.find(Channel::tau_load) >= 0 ? mending_line(plan, Channel::tau_load, 0, -1)
                                               : "change the sign of the load in the rig file"};
   const std::string what = fmt::format("tau is {:.3g} times what balances the known load", ratio);
   if (is_milli(ratio)) {
     const Channel channel = ratio > 1 ? Channel::tau : Channel::tau_load;
-    return {log, 0, true, fmt::format("{}: {} in mN m?", what, channel_name(channel)),
+    return {log,
+            {},
+            true,
+            fmt::format("{}: {} in mN m?", what, channel_name(channel)),
             mending_unit(plan, channel, 0, "mN m")};
   }
   if (std::abs(ratio / kGravity - 1) < kSameFactor)
-    return {log, 0, true, what + ": the load in kg m?",
-            mending_line(plan, Channel::tau_load, 0, kGravity)};
+    return {log,
+            {},
+            true,
+            what + ": the load in kg m?",
+            plan.find(Channel::tau_load) >= 0 ? mending_line(plan, Channel::tau_load, 0, kGravity)
+                                              : "correct the load in the rig file"};
   const bool wrong = ratio < 0 || size > kWrongBalance || size < 1 / kWrongBalance;
-  return {log, 0, wrong, what, mending_line(plan, Channel::tau, 0, nice_factor(1 / ratio))};
+  return {log, {}, wrong, what, mending_line(plan, Channel::tau, 0, nice_factor(1 / ratio))};
 }
 
 /// Logs of several whose torque or load is read otherwise than the others'.
@@ -163,15 +179,15 @@ Findings odd_ones_out(const Logs& logs, const PartList& parts) {
 Findings weigh_group(const Logs& logs, const PartList& parts) {
   const CoarsePart& first = *parts.front();
   if (is_swapped(first))
-    return {{first.log, 0, true,
+    return {{first.log,
+             {},
+             true,
              "tau is constant while the joint moves and tau_load varies: are they swapped?",
              "exchange their columns in the rig file"}};
   if (Findings odd = odd_ones_out(logs, parts); !odd.empty()) return odd;
   Balance balance = fitted_balance(balance_rows(parts));
   if (!balance.known) balance = constant_balance(first);
-  const double size = std::abs(balance.ratio);
-  if (!balance.known) return {};
-  if (balance.ratio > 0 && size < kOddBalance && size > 1 / kOddBalance) return {};
+  if (!balance.known || is_close(balance.ratio)) return {};
   Finding finding = balance_finding(logs.plan(first), first.log, balance.ratio);
   finding.whole_rig = true;
   return {finding};

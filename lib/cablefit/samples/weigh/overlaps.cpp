@@ -12,7 +12,8 @@ namespace cablefit::weighing {
 namespace {
 
 constexpr std::size_t kMostRows = 2'000'000;  // of a log; bounds time and memory
-constexpr std::size_t kWindow = 6;            // rows in a row that no noise repeats by chance
+constexpr std::size_t kWindow = 64;           // rows in a row that nothing repeats by chance
+constexpr std::size_t kFewChanges = 8;        // rows at rest repeat by themselves
 constexpr std::uint64_t kEvery = 64;          // about one window of as many is kept
 constexpr std::size_t kFewest = 10;           // windows that two logs share
 constexpr double kCopy = 0.95;                // duplicates() tells of whole logs
@@ -39,7 +40,8 @@ class WindowHashes {
   }
 
   void begin() {
-    n_ = 0, sum_ = 0, n_equal_ = 0;
+    n_ = 0, sum_ = 0, n_changes_ = 0;
+    changed_.fill(false);
     recent_.fill(0);
   }
   void add(const Eigen::MatrixXd& rows, Eigen::Index i) {
@@ -47,12 +49,14 @@ class WindowHashes {
     for (const Eigen::Index k : columns_)
       row = mixed(row * kFactor + std::bit_cast<std::uint64_t>(rows(i, k)));
     const std::size_t at = n_++ % kWindow;
-    n_equal_ = row == last_ ? n_equal_ + 1 : 0;
+    const bool changes = row != last_;
+    n_changes_ += changes;
+    n_changes_ -= changed_[at];
+    changed_[at] = changes;
     last_ = row;
     sum_ = sum_ * kFactor + row - recent_[at] * oldest_weight();
     recent_[at] = row;
-    // Rows at rest repeat by themselves.
-    if (n_ < kWindow || n_equal_ + 2 >= kWindow) return;
+    if (n_ < kWindow || n_changes_ < kFewChanges) return;
     const std::uint64_t hash = mixed(sum_);
     if (hash % kEvery == 0) hashes_.push_back(hash);
   }
@@ -71,8 +75,9 @@ class WindowHashes {
 
   std::vector<Eigen::Index> columns_;
   std::array<std::uint64_t, kWindow> recent_{};
+  std::array<bool, kWindow> changed_{};
   std::uint64_t sum_ = 0, last_ = 0;
-  std::size_t n_ = 0, n_equal_ = 0;
+  std::size_t n_ = 0, n_changes_ = 0;
   std::vector<std::uint64_t> hashes_;
 };
 
@@ -111,7 +116,9 @@ Findings overlaps(const Logs& logs) {
       const double share = shared(hashes[a], hashes[b]);
       const bool is_copy = logs.logs[a].n_rows == logs.logs[b].n_rows && share > kCopy;
       if (share < kLeastShare || is_copy) continue;
-      findings.push_back({b, 0, false,
+      findings.push_back({b,
+                          {},
+                          false,
                           fmt::format("shares {:.0f} % of the samples of the shorter log with {}",
                                       100 * share, logs.logs[a].plan.path),
                           "duplicate data make every sd too small; cut the logs apart"});

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include "cablefit/samples/weigh/checks.hpp"
 
@@ -21,6 +22,8 @@ constexpr double kMostDeflection = 2;  // rad, against a blocked link
 constexpr double kLinkMoves = 0.05;  // rad; the compliance of what blocks a link lets it move less
 constexpr double kSmallTorque = 1;   // N m; positions read as torque stay below
 constexpr double kAlike = 0.99, kLowAlike = 0.8, kHighAlike = 1.25;
+constexpr double kGear = 5;     // a larger ratio is no resonance
+constexpr double kSine = 0.95;  // correlation of a position and its acceleration
 constexpr double kStandsOut = 0.2;
 constexpr double kSameMotion = 0.995;  // correlation of a link that only looks blocked
 constexpr double kStandsStill = 0.02;  // of the other position's range
@@ -32,8 +35,12 @@ struct UnitRatio {
   const char* unit;
   const char* symbol;
 };
-constexpr std::array<UnitRatio, 2> kUnitRatios = {
+constexpr std::array<UnitRatio, 2> kAngles = {
     {{kDegrees, "degrees", "deg"}, {1000, "mrad", "mrad"}}};
+constexpr std::array<UnitRatio, 2> kLengths = {{{1000, "mm", "mm"}, {100, "cm", "cm"}}};
+std::span<const UnitRatio> unit_ratios(const Rig& rig) {
+  return rig.linear_motion ? std::span<const UnitRatio>(kLengths) : kAngles;
+}
 constexpr double kTurn = 2 * std::numbers::pi;
 
 /// Where theta would be on stiff cables: theta = S^+ P^T q from the couplings at rest. Empty when
@@ -58,10 +65,10 @@ Finding ratio_finding(const LogPlan& plan, const CoarsePart& part, int joint, do
   const std::string q = weighed_name(plan, Channel::q, joint);
   const double size = std::abs(slope);
   const auto finding = [&](const std::string& what, const std::string& remedy) {
-    return Finding{part.log, 0, true, what, remedy};
+    return Finding{part.log, {}, true, what, remedy};
   };
   const auto is = [&](double x, double unit) { return std::abs(x / unit - 1) < kSameUnit; };
-  for (const UnitRatio& unit : kUnitRatios) {
+  for (const UnitRatio& unit : unit_ratios(plan.rig)) {
     const bool by_theta = is(size, unit.ratio);
     if (!by_theta && !is(1 / size, unit.ratio)) continue;
     // The unit is missing on one side, or wrongly given on the other.
@@ -79,7 +86,7 @@ Finding ratio_finding(const LogPlan& plan, const CoarsePart& part, int joint, do
   }
   const std::string more =
       fmt::format("{} moves {:.3g} times as much as {}: ", theta, nice_factor(slope), q);
-  if (is(size, kTurn) || is(1 / size, kTurn)) {
+  if (!plan.rig.linear_motion && (is(size, kTurn) || is(1 / size, kTurn))) {
     const Channel turns = is(size, kTurn) ? Channel::q : Channel::theta;
     return finding(
         fmt::format("{}{} in revolutions, or a reduction?", more, weighed_name(plan, turns, joint)),
@@ -104,7 +111,9 @@ bool are_alike(const Eigen::ArrayXd& a, const Eigen::ArrayXd& b) {
 
 Finding swapped(const LogPlan& plan, const CoarsePart& part, int joint, const std::string& why,
                 Channel one, Channel other) {
-  return {part.log, 0, true,
+  return {part.log,
+          {},
+          true,
           fmt::format("{}: are {} and {} swapped?", why, weighed_name(plan, one, joint),
                       weighed_name(plan, other, joint)),
           "exchange their columns in the rig file"};
@@ -136,11 +145,20 @@ std::optional<Finding> swapped_columns(const LogPlan& plan, const CoarsePart& pa
 Finding turned_position(const LogPlan& plan, const CoarsePart& part, int j, double slope) {
   const CoarsePart::Joint& joint = part.joints[static_cast<std::size_t>(j)];
   const Channel turned = drive_turns_back(part, joint) ? Channel::theta : Channel::q;
-  return {part.log, 0, true,
+  return {part.log,
+          {},
+          true,
           fmt::format("{} is turned round: the slope of {} on {} is {:.2f}",
                       weighed_name(plan, turned, j), weighed_name(plan, Channel::theta, j),
                       weighed_name(plan, Channel::q, j), slope),
           mending_line(plan, turned, j, -1)};
+}
+
+/// Of a single sine near a resonance q and theta differ in size and sign for a good reason.
+bool is_one_sine(const CoarsePart& part, const Eigen::ArrayXd& x) {
+  if (part.inner.size() < static_cast<std::size_t>(kFewBlocks)) return false;
+  const CoarseLine line = coarse_line(coarse_rates(part, x).second, at_inner(part, x));
+  return line.slope < 0 && std::abs(line.correlation) > kSine;
 }
 
 std::optional<Finding> weigh_ratio(const LogPlan& plan, const CoarsePart& part, int j,
@@ -151,14 +169,16 @@ std::optional<Finding> weigh_ratio(const LogPlan& plan, const CoarsePart& part, 
   const double size = std::abs(line.slope);
   const bool usual = size > kLowRatio && size < kHighRatio;
   if (usual && line.slope > 0) return std::nullopt;
+  if (size > 1 / kGear && size < kGear && is_one_sine(part, expected)) return std::nullopt;
   // Without torque, a link that swings on a drive at rest may run against it.
   if (joint.tau.size() == 0 && size < kHighRatio) return std::nullopt;
   if (usual) return turned_position(plan, part, j, line.slope);
   return ratio_finding(plan, part, j, line.slope);
 }
 
-bool is_unit_ratio(double slope) {
-  return std::any_of(kUnitRatios.begin(), kUnitRatios.end(), [&](const UnitRatio& unit) {
+bool is_unit_ratio(const Rig& rig, double slope) {
+  const std::span<const UnitRatio> units = unit_ratios(rig);
+  return std::any_of(units.begin(), units.end(), [&](const UnitRatio& unit) {
     return std::abs(slope / unit.ratio - 1) < kSameUnit ||
            std::abs(1 / slope / unit.ratio - 1) < kSameUnit;
   });
@@ -171,7 +191,8 @@ bool weighs_ratio(const Logs& logs, const CoarsePart& part, int j, const Eigen::
   if (survey.phase == Phase::moving || survey.phase_given) return survey.phase == Phase::moving;
   const CoarseLine line = coarse_line(expected, part.joints[static_cast<std::size_t>(j)].theta);
   const bool moves = !logs.plan(part).rig.linear_motion && coarse_range(expected) > kLinkMoves;
-  return std::abs(line.correlation) > kSameMotion && (moves || is_unit_ratio(line.slope));
+  return std::abs(line.correlation) > kSameMotion &&
+         (moves || is_unit_ratio(logs.plan(part).rig, line.slope));
 }
 
 void weigh_columns(const Logs& logs, const CoarsePart& part, Findings& findings) {
@@ -212,7 +233,9 @@ void weigh_range(const Logs& logs, const CoarsePart& part, Findings& findings) {
       continue;
     }
     findings.push_back(
-        {part.log, 0, range > (blocked ? kTurn : kMostTurns * kTurn),
+        {part.log,
+         {},
+         range > (blocked ? kTurn : kMostTurns * kTurn),
          fmt::format("{} moves {:.3g} rad{}: degrees, or another column?",
                      weighed_name(plan, channel, j), range,
                      blocked ? " against a blocked link" : ""),

@@ -18,7 +18,9 @@ Findings saturation(const Logs& logs) {
         const Slot& slot = log.plan.slots[k];
         if (slot.channel != Channel::tau || part.channels[k].at_limits <= kSaturated) continue;
         findings.push_back(
-            {l, 0, false,
+            {l,
+             {},
+             false,
              fmt::format("{} stands at its limits in {:.1f} % of the samples: saturation?",
                          weighed_name(log.plan, slot.channel, slot.joint),
                          100 * part.channels[k].at_limits),

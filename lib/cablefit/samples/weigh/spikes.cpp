@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/samples/weigh/channel_pass.hpp"
 #include "cablefit/samples/weigh/checks.hpp"
 
 namespace cablefit::weighing {
@@ -45,29 +46,31 @@ double lone_height(double before, double x, double after) {
   return a * b > 0 ? std::min(std::abs(a), std::abs(b)) : 0;
 }
 
-Spike largest_spike(const LogSurvey& log, std::size_t part, Eigen::Index column) {
-  Spike largest;
-  double height = 0;
-  std::size_t row = 0;
-  Eigen::MatrixXd rows;
-  for (const SamplePiece& piece : log.samples->pieces()) {
-    const std::size_t begin = row;
-    row += static_cast<std::size_t>(piece.n_rows);
-    if (piece.part != part) continue;
-    log.samples->read(piece, rows);
-    const auto x = rows.col(column);
-    for (Eigen::Index i = 1; i + 1 < x.size(); ++i) {
-      const double lone = lone_height(x(i - 1), x(i), x(i + 1));
-      if (lone > height) height = lone, largest = {0, x(i), begin + static_cast<std::size_t>(i)};
+/// The sample of one channel that lies furthest beyond both of its neighbours.
+class LoneSamples {
+ public:
+  void begin() { n_ = 0; }
+  void add(double /*t*/, double x, std::size_t row) {
+    if (n_ >= 2) {
+      const double lone = lone_height(before_, middle_, x);
+      if (lone > height_) height_ = lone, largest_ = {0, middle_, row - 1};
     }
+    before_ = middle_, middle_ = x, ++n_;
   }
-  // The quantiles cost a sort: only where the range is not the usual one.
-  const ChannelSurvey& seen = log.parts[part].channels[static_cast<std::size_t>(column - 1)];
-  if (!(height > 0.5 * seen.range())) return {};
-  const double usual = usual_range(log, part, column);
-  largest.ratio = usual > 0 ? height / usual : 0;
-  return largest;
-}
+  Spike result(const LogSurvey& log, std::size_t part, std::size_t slot) const {
+    // The quantiles cost a sort: only where the range is not the usual one.
+    if (!(height_ > 0.5 * log.parts[part].channels[slot].range())) return {};
+    const double usual = usual_range(log, part, static_cast<Eigen::Index>(slot) + 1);
+    Spike spike = largest_;
+    spike.ratio = usual > 0 ? height_ / usual : 0;
+    return spike;
+  }
+
+ private:
+  std::size_t n_ = 0;
+  double before_ = 0, middle_ = 0, height_ = 0;
+  Spike largest_;
+};
 
 }  // namespace
 
@@ -75,14 +78,17 @@ Findings spikes(const Logs& logs) {
   Findings findings;
   for (std::size_t l = 0; l < logs.logs.size(); ++l) {
     const LogSurvey& log = logs.logs[l];
+    std::vector<std::vector<LoneSamples>> lone(log.parts.size(),
+                                               std::vector<LoneSamples>(log.plan.slots.size()));
+    over_channels(log, lone);
     for (std::size_t p = 0; p < log.parts.size(); ++p)
       for (std::size_t k = 0; k < log.plan.slots.size(); ++k) {
         const Slot& slot = log.plan.slots[k];
         if (slot.integrated) continue;
-        const Spike spike = largest_spike(log, p, static_cast<Eigen::Index>(k) + 1);
+        const Spike spike = lone[p][k].result(log, p, k);
         if (spike.ratio < kOdd) continue;
         findings.push_back(
-            {l, line_of_row(log.plan, spike.row), spike.ratio > kWrong,
+            {l, spike.row, spike.ratio > kWrong,
              fmt::format("{} = {:.3g} is a single sample, {:.2g} times the range of all others",
                          weighed_name(log.plan, slot.channel, slot.joint), spike.value,
                          spike.ratio),

@@ -54,7 +54,9 @@ Findings velocity(const Logs& logs) {
         if (std::abs(line.slope / unit.ratio - 1) < kUnitMatch)
           guess = fmt::format(": {} in {}?", w, unit.name);
       findings.push_back(
-          {part.log, 0, line.slope < 0 || !guess.empty(),
+          {part.log,
+           {},
+           line.slope < 0 || !guess.empty(),
            fmt::format("{} is {:.3g} times d{}/dt{}", w, line.slope,
                        weighed_name(plan, by_theta ? Channel::theta : Channel::q, j), guess),
            mending_line(plan, Channel::w, j, 1 / line.slope)});

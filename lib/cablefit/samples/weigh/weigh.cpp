@@ -55,21 +55,22 @@ bool others_are_right(const std::vector<LogSurvey>& logs, const std::set<std::si
 
 std::string remedy_of(const std::vector<LogSurvey>& logs, const std::set<std::size_t>& told,
                       const Finding& finding) {
-  if (finding.line > 0 || !finding.wrong || !others_are_right(logs, told, finding))
+  if (finding.row || !finding.wrong || !others_are_right(logs, told, finding))
     return finding.remedy;
   return finding.remedy + "; of this log alone: give it a folder and a rig.json of its own";
 }
 
 void take(std::vector<LogSurvey>& logs, const weighing::Findings& findings, bool only_first) {
-  std::set<std::size_t> told;
+  std::set<std::size_t> told, warned;  // one odd thing of each log is enough
   for (const Finding& finding : findings) told.insert(finding.log);
   for (const Finding& finding : findings) {
     LogSurvey& log = logs[finding.log];
+    if (!finding.wrong && !warned.insert(finding.log).second) continue;
     const std::string what =
         with_count(finding.what, only_first && finding.wrong ? told.size() - 1 : 0);
-    const Error error =
-        input_error({log.plan.path, finding.line, 0}, what, remedy_of(logs, told, finding));
-    if (finding.hopeless || (finding.wrong && !log.plan.reading.trust_units)) throw error;
+    const std::uint64_t line = finding.row ? line_of_row(log.plan, *finding.row) : 0;
+    const Error error = input_error({log.plan.path, line, 0}, what, remedy_of(logs, told, finding));
+    if (finding.always_refused || (finding.wrong && !log.plan.reading.trust_units)) throw error;
     log.warnings.emplace_back(error.what());
     log.has_trusted_finding = log.has_trusted_finding || (finding.wrong && only_first);
     if (only_first && finding.wrong) return;

@@ -11,10 +11,14 @@ namespace {
 constexpr double kReturned = 0.05;  // of the range: the motion is closed
 constexpr double kNegative = -0.1;  // of the work exchanged; delays alone make less
 constexpr double kClearlyNegative = -0.3;
+constexpr double kMostLoad = 10;  // mean square, of the torque's
 constexpr Eigen::Index kFewBlocksOfWork = 40;
 
 struct Work {
-  double sum = 0, exchanged = 0;
+  double drive = 0, load = 0;  // J
+  double exchanged = 0;        // by the drive, back and forth
+  /// Friction takes from what drive and load give together.
+  double share() const { return exchanged > 0 ? (drive + load) / exchanged : 0; }
 };
 
 /// Number of blocks up to the last one at which every joint is back where it began.
@@ -33,14 +37,23 @@ Eigen::Index closed_blocks(const CoarsePart& part, Channel channel) {
   return 0;
 }
 
-/// Trapezoidal, over blocks that follow one another.
+/// A load far beyond the torque is one in another unit.
+bool has_load(const CoarsePart::Joint& joint) {
+  return joint.load.size() > 0 &&
+         joint.load.square().mean() < kMostLoad * joint.tau.square().mean();
+}
+
+/// Trapezoidal.
 Work drive_work(const CoarsePart::Joint& joint, Channel channel, Eigen::Index n) {
   Work work;
   const Eigen::ArrayXd& x = channel == Channel::q ? joint.q : joint.theta;
+  const bool with_load = has_load(joint);
   for (Eigen::Index i = 1; i < n; ++i) {
-    const double d = (joint.tau(i) + joint.tau(i - 1)) / 2 * (x(i) - x(i - 1));
-    work.sum += d;
+    const double step = (x(i) - x(i - 1)) / 2;
+    const double d = (joint.tau(i) + joint.tau(i - 1)) * step;
+    work.drive += d;
     work.exchanged += std::abs(d);
+    if (with_load) work.load += (joint.load(i) + joint.load(i - 1)) * step;
   }
   return work;
 }
@@ -51,7 +64,7 @@ int braking_joint(const CoarsePart& part, Channel channel, Eigen::Index n, Work&
   const double limit = part.joints.size() == 1 ? kNegative : kClearlyNegative;
   for (std::size_t j = 0; j < part.joints.size(); ++j) {
     work = drive_work(part.joints[j], channel, n);
-    if (work.exchanged > 0 && work.sum < limit * work.exchanged) return static_cast<int>(j);
+    if (work.share() < limit) return static_cast<int>(j);
   }
   return -1;
 }
@@ -72,10 +85,12 @@ Findings work(const Logs& logs) {
     if (joint < 0) continue;
     const std::string tau = weighed_name(plan, Channel::tau, joint);
     findings.push_back(
-        {part.log, 0, true,
+        {part.log,
+         {},
+         true,
          fmt::format("{0} brakes: over a closed motion it does {1:.3g} J of work, of {2:.3g} J "
                      "exchanged; {0} is turned round against the positions",
-                     tau, work.sum, work.exchanged),
+                     tau, work.drive, work.exchanged),
          mending_line(plan, Channel::tau, joint, -1)});
   }
   return findings;
