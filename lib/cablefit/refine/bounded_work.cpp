@@ -9,7 +9,7 @@
 namespace cablefit {
 namespace {
 
-constexpr double kSlowRate = 40;       // Hz; 100,000 rows of a faster log are searched within 60 s
+constexpr double kSlowRate = 100;      // Hz; 100,000 rows of a faster log are searched within 60 s
 constexpr double kMostSeconds = 1000;  // of all moving parts of slow logs
 
 }  // namespace
