@@ -35,8 +35,7 @@ std::string low_cutoff_warning(double cutoff, double resonance, const Estimate& 
   return fmt::format(
       "the cut-off of {:.4g} Hz is below twice the free resonance under load, {:.3g} Hz: {} is "
       "wrong by about {:.2g} % ({:.2g} sd, {}), as a fit to a simulated copy without disturbances "
-      "shows; "
-      "record at a higher rate or with a finer encoder",
+      "shows; record at a higher rate or with a finer encoder",
       cutoff, resonance, j_motor.name, 100 * std::abs(error / j_motor.value),
       std::abs(error) / j_motor.sd, in_sd ? "contained in the sd" : "not contained in the sd");
 }
