@@ -52,7 +52,8 @@ struct Stage1 {
   ElasticResult result;
   std::vector<InputFile> inputs;
   Decision decision;
-  bool is_new = false;  ///< fitted here, to be written as well
+  bool is_new = false;                ///< fitted here, to be written as well
+  std::vector<std::string> warnings;  ///< of its logs, not reported yet
 };
 
 bool is_same_file(const std::string& a, const std::string& b) {
@@ -137,6 +138,7 @@ Stage1 fit_stage1(const DynamicCommand& command, const std::vector<LogSurvey>& b
   Stage1 stage1;
   stage1.result = fit_elastic_stage(blocked, options, ElongationMode::automatic);
   stage1.inputs = stage1.result.inputs;
+  stage1.warnings = stage1.result.warnings;
   stage1.decision = {"stage 1", "from the blocked logs given", "there was no result of stage 1"};
   stage1.is_new = true;
   return stage1;
@@ -216,12 +218,9 @@ std::optional<OwnLogs> take_stage1_logs(DynamicCommand& command) {
 
 void add_stage1(const Stage1& stage1, DynamicResult& result) {
   result.inputs.insert(result.inputs.end(), stage1.inputs.begin(), stage1.inputs.end());
-  // Of blocked logs that were read just now: nobody has reported them yet.
-  if (stage1.is_new)
-    for (const std::string& warning : stage1.result.warnings)
-      if (std::find(result.warnings.begin(), result.warnings.end(), warning) ==
-          result.warnings.end())
-        result.warnings.push_back(warning);
+  for (const std::string& warning : stage1.warnings)
+    if (std::find(result.warnings.begin(), result.warnings.end(), warning) == result.warnings.end())
+      result.warnings.push_back(warning);
   for (DynamicPreload& preload : result.preloads) {
     preload.decisions.insert(preload.decisions.begin(), stage1.decision);
   }
@@ -351,6 +350,9 @@ int run_dynamic(const Arguments& arguments) {
   const bool is_named = !command.elastic_file.empty() || own_logs;
   if (takes_stage1 && earlier && (is_named || blocked_of(logs).empty())) {
     require_same_rig(*earlier, moving);
+    for (const std::string& changed : changed_logs(named_elastic_file(command)))
+      earlier->warnings.push_back(fmt::format("{}: {}; run 'cablefit elastic' again",
+                                              named_elastic_file(command), changed));
     stage1 = *std::move(earlier);
   } else if (takes_stage1) {
     stage1 = or_why(logs, [&] { return stage1_from_logs(command, logs); });

@@ -87,6 +87,22 @@ Stage1Logs own_logs(const std::string& result_path) {
   return logs;
 }
 
+std::vector<std::string> changed_logs(const std::string& result_path) {
+  std::vector<std::string> changed;
+  std::error_code ignored;
+  const auto made = fs::last_write_time(result_path, ignored);
+  const JsonNode root = read_json_file(result_path);
+  const JsonNode* inputs = root.find("inputs");  // a file written by hand may name none
+  if (inputs == nullptr) return changed;
+  for (const JsonNode& input : inputs->items) {
+    const std::string path = locate(input.at("path").text(), result_path);
+    if (path.empty() || fs::last_write_time(path, ignored) <= made) continue;
+    std::string why;
+    if (same_file(input, result_path, why).empty()) changed.push_back(why);
+  }
+  return changed;
+}
+
 bool is_model(const std::string& path) {
   if (fs::path(path).extension() != ".json") return false;
   try {

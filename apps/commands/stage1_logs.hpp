@@ -22,6 +22,10 @@ Stage1Logs stage1_logs(const std::string& result_path);
 /// names none.
 Stage1Logs own_logs(const std::string& result_path);
 
+/// "low/blocked.csv has changed since then" of logs of a result of `elastic` that were written to
+/// after it. Logs that are gone, or older than the result, are not read.
+std::vector<std::string> changed_logs(const std::string& result_path);
+
 /// A model file or a result, by its "schema"; a log is neither. False for what cannot be read as
 /// JSON: reading it as a log says why.
 bool is_model(const std::string& path);

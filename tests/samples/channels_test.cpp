@@ -139,9 +139,10 @@ TEST_CASE("a clock with few digits agrees with its rate, one with a gap does not
   }
   CHECK(logs.message(coarse, default_rig(), given) == "no error");
   // Rows at an even rate would join what the gap keeps apart.
-  CHECK(logs.message(gap, default_rig(), given) ==
-        "log.csv:1:1: column 't' has gaps or drifts, which rows at 1000 Hz would hide; leave --rate "
-        "out, or take the right one");
+  CHECK(
+      logs.message(gap, default_rig(), given) ==
+      "log.csv:1:1: column 't' has gaps or drifts, which rows at 1000 Hz would hide; leave --rate "
+      "out, or take the right one");
 }
 
 TEST_CASE("a JSON log's sample rate and its times must agree", "[samples]") {
