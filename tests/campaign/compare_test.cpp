@@ -119,7 +119,8 @@ TEST_CASE("logs fitted in both results are named", "[compare]") {
   CHECK(compare(a, b, {}).warnings ==
         std::vector<std::string>{
             "both results were fitted to both.csv (1 of 2 logs of a.json, the only log of b.json): "
-            "they differ less by chance than independent results, so fewer differences are found"});
+            "their errors are correlated, and the test, which takes them for independent, finds "
+            "fewer differences"});
 }
 
 TEST_CASE("a stage 1 of both results is no log", "[compare]") {
@@ -128,8 +129,8 @@ TEST_CASE("a stage 1 of both results is no log", "[compare]") {
   for (RecordedResult* r : {&a, &b}) r->inputs.push_back({"out/elastic.json", "stage 1", 0});
   CHECK(compare(a, b, {}).warnings ==
         std::vector<std::string>{
-            "both results use out/elastic.json: they differ less by chance than independent "
-            "results, so fewer differences are found"});
+            "both results use out/elastic.json: their errors are correlated, and the test, which "
+            "takes them for independent, finds fewer differences"});
 }
 
 TEST_CASE("two preloads of one result are not the same logs", "[compare]") {

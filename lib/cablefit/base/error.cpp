@@ -8,7 +8,8 @@ namespace cablefit {
 namespace {
 
 std::string with_hint(const std::string& what, const std::string& hint) {
-  return hint.empty() ? what : what + "; " + hint;
+  if (hint.empty()) return what;
+  return what + (what.ends_with('?') ? " " : "; ") + hint;
 }
 
 std::string printable_lines(std::string_view message) {

@@ -148,8 +148,8 @@ std::string shared_warning(const RecordedResult& first, const RecordedResult& se
                           fmt::join(stage1, ", "));
   if (shared.empty()) return {};
   return shared +
-         ": they differ less by chance than independent results, so fewer differences "
-         "are found";
+         ": their errors are correlated, and the test, which takes them for independent, finds "
+         "fewer differences";
 }
 
 /// Two preloads of one result share its list of logs, not their logs.

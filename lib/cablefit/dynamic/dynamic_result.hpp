@@ -57,8 +57,8 @@ struct DynamicFit {
   /// "J_link": "identified", ...; "motor equation": what the test of its regressors says
   std::map<std::string, std::string> verdicts;
   std::vector<std::string> warnings;
-  /// Warnings that follow of themselves where the model explains little; keep_causes() tells them
-  /// or drops them.
+  /// Warnings that are a consequence where the model explains little; keep_causes() reports or
+  /// drops them.
   std::vector<std::string> doubts = {};
   std::optional<FitProof> proof;  ///< of a rerun on simulated logs, when it was asked for
   std::map<std::string, std::string> sd_reason = {};  ///< by equation: which sd, and why

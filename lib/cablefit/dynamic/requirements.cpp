@@ -92,8 +92,7 @@ std::string lowered_cutoff(const DynamicJob& job, const EquationRows& e, double 
       if (job.wanted(part)) noise = std::max(noise, position_noise(log, part, *channel, joint));
   return fmt::format(
       "the noise of {} ({:.2g} {}) lowers the cut-off to {:.2g} Hz, too low for the motion on the "
-      "{} "
-      "side: encoder jumps{}; look at the positions, or set --cutoff",
+      "{} side: encoder jumps{}; look at the positions, or set --cutoff",
       channel_name(*channel), noise, job.rig().linear_motion ? "m" : "rad",
       *channel == Channel::q ? settings.cutoff_q : settings.rows.signal.cutoff, e.equation.name,
       rate_too_low(rate));

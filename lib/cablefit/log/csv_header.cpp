@@ -66,7 +66,7 @@ void take_units_row(LineBuffer& lines, CsvHeader& header) {
   }
 }
 
-/// What the first rows tell about the cells of all.
+/// What the first rows show about the cells of all.
 void look_at_cells(const std::vector<NumberedLine>& lines, CsvHeader& header) {
   header.log.decimal_comma = has_decimal_commas(lines, header.delimiter);
   if (lines.empty()) return;

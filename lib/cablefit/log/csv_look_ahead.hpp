@@ -1,4 +1,4 @@
-// What the lines behind a CSV header tell before they are read: is it the header at all, and how
+// What the lines behind a CSV header show before they are read: is it the header at all, and how
 // are numbers written.
 #pragma once
 

@@ -31,7 +31,7 @@ struct LogHeader {
   bool decimal_comma = false;  ///< of a CSV log whose delimiter leaves it free
 };
 
-/// How the text of a log is laid out, where that has to be told.
+/// How the text of a log is laid out, where the log itself does not show it.
 struct LogText {
   std::size_t skipped_lines = 0;  ///< of a CSV log, before its header
   bool units_row = false;         ///< of a CSV log: the line behind the header holds units

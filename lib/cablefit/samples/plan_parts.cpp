@@ -28,7 +28,7 @@ std::optional<std::size_t> find_channel_column(const LogHeader& header, std::str
   return std::nullopt;
 }
 
-/// Hertz count turns to some and radians to others, and so does what is told a minute.
+/// Some count turns in Hz and others radians; the same holds for 1/min.
 bool is_unclear_speed(const std::string& unit) {
   return unit.ends_with("Hz") || unit == "1/min" || unit == "min^-1" || unit == "min-1";
 }

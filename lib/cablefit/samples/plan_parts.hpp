@@ -57,7 +57,7 @@ struct WrittenUnit {
 WrittenUnit written_unit(const ColumnHeader& cell, const Dimension& dimension);
 
 /// The unit that a column is in: of the rig file, else of the header, else by the column's name,
-/// which is told. Empty: none is given. Refuses units that contradict each other.
+/// which is reported. Empty: none is given. Refuses units that contradict each other.
 std::string unit_of(LogPlan& plan, const ColumnHeader& cell, const ColumnMapping& mapping,
                     const Dimension& dimension);
 

@@ -21,7 +21,7 @@ constexpr double kMostBack = 0.2;        // share of the steps of a clock with s
 constexpr double kAbsurd = 1e30;         // in SI; nothing a joint does comes near
 // Of more rows left out than these shares nothing is known of the motion between those kept.
 constexpr double kMostMissing = 0.5, kMostRepeated = 0.2;
-constexpr double kSmallShare = 0.01;  // not told in percent
+constexpr double kSmallShare = 0.01;  // reported without percent
 // A link whose position varies less than this share of the motor's is blocked.
 constexpr double kStillShare = 0.02;
 

@@ -34,7 +34,7 @@ struct LogSurvey {
   std::size_t n_rows = 0;
   std::vector<PartSurvey> parts;
   std::shared_ptr<const SampleStore> samples;  ///< what all later passes read
-  /// Of LogPlan::trusted, of rows left out or filled and of weigh_logs(): the first to be told.
+  /// Of LogPlan::trusted, of rows left out or filled and of weigh_logs(); reported before others.
   std::vector<std::string> warnings = {};
   /// Units, signs or samples cannot be right and are trusted all the same: they explain the rest.
   bool has_trusted_finding = false;

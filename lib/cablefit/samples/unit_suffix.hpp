@@ -13,7 +13,7 @@ struct SuffixedName {
   std::string_view stem, unit;
 };
 /// Empty where the name ends in no unit of the wanted dimension. q_Deg and q_DEG are degrees too;
-/// units of one letter are told by its case: theta_M may be a motor's.
+/// units of one letter need that letter's case, since theta_M may be a motor's.
 std::optional<SuffixedName> split_unit_suffix(std::string_view column, const Dimension& wanted);
 
 /// Whether the name ends in _A or _mA: a current, which a torque constant makes a torque.

@@ -101,8 +101,8 @@ std::optional<Finding> jump_finding(const LogSurvey& log, std::size_t part, std:
 
 }  // namespace
 
-/// A joint has inertia: its position does not jump from one sample to the next. One sample off, a
-/// wrapped encoder, lost counts and logs put together show so.
+/// A joint has inertia: its position does not jump from one sample to the next. A single wrong
+/// sample, a wrapped encoder, lost counts and two logs in one make such jumps.
 Findings jumps(const Logs& logs) {
   Findings findings;
   for (std::size_t l = 0; l < logs.logs.size(); ++l) {

@@ -12,11 +12,11 @@ namespace cablefit::weighing {
 namespace {
 
 constexpr std::size_t kMostRows = 2'000'000;  // of a log; bounds time and memory
-constexpr std::size_t kWindow = 64;           // rows in a row that nothing repeats by chance
+constexpr std::size_t kWindow = 64;           // consecutive rows; no motion repeats as many
 constexpr std::size_t kFewChanges = 8;        // rows at rest repeat by themselves
 constexpr std::uint64_t kEvery = 64;          // about one window of as many is kept
 constexpr std::size_t kFewest = 10;           // windows that two logs share
-constexpr double kCopy = 0.95;                // duplicates() tells of whole logs
+constexpr double kCopy = 0.95;                // duplicates() reports whole logs
 constexpr double kLeastShare = 0.05;          // of the shorter log's
 constexpr std::uint64_t kFactor = 0x9e3779b97f4a7c15;  // odd, its bits without a pattern
 

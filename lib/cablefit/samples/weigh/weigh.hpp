@@ -10,7 +10,7 @@ namespace cablefit {
 
 /// Puts what is odd into LogSurvey::warnings. Throws Error(input) for what cannot be right, with
 /// its size, its likely cause and the rig line that mends it; with Reading::trust_units that is a
-/// warning too. The first cause alone is told: it explains the rest.
+/// warning too. The first cause alone is reported: it explains the rest.
 void weigh_logs(std::vector<LogSurvey>& logs);
 
 }  // namespace cablefit
