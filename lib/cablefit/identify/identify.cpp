@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cablefit/elastic/elastic_fit.hpp"
+#include "cablefit/identify/aliased_inertias.hpp"
 #include "cablefit/identify/identify_checks.hpp"
 #include "cablefit/identify/identify_description.hpp"
 #include "cablefit/identify/identify_estimates.hpp"
@@ -116,6 +117,7 @@ IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& 
   for (std::size_t j = 0; j < fit.jobs.size(); ++j) require_explained(fit, judged, j);
   std::vector<Estimate> estimates = joint_estimates(fit, judged, found.profiles, options.honest_sd);
   add_method_floor(logs, options, fit, judged, facts, estimates);
+  if (options.honest_sd) widen_aliased_inertias(logs, options, fit, judged, facts, estimates);
   describe(fit, judged, estimates, facts, options, result);
   result.profiles = std::move(found.profiles);
   if (options.recursive) result.trace = recursive_trace(fit, judged.point, estimates);

@@ -70,11 +70,7 @@ Eigen::VectorXd shift_by(const JointFit& fit, const JudgedPoint& judged, std::si
 Decision add_shift(std::span<const LogSurvey> logs, const IdentifyOptions& options,
                    const JointFit& fit, const JudgedPoint& judged, std::size_t job,
                    const PreloadFacts& facts, Eigen::VectorXd& shift) {
-  const Transmission cables =
-      fitted_cables(fit.jobs[job], judged.point.l_o[job], judged.point.solution.x);
-  const MovingJob moving(logs, options, cables,
-                         reference_deflections(cables, fit.elongations(job, judged.point.l_o[job])),
-                         facts);
+  const MovingJob moving(logs, options, fit, judged, job, facts);
   const std::vector<EquationRows> equations = make_equations(moving.job);
   const Model model =
       fitted_model(moving.job, equations, as_solutions(fit, judged, equations, job), 0);

@@ -18,7 +18,7 @@ struct PreloadFacts {
   bool has_blocked = false, has_moving = false;
   TorqueDelay delay;
   double resonance = 0, load_inertia = 0;
-  double cutoff = 0;  ///< Hz, of the moving logs
+  double cutoff = 0, rate = 0;  ///< Hz, of the moving logs; the slowest log's rate
   std::vector<Decision> decisions;
   std::vector<std::string> warnings;
 };

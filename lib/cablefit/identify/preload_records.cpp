@@ -45,13 +45,13 @@ JointEquation equation_of(Side side, const ChosenSettings& settings, const Prelo
   return equation;
 }
 
-JointRecord record_of(const PreloadFacts& facts, const ChosenSettings& settings) {
+}  // namespace
+
+JointRecord moving_record_with(const ChosenSettings& settings, const PreloadFacts& facts) {
   return {moving_parts(facts.name),
           settings.rows,
           {equation_of(Side::link, settings, facts), equation_of(Side::motor, settings, facts)}};
 }
-
-}  // namespace
 
 JointRecord blocked_record(std::span<const LogSurvey> logs, const IdentifyOptions& options,
                            bool moving, PreloadFacts& facts) {
@@ -93,7 +93,7 @@ JointRecord first_moving_record(std::span<const LogSurvey> logs, const IdentifyO
   settings.rows.signal.torque_period = facts.rig.torque_period;
   settings.rows.signal.torque_held =
       options.samples.torque_hold.value_or(facts.rig.torque_hold) == TorqueHold::zoh;
-  return record_of(facts, settings);
+  return moving_record_with(settings, facts);
 }
 
 MovingJob::MovingJob(std::span<const LogSurvey> logs, const IdentifyOptions& options,
@@ -113,6 +113,16 @@ MovingJob::MovingJob(std::span<const LogSurvey> logs, const IdentifyOptions& opt
   choose_settings(job, found, stage1);
 }
 
+MovingJob::MovingJob(std::span<const LogSurvey> logs, const IdentifyOptions& options,
+                     const JointFit& fit, const JudgedPoint& judged, std::size_t at,
+                     const PreloadFacts& facts)
+    : MovingJob(logs, options,
+                fitted_cables(fit.jobs[at], judged.point.l_o[at], judged.point.solution.x),
+                reference_deflections(
+                    fitted_cables(fit.jobs[at], judged.point.l_o[at], judged.point.solution.x),
+                    fit.elongations(at, judged.point.l_o[at])),
+                facts) {}
+
 JointRecord moving_record(std::span<const LogSurvey> logs, const IdentifyOptions& options,
                           const Transmission& fitted, const DeflectionRange& deflections,
                           PreloadFacts& facts) {
@@ -121,12 +131,13 @@ JointRecord moving_record(std::span<const LogSurvey> logs, const IdentifyOptions
   const MovingJob moving(logs, options, fitted, deflections, facts);
   facts.delay = moving.found.delay;
   facts.resonance = moving.found.resonance;
+  facts.rate = sample_rates(logs, moving_parts(facts.name)).lowest;
   facts.cutoff = moving.job.settings.rows.signal.cutoff;
   for (const Decision& d : moving.job.settings.decisions)
     facts.decisions.push_back({"moving: " + d.name, d.value, d.reason});
   for (const auto* warnings : {&moving.found.warnings, &moving.job.settings.warnings})
     facts.warnings.insert(facts.warnings.end(), warnings->begin(), warnings->end());
-  return record_of(facts, moving.job.settings);
+  return moving_record_with(moving.job.settings, facts);
 }
 
 }  // namespace cablefit

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cablefit/dynamic/dynamic_job.hpp"
+#include "cablefit/identify/judged_point.hpp"
 #include "cablefit/identify/preload_jobs.hpp"
 
 namespace cablefit {
@@ -21,6 +22,9 @@ struct MovingJob {
   MovingJob(std::span<const LogSurvey> logs, const IdentifyOptions& options,
             const Transmission& fitted, const DeflectionRange& deflections,
             const PreloadFacts& facts);
+  /// With the cables that the fit found.
+  MovingJob(std::span<const LogSurvey> logs, const IdentifyOptions& options, const JointFit& fit,
+            const JudgedPoint& judged, std::size_t at, const PreloadFacts& facts);
   MovingJob(const MovingJob&) = delete;
   MovingJob& operator=(const MovingJob&) = delete;
 
@@ -29,6 +33,9 @@ struct MovingJob {
   DynamicPreload found;  ///< resonance, torque delay, warnings
   DynamicJob job;
 };
+
+/// Link and motor equation of the moving logs with these settings.
+JointRecord moving_record_with(const ChosenSettings& settings, const PreloadFacts& facts);
 
 /// The same with settings chosen by the elastic fit: filter by the resonance, torque hold.
 JointRecord moving_record(std::span<const LogSurvey> logs, const IdentifyOptions& options,
