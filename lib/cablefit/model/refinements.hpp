@@ -82,6 +82,13 @@ struct ShapeGrid {
   double factor(const LogScale& scale) const;
 };
 
+/// What a log must have for a row to mean anything.
+enum class Yardstick {
+  none,
+  load,             ///< a load torque that is not 0
+  load_or_inertia,  ///< that, or an inertia of the link that the rig file gives
+};
+
 /// A row. Exactly one of `torque` (with or without `level`), `level`, `correct` and `change` groups
 /// is there. Torques stand on the LEFT side of the equations of motion, like J qdd: they oppose.
 struct Refinement {
@@ -103,6 +110,9 @@ struct Refinement {
   bool is_event = false;
   /// Blocked logs alone can show it, and tell it from the others that they can show.
   bool is_static = false;
+
+  /// A scale of torques: only something known in the same unit tells it.
+  Yardstick yardstick = Yardstick::none;
 
   /// Internal states z[0 .. n_states), 0 at the start. `advance` takes them over the time h (s), in
   /// which the state is that of the middle; it must be stable for any h.

@@ -48,19 +48,31 @@ Eigen::ArrayXd response_of(RowKind kind, const SmoothMotion& m, const Model& mod
   return model.rigid ? Eigen::ArrayXd(m.tau + m.tau_load) : m.tau;
 }
 
-/// All columns and the response of one kind at the full rate.
+/// The link's effects; that of a given inertia as a torque in the last column.
+void fill_link(const JointModel& axes, const SmoothMotion& m, const BaseLayout& c,
+               Eigen::Ref<Eigen::MatrixXd> all) {
+  const Motion motion{m.q, m.qd, m.qdd, m.q_direction};
+  if (!c.given) return fill_effects(axes.link, motion, all.leftCols(c.n_link));
+  Eigen::MatrixXd effects(m.size(), c.n_link + 1);
+  fill_effects(axes.link, motion, effects);
+  const Eigen::Index at = c.given->effect_column;
+  all.leftCols(at) = effects.leftCols(at);
+  all.middleCols(at, c.n_link - at) = effects.rightCols(c.n_link - at);
+  all.rightCols(1) = c.given->inertia * effects.col(at);
+}
+
+/// All columns, the response and the torque of a given inertia of one kind at the full rate.
 Eigen::MatrixXd full_columns(RowKind kind, const SmoothMotion& m, const Model& model,
                              const BaseLayout& c) {
   const JointModel& axes = model.joints.front();
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(m.size(), c.n() + 1);
-  const bool link = kind == RowKind::link;
-  if (link) {
-    fill_effects(axes.link, {m.q, m.qd, m.qdd, m.q_direction}, all.leftCols(c.n_link));
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(m.size(), c.n() + 2);
+  if (kind == RowKind::link) {
+    fill_link(axes, m, c, all);
   } else {
     fill_effects(axes.motor, {m.theta, m.thetad, m.thetadd, m.theta_direction},
                  all.middleCols(c.n_link, c.n_motor));
   }
-  fill_elastic(model, m, link, all.middleCols(c.n_link + c.n_motor, c.n_elastic));
+  fill_elastic(model, m, kind == RowKind::link, all.middleCols(c.n_link + c.n_motor, c.n_elastic));
   all.col(c.n()) = response_of(kind, m, model).matrix();
   return all;
 }
@@ -98,12 +110,18 @@ std::vector<Eigen::Index> thinned(std::vector<Eigen::Index> at, Eigen::Index eve
 
 }  // namespace
 
+std::optional<double> given_link_inertia(const Model& model) {
+  const std::vector<double>& given = model.rig.arm.parameters.J_link;
+  return model.rigid || given.empty() ? std::nullopt : std::optional(given.front());
+}
+
 BaseLayout base_layout(const Model& model) {
   BaseLayout layout;
   const JointModel& axes = model.joints.front();
   layout.n_link = n_linear(axes.link);
   layout.n_motor = n_linear(axes.motor);
   layout.n_elastic = n_elastic(model);
+  const std::optional<double> given = given_link_inertia(model);
   for (ModelParameter& p : model_parameters(model)) {
     const bool is_column = p.kind == ParameterKind::effect || p.kind == ParameterKind::stiffness ||
                            p.kind == ParameterKind::coefficient;
@@ -112,6 +130,11 @@ BaseLayout base_layout(const Model& model) {
     if (is_effect && (p.on_link ? axes.link : axes.motor)[p.effect].effect->dry != nullptr)
       (p.on_link ? layout.dry_link : layout.dry_motor) =
           static_cast<Eigen::Index>(layout.parameters.size());
+    if (is_effect && p.on_link && given && axes.link[p.effect].effect->inertia != nullptr) {
+      layout.given = {{static_cast<Eigen::Index>(layout.parameters.size()), *given}};
+      layout.n_link -= 1;
+      continue;
+    }
     layout.parameters.push_back(std::move(p));
   }
   return layout;
@@ -158,6 +181,10 @@ StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayo
         apply_at(filter, full_columns(kind, *rows.motion, model, layout), k.at);
     k.base = all.leftCols(layout.n());
     k.response = all.col(layout.n());
+    if (layout.given && link) {
+      k.given = all.col(layout.n() + 1);
+      k.response -= k.given;
+    }
   }
   return rows;
 }
@@ -171,9 +198,11 @@ StretchRows rows_of_torque(const StretchRows& kept, const Stretch& changed, cons
   SmoothMotion motion = thinned(*kept.motion, every);
   motion.tau = smooth_torque(r, model.rig.torque_hold != TorqueHold::none, smoothing, every);
   const Kernel filter = gaussian(smoothing.columns, motion.period);
-  for (KindRows& k : rows.kinds)
+  for (KindRows& k : rows.kinds) {
     k.response =
         apply_at(filter, response_of(k.kind, motion, model).matrix(), thinned(k.at, every));
+    if (k.given.size() > 0) k.response -= k.given;
+  }
   if (evaluation == Evaluation::fine)
     rows.motion = std::make_shared<const SmoothMotion>(std::move(motion));
   return rows;

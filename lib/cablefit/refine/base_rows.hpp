@@ -17,12 +17,20 @@ namespace cablefit {
 ///   motor    Phi_m x_m + S basis x_e = tau          (blocked: the same, the link stands)
 /// Several preloads share all of them (Fichera & Grossard 2017, (26)-(28)).
 struct BaseLayout {
+  /// An inertia of the link that the rig file gives: no column, its torque is in the response.
+  struct Given {
+    Eigen::Index effect_column = 0;  ///< among those of the link's effects
+    double inertia = 0;              ///< kg m^2
+  };
+  std::optional<Given> given;
   Eigen::Index n_link = 0, n_motor = 0, n_elastic = 0;
   std::vector<ModelParameter> parameters;      ///< one per column
   Eigen::Index dry_link = -1, dry_motor = -1;  ///< columns of dry friction; -1: the axis has none
   Eigen::Index n() const { return n_link + n_motor + n_elastic; }
 };
 BaseLayout base_layout(const Model& model);
+/// kg m^2, where the rig file gives it.
+std::optional<double> given_link_inertia(const Model& model);
 
 /// Values of the columns' parameters in a model, and back into it.
 Eigen::VectorXd base_values(const BaseLayout& layout, const Model& model);
@@ -33,7 +41,8 @@ struct KindRows {
   RowKind kind = RowKind::motor;
   std::vector<Eigen::Index> at;  ///< samples of the stretch
   Eigen::MatrixXd base;          ///< n_rows x layout.n()
-  Eigen::VectorXd response;      ///< n_rows, N m
+  Eigen::VectorXd response;      ///< n_rows, N m; without the torque of a given inertia
+  Eigen::VectorXd given;         ///< that torque, N m; empty: no inertia is given
 };
 
 /// What a stretch gives: at most a link and a motor (or blocked) equation.

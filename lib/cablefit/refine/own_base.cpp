@@ -9,6 +9,7 @@
 #include "cablefit/identify/elastic_stage.hpp"
 #include "cablefit/identify/identify.hpp"
 #include "cablefit/model/model_parameters.hpp"
+#include "cablefit/refine/base_rows.hpp"
 
 namespace cablefit {
 namespace {
@@ -130,6 +131,14 @@ void take_one_step(std::span<const LogSurvey> logs, int threads, std::vector<Mod
   decisions.push_back({"cables", kCables, "one step, from the moving logs: no link is blocked"});
 }
 
+/// An inertia that the rig file gives stands whatever the rows say.
+void take_given_inertia(Model& model) {
+  const std::optional<double> given = given_link_inertia(model);
+  if (!given) return;
+  for (EffectInstance& instance : model.joints.front().link)
+    if (instance.effect->inertia != nullptr) instance.parameters.front().value = *given;
+}
+
 /// "J_link = 0.3 (cad)", or empty: there was a value.
 std::string fill(const Rig& rig, bool is_inertia, const ParameterInfo& info, Estimate& e) {
   const bool is_there = std::isfinite(e.value) && !(is_inertia && e.value <= 0);
@@ -187,6 +196,7 @@ OwnBase own_base(const RefineLogs& given, int threads) {
 std::vector<Decision> fill_start_values(std::vector<Model>& models) {
   std::vector<Decision> decisions;
   for (Model& model : models) {
+    take_given_inertia(model);
     std::string filled;
     for (JointModel& axes : model.joints)
       for (auto* effects : {&axes.link, &axes.motor})

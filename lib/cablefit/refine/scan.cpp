@@ -248,10 +248,9 @@ bool stands_out(const VariantColumns& change, const VariantColumns& residuals) {
 }
 
 /// A limit or a band of the drive acts in full: what its correction changes has, as a column, a
-/// coefficient of about 1 (1.3 where the grid misses the limit by half a step), and another where
-/// something else is only a little like it.
+/// coefficient of about 1, and another where something else is only a little like it.
 bool acts_in_full(const Scanner& scanner, const Variant& variant) {
-  constexpr double kAtLeast = 0.5, kAtMost = 2, kSd = 2;
+  constexpr double kNear = 0.2, kSd = 3;
   const ScanStart& start = scanner.start;
   VariantColumns change = residuals(replaced_rows(start.design, variant), start.fit.x);
   const VariantColumns before = residuals(start.design.rows, start.fit.x);
@@ -264,8 +263,7 @@ bool acts_in_full(const Scanner& scanner, const Variant& variant) {
                               start.levels, false);
   if (!fit) return false;
   const Eigen::Index last = fit->x.size() - 1;
-  const double share = fit->x(last), margin = kSd * std::sqrt(fit->covariance(last, last));
-  return share > kAtLeast - margin && share < kAtMost + margin;
+  return std::abs(fit->x(last) - 1) < std::max(kNear, kSd * std::sqrt(fit->covariance(last, last)));
 }
 
 /// The same of variants that replace rows.
@@ -277,10 +275,12 @@ std::optional<Candidate> best_replacing(const Scanner& scanner,
     if (candidate && (!best || is_better(*candidate, *best))) best = std::move(candidate);
   }
   if (best) best = try_variant(scanner, best->variant);
-  const bool is_physical = best && best->refused.empty();
-  if (is_physical && best->variant.refinement->correct != nullptr &&
-      !acts_in_full(scanner, best->variant))
-    best->refused = "what it takes away is not what the rows lack";
+  const bool is_correction = best && best->variant.refinement->correct != nullptr;
+  if (!is_correction || !best->refused.empty() || acts_in_full(scanner, best->variant)) return best;
+  // The grid may have missed the limit by half a step.
+  auto moved = try_variant(scanner, moved_shape(scanner, best->variant, Evaluation::coarse));
+  if (moved && moved->refused.empty() && acts_in_full(scanner, moved->variant)) return moved;
+  best->refused = "what it takes away is not what the rows lack";
   return best;
 }
 

@@ -55,6 +55,7 @@ Refinement load_friction() {
           .experiment = "the same motion under two loads",
           .source = "Duclusaud et al. 2025",
           .parameters = kLoadMu,
+          .yardstick = Yardstick::load,
           .level = load_level};
 }
 

@@ -75,6 +75,7 @@ Refinement torque_gain() {
           .experiment = "a second load that is known, or the inertia from CAD",
           .source = "a torque constant that is off: Gautier & Briot 2014",
           .parameters = kGain,
+          .yardstick = Yardstick::load_or_inertia,
           .torque = motor_share};
 }
 
@@ -89,6 +90,7 @@ Refinement load_scale() {
           .experiment = "a second load that is known, or the inertia from CAD",
           .source = "a load mass or radius that is off: Gautier & Briot 2014",
           .parameters = kLoad,
+          .yardstick = Yardstick::load,
           .torque = link_share};
 }
 
