@@ -21,7 +21,7 @@ add_custom_command(OUTPUT ${plotly}
   COMMENT "Fetching plotly.js with npm" VERBATIM)
 file(MAKE_DIRECTORY ${page_build})
 
-set(embedding ${PROJECT_SOURCE_DIR}/lib/cablefit/report/page_parts.cpp)
+set(embedding ${PROJECT_SOURCE_DIR}/lib/cablefit/report/page/page_parts.cpp)
 set_property(SOURCE ${embedding} APPEND PROPERTY COMPILE_DEFINITIONS
   CABLEFIT_PAGE_FOLDER="${page_source}" CABLEFIT_PLOTLY_FILE="${plotly}")
 set_property(SOURCE ${embedding} APPEND PROPERTY OBJECT_DEPENDS

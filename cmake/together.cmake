@@ -19,8 +19,11 @@ function(cablefit_together target folder)
   target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
 endfunction()
 
-foreach(folder design dynamic dynamic/output_error elastic estimate identify refine simulate)
+foreach(folder design dynamic dynamic/checks dynamic/loops dynamic/output_error dynamic/rows
+        elastic estimate/fit estimate/solve estimate/spread estimate/tests identify identify/elongations
+        identify/equations identify/results refine refine/null refine/rows refine/search refine/steps
+        refine/verdict simulate)
   cablefit_together(cablefit lib/cablefit/${folder})
 endforeach()
-cablefit_together(cablefit lib/cablefit/report FILES "*_json.cpp")
+cablefit_together(cablefit lib/cablefit/report/json FILES "*_json.cpp")
 cablefit_together(cablefit_program apps/commands)

@@ -3,9 +3,9 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/dynamic/prediction.hpp"
-#include "cablefit/dynamic/torque_delay.hpp"
-#include "cablefit/report/check_document.hpp"
-#include "cablefit/report/check_json.hpp"
+#include "cablefit/dynamic/rows/torque_delay.hpp"
+#include "cablefit/report/documents/check_document.hpp"
+#include "cablefit/report/json/check_json.hpp"
 #include "cablefit/samples/check_figures.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"

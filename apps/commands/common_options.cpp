@@ -9,7 +9,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/model/rig.hpp"
-#include "cablefit/report/writers.hpp"
+#include "cablefit/report/writers/writers.hpp"
 #include "cablefit/samples/weigh/weigh.hpp"
 #include "commands/command_line.hpp"
 #include "commands/problems.hpp"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "cablefit/report/document.hpp"
-#include "cablefit/samples/settings.hpp"
+#include "cablefit/report/documents/document.hpp"
+#include "cablefit/samples/rows/settings.hpp"
 
 namespace cablefit::apps {
 

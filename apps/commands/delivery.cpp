@@ -8,8 +8,8 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/output_file.hpp"
 #include "cablefit/base/quote.hpp"
-#include "cablefit/report/escape.hpp"
-#include "cablefit/report/writers.hpp"
+#include "cablefit/report/documents/escape.hpp"
+#include "cablefit/report/writers/writers.hpp"
 #include "commands/problems.hpp"
 #include "process.hpp"
 

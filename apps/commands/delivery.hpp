@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/report/document.hpp"
-#include "cablefit/samples/survey.hpp"
+#include "cablefit/report/documents/document.hpp"
+#include "cablefit/samples/survey/survey.hpp"
 #include "commands/common_options.hpp"
 
 namespace cablefit::apps {

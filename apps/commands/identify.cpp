@@ -1,9 +1,9 @@
 // cablefit identify: one step.
 #include "cablefit/identify/identify.hpp"
 
-#include "cablefit/report/identify_document.hpp"
-#include "cablefit/report/identify_json.hpp"
-#include "cablefit/report/trace_csv.hpp"
+#include "cablefit/report/documents/identify_document.hpp"
+#include "cablefit/report/json/identify_json.hpp"
+#include "cablefit/report/writers/trace_csv.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"

@@ -4,15 +4,15 @@
 #include <functional>
 
 #include "cablefit/dynamic/dynamic_fit.hpp"
-#include "cablefit/dynamic/estimators.hpp"
+#include "cablefit/dynamic/estimators/estimators.hpp"
 #include "cablefit/log/log_reader.hpp"
 #include "cablefit/model/arm.hpp"
 #include "cablefit/model/cables.hpp"
 #include "cablefit/model/effects.hpp"
 #include "cablefit/model/load.hpp"
 #include "cablefit/model/refinements.hpp"
-#include "cablefit/report/list_json.hpp"
-#include "cablefit/report/writers.hpp"
+#include "cablefit/report/json/list_json.hpp"
+#include "cablefit/report/writers/writers.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"

@@ -6,8 +6,8 @@
 
 #include "cablefit/base/digest.hpp"
 #include "cablefit/base/error.hpp"
-#include "cablefit/report/simulate_document.hpp"
-#include "cablefit/report/simulate_json.hpp"
+#include "cablefit/report/documents/simulate_document.hpp"
+#include "cablefit/report/json/simulate_json.hpp"
 #include "cablefit/samples/weigh/weigh.hpp"
 #include "cablefit/simulate/replay.hpp"
 #include "commands/command.hpp"

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "cablefit/base/digest.hpp"
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/campaign/recorded_estimates.hpp"
 
 namespace cablefit::apps {

@@ -1,4 +1,4 @@
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/report/batch_document.hpp"
-#include "cablefit/report/batch_figures.hpp"
-#include "cablefit/report/batch_json.hpp"
-#include "cablefit/report/junit.hpp"
-#include "cablefit/report/writers.hpp"
+#include "cablefit/report/documents/batch_document.hpp"
+#include "cablefit/report/documents/batch_figures.hpp"
+#include "cablefit/report/json/batch_json.hpp"
+#include "cablefit/report/writers/junit.hpp"
+#include "cablefit/report/writers/writers.hpp"
 #include "tests/report/schema.hpp"
 #include "tests/support/message.hpp"
 #include "tests/support/temp_folder.hpp"

@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/arm/urdf_file.hpp"
 #include "cablefit/model/rig.hpp"
 

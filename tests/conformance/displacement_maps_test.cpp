@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/routing.hpp"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/load.hpp"
 
 namespace {

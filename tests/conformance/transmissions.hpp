@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/rig.hpp"
 
 namespace cablefit::test {

@@ -8,7 +8,7 @@
 #include "cablefit/base/random.hpp"
 #include "cablefit/design/curve_models.hpp"
 #include "cablefit/design/equilibrium_preload.hpp"
-#include "cablefit/estimate/window_means.hpp"
+#include "cablefit/estimate/spread/window_means.hpp"
 #include "tests/simulate/benches.hpp"
 
 namespace {

@@ -9,7 +9,7 @@
 
 #include "cablefit/base/random.hpp"
 #include "cablefit/dynamic/dynamic_fit.hpp"
-#include "cablefit/samples/recorded.hpp"
+#include "cablefit/samples/survey/recorded.hpp"
 #include "tests/simulate/benches.hpp"
 #include "tests/support/message.hpp"
 

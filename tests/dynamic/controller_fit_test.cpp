@@ -1,5 +1,5 @@
 // Controllers found from logs, and one of the rig file that did not make the log's torque.
-#include "cablefit/dynamic/controller_fit.hpp"
+#include "cablefit/dynamic/loops/controller_fit.hpp"
 #include "tests/support/columns.hpp"
 #include "tests/support/recover.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "cablefit/dynamic/joint_estimates.hpp"
+#include "cablefit/dynamic/estimates/joint_estimates.hpp"
 #include "tests/support/columns.hpp"
 #include "tests/support/recorded_log.hpp"
 #include "tests/support/recover.hpp"

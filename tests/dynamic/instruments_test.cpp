@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "cablefit/dynamic/estimators.hpp"
+#include "cablefit/dynamic/estimators/estimators.hpp"
 #include "tests/support/columns.hpp"
 #include "tests/support/drive_rig.hpp"
 #include "tests/support/recorded_log.hpp"

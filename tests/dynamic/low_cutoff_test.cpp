@@ -1,5 +1,5 @@
 // A cut-off near the resonance is worth a word where it puts J_motor off by more than half an sd.
-#include "cablefit/dynamic/low_cutoff.hpp"
+#include "cablefit/dynamic/checks/low_cutoff.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -3,10 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cablefit/elastic/passivity.hpp"
-#include "cablefit/report/elastic_document.hpp"
-#include "cablefit/report/elastic_json.hpp"
-#include "cablefit/report/elastic_reader.hpp"
-#include "cablefit/report/writers.hpp"
+#include "cablefit/report/documents/elastic_document.hpp"
+#include "cablefit/report/json/elastic_json.hpp"
+#include "cablefit/report/json/elastic_reader.hpp"
+#include "cablefit/report/writers/writers.hpp"
 #include "tests/elastic/curves.hpp"
 #include "tests/support/columns.hpp"
 

@@ -1,6 +1,6 @@
 // Means over bins: how often it cries wolf on white and on coloured noise, fitted and unseen rows,
 // and that it sees what is there.
-#include "cablefit/estimate/binned_test.hpp"
+#include "cablefit/estimate/tests/binned_test.hpp"
 
 #include <Eigen/QR>
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
 // Slow noise: the block bootstrap's intervals hold where those of HAC are too short.
-#include "cablefit/estimate/bootstrap.hpp"
+#include "cablefit/estimate/spread/bootstrap.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <numeric>
 #include <vector>
 
-#include "cablefit/estimate/long_run.hpp"
-#include "cablefit/estimate/sd_choice.hpp"
+#include "cablefit/estimate/fit/sd_choice.hpp"
+#include "cablefit/estimate/spread/long_run.hpp"
 #include "tests/support/columns.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 // Least squares under inequalities: numbers of Octave, the conditions of Karush, Kuhn and Tucker on
 // random problems, and what solve() makes of active constraints.
-#include "cablefit/estimate/constrained_least_squares.hpp"
+#include "cablefit/estimate/solve/constrained_least_squares.hpp"
 
 #include <Eigen/LU>
 #include <Eigen/QR>
@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "cablefit/base/parameter.hpp"
-#include "cablefit/estimate/least_squares.hpp"
+#include "cablefit/estimate/fit/least_squares.hpp"
 #include "tests/support/columns.hpp"
 
 namespace {

@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <numbers>
 
-#include "cablefit/estimate/autoregression.hpp"
-#include "cablefit/estimate/cell_places.hpp"
-#include "cablefit/estimate/least_squares.hpp"
-#include "cablefit/estimate/long_run.hpp"
+#include "cablefit/estimate/fit/least_squares.hpp"
+#include "cablefit/estimate/solve/cell_places.hpp"
+#include "cablefit/estimate/spread/autoregression.hpp"
+#include "cablefit/estimate/spread/long_run.hpp"
 #include "tests/support/columns.hpp"
 #include "tests/support/monte_carlo.hpp"
 

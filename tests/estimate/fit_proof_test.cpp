@@ -1,5 +1,5 @@
 // Judging intervals by many runs.
-#include "cablefit/estimate/fit_proof.hpp"
+#include "cablefit/estimate/tests/fit_proof.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,12 +1,12 @@
 // The M-estimate's parts: the median of magnitudes, the price on clean data, what outliers do.
-#include "cablefit/estimate/huber.hpp"
+#include "cablefit/estimate/fit/huber.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
 
-#include "cablefit/estimate/least_squares.hpp"
+#include "cablefit/estimate/fit/least_squares.hpp"
 #include "tests/support/columns.hpp"
 
 namespace {

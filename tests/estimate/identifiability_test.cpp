@@ -1,5 +1,5 @@
 // What rows can tell apart, in words: every direction is one that the test makes itself.
-#include "cablefit/estimate/identifiability.hpp"
+#include "cablefit/estimate/solve/identifiability.hpp"
 
 #include <Eigen/LU>
 #include <Eigen/QR>

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "cablefit/estimate/exogeneity.hpp"
-#include "cablefit/estimate/least_squares.hpp"
-#include "cablefit/estimate/long_run.hpp"
-#include "cablefit/estimate/tail_probability.hpp"
+#include "cablefit/estimate/fit/least_squares.hpp"
+#include "cablefit/estimate/spread/long_run.hpp"
+#include "cablefit/estimate/spread/tail_probability.hpp"
+#include "cablefit/estimate/tests/exogeneity.hpp"
 #include "tests/support/columns.hpp"
 #include "tests/support/monte_carlo.hpp"
 

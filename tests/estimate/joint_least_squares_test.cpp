@@ -1,6 +1,6 @@
 // Several equations in one problem: numbers of Octave, equalities met to rounding, what no row
 // determines, and honest variances by Monte Carlo.
-#include "cablefit/estimate/joint_least_squares.hpp"
+#include "cablefit/estimate/fit/joint_least_squares.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

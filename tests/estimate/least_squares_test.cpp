@@ -1,5 +1,5 @@
 // solve(): rank in words, bounds, the paper's covariance (25), correlations.
-#include "cablefit/estimate/least_squares.hpp"
+#include "cablefit/estimate/fit/least_squares.hpp"
 
 #include <Eigen/LU>
 #include <catch2/catch.hpp>

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <functional>
 
-#include "cablefit/estimate/least_squares.hpp"
+#include "cablefit/estimate/fit/least_squares.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // Digits of the nonlinear least squares against NIST's certified values, and what it says of
 // problems that have no answer.
-#include "cablefit/estimate/nonlinear_least_squares.hpp"
+#include "cablefit/estimate/fit/nonlinear_least_squares.hpp"
 
 #include <Eigen/QR>
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
 // Whiteness: Ljung and Box's Q against R, the filter's own colour let through, memory seen.
-#include "cablefit/estimate/portmanteau.hpp"
+#include "cablefit/estimate/tests/portmanteau.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

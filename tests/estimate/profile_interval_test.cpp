@@ -1,16 +1,16 @@
 // Intervals by profile: closed forms where there is one inequality, a grid where there are two
 // parameters, coverage at and near a bound, and what solve()'s solutions get.
-#include "cablefit/estimate/profile_interval.hpp"
+#include "cablefit/estimate/fit/profile_interval.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "cablefit/estimate/derived_quantity.hpp"
-#include "cablefit/estimate/joint_least_squares.hpp"
-#include "cablefit/estimate/long_run.hpp"
-#include "cablefit/estimate/parameter_estimate.hpp"
+#include "cablefit/estimate/fit/derived_quantity.hpp"
+#include "cablefit/estimate/fit/joint_least_squares.hpp"
+#include "cablefit/estimate/fit/parameter_estimate.hpp"
+#include "cablefit/estimate/spread/long_run.hpp"
 #include "tests/support/columns.hpp"
 
 namespace {

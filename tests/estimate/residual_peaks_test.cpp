@@ -1,5 +1,5 @@
 // The largest residual told from one pass must be the largest residual, or not be told.
-#include "cablefit/estimate/residual_peaks.hpp"
+#include "cablefit/estimate/tests/residual_peaks.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // The streamed QR and the Gram cells against everything at once.
-#include "cablefit/estimate/row_statistics.hpp"
+#include "cablefit/estimate/solve/row_statistics.hpp"
 
 #include <Eigen/QR>
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
 // Tail probabilities against R.
-#include "cablefit/estimate/tail_probability.hpp"
+#include "cablefit/estimate/spread/tail_probability.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // How far means over windows are from zero, for noise whose answer is known.
-#include "cablefit/estimate/window_means.hpp"
+#include "cablefit/estimate/spread/window_means.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

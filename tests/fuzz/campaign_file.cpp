@@ -1,5 +1,5 @@
 // Any text as a campaign (cablefit/campaign/1); every path in it is taken to exist.
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/campaign/campaign.hpp"
 #include "tests/fuzz/invariant.hpp"
 

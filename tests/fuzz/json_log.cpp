@@ -1,5 +1,5 @@
 // Any text as a JSON log: channels and records.
-#include "cablefit/log/json_reader.hpp"
+#include "cablefit/log/json/json_reader.hpp"
 #include "tests/fuzz/log_walk.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t n_bytes) {

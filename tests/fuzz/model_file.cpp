@@ -1,6 +1,6 @@
 // Any text as a model file (cablefit/model/1) or a result of stage 2 (cablefit/dynamic/1); what is
 // read can be written, and read again.
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/model.hpp"
 #include "tests/fuzz/invariant.hpp"
 

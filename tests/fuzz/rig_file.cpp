@@ -1,5 +1,5 @@
 // Any text as a rig file (cablefit/rig/1).
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/rig.hpp"
 #include "tests/fuzz/invariant.hpp"
 

@@ -1,6 +1,6 @@
 // l_o by variable projection: the same from any start, intervals that cover, and no number where
 // the data cannot tell.
-#include "cablefit/identify/elongation_search.hpp"
+#include "cablefit/identify/elongations/elongation_search.hpp"
 #include "cablefit/identify/preload_records.hpp"
 #include "tests/identify/simulated_rigs.hpp"
 #include "tests/support/columns.hpp"

@@ -1,7 +1,7 @@
 // R-LSA: the trace ends at the direct fit, and its band shrinks on the way.
-#include "cablefit/identify/recursive.hpp"
+#include "cablefit/identify/results/recursive.hpp"
 
-#include "cablefit/report/trace_csv.hpp"
+#include "cablefit/report/writers/trace_csv.hpp"
 #include "tests/identify/simulated_rigs.hpp"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/model.hpp"
 #include "tests/support/message.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace {

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/arm/serial_arm.hpp"
 #include "cablefit/model/arm/urdf_file.hpp"
 #include "cablefit/model/file/writer.hpp"

@@ -1,9 +1,9 @@
 // One law has one size everywhere; what stands for another effect has not.
-#include "cablefit/refine/agreement.hpp"
+#include "cablefit/refine/verdict/agreement.hpp"
 
 #include <catch2/catch.hpp>
 
-#include "cablefit/refine/null_draws.hpp"
+#include "cablefit/refine/null/null_draws.hpp"
 #include "tests/refine/hidden_logs.hpp"
 
 namespace {

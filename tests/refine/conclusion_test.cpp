@@ -1,5 +1,5 @@
 // The decision rule on held-out data, on made-up gaps.
-#include "cablefit/refine/conclusion.hpp"
+#include "cablefit/refine/verdict/conclusion.hpp"
 
 #include <catch2/catch.hpp>
 

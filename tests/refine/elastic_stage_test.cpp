@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/refine/elastic_stage.hpp"
 #include "cablefit/refine/refine.hpp"
+#include "cablefit/refine/steps/elastic_stage.hpp"
 #include "tests/refine/hidden_logs.hpp"
 
 using namespace cablefit;

@@ -1,5 +1,5 @@
 // Evidence from block Gram matrices is that of refitting without each block.
-#include "cablefit/refine/evidence.hpp"
+#include "cablefit/refine/rows/evidence.hpp"
 
 #include <Eigen/QR>
 #include <catch2/catch.hpp>

@@ -2,10 +2,10 @@
 // like it.
 #include <catch2/catch.hpp>
 
-#include "cablefit/refine/levels.hpp"
-#include "cablefit/refine/null_draws.hpp"
-#include "cablefit/refine/quick_look.hpp"
-#include "cablefit/refine/scan.hpp"
+#include "cablefit/refine/null/null_draws.hpp"
+#include "cablefit/refine/rows/levels.hpp"
+#include "cablefit/refine/search/quick_look.hpp"
+#include "cablefit/refine/search/scan.hpp"
 #include "tests/refine/hidden_logs.hpp"
 
 using namespace cablefit;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cablefit/samples/recorded.hpp"
+#include "cablefit/samples/survey/recorded.hpp"
 #include "tests/simulate/benches.hpp"
 
 namespace cablefit::test {

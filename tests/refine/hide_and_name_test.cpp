@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "cablefit/refine/effect_trial.hpp"
 #include "cablefit/refine/refine.hpp"
+#include "cablefit/refine/steps/effect_trial.hpp"
 #include "tests/refine/hidden_logs.hpp"
 #include "tests/support/monte_carlo.hpp"
 

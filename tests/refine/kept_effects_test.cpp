@@ -1,15 +1,15 @@
 // A refined model is refined again: what it has is part of the base.
-#include "cablefit/refine/kept_effects.hpp"
+#include "cablefit/refine/null/kept_effects.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/refine/base_draws.hpp"
-#include "cablefit/refine/elastic_stage.hpp"
-#include "cablefit/refine/model_set.hpp"
+#include "cablefit/refine/null/base_draws.hpp"
 #include "cablefit/refine/refine.hpp"
+#include "cablefit/refine/search/model_set.hpp"
+#include "cablefit/refine/steps/elastic_stage.hpp"
 #include "tests/refine/hidden_logs.hpp"
 #include "tests/support/monte_carlo.hpp"
 

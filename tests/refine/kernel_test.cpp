@@ -1,5 +1,5 @@
 // Smoothing kernels do exactly what they promise of 1, t and t^2.
-#include "cablefit/refine/kernel.hpp"
+#include "cablefit/refine/rows/kernel.hpp"
 
 #include <catch2/catch.hpp>
 

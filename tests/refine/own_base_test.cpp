@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "cablefit/refine/levels.hpp"
-#include "cablefit/refine/null_draws.hpp"
-#include "cablefit/refine/physical_values.hpp"
+#include "cablefit/refine/null/null_draws.hpp"
+#include "cablefit/refine/rows/levels.hpp"
+#include "cablefit/refine/rows/physical_values.hpp"
 #include "tests/refine/hidden_logs.hpp"
 #include "tests/support/recover.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/dynamic/output_error/output_error.hpp"
-#include "cablefit/refine/elastic_stage.hpp"
+#include "cablefit/refine/steps/elastic_stage.hpp"
 #include "tests/refine/hidden_logs.hpp"
 
 using namespace cablefit;

@@ -1,5 +1,5 @@
 // What wanders in the logs wanders alike in the draws that chance is known from.
-#include "cablefit/refine/remainder.hpp"
+#include "cablefit/refine/null/remainder.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

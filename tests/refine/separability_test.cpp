@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "cablefit/refine/next_run.hpp"
-#include "cablefit/refine/null_draws.hpp"
-#include "cablefit/refine/search.hpp"
-#include "cablefit/refine/separability.hpp"
+#include "cablefit/refine/null/null_draws.hpp"
+#include "cablefit/refine/search/search.hpp"
+#include "cablefit/refine/steps/next_run.hpp"
+#include "cablefit/refine/verdict/separability.hpp"
 #include "tests/refine/hidden_logs.hpp"
 
 using namespace cablefit;

@@ -2,8 +2,8 @@
 // off beside it.
 #include <catch2/catch.hpp>
 
-#include "cablefit/refine/null_draws.hpp"
-#include "cablefit/refine/scan.hpp"
+#include "cablefit/refine/null/null_draws.hpp"
+#include "cablefit/refine/search/scan.hpp"
 #include "tests/refine/hidden_logs.hpp"
 
 using namespace cablefit;

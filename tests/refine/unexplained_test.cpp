@@ -1,10 +1,10 @@
 // What is no row of the catalogue is described: frequency, damping, correlation time.
 #include <catch2/catch.hpp>
 
-#include "cablefit/refine/null_draws.hpp"
-#include "cablefit/refine/regimes.hpp"
-#include "cablefit/refine/residual_spectrum.hpp"
-#include "cablefit/refine/unexplained.hpp"
+#include "cablefit/refine/null/null_draws.hpp"
+#include "cablefit/refine/rows/residual_spectrum.hpp"
+#include "cablefit/refine/verdict/regimes.hpp"
+#include "cablefit/refine/verdict/unexplained.hpp"
 #include "tests/refine/hidden_logs.hpp"
 
 using namespace cablefit;

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstdio>
 
-#include "cablefit/refine/elastic_stage.hpp"
-#include "cablefit/refine/null_draws.hpp"
-#include "cablefit/refine/scan.hpp"
-#include "cablefit/samples/recorded.hpp"
-#include "cablefit/samples/windows.hpp"
+#include "cablefit/refine/null/null_draws.hpp"
+#include "cablefit/refine/search/scan.hpp"
+#include "cablefit/refine/steps/elastic_stage.hpp"
+#include "cablefit/samples/survey/recorded.hpp"
+#include "cablefit/samples/survey/windows.hpp"
 #include "tests/refine/hidden_logs.hpp"
 
 using namespace cablefit;

@@ -1,5 +1,5 @@
 // The decision rule on made-up candidates.
-#include "cablefit/refine/verdict.hpp"
+#include "cablefit/refine/verdict/verdict.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

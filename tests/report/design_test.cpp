@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cablefit/design/design_sweep.hpp"
-#include "cablefit/report/design_document.hpp"
-#include "cablefit/report/design_json.hpp"
-#include "cablefit/report/writers.hpp"
+#include "cablefit/report/documents/design_document.hpp"
+#include "cablefit/report/json/design_json.hpp"
+#include "cablefit/report/writers/writers.hpp"
 #include "tests/report/schema.hpp"
 
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "cablefit/report/page_data.hpp"
-#include "cablefit/report/page_parts.hpp"
-#include "cablefit/report/writers.hpp"
+#include "cablefit/report/page/page_data.hpp"
+#include "cablefit/report/page/page_parts.hpp"
+#include "cablefit/report/writers/writers.hpp"
 #include "tests/support/message.hpp"
 
 namespace {

@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <set>
 
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/model.hpp"
-#include "cablefit/report/dynamic_document.hpp"
-#include "cablefit/report/dynamic_json.hpp"
-#include "cablefit/report/elastic_document.hpp"
-#include "cablefit/report/elastic_json.hpp"
-#include "cablefit/report/elastic_reader.hpp"
+#include "cablefit/report/documents/dynamic_document.hpp"
+#include "cablefit/report/documents/elastic_document.hpp"
+#include "cablefit/report/json/dynamic_json.hpp"
+#include "cablefit/report/json/elastic_json.hpp"
+#include "cablefit/report/json/elastic_reader.hpp"
 #include "tests/report/schema.hpp"
 #include "tests/support/message.hpp"
 #include "tests/support/plain_rigs.hpp"

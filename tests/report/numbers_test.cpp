@@ -1,4 +1,4 @@
-#include "cablefit/report/numbers.hpp"
+#include "cablefit/report/documents/numbers.hpp"
 
 #include <catch2/catch.hpp>
 #include <cstdlib>

@@ -1,11 +1,11 @@
 // Figures of a refinement, on a drive whose friction is larger at low speed than its model says.
-#include "cablefit/refine/refine_figures.hpp"
+#include "cablefit/refine/figures/refine_figures.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 
 namespace {
 

@@ -1,14 +1,14 @@
 // Refinements as JSON, text, Markdown and CSV.
-#include "cablefit/report/refine_document.hpp"
+#include "cablefit/report/documents/refine_document.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "cablefit/report/refine_json.hpp"
-#include "cablefit/report/refine_story.hpp"
-#include "cablefit/report/writers.hpp"
+#include "cablefit/report/documents/refine_story.hpp"
+#include "cablefit/report/json/refine_json.hpp"
+#include "cablefit/report/writers/writers.hpp"
 #include "tests/report/results.hpp"
 #include "tests/report/schema.hpp"
 

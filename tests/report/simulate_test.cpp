@@ -3,9 +3,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "cablefit/report/simulate_document.hpp"
-#include "cablefit/report/simulate_json.hpp"
-#include "cablefit/report/writers.hpp"
+#include "cablefit/report/documents/simulate_document.hpp"
+#include "cablefit/report/json/simulate_json.hpp"
+#include "cablefit/report/writers/writers.hpp"
 #include "tests/report/schema.hpp"
 
 namespace {

@@ -1,10 +1,10 @@
 // Table 1 and Table 2, laid out from results made by hand.
 #include <catch2/catch.hpp>
 
-#include "cablefit/report/dynamic_document.hpp"
-#include "cablefit/report/elastic_document.hpp"
-#include "cablefit/report/text_table.hpp"
-#include "cablefit/report/writers.hpp"
+#include "cablefit/report/documents/dynamic_document.hpp"
+#include "cablefit/report/documents/elastic_document.hpp"
+#include "cablefit/report/writers/text_table.hpp"
+#include "cablefit/report/writers/writers.hpp"
 #include "tests/report/results.hpp"
 
 namespace {

@@ -1,8 +1,8 @@
-#include "cablefit/report/writers.hpp"
+#include "cablefit/report/writers/writers.hpp"
 
 #include <catch2/catch.hpp>
 
-#include "cablefit/report/page_parts.hpp"
+#include "cablefit/report/page/page_parts.hpp"
 #include "tests/support/message.hpp"
 
 namespace {

@@ -2,7 +2,7 @@
 //   b, a = scipy.signal.butter(n, 100, fs=1000)
 //   x = [sin(0.3 i) + 0.01 i^2 - (3 if i % 7 == 0 else 0) for i in range(30)]
 //   sosfiltfilt(butter(4, 100, fs=1000, output='sos'), x, padtype='odd', padlen=29)
-#include "cablefit/samples/butterworth.hpp"
+#include "cablefit/samples/rows/butterworth.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,5 +1,5 @@
 // A clock looked at in bulk shows what it shows row by row.
-#include "cablefit/samples/clock_scan.hpp"
+#include "cablefit/samples/survey/clock_scan.hpp"
 
 #include <catch2/catch.hpp>
 #include <random>

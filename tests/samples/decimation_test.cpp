@@ -1,5 +1,5 @@
 // Taps against SciPy 1.10.1: scipy.signal.firwin(20*M + 1, 1/M, window='hamming'), centre outwards.
-#include "cablefit/samples/decimation.hpp"
+#include "cablefit/samples/rows/decimation.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

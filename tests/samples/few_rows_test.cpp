@@ -1,5 +1,5 @@
 // Why an equation has few rows in motion: by its rest speed against the motion's own speed.
-#include "cablefit/dynamic/requirements.hpp"
+#include "cablefit/dynamic/rows/requirements.hpp"
 #include "tests/samples/rows_of_logs.hpp"
 #include "tests/support/message.hpp"
 

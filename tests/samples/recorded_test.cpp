@@ -1,5 +1,5 @@
 // Samples that never were a file are surveyed as those of a file.
-#include "cablefit/samples/recorded.hpp"
+#include "cablefit/samples/survey/recorded.hpp"
 
 #include <catch2/catch.hpp>
 

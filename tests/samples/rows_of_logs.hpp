@@ -1,7 +1,7 @@
 // Rows of a test equation from a log written by hand.
 #pragma once
 
-#include "cablefit/samples/row_stream.hpp"
+#include "cablefit/samples/rows/row_stream.hpp"
 #include "tests/support/columns.hpp"
 #include "tests/support/recover.hpp"
 

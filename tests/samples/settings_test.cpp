@@ -1,6 +1,6 @@
 // Filter, decimation, edges and rest: chosen from the log with a reason, or given.
-#include "cablefit/samples/settings.hpp"
-#include "cablefit/samples/noise.hpp"
+#include "cablefit/samples/rows/settings.hpp"
+#include "cablefit/samples/survey/noise.hpp"
 
 #include "tests/samples/rows_of_logs.hpp"
 #include "tests/support/message.hpp"

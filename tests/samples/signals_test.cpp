@@ -1,6 +1,6 @@
 // Derivatives, averages, held torque and directions of a window made by hand.
-#include "cablefit/samples/signals.hpp"
-#include "cablefit/samples/decimation.hpp"
+#include "cablefit/samples/rows/signals.hpp"
+#include "cablefit/samples/rows/decimation.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "cablefit/samples/time_axis.hpp"
+#include "cablefit/samples/rows/time_axis.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 // Windows and threads are bookkeeping: they must not show in the rows. Gaps and uneven clocks must.
 #include <numbers>
 
-#include "cablefit/samples/thinning.hpp"
+#include "cablefit/samples/rows/thinning.hpp"
 #include "tests/samples/rows_of_logs.hpp"
 
 namespace {

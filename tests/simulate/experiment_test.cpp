@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "tests/simulate/true_models.hpp"
 #include "tests/support/message.hpp"
 #include "tests/support/temp_folder.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "cablefit/samples/recorded.hpp"
+#include "cablefit/samples/survey/recorded.hpp"
 #include "tests/truth/rig.hpp"
 
 namespace cablefit::test {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/campaign/campaign_cell.hpp"
 

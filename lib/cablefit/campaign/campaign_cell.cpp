@@ -9,7 +9,7 @@
 #include <regex>
 #include <set>
 
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/base/quote.hpp"
 
 namespace cablefit {

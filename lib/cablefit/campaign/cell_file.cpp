@@ -7,7 +7,7 @@
 
 #include "cablefit/base/digest.hpp"
 #include "cablefit/base/input_file.hpp"
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/campaign/record_reader.hpp"
 #include "cablefit/campaign/record_writer.hpp"
 #include "cablefit/campaign/result_fields.hpp"

@@ -10,7 +10,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/campaign/compared_pairs.hpp"
-#include "cablefit/estimate/tail_probability.hpp"
+#include "cablefit/estimate/spread/tail_probability.hpp"
 
 namespace cablefit {
 namespace {

@@ -7,9 +7,9 @@
 #include <set>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/campaign/folder_date.hpp"
-#include "cablefit/samples/survey.hpp"
+#include "cablefit/samples/survey/survey.hpp"
 
 namespace cablefit {
 namespace {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <limits>
 
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/campaign/batch.hpp"
 #include "cablefit/campaign/cell_fit.hpp"

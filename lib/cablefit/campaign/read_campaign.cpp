@@ -4,10 +4,10 @@
 #include <glob.h>
 
 #include "cablefit/base/catalog.hpp"
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/campaign/campaign.hpp"
-#include "cablefit/dynamic/estimators.hpp"
+#include "cablefit/dynamic/estimators/estimators.hpp"
 
 namespace cablefit {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cablefit/base/catalog.hpp"
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 
 namespace cablefit {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/base/quote.hpp"
 
 namespace cablefit {

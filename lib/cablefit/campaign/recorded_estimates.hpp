@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/base/parameter.hpp"
-#include "cablefit/samples/input_file.hpp"
+#include "cablefit/samples/plan/input_file.hpp"
 
 namespace cablefit {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "cablefit/samples/channel_scan.hpp"
+#include "cablefit/samples/survey/channel_scan.hpp"
 
 namespace cablefit {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/estimate/autoregression.hpp"
+#include "cablefit/estimate/spread/autoregression.hpp"
 
 namespace cablefit {
 namespace {

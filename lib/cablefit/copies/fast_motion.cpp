@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/samples/butterworth.hpp"
+#include "cablefit/samples/rows/butterworth.hpp"
 #include "cablefit/simulate/coupling.hpp"
 
 namespace cablefit {

@@ -4,7 +4,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/copies/surrogate.hpp"
-#include "cablefit/samples/noise.hpp"
+#include "cablefit/samples/survey/noise.hpp"
 #include "cablefit/simulate/start_state.hpp"
 
 namespace cablefit {

@@ -8,8 +8,8 @@
 
 #include "cablefit/base/random.hpp"
 #include "cablefit/copies/coloured_noise.hpp"
-#include "cablefit/samples/recorded.hpp"
-#include "cablefit/samples/row_stream.hpp"
+#include "cablefit/samples/rows/row_stream.hpp"
+#include "cablefit/samples/survey/recorded.hpp"
 #include "cablefit/simulate/simulator.hpp"
 
 namespace cablefit {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/design/design_sweep.hpp"
 

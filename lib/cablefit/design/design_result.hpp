@@ -10,8 +10,8 @@
 #include "cablefit/design/collision.hpp"
 #include "cablefit/design/excitation_plan.hpp"
 #include "cablefit/figure/figure.hpp"
-#include "cablefit/samples/input_file.hpp"
-#include "cablefit/samples/settings.hpp"
+#include "cablefit/samples/plan/input_file.hpp"
+#include "cablefit/samples/rows/settings.hpp"
 
 namespace cablefit {
 

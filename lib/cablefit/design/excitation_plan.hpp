@@ -8,7 +8,7 @@
 #include "cablefit/design/excitation.hpp"
 #include "cablefit/design/planned_fit.hpp"
 #include "cablefit/figure/figure.hpp"
-#include "cablefit/samples/settings.hpp"
+#include "cablefit/samples/rows/settings.hpp"
 
 namespace cablefit {
 

@@ -6,8 +6,8 @@
 #include "cablefit/design/planned_log.hpp"
 #include "cablefit/design/planned_refusal.hpp"
 #include "cablefit/design/scaled_solver.hpp"
-#include "cablefit/dynamic/dynamic_job.hpp"
-#include "cablefit/dynamic/sensor_noise.hpp"
+#include "cablefit/dynamic/rows/dynamic_job.hpp"
+#include "cablefit/dynamic/rows/sensor_noise.hpp"
 #include "cablefit/model/model_parameters.hpp"
 
 namespace cablefit {

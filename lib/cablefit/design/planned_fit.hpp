@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cablefit/design/excited_motion.hpp"
-#include "cablefit/samples/row_stream.hpp"
+#include "cablefit/samples/rows/row_stream.hpp"
 
 namespace cablefit {
 

@@ -4,8 +4,8 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/random.hpp"
-#include "cablefit/samples/noise.hpp"
-#include "cablefit/samples/recorded.hpp"
+#include "cablefit/samples/survey/noise.hpp"
+#include "cablefit/samples/survey/recorded.hpp"
 
 namespace cablefit {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cablefit/design/excited_motion.hpp"
-#include "cablefit/samples/windows.hpp"
+#include "cablefit/samples/survey/windows.hpp"
 
 namespace cablefit {
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "cablefit/dynamic/dynamic_columns.hpp"
+#include "cablefit/dynamic/rows/dynamic_columns.hpp"
 
 namespace cablefit {
 

@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "cablefit/estimate/residual_scan.hpp"
-#include "cablefit/samples/observed.hpp"
+#include "cablefit/estimate/tests/residual_scan.hpp"
+#include "cablefit/samples/rows/observed.hpp"
 
 namespace cablefit {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "cablefit/dynamic/dynamic_job.hpp"
 #include "cablefit/dynamic/dynamic_result.hpp"
+#include "cablefit/dynamic/rows/dynamic_job.hpp"
 #include "cablefit/figure/figure.hpp"
 
 namespace cablefit {

@@ -6,21 +6,21 @@
 #include <array>
 
 #include "cablefit/base/catalog.hpp"
-#include "cablefit/dynamic/cutoff_check.hpp"
+#include "cablefit/dynamic/checks/cutoff_check.hpp"
+#include "cablefit/dynamic/checks/low_cutoff.hpp"
+#include "cablefit/dynamic/checks/sweep.hpp"
+#include "cablefit/dynamic/checks/systematic.hpp"
+#include "cablefit/dynamic/checks/validation.hpp"
 #include "cablefit/dynamic/dynamic_figures.hpp"
-#include "cablefit/dynamic/dynamic_job.hpp"
 #include "cablefit/dynamic/dynamic_notes.hpp"
-#include "cablefit/dynamic/estimates.hpp"
-#include "cablefit/dynamic/estimators.hpp"
-#include "cablefit/dynamic/joint_estimates.hpp"
-#include "cablefit/dynamic/low_cutoff.hpp"
+#include "cablefit/dynamic/estimates/estimates.hpp"
+#include "cablefit/dynamic/estimates/joint_estimates.hpp"
+#include "cablefit/dynamic/estimators/estimators.hpp"
 #include "cablefit/dynamic/ratios.hpp"
-#include "cablefit/dynamic/requirements.hpp"
-#include "cablefit/dynamic/sweep.hpp"
-#include "cablefit/dynamic/systematic.hpp"
-#include "cablefit/dynamic/validation.hpp"
-#include "cablefit/samples/agreement.hpp"
-#include "cablefit/samples/unused_rows.hpp"
+#include "cablefit/dynamic/rows/dynamic_job.hpp"
+#include "cablefit/dynamic/rows/requirements.hpp"
+#include "cablefit/samples/rows/agreement.hpp"
+#include "cablefit/samples/rows/unused_rows.hpp"
 
 namespace cablefit {
 namespace {

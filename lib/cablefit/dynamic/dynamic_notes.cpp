@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "cablefit/samples/agreement.hpp"
+#include "cablefit/samples/rows/agreement.hpp"
 
 namespace cablefit {
 namespace {

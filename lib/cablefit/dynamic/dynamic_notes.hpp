@@ -1,7 +1,7 @@
 // Warnings of stage 2 that no estimator sees. Internal to dynamic/.
 #pragma once
 
-#include "cablefit/dynamic/dynamic_job.hpp"
+#include "cablefit/dynamic/rows/dynamic_job.hpp"
 
 namespace cablefit {
 

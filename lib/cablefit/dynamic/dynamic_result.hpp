@@ -8,8 +8,8 @@
 
 #include "cablefit/dynamic/validation_result.hpp"
 #include "cablefit/elastic/elastic_result.hpp"
-#include "cablefit/estimate/fit_proof.hpp"
-#include "cablefit/estimate/recursive_trace.hpp"
+#include "cablefit/estimate/fit/recursive_trace.hpp"
+#include "cablefit/estimate/tests/fit_proof.hpp"
 
 namespace cablefit {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cablefit/estimate/identifiability.hpp"
+#include "cablefit/estimate/solve/identifiability.hpp"
 
 namespace cablefit {
 namespace {

@@ -1,10 +1,10 @@
 // What the rows of one equation tell of each parameter. Internal to prediction.cpp.
 #pragma once
 
-#include "cablefit/dynamic/dynamic_columns.hpp"
 #include "cablefit/dynamic/dynamic_result.hpp"
 #include "cablefit/dynamic/prediction.hpp"
-#include "cablefit/estimate/least_squares.hpp"
+#include "cablefit/dynamic/rows/dynamic_columns.hpp"
+#include "cablefit/estimate/fit/least_squares.hpp"
 
 namespace cablefit {
 

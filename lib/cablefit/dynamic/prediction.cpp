@@ -5,12 +5,12 @@
 #include <optional>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/dynamic/estimates.hpp"
+#include "cablefit/dynamic/estimates/estimates.hpp"
 #include "cablefit/dynamic/predicted_parameters.hpp"
-#include "cablefit/dynamic/requirements.hpp"
-#include "cablefit/dynamic/rough_stage1.hpp"
-#include "cablefit/dynamic/sensor_noise.hpp"
-#include "cablefit/samples/agreement.hpp"
+#include "cablefit/dynamic/rows/requirements.hpp"
+#include "cablefit/dynamic/rows/rough_stage1.hpp"
+#include "cablefit/dynamic/rows/sensor_noise.hpp"
+#include "cablefit/samples/rows/agreement.hpp"
 
 namespace cablefit {
 namespace {

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "cablefit/dynamic/dynamic_figures.hpp"
-#include "cablefit/estimate/parameter_estimate.hpp"
-#include "cablefit/samples/agreement.hpp"
+#include "cablefit/estimate/fit/parameter_estimate.hpp"
+#include "cablefit/samples/rows/agreement.hpp"
 
 namespace cablefit {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cablefit/model/model.hpp"
-#include "cablefit/samples/agreement.hpp"
+#include "cablefit/samples/rows/agreement.hpp"
 
 namespace cablefit {
 namespace {

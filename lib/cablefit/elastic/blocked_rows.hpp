@@ -9,8 +9,8 @@
 #include "cablefit/elastic/elastic_columns.hpp"
 #include "cablefit/elastic/elastic_fit.hpp"
 #include "cablefit/elastic/elongation_range.hpp"
-#include "cablefit/estimate/row_statistics.hpp"
-#include "cablefit/samples/row_archive.hpp"
+#include "cablefit/estimate/solve/row_statistics.hpp"
+#include "cablefit/samples/rows/row_archive.hpp"
 
 namespace cablefit {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "cablefit/estimate/profile_interval.hpp"
+#include "cablefit/estimate/fit/profile_interval.hpp"
 #include "cablefit/model/model.hpp"
 
 namespace cablefit {

@@ -6,7 +6,7 @@
 
 #include "cablefit/elastic/blocked_rows.hpp"
 #include "cablefit/elastic/passivity.hpp"
-#include "cablefit/estimate/least_squares.hpp"
+#include "cablefit/estimate/fit/least_squares.hpp"
 
 namespace cablefit {
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "cablefit/elastic/elastic_quantities.hpp"
-#include "cablefit/estimate/parameter_estimate.hpp"
+#include "cablefit/estimate/fit/parameter_estimate.hpp"
 #include "cablefit/model/model.hpp"
 
 namespace cablefit {

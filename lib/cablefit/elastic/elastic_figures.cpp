@@ -5,8 +5,8 @@
 #include <array>
 
 #include "cablefit/elastic/mode_figure.hpp"
-#include "cablefit/estimate/residual_scan.hpp"
-#include "cablefit/samples/observed.hpp"
+#include "cablefit/estimate/tests/residual_scan.hpp"
+#include "cablefit/samples/rows/observed.hpp"
 
 namespace cablefit {
 namespace {

@@ -13,8 +13,8 @@
 #include "cablefit/elastic/misfit.hpp"
 #include "cablefit/elastic/model_errors.hpp"
 #include "cablefit/elastic/preload_checks.hpp"
-#include "cablefit/samples/agreement.hpp"
-#include "cablefit/samples/unused_rows.hpp"
+#include "cablefit/samples/rows/agreement.hpp"
+#include "cablefit/samples/rows/unused_rows.hpp"
 
 namespace cablefit {
 namespace {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "cablefit/estimate/derived_quantity.hpp"
+#include "cablefit/estimate/fit/derived_quantity.hpp"
 #include "cablefit/model/cables.hpp"
 
 namespace cablefit {

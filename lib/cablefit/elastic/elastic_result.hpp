@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "cablefit/base/parameter.hpp"
-#include "cablefit/estimate/fit_proof.hpp"
+#include "cablefit/estimate/tests/fit_proof.hpp"
 #include "cablefit/figure/figure.hpp"
 #include "cablefit/model/cables.hpp"
 #include "cablefit/model/rig_facts.hpp"
-#include "cablefit/samples/input_file.hpp"
-#include "cablefit/samples/settings.hpp"
+#include "cablefit/samples/plan/input_file.hpp"
+#include "cablefit/samples/rows/settings.hpp"
 
 namespace cablefit {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/estimate/constrained_least_squares.hpp"
+#include "cablefit/estimate/solve/constrained_least_squares.hpp"
 
 namespace cablefit {
 namespace {

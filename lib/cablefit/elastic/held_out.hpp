@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cablefit/elastic/candidates.hpp"
-#include "cablefit/estimate/row_statistics.hpp"
+#include "cablefit/estimate/solve/row_statistics.hpp"
 
 namespace cablefit {
 

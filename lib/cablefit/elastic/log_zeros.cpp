@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cablefit/estimate/scaled_solve.hpp"
+#include "cablefit/estimate/solve/scaled_solve.hpp"
 
 namespace cablefit {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cablefit/base/divided_up.hpp"
-#include "cablefit/estimate/binned_test.hpp"
+#include "cablefit/estimate/tests/binned_test.hpp"
 
 namespace cablefit {
 namespace {

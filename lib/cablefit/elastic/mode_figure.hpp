@@ -3,7 +3,7 @@
 
 #include "cablefit/figure/figure.hpp"
 #include "cablefit/model/cables.hpp"
-#include "cablefit/samples/survey.hpp"
+#include "cablefit/samples/survey/survey.hpp"
 
 namespace cablefit {
 

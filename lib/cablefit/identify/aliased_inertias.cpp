@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/dynamic/scaled_settings.hpp"
-#include "cablefit/estimate/parameter_estimate.hpp"
+#include "cablefit/dynamic/rows/scaled_settings.hpp"
+#include "cablefit/estimate/fit/parameter_estimate.hpp"
 #include "cablefit/identify/preload_records.hpp"
 
 namespace cablefit {

@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "cablefit/identify/elongations/judged_point.hpp"
+#include "cablefit/identify/equations/preload_jobs.hpp"
 #include "cablefit/identify/identify.hpp"
-#include "cablefit/identify/judged_point.hpp"
-#include "cablefit/identify/preload_jobs.hpp"
 
 namespace cablefit {
 

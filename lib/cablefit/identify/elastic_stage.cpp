@@ -6,7 +6,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/identify/elastic_search.hpp"
-#include "cablefit/samples/agreement.hpp"
+#include "cablefit/samples/rows/agreement.hpp"
 
 namespace cablefit {
 namespace {

@@ -7,15 +7,15 @@
 
 #include "cablefit/elastic/elastic_fit.hpp"
 #include "cablefit/identify/aliased_inertias.hpp"
-#include "cablefit/identify/identify_checks.hpp"
-#include "cablefit/identify/identify_description.hpp"
-#include "cablefit/identify/identify_estimates.hpp"
-#include "cablefit/identify/identify_figures.hpp"
+#include "cablefit/identify/elongations/joint_solution.hpp"
 #include "cablefit/identify/identify_floor.hpp"
-#include "cablefit/identify/joint_solution.hpp"
 #include "cablefit/identify/preload_records.hpp"
-#include "cablefit/identify/recursive.hpp"
-#include "cablefit/samples/agreement.hpp"
+#include "cablefit/identify/results/identify_checks.hpp"
+#include "cablefit/identify/results/identify_description.hpp"
+#include "cablefit/identify/results/identify_estimates.hpp"
+#include "cablefit/identify/results/identify_figures.hpp"
+#include "cablefit/identify/results/recursive.hpp"
+#include "cablefit/samples/rows/agreement.hpp"
 
 namespace cablefit {
 namespace {

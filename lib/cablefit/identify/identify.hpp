@@ -7,29 +7,12 @@
 #pragma once
 
 #include <span>
-#include <string>
 
+#include "cablefit/identify/identify_options.hpp"
 #include "cablefit/identify/identify_result.hpp"
-#include "cablefit/samples/settings.hpp"
+#include "cablefit/samples/survey/survey.hpp"
 
 namespace cablefit {
-
-/// Which initial elongations are looked for. `automatic`: those for which the rig file says
-/// "search"; and without cables in the rig files, all of several preloads (one alone is taken as
-/// 0).
-enum class ElongationMode { automatic, search, known };
-
-struct IdentifyOptions {
-  SampleOptions samples;
-  int order = 0;  ///< of the cables' force; 0: the rig file's, else 2
-  ElongationMode elongations = ElongationMode::automatic;
-  std::string search_reason = "given";  ///< why all are searched, when they are
-  bool unconstrained = false;           ///< cables may push
-  bool honest_sd = true;                ///< --sd honest | white
-  std::string preload;                  ///< only this one; empty: all
-  bool recursive = false;               ///< R-LSA beside the direct fit: its trace
-  bool figures = false;
-};
 
 /// Throws Error(input) for missing channels, rigs that do not go together and known l_o that cannot
 /// balance; Error(not_identifiable) when there are too few rows, or rows that these

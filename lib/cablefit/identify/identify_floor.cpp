@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "cablefit/dynamic/fitted_model.hpp"
-#include "cablefit/dynamic/low_cutoff.hpp"
-#include "cablefit/dynamic/method_floor.hpp"
-#include "cablefit/estimate/parameter_estimate.hpp"
-#include "cablefit/identify/joint_solution.hpp"
+#include "cablefit/dynamic/checks/low_cutoff.hpp"
+#include "cablefit/dynamic/loops/fitted_model.hpp"
+#include "cablefit/dynamic/loops/method_floor.hpp"
+#include "cablefit/estimate/fit/parameter_estimate.hpp"
+#include "cablefit/identify/elongations/joint_solution.hpp"
 #include "cablefit/identify/preload_records.hpp"
 
 namespace cablefit {

@@ -8,7 +8,7 @@
 #include "cablefit/dynamic/dynamic_result.hpp"
 #include "cablefit/elastic/elastic_result.hpp"
 #include "cablefit/elastic/elongation_range.hpp"
-#include "cablefit/estimate/recursive_trace.hpp"
+#include "cablefit/estimate/fit/recursive_trace.hpp"
 #include "cablefit/model/model.hpp"
 #include "cablefit/model/modes.hpp"
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "cablefit/dynamic/dynamic_job.hpp"
+#include "cablefit/dynamic/rows/dynamic_job.hpp"
 #include "cablefit/elastic/blocked_rows.hpp"
-#include "cablefit/samples/agreement.hpp"
+#include "cablefit/samples/rows/agreement.hpp"
 
 namespace cablefit {
 namespace {

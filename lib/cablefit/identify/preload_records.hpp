@@ -1,9 +1,9 @@
 // Which equations of which logs of a preload are fitted, read with which settings.
 #pragma once
 
-#include "cablefit/dynamic/dynamic_job.hpp"
-#include "cablefit/identify/judged_point.hpp"
-#include "cablefit/identify/preload_jobs.hpp"
+#include "cablefit/dynamic/rows/dynamic_job.hpp"
+#include "cablefit/identify/elongations/judged_point.hpp"
+#include "cablefit/identify/equations/preload_jobs.hpp"
 
 namespace cablefit {
 

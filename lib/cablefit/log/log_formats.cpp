@@ -4,7 +4,7 @@
 #include <array>
 
 #include "cablefit/log/csv_reader.hpp"
-#include "cablefit/log/json_reader.hpp"
+#include "cablefit/log/json/json_reader.hpp"
 
 namespace cablefit {
 namespace {

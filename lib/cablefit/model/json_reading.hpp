@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/base/units.hpp"
 
 namespace cablefit {

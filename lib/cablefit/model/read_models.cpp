@@ -1,6 +1,6 @@
 #include "cablefit/model/read_models.hpp"
 
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 
 namespace cablefit {
 

@@ -8,8 +8,8 @@
 #include "cablefit/elastic/blocked_rows.hpp"
 #include "cablefit/prove/proof_runs.hpp"
 #include "cablefit/prove/residual_colour.hpp"
-#include "cablefit/samples/agreement.hpp"
-#include "cablefit/samples/butterworth.hpp"
+#include "cablefit/samples/rows/agreement.hpp"
+#include "cablefit/samples/rows/butterworth.hpp"
 
 namespace cablefit {
 namespace {

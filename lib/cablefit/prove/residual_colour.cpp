@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "cablefit/dynamic/dynamic_job.hpp"
-#include "cablefit/samples/agreement.hpp"
+#include "cablefit/dynamic/rows/dynamic_job.hpp"
+#include "cablefit/samples/rows/agreement.hpp"
 
 namespace cablefit {
 namespace {

@@ -1,7 +1,7 @@
 // What a search costs is bounded before it begins.
 #pragma once
 
-#include "cablefit/refine/refine.hpp"
+#include "cablefit/refine/refine_options.hpp"
 
 namespace cablefit {
 

@@ -9,7 +9,7 @@
 #include "cablefit/identify/elastic_stage.hpp"
 #include "cablefit/identify/identify.hpp"
 #include "cablefit/model/model_parameters.hpp"
-#include "cablefit/refine/base_rows.hpp"
+#include "cablefit/refine/rows/base_rows.hpp"
 
 namespace cablefit {
 namespace {

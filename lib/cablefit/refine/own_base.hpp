@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "cablefit/refine/refine.hpp"
+#include "cablefit/model/model.hpp"
+#include "cablefit/refine/refine_options.hpp"
 
 namespace cablefit {
 

@@ -7,23 +7,24 @@
 #include <cmath>
 #include <limits>
 
-#include "cablefit/refine/best_shapes.hpp"
 #include "cablefit/refine/bounded_work.hpp"
-#include "cablefit/refine/conclusion.hpp"
-#include "cablefit/refine/effect_steps.hpp"
-#include "cablefit/refine/elastic_stage.hpp"
-#include "cablefit/refine/kept_effects.hpp"
-#include "cablefit/refine/materiality.hpp"
-#include "cablefit/refine/next_run.hpp"
-#include "cablefit/refine/physical_values.hpp"
-#include "cablefit/refine/refine_bench.hpp"
-#include "cablefit/refine/refine_figures.hpp"
-#include "cablefit/refine/refined_model.hpp"
-#include "cablefit/refine/regimes.hpp"
-#include "cablefit/refine/separability.hpp"
-#include "cablefit/refine/test_reading.hpp"
-#include "cablefit/refine/unexplained.hpp"
-#include "cablefit/samples/agreement.hpp"
+#include "cablefit/refine/figures/refine_figures.hpp"
+#include "cablefit/refine/gap_levels.hpp"
+#include "cablefit/refine/null/kept_effects.hpp"
+#include "cablefit/refine/rows/physical_values.hpp"
+#include "cablefit/refine/rows/refined_model.hpp"
+#include "cablefit/refine/steps/best_shapes.hpp"
+#include "cablefit/refine/steps/effect_steps.hpp"
+#include "cablefit/refine/steps/elastic_stage.hpp"
+#include "cablefit/refine/steps/materiality.hpp"
+#include "cablefit/refine/steps/next_run.hpp"
+#include "cablefit/refine/steps/refine_bench.hpp"
+#include "cablefit/refine/steps/test_reading.hpp"
+#include "cablefit/refine/verdict/conclusion.hpp"
+#include "cablefit/refine/verdict/regimes.hpp"
+#include "cablefit/refine/verdict/separability.hpp"
+#include "cablefit/refine/verdict/unexplained.hpp"
+#include "cablefit/samples/rows/agreement.hpp"
 
 namespace cablefit {
 namespace {
@@ -140,6 +141,13 @@ void find_effects(RefineBench& bench, Chain& chain, RefineResult& result) {
   if (!result.effects.empty()) chain.back() = with_best_shapes(bench, std::move(chain.back()));
 }
 
+/// A bias that stays in the values widens their intervals.
+void add_systematic(const ValueChange& bias, FinalFit& fit) {
+  Eigen::VectorXd all(bias.x.size() + bias.shapes.size());
+  all << bias.x, bias.shapes;
+  fit.covariance.diagonal().head(all.size()) += all.cwiseAbs2();
+}
+
 RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
                          const RefineOptions& options) {
   RefineResult result;
@@ -182,6 +190,7 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
   const RefineState after = confirmed.values.of(chain, chain.size() - 1);
   std::vector<Eigen::Index> held;
   fit.x = physical_values(after.design, bench.scan.block_seconds, state.levels, after.x, &held);
+  if (confirmed.values.left()) add_systematic(*confirmed.values.left(), fit);
   for (const Eigen::Index column : held) {
     fit.covariance.row(column).setConstant(std::numeric_limits<double>::quiet_NaN());
     fit.covariance.col(column).setConstant(std::numeric_limits<double>::quiet_NaN());

@@ -9,31 +9,13 @@
 // term away, not choose another.
 #pragma once
 
-#include <functional>
-#include <optional>
 #include <span>
 
+#include "cablefit/model/model.hpp"
+#include "cablefit/refine/refine_options.hpp"
 #include "cablefit/refine/refine_result.hpp"
-#include "cablefit/samples/survey.hpp"
 
 namespace cablefit {
-
-struct RefineOptions {
-  std::size_t n_draws = 24;        ///< simulated data sets
-  unsigned long seed = 1;          ///< of the first; counted up from there
-  double materiality = 0.01;       ///< least share of the squared residual that is worth a name
-  std::optional<double> material;  ///< N m that matter; nothing: see material_torque()
-  double significance = 0.01;      ///< largest p value of a name
-  std::size_t most_effects = 3;
-  int threads = 1;
-  bool figures = false;
-  std::function<void(std::string_view what, double share)> progress;
-};
-
-/// Which logs are for what. Without test logs the last third of every moving log is held out.
-struct RefineLogs {
-  std::vector<LogSurvey> train, test, blocked;
-};
 
 /// What the models have from an earlier refinement is part of the base and fitted anew with it
 /// (kept_effects.hpp).

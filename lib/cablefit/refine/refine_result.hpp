@@ -10,8 +10,8 @@
 #include "cablefit/figure/figure.hpp"
 #include "cablefit/model/model.hpp"
 #include "cablefit/model/refinements.hpp"
-#include "cablefit/samples/input_file.hpp"
-#include "cablefit/samples/settings.hpp"
+#include "cablefit/samples/plan/input_file.hpp"
+#include "cablefit/samples/rows/settings.hpp"
 
 namespace cablefit {
 

@@ -7,9 +7,9 @@
 #include <optional>
 #include <utility>
 
-#include "cablefit/samples/agreement.hpp"
-#include "cablefit/samples/signals.hpp"
-#include "cablefit/samples/speed_histogram.hpp"
+#include "cablefit/samples/rows/agreement.hpp"
+#include "cablefit/samples/rows/signals.hpp"
+#include "cablefit/samples/survey/speed_histogram.hpp"
 
 namespace cablefit {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cablefit/figure/figure.hpp"
-#include "cablefit/samples/settings.hpp"
+#include "cablefit/samples/rows/settings.hpp"
 
 namespace cablefit {
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "cablefit/samples/time_axis.hpp"
+#include "cablefit/samples/rows/time_axis.hpp"
 
 namespace cablefit {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cablefit/model/model.hpp"
-#include "cablefit/samples/windows.hpp"
+#include "cablefit/samples/survey/windows.hpp"
 
 namespace cablefit {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/samples/noise.hpp"
+#include "cablefit/samples/survey/noise.hpp"
 #include "cablefit/simulate/corrections.hpp"
 
 namespace cablefit {

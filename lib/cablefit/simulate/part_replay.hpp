@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "cablefit/samples/windows.hpp"
+#include "cablefit/samples/survey/windows.hpp"
 #include "cablefit/simulate/experiment.hpp"
 #include "cablefit/simulate/gap_scan.hpp"
 #include "cablefit/simulate/start_state.hpp"

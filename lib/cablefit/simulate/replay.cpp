@@ -12,7 +12,7 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/parallel.hpp"
 #include "cablefit/base/quote.hpp"
-#include "cablefit/samples/agreement.hpp"
+#include "cablefit/samples/rows/agreement.hpp"
 #include "cablefit/simulate/part_replay.hpp"
 #include "cablefit/simulate/replay_figures.hpp"
 #include "cablefit/simulate/trajectory_file.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cablefit/figure/figure.hpp"
-#include "cablefit/samples/time_axis.hpp"
+#include "cablefit/samples/rows/time_axis.hpp"
 #include "cablefit/simulate/part_replay.hpp"
 
 namespace cablefit {

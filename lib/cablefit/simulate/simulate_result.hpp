@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "cablefit/figure/figure.hpp"
-#include "cablefit/samples/input_file.hpp"
-#include "cablefit/samples/settings.hpp"
+#include "cablefit/samples/plan/input_file.hpp"
+#include "cablefit/samples/rows/settings.hpp"
 
 namespace cablefit {
 

@@ -4,18 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/dynamic/estimates.hpp"
+#include "cablefit/dynamic/estimates/estimates.hpp"
+#include "cablefit/dynamic/estimates/joint_estimates.hpp"
 #include "cablefit/dynamic/estimators/least_squares_fit.hpp"
 #include "cablefit/dynamic/estimators/rows.hpp"
-#include "cablefit/dynamic/instrumental_variables.hpp"
-#include "cablefit/dynamic/joint_estimates.hpp"
-#include "cablefit/dynamic/log_copy.hpp"
-#include "cablefit/dynamic/scaled_settings.hpp"
-#include "cablefit/estimate/held_out_moments.hpp"
-#include "cablefit/estimate/instruments.hpp"
-#include "cablefit/estimate/profile_interval.hpp"
+#include "cablefit/dynamic/loops/instrumental_variables.hpp"
+#include "cablefit/dynamic/loops/log_copy.hpp"
+#include "cablefit/dynamic/rows/scaled_settings.hpp"
+#include "cablefit/estimate/fit/instruments.hpp"
+#include "cablefit/estimate/fit/profile_interval.hpp"
+#include "cablefit/estimate/tests/held_out_moments.hpp"
 #include "cablefit/model/file/controller_text.hpp"
-#include "cablefit/samples/agreement.hpp"
+#include "cablefit/samples/rows/agreement.hpp"
 
 namespace cablefit::estimation {
 namespace {

@@ -1,10 +1,10 @@
 // Linear least squares on the rows as collected: each equation alone, or the links of an arm, which
 // share parameters, stacked.
-#include "cablefit/dynamic/estimates.hpp"
+#include "cablefit/dynamic/estimates/estimates.hpp"
+#include "cablefit/dynamic/estimates/joint_estimates.hpp"
 #include "cablefit/dynamic/estimators/least_squares_fit.hpp"
 #include "cablefit/dynamic/estimators/rows.hpp"
-#include "cablefit/dynamic/joint_estimates.hpp"
-#include "cablefit/estimate/profile_interval.hpp"
+#include "cablefit/estimate/fit/profile_interval.hpp"
 
 namespace cablefit::estimation {
 

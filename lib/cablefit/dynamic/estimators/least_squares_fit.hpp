@@ -1,7 +1,7 @@
 // Weighted least squares on given rows, which other estimators build on. Internal to dynamic/.
 #pragma once
 
-#include "cablefit/dynamic/estimators.hpp"
+#include "cablefit/dynamic/estimators/estimators.hpp"
 
 namespace cablefit::estimation {
 

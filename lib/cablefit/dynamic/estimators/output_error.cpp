@@ -8,15 +8,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/dynamic/estimates.hpp"
+#include "cablefit/dynamic/estimates/estimates.hpp"
 #include "cablefit/dynamic/estimators/least_squares_fit.hpp"
 #include "cablefit/dynamic/estimators/rows.hpp"
-#include "cablefit/dynamic/fitted_model.hpp"
-#include "cablefit/dynamic/log_copy.hpp"
-#include "cablefit/dynamic/noise_free_loop.hpp"
+#include "cablefit/dynamic/loops/fitted_model.hpp"
+#include "cablefit/dynamic/loops/log_copy.hpp"
+#include "cablefit/dynamic/loops/noise_free_loop.hpp"
 #include "cablefit/dynamic/output_error/log_stretches.hpp"
 #include "cablefit/dynamic/output_error/stage1_prior.hpp"
-#include "cablefit/estimate/parameter_estimate.hpp"
+#include "cablefit/estimate/fit/parameter_estimate.hpp"
 
 namespace cablefit::estimation {
 namespace {

@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <memory>
 
-#include "cablefit/dynamic/estimates.hpp"
+#include "cablefit/dynamic/estimates/estimates.hpp"
 #include "cablefit/dynamic/estimators/least_squares_fit.hpp"
 #include "cablefit/dynamic/estimators/rows.hpp"
-#include "cablefit/estimate/huber.hpp"
-#include "cablefit/samples/row_archive.hpp"
+#include "cablefit/estimate/fit/huber.hpp"
+#include "cablefit/samples/rows/row_archive.hpp"
 
 namespace cablefit::estimation {
 namespace {

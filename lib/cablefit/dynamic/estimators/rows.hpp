@@ -1,7 +1,7 @@
 // The rows of the table of estimators, and what several of them are made of. Internal to dynamic/.
 #pragma once
 
-#include "cablefit/dynamic/estimators.hpp"
+#include "cablefit/dynamic/estimators/estimators.hpp"
 
 namespace cablefit::estimation {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "cablefit/estimate/long_run.hpp"
-#include "cablefit/estimate/parameter_estimate.hpp"
+#include "cablefit/estimate/fit/parameter_estimate.hpp"
+#include "cablefit/estimate/spread/long_run.hpp"
 
 namespace cablefit {
 namespace {

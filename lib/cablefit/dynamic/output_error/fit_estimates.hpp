@@ -4,7 +4,7 @@
 
 #include "cablefit/dynamic/output_error/output_error.hpp"
 #include "cablefit/dynamic/output_error/window_pass.hpp"
-#include "cablefit/estimate/nonlinear_least_squares.hpp"
+#include "cablefit/estimate/fit/nonlinear_least_squares.hpp"
 
 namespace cablefit {
 

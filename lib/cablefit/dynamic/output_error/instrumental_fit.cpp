@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "cablefit/estimate/instruments.hpp"
-#include "cablefit/estimate/long_run.hpp"
+#include "cablefit/estimate/fit/instruments.hpp"
+#include "cablefit/estimate/spread/long_run.hpp"
 
 namespace cablefit {
 namespace {

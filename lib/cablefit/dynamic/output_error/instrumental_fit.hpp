@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "cablefit/estimate/row_statistics.hpp"
+#include "cablefit/estimate/solve/row_statistics.hpp"
 
 namespace cablefit {
 

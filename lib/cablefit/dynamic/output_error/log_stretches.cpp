@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cablefit/samples/noise.hpp"
+#include "cablefit/samples/survey/noise.hpp"
 
 namespace cablefit {
 namespace {

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "cablefit/dynamic/dynamic_job.hpp"
 #include "cablefit/dynamic/output_error/measured_stretch.hpp"
+#include "cablefit/dynamic/rows/dynamic_job.hpp"
 
 namespace cablefit {
 

@@ -12,8 +12,8 @@
 #include "cablefit/dynamic/output_error/instrumental_fit.hpp"
 #include "cablefit/dynamic/output_error/noise_levels.hpp"
 #include "cablefit/dynamic/output_error/window_pass.hpp"
-#include "cablefit/estimate/nonlinear_least_squares.hpp"
-#include "cablefit/estimate/parameter_estimate.hpp"
+#include "cablefit/estimate/fit/nonlinear_least_squares.hpp"
+#include "cablefit/estimate/fit/parameter_estimate.hpp"
 
 namespace cablefit {
 namespace {

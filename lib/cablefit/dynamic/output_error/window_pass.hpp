@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cablefit/dynamic/output_error/prediction_filter.hpp"
-#include "cablefit/estimate/row_statistics.hpp"
+#include "cablefit/estimate/solve/row_statistics.hpp"
 
 namespace cablefit {
 

@@ -2,7 +2,7 @@
 // arm_kinds().
 #pragma once
 
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/arm.hpp"
 #include "cablefit/model/arm/serial_chain.hpp"
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/effects.hpp"
 #include "cablefit/model/rig.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/read_models.hpp"
 
 namespace cablefit::model_file {

@@ -2,7 +2,7 @@
 // through load_laws().
 #pragma once
 
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/load.hpp"
 
 namespace cablefit::laws {

@@ -1,7 +1,7 @@
 // The parts of a rig file, one reader per top-level key. Internal to rig.cpp.
 #pragma once
 
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/rig.hpp"
 
 namespace cablefit::rig_parts {

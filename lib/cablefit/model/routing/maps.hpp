@@ -2,7 +2,7 @@
 // goes through map_kinds().
 #pragma once
 
-#include "cablefit/base/json_document.hpp"
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/routing.hpp"
 
 namespace cablefit::maps {

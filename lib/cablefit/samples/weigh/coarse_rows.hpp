@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "cablefit/samples/survey.hpp"
+#include "cablefit/samples/survey/survey.hpp"
 
 namespace cablefit {
 

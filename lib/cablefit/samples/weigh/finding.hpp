@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "cablefit/samples/channels.hpp"
+#include "cablefit/samples/plan/channels.hpp"
 
 namespace cablefit {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "cablefit/samples/survey.hpp"
+#include "cablefit/samples/survey/survey.hpp"
 
 namespace cablefit {
 

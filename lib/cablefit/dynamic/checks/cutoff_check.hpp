@@ -1,0 +1,18 @@
+// Is an inertia that was found there at another cut-off too?
+#pragma once
+
+#include "cablefit/dynamic/estimates/estimation.hpp"
+
+namespace cablefit {
+
+/// Fits every equation again by least squares with half and twice the cut-off, and refuses the
+/// inertias of `estimation` whose 95 % intervals there and here do not meet and that become more
+/// than kMovedInertia times as large or small: filtered noise of speeds and torques has an
+/// "inertia" of its own, that of a drive is the same in every band. One that moves less, but by
+/// more than kMovementNoted, has the movement in its sd; so has one of an elastic drive, which
+/// stiffness as well bends. Refused too: an inertia of a rigid drive whose acceleration, from a
+/// speed channel, is noise. Not for links that share parameters.
+void refuse_moving_inertias(const EstimationTask& task, Estimation& estimation);
+inline constexpr double kMovedInertia = 2, kMovementNoted = 0.2;
+
+}  // namespace cablefit

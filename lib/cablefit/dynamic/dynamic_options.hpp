@@ -1,0 +1,39 @@
+// What stage 2 is asked for.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cablefit/samples/rows/settings.hpp"
+#include "cablefit/samples/survey/survey.hpp"
+
+namespace cablefit {
+
+/// A row of the table of models of stage 2 (`cablefit list models`).
+struct DynamicModel {
+  std::string_view name;
+  std::string_view equation;
+  std::string_view source;
+  bool elastic;  ///< needs stage 1
+};
+std::span<const DynamicModel> dynamic_models();
+
+struct DynamicOptions {
+  SampleOptions samples;
+  std::vector<std::string> models = {"poly"};  ///< names of the table
+  std::string estimator = "auto";              ///< name of the table (estimators.hpp)
+  bool honest_sd = true;                       ///< --sd honest | white
+  std::string preload;                         ///< only this one; empty: all
+  bool figures = false;                        ///< one more pass, for reports with plots
+  bool residual_tests = true;                  ///< a look at up to 40 windows of every log
+  bool sweep = false;                          ///< fit again with other cut-offs and rest speeds
+  /// The method's floor where it is known already, by parameter; none: it is measured.
+  std::optional<std::map<std::string, double>> method_floor = {};
+  std::vector<LogSurvey> validation = {};  ///< logs to judge the fit on, none of them fitted
+};
+
+}  // namespace cablefit

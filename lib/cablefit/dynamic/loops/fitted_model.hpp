@@ -1,0 +1,16 @@
+// What stage 2 found as a model that can be simulated.
+#pragma once
+
+#include <vector>
+
+#include "cablefit/dynamic/rows/dynamic_job.hpp"
+#include "cablefit/model/model.hpp"
+
+namespace cablefit {
+
+/// Model number `which` of the job with the values of `solutions`, one per equation. A parameter
+/// that the rows do not determine is 0. Not for arms whose links move each other.
+Model fitted_model(const DynamicJob& job, const std::vector<EquationRows>& equations,
+                   const std::vector<LinearSolution>& solutions, std::size_t which);
+
+}  // namespace cablefit

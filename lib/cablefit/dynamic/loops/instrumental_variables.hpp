@@ -1,0 +1,36 @@
+// IDIM-IV (Janot, Vandanjon & Gautier 2014): instruments are the regressors of a simulated
+// noise-free closed loop with the current parameters, by the same filters and decimation as the
+// measured ones; simulated again with the estimates until these stand still.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cablefit/dynamic/loops/instrumented_rows.hpp"
+#include "cablefit/dynamic/loops/noise_free_loop.hpp"
+#include "cablefit/estimate/tests/exogeneity.hpp"
+
+namespace cablefit {
+
+struct IvFit {
+  std::string failure;  ///< why there is no fit; empty: there is
+  int n_simulations = 0;
+  double last_change = 0;                 ///< of any parameter in the last one, in its own sd
+  std::vector<InstrumentedRows> rows;     ///< per equation
+  std::vector<LinearSolution> solutions;  ///< on these rows
+  std::vector<ExogeneityTest> tests;      ///< Durbin-Wu-Hausman, by these instruments
+
+  bool converged() const;
+};
+
+/// At most this many simulations; 2 to 5 are usual.
+inline constexpr int kMostSimulations = 6;
+
+/// Fits model number `which` to the wanted parts of `logs`, which may be fewer than the job's.
+/// `start`: per equation the solution to simulate with first.
+IvFit fit_by_instruments(const DynamicJob& job, std::span<const LogSurvey> logs,
+                         const std::vector<EquationRows>& equations,
+                         const std::vector<LinearSolution>& start, std::size_t which,
+                         const LoopPlan& plan, int most_simulations = kMostSimulations);
+
+}  // namespace cablefit

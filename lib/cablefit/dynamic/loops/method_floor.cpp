@@ -1,0 +1,139 @@
+#include "cablefit/dynamic/loops/method_floor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/dynamic/loops/fitted_model.hpp"
+#include "cablefit/dynamic/loops/log_copy.hpp"
+
+namespace cablefit {
+namespace {
+
+// s; second order in the step: 1e-4 of the resonance's period costs nothing beside a filter.
+constexpr double kStep = 100e-6;
+constexpr double kAside = 16;  // encoder steps that a draw's motion is moved by, at most
+
+/// The logs of the job, or stretches of them where they are long.
+struct CopiedLogs {
+  std::vector<LogSurvey> stretches;
+  std::span<const LogSurvey> logs;
+  double share = 1;  ///< of the rows
+};
+
+CopiedLogs logs_to_copy(const DynamicJob& job) {
+  double all = 0;
+  for (const LogSurvey& log : job.logs)
+    for (const PartSurvey& part : log.parts)
+      if (job.wanted(part)) all += static_cast<double>(part.n_rows);
+  CopiedLogs out;
+  out.share = std::min(1.0, kFloorRows / all);
+  if (out.share < 1)
+    out.stretches =
+        stretches_of(job.logs, job.wanted, out.share, bridge_seconds(job.settings.rows.signal));
+  out.logs = out.stretches.empty() ? job.logs : std::span<const LogSurvey>(out.stretches);
+  return out;
+}
+
+/// Positions as the encoders show them, torques as they are.
+void choose_encoders(Twin& twin, const std::vector<SimulationResult>& motions) {
+  choose_sensors(twin, motions);
+  for (std::size_t log = 0; log < twin.plans.size(); ++log)
+    for (std::size_t k = 0; k < twin.plans[log].slots.size(); ++k) {
+      const Channel channel = twin.plans[log].slots[k].channel;
+      if (channel != Channel::q && channel != Channel::theta) twin.sensors[log][k] = {};
+    }
+}
+
+/// All joints turned alike, so that the encoders round otherwise and the cables do not notice.
+std::vector<SimulationResult> moved_aside(const Twin& twin, std::vector<SimulationResult> motions,
+                                          Random& random) {
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    double quantum = 0;
+    for (const TwinSensor& sensor : twin.sensors[twin.stretches[k].log])
+      quantum = std::max(quantum, sensor.quantum);
+    const double aside = kAside * quantum * random.uniform();
+    motions[k].q += aside;
+    motions[k].theta += aside;
+  }
+  return motions;
+}
+
+/// What the method finds in the copy, per equation; values only.
+std::vector<LinearSolution> fit_copy(const DynamicJob& job, const std::vector<LogSurvey>& copy,
+                                     std::size_t which) {
+  DynamicOptions options = job.options;
+  options.honest_sd = false;
+  const DynamicJob own{copy,       options,   job.preload,  job.wanted,         job.elastic,
+                       job.models, job.rigid, job.settings, job.joint_settings, job.arm};
+  std::vector<EquationRows> equations = make_equations(own);
+  collect_rows(own, equations);
+  std::vector<LinearSolution> solutions;
+  for (const EquationRows& e : equations)
+    solutions.push_back(solve_equation(e, own.elastic, which));
+  return solutions;
+}
+
+/// Differences of parameters that both determine.
+Eigen::VectorXd error_of(const LinearSolution& found, const LinearSolution& truth) {
+  Eigen::VectorXd error = found.x - truth.x;
+  for (Eigen::Index k = 0; k < error.size(); ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    if (!found.not_identifiable[at].empty() || !truth.not_identifiable[at].empty()) error(k) = 0;
+  }
+  return error;
+}
+
+}  // namespace
+
+CopyDraws::CopyDraws(const DynamicJob& job, const Model& model, bool exact, bool rounded)
+    : rounded_(rounded), exact_(exact), random_(1) {
+  const CopiedLogs copied = logs_to_copy(job);
+  share_ = copied.share;
+  const SignalSettings& signal = job.settings.rows.signal;
+  twin_ =
+      make_twin(model, copied.logs, job.wanted, {signal.torque_held, signal.cutoff, true, kStep});
+  motions_ = run_twin(twin_, {}, random_, job.options.samples.threads);
+}
+
+void CopyDraws::for_each(const std::function<void(const CopyDraw&)>& use) {
+  if (exact_) use({record_twin(twin_, motions_, random_), true, 1, share_});
+  if (!rounded_) return;
+  choose_encoders(twin_, motions_);
+  for (int draw = 0; draw < kFloorDraws; ++draw)
+    use({record_twin(twin_, moved_aside(twin_, motions_, random_), random_), false,
+         1.0 / kFloorDraws, share_});
+}
+
+MethodFloor method_floor(const DynamicJob& job, const std::vector<EquationRows>& equations,
+                         const std::vector<LinearSolution>& solutions,
+                         const std::vector<bool>& with_instruments, std::size_t which) {
+  MethodFloor floor;
+  if (job.arm != nullptr && job.arm->is_coupled()) {
+    floor.note = "not measured: links that move each other are not simulated yet";
+    return floor;
+  }
+  const auto any = [&](bool instruments) {
+    return std::find(with_instruments.begin(), with_instruments.end(), instruments) !=
+           with_instruments.end();
+  };
+  try {
+    for (const LinearSolution& solution : solutions)
+      floor.variance.push_back(Eigen::VectorXd::Zero(solution.x.size()));
+    CopyDraws draws(job, fitted_model(job, equations, solutions, which), any(true), any(false));
+    draws.for_each([&](const CopyDraw& draw) {
+      const std::vector<LinearSolution> found = fit_copy(job, draw.logs, which);
+      for (std::size_t k = 0; k < solutions.size(); ++k)
+        if (with_instruments[k] == draw.exact)
+          floor.variance[k] += draw.weight * error_of(found[k], solutions[k]);
+    });
+    for (Eigen::VectorXd& v : floor.variance) v = v.cwiseAbs2().eval();
+    floor.note = kFloorNote;
+  } catch (const Error& error) {
+    floor = {{}, fmt::format("not measured: {}", error.what())};
+  }
+  return floor;
+}
+
+}  // namespace cablefit

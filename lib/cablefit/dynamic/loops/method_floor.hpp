@@ -1,0 +1,62 @@
+// What filter, differences, sampling and rounding do to the estimates when nothing disturbs the
+// drive: an error that no residual shows and no longer log removes.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cablefit/copies/twin.hpp"
+#include "cablefit/dynamic/rows/dynamic_job.hpp"
+
+namespace cablefit {
+
+/// Logs of the measured motion, simulated by a model without disturbances.
+struct CopyDraw {
+  std::vector<LogSurvey> logs;
+  bool exact = false;  ///< positions as they are; else with the noise and steps of the sensors
+  double weight = 1;   ///< among the draws of its kind
+  double share = 1;    ///< of the rows of the job
+};
+
+/// The copies of a job's motion: at most kFloorRows rows, in stretches over all logs. One `exact`,
+/// kFloorDraws `rounded`, by fixed seeds.
+class CopyDraws {
+ public:
+  /// Throws Error(not_identifiable) where the motion cannot be simulated. `job` must outlive it.
+  CopyDraws(const DynamicJob& job, const Model& model, bool exact, bool rounded);
+  void for_each(const std::function<void(const CopyDraw&)>& use);
+
+ private:
+  bool rounded_, exact_;
+  double share_ = 1;
+  Random random_;
+  Twin twin_;
+  std::vector<SimulationResult> motions_;
+};
+
+inline constexpr int kFloorDraws = 3;
+inline constexpr double kFloorRows = 100000;
+inline constexpr const char* kFloorNote =
+    "fit of a simulated copy of the motion without disturbances";
+
+/// Squared mean error over the draws of every effect's parameters, per equation, in the square of
+/// their units: how they scatter about it is in the covariance of the residual already. Empty where
+/// the motion could not be simulated.
+struct MethodFloor {
+  std::vector<Eigen::VectorXd> variance;
+  std::string note;  ///< how it was measured, or why it was not
+
+  bool is_known() const { return !variance.empty(); }
+};
+
+/// Simulates the measured motion with the model that `solutions` (one per equation) make of model
+/// number `which`, without disturbances, with sensors that round as those of the logs do, and fits
+/// that copy by the same filter, decimation and masks: what comes out differs from what went in by
+/// the method alone. `with_instruments`, per equation: instruments keep rounding out, so that the
+/// positions of the copy are exact there. Not for arms whose links move each other.
+MethodFloor method_floor(const DynamicJob& job, const std::vector<EquationRows>& equations,
+                         const std::vector<LinearSolution>& solutions,
+                         const std::vector<bool>& with_instruments, std::size_t which);
+
+}  // namespace cablefit

@@ -1,0 +1,205 @@
+#include "cablefit/dynamic/rows/dynamic_columns.hpp"
+
+#include "cablefit/model/model.hpp"
+
+namespace cablefit {
+namespace {
+
+const Eigen::ArrayXd& position(Side side, const JointSignals& s) {
+  return side == Side::link ? s.q : s.theta;
+}
+const Eigen::ArrayXd& velocity(Side side, const JointSignals& s) {
+  return side == Side::link ? s.qd : s.thetad;
+}
+const Eigen::ArrayXd& acceleration(Side side, const JointSignals& s) {
+  return side == Side::link ? s.qdd : s.thetadd;
+}
+
+bool is_linear(const ElasticFit& fit) { return fit.transmission.cables.empty(); }
+
+/// Basis columns of a fit, n x coefficients.
+void fill_basis(const ElasticFit& fit, const DynamicColumns& c, const Signals& signals,
+                Eigen::Ref<Eigen::MatrixXd> out) {
+  if (is_linear(fit)) {
+    const JointSignals& s = signals.joints[static_cast<std::size_t>(c.place.joint)];
+    if (out.cols() > 1) out.setZero();
+    out.col(c.place.joint) = s.theta - fit.transmission.theta_0(c.place.joint) - s.q;
+  } else {
+    elastic_basis(fit.transmission, signals.joints,
+                  c.side == Side::link ? ElasticSide::link : ElasticSide::motor, c.place.joint,
+                  out);
+  }
+}
+
+void fill_elastic(const ElasticFit& fit, const DynamicColumns& c, const Signals& signals,
+                  Eigen::Ref<Eigen::MatrixXd> out) {
+  if (c.detail == ElasticDetail::coefficients) return fill_basis(fit, c, signals, out);
+  const Eigen::VectorXd coefficients = elastic_coefficients(fit);
+  Eigen::MatrixXd basis(out.rows(), coefficients.size());
+  fill_basis(fit, c, signals, basis);
+  out.noalias() = basis * coefficients;
+}
+
+/// Its loop goes with the direction in which the deflection changes.
+void fill_misfit(const ElasticFit& fit, const JointSignals& s, Eigen::Ref<Eigen::MatrixXd> out) {
+  const double zero = fit.transmission.encoder_zero()(0);
+  for (Eigen::Index i = 0; i < out.rows(); ++i) {
+    const MisfitPoint point = fit.misfit.at(s.theta(i) - zero - s.q(i));
+    out(i, 0) = point.torque;
+    out(i, 1) = s.thetad(i) < s.qd(i) ? -point.half_width : point.half_width;
+  }
+}
+
+Eigen::Index n_columns(const std::vector<const Effect*>& effects) {
+  std::size_t n = 0;
+  for (const Effect* effect : effects) n += effect->parameters.size();
+  return static_cast<Eigen::Index>(n);
+}
+
+bool is_coupled_link(const DynamicColumns& c) {
+  return c.side == Side::link && c.place.arm != nullptr && c.place.arm->is_coupled();
+}
+
+std::optional<double> given_inertia(const DynamicColumns& c, const Effect& effect, int joint) {
+  if (c.side != Side::link || effect.inertia == nullptr || c.place.arm == nullptr) return {};
+  const std::vector<double>& given = c.place.arm->parameters.J_link;
+  if (given.empty()) return {};
+  return given[static_cast<std::size_t>(joint)];
+}
+
+/// Names the columns of the effects of one joint.
+void add_effects(DynamicColumns& c, int joint) {
+  if (joint == c.place.joint) c.first_effect = static_cast<Eigen::Index>(c.parameters.size());
+  for (const Effect& effect : base_effects(c.side)) {
+    const bool is_inertia = effect.inertia != nullptr;
+    if (is_inertia && is_coupled_link(c)) continue;  // the arm's base parameters stand for it
+    if (joint == c.place.joint) c.effects.push_back(&effect);
+    for (const ParameterInfo& info : effect.parameters)
+      c.parameters.push_back({info, joint_parameter_name(info.name, joint + 1, c.place.n_joints),
+                              is_inertia, given_inertia(c, effect, joint), effect.follows});
+  }
+}
+
+void add_parameters(DynamicColumns& c) {
+  if (!is_coupled_link(c)) return add_effects(c, c.place.joint);
+  for (const ParameterInfo& info : c.place.arm->base_parameters())
+    c.parameters.push_back({info, std::string(info.name), false, {}, MotionPart::joints});
+  c.n_arm = static_cast<Eigen::Index>(c.parameters.size());
+  for (int joint = 0; joint < c.place.n_joints; ++joint) add_effects(c, joint);
+}
+
+Motion motion_of(Side side, const JointSignals& s) {
+  return {position(side, s), velocity(side, s), acceleration(side, s),
+          side == Side::link ? s.q_direction : s.theta_direction};
+}
+
+/// The columns of an arm's links, those of other joints' effects 0.
+void fill_arm(const DynamicColumns& c, const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
+  std::vector<Motion> links;
+  for (const JointSignals& s : signals.joints) links.push_back(motion_of(Side::link, s));
+  out.setZero();
+  c.place.arm->kind->regressor(c.place.arm->parameters, links, c.place.joint,
+                               out.leftCols(c.n_arm));
+}
+
+}  // namespace
+
+Eigen::VectorXd elastic_coefficients(const ElasticFit& fit) {
+  if (is_linear(fit)) return fit.transmission.linear_stiffness;
+  Eigen::VectorXd all(n_elastic_columns(fit.transmission));
+  Eigen::Index next = 0;
+  for (const Cable& cable : fit.transmission.cables)
+    for (const double coefficient : cable.coefficients) all(next++) = coefficient;
+  return all;
+}
+
+DynamicColumns dynamic_columns(Side side, const std::vector<const ElasticFit*>& fits,
+                               ElasticDetail detail, const JointPlace& place) {
+  DynamicColumns c;
+  c.detail = detail;
+  c.side = side;
+  c.place = place;
+  add_parameters(c);
+  c.n_effects = static_cast<Eigen::Index>(c.parameters.size());
+  c.count = c.n_effects;
+  for (const ElasticFit* fit : fits) {
+    c.elastic.push_back(c.count);
+    c.n_elastic.push_back(detail == ElasticDetail::torque ? 1 : elastic_coefficients(*fit).size());
+    c.count += c.n_elastic.back();
+    const bool carried = place.n_joints == 1 && !fit->misfit.empty();
+    c.misfit.push_back(carried ? c.count : -1);
+    if (carried) c.count += 2;
+  }
+  if (!fits.empty()) c.deflection = c.count++;
+  c.position = c.count++;
+  c.torque = c.count++;
+  return c;
+}
+
+MotionColumn motion_column(const DynamicColumns& columns, std::size_t parameter,
+                           bool linear_motion) {
+  const MotionPart part = columns.parameters[parameter].follows;
+  const bool weighted = columns.n_arm > 0;
+  return {part, weighted ? "" : std::string(motion_unit(part, linear_motion))};
+}
+
+void effect_columns(const std::vector<const Effect*>& effects, Side side, const JointSignals& s,
+                    Eigen::Ref<Eigen::MatrixXd> out) {
+  const Motion motion = motion_of(side, s);
+  Eigen::Index first = 0;
+  for (const Effect* effect : effects) {
+    const auto n = static_cast<Eigen::Index>(effect->parameters.size());
+    effect->regressor(motion, out.middleCols(first, n));
+    first += n;
+  }
+}
+
+Equation dynamic_equation(const DynamicColumns& c, const std::vector<const ElasticFit*>& fits,
+                          bool torque_held, double rest_speed) {
+  Equation equation;
+  equation.name = joint_parameter_name(to_string(c.side), c.place.joint + 1, c.place.n_joints);
+  const auto own = static_cast<std::size_t>(c.place.joint);
+  equation.columns.assign(static_cast<std::size_t>(c.count), "");
+  equation.averaged.assign(static_cast<std::size_t>(c.count), true);
+  // A held torque is exact as the mean of two samples; a measured one is averaged like everything
+  // else.
+  if (torque_held && c.side != Side::link)
+    equation.averaged[static_cast<std::size_t>(c.torque)] = false;
+  equation.rest_speed = rest_speed;
+  equation.speed = [side = c.side, own](const Signals& signals) {
+    return velocity(side, signals.joints[own]);
+  };
+  equation.fill = [c, fits, own](const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
+    const JointSignals& s = signals.joints[own];
+    if (c.n_arm > 0) fill_arm(c, signals, out.leftCols(c.n_effects));
+    effect_columns(c.effects, c.side, s, out.middleCols(c.first_effect, n_columns(c.effects)));
+    for (std::size_t k = 0; k < fits.size(); ++k) {
+      fill_elastic(*fits[k], c, signals, out.middleCols(c.elastic[k], c.n_elastic[k]));
+      if (c.misfit[k] >= 0) fill_misfit(*fits[k], s, out.middleCols(c.misfit[k], 2));
+    }
+    if (c.deflection >= 0) out.col(c.deflection) = s.theta - s.q;
+    out.col(c.position) = position(c.side, s);
+    out.col(c.torque).setZero();
+    if (c.side != Side::link) out.col(c.torque) = s.tau;
+    // A load on the link, or directly on the axis of a rigid drive, stands on the side of the
+    // torque.
+    if (c.side != Side::motor && s.tau_load.size() > 0) out.col(c.torque).array() += s.tau_load;
+  };
+  return equation;
+}
+
+Eigen::VectorXd dynamic_response(const DynamicColumns& c,
+                                 const std::vector<const ElasticFit*>& fits, std::size_t which) {
+  Eigen::VectorXd response = Eigen::VectorXd::Unit(c.count, c.torque);
+  if (fits.empty()) return response;
+  const double sign = c.side == Side::link ? 1.0 : -1.0;
+  if (c.detail == ElasticDetail::torque) {
+    response(c.elastic[which]) = sign;
+  } else {
+    response.segment(c.elastic[which], c.n_elastic[which]) =
+        sign * elastic_coefficients(*fits[which]);
+  }
+  return response;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,90 @@
+// One preload's stage 2 on its way: what is fitted to which rows, with which settings.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cablefit/dynamic/dynamic_options.hpp"
+#include "cablefit/dynamic/dynamic_result.hpp"
+#include "cablefit/dynamic/rows/dynamic_columns.hpp"
+#include "cablefit/estimate/fit/least_squares.hpp"
+#include "cablefit/estimate/tests/residual_peaks.hpp"
+
+namespace cablefit {
+
+struct DynamicJob {
+  std::span<const LogSurvey> logs;
+  const DynamicOptions& options;
+  std::string preload;
+  PartFilter wanted;
+  std::vector<const ElasticFit*> elastic;  ///< stage 1, one per entry of `models`; none when rigid
+  std::vector<std::string> models;
+  bool rigid = false;
+  ChosenSettings settings;
+  std::vector<ChosenSettings> joint_settings;  ///< of several joints, what each would choose
+  const Arm* arm = nullptr;                    ///< nullptr: the links do not move each other
+
+  int n_joints() const { return rig().n_joints(); }
+  const ChosenSettings& settings_of(int joint) const;
+  /// The first log with a wanted part, and that part.
+  const LogSurvey& first_log() const;
+  const PartSurvey& first_part() const;
+  const Rig& rig() const { return first_log().plan.rig; }
+};
+
+/// One equation of the model with its rows.
+struct EquationRows {
+  DynamicColumns columns;
+  Equation equation;
+  std::optional<RowStatistics> rows;
+  RowCounts counts;
+  /// Largest residuals, per model; guessed at by a fit to the first windows.
+  std::optional<ResidualPeaks> peaks;
+  double deflection_low = kUnbounded, deflection_high = -kUnbounded;
+  double acceleration = 0;  ///< largest magnitude, of one joint's equation
+};
+
+/// Per joint link and motor, or the one equation of a rigid drive; no rows yet.
+std::vector<EquationRows> make_equations(const DynamicJob& job);
+
+/// Places of the equations that share parameters and are solved together: the links of an arm;
+/// else each alone.
+std::vector<std::vector<std::size_t>> systems_of(const std::vector<EquationRows>& equations);
+
+/// The equations with the rows of the first `n_windows` windows of every log only.
+std::vector<EquationRows> pilot_equations(const DynamicJob& job, int n_windows);
+
+/// Streams all wanted rows into the equations.
+WindowCounts collect_rows(const DynamicJob& job, std::vector<EquationRows>& equations);
+
+/// How much the rows of an equation count beside those of the others.
+enum class Weighting { none, by_residual };
+
+/// Rows of the equations of a system as one, each equation's of weight one or weighted with
+/// 1/variance of its own residual.
+RowStatistics stacked_rows(const std::vector<EquationRows>& equations,
+                           const std::vector<std::size_t>& system,
+                           const std::vector<const ElasticFit*>& elastic, std::size_t which,
+                           Weighting weighting);
+
+/// What model number `which` fits to rows of these columns.
+LinearProblem problem_of(const DynamicColumns& columns,
+                         const std::vector<const ElasticFit*>& elastic, std::size_t which,
+                         bool linear_motion = false);
+
+/// The fit of model number `which` to rows of these columns.
+LinearSolution solve_rows(const RowStatistics& rows, const DynamicColumns& columns,
+                          const std::vector<const ElasticFit*>& elastic, std::size_t which,
+                          bool linear_motion = false);
+
+/// The fit of model number `which` to one equation.
+LinearSolution solve_equation(const EquationRows& equation,
+                              const std::vector<const ElasticFit*>& elastic, std::size_t which);
+
+/// Chooses filter, decimation, rest speeds and torque hold: fills job.settings, and the resonance
+/// and the torque delay of `preload`. `elastic`: stage 1, for its deflection range.
+void choose_settings(DynamicJob& job, DynamicPreload& preload, const ElasticResult& elastic);
+
+}  // namespace cablefit

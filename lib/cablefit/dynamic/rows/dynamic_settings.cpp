@@ -1,0 +1,177 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "cablefit/dynamic/rows/dynamic_job.hpp"
+#include "cablefit/dynamic/rows/joint_settings.hpp"
+#include "cablefit/dynamic/rows/torque_delay.hpp"
+#include "cablefit/model/modes.hpp"
+#include "cablefit/samples/rows/agreement.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr int kPilotWindows = 8;
+constexpr double kWideBand = 0.15;  // of the rate: the widest band the differences allow
+
+// f0 of the elastic drive needs inertias, which are what is looked for. A first fit with a generous
+// band gives them; the CAD values are never used.
+double resonance(double stiffness, double j_link, double j_motor) {
+  if (!(j_link > 0) || !(j_motor > 0) || !(stiffness > 0)) return 0;
+  return std::sqrt(stiffness * (1 / j_motor + 1 / j_link)) / (2 * kPi);
+}
+
+/// S df/dl S of one joint at the pose in which it alone is turned by phi.
+double stiffness_at(const Transmission& transmission, int joint, double phi) {
+  Eigen::VectorXd theta = transmission.encoder_zero();
+  theta(joint) += phi;
+  const Eigen::VectorXd q = transmission.reference_q();
+  const Eigen::VectorXd l = transmission.elongations(q, theta);
+  const Eigen::MatrixXd s = transmission.motor_coupling(theta);
+  double sum = 0;
+  for (Eigen::Index c = 0; c < l.size(); ++c)
+    sum += s(joint, c) * s(joint, c) *
+           transmission.cables[static_cast<std::size_t>(c)].stiffness(l(c));
+  return sum;
+}
+
+/// The stiffness at the middle of the torque range used, for f0.
+double typical_stiffness(const ElasticFit& fit, const ElasticPreload& preload) {
+  if (fit.transmission.cables.empty()) return fit.transmission.linear_stiffness(0);
+  double sum = 0;
+  const double q = fit.transmission.reference_q()(0);
+  const double centre = fit.transmission.reference_theta()(0) - q;
+  const double deflection =
+      0.5 * std::max(centre - preload.deflection_low, preload.deflection_high - centre);
+  for (const Cable& cable : fit.transmission.cables) {
+    for (const double phi : {centre - deflection, centre + deflection}) {
+      const double r = cable.motor_map.front().radius(q + phi);
+      sum += 0.5 * r * r * cable.stiffness(elongation_at(fit.transmission, cable, phi));
+    }
+  }
+  return sum;
+}
+
+/// The same of one of several joints, the others at rest in the reference pose.
+double typical_stiffness(const ElasticFit& fit, const ElasticPreload& preload, int joint) {
+  if (fit.transmission.cables.empty()) return fit.transmission.linear_stiffness(joint);
+  const ElasticJoint& own = preload.joints[static_cast<std::size_t>(joint)];
+  const double deflection = 0.5 * std::max(-own.deflection_low, own.deflection_high);
+  return 0.5 * (stiffness_at(fit.transmission, joint, -deflection) +
+                stiffness_at(fit.transmission, joint, deflection));
+}
+
+const ElasticPreload* stage1_of(const ElasticResult& elastic, const std::string& preload) {
+  for (const ElasticPreload& stage1 : elastic.preloads)
+    if (stage1.name == preload) return &stage1;
+  return nullptr;
+}
+
+SampleOptions wide_band(const DynamicJob& job, double rate) {
+  SampleOptions wide = job.options.samples;
+  if (!wide.cutoff) wide.cutoff = kWideBand * rate;
+  return wide;
+}
+
+/// Free resonance of every joint by a preliminary fit with the job's settings; 0: it lies beyond
+/// half the rate, or no inertia comes out.
+std::vector<double> pilot_resonances(DynamicJob& job, const ElasticResult& elastic) {
+  const double rate = sample_rates(job.logs, job.wanted).lowest;
+  const int n = job.n_joints();
+  const Arm* arm = std::exchange(job.arm, nullptr);  // each link for itself: near enough
+  const std::vector<EquationRows> pilot = pilot_equations(job, kPilotWindows);
+  job.arm = arm;
+  const std::size_t last = job.elastic.size() - 1;
+  const ElasticPreload* stage1 = stage1_of(elastic, job.preload);
+  std::vector<double> resonances;
+  for (int joint = 0; joint < n; ++joint) {
+    const std::size_t link = 2 * static_cast<std::size_t>(joint);
+    const double j_link = solve_equation(pilot[link], job.elastic, last).x(0);
+    const double j_motor = solve_equation(pilot[link + 1], job.elastic, last).x(0);
+    const ElasticFit& fit = *job.elastic[last];
+    const double stiffness = stage1 == nullptr ? 0
+                             : n == 1          ? typical_stiffness(fit, *stage1)
+                                               : typical_stiffness(fit, *stage1, joint);
+    const double f0 = resonance(stiffness, j_link, j_motor);
+    resonances.push_back(f0 < rate / 2 ? f0 : 0);
+  }
+  return resonances;
+}
+
+/// Noise of the encoders keeps some joint's cut-off below what its resonance asks for.
+bool is_noise_limited(const DynamicJob& job) {
+  for (int joint = 0; joint < job.n_joints(); ++joint) {
+    const ChosenSettings& own = job.settings_of(joint);
+    if (own.resonance > 0 && own.rows.signal.cutoff < own.resonance) return true;
+  }
+  return false;
+}
+
+/// Chooses the settings by the free resonances. The wide band of the first look lets encoder noise
+/// in, which makes inertias too small and resonances too high: where the chosen cut-off shows that,
+/// a second look goes by it.
+std::vector<double> choose_by_resonances(DynamicJob& job, const ElasticResult& elastic) {
+  const double rate = sample_rates(job.logs, job.wanted).lowest;
+  choose_joint_settings(job, wide_band(job, rate),
+                        std::vector<double>(static_cast<std::size_t>(job.n_joints())));
+  std::vector<double> resonances = pilot_resonances(job, elastic);
+  choose_joint_settings(job, job.options.samples, resonances);
+  if (job.options.samples.cutoff || !is_noise_limited(job)) return resonances;
+  const std::vector<double> second = pilot_resonances(job, elastic);
+  for (std::size_t k = 0; k < second.size(); ++k)
+    if (second[k] > 0) resonances[k] = second[k];
+  choose_joint_settings(job, job.options.samples, resonances);
+  return resonances;
+}
+
+/// Of the joint that tells it best: all drives are taken to be of one kind.
+TorqueDelay find_delay(const DynamicJob& job) {
+  std::optional<TorqueDelay> best;
+  const int n = job.n_joints();
+  for (int joint = 0; joint < n; ++joint) {
+    RowSettings rows = job.settings.rows;
+    const ChosenSettings& own = job.settings_of(joint);
+    rows.signal.cutoff = own.rows.signal.cutoff;
+    TorqueDelay delay = estimate_torque_delay(
+        job.logs, job.wanted, rows, own.rest_speed_theta, job.rigid ? Side::rigid : Side::motor,
+        job.rigid ? nullptr : job.elastic.back(), {joint, n, nullptr});
+    if (n > 1) delay.reason = fmt::format("joint {}: {}", joint + 1, delay.reason);
+    if (!best || (delay.estimated && (!best->estimated || delay.sd < best->sd)))
+      best = std::move(delay);
+  }
+  return *best;
+}
+
+}  // namespace
+
+void choose_settings(DynamicJob& job, DynamicPreload& preload, const ElasticResult& elastic) {
+  std::vector<double> resonances = {0};
+  if (job.rigid)
+    choose_joint_settings(job, job.options.samples, resonances);
+  else
+    resonances = choose_by_resonances(job, elastic);
+  preload.resonance = *std::max_element(resonances.begin(), resonances.end());
+  job.settings.rows.signal.torque_period = job.rig().torque_period;
+  preload.delay = find_delay(job);
+  const TorqueHold hold = job.options.samples.torque_hold.value_or(job.rig().torque_hold);
+  std::string reason = preload.delay.reason;
+  if (hold != TorqueHold::automatic) {
+    const bool held = hold == TorqueHold::zoh;
+    if (preload.delay.undecided)
+      preload.delay.warning.clear();
+    else if (preload.delay.estimated && held != preload.delay.held && preload.delay.warning.empty())
+      preload.delay.warning = fmt::format("torque hold {} was given, but {}", held ? "zoh" : "none",
+                                          preload.delay.reason);
+    preload.delay.held = held;
+    reason = "given; " + reason;
+  }
+  job.settings.decisions.push_back({"torque hold", preload.delay.held ? "zoh" : "none", reason});
+  if (!preload.delay.warning.empty()) preload.warnings.push_back(preload.delay.warning);
+  job.settings.rows.signal.torque_held = preload.delay.held;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,92 @@
+// Linear least squares on RowStatistics: scaled columns, QR, physical bounds, rank told in words,
+// white and honest covariance; two-stage least squares when there are instruments.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "cablefit/estimate/solve/motion_advice.hpp"
+#include "cablefit/estimate/solve/row_statistics.hpp"
+#include "cablefit/estimate/solve/scaled_solve.hpp"
+
+namespace cablefit {
+
+/// Minimise |rows * (response - sum_j regressors[j] x_j)|. Columns of the rows are addressed by
+/// index; the response is a combination of columns (tau + Z K, say), so `response` is n_columns
+/// long.
+struct LinearProblem {
+  std::vector<Eigen::Index> regressors;
+  std::vector<std::string> names;  ///< one per regressor, for messages
+  std::vector<double> lower;       ///< bound per regressor, 0 or -inf; empty: no bounds
+  Eigen::VectorXd response;
+  /// Per regressor why it is held at 0 instead of estimated ("never taut"); empty: it is estimated.
+  std::vector<std::string> held = {};
+  /// constraints * x >= 0, a column per regressor; no rows: none.
+  Eigen::MatrixXd constraints = {};
+  /// Per regressor what it follows, for advice in messages; none is given for those beyond its end.
+  std::vector<MotionColumn> motion = {};
+  /// Share of the largest singular value (scaled columns) below which columns cannot be told apart;
+  /// smaller for data that are exact by definition.
+  double rank_tolerance = kMeasuredRankTolerance;
+  /// Columns Z, at least one per regressor that is estimated, for instrumental variables: then
+  /// |Q'rows * (response - ...)| is minimised with Q an orthonormal basis of Z, so that without
+  /// bounds x = (W'P W)^-1 W'P y, P = Z (Z'Z)^-1 Z', which is (Z'W)^-1 Z'y for as many instruments
+  /// as regressors (Wright 1928; Young & Jakeman 1979; Janot, Vandanjon & Gautier 2014). A
+  /// regressor without error is its own instrument. Empty: ordinary least squares.
+  std::vector<Eigen::Index> instruments = {};
+};
+
+/// Ends of an interval; infinite where the profile stays low, NaN where there is none.
+struct ProfileInterval {
+  double low = 0, high = 0;
+};
+
+struct LinearSolution {
+  Eigen::VectorXd x;                 ///< estimates; 0 where not determined
+  Eigen::MatrixXd covariance_white;  ///< the paper's (25), sigma^2 (W'W)^-1
+  /// Honest: HAC sandwich over the cells, never below the white one; the white one without cells.
+  Eigen::MatrixXd covariance;
+  Eigen::MatrixXd solve_operator;  ///< (W'W)^-1, p x p; 0 rows for fixed or undetermined
+  /// n_columns x p: rows * this = What, the regressors, or what the instruments explain of them
+  /// (P W); x answers to the response by solve_operator What'. W'W above is What'What then.
+  Eigen::MatrixXd score_columns;
+  /// Per parameter the share (0..1) of what the other regressors leave of its column that the
+  /// instruments explain: partial R^2 (Shea 1997; Godfrey 1999). 1 without instruments.
+  Eigen::VectorXd first_stage;
+  std::vector<Eigen::Index> instruments;      ///< of the problem
+  std::vector<std::string> not_identifiable;  ///< per parameter, empty text when it is determined
+  std::vector<bool> at_bound;  ///< at 0, by a bound or by constraints that leave no way out
+  /// Rows of problem.constraints that hold the solution. Then covariances are conditional on them:
+  /// as if constraints * x = 0 were known for these rows, with n_tied directions fewer.
+  std::vector<Eigen::Index> active_constraints;
+  Eigen::VectorXd unbounded_x, unbounded_sd;  ///< of the fit without bounds; honest
+  /// Where bounds or constraints hold the solution: 95 % intervals per parameter from the profile
+  /// of |residual|^2 under them, with the honest scale (profile_interval.hpp). Else empty.
+  std::vector<ProfileInterval> profile;
+  Eigen::VectorXd residual_combination;  ///< n_columns: rows * this = residual
+  double rss = 0;                        ///< sum of squared residuals
+  Eigen::Index n_rows = 0;
+  int n_tied = 0;                     ///< active constraints between parameters not at a bound
+  int n_params = 0;                   ///< determined, not at a bound, not tied
+  double condition_scaled = 0;        ///< of the columns scaled to unit norm
+  double condition = 0;               ///< of the columns as they are, cond(W)
+  double degrees_of_freedom = 0;      ///< for t quantiles
+  double effective_rows = 0;          ///< effective sample size
+  Eigen::MatrixXd correlation;        ///< of the estimates (white)
+  std::vector<std::string> warnings;  ///< hardly_apart() of identifiability.hpp
+
+  double rms() const;
+};
+
+/// Throws nothing for rank deficiency or too few rows: that is a result, told in not_identifiable.
+LinearSolution solve(const RowStatistics& rows, const LinearProblem& problem);
+
+/// Largest change of a parameter from one solution to another of the same problem, in sd of `to`:
+/// the measure by which an iteration stands still. 0 where no parameter has an sd.
+double largest_change_in_sd(const LinearSolution& from, const LinearSolution& to);
+
+/// Root mean square of rows * combination over the given cells (held-out blocks), from their Grams.
+double rms_on_cells(const std::vector<const GramCell*>& cells, const Eigen::VectorXd& combination);
+
+}  // namespace cablefit

@@ -1,0 +1,118 @@
+#include "cablefit/estimate/solve/row_statistics.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <map>
+
+#include "cablefit/estimate/solve/cell_places.hpp"
+#include "cablefit/estimate/solve/tall_qr.hpp"
+
+namespace cablefit {
+
+std::vector<Eigen::Index> cell_places(const std::vector<GramCell>& cells) {
+  std::vector<Eigen::Index> places;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const Eigen::Index step = c == 0 ? 0 : cells[c].id - cells[c - 1].id;
+    places.push_back(c == 0 ? 0 : places.back() + std::clamp<Eigen::Index>(step, 1, kLongestGap));
+  }
+  return places;
+}
+
+Eigen::MatrixXd series_over_time(
+    const std::vector<GramCell>& cells, Eigen::Index n_columns,
+    const std::function<Eigen::RowVectorXd(const GramCell&)>& of_cell) {
+  const std::vector<Eigen::Index> places = cell_places(cells);
+  Eigen::MatrixXd series = Eigen::MatrixXd::Zero(places.empty() ? 0 : places.back() + 1, n_columns);
+  for (std::size_t c = 0; c < cells.size(); ++c) series.row(places[c]) = of_cell(cells[c]);
+  return series;
+}
+
+StreamingQr::StreamingQr(Eigen::Index n_columns)
+    : r_(Eigen::MatrixXd::Zero(n_columns, n_columns)) {}
+
+void StreamingQr::absorb(const Eigen::MatrixXd& r) {
+  Eigen::MatrixXd stack(r_.rows() + r.rows(), r_.cols());
+  stack << r_, r;
+  Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> qr(stack);
+  r_ = qr.matrixQR().topRows(r_.rows()).triangularView<Eigen::Upper>();
+}
+
+void StreamingQr::add(const Rows& rows) { absorb(tall_qr(rows)); }
+
+void StreamingQr::add(const StreamingQr& other, double scale) { absorb(scale * other.r_); }
+
+RowStatistics::RowStatistics(Eigen::Index n_columns, bool with_cells, Eigen::Index cell_rows)
+    : n_columns_(n_columns), cell_rows_(cell_rows), with_cells_(with_cells), qr_(n_columns) {}
+
+RowStatistics::RowStatistics(Eigen::Index n_columns, Eigen::Index expected_rows, bool with_cells)
+    : RowStatistics(n_columns, with_cells,
+                    std::max<Eigen::Index>(1, (expected_rows + kMaxCells - 1) / kMaxCells)) {}
+
+RowStatistics RowStatistics::empty_copy() const {
+  return RowStatistics(n_columns_, with_cells_, cell_rows_);
+}
+
+void RowStatistics::add(const Rows& rows, std::span<const Eigen::Index> numbers) {
+  if (rows.rows() == 0) return;
+  qr_.add(rows);
+  if (with_cells_) add_to_cells(rows, numbers);
+  n_rows_ += rows.rows();
+}
+
+void RowStatistics::add_to_cells(const Rows& rows, std::span<const Eigen::Index> numbers) {
+  Eigen::Index begin = 0;
+  while (begin < rows.rows()) {
+    const Eigen::Index id = numbers[static_cast<std::size_t>(begin)] / cell_rows_;
+    Eigen::Index end = begin + 1;
+    while (end < rows.rows() && numbers[static_cast<std::size_t>(end)] / cell_rows_ == id) ++end;
+    if (cells_.empty() || cells_.back().id != id)
+      cells_.push_back({id, 0, Eigen::MatrixXd::Zero(n_columns_, n_columns_)});
+    GramCell& cell = cells_.back();
+    const auto part = rows.middleRows(begin, end - begin);
+    cell.gram.noalias() += part.transpose() * part;
+    cell.n_rows += end - begin;
+    begin = end;
+  }
+}
+
+void RowStatistics::add(const RowStatistics& later) {
+  if (later.n_rows_ == 0) return;
+  qr_.add(later.qr_);
+  for (const GramCell& cell : later.cells_) {
+    if (!cells_.empty() && cells_.back().id == cell.id) {
+      cells_.back().gram += cell.gram;
+      cells_.back().n_rows += cell.n_rows;
+    } else {
+      cells_.push_back(cell);
+    }
+  }
+  n_rows_ += later.n_rows_;
+}
+
+RowStatistics RowStatistics::weighted(std::span<const RowStatistics* const> equations,
+                                      std::span<const double> weights) {
+  assert(!equations.empty() && equations.size() == weights.size());
+  RowStatistics all = equations.front()->empty_copy();
+  std::map<Eigen::Index, GramCell> cells;
+  for (std::size_t k = 0; k < equations.size(); ++k) {
+    const RowStatistics& one = *equations[k];
+    assert(one.n_columns_ == all.n_columns_ && one.cell_rows_ == all.cell_rows_);
+    all.qr_.add(one.qr_, std::sqrt(weights[k]));
+    all.n_rows_ += one.n_rows_;
+    for (const GramCell& cell : one.cells_) {
+      const auto [at, is_new] = cells.try_emplace(cell.id, cell);
+      if (is_new) {
+        at->second.gram *= weights[k];
+      } else {
+        at->second.gram += weights[k] * cell.gram;
+        at->second.n_rows += cell.n_rows;
+      }
+    }
+  }
+  for (auto& [id, cell] : cells) all.cells_.push_back(std::move(cell));
+  return all;
+}
+
+}  // namespace cablefit

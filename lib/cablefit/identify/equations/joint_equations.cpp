@@ -1,0 +1,192 @@
+#include "cablefit/identify/equations/joint_equations.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace cablefit {
+namespace {
+
+Eigen::Index n_coefficients(const Transmission& transmission) {
+  Eigen::Index n = 0;
+  for (const Cable& cable : transmission.cables) n += cable.n_coefficients();
+  return n;
+}
+
+/// Torque per unit coefficient, and its derivative with respect to l; rows x coefficients each.
+void fill_elastic(const Transmission& transmission, const JointSignals& s, bool motor_side,
+                  Eigen::Ref<Eigen::MatrixXd> basis, Eigen::Ref<Eigen::MatrixXd> slope) {
+  const Eigen::ArrayXd turned = s.theta - transmission.encoder_zero()(0);
+  std::array<double, kMaxCableOrder> value{}, rise{};
+  Eigen::Index first = 0;
+  for (const Cable& cable : transmission.cables) {
+    const Eigen::ArrayXd l = cable.motor_map.front().displacements(turned) -
+                             cable.link_map.front().displacements(s.q) + cable.shift();
+    const Eigen::ArrayXd gain =
+        motor_side ? cable.motor_map.front().radii(turned) : cable.link_map.front().radii(s.q);
+    const LawShape shape = cable.shape();
+    for (Eigen::Index i = 0; i < l.size(); ++i) {
+      value.fill(0);
+      rise.fill(0);
+      if (l(i) > 0) {
+        cable.law->basis(shape, l(i), value.data());
+        cable.law->slope(shape, l(i), rise.data());
+      }
+      for (int k = 0; k < cable.n_coefficients(); ++k) {
+        basis(i, first + k) = gain(i) * value[static_cast<std::size_t>(k)];
+        slope(i, first + k) = gain(i) * rise[static_cast<std::size_t>(k)];
+      }
+    }
+    first += cable.n_coefficients();
+  }
+}
+
+/// Columns of `base`, the deflection, then those of every trial.
+Equation widened(const JointEquation& equation, const std::vector<Transmission>& trials) {
+  const Eigen::Index n_base = equation.n_base();
+  const Eigen::Index n = n_coefficients(trials.front());
+  Equation wide = equation.base;
+  const auto extra = static_cast<std::size_t>(1 + 2 * n * static_cast<Eigen::Index>(trials.size()));
+  // Averaged like the other columns of the same equation: see Decimation.
+  const bool averaged = equation.base.averaged.empty() || equation.base.averaged.front();
+  wide.columns.resize(wide.columns.size() + extra);
+  wide.averaged.resize(wide.columns.size(), averaged);
+  wide.fill = [base = equation.base, n_base, n, trials, motor_side = equation.motor_side](
+                  const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
+    base.fill(signals, out.leftCols(n_base));
+    const JointSignals& s = signals.joints[0];
+    out.col(n_base) = s.theta - trials.front().encoder_zero()(0) - s.q;
+    Eigen::Index first = n_base + 1;
+    for (const Transmission& trial : trials) {
+      fill_elastic(trial, s, motor_side, out.middleCols(first, n), out.middleCols(first + n, n));
+      first += 2 * n;
+    }
+  };
+  return wide;
+}
+
+/// The same with l - l_o of every cable, last.
+Equation with_displacements(Equation equation, const Transmission& cables) {
+  const auto n = static_cast<Eigen::Index>(equation.columns.size());
+  equation.columns.resize(equation.columns.size() + cables.cables.size());
+  equation.averaged.resize(equation.columns.size(), equation.averaged.front());
+  equation.fill = [fill = std::move(equation.fill), n, cables](const Signals& signals,
+                                                               Eigen::Ref<Eigen::MatrixXd> out) {
+    fill(signals, out.leftCols(n));
+    const JointSignals& s = signals.joints[0];
+    const Eigen::ArrayXd turned = s.theta - cables.encoder_zero()(0);
+    Eigen::Index column = n;
+    for (const Cable& cable : cables.cables)
+      out.col(column++) = cable.motor_map.front().displacements(turned) -
+                          cable.link_map.front().displacements(s.q) - cable.reference_displacement;
+  };
+  return equation;
+}
+
+/// One window's share of one equation, per trial.
+struct Share {
+  std::vector<RowStatistics> rows;
+  EquationFacts facts;
+};
+
+Share share_of(const EquationBatch& batch, Eigen::Index n_shared, Eigen::Index n_own,
+               std::size_t n_trials, const RowStatistics& blank) {
+  Share share;
+  share.facts.counts = batch.counts;
+  const Eigen::Index n_of_trials = n_shared + static_cast<Eigen::Index>(n_trials) * n_own;
+  share.facts.displacements.resize(static_cast<std::size_t>(batch.rows.cols() - n_of_trials));
+  share.rows.assign(n_trials, blank.empty_copy());
+  if (batch.rows.rows() == 0) return share;
+  share.facts.deflection_low = batch.rows.col(n_shared - 1).minCoeff();
+  share.facts.deflection_high = batch.rows.col(n_shared - 1).maxCoeff();
+  for (std::size_t c = 0; c < share.facts.displacements.size(); ++c)
+    share.facts.displacements[c].include(
+        batch.rows.col(n_of_trials + static_cast<Eigen::Index>(c)));
+  Eigen::MatrixXd rows(batch.rows.rows(), n_shared + n_own);
+  rows.leftCols(n_shared) = batch.rows.leftCols(n_shared);
+  for (std::size_t t = 0; t < n_trials; ++t) {
+    const Eigen::Index first = n_shared + static_cast<Eigen::Index>(t) * n_own;
+    rows.rightCols(n_own) = batch.rows.middleCols(first, n_own);
+    share.rows[t].add(rows, batch.numbers);
+  }
+  return share;
+}
+
+void collect_record(std::span<const LogSurvey> logs, const JointRecord& record,
+                    const std::vector<Transmission>& trials, bool with_cells, int threads,
+                    JointRows& out) {
+  const Eigen::Index n_own = 2 * n_coefficients(trials.front());
+  const Eigen::Index expected = expected_rows(logs, record.wanted, record.settings);
+  std::vector<Equation> wide;
+  std::vector<RowStatistics> blank;
+  const std::size_t first = out.facts.size();
+  for (const JointEquation& equation : record.equations) {
+    wide.push_back(with_displacements(widened(equation, trials), trials.front()));
+    blank.emplace_back(equation.n_base() + 1 + n_own, expected, with_cells);
+    for (auto& trial : out.rows) trial.push_back(blank.back());
+    out.facts.emplace_back().displacements.resize(trials.front().cables.size());
+  }
+  stream_rows(
+      logs, record.wanted, record.settings, wide, threads,
+      [&](const RowBatch& batch) {
+        std::vector<Share> shares;
+        for (std::size_t e = 0; e < wide.size(); ++e)
+          shares.push_back(share_of(batch.equations[e], record.equations[e].n_base() + 1, n_own,
+                                    trials.size(), blank[e]));
+        return shares;
+      },
+      [&](const std::vector<Share>& shares) {
+        for (std::size_t e = 0; e < wide.size(); ++e) {
+          for (std::size_t t = 0; t < trials.size(); ++t)
+            out.rows[t][first + e].add(shares[e].rows[t]);
+          out.facts[first + e] += shares[e].facts;
+        }
+      });
+}
+
+}  // namespace
+
+EquationFacts& EquationFacts::operator+=(const EquationFacts& other) {
+  counts += other.counts;
+  deflection_low = std::min(deflection_low, other.deflection_low);
+  deflection_high = std::max(deflection_high, other.deflection_high);
+  for (std::size_t c = 0; c < displacements.size(); ++c)
+    displacements[c].include(other.displacements[c]);
+  return *this;
+}
+
+JointColumns joint_columns(const JointEquation& equation, Eigen::Index n) {
+  const Eigen::Index basis = equation.n_base() + 1;
+  return {equation.n_base(), basis, basis + n, basis + 2 * n};
+}
+
+Equation equation_at(const JointEquation& equation, const Transmission& cables) {
+  return widened(equation, {cables});
+}
+
+Transmission with_elongations(Transmission transmission, const Eigen::VectorXd& l_o) {
+  for (std::size_t c = 0; c < transmission.cables.size(); ++c)
+    transmission.cables[c].initial_elongation = l_o(static_cast<Eigen::Index>(c));
+  return transmission;
+}
+
+Eigen::VectorXd elongations_of(const Transmission& transmission) {
+  Eigen::VectorXd l_o(static_cast<Eigen::Index>(transmission.cables.size()));
+  for (std::size_t c = 0; c < transmission.cables.size(); ++c)
+    l_o(static_cast<Eigen::Index>(c)) = transmission.cables[c].initial_elongation;
+  return l_o;
+}
+
+JointRows collect(std::span<const LogSurvey> logs, const PreloadJob& job,
+                  const std::vector<Eigen::VectorXd>& elongations, bool with_cells, int threads) {
+  std::vector<Transmission> trials;
+  for (const Eigen::VectorXd& l_o : elongations)
+    trials.push_back(with_elongations(job.transmission, l_o));
+  JointRows out;
+  out.rows.resize(trials.size());
+  for (const JointRecord& record : job.records)
+    collect_record(logs, record, trials, with_cells, threads, out);
+  return out;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,193 @@
+#include "cablefit/identify/equations/joint_model.hpp"
+
+#include <algorithm>
+
+#include "cablefit/identify/equations/equilibrium.hpp"
+#include "cablefit/model/effects.hpp"
+
+namespace cablefit {
+namespace {
+
+bool has_own(const PreloadJob& job, std::string_view name) {
+  for (const JointRecord& record : job.records)
+    for (const JointEquation& equation : record.equations)
+      for (const JointEquation::Own& own : equation.own)
+        if (own.name == name) return true;
+  return false;
+}
+
+void add_coefficients(const Transmission& transmission, bool cable_space, JointLayout& layout) {
+  for (std::size_t c = 0; c < transmission.cables.size(); ++c) {
+    const Cable& cable = transmission.cables[c];
+    for (int k = 0; k < cable.n_coefficients(); ++k) {
+      const std::string name = coefficient_name(cable, k, cable_space);
+      layout.parameters.push_back(
+          {name, name, coefficient_unit(*cable.law, k, cable_space), -kUnbounded, kShared, c});
+    }
+  }
+  layout.n_coefficients = static_cast<Eigen::Index>(layout.parameters.size());
+}
+
+/// Parameters of the effects of one kind, inertias or others.
+void add_effects(const std::vector<PreloadJob>& jobs, bool inertias, bool apart,
+                 JointLayout& layout) {
+  const auto add = [&](int preload, const auto& is_used) {
+    for (const Side side : {Side::link, Side::motor})
+      for (const Effect& effect : base_effects(side)) {
+        if ((effect.inertia != nullptr) != inertias) continue;
+        for (const ParameterInfo& info : effect.parameters)
+          if (is_used(info.name))
+            layout.parameters.push_back({std::string(info.name), std::string(info.symbol),
+                                         std::string(info.unit), info.lower, preload, 0, inertias});
+      }
+  };
+  if (!apart)
+    return add(kShared, [&](std::string_view name) {
+      return std::any_of(jobs.begin(), jobs.end(),
+                         [&](const PreloadJob& job) { return has_own(job, name); });
+    });
+  for (std::size_t j = 0; j < jobs.size(); ++j)
+    add(static_cast<int>(j), [&](std::string_view name) { return has_own(jobs[j], name); });
+}
+
+/// Frictions of blocked sweeps.
+void add_blocked(const std::vector<PreloadJob>& jobs, JointLayout& layout) {
+  for (std::size_t j = 0; j < jobs.size(); ++j) {
+    const int place = static_cast<int>(j);
+    if (has_own(jobs[j], kBlockedFriction))
+      layout.parameters.push_back({kBlockedFriction, kBlockedFriction, "N m", 0, place, 0});
+    if (has_own(jobs[j], kCreep))
+      layout.parameters.push_back({kCreep, kCreep, "N m s/rad", -kUnbounded, place, 0});
+  }
+}
+
+void add_elongations(const std::vector<PreloadJob>& jobs, JointLayout& layout) {
+  for (std::size_t j = 0; j < jobs.size(); ++j)
+    for (std::size_t c = 0; c < jobs[j].searched.size(); ++c) {
+      if (!jobs[j].searched[c]) continue;
+      const std::string name = elongation_name(jobs[j].transmission.cables[c]);
+      layout.parameters.push_back({name, name, std::string(elongation_unit(jobs[j].cable_space)),
+                                   -kUnbounded, static_cast<int>(j), c});
+    }
+}
+
+/// The link's inertia of a preload, or of all when the same load rides on it; shared under several
+/// loads it stays that of the link alone.
+void add_loads(const std::vector<PreloadJob>& jobs, JointLayout& layout) {
+  const double first = jobs.front().load_inertia;
+  const bool same = std::all_of(jobs.begin(), jobs.end(),
+                                [&](const PreloadJob& job) { return job.load_inertia == first; });
+  for (const Effect& effect : base_effects(Side::link))
+    for (const ParameterInfo& info : effect.parameters)
+      for (JointParameter& p : layout.parameters) {
+        if (effect.inertia == nullptr || p.name != info.name) continue;
+        if (p.preload != kShared) p.known = jobs[static_cast<std::size_t>(p.preload)].load_inertia;
+        if (p.preload == kShared && same) p.known = first;
+      }
+}
+
+/// Coefficients of cable space have those of cables whatever the axis.
+void use_units_of_axis(const PreloadJob& job, JointLayout& layout) {
+  if (!job.linear_motion) return;
+  const std::size_t first =
+      job.cable_space ? static_cast<std::size_t>(layout.n_coefficients) : std::size_t{0};
+  for (std::size_t k = first; k < layout.parameters.size(); ++k)
+    layout.parameters[k].unit = linear_unit(layout.parameters[k].unit);
+}
+
+JointBlock block_of(const JointEquation& equation, const PreloadJob& job, int place,
+                    const RowStatistics& rows, const JointLayout& layout, const JointForm& form,
+                    Eigen::Index n_params) {
+  const JointColumns c = joint_columns(equation, layout.n_coefficients);
+  JointBlock block;
+  block.rows = &rows;
+  block.response = Eigen::VectorXd::Unit(c.count, equation.response);
+  block.regressors = Eigen::MatrixXd::Zero(c.count, n_params);
+  for (const JointEquation::Own& own : equation.own) {
+    const Eigen::Index k = layout.find(own.name, place);
+    block.regressors(own.column, k) = 1;
+    if (layout.parameters[static_cast<std::size_t>(k)].inertia && !equation.motor_side)
+      block.response(own.column) -= job.load_inertia;
+  }
+  for (const JointEquation::Given& given : equation.given)
+    block.response(given.column) -= *given.parameter.given;
+  for (Eigen::Index k = 0; k < layout.n_coefficients; ++k)
+    block.regressors(c.basis + k, k) = equation.sign();
+  if (!form.coefficients) return block;
+  Eigen::Index first = 0;
+  for (const Cable& cable : job.transmission.cables) {
+    const Eigen::Index column = layout.find(elongation_name(cable), place);
+    for (int k = 0; column >= 0 && k < cable.n_coefficients(); ++k)
+      block.regressors(c.slope + first + k, column) =
+          equation.sign() * (*form.coefficients)(first + k);
+    first += cable.n_coefficients();
+  }
+  return block;
+}
+
+}  // namespace
+
+Eigen::Index JointLayout::find(std::string_view name, int preload) const {
+  for (std::size_t k = 0; k < parameters.size(); ++k)
+    if (parameters[k].name == name &&
+        (parameters[k].preload == kShared || parameters[k].preload == preload))
+      return static_cast<Eigen::Index>(k);
+  return -1;
+}
+
+JointLayout joint_layout(const std::vector<PreloadJob>& jobs, bool inertias_apart) {
+  JointLayout layout;
+  add_coefficients(jobs.front().transmission, jobs.front().cable_space, layout);
+  add_effects(jobs, true, inertias_apart, layout);
+  add_effects(jobs, false, true, layout);
+  add_blocked(jobs, layout);
+  layout.n_linear = static_cast<Eigen::Index>(layout.parameters.size());
+  add_elongations(jobs, layout);
+  use_units_of_axis(jobs.front(), layout);
+  add_loads(jobs, layout);
+  return layout;
+}
+
+JointProblem joint_problem(const std::vector<PreloadJob>& jobs, const JointLayout& layout,
+                           const JointInput& input, const std::vector<double>& weights,
+                           const JointForm& form) {
+  const Eigen::Index n_params =
+      form.coefficients ? static_cast<Eigen::Index>(layout.parameters.size()) : layout.n_linear;
+  JointProblem problem;
+  for (Eigen::Index k = 0; k < n_params; ++k)
+    problem.names.push_back(layout.parameters[static_cast<std::size_t>(k)].name);
+  problem.equalities.resize(0, n_params);
+  int record_number = 0;
+  for (std::size_t j = 0; j < jobs.size(); ++j) {
+    const int place = static_cast<int>(j);
+    std::size_t e = 0;
+    for (const JointRecord& record : jobs[j].records) {
+      for (const JointEquation& equation : record.equations) {
+        problem.blocks.push_back(
+            block_of(equation, jobs[j], place, (*input.rows[j])[e++], layout, form, n_params));
+        problem.blocks.back().weight = weights[problem.blocks.size() - 1];
+        problem.blocks.back().record = record_number;
+      }
+      ++record_number;
+    }
+    if (!form.equilibrium) continue;
+    const Eigen::MatrixXd rows =
+        equilibrium_rows(jobs[j], place, input.l_o[j], layout, form.coefficients);
+    problem.equalities.conservativeResize(problem.equalities.rows() + rows.rows(), n_params);
+    problem.equalities.bottomRows(rows.rows()) = rows;
+  }
+  return problem;
+}
+
+Transmission fitted_cables(const PreloadJob& job, const Eigen::VectorXd& l_o,
+                           const Eigen::VectorXd& x) {
+  Transmission transmission = with_elongations(job.transmission, l_o);
+  Eigen::Index next = 0;
+  for (Cable& cable : transmission.cables) {
+    cable.coefficients.assign(static_cast<std::size_t>(cable.n_coefficients()), 0.0);
+    for (double& coefficient : cable.coefficients) coefficient = x(next++);
+  }
+  return transmission;
+}
+
+}  // namespace cablefit

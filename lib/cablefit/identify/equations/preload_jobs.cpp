@@ -1,0 +1,145 @@
+#include "cablefit/identify/equations/preload_jobs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cablefit/elastic/blocked_rows.hpp"
+#include "cablefit/identify/equations/equilibrium.hpp"
+#include "cablefit/samples/rows/agreement.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr int kDefaultOrder = 2;  // the paper's
+
+PartFilter parts_of(const std::string& preload) {
+  return [preload](const PartSurvey& part) { return part.preload == preload; };
+}
+
+bool same_map(const DisplacementMap& a, const DisplacementMap& b) {
+  return a.kind == b.kind && a.kind->entries(a.parameters) == b.kind->entries(b.parameters);
+}
+
+/// Cables of one rig are those of the other: only l_o may differ.
+bool same_cables(const Transmission& a, const Transmission& b) {
+  if (a.cables.size() != b.cables.size()) return false;
+  for (std::size_t c = 0; c < a.cables.size(); ++c) {
+    const Cable &x = a.cables[c], &y = b.cables[c];
+    if (x.name != y.name || x.law != y.law || x.order != y.order || x.toe != y.toe) return false;
+    if (!same_map(x.motor_map.front(), y.motor_map.front()) ||
+        !same_map(x.link_map.front(), y.link_map.front()))
+      return false;
+  }
+  return true;
+}
+
+Transmission cables_of(const Rig& rig, int order) {
+  if (order > 0) return with_order(rig.transmission, order);
+  return rig.cables_given ? rig.transmission : with_order(rig.transmission, kDefaultOrder);
+}
+
+/// Per cable whether l_o is looked for, and why.
+std::vector<bool> searched_cables(const Rig& rig, const IdentifyOptions& options, bool several,
+                                  std::string& reason) {
+  const std::size_t n = rig.transmission.cables.size();
+  std::vector<bool> searched(n, false);
+  for (std::size_t c = 0; c < rig.search_elongation.size() && c < n; ++c)
+    searched[c] = rig.search_elongation[c];
+  reason = "by the rig file";
+  if (options.elongations == ElongationMode::search) {
+    reason = options.search_reason;
+    return std::vector<bool>(n, true);
+  }
+  if (options.elongations == ElongationMode::known) {
+    reason =
+        rig.cables_given ? "given; those of the rig file" : "given; 0, no cables in a rig file";
+    if (std::find(searched.begin(), searched.end(), true) != searched.end())
+      throw input_error({rig.path, 0, 0}, "the rig file says to search an initial elongation",
+                        "give a number, or leave --l-o known out");
+    return searched;
+  }
+  if (rig.cables_given) return searched;
+  reason =
+      several ? "several preloads, and no cables in the rig file to tell" : "one preload alone";
+  return std::vector<bool>(n, several);
+}
+
+void decide_elongations(PreloadJob& job, bool several, const IdentifyOptions& options,
+                        PreloadFacts& facts) {
+  std::string reason;
+  job.searched = searched_cables(facts.rig, options, several, reason);
+  std::string value;
+  for (std::size_t c = 0; c < job.searched.size(); ++c) {
+    Cable& cable = job.transmission.cables[c];
+    if (job.searched[c]) cable.initial_elongation = 0;
+    value +=
+        fmt::format("{}{} {}", c > 0 ? ", " : "", elongation_name(cable),
+                    job.searched[c] ? "searched" : fmt::format("= {:g}", cable.initial_elongation));
+  }
+  facts.decisions.push_back({"l_o", value, reason});
+  const bool any = std::find(job.searched.begin(), job.searched.end(), true) != job.searched.end();
+  if (!any && !can_balance(job.transmission, elongations_of(job.transmission)))
+    throw input_error(
+        {facts.rig.path, 0, 0},
+        fmt::format("preload '{:.40}': the initial elongations cannot balance, whatever the cables "
+                    "that are taut in the reference pose pull with: motor and link would move",
+                    job.name),
+        "give every cable its elongation, or \"search\"; check the signs of the radii, and that "
+        "motor_radius / link_radius is the same for cables that pull against each other");
+}
+
+}  // namespace
+
+std::vector<PreloadFacts> preloads_of(std::span<const LogSurvey> logs,
+                                      const IdentifyOptions& options) {
+  std::vector<PreloadFacts> facts;
+  for (const std::string& name : preload_names(logs, [&](const PartSurvey& part) {
+         return options.preload.empty() || options.preload == part.preload;
+       })) {
+    PreloadFacts f;
+    f.name = name;
+    f.rig =
+        first_log_with(logs, [&](const PartSurvey& part) { return part.preload == name; }).plan.rig;
+    require_agreement(logs, parts_of(name), name);
+    const Load& load = f.rig.load;
+    if (load.law != nullptr) f.load_inertia = load.law->inertia(load.parameters);
+    for (const LogSurvey& log : logs)
+      for (const PartSurvey& part : log.parts)
+        if (part.preload == name)
+          (part.phase == Phase::blocked ? f.has_blocked : f.has_moving) = true;
+    facts.push_back(std::move(f));
+  }
+  return facts;
+}
+
+std::vector<PreloadJob> begin_jobs(std::span<const LogSurvey> logs, const IdentifyOptions& options,
+                                   std::vector<PreloadFacts>& facts, IdentifyResult& result) {
+  std::vector<PreloadJob> jobs;
+  for (const PreloadFacts& f : facts) {
+    PreloadJob job;
+    job.name = f.name;
+    job.transmission = cables_of(f.rig, options.order);
+    job.transmission.theta_0 = Eigen::VectorXd::Zero(1);
+    job.cable_space = f.rig.cables_given;
+    job.linear_motion = f.rig.linear_motion;
+    job.load_inertia = f.load_inertia;
+    jobs.push_back(std::move(job));
+  }
+  for (std::size_t j = 1; j < jobs.size(); ++j)
+    if (!same_cables(jobs[0].transmission, jobs[j].transmission) ||
+        jobs[0].cable_space != jobs[j].cable_space ||
+        jobs[0].linear_motion != jobs[j].linear_motion)
+      throw input_error(
+          {first_log_with(logs, parts_of(jobs[j].name)).plan.path, 0, 0},
+          fmt::format("preloads '{:.40}' and '{:.40}' have rigs with different cables",
+                      jobs[0].name, jobs[j].name),
+          "one fit is of one set of cables: only \"initial_elongation\" may differ");
+  for (std::size_t j = 0; j < jobs.size(); ++j)
+    decide_elongations(jobs[j], jobs.size() > 1, options, facts[j]);
+  result.linear_motion = jobs[0].linear_motion;
+  result.cable_space = jobs[0].cable_space;
+  return jobs;
+}
+
+}  // namespace cablefit

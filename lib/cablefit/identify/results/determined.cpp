@@ -1,0 +1,118 @@
+#include "cablefit/identify/results/determined.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace cablefit {
+namespace {
+
+constexpr double kTakesPart = 1e-3;  // of a null direction of unit norm
+
+Eigen::VectorXd unit(const JudgedPoint& judged, Eigen::Index k) {
+  return Eigen::VectorXd::Unit(judged.linearised.x.size(), k);
+}
+
+/// What moves when the parameter moves within what is not determined: its row of the projection
+/// onto the null directions.
+Eigen::RowVectorXd moves_with(const JudgedPoint& judged, Eigen::Index self) {
+  const Eigen::MatrixXd& null = judged.linearised.null_directions;
+  Eigen::HouseholderQR<Eigen::MatrixXd> qr(null);
+  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(null.rows(), null.cols());
+  return q.row(self) * q.transpose();
+}
+
+/// "K1_0, K2_0": the others among them.
+std::string partners(const JointFit& fit, const JudgedPoint& judged, Eigen::Index self) {
+  std::string names;
+  const Eigen::RowVectorXd moved = moves_with(judged, self);
+  for (Eigen::Index k = 0; k < moved.size(); ++k) {
+    if (k == self || std::abs(moved(k)) < kTakesPart) continue;
+    const JointParameter& p = fit.layout.parameters[static_cast<std::size_t>(k)];
+    names += (names.empty() ? "" : ", ") + p.name;
+    if (p.preload != kShared && fit.jobs.size() > 1)
+      names += fmt::format(" ({:.40})", fit.jobs[static_cast<std::size_t>(p.preload)].name);
+  }
+  return names;
+}
+
+/// A weighted sum of coefficients.
+struct Sum {
+  Eigen::VectorXd weights;
+  std::string text, unit;
+};
+
+/// Coefficient `index` of every cable with the weight gain^(index + 2): with all cables taut it is
+/// a derivative of the elastic torque, all that the deflection can show of the highest order.
+std::optional<Sum> sum_of(const JointFit& fit, const JudgedPoint& judged, int index) {
+  const PreloadJob& job = fit.jobs.front();
+  Sum sum{Eigen::VectorXd::Zero(judged.linearised.x.size()), "", ""};
+  Eigen::Index first = 0;
+  for (const Cable& cable : job.transmission.cables) {
+    if (index >= cable.n_coefficients()) return std::nullopt;
+    const double gain = cable.motor_radii(job.transmission.reference_theta())(0);
+    const double weight = std::pow(gain, cable.law->length_power(index) + 1);
+    sum.weights(first + index) = weight;
+    const std::string name = coefficient_name(cable, index, job.cable_space);
+    const std::string size = std::abs(weight) == 1 ? "" : fmt::format("{:.4g} ", std::abs(weight));
+    sum.text += sum.text.empty() ? (weight < 0 ? "-" : "") : (weight < 0 ? " - " : " + ");
+    sum.text += size + name;
+    sum.unit = cable.law->length_power(index) == 1
+                   ? "N m/rad"
+                   : fmt::format("N m/rad^{}", cable.law->length_power(index));
+    first += cable.n_coefficients();
+  }
+  if (job.linear_motion) sum.unit = linear_unit(sum.unit);
+  return sum;
+}
+
+/// The sums that the data determine, although their terms are not.
+std::string determined_sums(const JointFit& fit, const JudgedPoint& judged) {
+  std::string text;
+  for (int index = 0; index < kMaxCableOrder; ++index) {
+    const std::optional<Sum> sum = sum_of(fit, judged, index);
+    if (!sum) break;
+    if (!judged.linearised.determines(sum->weights)) continue;
+    const double value = sum->weights.head(fit.layout.n_linear).dot(judged.point.solution.x);
+    const double sd =
+        std::sqrt(std::max(0.0, sum->weights.dot(judged.covariance.covariance * sum->weights)));
+    text += fmt::format("{}{} = {:.6g} +- {:.2g} {}", text.empty() ? "" : ", ", sum->text, value,
+                        sd, sum->unit);
+  }
+  return text;
+}
+
+/// Of a parameter whose column is zero.
+std::string why_unexcited(const JointFit& fit, const JudgedPoint& judged, Eigen::Index k) {
+  const JointParameter& p = fit.layout.parameters[static_cast<std::size_t>(k)];
+  double longest = -kUnbounded;
+  for (std::size_t j = 0; j < fit.jobs.size(); ++j)
+    longest = std::max(longest, fit.elongations(j, judged.point.l_o[j])[p.cable].high);
+  const bool of_cable = k < fit.layout.n_coefficients || k >= fit.layout.n_linear;
+  if (!of_cable || longest > 0) return "its column is zero: the logs never excite it";
+  return fmt::format("cable {} was never taut in these logs",
+                     fit.jobs.front().transmission.cables[p.cable].name);
+}
+
+}  // namespace
+
+std::string why_undetermined(const JointFit& fit, const JudgedPoint& judged, Eigen::Index k) {
+  if (judged.linearised.determines(unit(judged, k))) return "";
+  const std::string others = partners(fit, judged, k);
+  if (others.empty()) return why_unexcited(fit, judged, k);
+  std::string text = fmt::format("cannot be told apart from {} in these logs", others);
+  const JointParameter& p = fit.layout.parameters[static_cast<std::size_t>(k)];
+  const bool elastic = k < fit.layout.n_coefficients || k >= fit.layout.n_linear;
+  if (const std::string sums = elastic ? determined_sums(fit, judged) : ""; !sums.empty())
+    text += "; determined is " + sums;
+  if (k >= fit.layout.n_linear)
+    text += fmt::format(
+        "; move until cable {} goes slack",
+        fit.jobs[static_cast<std::size_t>(p.preload)].transmission.cables[p.cable].name);
+  return text;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,73 @@
+#include "cablefit/identify/results/identify_model.hpp"
+
+#include <fmt/format.h>
+
+namespace cablefit {
+namespace {
+
+/// Every number that a model of this preload needs, or what it lacks.
+class Parameters {
+ public:
+  Parameters(const IdentifyResult& result, const IdentifyPreload& preload)
+      : all_(result.parameters) {
+    all_.insert(all_.end(), preload.parameters.begin(), preload.parameters.end());
+  }
+
+  std::optional<Estimate> find(std::string_view name) {
+    const Estimate* e = find_estimate(all_, name);
+    if (e == nullptr) return std::nullopt;
+    if (!e->not_identifiable.empty()) refuse(fmt::format("{} is not identifiable", name));
+    return *e;
+  }
+  void refuse(const std::string& reason) {
+    if (why_not_.empty()) why_not_ = reason;
+  }
+  const std::string& why_not() const { return why_not_; }
+
+ private:
+  std::vector<Estimate> all_;
+  std::string why_not_;
+};
+
+std::vector<EffectInstance> effects_of(Side side, Parameters& parameters) {
+  std::vector<EffectInstance> instances;
+  for (const Effect& effect : base_effects(side)) {
+    EffectInstance instance{&effect, {}};
+    for (const ParameterInfo& info : effect.parameters) {
+      const std::optional<Estimate> e = parameters.find(info.name);
+      if (!e) return {};  // its equation was not fitted
+      if (effect.inertia != nullptr && !(e->value > 0))
+        parameters.refuse(fmt::format("{} is not positive", info.name));
+      instance.parameters.push_back(*e);
+    }
+    instances.push_back(std::move(instance));
+  }
+  return instances;
+}
+
+}  // namespace
+
+std::optional<Model> model_of(const IdentifyResult& result, const IdentifyPreload& preload,
+                              const PreloadFacts& facts, std::string& why_not) {
+  Parameters parameters(result, preload);
+  Model model;
+  model.name = "poly";
+  model.preload = preload.name;
+  model.rig = facts.rig;
+  model.rig.transmission = preload.transmission;
+  if (model.rig.torque_hold == TorqueHold::automatic)
+    model.rig.torque_hold = facts.delay.held ? TorqueHold::zoh : TorqueHold::none;
+  model.joints = {{effects_of(Side::link, parameters), effects_of(Side::motor, parameters)}};
+  if (model.joints.front().link.empty() || model.joints.front().motor.empty()) return std::nullopt;
+  model.transmission = preload.transmission;
+  for (const Cable& cable : preload.transmission.cables)
+    for (int k = 0; k < cable.n_coefficients(); ++k)
+      if (const auto e = parameters.find(coefficient_name(cable, k, facts.rig.cables_given)))
+        model.elastic.push_back(*e);
+  for (const Cable& cable : preload.transmission.cables)
+    if (const auto e = parameters.find(elongation_name(cable))) model.elastic.push_back(*e);
+  why_not = parameters.why_not();
+  return why_not.empty() ? std::optional(std::move(model)) : std::nullopt;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,30 @@
+// Blocked logs without any effect beyond the model: the same motion of the motor, the torque that
+// the model says, the same rounding and noise. A blocked motor is slow, its inertia often unknown:
+// its motion is taken as it was, and no controller is needed. Internal to refine/.
+#pragma once
+
+#include <vector>
+
+#include "cablefit/copies/coloured_noise.hpp"
+#include "cablefit/refine/rows/motion.hpp"
+
+namespace cablefit {
+
+struct BlockedTwin {
+  std::vector<Stretch> stretches;  ///< with the true theta and tau
+  struct Sensors {
+    double quantum = 0, noise_theta = 0;  ///< rad
+    double noise_tau = 0;                 ///< N m, sd of white noise
+  };
+  std::vector<Sensors> sensors;  ///< per stretch
+};
+
+/// `models`: by Stretch::model. Sensors as the rig files have them, else as the recordings look.
+BlockedTwin make_blocked_twin(const std::vector<Model>& models, std::vector<Stretch> stretches,
+                              const Smoothing& wanted);
+
+/// One recording of it. `disturbance`: a torque beside the model; sd 0: none.
+std::vector<Stretch> record(const BlockedTwin& twin, const ArModel& disturbance,
+                            std::uint64_t seed);
+
+}  // namespace cablefit

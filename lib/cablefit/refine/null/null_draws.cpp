@@ -1,0 +1,202 @@
+#include "cablefit/refine/null/null_draws.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/copies/surrogate.hpp"
+#include "cablefit/copies/twin.hpp"
+#include "cablefit/refine/null/blocked_twin.hpp"
+#include "cablefit/refine/rows/kernel.hpp"
+#include "cablefit/refine/rows/levels.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr std::uint64_t kSensors = 11, kCalibration = 12;
+// Hz, of what a surrogate controller follows, and of what the drive adds to that. Beyond the second
+// the kernels of the rows leave nothing.
+constexpr double kFollowCutoff = 40, kDitherCutoff = 150;
+// s: a mode of 100 Hz is off by (2 pi 100 h)^2 / 24 = 2e-4 of its frequency, far less than draws
+// scatter.
+constexpr double kDrawStep = 1e-4;
+
+/// The same motion a little aside, so that its rounding is another.
+void move_aside(Twin& twin, Random& random) {
+  constexpr double kQuanta = 16, kLeast = 1e-4;  // rad
+  for (TwinStretch& stretch : twin.stretches) {
+    double quantum = 0;
+    for (const TwinSensor& sensor : twin.sensors[stretch.log])
+      quantum = std::max(quantum, sensor.quantum);
+    const double aside = std::max(kLeast, kQuanta * quantum) * (random.uniform() - 0.5);
+    stretch.input.theta_ref += aside;
+    stretch.input.theta0.array() += aside;
+    if (!stretch.link_blocked) stretch.input.q0.array() += aside;
+  }
+}
+
+/// rms of what the rows see of an acceleration.
+double rms_acceleration(const Eigen::ArrayXd& theta, double period, const Smoothing& wanted) {
+  const Smoothing smoothing = suited(wanted, period);
+  const Eigen::ArrayXd rough = apply(gaussian_curvature(smoothing.signals, period), theta);
+  const Eigen::ArrayXd smooth = apply(gaussian(smoothing.columns, period), rough);
+  return std::sqrt(smooth.square().mean());
+}
+
+/// Whether the moving stretches are as lively as the measured ones.
+bool move_alike(const Twin& twin, const std::vector<SimulationResult>& motions,
+                const Smoothing& smoothing) {
+  constexpr double kAlike = 1.25;
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    const TwinStretch& stretch = twin.stretches[k];
+    if (stretch.link_blocked) continue;
+    const int slot = twin.plans[stretch.log].find(Channel::theta, 0);
+    const double period = stretch.period;
+    const double measured = rms_acceleration(stretch.measured.col(slot).array(), period, smoothing);
+    const double simulated = rms_acceleration(motions[k].theta.col(0), period, smoothing);
+    if (simulated > kAlike * measured || measured > kAlike * simulated) return false;
+  }
+  return true;
+}
+
+/// Twins of the logs of one preload.
+struct PreloadTwin {
+  std::size_t model = 0;
+  Twin twin;
+  std::vector<std::size_t> logs;  ///< number of each recorded log among those given
+};
+
+}  // namespace
+
+struct NullBench::Parts {
+  std::vector<Model> models;
+  std::vector<PreloadTwin> twins;
+  BlockedTwin blocked;  ///< of logs that are all blocked; then there are no other twins
+  Smoothing smoothing;
+  TwinDisturbance disturbance;
+  double held_back = 0;
+  bool follows = false;
+};
+
+NullBench::NullBench(std::span<const Model> models, std::span<const LogSurvey> logs,
+                     const PartFilter& wanted, const Smoothing& smoothing, int threads)
+    : parts_(std::make_unique<Parts>()) {
+  parts_->models.assign(models.begin(), models.end());
+  parts_->smoothing = smoothing;
+  if (std::vector<Stretch> all = read_stretches(logs, models, wanted); is_blocked_only(all)) {
+    parts_->blocked = make_blocked_twin(parts_->models, std::move(all), smoothing);
+    return;
+  }
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    const Model& model = models[m];
+    const PartFilter of_model = [&](const PartSurvey& part) {
+      return wanted(part) && (models.size() == 1 || part.preload == model.preload);
+    };
+    PreloadTwin& twin = parts_->twins.emplace_back();
+    twin.model = m;
+    const bool held = model.rig.torque_hold != TorqueHold::none;
+    const auto run = [&](bool follows) {
+      twin.twin = make_twin(model, logs, of_model,
+                            {held, kFollowCutoff, follows, kDrawStep, kDitherCutoff});
+      Random calibration(1, kCalibration);
+      return run_twin(twin.twin, {}, calibration, threads);
+    };
+    auto motions = run(false);
+    const std::vector<LogPlan>& plans = twin.twin.plans;
+    const bool has_controller = std::any_of(plans.begin(), plans.end(), has_reference);
+    if (has_controller && !move_alike(twin.twin, motions, smoothing)) {
+      motions = run(true);
+      parts_->follows = true;
+    }
+    choose_sensors(twin.twin, motions);
+    for (std::size_t k = 0; k < logs.size(); ++k)
+      if (std::any_of(twin.twin.stretches.begin(), twin.twin.stretches.end(),
+                      [k](const TwinStretch& stretch) { return stretch.log == k; }))
+        twin.logs.push_back(k);
+  }
+}
+
+NullBench::~NullBench() = default;
+
+bool NullBench::follows() const { return parts_->follows; }
+
+void NullBench::disturb(const TwinDisturbance& disturbance) { parts_->disturbance = disturbance; }
+
+void NullBench::silence_torque() {
+  for (PreloadTwin& preload : parts_->twins)
+    for (std::size_t log = 0; log < preload.twin.plans.size(); ++log)
+      for (std::size_t k = 0; k < preload.twin.sensors[log].size(); ++k)
+        if (preload.twin.plans[log].slots[k].channel == Channel::tau)
+          preload.twin.sensors[log][k].noise = 0;
+}
+
+void NullBench::hold_back(double share) { parts_->held_back = share; }
+
+std::vector<NullBench::Recorded> NullBench::record(std::uint64_t seed, int threads) const {
+  std::vector<Recorded> all;
+  for (const PreloadTwin& twin : parts_->twins) {
+    Random random(seed, kSensors + 2 * twin.model);
+    Twin aside = twin.twin;
+    move_aside(aside, random);
+    all.push_back(
+        {twin.model,
+         record_twin(aside, run_twin(aside, parts_->disturbance, random, threads), random)});
+  }
+  return all;
+}
+
+std::vector<Stretch> NullBench::draw(std::uint64_t seed, int threads) const {
+  if (parts_->twins.empty()) {
+    const auto& motor = parts_->disturbance.motor;
+    std::vector<Stretch> blocked =
+        cablefit::record(parts_->blocked, motor.empty() ? ArModel{} : motor.front(), seed);
+    if (parts_->held_back > 0) hold_out(blocked, parts_->held_back, HoldOut::all);
+    return blocked;
+  }
+  std::vector<Stretch> all;
+  const std::vector<Recorded> recorded = record(seed, threads);
+  for (std::size_t k = 0; k < recorded.size(); ++k) {
+    const std::span<const Model> model(&parts_->models[recorded[k].model], 1);
+    for (Stretch& stretch :
+         read_stretches(recorded[k].logs, model, [](const PartSurvey&) { return true; })) {
+      const PreloadTwin& twin = parts_->twins[k];
+      const std::size_t log = twin.logs[stretch.log];
+      // Of the log only the parts of this preload were recorded: time counts from its beginning.
+      const double late = recorded[k].logs[stretch.log].parts.front().t_first -
+                          twin.twin.parts[log].front().t_first;
+      for (double Stretch::*t : {&Stretch::t0, &Stretch::part_begin, &Stretch::part_end})
+        stretch.*t += late;
+      stretch.log = log;
+      stretch.model = recorded[k].model;
+      all.push_back(std::move(stretch));
+    }
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Stretch& a, const Stretch& b) { return a.log < b.log; });
+  if (parts_->held_back > 0) hold_out(all, parts_->held_back, HoldOut::moving);
+  return all;
+}
+
+BaseFit fit_base(Design design, double block_seconds, const KindLevels* levels) {
+  constexpr int kRounds = 2;
+  BaseFit base;
+  base.design = std::move(design);
+  base.levels = levels != nullptr ? positive(*levels) : KindLevels{1, 1, 1};
+  for (int round = 0; round < kRounds; ++round) {
+    base.grams = block_grams(base.design, block_seconds);
+    for (int pass = 0; pass < 2; ++pass) {
+      auto fit = fit_blocks(base.grams, base.levels);
+      if (!fit)
+        throw Error(ErrorKind::not_identifiable,
+                    "the logs do not determine the parameters of the model; run `cablefit dynamic` "
+                    "or `cablefit check` on them to see which");
+      base.fit = std::move(*fit);
+      if (levels != nullptr) break;
+      base.levels = positive(base.fit.rms());
+    }
+    if (round + 1 < kRounds) base.design = relinearised(base.design, base.fit.x);
+  }
+  return base;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,30 @@
+// What refine is asked for, and which logs it has.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "cablefit/samples/survey/survey.hpp"
+
+namespace cablefit {
+
+struct RefineOptions {
+  std::size_t n_draws = 24;        ///< simulated data sets
+  unsigned long seed = 1;          ///< of the first; counted up from there
+  double materiality = 0.01;       ///< least share of the squared residual that is worth a name
+  std::optional<double> material;  ///< N m that matter; nothing: see material_torque()
+  double significance = 0.01;      ///< largest p value of a name
+  std::size_t most_effects = 3;
+  int threads = 1;
+  bool figures = false;
+  std::function<void(std::string_view what, double share)> progress;
+};
+
+/// Which logs are for what. Without test logs the last third of every moving log is held out.
+struct RefineLogs {
+  std::vector<LogSurvey> train, test, blocked;
+};
+
+}  // namespace cablefit

@@ -1,0 +1,232 @@
+#include "cablefit/refine/rows/base_rows.hpp"
+
+#include "cablefit/elastic/elastic_columns.hpp"
+
+namespace cablefit {
+namespace {
+
+/// A shape parameter (v_s) stays where the table has it; its linear ones are columns.
+Eigen::Index n_linear(const std::vector<EffectInstance>& effects) {
+  Eigen::Index n = 0;
+  for (const EffectInstance& instance : effects)
+    n += static_cast<Eigen::Index>(instance.effect->n_linear());
+  return n;
+}
+
+Eigen::Index n_elastic(const Model& model) {
+  if (model.rigid) return 0;
+  return model.transmission.cables.empty() ? 1 : n_elastic_columns(model.transmission);
+}
+
+void fill_effects(const std::vector<EffectInstance>& effects, const Motion& motion,
+                  Eigen::Ref<Eigen::MatrixXd> out) {
+  Eigen::Index first = 0;
+  for (const EffectInstance& instance : effects) {
+    const auto n = static_cast<Eigen::Index>(instance.effect->n_linear());
+    instance.effect->regressor(motion, out.middleCols(first, n));
+    first += n;
+  }
+}
+
+void fill_elastic(const Model& model, const SmoothMotion& m, bool link,
+                  Eigen::Ref<Eigen::MatrixXd> out) {
+  if (out.cols() == 0) return;
+  const Transmission& transmission = model.transmission;
+  if (transmission.cables.empty()) {
+    out.col(0) = (m.theta - transmission.encoder_zero()(0) - m.q).matrix();
+  } else {
+    JointSignals signals;
+    signals.q = m.q;
+    signals.theta = m.theta;
+    elastic_basis(transmission, signals, link ? ElasticSide::link : ElasticSide::motor, out);
+  }
+  if (link) out = -out;
+}
+
+Eigen::ArrayXd response_of(RowKind kind, const SmoothMotion& m, const Model& model) {
+  if (kind == RowKind::link) return m.tau_load;
+  return model.rigid ? Eigen::ArrayXd(m.tau + m.tau_load) : m.tau;
+}
+
+/// The link's effects; that of a given inertia as a torque in the last column.
+void fill_link(const JointModel& axes, const SmoothMotion& m, const BaseLayout& c,
+               Eigen::Ref<Eigen::MatrixXd> all) {
+  const Motion motion{m.q, m.qd, m.qdd, m.q_direction};
+  if (!c.given) return fill_effects(axes.link, motion, all.leftCols(c.n_link));
+  Eigen::MatrixXd effects(m.size(), c.n_link + 1);
+  fill_effects(axes.link, motion, effects);
+  const Eigen::Index at = c.given->effect_column;
+  all.leftCols(at) = effects.leftCols(at);
+  all.middleCols(at, c.n_link - at) = effects.rightCols(c.n_link - at);
+  all.rightCols(1) = c.given->inertia * effects.col(at);
+}
+
+/// All columns, the response and the torque of a given inertia of one kind at the full rate.
+Eigen::MatrixXd full_columns(RowKind kind, const SmoothMotion& m, const Model& model,
+                             const BaseLayout& c) {
+  const JointModel& axes = model.joints.front();
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(m.size(), c.n() + 2);
+  if (kind == RowKind::link) {
+    fill_link(axes, m, c, all);
+  } else {
+    fill_effects(axes.motor, {m.theta, m.thetad, m.thetadd, m.theta_direction},
+                 all.middleCols(c.n_link, c.n_motor));
+  }
+  fill_elastic(model, m, kind == RowKind::link, all.middleCols(c.n_link + c.n_motor, c.n_elastic));
+  all.col(c.n()) = response_of(kind, m, model).matrix();
+  return all;
+}
+
+std::vector<RowKind> kinds_of(const Stretch& stretch, const Model& model) {
+  if (stretch.blocked) return {RowKind::blocked};
+  if (model.rigid) return {RowKind::motor};
+  return {RowKind::link, RowKind::motor};
+}
+
+/// Samples from one evaluation of cables and torques to the next.
+Eigen::Index spacing(const Smoothing& smoothing, Evaluation evaluation) {
+  return evaluation == Evaluation::coarse ? smoothing.stride : 1;
+}
+
+/// Every so many of the samples; of a coarse motion only positions and torques.
+SmoothMotion thinned(const SmoothMotion& m, Eigen::Index every) {
+  if (every == 1) return m;
+  const auto some = Eigen::seq(0, m.size() - 1, every);
+  SmoothMotion out;
+  out.t0 = m.t0;
+  out.period = static_cast<double>(every) * m.period;
+  out.q = m.q(some);
+  out.theta = m.theta(some);
+  out.tau = m.tau(some);
+  out.tau_load = m.tau_load(some);
+  return out;
+}
+
+/// The numbers of the same samples there.
+std::vector<Eigen::Index> thinned(std::vector<Eigen::Index> at, Eigen::Index every) {
+  for (Eigen::Index& i : at) i /= every;
+  return at;
+}
+
+}  // namespace
+
+std::optional<double> given_link_inertia(const Model& model) {
+  const std::vector<double>& given = model.rig.arm.parameters.J_link;
+  return model.rigid || given.empty() ? std::nullopt : std::optional(given.front());
+}
+
+BaseLayout base_layout(const Model& model) {
+  BaseLayout layout;
+  const JointModel& axes = model.joints.front();
+  layout.n_link = n_linear(axes.link);
+  layout.n_motor = n_linear(axes.motor);
+  layout.n_elastic = n_elastic(model);
+  const std::optional<double> given = given_link_inertia(model);
+  for (ModelParameter& p : model_parameters(model)) {
+    const bool is_column = p.kind == ParameterKind::effect || p.kind == ParameterKind::stiffness ||
+                           p.kind == ParameterKind::coefficient;
+    if (!is_column || p.is_shape) continue;
+    const bool is_effect = p.kind == ParameterKind::effect;
+    if (is_effect && (p.on_link ? axes.link : axes.motor)[p.effect].effect->dry != nullptr)
+      (p.on_link ? layout.dry_link : layout.dry_motor) =
+          static_cast<Eigen::Index>(layout.parameters.size());
+    if (is_effect && p.on_link && given && axes.link[p.effect].effect->inertia != nullptr) {
+      layout.given = {{static_cast<Eigen::Index>(layout.parameters.size()), *given}};
+      layout.n_link -= 1;
+      continue;
+    }
+    layout.parameters.push_back(std::move(p));
+  }
+  return layout;
+}
+
+Eigen::VectorXd base_values(const BaseLayout& layout, const Model& model) {
+  Eigen::VectorXd values(layout.n());
+  for (std::size_t k = 0; k < layout.parameters.size(); ++k)
+    values(static_cast<Eigen::Index>(k)) = parameter_value(model, layout.parameters[k]);
+  return values;
+}
+
+void set_base_values(const BaseLayout& layout, const Eigen::VectorXd& values, Model& model) {
+  for (std::size_t k = 0; k < layout.parameters.size(); ++k)
+    set_parameter_value(model, layout.parameters[k], values(static_cast<Eigen::Index>(k)));
+}
+
+Eigen::Index count_rows(const std::vector<StretchRows>& rows) {
+  Eigen::Index n = 0;
+  for (const StretchRows& stretch : rows)
+    for (const KindRows& kind : stretch.kinds) n += kind.response.size();
+  return n;
+}
+
+StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayout& layout,
+                      const Smoothing& wanted, const StretchRows* kept) {
+  StretchRows rows;
+  const Smoothing smoothing = suited(wanted, stretch.recording.period);
+  const bool held = model.rig.torque_hold != TorqueHold::none;
+  rows.motion = std::make_shared<const SmoothMotion>(
+      smooth_motion_of(stretch.recording, stretch.t0, held, smoothing));
+  const Kernel filter = gaussian(smoothing.columns, stretch.recording.period);
+  for (const RowKind kind : kinds_of(stretch, model)) {
+    KindRows& k = rows.kinds.emplace_back();
+    k.kind = kind;
+    const bool link = kind == RowKind::link;
+    k.at = kept != nullptr
+               ? kept->kinds[rows.kinds.size() - 1].at
+               : moving_rows(link ? rows.motion->qd : rows.motion->thetad,
+                             link ? smoothing.least_speed_q : smoothing.least_speed_theta,
+                             stretch.recording.period, smoothing);
+    std::erase_if(k.at, [&](Eigen::Index i) { return i < stretch.rows_from; });
+    const Eigen::MatrixXd all =
+        apply_at(filter, full_columns(kind, *rows.motion, model, layout), k.at);
+    k.base = all.leftCols(layout.n());
+    k.response = all.col(layout.n());
+    if (layout.given && link) {
+      k.given = all.col(layout.n() + 1);
+      k.response -= k.given;
+    }
+  }
+  return rows;
+}
+
+StretchRows rows_of_torque(const StretchRows& kept, const Stretch& changed, const Model& model,
+                           const Smoothing& wanted, Evaluation evaluation) {
+  StretchRows rows = kept;
+  const Recording& r = changed.recording;
+  const Smoothing smoothing = suited(wanted, r.period);
+  const Eigen::Index every = spacing(smoothing, evaluation);
+  SmoothMotion motion = thinned(*kept.motion, every);
+  motion.tau = smooth_torque(r, model.rig.torque_hold != TorqueHold::none, smoothing, every);
+  const Kernel filter = gaussian(smoothing.columns, motion.period);
+  for (KindRows& k : rows.kinds) {
+    k.response =
+        apply_at(filter, response_of(k.kind, motion, model).matrix(), thinned(k.at, every));
+    if (k.given.size() > 0) k.response -= k.given;
+  }
+  if (evaluation == Evaluation::fine)
+    rows.motion = std::make_shared<const SmoothMotion>(std::move(motion));
+  return rows;
+}
+
+StretchRows rows_of_cables(const StretchRows& kept, const BaseLayout& before, const Model& model,
+                           const BaseLayout& layout, const Smoothing& wanted,
+                           Evaluation evaluation) {
+  StretchRows rows = kept;
+  const Smoothing smoothing = suited(wanted, kept.motion->period);
+  const Eigen::Index every = spacing(smoothing, evaluation);
+  const SmoothMotion motion = thinned(*kept.motion, every);
+  const Kernel filter = gaussian(smoothing.columns, motion.period);
+  const Eigen::Index effects = before.n_link + before.n_motor;
+  for (KindRows& k : rows.kinds) {
+    Eigen::MatrixXd elastic(motion.size(), layout.n_elastic);
+    fill_elastic(model, motion, k.kind == RowKind::link, elastic);
+    const Eigen::MatrixXd old = std::move(k.base);
+    const Eigen::Index more = old.cols() - before.n();
+    k.base.resize(old.rows(), layout.n() + more);
+    k.base << old.leftCols(effects), apply_at(filter, elastic, thinned(k.at, every)),
+        old.rightCols(more);
+  }
+  return rows;
+}
+
+}  // namespace cablefit

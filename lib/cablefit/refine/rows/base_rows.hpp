@@ -1,0 +1,70 @@
+// The model's own equations as linear columns over the rows of a stretch. Internal to refine/.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cablefit/model/model_parameters.hpp"
+#include "cablefit/refine/rows/motion.hpp"
+
+namespace cablefit {
+
+/// Columns that all kinds of rows share: effects of the link, of the motor, then the coefficients
+/// of the cables (or K). Rows of one axis have 0 in the columns of the other.
+///   link     Phi_l x_l - P basis x_e = tau_load
+///   motor    Phi_m x_m + S basis x_e = tau          (blocked: the same, the link stands)
+/// Several preloads share all of them (Fichera & Grossard 2017, (26)-(28)).
+struct BaseLayout {
+  /// An inertia of the link that the rig file gives: no column, its torque is in the response.
+  struct Given {
+    Eigen::Index effect_column = 0;  ///< among those of the link's effects
+    double inertia = 0;              ///< kg m^2
+  };
+  std::optional<Given> given;
+  Eigen::Index n_link = 0, n_motor = 0, n_elastic = 0;
+  std::vector<ModelParameter> parameters;      ///< one per column
+  Eigen::Index dry_link = -1, dry_motor = -1;  ///< columns of dry friction; -1: the axis has none
+  Eigen::Index n() const { return n_link + n_motor + n_elastic; }
+};
+BaseLayout base_layout(const Model& model);
+/// kg m^2, where the rig file gives it.
+std::optional<double> given_link_inertia(const Model& model);
+
+/// Values of the columns' parameters in a model, and back into it.
+Eigen::VectorXd base_values(const BaseLayout& layout, const Model& model);
+void set_base_values(const BaseLayout& layout, const Eigen::VectorXd& values, Model& model);
+
+/// Rows of one kind out of one stretch.
+struct KindRows {
+  RowKind kind = RowKind::motor;
+  std::vector<Eigen::Index> at;  ///< samples of the stretch
+  Eigen::MatrixXd base;          ///< n_rows x layout.n()
+  Eigen::VectorXd response;      ///< n_rows, N m; without the torque of a given inertia
+  Eigen::VectorXd given;         ///< that torque, N m; empty: no inertia is given
+};
+
+/// What a stretch gives: at most a link and a motor (or blocked) equation.
+struct StretchRows {
+  std::shared_ptr<const SmoothMotion> motion;  ///< never null; other columns share it
+  std::vector<KindRows> kinds;
+};
+
+/// Of all kinds and stretches.
+Eigen::Index count_rows(const std::vector<StretchRows>& rows);
+
+/// `wanted`: made to suit the stretch. `kept`: take the rows of these instead of choosing, so that
+/// a changed recording can be compared row by row.
+StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayout& layout,
+                      const Smoothing& wanted, const StretchRows* kept = nullptr);
+
+/// The rows of a stretch again where positions are as they were: of another torque, or of a model
+/// with other cables. `kept`: rows with the columns of `before`, and what was added to them.
+StretchRows rows_of_torque(const StretchRows& kept, const Stretch& changed, const Model& model,
+                           const Smoothing& wanted, Evaluation evaluation);
+StretchRows rows_of_cables(const StretchRows& kept, const BaseLayout& before, const Model& model,
+                           const BaseLayout& layout, const Smoothing& wanted,
+                           Evaluation evaluation);
+
+}  // namespace cablefit

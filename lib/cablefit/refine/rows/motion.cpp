@@ -1,0 +1,182 @@
+#include "cablefit/refine/rows/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/elastic/elastic_columns.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr double kSamplesPerWidth = 1.5;  // a kernel narrower than this aliases
+
+/// Torque on the motor of every sample, and the sum of what the cables contribute to it by amount.
+struct ElasticTorque {
+  Eigen::ArrayXd sum, amounts;
+};
+
+ElasticTorque elastic_torque(const Transmission& transmission, const Eigen::ArrayXd& q,
+                             const Eigen::ArrayXd& theta) {
+  if (transmission.cables.empty()) {
+    const Eigen::ArrayXd tau =
+        transmission.linear_stiffness(0) * (theta - transmission.encoder_zero()(0) - q);
+    return {tau, tau.abs()};
+  }
+  JointSignals signals;
+  signals.q = q;
+  signals.theta = theta;
+  Eigen::MatrixXd basis(q.size(), n_elastic_columns(transmission));
+  elastic_basis(transmission, signals, ElasticSide::motor, basis);
+  ElasticTorque torque{Eigen::ArrayXd::Zero(q.size()), Eigen::ArrayXd::Zero(q.size())};
+  Eigen::Index first = 0;
+  for (const Cable& cable : transmission.cables) {
+    const Eigen::Map<const Eigen::VectorXd> coefficients(cable.coefficients.data(),
+                                                         cable.n_coefficients());
+    const Eigen::ArrayXd own = basis.middleCols(first, coefficients.size()) * coefficients;
+    torque.sum += own;
+    torque.amounts += own.abs();
+    first += coefficients.size();
+  }
+  return torque;
+}
+
+}  // namespace
+
+std::string_view to_string(RowKind kind) {
+  return kind == RowKind::link ? "link" : kind == RowKind::motor ? "motor" : "blocked";
+}
+
+Eigen::Index stride_for(double columns, double period, Eigen::Index every) {
+  const double evaluations = kRowSpacing * columns / period / static_cast<double>(every);
+  return every * std::max<Eigen::Index>(1, std::llround(evaluations));
+}
+
+Smoothing smoothing_for(double period) {
+  constexpr double kRounding = 1e-6;
+  Smoothing s;
+  s.signals = std::max(s.signals, kSamplesPerWidth * period);
+  s.columns = 2 * s.signals;
+  const double samples = kEvaluationSpacing * s.columns / period;
+  s.every = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(samples + kRounding));
+  s.stride = stride_for(s.columns, period, s.every);
+  s.period = period;
+  return s;
+}
+
+Smoothing suited(const Smoothing& smoothing, double period) {
+  if (period == smoothing.period) return smoothing;
+  const double wider = std::max(1.0, kSamplesPerWidth * period / smoothing.signals);
+  const auto samples = [&](double seconds, Eigen::Index unit) {
+    const double units = seconds / period / static_cast<double>(unit);
+    return unit * std::max<Eigen::Index>(1, std::llround(units));
+  };
+  Smoothing s = smoothing;
+  s.signals *= wider;
+  s.columns *= wider;
+  const double every = static_cast<double>(smoothing.every) * smoothing.period;
+  s.every = samples(std::min(every, kEvaluationSpacing * s.columns), 1);
+  s.stride = samples(wider * static_cast<double>(smoothing.stride) * smoothing.period, s.every);
+  s.period = period;
+  return s;
+}
+
+SmoothMotion smooth_motion_of(const Recording& r, double t0, bool held,
+                              const Smoothing& smoothing) {
+  const Kernel smooth = gaussian(smoothing.signals, r.period);
+  const Kernel slope = gaussian_slope(smoothing.signals, r.period);
+  const Kernel curvature = gaussian_curvature(smoothing.signals, r.period);
+  SmoothMotion m;
+  m.t0 = t0;
+  m.period = r.period;
+  m.q = apply(smooth, r.q);
+  m.qd = apply(slope, r.q);
+  m.qdd = apply(curvature, r.q);
+  m.theta = apply(smooth, r.theta);
+  m.thetad = apply(slope, r.theta);
+  m.thetadd = apply(curvature, r.theta);
+  m.tau_load = apply(smooth, r.tau_load);
+  m.tau = smooth_torque(r, held, smoothing);
+  m.q_direction = m.qd.sign();
+  m.theta_direction = m.thetad.sign();
+  return m;
+}
+
+Eigen::ArrayXd smooth_torque(const Recording& r, bool held, const Smoothing& smoothing,
+                             Eigen::Index every) {
+  Eigen::ArrayXd tau = r.tau;
+  if (held)
+    for (Eigen::Index i = tau.size() - 1; i > 0; --i) tau(i) = 0.5 * (tau(i) + tau(i - 1));
+  const Kernel kernel = gaussian(smoothing.signals, r.period);
+  if (every == 1) return apply(kernel, tau);
+  Eigen::ArrayXd out = Eigen::ArrayXd::Zero((tau.size() + every - 1) / every);
+  const Eigen::Index reach = kernel.reach(), first = (reach + every - 1) / every;
+  for (Eigen::Index i = first; i * every + reach < tau.size(); ++i)
+    out(i) = (kernel.weights * tau.segment(i * every - reach, 2 * reach + 1)).sum();
+  return out;
+}
+
+std::vector<Eigen::Index> moving_rows(const Eigen::ArrayXd& speed, double least_speed,
+                                      double period, const Smoothing& smoothing) {
+  const Eigen::Index reach = gaussian(smoothing.columns, period).reach();
+  const Eigen::Index margin = reach + gaussian(smoothing.signals, period).reach();
+  const Eigen::Index edge = (margin / smoothing.stride + 2) * smoothing.stride;
+  const Eigen::Index n = speed.size();
+  std::vector<Eigen::Index> rows;
+  Eigen::Index last_slow = -1;
+  Eigen::Index seen = 0;
+  for (Eigen::Index i = edge; i + edge < n; i += smoothing.stride) {
+    for (seen = std::max(seen, i - reach); seen <= i + reach; ++seen) {
+      const bool turns = seen > 0 && speed(seen) * speed(seen - 1) < 0;
+      if (turns || std::abs(speed(seen)) < least_speed) last_slow = seen;
+    }
+    if (last_slow < i - reach) rows.push_back(i);
+  }
+  return rows;
+}
+
+std::vector<JointState> joint_states(const SmoothMotion& m, const Model& model) {
+  std::vector<JointState> states(static_cast<std::size_t>(m.size()));
+  const double zero = model.rigid ? 0 : model.transmission.encoder_zero()(0);
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    JointState& s = states[static_cast<std::size_t>(i)];
+    s.t = m.t0 + static_cast<double>(i) * m.period;
+    s.q = m.q(i);
+    s.qd = m.qd(i);
+    s.qdd = m.qdd(i);
+    s.theta = m.theta(i);
+    s.thetad = m.thetad(i);
+    s.thetadd = m.thetadd(i);
+    s.deflection = s.theta - zero - s.q;
+    s.deflection_rate = s.thetad - s.qd;
+  }
+  if (model.rigid) {
+    for (Eigen::Index i = 0; i < m.size(); ++i) {
+      JointState& s = states[static_cast<std::size_t>(i)];
+      s.load = m.tau_load(i);
+      s.tau_elas = -s.load;
+    }
+    return states;
+  }
+  constexpr double kProbe = 1e-6;  // rad; curves bend over mrad
+  const ElasticTorque tau = elastic_torque(model.transmission, m.q, m.theta);
+  const ElasticTorque more = elastic_torque(model.transmission, m.q, m.theta + kProbe);
+  const ElasticTorque less = elastic_torque(model.transmission, m.q, m.theta - kProbe);
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    JointState& s = states[static_cast<std::size_t>(i)];
+    s.tau_elas = tau.sum(i);
+    s.tension = tau.amounts(i);
+    s.stiffness = (more.sum(i) - less.sum(i)) / (2 * kProbe);
+  }
+  return states;
+}
+
+double most_of(std::vector<double> values) {
+  if (values.empty()) return 0;
+  constexpr double kMost = 0.99;
+  const auto last = static_cast<double>(values.size() - 1);
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(kMost * last);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+}  // namespace cablefit

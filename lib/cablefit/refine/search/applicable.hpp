@@ -1,0 +1,12 @@
+// Which rows of the catalogue make sense for these logs. Internal to refine/.
+#pragma once
+
+#include "cablefit/refine/rows/design.hpp"
+
+namespace cablefit {
+
+/// Whether a row of the catalogue may be named from these rows: any with moving logs, else those
+/// that a blocked link can tell apart.
+bool is_candidate(const Refinement& refinement, const Design& design);
+
+}  // namespace cablefit

@@ -1,0 +1,82 @@
+// What every step of refine works with, and where the workflow stands. Internal to refine/.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "cablefit/refine/null/base_draws.hpp"
+#include "cablefit/refine/refine_options.hpp"
+#include "cablefit/refine/refine_result.hpp"
+#include "cablefit/refine/rows/levels.hpp"
+#include "cablefit/refine/rows/shape_moves.hpp"
+#include "cablefit/refine/search/search.hpp"
+#include "cablefit/refine/verdict/confirm.hpp"
+
+namespace cablefit {
+
+/// What every step needs.
+struct RefineBench {
+  const RefineOptions& options;
+  PartFilter wanted = {};
+  bool elastic_only = false;
+  ScanSettings scan = {};
+  std::vector<LogSurvey> all = {};   ///< blocked, training, test: by Stretch::log
+  std::vector<LogSurvey> logs = {};  ///< blocked, then training
+  /// Read once, when everything is decided; of the training logs, when there are no others, the
+  /// share held back.
+  std::vector<LogSurvey> test_logs = {};
+  std::vector<Stretch> test = {};  ///< of these
+  double held_back = 0;            ///< share of every training log that is the test data
+  KindLevels floor{}, test_floor{};
+  ValueChange base_bias = {};  ///< of the base fit, see fit_bias.hpp
+  SimulatedGap simulation_floor = {};
+  std::optional<BaseDraws> null = {};
+  BaseFit noise = {};        ///< one of its draws without an effect
+  KindLevels draw_levels{};  ///< weights of their searches: those of the first search
+  /// Held-out error of a fit over its floor, where nothing is missing: a little above 1.
+  double held_out_unit = 1;
+  std::vector<NullDraw> draws = {};  ///< of searches; as many as it took
+  Search first_search = {};          ///< on the base alone
+  std::size_t n_kept = 0;            ///< effects that the models had, the first that designs hold
+  Design bare = {};                  ///< the base without these, where there are any
+
+  /// N m of gaps over all equations, whose rows are weighted so that each has the motor's floor (of
+  /// blocked logs alone theirs): of training and of test rows.
+  double unit() const { return floor[static_cast<std::size_t>(RowKind::motor)]; }
+  double test_unit() const { return test_floor[static_cast<std::size_t>(RowKind::motor)]; }
+  /// Of these models and the test logs.
+  SimulatedGap simulated(std::span<const Model> models) const;
+  /// Share of the time of every test log that was not fitted.
+  double compared() const { return held_back > 0 ? held_back : 1; }
+};
+
+/// Where the workflow stands.
+struct RefineState {
+  Design design;  ///< training rows
+  Eigen::VectorXd x;
+  KindLevels levels{};
+  double rho = 0;         ///< training rows
+  RowGap held_out;        ///< the same rows, each block predicted by the others, over held_out_unit
+  bool is_joint = false;  ///< judged together with the effect before
+};
+
+/// States without an effect, with the first, with the second and so on.
+using Chain = std::vector<RefineState>;
+
+/// Fills in `rho` and `held_out` of a state that is fitted.
+void judge(const RefineBench& bench, const BlockFit& fit, RefineState& state);
+
+/// The base fit, floors and test rows. Throws Error(input) without a long enough stretch.
+RefineState prepare(RefineBench& bench, std::span<const Model> models, const RefineLogs& logs,
+                    RefineResult& result);
+
+/// Searches some simulated data sets more; false: there are as many as were asked for. The first
+/// call sets their weights and the disturbance that they hold: what even the best candidate of
+/// `found` leaves.
+bool draw_more(RefineBench& bench, const RefineState& state, const Search& found);
+
+void tell(const RefineOptions& options, std::string_view what, double share);
+
+}  // namespace cablefit

@@ -1,0 +1,17 @@
+// What a remainder looks like that no row of the catalogue explains: an unmodelled mode that the
+// motion shakes, a hum at a fixed frequency, or slow wandering. Internal to refine/.
+#pragma once
+
+#include <optional>
+
+#include "cablefit/refine/refine_result.hpp"
+#include "cablefit/refine/rows/evidence.hpp"
+
+namespace cablefit {
+
+/// Of the equation that leaves most above its floor, with these values; nothing where all are at
+/// their floor.
+std::optional<Unexplained> describe_remainder(const Design& design, const Eigen::VectorXd& x,
+                                              const KindLevels& floor, double block_seconds);
+
+}  // namespace cablefit

@@ -1,0 +1,135 @@
+#include "cablefit/report/documents/batch_document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cablefit/report/documents/batch_figures.hpp"
+#include "cablefit/report/documents/document_parts.hpp"
+#include "cablefit/report/documents/dynamic_document.hpp"
+#include "cablefit/report/documents/elastic_document.hpp"
+#include "cablefit/report/documents/numbers.hpp"
+#include "cablefit/report/documents/preload_report.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr int kDigits = 3;
+constexpr std::size_t kMostCellsInFull = 12;
+constexpr const char* kFailed = "FAILED";
+
+void append(Document& all, const Document& part) {
+  all.tables.insert(all.tables.end(), part.tables.begin(), part.tables.end());
+  all.paragraphs.insert(all.paragraphs.end(), part.paragraphs.begin(), part.paragraphs.end());
+  all.decisions.insert(all.decisions.end(), part.decisions.begin(), part.decisions.end());
+  add_figures(all, part.figures);
+  all.warnings.insert(all.warnings.end(), part.warnings.begin(), part.warnings.end());
+  if (all.tidy.columns.empty()) {
+    all.tidy = part.tidy;
+  } else {
+    all.tidy.rows.insert(all.tidy.rows.end(), part.tidy.rows.begin(), part.tidy.rows.end());
+  }
+}
+
+template <class Items, class Is>
+std::size_t n_with(const Items& items, Is is) {
+  return static_cast<std::size_t>(std::count_if(items.begin(), items.end(), is));
+}
+
+/// What a reader in a hurry wants: how much was done, and everything that failed.
+std::vector<SummaryLine> summary_of(const BatchResult& result) {
+  const std::size_t n_failed =
+      n_with(result.cells, [](const BatchCell& cell) { return !cell.error.empty(); });
+  std::vector<SummaryLine> lines = {
+      {"Cells", fmt::format("{} fitted, {} failed", result.cells.size() - n_failed, n_failed)}};
+  for (const BatchCell& cell : result.cells)
+    if (!cell.error.empty()) lines.push_back({kFailed, cell.name + ": " + cell.error});
+  if (result.gates.empty()) return lines;
+  lines.push_back(
+      {"Gates", fmt::format("{} checked, {} failed", result.gates.size(),
+                            n_with(result.gates, [](const Gate& gate) { return !gate.passed; }))});
+  for (const Gate& gate : result.gates)
+    if (!gate.passed && gate.name != kFittedGate)
+      lines.push_back({kFailed, gate.text.substr(gate.text.find(' ') + 1)});
+  return lines;
+}
+
+Table gate_table(const BatchResult& result) {
+  Table table;
+  table.title = "Gates";
+  table.columns = {{"", "cell", "", true},
+                   {"", "gate", "", true},
+                   {"", "limit", "", false},
+                   {"", "value", "", false},
+                   {"", "", "", true}};
+  for (const Gate& gate : result.gates)
+    table.rows.push_back({gate.cell, gate.name, fmt::format("{:.4g}", gate.limit),
+                          fmt::format("{:.4g}", gate.value), gate.passed ? "passed" : "FAILED"});
+  table.detail = true;
+  return table;
+}
+
+std::string effects_text(const CellRefine& refine) {
+  std::string text;
+  for (const CellEffect& effect : refine.effects)
+    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", effect.name, effect.side);
+  return text.empty() ? kNoNumber : text;
+}
+
+std::string unit_of(const BatchResult& result) {
+  for (const BatchCell& cell : result.cells)
+    if (cell.dynamic) return torque_unit(cell.dynamic->preloads.front().linear_motion);
+  return torque_unit(false);
+}
+
+/// The missing effects of every cell that was refined; no rows where none was.
+Table refine_table(const BatchResult& result) {
+  Table table;
+  table.title = "Missing effects";
+  table.columns = {{"", "cell", "", true},
+                   {"", "verdict", "", true},
+                   {"", "effects", "", true},
+                   {"torque gap, test", "before", unit_of(result)},
+                   {"torque gap, test", "after", unit_of(result)},
+                   {"torque gap, test", "floor", unit_of(result)}};
+  for (const BatchCell& cell : result.cells) {
+    if (!cell.refine) continue;
+    const CellRefine& refine = *cell.refine;
+    const auto gap = [&](double value) {
+      return refine.torque.known ? significant(value, kDigits) : kNoNumber;
+    };
+    table.rows.push_back({cell.name, refine.error.empty() ? refine.verdict : "none possible",
+                          effects_text(refine), gap(refine.torque.test_before),
+                          gap(refine.torque.test_after), gap(refine.torque.noise_floor)});
+    table.notes.push_back(cell.name + ": " + (refine.error.empty() ? refine.reason : refine.error));
+  }
+  return table;
+}
+
+/// Of many cells what people read; GitHub takes a summary of 1 MB.
+Document in_short(Document document) {
+  document = without_details(std::move(document));
+  document.decisions.clear();
+  document.paragraphs = {
+      "Choices with their reasons, rows used and the paper's sd of every cell are in batch.json."};
+  return document;
+}
+
+}  // namespace
+
+Document batch_document(const BatchResult& result) {
+  Document document;
+  document.title = result.campaign_name.empty() ? "Campaign" : result.campaign_name;
+  document.summary = summary_of(result);
+  document.warnings = result.warnings;
+  document.figures = parameter_figures(result);
+  append(document, elastic_document(result.all_elastic()));
+  append(document, dynamic_document(result.all_dynamic()));
+  if (Table refine = refine_table(result); !refine.rows.empty())
+    document.tables.push_back(std::move(refine));
+  add_preload_advice(result, document);
+  if (!result.gates.empty()) document.tables.push_back(gate_table(result));
+  return result.cells.size() > kMostCellsInFull ? in_short(std::move(document)) : document;
+}
+
+}  // namespace cablefit

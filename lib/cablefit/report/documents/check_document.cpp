@@ -1,0 +1,260 @@
+#include "cablefit/report/documents/check_document.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/report/documents/document_parts.hpp"
+#include "cablefit/report/documents/numbers.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr int kDigits = 4;
+constexpr double kDegrees = 180 / 3.14159265358979323846;
+
+/// How a part is called within its log.
+std::string part_name(const CheckedPart& part) {
+  const PartSurvey& s = part.survey;
+  return s.run.empty() ? s.preload : s.preload + ", run " + s.run;
+}
+
+/// A printed time is rounded: less than 0.001 % of jitter is none.
+std::string percent(double share) { return share < 1e-5 ? "0" : significant(100 * share, 2); }
+
+Table parts_table(const CheckedLog& log) {
+  Table table;
+  table.title = fmt::format("{}: {} rows", log.path, log.rows);
+  table.columns = {{"", "part", "", true},
+                   {"", "phase", "", true},
+                   {"", "rows", ""},
+                   {"", "duration", "s"},
+                   {"clock", "rate", "Hz"},
+                   {"clock", "jitter", "%"},
+                   {"clock", "worst", "%"},
+                   {"clock", "gaps", ""},
+                   {"motion", "at rest", "%"},
+                   {"motion", "fastest", log.linear_motion ? "m/s" : "rad/s"},
+                   {"motion", "speeds", "of 10"},
+                   {"", "good for", "", true}};
+  for (const CheckedPart& part : log.parts) {
+    const PartSurvey& s = part.survey;
+    const CheckedExcitation& e = part.excitation;
+    const bool known = !e.channel.empty();
+    table.rows.push_back(
+        {part_name(part), std::string(to_string(s.phase)), fmt::format("{}", s.n_rows),
+         significant(s.t_last - s.t_first, kDigits), significant(1 / s.period, kDigits),
+         percent(s.jitter), percent(s.worst_jitter), fmt::format("{}", s.n_gaps),
+         known ? percent(e.share_at_rest) : kNoNumber,
+         known ? significant(e.fastest, 3) : kNoNumber,
+         known ? fmt::format("{}", e.speed_bands) : kNoNumber,
+         part.identifies.empty() ? "nothing"
+                                 : fmt::format("{}", fmt::join(part.identifies, ", "))});
+  }
+  for (const Decision& decision : log.decisions)
+    table.notes.push_back(
+        fmt::format("{}: {} ({})", decision.name, decision.value, decision.reason));
+  if (!log.unused_columns.empty()) {
+    table.notes.push_back(fmt::format("not used: {}", fmt::join(log.unused_columns, ", ")));
+  }
+  return table;
+}
+
+Table channels_table(const CheckedLog& log) {
+  Table table;
+  table.columns = {{"", "part", "", true}, {"", "channel", "", true}, {"", "unit", "", true},
+                   {"", "min", ""},        {"", "max", ""},           {"", "range", "deg"},
+                   {"", "quantum", ""},    {"", "noise sd", ""},      {"", "at limits", "%"}};
+  for (const CheckedPart& part : log.parts) {
+    for (const CheckedChannel& channel : part.channels) {
+      const ChannelSurvey& s = channel.survey;
+      table.rows.push_back({part_name(part), channel.name, channel.unit,
+                            significant(s.min, kDigits), significant(s.max, kDigits),
+                            channel.is_angle ? significant(kDegrees * s.range(), 3) : kNoNumber,
+                            significant(s.quantum, 2), significant(s.noise, 2),
+                            percent(s.at_limits)});
+    }
+  }
+  return table;
+}
+
+Table tidy_check_table() {
+  Table table;
+  for (const char* name : {"log",
+                           "preload",
+                           "run",
+                           "phase",
+                           "rows",
+                           "rate",
+                           "channel",
+                           "unit",
+                           "min",
+                           "max",
+                           "quantum",
+                           "noise",
+                           "share_at_limits",
+                           "good_for",
+                           "equation",
+                           "parameter",
+                           "sd_at_best",
+                           "size_first_look",
+                           "sd_first_look",
+                           "closest",
+                           "correlation",
+                           "verdict"}) {
+    table.columns.push_back({"", name, ""});
+  }
+  return table;
+}
+
+/// A row per predicted parameter, of all the logs that stage 2 would fit together.
+void add_tidy_rows(Table& table, const Prediction& p) {
+  for (const PredictedEquation& e : p.equations)
+    for (const PredictedParameter& parameter : e.parameters)
+      table.rows.push_back({fmt::format("{}", fmt::join(p.logs, " ")),
+                            p.preload,
+                            "",
+                            "moving",
+                            fmt::format("{}", e.rows),
+                            "",
+                            "",
+                            parameter.unit,
+                            "",
+                            "",
+                            "",
+                            "",
+                            "",
+                            "",
+                            e.name,
+                            parameter.name,
+                            exact(parameter.sd_best),
+                            exact(parameter.size),
+                            exact(parameter.sd_first_look),
+                            parameter.closest,
+                            parameter.closest.empty() ? "" : exact(parameter.correlation),
+                            std::string(to_string(parameter.determined))});
+}
+
+void add_tidy_rows(Table& table, const CheckedLog& log, const CheckedPart& part) {
+  const PartSurvey& p = part.survey;
+  for (const CheckedChannel& channel : part.channels) {
+    const ChannelSurvey& s = channel.survey;
+    table.rows.push_back({log.path,
+                          p.preload,
+                          p.run,
+                          std::string(to_string(p.phase)),
+                          fmt::format("{}", p.n_rows),
+                          exact(1 / p.period),
+                          channel.name,
+                          channel.unit,
+                          exact(s.min),
+                          exact(s.max),
+                          exact(s.quantum),
+                          exact(s.noise),
+                          exact(s.at_limits),
+                          fmt::format("{}", fmt::join(part.identifies, " ")),
+                          "",
+                          "",
+                          "",
+                          "",
+                          "",
+                          "",
+                          "",
+                          ""});
+  }
+}
+
+/// "0.3": a size of which one digit may be right.
+std::string size_text(const PredictedParameter& p) {
+  return p.determined == Determined::given ? significant(p.size, kDigits) : significant(p.size, 1);
+}
+
+std::string sd_number(double sd) {
+  return std::isfinite(sd) && sd > 0 ? significant(sd, 2) : kNoNumber;
+}
+
+std::string closest_text(const PredictedParameter& p) {
+  return p.closest.empty() ? kNoNumber : fmt::format("{} {:.2f}", p.closest, p.correlation);
+}
+
+/// What a row of the table says of the prediction that it stands under.
+std::string about(const Prediction& p, const PredictedEquation& e) {
+  const std::string torque = torque_unit(p.linear_motion);
+  return fmt::format(
+      "{}: {} rows, scaled condition number {}, noise of the sensors {} {}, a rough model leaves "
+      "{} "
+      "{}",
+      e.name, e.rows,
+      std::isfinite(e.condition_scaled) ? significant(e.condition_scaled, 2) : "infinite",
+      significant(e.noise, 2), torque, significant(e.left, 2), torque);
+}
+
+Table prediction_table(const Prediction& p) {
+  Table table;
+  const bool one = p.logs.size() == 1;
+  table.title = fmt::format("{}: what {} of the {} drive, predicted", p.preload,
+                            one ? "this motion will tell" : "its moving logs will tell together",
+                            p.rigid ? "rigid" : "elastic");
+  table.columns = {
+      {"", "equation", "", true}, {"", "parameter", "", true}, {"", "unit", "", true},
+      {"at best", "sd", ""},      {"first look", "size", ""},  {"first look", "sd", ""},
+      {"first look", "sd", "%"},  {"", "closest", "", true},   {"", "verdict", "", true}};
+  for (const PredictedEquation& e : p.equations) {
+    for (const PredictedParameter& parameter : e.parameters)
+      table.rows.push_back({e.name, parameter.name, parameter.unit, sd_number(parameter.sd_best),
+                            size_text(parameter), sd_number(parameter.sd_first_look),
+                            sd_number(100 * parameter.relative_sd()), closest_text(parameter),
+                            std::string(to_string(parameter.determined))});
+    table.notes.push_back(about(p, e));
+  }
+  return table;
+}
+
+void add_prediction(const Prediction& p, Document& document) {
+  if (!p.none.empty()) {
+    document.paragraphs.push_back(p.preload +
+                                  ": no prediction of what stage 2 will tell: " + p.none);
+    return;
+  }
+  document.tables.push_back(prediction_table(p));
+  for (const PredictedEquation& e : p.equations)
+    for (const std::string& sentence : e.sentences)
+      document.warnings.push_back(fmt::format("{}, {}: {}", p.preload, e.name, sentence));
+}
+
+constexpr const char* kHowPredicted =
+    "at best: noise of the sensors alone, white; first look: a rough model fitted to these logs "
+    "alone "
+    "(one digit of each size), with the honest sd that all it leaves makes; stage 1 betters the "
+    "model and adds its own error";
+
+}  // namespace
+
+Document check_document(const CheckResult& result, const std::vector<Prediction>& predictions) {
+  Document document;
+  document.tidy = tidy_check_table();
+  document.warnings = result.warnings;
+  for (const CheckedLog& log : result.logs) {
+    add_figures(document, log.figures);
+    document.tables.push_back(parts_table(log));
+    document.tables.push_back(channels_table(log));
+    for (const CheckedPart& part : log.parts) {
+      add_tidy_rows(document.tidy, log, part);
+      const std::string where = log.path + ", " + part_name(part) + ": ";
+      if (!part.delay.reason.empty()) document.paragraphs.push_back(where + part.delay.reason);
+      for (const std::string& warning : part.warnings) document.warnings.push_back(where + warning);
+    }
+  }
+  for (const Prediction& p : predictions) {
+    add_prediction(p, document);
+    add_tidy_rows(document.tidy, p);
+  }
+  const bool any = std::any_of(predictions.begin(), predictions.end(),
+                               [](const Prediction& p) { return p.none.empty(); });
+  if (any) document.tables.back().notes.emplace_back(kHowPredicted);
+  return document;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,56 @@
+// Pieces that the documents of all results share. Internal to report/.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cablefit/elastic/elastic_result.hpp"
+#include "cablefit/report/documents/document.hpp"
+
+namespace cablefit {
+
+/// A table whose notes are numbered as they are first mentioned.
+class Footnotes {
+ public:
+  /// "[1]", the same for the same text.
+  std::string mark(const std::string& text);
+  std::vector<std::string> lines() const;
+
+ private:
+  std::vector<std::string> texts_;
+};
+
+/// Adds the decisions of one preload; same ones of several preloads share a line.
+void add_decisions(Document& document, const std::string& preload,
+                   const std::vector<Decision>& decisions);
+/// A decision that holds for all of `n_preloads` needs no names.
+void finish_decisions(Document& document, std::size_t n_preloads);
+
+/// "low: text", "low, poly: text".
+void add_warnings(Document& document, const std::string& where,
+                  const std::vector<std::string>& warnings);
+
+void add_figures(Document& document, const std::vector<Figure>& figures);
+
+/// Columns and one row of the table of rows used.
+Table counts_table();
+void add_counts(Table& table, const std::string& preload, const std::string& equation,
+                const RowCounts& rows, const WindowCounts& windows);
+
+/// Columns and one row of the tidy table.
+Table tidy_table();
+void add_tidy(Table& table, const std::string& preload, const std::string& model,
+              const std::string& method, const Estimate& estimate);
+/// A number that is no estimate, e.g. an rms error.
+void add_tidy_number(Table& table, const std::string& preload, const std::string& model,
+                     const std::string& method, const std::string& name, const std::string& unit,
+                     double value);
+
+/// Columns and rows of the table of derived quantities; `where`: preload, or preload and model.
+Table derived_table();
+void add_derived(Table& table, const std::string& where, const std::vector<Estimate>& derived);
+
+/// "N m" or "N".
+std::string torque_unit(bool linear_motion);
+
+}  // namespace cablefit

@@ -1,0 +1,245 @@
+#include "cablefit/report/documents/elastic_document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "cablefit/model/modes.hpp"
+#include "cablefit/report/documents/document_parts.hpp"
+#include "cablefit/report/documents/numbers.hpp"
+#include "cablefit/report/documents/proof_report.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr int kErrorDigits = 3;
+
+std::string error_text(double error) { return significant(error, kErrorDigits); }
+
+/// "0.012 +- 0.003", "-" when the fit has no such parameter. `scale`: mrad instead of rad.
+std::string estimate_text(const ElasticFit& fit, const std::string& name, double scale,
+                          Footnotes& notes) {
+  const Estimate* e = find_estimate(fit.parameters, name);
+  if (e == nullptr) return kNoNumber;
+  if (!e->not_identifiable.empty()) {
+    return "not identifiable " + notes.mark(e->not_identifiable);
+  }
+  if (!e->active_bound.empty()) {
+    return "0 " + notes.mark(fmt::format("at its bound {}; 95 % interval up to {}", e->active_bound,
+                                         significant(e->ci_high, 2)));
+  }
+  return value_with_sd(scale * e->value, scale * e->sd);
+}
+
+/// A row of the table of fits: the whole fit, or of several joints one of them.
+struct FitRow {
+  std::string joint;  ///< empty: there is one
+  ElasticJointErrors errors;
+  std::string name(const char* parameter) const {
+    return joint.empty() ? parameter : fmt::format("{}[{}]", parameter, joint);
+  }
+};
+
+std::vector<FitRow> rows_of(const ElasticFit& fit) {
+  if (fit.joints.empty())
+    return {{"", {fit.rms_error, fit.max_abs_error, fit.held_out_rms, fit.held_out_max}}};
+  std::vector<FitRow> rows;
+  for (std::size_t k = 0; k < fit.joints.size(); ++k)
+    rows.push_back({std::to_string(k + 1), fit.joints[k]});
+  return rows;
+}
+
+bool has_several_joints(const ElasticResult& result) {
+  return std::any_of(result.preloads.begin(), result.preloads.end(),
+                     [](const ElasticPreload& preload) { return !preload.joints.empty(); });
+}
+
+Table fits_table(const ElasticResult& result) {
+  const bool linear_motion = !result.preloads.empty() && result.preloads.front().linear_motion;
+  const std::string torque = torque_unit(linear_motion);
+  Table table;
+  Footnotes notes;
+  table.title = "Fits";
+  table.columns = {{"", "preload", "", true},
+                   {"", "model", "", true},
+                   {"", "offset", torque},
+                   {"", "theta_0", linear_motion ? "mm" : "mrad"},
+                   {"", "f_sm", torque},
+                   {"error", "rms", torque},
+                   {"error", "max", torque},
+                   {"held-out blocks", "rms", torque},
+                   {"held-out blocks", "max", torque},
+                   {"", "", "", true}};
+  const bool by_joint = has_several_joints(result);
+  if (by_joint) table.columns.insert(table.columns.begin() + 2, {"", "joint", "", true});
+  for (const ElasticPreload& preload : result.preloads) {
+    for (const ElasticFit& fit : preload.fits) {
+      std::string remark = fit.model == preload.selected ? "selected" : "";
+      const auto add = [&remark](const char* more) {
+        remark += (remark.empty() ? "" : ", ") + std::string(more);
+      };
+      if (!fit.passive) add("pushes");
+      if (!fit.active_bounds.empty()) add("at bounds");
+      const std::string order = fit.model == "linear" ? "" : fmt::format(", order {}", fit.order);
+      for (const FitRow& row : rows_of(fit)) {
+        std::vector<std::string> cells = {preload.name,
+                                          fit.model + order,
+                                          estimate_text(fit, row.name("offset"), 1, notes),
+                                          estimate_text(fit, row.name("theta_0"), 1e3, notes),
+                                          estimate_text(fit, row.name("f_sm"), 1, notes),
+                                          error_text(row.errors.rms_error),
+                                          error_text(row.errors.max_abs_error),
+                                          error_text(row.errors.held_out_rms),
+                                          error_text(row.errors.held_out_max),
+                                          remark};
+        if (by_joint) cells.insert(cells.begin() + 2, row.joint);
+        table.rows.push_back(std::move(cells));
+      }
+    }
+  }
+  table.notes = notes.lines();
+  return table;
+}
+
+/// "0.1", or of several joints "0.1, -0.2".
+std::string numbers_text(const Eigen::VectorXd& numbers) {
+  std::string text;
+  for (const double number : numbers) text += (text.empty() ? "" : ", ") + significant(number, 2);
+  return text;
+}
+
+/// (8c): what the preload alone does in the reference pose.
+std::string balance_text(const ElasticPreload& preload, const ElasticFit& fit) {
+  const PreloadTorques alone = preload_torques(fit.transmission);
+  return fmt::format(
+      "{}, {}: in the reference pose the preload alone makes {} {} on the link and {} on the "
+      "motor; "
+      "0 in equilibrium (8c)",
+      preload.name, fit.model, numbers_text(alone.link), torque_unit(preload.linear_motion),
+      numbers_text(alone.motor));
+}
+
+/// "high: all cables taut (force closure) in 12.0 % of the rows; slack: 1 in 44.1 %, ...".
+std::string modes_text(const ElasticPreload& preload) {
+  const auto percent = [&](std::size_t rows) {
+    const auto all = static_cast<double>(preload.counts.rows_used);
+    return fmt::format("{:.1f} %", 100 * static_cast<double>(rows) / std::max(1.0, all));
+  };
+  std::string slack;
+  for (const ModeCounts::Slack& own : preload.modes.slack)
+    slack += fmt::format("{}{} in {}", slack.empty() ? "" : ", ", own.cable, percent(own.rows));
+  return fmt::format("{}: all cables taut (force closure) in {} of the rows; slack: {}",
+                     preload.name, percent(preload.modes.closure), slack);
+}
+
+/// Where cables of a preloaded fit go slack, within the deflections of the logs; no rows otherwise:
+/// with every l_o = 0 each cable ends at zero deflection by definition.
+Table slack_table(const ElasticResult& result) {
+  const bool linear_motion = !result.preloads.empty() && result.preloads.front().linear_motion;
+  Table table;
+  table.title = "Cables go slack (force disclosure) at";
+  table.columns = {{"", "preload", "", true},
+                   {"", "model", "", true},
+                   {"", "cable", "", true},
+                   {"", "deflection", linear_motion ? "mm" : "mrad"},
+                   {"", "elastic torque", torque_unit(linear_motion)},
+                   {"", "slack", "", true}};
+  for (const ElasticPreload& preload : result.preloads) {
+    for (const ElasticFit& fit : preload.fits) {
+      if (!is_preloaded(fit.transmission)) continue;
+      if (fit.transmission.n_joints > 1) continue;  // a pose, not one deflection, makes them slack
+      table.notes.push_back(balance_text(preload, fit));
+      for (const SlackPoint& point :
+           slack_points(fit.transmission, preload.deflection_low, preload.deflection_high)) {
+        table.rows.push_back({preload.name, fit.model, fit.transmission.cables[point.cable].name,
+                              significant(1e3 * point.deflection, kErrorDigits),
+                              significant(point.motor, kErrorDigits),
+                              point.slack_above ? "above" : "below"});
+      }
+    }
+  }
+  return table;
+}
+
+Table sd_table(const ElasticResult& result) {
+  Table table;
+  table.title = "Standard deviations: the one cablefit stands behind, and the paper's (25)";
+  table.columns = {{"", "preload", "", true},   {"", "model", "", true},
+                   {"", "parameter", "", true}, {"", "unit", "", true},
+                   {"", "value", ""},           {"", "sd", ""},
+                   {"", "sd of (25)", ""},      {"95 % interval", "from", ""},
+                   {"95 % interval", "to", ""}};
+  table.detail = true;
+  for (const ElasticPreload& preload : result.preloads) {
+    for (const ElasticFit& fit : preload.fits) {
+      for (const Estimate& e : fit.parameters) {
+        table.rows.push_back({preload.name, fit.model, e.name, e.unit, value_text(e.value, e.sd),
+                              sd_text(e.value, e.sd), significant(e.sd_white, 2),
+                              value_text(e.ci_low, e.sd), value_text(e.ci_high, e.sd)});
+      }
+    }
+  }
+  return table;
+}
+
+void add_tidy_rows(Table& table, const ElasticPreload& preload, const ElasticFit& fit) {
+  const std::string method = fmt::format("order {}", fit.order);
+  for (const Estimate& e : fit.parameters) add_tidy(table, preload.name, fit.model, method, e);
+  for (const Estimate& e : fit.derived) add_tidy(table, preload.name, fit.model, method, e);
+  const auto add = [&](const char* name, const std::string& unit, double value) {
+    add_tidy_number(table, preload.name, fit.model, method, name, unit, value);
+  };
+  const std::string torque = torque_unit(preload.linear_motion);
+  add("rms_error", torque, fit.rms_error);
+  add("max_abs_error", torque, fit.max_abs_error);
+  add("held_out_rms", torque, fit.held_out_rms);
+  add("held_out_max", torque, fit.held_out_max);
+  add("deflection_low", preload.unit, preload.deflection_low);
+  add("deflection_high", preload.unit, preload.deflection_high);
+}
+
+}  // namespace
+
+Document elastic_document(const ElasticResult& result) {
+  Document document;
+  document.title = "Stage 1, link blocked: elastic torque against deflection theta - q";
+  document.tidy = tidy_table();
+  Table counts = counts_table(), derived = derived_table();
+  add_warnings(document, "", result.warnings);
+  for (const ElasticPreload& preload : result.preloads) {
+    add_counts(counts, preload.name, "blocked", preload.counts, preload.windows);
+    add_decisions(document, preload.name, preload.decisions);
+    for (const std::string& words : preload.selection) {
+      document.paragraphs.push_back(preload.name + ": " + words);
+    }
+    if (!preload.fits.empty() && is_preloaded(preload.fits.back().transmission))
+      document.paragraphs.push_back(modes_text(preload));
+    add_warnings(document, preload.name, preload.warnings);
+    add_figures(document, preload.figures);
+    for (const ElasticFit& fit : preload.fits) {
+      if (fit.transmission.n_joints > 1 && is_preloaded(fit.transmission))
+        document.paragraphs.push_back(balance_text(preload, fit));
+      add_warnings(document, preload.name + ", " + fit.model, fit.warnings);
+      add_tidy_rows(document.tidy, preload, fit);
+      add_derived(derived, preload.name + ", " + fit.model, fit.derived);
+    }
+  }
+  finish_decisions(document, result.preloads.size());
+  document.tables = stiffness_tables(result);
+  document.tables.push_back(fits_table(result));
+  if (Table slack = slack_table(result); !slack.rows.empty())
+    document.tables.push_back(std::move(slack));
+  for (const ElasticPreload& preload : result.preloads)
+    for (const ElasticFit& fit : preload.fits)
+      if (fit.proof)
+        document.tables.push_back(
+            proof_table(fmt::format("{}, {}", preload.name, fit.model), *fit.proof));
+  if (!derived.rows.empty()) document.tables.push_back(std::move(derived));
+  document.tables.push_back(sd_table(result));
+  document.tables.push_back(counts);
+  return document;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,290 @@
+#include "cablefit/report/documents/identify_document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/report/documents/document_parts.hpp"
+#include "cablefit/report/documents/numbers.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr int kErrorDigits = 3;
+constexpr int kRsdDigits = 2;
+constexpr double kMilli = 1e3;
+constexpr double kEquilibriumMet = 1e-9;  // N m
+
+std::string label(const Estimate& e) {
+  return e.symbol == e.name ? e.name : e.name + " (" + e.symbol + ")";
+}
+
+bool is_elongation(const Estimate& e) { return e.name.starts_with("l_o["); }
+
+struct Cells {
+  std::string value, rsd;
+};
+
+Cells cells_of(const Estimate* e, Footnotes& notes) {
+  if (e == nullptr) return {kNoNumber, ""};
+  if (!e->not_identifiable.empty()) return {"not identifiable", notes.mark(e->not_identifiable)};
+  if (!e->active_bound.empty())
+    return {significant(e->value, kRsdDigits),
+            notes.mark(fmt::format("at its bound {}: 95 % interval up to {} {}", e->active_bound,
+                                   significant(e->ci_high, kRsdDigits), e->unit))};
+  return {value_text(e->value, e->sd), significant(e->rsd_percent(), kRsdDigits)};
+}
+
+/// J_link without the mass that hangs on it, whose own inertia is known.
+Cells without_load(const Estimate* e, double load_inertia) {
+  if (e == nullptr || !e->not_identifiable.empty()) return {kNoNumber, ""};
+  Estimate net = *e;
+  net.value -= load_inertia;
+  return {value_text(net.value, net.sd), significant(net.rsd_percent(), kRsdDigits)};
+}
+
+std::string cad_text(const Estimate& e) {
+  return std::isnan(e.cad) ? kNoNumber : fmt::format("{:g}", e.cad);
+}
+
+/// What all preloads have in common.
+Table shared_table(const IdentifyResult& result) {
+  Table table;
+  Footnotes notes;
+  table.title = result.preloads.size() > 1 ? "Shared by all preloads" : "Cables and inertias";
+  table.columns = {{"", "parameter", "", true}, {"", "unit", "", true}, {"", "CAD", ""},
+                   {"", "value", ""},           {"", "sd", ""},         {"", "rsd %", ""}};
+  for (const Estimate& e : result.parameters) {
+    Cells cells = cells_of(&e, notes);
+    const bool has_sd = e.not_identifiable.empty();
+    table.rows.push_back({label(e), e.unit, cad_text(e), cells.value,
+                          has_sd ? sd_text(e.value, e.sd) : "", cells.rsd});
+    const double load = result.preloads.front().load_inertia;
+    if (e.name != "J_link" || !(load > 0)) continue;
+    cells = without_load(&e, load);
+    table.rows.push_back({"  without the load", e.unit, kNoNumber, cells.value, "", cells.rsd});
+  }
+  table.notes = notes.lines();
+  return table;
+}
+
+const Estimate* elongation_estimate(const IdentifyPreload& preload, const Cable& cable) {
+  return find_estimate(preload.parameters, elongation_name(cable));
+}
+
+std::string interval_text(const Estimate& e) {
+  const auto end = [&](double value) {
+    return std::isnan(value) ? std::string("?") : value_text(kMilli * value, kMilli * e.sd);
+  };
+  return end(e.ci_low) + " .. " + end(e.ci_high);
+}
+
+/// l_o of every cable: found, or as given.
+Table elongation_table(const IdentifyResult& result) {
+  Table table;
+  Footnotes notes;
+  const bool length = result.cable_space || result.linear_motion;
+  table.title = "Initial elongations l_o";
+  table.columns = {{"", "preload", "", true},
+                   {"", "cable", "", true},
+                   {"", "l_o", length ? "mm" : "mrad"},
+                   {"", "sd", length ? "mm" : "mrad"},
+                   {"", "95 % interval", "profile likelihood"},
+                   {"", "tension", length && !result.cable_space ? "N" : "N m"}};
+  if (result.cable_space) table.columns.back().unit = "N";
+  for (const IdentifyPreload& preload : result.preloads)
+    for (const Cable& cable : preload.transmission.cables) {
+      const Estimate* e = elongation_estimate(preload, cable);
+      const double l = cable.initial_elongation;
+      std::vector<std::string> row = {preload.name, cable.name};
+      if (e == nullptr) {
+        row.insert(row.end(), {fmt::format("{:g}", kMilli * l), "given", kNoNumber});
+      } else if (!e->not_identifiable.empty()) {
+        row.insert(row.end(), {"not identifiable", notes.mark(e->not_identifiable), kNoNumber});
+      } else {
+        row.insert(row.end(), {value_text(kMilli * l, kMilli * e->sd),
+                               sd_text(kMilli * l, kMilli * e->sd), interval_text(*e)});
+      }
+      row.push_back(e != nullptr && !e->not_identifiable.empty()
+                        ? kNoNumber
+                        : significant(cable.force(l), kErrorDigits));
+      table.rows.push_back(row);
+    }
+  table.notes = notes.lines();
+  double most = 0;
+  for (const IdentifyPreload& preload : result.preloads) most = std::max(most, preload.equilibrium);
+  // Rounding differs between machines; what is met need not be told to the digit.
+  table.notes.push_back(fmt::format(
+      "in the reference pose the preload alone makes {} {} on link and motor: equilibrium (8c), "
+      "imposed",
+      most < kEquilibriumMet ? "less than 1e-9" : significant(most, 2),
+      torque_unit(result.linear_motion)));
+  return table;
+}
+
+bool any_load(const IdentifyResult& result) {
+  return std::any_of(result.preloads.begin(), result.preloads.end(),
+                     [](const IdentifyPreload& preload) { return preload.load_inertia > 0; });
+}
+
+void add_net_row(const IdentifyResult& result, const Estimate& row, Table& table) {
+  std::vector<std::string> cells = {"  without the load", row.unit, kNoNumber};
+  for (const IdentifyPreload& preload : result.preloads) {
+    const Cells c = without_load(find_estimate(preload.parameters, row.name), preload.load_inertia);
+    cells.insert(cells.end(), {c.value, c.rsd});
+  }
+  table.rows.push_back(cells);
+}
+
+/// Table 2, a column per preload.
+Table dynamics_table(const IdentifyResult& result) {
+  Table table;
+  Footnotes notes;
+  table.title = "Each preload's own (Table 2)";
+  table.columns = {{"", "parameter", "", true}, {"", "unit", "", true}, {"", "CAD", ""}};
+  std::vector<const Estimate*> rows;
+  for (const IdentifyPreload& preload : result.preloads) {
+    table.columns.push_back({preload.name, "value", ""});
+    table.columns.push_back({preload.name, "rsd %", ""});
+    for (const Estimate& e : preload.parameters)
+      if (!is_elongation(e) && std::none_of(rows.begin(), rows.end(), [&](const Estimate* other) {
+            return other->name == e.name;
+          }))
+        rows.push_back(&e);
+  }
+  for (const Estimate* row : rows) {
+    std::vector<std::string> cells = {label(*row), row->unit, cad_text(*row)};
+    for (const IdentifyPreload& preload : result.preloads) {
+      const Cells c = cells_of(find_estimate(preload.parameters, row->name), notes);
+      cells.insert(cells.end(), {c.value, c.rsd});
+    }
+    table.rows.push_back(cells);
+    if (row->name == "J_link" && any_load(result)) add_net_row(result, *row, table);
+  }
+  table.notes = notes.lines();
+  return table;
+}
+
+std::string range_text(double low, double high) {
+  return fmt::format("{} .. {}", significant(kMilli * low, kErrorDigits),
+                     significant(kMilli * high, kErrorDigits));
+}
+
+/// The linear model's K on the range of each preload.
+Table line_table(const IdentifyResult& result) {
+  Table table;
+  table.title = "Linear stiffness K: the straight line through the blocked rows";
+  table.columns = {{"", "preload", "", true},
+                   {"", "deflection", result.linear_motion ? "mm" : "mrad"},
+                   {"", "measured", result.linear_motion ? "N/m" : "N m/rad"},
+                   {"", "of these cables", result.linear_motion ? "N/m" : "N m/rad"}};
+  for (const IdentifyPreload& preload : result.preloads) {
+    if (!preload.line) continue;
+    const LineStiffness& line = *preload.line;
+    table.rows.push_back({preload.name, range_text(line.low, line.high),
+                          value_with_sd(line.measured, line.sd), value_text(line.model, line.sd)});
+  }
+  return table;
+}
+
+Table slack_table(const IdentifyResult& result) {
+  Table table;
+  table.title = "Cables go slack (force disclosure) at";
+  table.columns = {{"", "preload", "", true},
+                   {"", "cable", "", true},
+                   {"", "deflection", result.linear_motion ? "mm" : "mrad"},
+                   {"", "elastic torque", torque_unit(result.linear_motion)},
+                   {"", "slack", "", true}};
+  for (const IdentifyPreload& preload : result.preloads)
+    for (const SlackPoint& point : preload.slack)
+      table.rows.push_back({preload.name, preload.transmission.cables[point.cable].name,
+                            significant(kMilli * point.deflection, kErrorDigits),
+                            significant(point.motor, kErrorDigits),
+                            point.slack_above ? "above" : "below"});
+  return table;
+}
+
+Table equation_table(const IdentifyResult& result) {
+  Table table;
+  table.title = "Equations: what the fit leaves, and what each weighs";
+  table.columns = {{"", "preload", "", true},
+                   {"", "equation", "", true},
+                   {"", "rms", torque_unit(result.linear_motion)},
+                   {"rows", "used", ""},
+                   {"rows", "at rest", ""},
+                   {"rows", "not used", ""},
+                   {"rows", "effective", ""},
+                   {"", "weight", "1/variance"}};
+  for (const IdentifyPreload& preload : result.preloads)
+    for (const IdentifyEquation& e : preload.equations)
+      table.rows.push_back(
+          {preload.name, e.name, significant(e.rms, kErrorDigits),
+           std::to_string(e.counts.rows_used), std::to_string(e.counts.rows_at_rest),
+           std::to_string(e.counts.rows_not_used), fmt::format("{:.0f}", e.effective_rows),
+           significant(e.weight, kErrorDigits)});
+  return table;
+}
+
+void add_sd_rows(Table& table, const std::string& preload, const std::vector<Estimate>& all) {
+  for (const Estimate& e : all) {
+    if (!e.not_identifiable.empty()) continue;
+    table.rows.push_back({preload, e.name, e.unit, value_text(e.value, e.sd),
+                          sd_text(e.value, e.sd), significant(e.sd_white, 2),
+                          value_text(e.ci_low, e.sd), value_text(e.ci_high, e.sd)});
+  }
+}
+
+Table sd_table(const IdentifyResult& result) {
+  Table table;
+  table.title = "Standard deviations: the one cablefit stands behind, and the paper's (25)";
+  table.columns = {{"", "preload", "", true},
+                   {"", "parameter", "", true},
+                   {"", "unit", "", true},
+                   {"", "value", ""},
+                   {"", "sd", ""},
+                   {"", "sd of (25)", ""},
+                   {"95 % interval", "from", ""},
+                   {"95 % interval", "to", ""}};
+  table.detail = true;
+  add_sd_rows(table, "all", result.parameters);
+  for (const IdentifyPreload& preload : result.preloads)
+    add_sd_rows(table, preload.name, preload.parameters);
+  return table;
+}
+
+void add_tidy_rows(Document& document, const std::string& preload,
+                   const std::vector<Estimate>& parameters) {
+  for (const Estimate& e : parameters) add_tidy(document.tidy, preload, "poly", "joint", e);
+}
+
+}  // namespace
+
+Document identify_document(const IdentifyResult& result) {
+  Document document;
+  document.title = "One step: elastic and dynamic parameters of all preloads together";
+  document.tidy = tidy_table();
+  add_warnings(document, "", result.warnings);
+  add_tidy_rows(document, "all", result.parameters);
+  Table derived = derived_table();
+  for (const IdentifyPreload& preload : result.preloads) {
+    add_decisions(document, preload.name, preload.decisions);
+    add_decisions(document, preload.name, result.decisions);
+    add_warnings(document, preload.name, preload.warnings);
+    add_tidy_rows(document, preload.name, preload.parameters);
+    add_tidy_rows(document, preload.name, preload.derived);
+    add_derived(derived, preload.name, preload.derived);
+  }
+  add_figures(document, result.figures);
+  finish_decisions(document, result.preloads.size());
+  for (const std::string& bound : result.active_bounds)
+    document.paragraphs.push_back("held by its bound: " + bound);
+  for (Table& table :
+       std::vector<Table>{shared_table(result), elongation_table(result), dynamics_table(result),
+                          line_table(result), slack_table(result), derived, equation_table(result),
+                          sd_table(result)})
+    if (!table.rows.empty()) document.tables.push_back(std::move(table));
+  return document;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,175 @@
+#include "cablefit/report/documents/refine_document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/report/documents/document_parts.hpp"
+#include "cablefit/report/documents/numbers.hpp"
+#include "cablefit/report/documents/refine_story.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr int kDigits = 3;
+constexpr std::size_t kLeagueRows = 8;
+
+std::string number(double value) { return significant(value, kDigits); }
+std::string percent(double share) {
+  return std::isfinite(share) ? fmt::format("{:.0f}", 100 * share) : kNoNumber;
+}
+
+Table where_table(const RefineResult& result) {
+  const std::string torque = torque_unit(result.linear_motion);
+  Table table;
+  table.title = "Where the gap is";
+  table.detail = result.verdict == Verdict::none;
+  table.columns = {{"", "equation", "", true}, {"", "by", "", true},
+                   {"", "where", "", true},    {"share of", "squared gap", "%"},
+                   {"share of", "rows", "%"},  {"", "rms", torque},
+                   {"", "noise floor", torque}};
+  for (const Regime& r : result.where)
+    table.rows.push_back({r.equation, r.regime, regime_text(r, result.linear_motion),
+                          percent(r.share_of_squared_gap), percent(r.share_of_rows), number(r.rms),
+                          number(r.noise)});
+  table.notes = {
+      "before anything was added; a share may pass 100 % where other rows lie below the floor"};
+  return table;
+}
+
+Table league_table(const RefineResult& result) {
+  Table table;
+  table.title = "Candidates for the first effect";
+  table.detail = result.verdict == Verdict::none;
+  table.columns = {{"", "effect", "", true},
+                   {"", "side", "", true},
+                   {"removes of the", "squared gap", "%"},
+                   {"best in", "resamples", "%"},
+                   {"", "why not", "", true}};
+  const std::size_t n = std::min(kLeagueRows, result.league.size());
+  for (std::size_t k = 0; k < n; ++k) {
+    const Rival& row = result.league[k];
+    table.rows.push_back(
+        {row.name, row.side, percent(row.gain), percent(row.inclusion), row.refused});
+  }
+  if (result.league.size() > n)
+    table.notes.push_back(
+        fmt::format("{} more candidates did no better", result.league.size() - n));
+  return table;
+}
+
+std::string next_run_text(const NotSeparable& group) {
+  if (group.is_alias) return "no log of the usual kind";
+  if (group.next_run.empty()) return "none of those tried";
+  if (group.still_together.empty()) return group.next_run;
+  return fmt::format("{}, all but {}", group.next_run, fmt::join(group.still_together, ", "));
+}
+
+Table separability_table(const RefineResult& result) {
+  Table table;
+  table.title = "What these logs cannot tell apart";
+  table.detail = result.verdict == Verdict::none || result.verdict == Verdict::named;
+  table.columns = {{"", "effects", "", true}, {"", "from", "", true}, {"", "what would", "", true}};
+  for (const NotSeparable& group : result.not_separable)
+    table.rows.push_back({fmt::format("{}", fmt::join(group.effects, ", ")),
+                          group.from_base ? "the model's own parameters" : "each other",
+                          next_run_text(group)});
+  table.notes = {
+      "from the equations alone, whatever the residual: of a size that matters, one "
+      "explains the other to within the noise"};
+  return table;
+}
+
+Table step_table(const RefineResult& result) {
+  const std::string torque = torque_unit(result.linear_motion);
+  Table table;
+  table.title = "Steps";
+  table.columns = {{"", "added", "", true},     {"", "side", "", true},  {"gap", "train", torque},
+                   {"gap", "held out", torque}, {"gap", "test", torque}, {"", "kept", "", true},
+                   {"", "why not", "", true}};
+  for (const RefineStep& step : result.steps)
+    table.rows.push_back({step.added, step.side, number(step.gap_train), number(step.gap_held_out),
+                          number(step.gap_test), step.accepted ? "yes" : "no", step.reason});
+  return table;
+}
+
+Table shift_table(const RefineResult& result) {
+  Table table;
+  table.title = "Parameters before and after";
+  table.columns = {{"", "parameter", "", true}, {"", "unit", "", true}, {"", "before", ""},
+                   {"", "after", ""},           {"", "sd", ""},         {"", "moved", "sd"}};
+  if (result.effects.empty()) return table;  // then nothing moved them
+  for (const ParameterShift& shift : result.shifts) {
+    const double moved = moved_sd(shift);
+    table.rows.push_back({shift.name, shift.unit, value_text(shift.before, shift.sd),
+                          value_text(shift.after, shift.sd), sd_text(shift.after, shift.sd),
+                          std::isfinite(moved) ? fmt::format("{:+.1f}", moved) : kNoNumber});
+  }
+  table.notes = {"before: the model given, fitted to the same logs in the same way"};
+  return table;
+}
+
+void add_model_rows(Table& table, const Model& model) {
+  const auto add = [&](const Estimate& e) {
+    add_tidy(table, model.preload, "refined", "refine", e);
+  };
+  for (const JointModel& joint : model.joints)
+    for (const auto* side : {&joint.link, &joint.motor})
+      for (const EffectInstance& instance : *side)
+        for (const Estimate& e : instance.parameters) add(e);
+  for (const Estimate& e : model.elastic) add(e);
+}
+
+void add_effect_rows(Table& table, const NamedEffect& effect) {
+  const Refinement& row = *effect.instance.refinement;
+  const std::string method = fmt::format("{}.{}", row.name, to_string(row.site));
+  for (const auto* some : {&effect.instance.parameters, &effect.derived})
+    for (const Estimate& e : *some) add_tidy(table, "", "refined", method, e);
+}
+
+void add_gap_rows(Table& table, const GapStory& gap, const std::string& what,
+                  const std::string& unit) {
+  if (!gap.known) return;
+  const auto add = [&](const char* name, double value) {
+    add_tidy_number(table, "", "refined", "refine", fmt::format("gap_{}_{}", what, name), unit,
+                    value);
+  };
+  add("test_before", gap.test_before);
+  add("test_after", gap.test_after);
+  add("noise_floor", gap.noise_floor);
+}
+
+Table tidy_rows(const RefineResult& result) {
+  Table table = tidy_table();
+  for (const Model& model : result.models) add_model_rows(table, model);
+  for (const KeptEffect& kept : result.kept) add_effect_rows(table, kept.now);
+  for (const NamedEffect& effect : result.effects) add_effect_rows(table, effect);
+  add_gap_rows(table, result.torque, "torque", torque_unit(result.linear_motion));
+  add_gap_rows(table, result.simulation, "simulation", result.linear_motion ? "m" : "rad");
+  return table;
+}
+
+}  // namespace
+
+Document refine_document(const RefineResult& result, const std::vector<std::string>& model_files) {
+  Document document;
+  document.title = "What the model lacks";
+  document.summary = refine_story(result, model_files);
+  for (Table table : {where_table(result), league_table(result), separability_table(result),
+                      step_table(result), shift_table(result)})
+    if (!table.rows.empty()) document.tables.push_back(std::move(table));
+  if (!result.model_choice.empty())
+    document.paragraphs.push_back(
+        result.model_path.empty()
+            ? fmt::format("Model: {}.", result.model_choice)
+            : fmt::format("Model: {}, from {}.", result.model_choice, result.model_path));
+  add_decisions(document, "", result.decisions);
+  finish_decisions(document, 0);
+  add_warnings(document, "", result.warnings);
+  add_figures(document, result.figures);
+  document.tidy = tidy_rows(result);
+  return document;
+}
+
+}  // namespace cablefit

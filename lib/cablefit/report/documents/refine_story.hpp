@@ -1,0 +1,21 @@
+// The story of a refinement in about ten lines. Internal to report/.
+#pragma once
+
+#include "cablefit/refine/refine_result.hpp"
+#include "cablefit/report/documents/document.hpp"
+
+namespace cablefit {
+
+std::vector<SummaryLine> refine_story(const RefineResult& result,
+                                      const std::vector<std::string>& model_files);
+
+/// "stribeck (motor)".
+std::string effect_text(std::string_view name, std::string_view side);
+
+/// "thetad from -0.386 to 0.208 rad/s", "negative direction of thetad".
+std::string regime_text(const Regime& regime, bool linear_motion);
+
+/// How many sd a parameter moved; NaN without an sd.
+double moved_sd(const ParameterShift& shift);
+
+}  // namespace cablefit

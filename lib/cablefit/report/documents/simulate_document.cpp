@@ -1,0 +1,145 @@
+#include "cablefit/report/documents/simulate_document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cablefit/report/documents/document_parts.hpp"
+#include "cablefit/report/documents/numbers.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr int kGapDigits = 3;
+constexpr int kShareDigits = 3;
+constexpr int kTimeDigits = 5;
+
+std::string count(std::size_t n) { return fmt::format("{}", n); }
+
+/// The log, and what of it when it has several parts.
+std::string part_name(const SimulateResult& result, const SimulatedPart& part) {
+  const auto n_parts = std::count_if(result.parts.begin(), result.parts.end(),
+                                     [&](const SimulatedPart& p) { return p.log == part.log; });
+  if (n_parts == 1) return part.log;
+  return fmt::format("{} ({}{}{}{})", part.log, part.preload, part.preload.empty() ? "" : ", ",
+                     part.phase, part.run.empty() ? "" : ", " + part.run);
+}
+
+/// Gaps of positions are small: printed in mrad, or mm on a linear axis.
+struct Shown {
+  double factor;
+  std::string unit;
+};
+
+Shown shown(const std::string& unit) {
+  if (unit == "rad" || unit == "m") return {1e3, "m" + unit};
+  return {1, unit};
+}
+
+Table gap_table(const SimulateResult& result) {
+  Table table;
+  table.title = "Gap: simulated minus measured";
+  table.columns = {{"", "log", "", true},  {"", "mode", "", true}, {"", "signal", "", true},
+                   {"", "unit", "", true}, {"", "rms", ""},        {"largest", "gap", ""},
+                   {"largest", "at", "s"}, {"", "relative", "%"},  {"", "sensor noise", ""}};
+  bool replayed = false;
+  for (const SimulatedPart& part : result.parts) {
+    replayed = replayed || !part.closed_loop;
+    for (const SignalGap& gap : part.gaps) {
+      const bool first = &gap == &part.gaps.front();
+      const auto [factor, unit] = shown(gap.unit);
+      table.rows.push_back(
+          {first ? part_name(result, part) : "", first ? std::string(part.mode()) : "", gap.signal,
+           unit, significant(factor * gap.rms, kGapDigits),
+           significant(factor * gap.max_abs, kGapDigits), significant(gap.t_of_max, kTimeDigits),
+           significant(100 * gap.relative, kGapDigits), significant(factor * gap.noise, 2)});
+    }
+  }
+  table.notes = {
+      "relative: rms gap / rms of the measured signal about its mean; sensor noise: sd, rounding "
+      "included, what a perfect model in closed loop leaves"};
+  if (replayed) {
+    table.notes.emplace_back(
+        "torque replay: the noise of the replayed torque adds to the gap of the positions, growing "
+        "from the start of each window");
+  }
+  return table;
+}
+
+Table part_table(const SimulateResult& result) {
+  Table table;
+  table.title = "Simulated";
+  table.columns = {{"", "log", "", true},     {"", "preload", "", true}, {"", "phase", "", true},
+                   {"", "window", "s"},       {"", "starts", ""},        {"rows", "simulated", ""},
+                   {"rows", "resampled", ""}, {"rows", "too short", ""}, {"", "all taut", "%"}};
+  for (const SimulatedPart& part : result.parts) {
+    table.rows.push_back(
+        {part_name(result, part), part.preload, part.phase,
+         part.window_seconds > 0 ? significant(part.window_seconds, kGapDigits) : kNoNumber,
+         count(part.n_windows), count(part.n_rows), count(part.counts.rows_resampled),
+         count(part.counts.rows_too_short),
+         part.closure_share ? significant(100 * *part.closure_share, kShareDigits) : kNoNumber});
+  }
+  return table;
+}
+
+Table cable_table(const SimulateResult& result) {
+  Table table;
+  table.title = "Cables in the simulation";
+  table.columns = {{"", "log", "", true},   {"", "cable", "", true}, {"", "unit", "", true},
+                   {"tension", "from", ""}, {"tension", "to", ""},   {"", "slack", "%"}};
+  table.detail = true;
+  for (const SimulatedPart& part : result.parts) {
+    for (const CableTension& cable : part.cables) {
+      table.rows.push_back({part_name(result, part), cable.cable, cable.unit,
+                            significant(cable.min, kGapDigits), significant(cable.max, kGapDigits),
+                            significant(100 * cable.slack_share, kShareDigits)});
+    }
+  }
+  return table;
+}
+
+Table tidy_gaps(const SimulateResult& result) {
+  Table table;
+  for (const char* name :
+       {"log", "preload", "phase", "run", "model", "mode", "window", "rows", "signal", "unit",
+        "rms", "max_abs", "t_of_max", "relative", "noise", "worst_window_t", "worst_window_rms"}) {
+    table.columns.push_back({"", name, ""});
+  }
+  for (const SimulatedPart& part : result.parts) {
+    for (const SignalGap& gap : part.gaps) {
+      table.rows.push_back(
+          {part.log, part.preload, part.phase, part.run, result.model_name,
+           std::string(part.mode()), exact(part.window_seconds), count(part.n_rows), gap.signal,
+           gap.unit, exact(gap.rms), exact(gap.max_abs), exact(gap.t_of_max), exact(gap.relative),
+           exact(gap.noise), exact(gap.t_of_worst_window), exact(gap.worst_window_rms)});
+    }
+  }
+  return table;
+}
+
+}  // namespace
+
+Document simulate_document(const SimulateResult& result) {
+  Document document;
+  document.title = "Simulation of the model on the input of the logs";
+  document.tables = {gap_table(result), part_table(result)};
+  const Table cables = cable_table(result);
+  if (!cables.rows.empty()) document.tables.push_back(cables);
+  document.tidy = tidy_gaps(result);
+  document.paragraphs.push_back(
+      fmt::format("Model: {}, from {}.", result.model_choice, result.model_path));
+  if (!result.trajectories.empty()) {
+    document.paragraphs.push_back(fmt::format("Trajectories: {}.", result.trajectories));
+  }
+  add_warnings(document, "", result.warnings);
+  for (const SimulatedPart& part : result.parts) {
+    add_decisions(document, part_name(result, part), part.decisions);
+    add_warnings(document, part_name(result, part), part.warnings);
+    add_figures(document, part.figures);
+  }
+  finish_decisions(document, result.parts.size());
+  return document;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,26 @@
+// How a fit does on logs, as tables. Internal to report/.
+#pragma once
+
+#include <vector>
+
+#include "cablefit/dynamic/dynamic_result.hpp"
+#include "cablefit/report/documents/document.hpp"
+
+namespace cablefit {
+
+/// Per preload, model and equation and condition: rows, errors, baselines, verdict; then the
+/// residual tests on those logs. Nothing when no log was validated on.
+std::vector<Table> validation_tables(const DynamicResult& result);
+
+/// Residual tests on the logs that were fitted, a line per equation; no rows: none were made.
+Table residual_summary(const DynamicResult& result);
+/// The same, a line per test: a detail.
+Table residual_table(const DynamicResult& result);
+
+/// A line for every equation that fails, with the condition under which it is worst.
+std::vector<std::string> validation_warnings(const DynamicPreload& preload);
+
+/// Rows for the tidy table.
+void add_validation_rows(Table& table, const DynamicPreload& preload);
+
+}  // namespace cablefit

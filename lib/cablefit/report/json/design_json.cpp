@@ -1,0 +1,158 @@
+#include "cablefit/report/json/design_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "cablefit/report/json/json_list.hpp"
+#include "cablefit/report/json/json_parts.hpp"
+
+namespace cablefit {
+namespace {
+
+using report_json::Json;
+using report_json::list_of;
+using report_json::text_or_null;
+
+Json collision_json(const std::optional<CollisionThreshold>& c) {
+  if (!c) return {};
+  return Json{{"torque", c->torque},
+              {"threshold", c->threshold},
+              {"rows", c->n_rows},
+              {"mean_noise", c->mean_noise},
+              {"delay", c->delay}};
+}
+
+Json cost_json(const ModelCost& cost) {
+  return Json{{"model", cost.model},
+              {"coefficients", cost.coefficients},
+              {"max_error", cost.max_error},
+              {"rms_error", cost.rms_error},
+              {"deflection_of_max_error", cost.at},
+              {"static_error", cost.static_error},
+              {"resonance", {cost.resonance_low, cost.resonance_high}},
+              {"collision", collision_json(cost.collision)}};
+}
+
+Json friction_json(const std::optional<DesignFriction>& f) {
+  if (!f) return {};
+  return Json{{"at_rest", f->at_rest},
+              {"driving", f->driving},
+              {"driven", f->driven},
+              {"efficiency_driving", f->efficiency_driving},
+              {"efficiency_driven", f->efficiency_driven}};
+}
+
+Json tension_json(const TensionRange& t) {
+  return Json{
+      {"cable", t.cable}, {"preload", t.preload}, {"least", t.least}, {"largest", t.largest}};
+}
+
+Json joint_json(const DesignJoint& joint) {
+  return Json{{"name", joint.name},
+              {"deflection_range", {joint.low, joint.high}},
+              {"closure",
+               {{"torque", joint.closure_torque},
+                {"slack_first", text_or_null(joint.slack_first)},
+                {"deflection_range", {joint.closure_low, joint.closure_high}},
+                {"torque_range", {joint.closure_torque_low, joint.closure_torque_high}}}},
+              {"stiffness",
+               {{"zero", joint.stiffness_zero},
+                {"at_torque", {joint.stiffness_low, joint.stiffness_high}},
+                {"range", {joint.stiffness_least, joint.stiffness_most}}}},
+              {"tensions", list_of(joint.tensions, tension_json)},
+              {"friction", friction_json(joint.friction)},
+              {"models", list_of(joint.models, cost_json)}};
+}
+
+Json point_json(const DesignPoint& point) {
+  return Json{{"l_o", point.l_o},
+              {"radius_factor", point.radius_factor},
+              {"own", point.is_own},
+              {"initial_elongations", point.initial_elongations},
+              {"joints", list_of(point.joints, joint_json)}};
+}
+
+Json needed_json(const NeededPreload& needed) {
+  return Json{{"radius_factor", needed.radius_factor},
+              {"l_o", needed.l_o},
+              {"initial_elongations", needed.initial_elongations},
+              {"tensions", needed.tensions}};
+}
+
+Json planned_json(const PlannedParameter& p) {
+  return Json{{"equation", p.equation},
+              {"name", p.name},
+              {"unit", p.unit},
+              {"value", p.value},
+              {"sd", p.sd},
+              {"floor", p.floor},
+              {"error", p.error()},
+              {"sd_white", p.sd_white},
+              {"relative", p.relative}};
+}
+
+Json sine_json(const ExcitationPlan::Sine& sine, double factor) {
+  return Json{{"hz", sine.hz},
+              {"worst_relative_error", sine.worst},
+              {"factor", factor},
+              {"refused", text_or_null(sine.fit.refused)},
+              {"parameters", list_of(sine.fit.parameters, planned_json)}};
+}
+
+Json excitation_json(const DesignResult& result) {
+  if (!result.excitation) return {};
+  const ExcitationPlan& plan = *result.excitation;
+  const ExcitationLimits& l = plan.limits;
+  return Json{{"reference", result.excitation_path},
+              {"shape", plan.shape},
+              {"limits",
+               {{"max_position", l.max_position},
+                {"max_speed", l.max_speed},
+                {"max_torque", l.max_torque},
+                {"duration", l.duration},
+                {"rate", l.rate},
+                {"middle", l.middle},
+                {"load", l.load}}},
+              {"shares",
+               {{"position", plan.motion.position_share},
+                {"speed", plan.motion.speed_share},
+                {"torque", plan.motion.torque_share}}},
+              {"motions_tried", plan.n_tried},
+              {"worst_relative_error", plan.fit.worst()},
+              {"parameters", list_of(plan.fit.parameters, planned_json)},
+              {"plain_sine", sine_json(plan.plain, plan.factor())},
+              {"best_sine", sine_json(plan.best, plan.factor_of_best())}};
+}
+
+Json detector_json(const DesignResult& result) {
+  if (!result.detector) return {};
+  const std::optional<double>& mean = result.detector->mean_noise;
+  return Json{{"noise", mean ? Json(nullptr) : Json(result.detector->noise)},
+              {"mean_noise", mean ? Json(*mean) : Json(nullptr)},
+              {"floor", result.detector->model_error},
+              {"rate", result.detector->rate},
+              {"window", result.detector->window},
+              {"false_alarms_per_hour", result.false_alarms_per_hour},
+              {"false_alarm_rate", result.detector->false_alarm_rate},
+              {"detection_rate", result.detector->detection_rate}};
+}
+
+}  // namespace
+
+std::string design_json(const DesignResult& result) {
+  Json json = report_json::header("design", result.inputs, result.warnings);
+  json["model"] = {{"path", result.model_path},
+                   {"name", result.model_name},
+                   {"preload", result.preload},
+                   {"choice", result.model_choice}};
+  json["cables"] = result.cables;
+  json["elongation_unit"] = result.cable_space || result.linear_motion ? "m" : "rad";
+  json["torque"] = result.torque;
+  json["detector"] = detector_json(result);
+  json["needed_preload"] = list_of(result.needed, needed_json);
+  json["points"] = list_of(result.points, point_json);
+  json["excitation"] = excitation_json(result);
+  json["decisions"] = report_json::decisions(result.decisions);
+  return report_json::text(json);
+}
+
+}  // namespace cablefit

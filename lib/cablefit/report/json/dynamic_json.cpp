@@ -1,0 +1,127 @@
+#include "cablefit/report/json/dynamic_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "cablefit/report/documents/proof_report.hpp"
+#include "cablefit/report/json/json_list.hpp"
+#include "cablefit/report/json/json_parts.hpp"
+#include "cablefit/report/json/validation_json.hpp"
+
+namespace cablefit {
+namespace {
+
+using report_json::Json;
+using report_json::list_of;
+
+Json errors_json(const std::map<std::string, TorqueError>& errors) {
+  Json json = Json::object();
+  for (const auto& [equation, error] : errors) {
+    json[equation] = {{"rms", error.rms}, {"max_abs", error.max_abs}, {"relative", error.relative}};
+  }
+  return json;
+}
+
+template <typename Value>
+Json by_name(const std::map<std::string, Value>& values) {
+  Json json = Json::object();
+  for (const auto& [name, value] : values) json[name] = value;
+  return json;
+}
+
+Json stage1_json(const ElasticFit& fit) {
+  return Json{{"order", fit.order},
+              {"theta_0", report_json::per_joint(fit.transmission.encoder_zero())},
+              {"offset", report_json::offset(fit)},
+              {"parameters", report_json::parameters(fit.parameters)}};
+}
+
+Json suspects_json(const std::vector<SuspectSpan>& spans) {
+  Json json = Json::array();
+  for (const SuspectSpan& span : spans)
+    json.push_back(Json{{"equation", span.equation},
+                        {"log", span.log},
+                        {"run", span.run},
+                        {"from", span.from},
+                        {"to", span.to},
+                        {"largest", span.largest},
+                        {"rows", span.n_rows}});
+  return json;
+}
+
+Json sweep_json(const Sweep& sweep) {
+  Json points = Json::array(), verdicts = Json::array();
+  for (const SweepPoint& point : sweep.points)
+    points.push_back(Json{{"setting", point.setting},
+                          {"factor", point.factor},
+                          {"value", point.value},
+                          {"change_in_sd", point.change}});
+  for (const SweepVerdict& verdict : sweep.verdicts)
+    verdicts.push_back(
+        Json{{"setting", verdict.setting}, {"flat", verdict.is_flat}, {"verdict", verdict.text}});
+  return Json{{"parameters", sweep.parameters}, {"points", points}, {"verdicts", verdicts}};
+}
+
+Json fit_json(const DynamicFit& fit) {
+  Json json{{"model", fit.model},
+            {"estimator", fit.estimator},
+            {"parameters", report_json::parameters(fit.parameters)},
+            {"derived", report_json::parameters(fit.derived)},
+            {"torque_error", errors_json(fit.torque_error)},
+            {"weight", by_name(fit.weight)},
+            {"condition", by_name(fit.condition)},
+            {"effective_rows", by_name(fit.effective_rows)}};
+  if (fit.elastic) json["elastic"] = stage1_json(*fit.elastic);
+  json["sd_reason"] = by_name(fit.sd_reason);
+  json["systematic"] = {{"method_floor", by_name(fit.method_floor)},
+                        {"estimator_difference", by_name(fit.estimator_difference)},
+                        {"stage1_misfit", by_name(fit.stage1_misfit)}};
+  if (!fit.suspects.empty()) json["suspects"] = suspects_json(fit.suspects);
+  if (fit.sweep) json["sweep"] = sweep_json(*fit.sweep);
+  json["verdicts"] = by_name(fit.verdicts);
+  json["warnings"] = fit.warnings;
+  if (fit.proof) json["prove"] = proof_json(*fit.proof);
+  return json;
+}
+
+Json delay_json(const TorqueDelay& delay) {
+  Json json{{"seconds", nullptr}, {"sd", nullptr}, {"held", delay.held}, {"reason", delay.reason}};
+  if (!delay.estimated) return json;
+  json["seconds"] = delay.seconds;
+  json["sd"] = delay.sd;
+  return json;
+}
+
+Json counts_json(const DynamicPreload& preload) {
+  Json counts = report_json::window_counts(preload.windows);
+  counts["equations"] = Json::object();
+  for (const auto& [equation, rows] : preload.counts) {
+    counts["equations"][equation] = report_json::row_counts(rows);
+  }
+  return counts;
+}
+
+Json preload_json(const DynamicPreload& preload) {
+  Json json{{"name", preload.name},
+            {"rig", report_json::rig(preload.rig_path)},
+            {"linear_motion", preload.linear_motion},
+            {"resonance_hz", preload.resonance > 0 ? Json(preload.resonance) : Json()},
+            {"load_inertia", preload.load_inertia},
+            {"torque_delay", delay_json(preload.delay)},
+            {"fits", list_of(preload.fits, fit_json)},
+            {"counts", counts_json(preload)},
+            {"decisions", report_json::decisions(preload.decisions)},
+            {"residual_tests", report_json::residual_tests(preload.residual_tests)},
+            {"warnings", preload.warnings}};
+  if (preload.validation) json["validation"] = report_json::validation(*preload.validation);
+  return json;
+}
+
+}  // namespace
+
+std::string dynamic_json(const DynamicResult& result) {
+  Json json = report_json::header("dynamic", result.inputs, result.warnings);
+  json["preloads"] = list_of(result.preloads, preload_json);
+  return report_json::text(json);
+}
+
+}  // namespace cablefit

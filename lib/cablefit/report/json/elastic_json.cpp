@@ -1,0 +1,127 @@
+#include "cablefit/report/json/elastic_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "cablefit/model/modes.hpp"
+#include "cablefit/report/documents/proof_report.hpp"
+#include "cablefit/report/json/json_list.hpp"
+#include "cablefit/report/json/json_parts.hpp"
+
+namespace cablefit {
+namespace {
+
+using report_json::Json;
+using report_json::list_of;
+
+Json matrix_json(const Eigen::MatrixXd& matrix) {
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    Json row = Json::array();
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json slack_json(const ElasticPreload& preload, const ElasticFit& fit) {
+  Json list = Json::array();
+  if (!is_preloaded(fit.transmission) || fit.transmission.n_joints > 1) return list;
+  for (const SlackPoint& point :
+       slack_points(fit.transmission, preload.deflection_low, preload.deflection_high)) {
+    list.push_back({{"cable", fit.transmission.cables[point.cable].name},
+                    {"deflection", point.deflection},
+                    {"torque", point.motor},
+                    {"side", point.slack_above ? "above" : "below"}});
+  }
+  return list;
+}
+
+Json joint_errors_json(const ElasticJointErrors& errors) {
+  return Json{{"rms_error", errors.rms_error},
+              {"max_abs_error", errors.max_abs_error},
+              {"held_out_rms", errors.held_out_rms},
+              {"held_out_max", errors.held_out_max}};
+}
+
+Json joint_json(const ElasticJoint& joint) {
+  return Json{{"name", joint.name},
+              {"deflection_range", {joint.deflection_low, joint.deflection_high}},
+              {"peak_torque", joint.peak_torque},
+              {"loop_half_width", joint.loop_half_width},
+              {"both_branches", joint.both_branches},
+              {"weight", joint.weight},
+              {"counts", report_json::row_counts(joint.counts)}};
+}
+
+Json misfit_json(const MisfitPoint& point) {
+  return Json{
+      {"deflection", point.deflection}, {"torque", point.torque}, {"half_width", point.half_width}};
+}
+
+Json fit_json(const ElasticPreload& preload, const ElasticFit& fit) {
+  Json json{{"model", fit.model},
+            {"order", fit.order},
+            {"parameters", report_json::parameters(fit.parameters)},
+            {"derived", report_json::parameters(fit.derived)},
+            {"rms_error", fit.rms_error},
+            {"max_abs_error", fit.max_abs_error},
+            {"held_out_rms", fit.held_out_rms},
+            {"held_out_max", fit.held_out_max},
+            {"passive", fit.passive},
+            {"active_bounds", fit.active_bounds},
+            {"slack", slack_json(preload, fit)},
+            {"theta_0", report_json::per_joint(fit.transmission.encoder_zero())},
+            {"offset", report_json::offset(fit)},
+            {"covariance", matrix_json(fit.covariance)},
+            {"effective_rows", fit.effective_rows},
+            {"condition", fit.condition},
+            {"warnings", fit.warnings}};
+  if (!fit.misfit.empty()) json["misfit"] = list_of(fit.misfit.points, misfit_json);
+  if (fit.proof) json["prove"] = proof_json(*fit.proof);
+  if (!fit.joints.empty()) json["joints"] = list_of(fit.joints, joint_errors_json);
+  return json;
+}
+
+Json modes_json(const ElasticPreload& preload) {
+  Json slack = Json::array();
+  for (const ModeCounts::Slack& own : preload.modes.slack)
+    slack.push_back({{"cable", own.cable}, {"rows", own.rows}});
+  return Json{
+      {"rows", preload.counts.rows_used}, {"closure", preload.modes.closure}, {"slack", slack}};
+}
+
+Json preload_json(const ElasticPreload& preload) {
+  Json fits = Json::array();
+  for (const ElasticFit& fit : preload.fits) fits.push_back(fit_json(preload, fit));
+  Json counts = report_json::window_counts(preload.windows);
+  counts["equations"]["blocked"] = report_json::row_counts(preload.counts);
+  Json json{{"name", preload.name},
+            {"rig", report_json::rig(preload.rig_path)},
+            {"linear_motion", preload.linear_motion},
+            {"deflection_range", {preload.deflection_low, preload.deflection_high}},
+            {"peak_torque", preload.peak_torque},
+            {"loop_half_width", preload.loop_half_width},
+            {"both_branches", preload.both_branches},
+            {"fits", fits},
+            {"selected", preload.selected},
+            {"passive", preload.find(preload.selected)->passive},
+            {"selection", preload.selection},
+            {"counts", counts},
+            {"modes", modes_json(preload)},
+            {"decisions", report_json::decisions(preload.decisions)},
+            {"warnings", preload.warnings}};
+  for (const RigFact& fact : preload.rig_facts) json["rig_content"][fact.name] = fact.value;
+  if (!preload.shape_doubt.empty()) json["shape_doubt"] = preload.shape_doubt;
+  if (!preload.joints.empty()) json["joints"] = list_of(preload.joints, joint_json);
+  return json;
+}
+
+}  // namespace
+
+std::string elastic_json(const ElasticResult& result) {
+  Json json = report_json::header("elastic", result.inputs, result.warnings);
+  json["preloads"] = list_of(result.preloads, preload_json);
+  return report_json::text(json);
+}
+
+}  // namespace cablefit

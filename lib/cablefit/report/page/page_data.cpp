@@ -1,0 +1,149 @@
+#include "cablefit/report/page/page_data.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+#include "cablefit/base/base64.hpp"
+#include "cablefit/report/documents/batch_figures.hpp"
+#include "cablefit/report/documents/escape.hpp"
+#include "cablefit/version.hpp"
+
+namespace cablefit {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// In the order of TraceStyle.
+constexpr const char* kStyles[] = {"line",  "broad",    "dashed", "points",
+                                   "steps", "interval", "area"};
+
+Json texts(const std::vector<std::string>& all) {
+  Json list = Json::array();
+  for (const std::string& text : all) list.push_back(printable(text));
+  return list;
+}
+
+Json numbers(const std::vector<double>& values) {
+  double base = 0;
+  for (const double value : values)
+    if (std::isfinite(value)) {
+      base = value;
+      break;
+    }
+  return {{"base", base}, {"floats", packed(values, base)}};
+}
+
+Json axis_json(const FigureAxis& axis) {
+  return {{"title", printable(axis.title)},
+          {"unit", printable(axis.unit)},
+          {"dates", axis.title == kDateAxis}};
+}
+
+Json trace_json(const Trace& trace) {
+  Json json = {{"name", printable(trace.name)},
+               {"style", kStyles[static_cast<std::size_t>(trace.style)]},
+               {"series", trace.series}};
+  if (trace.labels.empty()) {
+    json["x"] = numbers(trace.x);
+  } else {
+    json["labels"] = texts(trace.labels);
+  }
+  json["y"] = numbers(trace.y);
+  if (trace.low.empty()) return json;
+  json["low"] = numbers(trace.low);
+  json["high"] = numbers(trace.high);
+  return json;
+}
+
+Json figure_json(const Figure& figure) {
+  Json json = {{"section", printable(figure.section)},
+               {"group", printable(figure.group)},
+               {"title", printable(figure.title)},
+               {"caption", printable(figure.caption)},
+               {"x", axis_json(figure.x)},
+               {"y", axis_json(figure.y)},
+               {"wide", figure.wide},
+               {"traces", Json::array()},
+               {"marks", Json::array()},
+               {"notes", Json::array()}};
+  for (const Trace& trace : figure.traces) json["traces"].push_back(trace_json(trace));
+  for (const Mark& mark : figure.marks)
+    json["marks"].push_back({{"x", mark.x}, {"text", printable(mark.text)}});
+  for (const Note& note : figure.notes)
+    json["notes"].push_back({{"x", note.x}, {"y", note.y}, {"text", printable(note.text)}});
+  return json;
+}
+
+Json table_json(const Table& table) {
+  Json json = {{"title", printable(table.title)},
+               {"detail", table.detail},
+               {"columns", Json::array()},
+               {"rows", Json::array()},
+               {"notes", texts(table.notes)}};
+  for (const Column& column : table.columns)
+    json["columns"].push_back({{"group", printable(column.group)},
+                               {"title", printable(column.title)},
+                               {"unit", printable(column.unit)},
+                               {"text", column.is_text}});
+  for (const auto& row : table.rows) json["rows"].push_back(texts(row));
+  return json;
+}
+
+std::string for_script(const std::string& json) {
+  std::string safe;
+  safe.reserve(json.size());
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const std::string_view rest(json.data() + i, json.size() - i);
+    if (rest.front() == '<') {
+      safe += "\\u003c";
+    } else if (rest.front() == '>') {
+      safe += "\\u003e";
+    } else if (rest.front() == '&') {
+      safe += "\\u0026";
+    } else if (rest.starts_with("\xE2\x80\xA8") || rest.starts_with("\xE2\x80\xA9")) {
+      safe += rest[2] == '\xA8' ? "\\u2028" : "\\u2029";
+      i += 2;
+    } else {
+      safe += rest.front();
+    }
+  }
+  return safe;
+}
+
+}  // namespace
+
+std::string packed(const std::vector<double>& values, double base) {
+  std::string bytes;
+  bytes.reserve(4 * values.size());
+  for (const double value : values) {
+    const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value - base));
+    for (unsigned shift = 0; shift < 32; shift += 8)
+      bytes += static_cast<char>(static_cast<unsigned char>(bits >> shift & 255u));
+  }
+  return base64(bytes);
+}
+
+std::string page_data(const Document& document) {
+  Json json = {{"version", kVersion},
+               {"title", printable(document.title)},
+               {"summary", Json::array()},
+               {"tables", Json::array()},
+               {"paragraphs", texts(document.paragraphs)},
+               {"decisions", Json::array()},
+               {"warnings", texts(document.warnings)},
+               {"figures", Json::array()}};
+  for (const SummaryLine& line : document.summary)
+    json["summary"].push_back({{"label", printable(line.label)}, {"text", printable(line.text)}});
+  for (const Table& table : document.tables) json["tables"].push_back(table_json(table));
+  for (const DecisionLine& line : document.decisions)
+    json["decisions"].push_back({{"where", texts(line.where)},
+                                 {"name", printable(line.name)},
+                                 {"value", printable(line.value)},
+                                 {"reason", printable(line.reason)}});
+  for (const Figure& figure : document.figures) json["figures"].push_back(figure_json(figure));
+  return for_script(json.dump());
+}
+
+}  // namespace cablefit

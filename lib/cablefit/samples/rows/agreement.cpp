@@ -1,0 +1,112 @@
+#include "cablefit/samples/rows/agreement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cablefit/base/digest.hpp"
+
+namespace cablefit {
+namespace {
+
+std::string content(const Rig& rig) { return rig.path.empty() ? "" : sha256_of_file(rig.path); }
+
+void require_same_rig(const LogSurvey& first, const LogSurvey& log, const std::string& preload) {
+  const Rig& a = first.plan.rig;
+  const Rig& b = log.plan.rig;
+  if (a.path == b.path || content(a) == content(b)) return;
+  const auto name = [](const Rig& rig) { return rig.path.empty() ? "no rig file" : rig.path; };
+  throw input_error(
+      {log.plan.path, 0, 0},
+      fmt::format("preload '{:.40}' has logs of two rigs, {} and {}", preload, name(a), name(b)),
+      "fit them apart, or name their preloads differently in the rig files");
+}
+
+/// "q2, theta2, tau2" of a log that is read as one of one joint.
+std::string second_joint(const LogPlan& plan) {
+  std::string names;
+  if (plan.rig.n_joints() > 1 || plan.rig.columns.contains("tau")) return names;
+  for (std::size_t k = 0; k < plan.header.columns.size(); ++k) {
+    const std::string& name = plan.header.columns[k].name;
+    const bool is_read = std::any_of(plan.slots.begin(), plan.slots.end(),
+                                     [&](const Slot& slot) { return slot.column == k; });
+    const bool is_second = std::any_of(kChannels.begin(), kChannels.end(), [&](Channel channel) {
+      return name == fmt::format("{}2", channel_name(channel));
+    });
+    if (is_second && !is_read) names += (names.empty() ? "" : ", ") + name;
+  }
+  return names;
+}
+
+std::vector<std::string> unread_joints(std::span<const LogSurvey> logs) {
+  std::vector<std::string> warnings;
+  for (const LogSurvey& log : logs)
+    if (const std::string names = second_joint(log.plan); !names.empty())
+      warnings.push_back(
+          fmt::format("{}: columns {} are not used, the log is read as one of one joint: name the "
+                      "joints in a rig file",
+                      log.plan.path, names));
+  return warnings;
+}
+
+}  // namespace
+
+RateRange sample_rates(std::span<const LogSurvey> logs, const PartFilter& wanted) {
+  RateRange rates{kUnbounded, 0};
+  for (const LogSurvey& log : logs)
+    for (const PartSurvey& part : log.parts) {
+      if (!wanted(part)) continue;
+      rates.lowest = std::min(rates.lowest, 1 / part.period);
+      rates.highest = std::max(rates.highest, 1 / part.period);
+    }
+  return rates;
+}
+
+void require_agreement(std::span<const LogSurvey> logs, const PartFilter& wanted,
+                       const std::string& preload) {
+  const LogSurvey* first = nullptr;
+  for (const LogSurvey& log : logs)
+    for (const PartSurvey& part : log.parts) {
+      if (!wanted(part)) continue;
+      if (first == nullptr) first = &log;
+      require_same_rig(*first, log, preload);
+      const Load& load = log.plan.rig.load;
+      if (part.phase == Phase::moving && load.law != nullptr && load.law->from_column)
+        require_channel(log.plan, Channel::tau_load, "the load that the rig file says is a column");
+    }
+}
+
+std::vector<std::string> unloaded_warnings(std::span<const LogSurvey> logs,
+                                           const PartFilter& wanted) {
+  std::vector<std::string> warnings;
+  for (const LogSurvey& log : logs) {
+    const int n = log.plan.rig.n_joints();
+    if (log.plan.rig.load.law != nullptr ||
+        std::none_of(log.parts.begin(), log.parts.end(), wanted))
+      continue;
+    for (int joint = 0; joint < n; ++joint)
+      if (!log.plan.has(Channel::tau_load, joint))
+        warnings.push_back(fmt::format(
+            "{}: no tau_load{} column and no load law in the rig file: the load torque is taken as "
+            "0",
+            log.plan.path, n > 1 ? std::to_string(joint + 1) : ""));
+  }
+  return warnings;
+}
+
+bool has_trusted_finding(std::span<const LogSurvey> logs, const PartFilter& wanted) {
+  return std::any_of(logs.begin(), logs.end(), [&](const LogSurvey& log) {
+    return log.has_trusted_finding && std::any_of(log.parts.begin(), log.parts.end(), wanted);
+  });
+}
+
+std::vector<std::string> input_warnings(std::span<const LogSurvey> logs) {
+  std::vector<std::string> warnings;
+  for (const LogSurvey& log : logs)
+    warnings.insert(warnings.end(), log.warnings.begin(), log.warnings.end());
+  const std::vector<std::string> unread = unread_joints(logs);
+  warnings.insert(warnings.end(), unread.begin(), unread.end());
+  return warnings;
+}
+
+}  // namespace cablefit

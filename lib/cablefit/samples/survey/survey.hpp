@@ -1,0 +1,70 @@
+// First look at a log: its parts (preload, phase, run), their clock, and per channel the range,
+// quantum and noise. One pass in constant memory, which also keeps the samples in SI for all later
+// passes; everything they decide rests on it.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cablefit/base/parameter.hpp"
+#include "cablefit/samples/plan/channels.hpp"
+#include "cablefit/samples/survey/channel_scan.hpp"
+#include "cablefit/samples/survey/clock_scan.hpp"
+#include "cablefit/samples/survey/sample_store.hpp"
+
+namespace cablefit {
+
+enum class Phase { blocked, moving };
+std::string_view to_string(Phase phase);
+
+/// Rows of one log that belong together: same preload, phase and run.
+struct PartSurvey : ClockSurvey {
+  std::string preload, run;
+  Phase phase = Phase::moving;
+  bool phase_given = false;             ///< by a column, not by whether q stands still
+  std::vector<ChannelSurvey> channels;  ///< as LogPlan::slots
+};
+
+struct LogSurvey {
+  LogPlan plan;
+  std::string sha256;
+  std::size_t n_rows = 0;
+  std::vector<PartSurvey> parts;
+  std::shared_ptr<const SampleStore> samples;  ///< what all later passes read
+  /// Of LogPlan::trusted, of rows left out or filled and of weigh_logs(); reported before others.
+  std::vector<std::string> warnings = {};
+  /// Units, signs or samples cannot be right and are trusted all the same: they explain the rest.
+  bool has_trusted_finding = false;
+};
+
+/// Reads the whole log, its text for the only time, on up to `threads` threads. Throws Error(input)
+/// at file:line:column for time that stands still or runs back, an unknown phase, a part with fewer
+/// than 8 rows, and more than half of the rows left out for missing cells or a fifth for repeated
+/// times; of a moving log for LogPlan::absent.
+/// `preload`: name for parts without a preload column (the rig's, or an option); empty: "default".
+LogSurvey survey_log(const LogPlan& plan, const std::string& preload, int threads = 1);
+
+/// Names of the preloads of the parts for which `wanted` says true, in the order in which they
+/// come.
+std::vector<std::string> preload_names(std::span<const LogSurvey> logs,
+                                       const std::function<bool(const PartSurvey&)>& wanted);
+
+/// The first log with a part for which `wanted` says true; the first one of all when there is none.
+const LogSurvey& first_log_with(std::span<const LogSurvey> logs,
+                                const std::function<bool(const PartSurvey&)>& wanted);
+
+/// Lowest and highest value of a channel in the parts for which `wanted` says true; low > high when
+/// no such log has the channel.
+struct ChannelRange {
+  double low = kUnbounded, high = -kUnbounded;
+  double width() const { return high - low; }
+  double middle() const { return (low + high) / 2; }
+};
+ChannelRange seen_range(std::span<const LogSurvey> logs,
+                        const std::function<bool(const PartSurvey&)>& wanted, Channel channel,
+                        int joint = 0);
+
+}  // namespace cablefit
