@@ -31,12 +31,12 @@ constexpr double kNearer = 0.7;              // of the decrement: what a step at
 constexpr double kInwards = 1e-9;            // from a bound, to be free
 constexpr double kLeastInertiaShare = 0.05;  // of where it starts; J > 0
 
+/// l_o, theta_0 and shapes of effects stay as stage 1 and the table have them.
 bool is_fitted(const ModelParameter& p, const OutputErrorOptions& options) {
   if (std::find(options.held.begin(), options.held.end(), p.name) != options.held.end())
     return false;
-  if (p.kind == ParameterKind::elongation) return options.fit_elongations;
-  if (p.kind == ParameterKind::encoder_zero) return options.fit_encoder_zeros;
-  return !p.is_shape || options.fit_shapes;
+  return !p.is_shape && p.kind != ParameterKind::elongation &&
+         p.kind != ParameterKind::encoder_zero;
 }
 
 std::vector<ModelParameter> fitted_parameters(const Model& model,

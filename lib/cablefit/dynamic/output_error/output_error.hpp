@@ -28,8 +28,6 @@ struct NoiseFreeLogs {
 
 struct OutputErrorOptions {
   std::vector<std::string> held;  ///< parameters to leave as they are
-  /// Fits l_o, theta_0 and shape parameters of effects too, unless they are held.
-  bool fit_shapes = false, fit_elongations = false, fit_encoder_zeros = false;
   GaussianPrior prior;
   Eigen::VectorXd position_sd;  ///< rad, per axis (links, then motors; rigid drives one each)
   /// N m, per axis, of the forces; empty: estimated. 0 where there is none.

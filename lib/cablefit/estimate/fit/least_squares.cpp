@@ -230,14 +230,4 @@ double largest_change_in_sd(const LinearSolution& from, const LinearSolution& to
   return largest;
 }
 
-double rms_on_cells(const std::vector<const GramCell*>& cells, const Eigen::VectorXd& combination) {
-  double sum = 0;
-  Eigen::Index n = 0;
-  for (const GramCell* cell : cells) {
-    sum += combination.dot(cell->gram * combination);
-    n += cell->n_rows;
-  }
-  return n > 0 ? std::sqrt(std::max(0.0, sum) / static_cast<double>(n)) : 0;
-}
-
 }  // namespace cablefit

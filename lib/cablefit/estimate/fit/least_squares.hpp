@@ -86,7 +86,4 @@ LinearSolution solve(const RowStatistics& rows, const LinearProblem& problem);
 /// the measure by which an iteration stands still. 0 where no parameter has an sd.
 double largest_change_in_sd(const LinearSolution& from, const LinearSolution& to);
 
-/// Root mean square of rows * combination over the given cells (held-out blocks), from their Grams.
-double rms_on_cells(const std::vector<const GramCell*>& cells, const Eigen::VectorXd& combination);
-
 }  // namespace cablefit
