@@ -82,7 +82,7 @@ struct ShapeGrid {
   double factor(const LogScale& scale) const;
 };
 
-/// What a log must have for a row to mean anything.
+/// What logs or the rig file must have before a row is a candidate.
 enum class Yardstick {
   none,
   load,             ///< a load torque that is not 0
@@ -111,7 +111,7 @@ struct Refinement {
   /// Blocked logs alone can show it, and tell it from the others that they can show.
   bool is_static = false;
 
-  /// A scale of torques: only something known in the same unit tells it.
+  /// A scale of torques is determined only beside a torque or an inertia that is known.
   Yardstick yardstick = Yardstick::none;
 
   /// Internal states z[0 .. n_states), 0 at the start. `advance` takes them over the time h (s), in

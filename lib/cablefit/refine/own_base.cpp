@@ -131,7 +131,7 @@ void take_one_step(std::span<const LogSurvey> logs, int threads, std::vector<Mod
   decisions.push_back({"cables", kCables, "one step, from the moving logs: no link is blocked"});
 }
 
-/// An inertia that the rig file gives stands whatever the rows say.
+/// An inertia that the rig file gives is not fitted.
 void take_given_inertia(Model& model) {
   const std::optional<double> given = given_link_inertia(model);
   if (!given) return;

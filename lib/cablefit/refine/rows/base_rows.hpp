@@ -29,7 +29,7 @@ struct BaseLayout {
   Eigen::Index n() const { return n_link + n_motor + n_elastic; }
 };
 BaseLayout base_layout(const Model& model);
-/// kg m^2, where the rig file gives it.
+/// Inertia of the link, kg m^2, where the rig file gives it; none on a rigid drive.
 std::optional<double> given_link_inertia(const Model& model);
 
 /// Values of the columns' parameters in a model, and back into it.

@@ -248,7 +248,7 @@ bool stands_out(const VariantColumns& change, const VariantColumns& residuals) {
 }
 
 /// A limit or a band of the drive acts in full: what its correction changes has, as a column, a
-/// coefficient of about 1, and another where something else is only a little like it.
+/// coefficient of about 1. What only resembles such a limit gives another coefficient.
 bool acts_in_full(const Scanner& scanner, const Variant& variant) {
   constexpr double kNear = 0.2, kSd = 3;
   const ScanStart& start = scanner.start;

@@ -25,8 +25,8 @@ class ReportedValues {
   /// Decides by the last state.
   ReportedValues(const RefineBench& bench, const Chain& chain);
   RefineState of(const Chain& chain, std::size_t k) const;
-  /// The bias of the last state where it was found and no simulation says that the values are
-  /// better without it: part of their sd.
+  /// The bias of the last state, where it was found and the simulation does not fit better without
+  /// it: it becomes part of the sd.
   const std::optional<ValueChange>& left() const { return left_; }
 
  private:
