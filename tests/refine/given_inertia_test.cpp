@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "cablefit/refine/rows/base_rows.hpp"
+#include "cablefit/refine/rows/refined_model.hpp"
 #include "cablefit/refine/search/applicable.hpp"
 #include "tests/refine/hidden_logs.hpp"
 
@@ -58,6 +59,22 @@ TEST_CASE("a given inertia is known torque in the link's rows", "[refine]") {
       n_link_kinds += a.kind == RowKind::link;
     }
   CHECK(n_link_kinds > 0);
+}
+
+TEST_CASE("a refined model keeps a given inertia, and every value in its own place", "[refine]") {
+  const Design design = design_of_logs(with_given(0.3), no_effect(), true);
+  FinalFit fit;
+  fit.x = Eigen::VectorXd::LinSpaced(design.n_columns(), 1, 2);
+  fit.covariance = Eigen::MatrixXd::Identity(design.n_columns(), design.n_columns());
+  const std::vector<Model> refined = refined_models(design, fit);
+  const std::vector<ModelParameter>& columns = design.layout.parameters;
+  for (const Model& model : refined) {
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      CHECK(parameter_value(model, columns[k]) == fit.x(static_cast<Eigen::Index>(k)));
+    for (const ModelParameter& p : model_parameters(model))
+      if (p.name == "J_link")
+        CHECK(parameter_value(model, p) == parameter_value(design.models.front(), p));
+  }
 }
 
 TEST_CASE("a scale of torques needs something known in their unit", "[refine]") {

@@ -57,13 +57,17 @@ std::vector<Estimate> amplitudes(const Variant& variant, const FinalFit& fit, Ei
   return out;
 }
 
-/// Uses every linear parameter of the base, in the order of the columns.
-template <typename Use>
-void for_each_effect_parameter(Model& model, Use use) {
+/// The effects' parameters that have a column; an inertia that the rig file gives has none.
+void set_effect_estimates(const Design& design, const FinalFit& fit, Model& model) {
   JointModel& axes = model.joints.front();
-  for (auto* effects : {&axes.link, &axes.motor})
-    for (EffectInstance& instance : *effects)
-      for (std::size_t i = 0; i < instance.effect->n_linear(); ++i) use(instance.parameters[i]);
+  const std::vector<ModelParameter>& columns = design.layout.parameters;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const ModelParameter& p = columns[k];
+    if (p.kind != ParameterKind::effect) continue;
+    const auto at = static_cast<Eigen::Index>(k);
+    set_estimate((p.on_link ? axes.link : axes.motor)[p.effect].parameters[p.index], fit.x(at),
+                 sd_at(fit, at), fit.degrees_of_freedom);
+  }
 }
 
 /// The coefficients that the file tells of stage 1, as far as there are; a cable that got a higher
@@ -195,11 +199,7 @@ std::vector<Model> refined_models(const Design& design, const FinalFit& fit) {
   std::vector<Model> models = models_with(design, fit.x);
   const std::vector<NamedEffect> effects = named_effects(design, fit);
   for (Model& model : models) {
-    Eigen::Index at = 0;
-    for_each_effect_parameter(model, [&](Estimate& e) {
-      set_estimate(e, fit.x(at), sd_at(fit, at), fit.degrees_of_freedom);
-      ++at;
-    });
+    set_effect_estimates(design, fit, model);
     set_elastic_estimates(design, fit, model);
     auto& instances = model.joints.front().refinements;
     std::size_t next = 0;
