@@ -26,6 +26,7 @@
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
+#include "commands/dynamic_model.hpp"
 #include "commands/file_names.hpp"
 #include "commands/progress.hpp"
 #include "commands/stage1_logs.hpp"
@@ -153,6 +154,25 @@ std::optional<Stage1> earlier_stage1(const DynamicCommand& command) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return std::nullopt;
   return read_stage1(path);
+}
+
+/// The model that is given before the logs; --model chooses among those of a result.
+std::optional<StartModel> start_model(DynamicCommand& command) {
+  const bool is_chosen = command.fit.models.size() == 1;
+  std::optional<StartModel> start =
+      take_model(command.common, is_chosen ? command.fit.models.front() : "");
+  if (start && !command.elastic_file.empty())
+    throw usage_error("a model and --elastic: both say what the cables do", "give one of them");
+  if (start) use_model(*start, command.fit);
+  return start;
+}
+
+Stage1 stage1_from(const StartModel& start) {
+  Stage1 stage1;
+  stage1.result = stage1_of(start);
+  stage1.inputs = {{start.path, sha256_of_file(start.path), 0}};
+  stage1.decision = {"cables", start.path, "of the model given: " + start.choice};
+  return stage1;
 }
 
 std::vector<LogSurvey> blocked_of(const std::vector<LogSurvey>& logs) {
@@ -327,10 +347,12 @@ int run_dynamic(const Arguments& arguments) {
   app.footer(kDynamicExample);
   if (!parse(app, arguments)) return 0;
   require_unseen(command);
-  std::optional<Stage1> earlier = earlier_stage1(command);
-  const std::optional<OwnLogs> own_logs = take_stage1_logs(command);
-  const std::vector<LogSurvey> logs =
-      options.logs.empty() ? campaign_logs(options) : read_logs(options);
+  const std::optional<StartModel> start = start_model(command);
+  std::optional<Stage1> earlier = start ? std::nullopt : earlier_stage1(command);
+  const std::optional<OwnLogs> own_logs = start ? std::nullopt : take_stage1_logs(command);
+  const std::vector<LogSurvey> logs = start                  ? read_logs_of(*start, options)
+                                      : options.logs.empty() ? campaign_logs(options)
+                                                             : read_logs(options);
   command.fit.validation = read_unseen(command);
   const std::vector<LogSurvey> moving =
       logs_with(logs, [](const PartSurvey& part) { return part.phase == Phase::moving; });
@@ -348,7 +370,9 @@ int run_dynamic(const Arguments& arguments) {
   const bool takes_stage1 = is_elastic(command) && !moving.empty() && have_torque(moving);
   // Logs given win over an earlier result, unless that is named.
   const bool is_named = !command.elastic_file.empty() || own_logs;
-  if (takes_stage1 && earlier && (is_named || blocked_of(logs).empty())) {
+  if (start) {
+    stage1 = stage1_from(*start);
+  } else if (takes_stage1 && earlier && (is_named || blocked_of(logs).empty())) {
     require_same_rig(*earlier, moving);
     for (const std::string& changed : changed_logs(named_elastic_file(command)))
       earlier->warnings.push_back(fmt::format("{}: {}; run 'cablefit elastic' again",
@@ -365,7 +389,7 @@ int run_dynamic(const Arguments& arguments) {
     return fit_dynamic(moving.empty() ? logs : moving, stage1.result, command.fit);
   });
   if (command.prove > 0) prove(command, moving, blocked_of(logs), stage1, result);
-  if (takes_stage1) add_stage1(stage1, result);
+  if (takes_stage1 || start) add_stage1(stage1, result);
   if (own_logs) add_own_logs(*own_logs, result);
 
   std::vector<ResultFile> files = {{"dynamic.json", dynamic_json(result)}};

@@ -19,6 +19,8 @@
 #include "cablefit/dynamic/ratios.hpp"
 #include "cablefit/dynamic/rows/dynamic_job.hpp"
 #include "cablefit/dynamic/rows/requirements.hpp"
+#include "cablefit/dynamic/rows/settled_effects.hpp"
+#include "cablefit/model/effect_parameter.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
 #include "cablefit/samples/rows/unused_rows.hpp"
 
@@ -70,6 +72,18 @@ void add_cad(DynamicFit& fit, const Rig& rig) {
   }
 }
 
+/// What is held keeps the numbers that the model came with.
+std::vector<RefinementInstance> with_estimates(std::vector<RefinementInstance> effects,
+                                               const std::vector<Estimate>& parameters) {
+  for (const Estimate& e : parameters)
+    if (Estimate* own = find_parameter(effects, e.name); own != nullptr && e.sd != 0) {
+      const std::string name = own->name;
+      *own = e;
+      own->name = name;
+    }
+  return effects;
+}
+
 void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equations,
                 DynamicPreload& preload) {
   const Estimator& estimator = find_estimator(job.options.estimator);
@@ -86,6 +100,7 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
     if (estimator.by_filtered_rows) note_low_cutoff(task, estimation, fit);
     add_largest_errors(job, equations, estimation.solutions, m, fit);
     add_cad(fit, job.rig());
+    fit.effects = with_estimates(job.added, fit.parameters);
     if (estimation.joint && fit.elastic)
       fit.derived = drive_quantities(*estimation.joint, &fit.elastic->transmission,
                                      job.rig().cables_given, job.rig().linear_motion);
@@ -130,8 +145,10 @@ DynamicPreload fit_preload(DynamicJob job, const ElasticResult& elastic) {
   require_torque(job);
   note_load(job, preload);
   choose_settings(job, preload, elastic);
-  std::vector<EquationRows> equations = make_equations(job);
-  preload.windows = collect_rows(job, equations);
+  std::vector<EquationRows> equations;
+  std::string still_moving;
+  preload.windows = collect_settled(job, equations, still_moving);
+  if (!still_moving.empty()) preload.warnings.push_back(std::move(still_moving));
   for (const EquationRows& e : equations) {
     require_rows(e, job);
     preload.counts[e.equation.name] = e.counts;
@@ -157,6 +174,16 @@ bool any_torque(std::span<const LogSurvey> logs, const PartFilter& wanted) {
   });
 }
 
+/// Effects are of one joint, and of one model: they go by its cables.
+void check_effects(std::span<const LogSurvey> logs, const DynamicOptions& options) {
+  if (options.effects.empty()) return;
+  for (const LogSurvey& log : logs)
+    require_one_joint(log.plan, "a model with effects beyond the paper's is made for one");
+  if (options.models.size() != 1 || options.models.front() == "ratios")
+    throw usage_error("effects beyond the paper's are fitted with one model at a time",
+                      "give --model poly, --model linear or --model rigid");
+}
+
 void check_names(const DynamicOptions& options) {
   find_estimator(options.estimator);
   for (const std::string& model : options.models) find_row(dynamic_models(), "model", model);
@@ -169,6 +196,7 @@ std::span<const DynamicModel> dynamic_models() { return kModels; }
 DynamicResult fit_dynamic(std::span<const LogSurvey> logs, const ElasticResult& elastic,
                           const DynamicOptions& options) {
   check_names(options);
+  check_effects(logs, options);
   DynamicResult result;
   result.warnings = input_warnings(logs);
   for (std::string& warning : input_warnings(options.validation))
@@ -205,7 +233,8 @@ DynamicResult fit_dynamic(std::span<const LogSurvey> logs, const ElasticResult& 
       result.preloads.push_back(fit_ratios(logs, name, wanted, options));
       continue;
     }
-    DynamicJob job{logs, options, name, wanted, {}, options.models, rigid, {}, {}, nullptr};
+    DynamicJob job{logs, options, name,    wanted,         {}, options.models, rigid,
+                   {},   {},      nullptr, options.effects};
     for (const LogSurvey& log : logs)
       if (std::any_of(log.parts.begin(), log.parts.end(), wanted))
         require_channels(log.plan, rigid);

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cablefit/model/refinements.hpp"
 #include "cablefit/samples/rows/settings.hpp"
 #include "cablefit/samples/survey/survey.hpp"
 
@@ -28,9 +29,11 @@ struct DynamicOptions {
   std::string estimator = "auto";              ///< name of the table (estimators.hpp)
   bool honest_sd = true;                       ///< --sd honest | white
   std::string preload;                         ///< only this one; empty: all
-  bool figures = false;                        ///< one more pass, for reports with plots
-  bool residual_tests = true;                  ///< a look at up to 40 windows of every log
-  bool sweep = false;                          ///< fit again with other cut-offs and rest speeds
+  /// What the joint has beyond the paper's (31), with values to start from; one model then.
+  std::vector<RefinementInstance> effects = {};
+  bool figures = false;        ///< one more pass, for reports with plots
+  bool residual_tests = true;  ///< a look at up to 40 windows of every log
+  bool sweep = false;          ///< fit again with other cut-offs and rest speeds
   /// The method's floor where it is known already, by parameter; none: it is measured.
   std::optional<std::map<std::string, double>> method_floor = {};
   std::vector<LogSurvey> validation = {};  ///< logs to judge the fit on, none of them fitted

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cablefit/base/parameter.hpp"
+#include "cablefit/base/parameter_covariance.hpp"
 #include "cablefit/base/window_mean.hpp"
 #include "cablefit/model/cables.hpp"
 #include "cablefit/model/effects.hpp"
@@ -44,6 +45,8 @@ struct Model {
   /// l_o and theta_0 if estimated, then what else stage 1 found (offset, f_sm).
   std::vector<Estimate> elastic;
   bool rigid = false;
+  /// Of the parameters of its effects and cables; empty: no fit has told.
+  ParameterCovariance covariance = {};
   /// Means of what the link's equation left in the fit (window_mean.hpp), N m; empty: not known.
   std::vector<WindowMean> link_residual = {};
 };

@@ -48,6 +48,7 @@ Model fitted_model(const DynamicFit& fit, const DynamicPreload& preload, const R
     JointModel& axes = model.joints.emplace_back();
     if (!model.rigid) axes.link = effects_of(fit, Side::link, joint, n, why_not);
     axes.motor = effects_of(fit, model.rigid ? Side::rigid : Side::motor, joint, n, why_not);
+    axes.refinements = fit.effects;
     if (axes.motor.empty()) why_not = "the model has no motion of its own to simulate";
   }
   if (fit.elastic) model.transmission = fit.elastic->transmission;

@@ -4,13 +4,13 @@
 #include <cassert>
 #include <limits>
 
+#include "cablefit/model/effect_walk.hpp"
+
 namespace cablefit {
 namespace {
 
 /// Acts as a torque or as dry friction; other rows are in the cables or concern the log.
-bool acts(const RefinementInstance& instance) {
-  return instance.refinement->torque != nullptr || instance.refinement->level != nullptr;
-}
+bool acts(const RefinementInstance& instance) { return acts_as_torque(*instance.refinement); }
 
 double event_time_in(const RefinementInstance& instance, std::size_t log_number) {
   constexpr double kNever = std::numeric_limits<double>::infinity();

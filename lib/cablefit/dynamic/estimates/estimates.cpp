@@ -135,6 +135,13 @@ void take_chosen(const ChosenSd& chosen, const LinearSolution& s, Eigen::Index k
   set_profile(e, s.profile[static_cast<std::size_t>(k)], wider - 1, lower);
 }
 
+/// From the distance to a nonlinear parameter's origin to the parameter.
+void move_by(double origin, Estimate& e) {
+  e.value += origin;
+  e.ci_low += origin;
+  e.ci_high += origin;
+}
+
 }  // namespace
 
 Eigen::MatrixXd moved_by(const RowStatistics& rows, const LinearSolution& s, Eigen::Index first,
@@ -185,6 +192,7 @@ void add_estimates(const RowStatistics& rows, const DynamicColumns& c, const Lin
     if (chosen && !parameter.given)
       take_chosen(*chosen, s, k, extra(k, k), parameter.info.lower, e);
     e.name = parameter.name;
+    move_by(parameter.origin, e);
     if (!e.active_bound.empty() && parameter.info.lower == 0)
       e.active_bound = fmt::format("{} >= 0", e.name);
     if (parameter.is_inertia && !parameter.given)

@@ -39,6 +39,7 @@ std::string obstacle(const EstimationTask& task, const Model& start) {
   const DynamicJob& job = task.job;
   if (job.arm != nullptr && job.arm->is_coupled())
     return "links that move each other are not simulated yet";
+  if (!job.added.empty()) return "effects beyond the paper's have no sensitivities yet";
   for (const LogSurvey& log : job.logs) {
     if (std::none_of(log.parts.begin(), log.parts.end(), job.wanted)) continue;
     for (int joint = 0; joint < job.n_joints(); ++joint)

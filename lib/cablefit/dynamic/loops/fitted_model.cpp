@@ -21,6 +21,16 @@ std::vector<EffectInstance> effects_of(const DynamicColumns& columns, const Line
   return result;
 }
 
+/// The effects beyond (31), with what the columns of either side say of their parameters.
+std::vector<RefinementInstance> added_of(const DynamicJob& job,
+                                         const std::vector<EquationRows>& equations,
+                                         const std::vector<LinearSolution>& solutions) {
+  std::vector<RefinementInstance> added = job.added;
+  for (std::size_t k = 0; k < equations.size(); ++k)
+    take_values(equations[k].columns, solutions[k].x, added);
+  return added;
+}
+
 }  // namespace
 
 Model fitted_model(const DynamicJob& job, const std::vector<EquationRows>& equations,
@@ -37,6 +47,7 @@ Model fitted_model(const DynamicJob& job, const std::vector<EquationRows>& equat
     JointModel& joint = model.joints[static_cast<std::size_t>(columns.place.joint)];
     (columns.side == Side::link ? joint.link : joint.motor) = effects_of(columns, solutions[k]);
   }
+  model.joints.front().refinements = added_of(job, equations, solutions);
   return model;
 }
 

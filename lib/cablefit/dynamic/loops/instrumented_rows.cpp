@@ -5,9 +5,10 @@ namespace {
 
 /// The signals of the first joints only, as if there were no simulated ones.
 Signals measured(const Signals& signals, int n_joints) {
-  return {signals.first,  signals.begin,
-          signals.end,    signals.t0,
-          signals.period, {signals.joints.begin(), signals.joints.begin() + n_joints}};
+  return {signals.first,    signals.begin,
+          signals.end,      signals.t0,
+          signals.period,   {signals.joints.begin(), signals.joints.begin() + n_joints},
+          signals.log_began};
 }
 
 const Eigen::ArrayXd& speed_of(Side side, const JointSignals& joint) {
@@ -25,7 +26,7 @@ Equation with_instruments(const EquationRows& e, int n_joints, LoopKind loop) {
   more.fill = [fill = e.equation.fill, columns = e.columns, own, extra, n_joints, twin](
                   const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
     fill(measured(signals, n_joints), out.leftCols(own));
-    effect_columns(columns.effects, columns.side, signals.joints[twin], out.rightCols(extra));
+    effect_columns(columns, signals, twin, out.rightCols(extra));
   };
   const Side side = e.columns.side;
   const bool by_either = side == Side::motor || !keeps_disturbances_out(loop);

@@ -66,7 +66,8 @@ std::vector<LinearSolution> fit_copy(const DynamicJob& job, const std::vector<Lo
   DynamicOptions options = job.options;
   options.honest_sd = false;
   const DynamicJob own{copy,       options,   job.preload,  job.wanted,         job.elastic,
-                       job.models, job.rigid, job.settings, job.joint_settings, job.arm};
+                       job.models, job.rigid, job.settings, job.joint_settings, job.arm,
+                       job.added};
   std::vector<EquationRows> equations = make_equations(own);
   collect_rows(own, equations);
   std::vector<LinearSolution> solutions;

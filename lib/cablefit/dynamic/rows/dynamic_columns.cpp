@@ -1,5 +1,6 @@
 #include "cablefit/dynamic/rows/dynamic_columns.hpp"
 
+#include "cablefit/model/effect_parameter.hpp"
 #include "cablefit/model/model.hpp"
 
 namespace cablefit {
@@ -50,12 +51,6 @@ void fill_misfit(const ElasticFit& fit, const JointSignals& s, Eigen::Ref<Eigen:
   }
 }
 
-Eigen::Index n_columns(const std::vector<const Effect*>& effects) {
-  std::size_t n = 0;
-  for (const Effect* effect : effects) n += effect->parameters.size();
-  return static_cast<Eigen::Index>(n);
-}
-
 bool is_coupled_link(const DynamicColumns& c) {
   return c.side == Side::link && c.place.arm != nullptr && c.place.arm->is_coupled();
 }
@@ -80,8 +75,18 @@ void add_effects(DynamicColumns& c, int joint) {
   }
 }
 
-void add_parameters(DynamicColumns& c) {
-  if (!is_coupled_link(c)) return add_effects(c, c.place.joint);
+/// What the joint has beyond (31), last.
+void add_added(DynamicColumns& c, std::span<const RefinementInstance> added) {
+  c.added = effects_of_side(added, c.side);
+  for (const AddedEffect& effect : c.added)
+    for (DynamicParameter& p : parameters_of(effect)) c.parameters.push_back(std::move(p));
+}
+
+void add_parameters(DynamicColumns& c, std::span<const RefinementInstance> added) {
+  if (!is_coupled_link(c)) {
+    add_effects(c, c.place.joint);
+    return add_added(c, added);
+  }
   for (const ParameterInfo& info : c.place.arm->base_parameters())
     c.parameters.push_back({info, std::string(info.name), false, {}, MotionPart::joints});
   c.n_arm = static_cast<Eigen::Index>(c.parameters.size());
@@ -114,12 +119,14 @@ Eigen::VectorXd elastic_coefficients(const ElasticFit& fit) {
 }
 
 DynamicColumns dynamic_columns(Side side, const std::vector<const ElasticFit*>& fits,
-                               ElasticDetail detail, const JointPlace& place) {
+                               ElasticDetail detail, const JointPlace& place,
+                               std::span<const RefinementInstance> added) {
   DynamicColumns c;
   c.detail = detail;
   c.side = side;
   c.place = place;
-  add_parameters(c);
+  if (!fits.empty()) c.cables = &fits.front()->transmission;
+  add_parameters(c, added);
   c.n_effects = static_cast<Eigen::Index>(c.parameters.size());
   c.count = c.n_effects;
   for (const ElasticFit* fit : fits) {
@@ -143,14 +150,28 @@ MotionColumn motion_column(const DynamicColumns& columns, std::size_t parameter,
   return {part, weighted ? "" : std::string(motion_unit(part, linear_motion))};
 }
 
-void effect_columns(const std::vector<const Effect*>& effects, Side side, const JointSignals& s,
+void effect_columns(const DynamicColumns& c, const Signals& signals, std::size_t joint,
                     Eigen::Ref<Eigen::MatrixXd> out) {
-  const Motion motion = motion_of(side, s);
-  Eigen::Index first = 0;
-  for (const Effect* effect : effects) {
+  if (c.n_arm > 0) fill_arm(c, signals, out);
+  const Motion motion = motion_of(c.side, signals.joints[joint]);
+  Eigen::Index first = c.first_effect;
+  for (const Effect* effect : c.effects) {
     const auto n = static_cast<Eigen::Index>(effect->parameters.size());
     effect->regressor(motion, out.middleCols(first, n));
     first += n;
+  }
+  for (const AddedEffect& effect : c.added) {
+    fill_columns(effect, c.cables, signals, joint, out.middleCols(first, effect.n_columns()));
+    first += effect.n_columns();
+  }
+}
+
+void take_values(const DynamicColumns& columns, const Eigen::VectorXd& x,
+                 std::vector<RefinementInstance>& added) {
+  for (std::size_t k = 0; k < columns.parameters.size(); ++k) {
+    const DynamicParameter& parameter = columns.parameters[k];
+    if (Estimate* e = find_parameter(added, parameter.name); e != nullptr && !parameter.given)
+      e->value = parameter.origin + x(static_cast<Eigen::Index>(k));
   }
 }
 
@@ -171,8 +192,7 @@ Equation dynamic_equation(const DynamicColumns& c, const std::vector<const Elast
   };
   equation.fill = [c, fits, own](const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
     const JointSignals& s = signals.joints[own];
-    if (c.n_arm > 0) fill_arm(c, signals, out.leftCols(c.n_effects));
-    effect_columns(c.effects, c.side, s, out.middleCols(c.first_effect, n_columns(c.effects)));
+    effect_columns(c, signals, own, out.leftCols(c.n_effects));
     for (std::size_t k = 0; k < fits.size(); ++k) {
       fill_elastic(*fits[k], c, signals, out.middleCols(c.elastic[k], c.n_elastic[k]));
       if (c.misfit[k] >= 0) fill_misfit(*fits[k], s, out.middleCols(c.misfit[k], 2));

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "cablefit/dynamic/rows/added_effects.hpp"
 #include "cablefit/elastic/elastic_columns.hpp"
 #include "cablefit/elastic/elastic_result.hpp"
 #include "cablefit/estimate/solve/motion_advice.hpp"
@@ -24,15 +26,6 @@ struct JointPlace {
   const Arm* arm = nullptr;
 };
 
-/// What one of the first columns is the torque per unit of.
-struct DynamicParameter {
-  ParameterInfo info;
-  std::string name;             ///< with the joint's index when there are several
-  bool is_inertia = false;      ///< of one axis
-  std::optional<double> given;  ///< by the rig file, and not estimated
-  MotionPart follows = MotionPart::several;
-};
-
 /// The link equations of joints that move each other have the same columns, so that their rows can
 /// stand under each other: base parameters of the arm, then each joint's effects, 0 in the rows of
 /// the other joints.
@@ -43,6 +36,8 @@ struct DynamicColumns {
   std::vector<const Effect*> effects;        ///< of this joint
   Eigen::Index n_arm = 0;                    ///< base parameters of the arm, the first columns
   Eigen::Index first_effect = 0;             ///< of this joint
+  std::vector<AddedEffect> added;            ///< beyond (31), whose columns follow
+  const Transmission* cables = nullptr;      ///< that these go by; nullptr: a rigid drive
   Eigen::Index n_effects = 0;                ///< all these columns, which come first
   ElasticDetail detail = ElasticDetail::coefficients;
   std::vector<Eigen::Index> elastic;  ///< first column of each elastic fit's basis, or its torque
@@ -55,10 +50,13 @@ struct DynamicColumns {
   Eigen::Index count = 0;
 };
 
-/// Columns of one side for the given stage-1 fits (none on a rigid drive).
+/// Columns of one side for the given stage-1 fits (none on a rigid drive). `added`: what the joint
+/// has beyond (31), with the values about which nonlinear parameters are linearised; it goes by the
+/// cables of the first fit.
 DynamicColumns dynamic_columns(Side side, const std::vector<const ElasticFit*>& fits,
                                ElasticDetail detail = ElasticDetail::coefficients,
-                               const JointPlace& place = {});
+                               const JointPlace& place = {},
+                               std::span<const RefinementInstance> added = {});
 
 /// `torque_held`: tau is then not averaged over the triangle. `has_load`: a tau_load signal exists.
 Equation dynamic_equation(const DynamicColumns& columns, const std::vector<const ElasticFit*>& fits,
@@ -74,11 +72,16 @@ Eigen::VectorXd dynamic_response(const DynamicColumns& columns,
 MotionColumn motion_column(const DynamicColumns& columns, std::size_t parameter,
                            bool linear_motion);
 
+/// Values of the effects' columns, written into those of `added` that have them.
+void take_values(const DynamicColumns& columns, const Eigen::VectorXd& x,
+                 std::vector<RefinementInstance>& added);
+
 /// Coefficients of a stage-1 fit in the order of its basis columns.
 Eigen::VectorXd elastic_coefficients(const ElasticFit& fit);
 
-/// Regressor columns of the given effects over full-rate rows.
-void effect_columns(const std::vector<const Effect*>& effects, Side side,
-                    const JointSignals& signals, Eigen::Ref<Eigen::MatrixXd> out);
+/// The first n_effects columns over full-rate rows, by the motion of place `joint` of the signals:
+/// the equation's own joint, or a simulated copy of it.
+void effect_columns(const DynamicColumns& columns, const Signals& signals, std::size_t joint,
+                    Eigen::Ref<Eigen::MatrixXd> out);
 
 }  // namespace cablefit

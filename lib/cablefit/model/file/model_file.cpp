@@ -103,7 +103,8 @@ void require_wanted(const JsonNode& root, std::string_view what, const std::stri
 }  // namespace
 
 Model read_model_file(const JsonNode& root, const Wanted& wanted, std::string* choice) {
-  root.allow_only({"schema", "name", "preload", "rig", "joints", "transmission", "elastic"});
+  root.allow_only(
+      {"schema", "name", "preload", "rig", "joints", "transmission", "elastic", "covariance"});
   Model model;
   model.rig = read_rig_reference(root.find("rig"));
   require_own_inertias(model.rig, root);
@@ -117,6 +118,7 @@ Model read_model_file(const JsonNode& root, const Wanted& wanted, std::string* c
     read_transmission(root.at("transmission"), &model);
   }
   if (const JsonNode* others = root.find("elastic")) read_other_results(*others, &model);
+  if (const JsonNode* node = root.find("covariance")) model.covariance = read_covariance(*node);
   if (wanted.completeness == Completeness::can_move) require_inertia(model, root.at("joints"));
   model.name = text_or(root, "name", default_model_name(model));
   require_wanted(root, "model", model.name, wanted.model);

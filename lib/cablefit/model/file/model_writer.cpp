@@ -44,16 +44,6 @@ Json side_json(const std::vector<EffectInstance>& effects) {
   return json;
 }
 
-Json refinement_json(const RefinementInstance& instance) {
-  Json json{{"name", instance.refinement->name}, {"side", to_string(instance.refinement->site)}};
-  Json& values = json["parameters"] = Json::object();
-  for (const Estimate& parameter : instance.parameters)
-    values[parameter.name] = estimate_json(parameter);
-  if (instance.refinement->is_event)
-    json["event"] = {{"log", instance.event_log + 1}, {"time", instance.event_time}};
-  return json;
-}
-
 Json joints_json(const Model& model) {
   Json list = Json::array();
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
@@ -65,7 +55,7 @@ Json joints_json(const Model& model) {
       json["motor"] = side_json(model.joints[k].motor);
     }
     for (const RefinementInstance& instance : model.joints[k].refinements)
-      json["refinements"].push_back(refinement_json(instance));
+      json["refinements"].push_back(model_file::refinement_json(instance));
     list.push_back(json);
   }
   return list;
@@ -177,6 +167,27 @@ std::string pretty(const Json& json, std::size_t indent) {
 
 }  // namespace
 
+namespace model_file {
+
+Json refinement_json(const RefinementInstance& instance) {
+  Json json{{"name", instance.refinement->name}, {"side", to_string(instance.refinement->site)}};
+  Json& values = json["parameters"] = Json::object();
+  for (const Estimate& parameter : instance.parameters)
+    values[parameter.name] = estimate_json(parameter);
+  if (instance.refinement->is_event)
+    json["event"] = {{"log", instance.event_log + 1}, {"time", instance.event_time}};
+  return json;
+}
+
+Json covariance_json(const ParameterCovariance& covariance) {
+  Json matrix = Json::array();
+  for (const auto& row : covariance.matrix.rowwise())
+    matrix.push_back(std::vector<double>(row.begin(), row.end()));
+  return {{"parameters", covariance.parameters}, {"matrix", matrix}};
+}
+
+}  // namespace model_file
+
 std::string model_json(const Model& model) {
   Json json{{"schema", model_file::kModelSchema}, {"name", model.name}};
   if (!model.preload.empty()) json["preload"] = model.preload;
@@ -185,6 +196,7 @@ std::string model_json(const Model& model) {
   TransmissionWriter transmission(model);
   if (!model.rigid) json["transmission"] = transmission.transmission();
   if (const Json others = transmission.others(); !others.empty()) json["elastic"] = others;
+  if (!model.covariance.empty()) json["covariance"] = model_file::covariance_json(model.covariance);
   return pretty(json, 0) + "\n";
 }
 

@@ -40,6 +40,10 @@ std::string stiffness_unit(const Rig& rig);
 /// "refinements" of a joint: [{"name", "side", "parameters": {...}, "event": {"log", "time"}}].
 std::vector<RefinementInstance> read_refinements(const JsonNode& node, const Model& model);
 
+/// "covariance": {"parameters": [names], "matrix": [rows]}. Throws for another number of rows or
+/// columns than names.
+ParameterCovariance read_covariance(const JsonNode& node);
+
 /// "transmission" of a model file, for the cables that the model's rig has.
 void read_transmission(const JsonNode& node, Model* model);
 

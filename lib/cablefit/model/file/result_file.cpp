@@ -6,6 +6,7 @@
 
 #include "cablefit/base/quote.hpp"
 #include "cablefit/model/effect_choice.hpp"
+#include "cablefit/model/effect_parameter.hpp"
 #include "cablefit/model/file/fit_parameters.hpp"
 #include "cablefit/model/file/parts.hpp"
 #include "cablefit/model/json_reading.hpp"
@@ -153,6 +154,17 @@ void take_torque_hold(const JsonNode& preload, Rig* rig) {
   rig->torque_hold = delay->at("held").boolean() ? TorqueHold::zoh : TorqueHold::none;
 }
 
+/// "effects" of a fit: what it has beyond the paper's. They stand among its parameters as well.
+void take_added(const JsonNode& fit, FitParameters* parameters, Model* model) {
+  const JsonNode* effects = fit.find("effects");
+  if (effects == nullptr || effects->items.empty()) return;
+  std::vector<RefinementInstance>& added = model->joints.front().refinements;
+  added = read_refinements(*effects, *model);
+  for (const RefinementInstance& effect : added)
+    for (const ParameterInfo& info : effect.refinement->parameters)
+      (void)parameters->find_dynamic(added_parameter_name(*effect.refinement, info));
+}
+
 void take_joints(FitParameters* parameters, Model* model) {
   const int n = model->rig.n_joints();
   const std::string_view rigid_name = base_effects(Side::rigid).front().parameters.front().name;
@@ -195,6 +207,7 @@ Model read_result_file(const JsonNode& root, const Wanted& wanted, std::string* 
   take_torque_hold(preload, &model.rig);
   FitParameters parameters(fit);
   take_joints(&parameters, &model);
+  take_added(fit, &parameters, &model);
   if (!model.rigid) take_transmission(&parameters, &model);
   parameters.require_all_used();
   if (wanted.completeness == Completeness::can_move) require_inertia(model, fit);

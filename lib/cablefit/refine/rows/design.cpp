@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cablefit/model/effect_walk.hpp"
+
 namespace cablefit {
 namespace {
 
@@ -116,8 +118,8 @@ Eigen::Index n_linear(const Variant& variant) {
 }
 
 bool is_free(const Variant& variant, std::size_t shape) {
-  const ShapeGrid& grid = variant.refinement->shape[shape];
-  return !grid.is_whole && !(variant.is_plain && grid.canonical > 0);
+  const Refinement& row = *variant.refinement;
+  return is_continuous(row, shape) && !(variant.is_plain && row.shape[shape].canonical > 0);
 }
 
 Smoothing Design::smoothing_of(std::size_t stretch) const {

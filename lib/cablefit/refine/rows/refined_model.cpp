@@ -9,6 +9,8 @@
 #include <optional>
 
 #include "cablefit/estimate/spread/long_run.hpp"
+#include "cablefit/model/effect_parameter.hpp"
+#include "cablefit/refine/rows/shape_moves.hpp"
 
 namespace cablefit {
 namespace {
@@ -123,6 +125,38 @@ std::optional<RefinementInstance> as_state(RefinementInstance instance) {
   return instance;
 }
 
+/// Names of what FinalFit tells, in its order; empty: a parameter that no model file has.
+std::vector<std::string> fitted_names(const Design& design) {
+  std::vector<std::string> names;
+  for (const ModelParameter& p : design.layout.parameters) names.push_back(p.name);
+  const auto name = [](const Refinement& row, std::size_t parameter) {
+    return row.change != nullptr ? "" : added_parameter_name(row, row.parameters[parameter]);
+  };
+  for (const Variant& variant : design.added)
+    for (Eigen::Index p = 0; p < n_linear(variant); ++p)
+      names.push_back(name(*variant.refinement, static_cast<std::size_t>(p)));
+  for (const FreeShape& at : free_shapes(design)) {
+    const Refinement& row = *design.added[at.variant].refinement;
+    names.push_back(name(row, row.n_linear() + at.shape));
+  }
+  return names;
+}
+
+/// Of all that the rows determine.
+ParameterCovariance covariance_of(const Design& design, const FinalFit& fit) {
+  ParameterCovariance covariance;
+  const std::vector<std::string> names = fitted_names(design);
+  std::vector<Eigen::Index> places;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    if (names[k].empty() || !std::isfinite(fit.covariance(at, at))) continue;
+    covariance.parameters.push_back(names[k]);
+    places.push_back(at);
+  }
+  covariance.matrix = fit.covariance(places, places);
+  return covariance;
+}
+
 }  // namespace
 
 std::vector<NamedEffect> named_effects(const Design& design, const FinalFit& fit) {
@@ -201,6 +235,7 @@ std::vector<Model> refined_models(const Design& design, const FinalFit& fit) {
   for (Model& model : models) {
     set_effect_estimates(design, fit, model);
     set_elastic_estimates(design, fit, model);
+    model.covariance = covariance_of(design, fit);
     auto& instances = model.joints.front().refinements;
     std::size_t next = 0;
     for (const NamedEffect& effect : effects)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/model/effect_walk.hpp"
 #include "cablefit/refine/rows/design.hpp"
 
 namespace cablefit {
@@ -43,18 +44,6 @@ struct SomeTorques {
   Eigen::MatrixXd link, motor;  ///< n_linear x samples
 };
 
-/// Adds what a level of dry friction does in motion to its own side's torques.
-void add_level(const Refinement& row, const JointState& state, const double* shape, const double* z,
-               std::vector<double>& level, double* link, double* motor) {
-  const bool on_link = row.site == Site::link;
-  const double speed = on_link ? state.qd : state.thetad;
-  const double direction = speed > 0 ? 1.0 : speed < 0 ? -1.0 : 0.0;
-  std::fill(level.begin(), level.end(), 0.0);
-  row.level(state, direction, shape, z, level.data());
-  double* own = on_link ? link : motor;
-  for (std::size_t p = 0; p < level.size(); ++p) own[p] += direction * level[p];
-}
-
 /// At every `every`-th sample, with `margin` of them without torque at either end.
 SomeTorques some_torques(const Variant& variant, const Stretch& stretch,
                          const std::vector<JointState>& states, Eigen::Index every,
@@ -67,7 +56,7 @@ SomeTorques some_torques(const Variant& variant, const Stretch& stretch,
   const Eigen::Index all = active.last - active.first + 2 * margin;
   SomeTorques out{active.first - margin, Eigen::MatrixXd::Zero(n, all),
                   Eigen::MatrixXd::Zero(n, all)};
-  std::vector<double> z(row.n_states), level(row.n_linear());
+  EffectWalk walk(row, variant.shape);
   JointState dated;  // of an event, whose age is not the state's own
   for (Eigen::Index i = active.first; i < active.last; ++i) {
     const JointState* state = &states[static_cast<std::size_t>(i * every)];
@@ -77,14 +66,10 @@ SomeTorques some_torques(const Variant& variant, const Stretch& stretch,
       if (dated.since_event < 0) continue;
       state = &dated;
     }
-    double* link = out.link.col(i - out.from).data();
-    double* motor = out.motor.col(i - out.from).data();
-    // Half of the step before, half after: what they remember stands where the motion is.
-    if (row.advance != nullptr) row.advance(*state, variant.shape.data(), h / 2, z.data());
-    if (row.torque != nullptr) row.torque(*state, variant.shape.data(), z.data(), link, motor);
-    if (row.level != nullptr)
-      add_level(row, *state, variant.shape.data(), z.data(), level, link, motor);
-    if (row.advance != nullptr) row.advance(*state, variant.shape.data(), h / 2, z.data());
+    const double speed = row.site == Site::link ? state->qd : state->thetad;
+    const double direction = speed > 0 ? 1.0 : speed < 0 ? -1.0 : 0.0;
+    walk.step(*state, direction, h, out.link.col(i - out.from).data(),
+              out.motor.col(i - out.from).data());
   }
   return out;
 }
@@ -103,15 +88,6 @@ Eigen::MatrixXd filtered(const Kernel& filter, const Eigen::MatrixXd& samples, E
     out.row(i - at.begin()) = sum.head(n).transpose();
   }
   return out;
-}
-
-/// On the only axis of a rigid drive what acts on the link counts too, unless the catalogue has the
-/// same law for the motor.
-bool counts_on_rigid(const Refinement& row) {
-  const std::span<const Refinement> all = refinements();
-  return row.site == Site::link && std::none_of(all.begin(), all.end(), [&](const Refinement& r) {
-           return r.site == Site::motor && r.name == row.name;
-         });
 }
 
 std::vector<Eigen::MatrixXd> torque_columns(const Design& design, const Variant& variant,

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cablefit/model/file/writer.hpp"
 #include "cablefit/report/documents/proof_report.hpp"
 #include "cablefit/report/json/json_list.hpp"
 #include "cablefit/report/json/json_parts.hpp"
@@ -70,6 +71,10 @@ Json fit_json(const DynamicFit& fit) {
             {"weight", by_name(fit.weight)},
             {"condition", by_name(fit.condition)},
             {"effective_rows", by_name(fit.effective_rows)}};
+  if (!fit.effects.empty())
+    json["effects"] = list_of(fit.effects, [](const RefinementInstance& effect) {
+      return model_file::refinement_json(effect);
+    });
   if (fit.elastic) json["elastic"] = stage1_json(*fit.elastic);
   json["sd_reason"] = by_name(fit.sd_reason);
   json["systematic"] = {{"method_floor", by_name(fit.method_floor)},

@@ -134,7 +134,7 @@ std::size_t rows_at_edges(const Window& window, Eigen::Index edge) {
   return static_cast<std::size_t>(window.end - window.begin - inner);
 }
 
-RowBatch rows_of(const Window& window, const LogPlan& plan, Eigen::Index number_offset,
+RowBatch rows_of(const Window& window, const LogSurvey& log, Eigen::Index number_offset,
                  const RowSettings& settings, std::span<const Equation> equations) {
   RowBatch batch;
   batch.part = window.part;
@@ -143,8 +143,10 @@ RowBatch rows_of(const Window& window, const LogPlan& plan, Eigen::Index number_
   for (const Equation& equation : equations) {
     const RowSettings own = with_cutoff(settings, equation.cutoff);
     auto found = signals.find(own.signal.cutoff);
-    if (found == signals.end())
-      found = signals.emplace(own.signal.cutoff, make_signals(window, plan, own.signal)).first;
+    if (found == signals.end()) {
+      found = signals.emplace(own.signal.cutoff, make_signals(window, log.plan, own.signal)).first;
+      found->second.log_began = log.parts.front().t_first;
+    }
     std::optional<Signals> prepared;
     if (equation.prepare) equation.prepare(prepared.emplace(found->second));
     batch.equations.push_back(
@@ -204,7 +206,7 @@ RowBatch make_rows(const Window& window, const LogSurvey& log, Eigen::Index numb
   const RowSettings thin = thinned(own, step, window.period);
   std::optional<Window> slow;
   if (step > 1) slow = thinned(window, step);
-  RowBatch batch = rows_of(slow ? *slow : window, log.plan, number_offset, thin, equations);
+  RowBatch batch = rows_of(slow ? *slow : window, log, number_offset, thin, equations);
   for (EquationBatch& equation : batch.equations)
     equation.counts.rows_at_edges = rows_at_edges(window, step * edge_rows(thin));
   return batch;

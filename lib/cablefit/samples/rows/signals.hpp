@@ -37,6 +37,7 @@ struct Signals {
   Eigen::Index first = 0, begin = 0, end = 0;  ///< as in Window
   double t0 = 0, period = 0;
   std::vector<JointSignals> joints;
+  double log_began = 0;  ///< s, in the time of t0
   Eigen::Index n_rows() const;
 };
 
