@@ -95,11 +95,19 @@ double step_of(const RefinementInstance& instance, std::size_t shape) {
   return kStep * (grid.high - grid.low);
 }
 
+/// The law of the textbooks has its exponent; and refine gives no sd to what it did not look for.
+bool is_settled(const RefinementInstance& instance, std::size_t shape) {
+  const ShapeGrid& grid = instance.refinement->shape[shape];
+  const Estimate& e = instance.parameters[instance.refinement->n_linear() + shape];
+  return e.sd == 0 || (grid.canonical > 0 && e.value == grid.canonical);
+}
+
 AddedEffect in_equation(const RefinementInstance& instance, Side side) {
   AddedEffect effect{instance, side, instance.refinement->site == Site::transmission, {}};
   if (effect.is_held) return effect;
   for (std::size_t k = 0; k < instance.refinement->shape.size(); ++k)
-    if (is_continuous(*instance.refinement, k) && step_of(instance, k) > 0)
+    if (is_continuous(*instance.refinement, k) && !is_settled(instance, k) &&
+        step_of(instance, k) > 0)
       effect.moving_shapes.push_back(k);
   return effect;
 }

@@ -33,7 +33,7 @@ struct AddedEffect {
   RefinementInstance instance;
   Side side = Side::motor;
   bool is_held = false;
-  std::vector<std::size_t> moving_shapes;  ///< with a column: continuous, and not 0
+  std::vector<std::size_t> moving_shapes;  ///< with a column: continuous, and looked for
 
   Eigen::Index n_columns() const;
 };
