@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "cablefit/base/output_file.hpp"
+#include "cablefit/base/problems.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/report/documents/batch_document.hpp"
 #include "cablefit/report/json/batch_json.hpp"
@@ -16,7 +17,6 @@
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
-#include "commands/problems.hpp"
 #include "commands/progress.hpp"
 #include "commands/progress_line.hpp"
 #include "process.hpp"

@@ -2,6 +2,7 @@
 #include "cablefit/samples/check.hpp"
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/base/problems.hpp"
 #include "cablefit/dynamic/prediction.hpp"
 #include "cablefit/dynamic/rows/torque_delay.hpp"
 #include "cablefit/report/documents/check_document.hpp"
@@ -10,7 +11,6 @@
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
-#include "commands/problems.hpp"
 #include "commands/progress.hpp"
 
 namespace cablefit::apps {

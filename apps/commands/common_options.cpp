@@ -3,16 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <set>
 #include <thread>
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/model/rig.hpp"
 #include "cablefit/report/writers/writers.hpp"
-#include "cablefit/samples/weigh/weigh.hpp"
+#include "cablefit/session/read_logs.hpp"
 #include "commands/command_line.hpp"
-#include "commands/problems.hpp"
 #include "commands/progress.hpp"
 
 namespace cablefit::apps {
@@ -25,31 +23,6 @@ TorqueHold torque_hold(const std::string& name) {
   return name == "zoh"    ? TorqueHold::zoh
          : name == "none" ? TorqueHold::none
                           : TorqueHold::automatic;
-}
-
-void require_distinct(const std::vector<std::string>& logs) {
-  std::set<std::string> seen;
-  for (const std::string& log : logs) {
-    std::error_code ignored;
-    const auto path = std::filesystem::weakly_canonical(log, ignored).string();
-    if (seen.insert(path).second) continue;
-    throw usage_error(fmt::format("log {} is given twice", log), "its rows would count double");
-  }
-}
-
-void require_file(const std::string& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_directory(path, ignored)) return;
-  throw input_error(
-      {path, 0, 0}, "a folder, not a log",
-      fmt::format("name its files, e.g. {}/*.csv", path.substr(0, path.find_last_not_of('/') + 1)));
-}
-
-LogSurvey read_log(const std::string& path, const CommonOptions& options) {
-  require_file(path);
-  const Rig rig = rig_for_log(path, options.rig);
-  return survey_log(plan_log(path, rig, options.reading),
-                    rig.preload.empty() ? options.preload : rig.preload, options.samples.threads);
 }
 
 void require_preload(const std::vector<LogSurvey>& logs, const std::string& wanted) {
@@ -175,17 +148,10 @@ void add_sd_option(CLI::App& app, CommonOptions& options) {
 }
 
 std::vector<LogSurvey> read_logs(const CommonOptions& options) {
-  if (options.logs.empty()) throw usage_error("no log given", "name one or more log files");
-  require_distinct(options.logs);
   const Progress progress(options.quiet, "reading logs");
-  std::vector<LogSurvey> logs;
-  Problems problems;
-  for (const std::string& path : options.logs) {
-    problems.collect([&] { logs.push_back(read_log(path, options)); });
-  }
-  problems.throw_if_any();
+  std::vector<LogSurvey> logs = cablefit::read_logs(
+      options.logs, {options.rig, options.preload, options.reading, options.samples.threads});
   require_preload(logs, options.preload);
-  weigh_logs(logs);
   return logs;
 }
 

@@ -5,13 +5,13 @@
 
 #include "cablefit/base/digest.hpp"
 #include "cablefit/base/error.hpp"
+#include "cablefit/base/problems.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/report/documents/compare_document.hpp"
 #include "cablefit/report/json/compare_json.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
-#include "commands/problems.hpp"
 #include "process.hpp"
 
 namespace cablefit::apps {

@@ -7,10 +7,10 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/output_file.hpp"
+#include "cablefit/base/problems.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/report/documents/escape.hpp"
 #include "cablefit/report/writers/writers.hpp"
-#include "commands/problems.hpp"
 #include "process.hpp"
 
 namespace cablefit::apps {

@@ -1,11 +1,11 @@
 #include "commands/dynamic_model.hpp"
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/base/problems.hpp"
 #include "cablefit/elastic/curve_of_model.hpp"
 #include "cablefit/model/read_models.hpp"
 #include "cablefit/samples/weigh/weigh.hpp"
 #include "cablefit/simulate/experiment.hpp"
-#include "commands/problems.hpp"
 #include "commands/progress.hpp"
 #include "commands/stage1_logs.hpp"
 

@@ -6,13 +6,13 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/output_file.hpp"
+#include "cablefit/base/problems.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/campaign/campaign.hpp"
 #include "cablefit/campaign/templates.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/common_options.hpp"
-#include "commands/problems.hpp"
 #include "commands/progress.hpp"
 #include "process.hpp"
 

@@ -8,6 +8,7 @@
 
 #include "cablefit/base/digest.hpp"
 #include "cablefit/base/error.hpp"
+#include "cablefit/base/problems.hpp"
 #include "cablefit/model/read_models.hpp"
 #include "cablefit/refine/null/chance_tail.hpp"
 #include "cablefit/refine/own_base.hpp"
@@ -22,7 +23,6 @@
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
 #include "commands/file_names.hpp"
-#include "commands/problems.hpp"
 #include "commands/progress.hpp"
 #include "commands/stage1_logs.hpp"
 #include "process.hpp"

@@ -6,6 +6,7 @@
 
 #include "cablefit/base/digest.hpp"
 #include "cablefit/base/error.hpp"
+#include "cablefit/base/problems.hpp"
 #include "cablefit/report/documents/simulate_document.hpp"
 #include "cablefit/report/json/simulate_json.hpp"
 #include "cablefit/samples/weigh/weigh.hpp"
@@ -13,7 +14,6 @@
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
-#include "commands/problems.hpp"
 #include "commands/progress.hpp"
 
 namespace cablefit::apps {

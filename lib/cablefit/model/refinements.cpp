@@ -14,10 +14,12 @@
 namespace cablefit {
 namespace {
 
-const std::vector<Refinement>& table() {
+constexpr std::size_t kMostOwn = 64;  // rows stay where they are: models point to them
+
+std::vector<Refinement> shipped_rows() {
   using namespace rows;
   using enum Site;
-  static const std::vector<Refinement> kRows{
+  return {
       constant_torque(),
       asymmetric_coulomb(link),
       asymmetric_coulomb(motor),
@@ -62,7 +64,15 @@ const std::vector<Refinement>& table() {
       contact(),
       payload_change(),
   };
-  return kRows;
+}
+
+std::vector<Refinement>& table() {
+  static std::vector<Refinement> all = [] {
+    std::vector<Refinement> rows = shipped_rows();
+    rows.reserve(rows.size() + kMostOwn);
+    return rows;
+  }();
+  return all;
 }
 
 }  // namespace
@@ -103,6 +113,19 @@ double ShapeGrid::factor(const LogScale& scale) const {
 }
 
 std::span<const Refinement> refinements() { return table(); }
+
+void add_effect(const Refinement& row) {
+  std::vector<Refinement>& all = table();
+  const bool is_there = std::any_of(all.begin(), all.end(), [&](const Refinement& other) {
+    return other.name == row.name && other.site == row.site;
+  });
+  if (is_there)
+    throw usage_error(fmt::format("effect '{}' of the {} exists", row.name, to_string(row.site)),
+                      "give yours another name");
+  if (all.size() == all.capacity())
+    throw usage_error(fmt::format("more than {} effects of your own", kMostOwn), "drop some");
+  all.push_back(row);
+}
 
 const Refinement& find_refinement(std::string_view name, Site site) {
   std::vector<std::string_view> known, elsewhere;

@@ -156,6 +156,10 @@ struct Refinement {
 
 /// All rows, in the order of the contract's list.
 std::span<const Refinement> refinements();
+/// A row of your own: from now on refine looks for it, model files may hold it, and it is simulated
+/// and fitted as all others. Call it before anything else of the library runs; at most 64. Throws
+/// Error(usage) for a name and site that is there already.
+void add_effect(const Refinement& row);
 /// The row of that name and site; throws Error(input) with a suggestion.
 const Refinement& find_refinement(std::string_view name, Site site);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "cablefit/base/quote.hpp"
 #include "cablefit/samples/plan/plan_parts.hpp"
@@ -152,12 +153,20 @@ int LogPlan::find(Channel channel, int joint) const {
 }
 
 LogPlan plan_log(const std::string& path, const Rig& rig, const Reading& reading) {
+  const FileStamp stamp = stamp_of(path);
+  LogHeader header = open_log(path, reading.text())->header();
+  header.path = path;
+  LogPlan plan = plan_columns(std::move(header), rig, reading);
+  plan.stamp = stamp;
+  return plan;
+}
+
+LogPlan plan_columns(LogHeader header, const Rig& rig, const Reading& reading) {
   LogPlan plan;
-  plan.path = path;
+  plan.path = header.path;
   plan.rig = rig;
   plan.reading = reading;
-  plan.stamp = stamp_of(path);
-  plan.header = open_log(path, reading.text())->header();
+  plan.header = std::move(header);
   resolve_time(plan);
   for (int joint = 0; joint < rig.n_joints(); ++joint)
     for (const ChannelInfo& info : kInfo) resolve_channel(plan, info, joint);
@@ -167,7 +176,7 @@ LogPlan plan_log(const std::string& path, const Rig& rig, const Reading& reading
   plan.run_column = column_of(plan.header, rig, "run");
   if (plan.slots.empty())
     throw input_error(
-        {path, 1, 0}, "no column is called q, theta, w, tau or tau_load",
+        {plan.path, 1, 0}, "no column is called q, theta, w, tau or tau_load",
         fmt::format("rename columns or write a rig file that maps them; columns are {}",
                     names_of(plan.header)));
   return plan;

@@ -71,6 +71,9 @@ struct LogPlan {
 /// when there is neither t nor a sample rate, and when no channel is found at all.
 LogPlan plan_log(const std::string& path, const Rig& rig, const Reading& reading = {});
 
+/// The same of columns that come from elsewhere; the plan has no stamp.
+LogPlan plan_columns(LogHeader header, const Rig& rig, const Reading& reading = {});
+
 /// A pass over the log as its plan wants it read. `digest` as of open_log().
 std::unique_ptr<MendedLog> open_planned(const LogPlan& plan, Sha256* digest = nullptr);
 

@@ -35,16 +35,7 @@ Error absurd_value(const LogPlan& plan, const Slot& slot, double value, std::uin
 Phase phase_of(const PartTracker::Key& key, const PartSurvey& part, const LogPlan& plan) {
   if (key.phase == "blocked") return Phase::blocked;
   if (key.phase == "moving") return Phase::moving;
-  // Of several joints one motor may sweep while the others rest, and all links have to stand.
-  double moved = 0, reference = 0;
-  for (int joint = 0; joint < plan.rig.n_joints(); ++joint) {
-    const int q = plan.find(Channel::q, joint);
-    const int theta = plan.find(Channel::theta, joint);
-    if (q < 0 || theta < 0) return Phase::moving;
-    moved = std::max(moved, part.channels[static_cast<std::size_t>(q)].range());
-    reference = std::max(reference, part.channels[static_cast<std::size_t>(theta)].range());
-  }
-  return moved <= kStillShare * reference ? Phase::blocked : Phase::moving;
+  return phase_by_motion(part, plan);
 }
 
 Error too_many_parts(const LogPlan& plan, std::uint64_t line) {
@@ -235,6 +226,19 @@ class LogScan {
 };
 
 }  // namespace
+
+Phase phase_by_motion(const PartSurvey& part, const LogPlan& plan) {
+  // Of several joints one motor may sweep while the others rest, and all links have to stand.
+  double moved = 0, reference = 0;
+  for (int joint = 0; joint < plan.rig.n_joints(); ++joint) {
+    const int q = plan.find(Channel::q, joint);
+    const int theta = plan.find(Channel::theta, joint);
+    if (q < 0 || theta < 0) return Phase::moving;
+    moved = std::max(moved, part.channels[static_cast<std::size_t>(q)].range());
+    reference = std::max(reference, part.channels[static_cast<std::size_t>(theta)].range());
+  }
+  return moved <= kStillShare * reference ? Phase::blocked : Phase::moving;
+}
 
 std::string_view to_string(Phase phase) { return phase == Phase::blocked ? "blocked" : "moving"; }
 

@@ -47,6 +47,9 @@ struct LogSurvey {
 /// `preload`: name for parts without a preload column (the rig's, or an option); empty: "default".
 LogSurvey survey_log(const LogPlan& plan, const std::string& preload, int threads = 1);
 
+/// blocked: the range of q is below 2 % of that of theta, of every joint.
+Phase phase_by_motion(const PartSurvey& part, const LogPlan& plan);
+
 /// Names of the preloads of the parts for which `wanted` says true, in the order in which they
 /// come.
 std::vector<std::string> preload_names(std::span<const LogSurvey> logs,

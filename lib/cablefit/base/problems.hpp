@@ -6,7 +6,7 @@
 
 #include "cablefit/base/error.hpp"
 
-namespace cablefit::apps {
+namespace cablefit {
 
 class Problems {
  public:
@@ -28,4 +28,4 @@ class Problems {
   std::string messages_;
 };
 
-}  // namespace cablefit::apps
+}  // namespace cablefit

@@ -1,9 +1,9 @@
-#include "commands/problems.hpp"
+#include "cablefit/base/problems.hpp"
 
 #include <algorithm>
 #include <array>
 
-namespace cablefit::apps {
+namespace cablefit {
 namespace {
 
 // Where several hold: could not write, bad input, not identifiable (contract), then usage.
@@ -27,4 +27,4 @@ void Problems::throw_if_any() const {
   if (kind_) throw Error(*kind_, messages_);
 }
 
-}  // namespace cablefit::apps
+}  // namespace cablefit

@@ -1,0 +1,53 @@
+#include "cablefit/session/read_logs.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <set>
+
+#include "cablefit/base/problems.hpp"
+#include "cablefit/samples/weigh/weigh.hpp"
+
+namespace cablefit {
+namespace {
+
+void require_distinct(const std::vector<std::string>& logs) {
+  std::set<std::string> seen;
+  for (const std::string& log : logs) {
+    std::error_code ignored;
+    const auto path = std::filesystem::weakly_canonical(log, ignored).string();
+    if (seen.insert(path).second) continue;
+    throw usage_error(fmt::format("log {} is given twice", log), "its rows would count double");
+  }
+}
+
+void require_file(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(path, ignored)) return;
+  throw input_error(
+      {path, 0, 0}, "a folder, not a log",
+      fmt::format("name its files, e.g. {}/*.csv", path.substr(0, path.find_last_not_of('/') + 1)));
+}
+
+LogSurvey read_log(const std::string& path, const LogOptions& options) {
+  require_file(path);
+  const Rig rig = rig_for_log(path, options.rig);
+  return survey_log(plan_log(path, rig, options.reading),
+                    rig.preload.empty() ? options.preload : rig.preload, options.threads);
+}
+
+}  // namespace
+
+std::vector<LogSurvey> read_logs(const std::vector<std::string>& paths, const LogOptions& options) {
+  if (paths.empty()) throw usage_error("no log given", "name one or more log files");
+  require_distinct(paths);
+  std::vector<LogSurvey> logs;
+  Problems problems;
+  for (const std::string& path : paths)
+    problems.collect([&] { logs.push_back(read_log(path, options)); });
+  problems.throw_if_any();
+  weigh_logs(logs);
+  return logs;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,24 @@
+// Log files as every command reads them: each with its rig, then weighed together.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cablefit/samples/survey/survey.hpp"
+
+namespace cablefit {
+
+struct LogOptions {
+  std::string rig;      ///< rig file; empty: rig.json beside each log, else the paper's rig
+  std::string preload;  ///< name for logs that do not say theirs
+  Reading reading = {};
+  int threads = 1;
+};
+
+/// All logs, in the order given. Throws one Error with what is wrong in any of them: files that
+/// cannot be read, a log given twice, and what weigh_logs() says of units, signs and samples that
+/// cannot be right.
+std::vector<LogSurvey> read_logs(const std::vector<std::string>& paths,
+                                 const LogOptions& options = {});
+
+}  // namespace cablefit
