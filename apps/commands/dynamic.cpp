@@ -43,7 +43,8 @@ constexpr const char* kCampaignHere = "campaign.json";
 struct DynamicCommand {
   CommonOptions common;
   DynamicOptions fit;
-  std::string elastic_file;  ///< --elastic; empty: <out>/elastic.json
+  std::string elastic_file;          ///< --elastic; empty: <out>/elastic.json
+  std::vector<std::string> effects;  ///< --effects: names
   std::vector<std::string> validation;
   std::size_t prove = 0;  ///< --prove: runs; 0: not asked for
 };
@@ -86,6 +87,11 @@ void add_dynamic_options(CLI::App& app, DynamicCommand& command) {
       "elastic model, or none [both: linear and poly]");
   app.add_option("--elastic", command.elastic_file, "result of stage 1 [OUT/elastic.json]")
       ->type_name("FILE");
+  app.add_option("--effects", command.effects,
+                 "effects to fit beside the paper's: stribeck[motor],cogging; see 'cablefit list "
+                 "effects'")
+      ->delimiter(',')
+      ->type_name("NAME[SIDE]");
   add_choice(
       app, "--estimator", "estimator", estimator_names(),
       [&command](const std::string& name) { command.fit.estimator = name; },
@@ -164,6 +170,9 @@ std::optional<StartModel> start_model(DynamicCommand& command) {
   if (start && !command.elastic_file.empty())
     throw usage_error("a model and --elastic: both say what the cables do", "give one of them");
   if (start) use_model(*start, command.fit);
+  const std::vector<RefinementInstance> named = named_effects(command.effects);
+  command.fit.effects.insert(command.fit.effects.end(), named.begin(), named.end());
+  if (!named.empty() && !start && !is_chosen) command.fit.models = {"poly"};
   return start;
 }
 

@@ -1,8 +1,16 @@
 #include "commands/dynamic_model.hpp"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "cablefit/base/catalog.hpp"
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/problems.hpp"
+#include "cablefit/base/quote.hpp"
+#include "cablefit/dynamic/rows/first_shapes.hpp"
 #include "cablefit/elastic/curve_of_model.hpp"
+#include "cablefit/model/effect_walk.hpp"
 #include "cablefit/model/read_models.hpp"
 #include "cablefit/samples/weigh/weigh.hpp"
 #include "cablefit/simulate/experiment.hpp"
@@ -10,6 +18,32 @@
 #include "commands/stage1_logs.hpp"
 
 namespace cablefit::apps {
+
+namespace {
+
+/// "stribeck[motor]", or "cogging" of what acts on one side only; of what stage 2 can fit.
+const Refinement& effect_named(const std::string& text) {
+  const bool has_side = text.find('[') != std::string::npos;
+  std::vector<std::string> names;
+  std::vector<const Refinement*> found;
+  for (const Refinement& row : refinements()) {
+    if (!acts_as_torque(row) || row.is_event) continue;
+    std::string name(row.name);
+    if (has_side) name += fmt::format("[{}]", to_string(row.site));
+    if (text == name) found.push_back(&row);
+    if (names.empty() || names.back() != name) names.push_back(std::move(name));
+  }
+  if (found.empty())
+    throw usage_error(fmt::format("unknown effect {}", cablefit::quoted(text)),
+                      suggestion(text, std::vector<std::string_view>(names.begin(), names.end())));
+  if (found.size() > 1)
+    throw usage_error(fmt::format("effect {} acts on several sides", cablefit::quoted(text)),
+                      fmt::format("write {0}[{1}] or {0}[{2}]", text, to_string(found[0]->site),
+                                  to_string(found[1]->site)));
+  return *found.front();
+}
+
+}  // namespace
 
 std::optional<StartModel> take_model(CommonOptions& options, const std::string& fit_name) {
   if (options.logs.empty() || !is_model(options.logs.front())) return std::nullopt;
@@ -45,6 +79,22 @@ void use_model(const StartModel& start, DynamicOptions& fit) {
   fit.models = {std::string(default_model_name(start.model))};
   for (const JointModel& joint : start.model.joints)
     fit.effects.insert(fit.effects.end(), joint.refinements.begin(), joint.refinements.end());
+}
+
+void use_model(const StartModel& start, IdentifyOptions& fit) {
+  if (start.model.rigid)
+    throw usage_error("one step is made for cables, and the model is a rigid drive",
+                      "use 'cablefit dynamic' with it");
+  fit.effects = start.model.joints.front().refinements;
+  if (fit.order > 0 || start.model.rig.cables_given) return;
+  for (const Cable& cable : start.model.transmission.cables)
+    fit.order = std::max(fit.order, cable.order);
+}
+
+std::vector<RefinementInstance> named_effects(const std::vector<std::string>& names) {
+  std::vector<RefinementInstance> effects;
+  for (const std::string& name : names) effects.push_back(blank_effect(effect_named(name)));
+  return effects;
 }
 
 ElasticResult stage1_of(const StartModel& start) {

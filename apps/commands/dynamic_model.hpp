@@ -6,6 +6,7 @@
 
 #include "cablefit/dynamic/dynamic_options.hpp"
 #include "cablefit/elastic/elastic_result.hpp"
+#include "cablefit/identify/identify_options.hpp"
 #include "cablefit/model/model.hpp"
 #include "commands/common_options.hpp"
 
@@ -25,6 +26,13 @@ std::vector<LogSurvey> read_logs_of(const StartModel& start, const CommonOptions
 
 /// The kind of model and its effects.
 void use_model(const StartModel& start, DynamicOptions& fit);
+
+/// Its effects, and the order of its cables where the rig does not give them.
+void use_model(const StartModel& start, IdentifyOptions& fit);
+
+/// Effects by their names, "stribeck[motor]"; the side may be left out where there is one only.
+/// Throws Error(usage) with what there is.
+std::vector<RefinementInstance> named_effects(const std::vector<std::string>& names);
 
 /// Its cables as a result of stage 1; nothing of a rigid drive.
 ElasticResult stage1_of(const StartModel& start);

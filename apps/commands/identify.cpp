@@ -7,6 +7,7 @@
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
+#include "commands/dynamic_model.hpp"
 #include "commands/elongation_option.hpp"
 #include "commands/file_names.hpp"
 #include "commands/progress.hpp"
@@ -57,7 +58,9 @@ int run_identify(const Arguments& arguments) {
   app.footer(kIdentifyExample);
   if (!parse(app, arguments)) return 0;
 
-  const std::vector<LogSurvey> logs = read_logs(options);
+  const std::optional<StartModel> start = take_model(options, "");
+  if (start) use_model(*start, fit);
+  const std::vector<LogSurvey> logs = start ? read_logs_of(*start, options) : read_logs(options);
   fit.samples = options.samples;
   fit.preload = options.preload;
   fit.honest_sd = options.honest_sd;

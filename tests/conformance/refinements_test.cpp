@@ -100,7 +100,7 @@ JointState random_state(std::mt19937& engine) {
   return state;
 }
 
-TEST_CASE("the catalogue is the contract's list", "[conformance]") {
+TEST_CASE("the catalogue is the list of docs/reference/effects.md", "[conformance]") {
   using Row = std::tuple<std::string, std::string, std::string>;
   std::set<Row> expected{{"constant_torque", "link", "constant"},
                          {"asymmetric_coulomb", "link", "constant"},

@@ -1,5 +1,6 @@
 // The one exception class of cablefit. User mistakes throw it, it is caught once in main, and its
-// kind is the exit code (contract: 2 usage, 3 bad input, 4 not identifiable, 5 could not write).
+// kind is the exit code (docs/reference/exit-codes.md: 2 usage, 3 bad input, 4 not identifiable, 5
+// could not write).
 #pragma once
 
 #include <cstddef>

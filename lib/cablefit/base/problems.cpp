@@ -6,7 +6,8 @@
 namespace cablefit {
 namespace {
 
-// Where several hold: could not write, bad input, not identifiable (contract), then usage.
+// Where several hold: could not write, bad input, not identifiable, then usage
+// (docs/reference/exit-codes.md).
 constexpr std::array kGravestFirst{ErrorKind::output, ErrorKind::input, ErrorKind::not_identifiable,
                                    ErrorKind::usage};
 

@@ -18,6 +18,7 @@
 #include "cablefit/dynamic/estimators/estimators.hpp"
 #include "cablefit/dynamic/ratios.hpp"
 #include "cablefit/dynamic/rows/dynamic_job.hpp"
+#include "cablefit/dynamic/rows/first_shapes.hpp"
 #include "cablefit/dynamic/rows/requirements.hpp"
 #include "cablefit/dynamic/rows/settled_effects.hpp"
 #include "cablefit/model/effect_parameter.hpp"
@@ -145,6 +146,7 @@ DynamicPreload fit_preload(DynamicJob job, const ElasticResult& elastic) {
   require_torque(job);
   note_load(job, preload);
   choose_settings(job, preload, elastic);
+  find_first_shapes(job);
   std::vector<EquationRows> equations;
   std::string still_moving;
   preload.windows = collect_settled(job, equations, still_moving);

@@ -15,6 +15,7 @@
 #include "cablefit/identify/results/identify_estimates.hpp"
 #include "cablefit/identify/results/identify_figures.hpp"
 #include "cablefit/identify/results/recursive.hpp"
+#include "cablefit/model/effect_parameter.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
 
 namespace cablefit {
@@ -68,6 +69,52 @@ JointFit full_fit(std::span<const LogSurvey> logs, const IdentifyOptions& option
                         options.samples.threads);
 }
 
+constexpr int kMostPasses = 10;
+constexpr double kStill = 1e-3;    // of a nonlinear parameter
+constexpr double kMostStep = 0.5;  // of it, at once
+
+/// Moves the effects of a preload to where the fit has them; false: no nonlinear parameter moves.
+bool move_effects(const JointFit& fit, const JointPoint& point, std::size_t job,
+                  std::vector<RefinementInstance>& added) {
+  bool any = false;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(fit.layout.n_linear); ++k) {
+    const JointParameter& p = fit.layout.parameters[k];
+    if (p.preload != static_cast<int>(job)) continue;
+    Estimate* e = find_parameter(added, p.name);
+    if (e == nullptr) continue;
+    double step = point.solution.x(static_cast<Eigen::Index>(k));
+    if (p.known != 0) {
+      any = any || std::abs(step) > kStill * std::abs(p.known);
+      step = std::clamp(step, -kMostStep * std::abs(p.known), kMostStep * std::abs(p.known));
+    }
+    e->value = p.known + step;
+  }
+  return any;
+}
+
+/// The full fit. Where effects have nonlinear parameters, their columns are made anew about what
+/// it finds until these stand still (Gauss-Newton).
+JointPoint settled_fit(std::span<const LogSurvey> logs, const IdentifyOptions& options,
+                       const std::vector<PreloadJob>& jobs, const std::vector<JointRecord>& blocked,
+                       const JointFit& first, const JointPoint& start,
+                       std::vector<PreloadFacts>& facts, JointFit& fit) {
+  for (int pass = 1;; ++pass) {
+    std::vector<PreloadFacts> own = facts;
+    fit = full_fit(logs, options, jobs, blocked, first, start, own);
+    JointPoint point = fit_all(fit, first, start);
+    bool any = false;
+    for (std::size_t j = 0; j < facts.size(); ++j)
+      any = move_effects(fit, point, j, facts[j].added) || any;
+    if (any && pass < kMostPasses) continue;
+    if (any)
+      own.front().warnings.push_back(
+          "the nonlinear parameters of the effects did not converge: the logs hardly determine "
+          "them");
+    facts = std::move(own);
+    return point;
+  }
+}
+
 /// Whether the blocked logs of one preload, without cables in the rig file, show a curve of cables
 /// that are both taut at zero: only a search of l_o describes it.
 bool curve_wants_search(std::span<const LogSurvey> logs, const IdentifyOptions& options) {
@@ -106,11 +153,11 @@ IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& 
 
   JointFit first;
   const JointPoint start = fit_first(logs, options, facts, blocked, jobs, first);
-  JointFit fit = full_fit(logs, options, jobs, blocked, first, start, facts);
+  JointFit fit;
+  JointPoint point = settled_fit(logs, options, jobs, blocked, first, start, facts, fit);
   const bool apart =
       std::any_of(fit.layout.parameters.begin(), fit.layout.parameters.end(),
                   [](const JointParameter& p) { return p.inertia && p.preload != kShared; });
-  JointPoint point = fit_all(fit, first, start);
   if (apart) point = share_inertias(fit, std::move(point), result);
   Profiled found = judge_with_profiles(fit, std::move(point));
   const JudgedPoint& judged = found.judged;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "cablefit/model/refinements.hpp"
 #include "cablefit/samples/rows/settings.hpp"
 
 namespace cablefit {
@@ -22,6 +24,8 @@ struct IdentifyOptions {
   std::string preload;                  ///< only this one; empty: all
   bool recursive = false;               ///< R-LSA beside the direct fit: its trace
   bool figures = false;
+  /// What the joint has beyond the paper's (31), with values to start from.
+  std::vector<RefinementInstance> effects = {};
 };
 
 }  // namespace cablefit

@@ -26,8 +26,8 @@ const Arm* arm_of(const PreloadFacts& facts) {
 }
 
 JointEquation equation_of(Side side, const ChosenSettings& settings, const PreloadFacts& facts) {
-  const DynamicColumns columns =
-      dynamic_columns(side, {}, ElasticDetail::coefficients, {0, 1, arm_of(facts)});
+  const DynamicColumns columns = dynamic_columns(
+      side, {}, ElasticDetail::coefficients, {0, 1, arm_of(facts)}, {facts.added, facts.cables});
   JointEquation equation;
   equation.base =
       dynamic_equation(columns, {}, settings.rows.signal.torque_held,
@@ -40,6 +40,9 @@ JointEquation equation_of(Side side, const ChosenSettings& settings, const Prelo
     else
       equation.own.push_back({parameter.name, k});
   }
+  for (const AddedEffect& effect : columns.added)
+    for (DynamicParameter& parameter : parameters_of(effect))
+      if (!parameter.given) equation.added.push_back(std::move(parameter));
   equation.response = columns.torque;
   equation.motor_side = side == Side::motor;
   return equation;
@@ -102,6 +105,7 @@ MovingJob::MovingJob(std::span<const LogSurvey> logs, const IdentifyOptions& opt
     : job{logs,  dynamic, facts.name, moving_parts(facts.name), {&elastic}, {"poly"},
           false, {},      {}} {
   job.arm = arm_of(facts);
+  job.added = facts.added;
   elastic.model = "poly";
   elastic.transmission = fitted;
   dynamic.samples = options.samples;
@@ -129,6 +133,7 @@ JointRecord moving_record(std::span<const LogSurvey> logs, const IdentifyOptions
   for (std::string& warning : unloaded_warnings(logs, moving_parts(facts.name)))
     facts.warnings.push_back(std::move(warning));
   const MovingJob moving(logs, options, fitted, deflections, facts);
+  facts.cables = std::make_shared<const Transmission>(fitted);
   facts.delay = moving.found.delay;
   facts.resonance = moving.found.resonance;
   facts.rate = sample_rates(logs, moving_parts(facts.name)).lowest;

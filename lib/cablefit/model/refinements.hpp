@@ -92,7 +92,7 @@ enum class Yardstick {
 /// A row. Exactly one of `torque` (with or without `level`), `level`, `correct` and `change` groups
 /// is there. Torques stand on the LEFT side of the equations of motion, like J qdd: they oppose.
 struct Refinement {
-  std::string_view name;  ///< contract: "stribeck"
+  std::string_view name;  ///< "stribeck"; docs/reference/effects.md
   Site site;
   /// Names in one class cannot be told apart by any log of the usual kind: "constant", "scale",
   /// "l_o"; empty: none.
@@ -154,7 +154,7 @@ struct Refinement {
   bool passes() const { return is_event && !lasts(); }
 };
 
-/// All rows, in the order of the contract's list.
+/// All rows, in the order of docs/reference/effects.md; those of add_effect() last.
 std::span<const Refinement> refinements();
 /// A row of your own: from now on refine looks for it, model files may hold it, and it is simulated
 /// and fitted as all others. Call it before anything else of the library runs; at most 64. Throws

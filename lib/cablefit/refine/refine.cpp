@@ -141,11 +141,12 @@ void find_effects(RefineBench& bench, Chain& chain, RefineResult& result) {
   if (!result.effects.empty()) chain.back() = with_best_shapes(bench, std::move(chain.back()));
 }
 
-/// A bias that stays in the values widens their intervals.
+/// A bias that stays in the values widens their intervals. It is one vector, of one cause, so that
+/// the values are off together.
 void add_systematic(const ValueChange& bias, FinalFit& fit) {
   Eigen::VectorXd all(bias.x.size() + bias.shapes.size());
   all << bias.x, bias.shapes;
-  fit.covariance.diagonal().head(all.size()) += all.cwiseAbs2();
+  fit.covariance.topLeftCorner(all.size(), all.size()) += all * all.transpose();
 }
 
 RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,

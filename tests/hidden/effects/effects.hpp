@@ -1,5 +1,6 @@
 // The effects that can be hidden in a data set. Names, sides and alias classes are those of the
-// contract; the equations are written here anew, from the literature and not from the library.
+// catalogue (docs/reference/effects.md); the equations are written here anew, from the literature
+// and not from the library.
 #pragma once
 
 #include <cstdint>

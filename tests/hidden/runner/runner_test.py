@@ -181,7 +181,7 @@ class Whole(unittest.TestCase):
             done = self.run_stub(folder, "none", "--limit", "1", "--retry", sets="controls")
             self.assertRegex(done.stdout, r"no answer \(see stderr in the result file\) +0\.0 %")
 
-    def test_the_default_command_is_what_the_contract_says(self):
+    def test_the_default_command(self):
         with tempfile.TemporaryDirectory() as folder:
             seen, tool = pathlib.Path(folder) / "seen", pathlib.Path(folder) / "tool"
             tool.write_text(f'#!/bin/sh\necho "$@" >> {seen}\n'

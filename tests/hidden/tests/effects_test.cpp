@@ -1,4 +1,5 @@
-// Every row of the table acts where it says, and the table covers the contract's list.
+// Every row of the table acts where it says, and the table covers the list of
+// docs/reference/effects.md.
 #include "effects/effects.hpp"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ using namespace hidden;
 
 namespace {
 
-/// The contract's closed list, with the sides each name has.
+/// The closed list of docs/reference/effects.md, with the sides each name has.
 const std::map<std::string, std::set<std::string>>& contract() {
   static const std::set<std::string> both{"link", "motor"}, cable{"transmission"}, sensor{"sensor"};
   static const std::map<std::string, std::set<std::string>> names{{"constant_torque", {"link"}},
@@ -108,7 +109,7 @@ double correlation(const Equations& rows) {
 
 }  // namespace
 
-TEST_CASE("every name and side of the contract is there, and no other") {
+TEST_CASE("every name and side of the reference is there, and no other") {
   std::map<std::string, std::set<std::string>> found;
   for (const Row& row : all_rows())
     if (row.form == Form::matched) found[std::string(row.name)].emplace(row.side);

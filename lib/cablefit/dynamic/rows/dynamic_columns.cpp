@@ -120,13 +120,15 @@ Eigen::VectorXd elastic_coefficients(const ElasticFit& fit) {
 
 DynamicColumns dynamic_columns(Side side, const std::vector<const ElasticFit*>& fits,
                                ElasticDetail detail, const JointPlace& place,
-                               std::span<const RefinementInstance> added) {
+                               const AddedToJoint& added) {
   DynamicColumns c;
   c.detail = detail;
   c.side = side;
   c.place = place;
-  if (!fits.empty()) c.cables = &fits.front()->transmission;
-  add_parameters(c, added);
+  c.cables = added.cables;
+  if (!added.effects.empty() && c.cables == nullptr && !fits.empty())
+    c.cables = std::make_shared<const Transmission>(fits.front()->transmission);
+  add_parameters(c, added.effects);
   c.n_effects = static_cast<Eigen::Index>(c.parameters.size());
   c.count = c.n_effects;
   for (const ElasticFit* fit : fits) {
@@ -161,7 +163,7 @@ void effect_columns(const DynamicColumns& c, const Signals& signals, std::size_t
     first += n;
   }
   for (const AddedEffect& effect : c.added) {
-    fill_columns(effect, c.cables, signals, joint, out.middleCols(first, effect.n_columns()));
+    fill_columns(effect, c.cables.get(), signals, joint, out.middleCols(first, effect.n_columns()));
     first += effect.n_columns();
   }
 }

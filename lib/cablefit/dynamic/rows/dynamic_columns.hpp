@@ -2,6 +2,7 @@
 // question, position (to see what an inertia could be confused with) and torque.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -37,8 +38,8 @@ struct DynamicColumns {
   Eigen::Index n_arm = 0;                    ///< base parameters of the arm, the first columns
   Eigen::Index first_effect = 0;             ///< of this joint
   std::vector<AddedEffect> added;            ///< beyond (31), whose columns follow
-  const Transmission* cables = nullptr;      ///< that these go by; nullptr: a rigid drive
-  Eigen::Index n_effects = 0;                ///< all these columns, which come first
+  std::shared_ptr<const Transmission> cables = {};  ///< that these go by; none: a rigid drive
+  Eigen::Index n_effects = 0;                       ///< all these columns, which come first
   ElasticDetail detail = ElasticDetail::coefficients;
   std::vector<Eigen::Index> elastic;  ///< first column of each elastic fit's basis, or its torque
   std::vector<Eigen::Index> n_elastic;
@@ -50,13 +51,17 @@ struct DynamicColumns {
   Eigen::Index count = 0;
 };
 
-/// Columns of one side for the given stage-1 fits (none on a rigid drive). `added`: what the joint
-/// has beyond (31), with the values about which nonlinear parameters are linearised; it goes by the
-/// cables of the first fit.
+/// What a joint has beyond (31), with the values about which nonlinear parameters are linearised,
+/// and the cables that it goes by; none: those of the first fit.
+struct AddedToJoint {
+  std::span<const RefinementInstance> effects = {};
+  std::shared_ptr<const Transmission> cables = {};
+};
+
+/// Columns of one side for the given stage-1 fits (none on a rigid drive).
 DynamicColumns dynamic_columns(Side side, const std::vector<const ElasticFit*>& fits,
                                ElasticDetail detail = ElasticDetail::coefficients,
-                               const JointPlace& place = {},
-                               std::span<const RefinementInstance> added = {});
+                               const JointPlace& place = {}, const AddedToJoint& added = {});
 
 /// `torque_held`: tau is then not averaged over the triangle. `has_load`: a tau_load signal exists.
 Equation dynamic_equation(const DynamicColumns& columns, const std::vector<const ElasticFit*>& fits,

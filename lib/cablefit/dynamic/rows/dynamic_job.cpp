@@ -39,7 +39,7 @@ EquationRows make_equation(const DynamicJob& job, Side side, int joint) {
   e.columns =
       dynamic_columns(side, job.elastic,
                       job.options.honest_sd ? ElasticDetail::coefficients : ElasticDetail::torque,
-                      {joint, job.n_joints(), job.arm}, job.added);
+                      {joint, job.n_joints(), job.arm}, {job.added, {}});
   const double rest = side == Side::link ? settings.rest_speed_q : settings.rest_speed_theta;
   e.equation = dynamic_equation(e.columns, job.elastic, job.settings.rows.signal.torque_held, rest);
   if (side == Side::link) {

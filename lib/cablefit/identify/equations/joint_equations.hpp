@@ -30,8 +30,9 @@ struct JointEquation {
   Equation base;
   std::vector<Own> own;
   std::vector<Given> given = {};
-  Eigen::Index response = 0;  ///< column of `base`: tau or tau_load
-  bool motor_side = true;     ///< S Phi with sign +1, else P Phi with sign -1
+  std::vector<DynamicParameter> added = {};  ///< those of `own` beyond (31)
+  Eigen::Index response = 0;                 ///< column of `base`: tau or tau_load
+  bool motor_side = true;                    ///< S Phi with sign +1, else P Phi with sign -1
 
   Eigen::Index n_base() const { return static_cast<Eigen::Index>(base.columns.size()); }
   double sign() const { return motor_side ? 1.0 : -1.0; }

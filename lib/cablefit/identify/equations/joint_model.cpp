@@ -50,6 +50,18 @@ void add_effects(const std::vector<PreloadJob>& jobs, bool inertias, bool apart,
     add(static_cast<int>(j), [&](std::string_view name) { return has_own(jobs[j], name); });
 }
 
+/// Parameters beyond (31), of each preload its own.
+void add_added(const std::vector<PreloadJob>& jobs, JointLayout& layout) {
+  for (std::size_t j = 0; j < jobs.size(); ++j)
+    for (const JointRecord& record : jobs[j].records)
+      for (const JointEquation& equation : record.equations)
+        for (const DynamicParameter& p : equation.added)
+          if (layout.find(p.name, static_cast<int>(j)) < 0)
+            layout.parameters.push_back({p.name, std::string(p.info.symbol),
+                                         std::string(p.info.unit), p.info.lower,
+                                         static_cast<int>(j), 0, false, p.origin});
+}
+
 /// Frictions of blocked sweeps.
 void add_blocked(const std::vector<PreloadJob>& jobs, JointLayout& layout) {
   for (std::size_t j = 0; j < jobs.size(); ++j) {
@@ -140,6 +152,7 @@ JointLayout joint_layout(const std::vector<PreloadJob>& jobs, bool inertias_apar
   add_coefficients(jobs.front().transmission, jobs.front().cable_space, layout);
   add_effects(jobs, true, inertias_apart, layout);
   add_effects(jobs, false, true, layout);
+  add_added(jobs, layout);
   add_blocked(jobs, layout);
   layout.n_linear = static_cast<Eigen::Index>(layout.parameters.size());
   add_elongations(jobs, layout);

@@ -23,7 +23,9 @@ struct JointParameter {
   int preload = kShared;  ///< place among the jobs
   std::size_t cable = 0;  ///< of a coefficient or l_o
   bool inertia = false;
-  double known = 0;  ///< part of it that is known and belongs to it in results: a load's inertia
+  /// Part of it that is known and belongs to it in results: a load's inertia, or where a nonlinear
+  /// parameter was linearised.
+  double known = 0;
 };
 
 struct JointLayout {

@@ -89,6 +89,15 @@ void decide_elongations(PreloadJob& job, bool several, const IdentifyOptions& op
         "motor_radius / link_radius is the same for cables that pull against each other");
 }
 
+/// Without any torque.
+std::shared_ptr<const Transmission> unknown_cables() {
+  Transmission none;
+  none.n_joints = 1;
+  none.linear_stiffness = Eigen::VectorXd::Zero(1);
+  none.theta_0 = Eigen::VectorXd::Zero(1);
+  return std::make_shared<const Transmission>(std::move(none));
+}
+
 }  // namespace
 
 std::vector<PreloadFacts> preloads_of(std::span<const LogSurvey> logs,
@@ -99,6 +108,8 @@ std::vector<PreloadFacts> preloads_of(std::span<const LogSurvey> logs,
        })) {
     PreloadFacts f;
     f.name = name;
+    f.added = options.effects;
+    f.cables = unknown_cables();
     f.rig =
         first_log_with(logs, [&](const PartSurvey& part) { return part.preload == name; }).plan.rig;
     require_agreement(logs, parts_of(name), name);

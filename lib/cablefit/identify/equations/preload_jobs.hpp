@@ -2,6 +2,7 @@
 // which l_o are looked for.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,10 @@ struct PreloadFacts {
   double cutoff = 0, rate = 0;  ///< Hz, of the moving logs; the slowest log's rate
   std::vector<Decision> decisions;
   std::vector<std::string> warnings;
+  /// Effects beyond (31), with the values about which the columns are made, and the cables that
+  /// they go by: as far as they are known.
+  std::vector<RefinementInstance> added = {};
+  std::shared_ptr<const Transmission> cables = {};
 };
 
 /// Of every preload wanted, in the order in which they come. Throws Error(input) when logs of one

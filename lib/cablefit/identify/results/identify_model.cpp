@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "cablefit/model/effect_parameter.hpp"
+
 namespace cablefit {
 namespace {
 
@@ -45,6 +47,20 @@ std::vector<EffectInstance> effects_of(Side side, Parameters& parameters) {
   return instances;
 }
 
+/// Effects beyond (31) with what was estimated of them.
+std::vector<RefinementInstance> added_of(const PreloadFacts& facts, Parameters& parameters) {
+  std::vector<RefinementInstance> added = facts.added;
+  for (RefinementInstance& effect : added)
+    for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
+      const ParameterInfo& info = effect.refinement->parameters[k];
+      const auto e = parameters.find(added_parameter_name(*effect.refinement, info));
+      if (!e) continue;  // held
+      effect.parameters[k] = *e;
+      effect.parameters[k].name = info.name;
+    }
+  return added;
+}
+
 }  // namespace
 
 std::optional<Model> model_of(const IdentifyResult& result, const IdentifyPreload& preload,
@@ -59,6 +75,7 @@ std::optional<Model> model_of(const IdentifyResult& result, const IdentifyPreloa
     model.rig.torque_hold = facts.delay.held ? TorqueHold::zoh : TorqueHold::none;
   model.joints = {{effects_of(Side::link, parameters), effects_of(Side::motor, parameters)}};
   if (model.joints.front().link.empty() || model.joints.front().motor.empty()) return std::nullopt;
+  model.joints.front().refinements = added_of(facts, parameters);
   model.transmission = preload.transmission;
   for (const Cable& cable : preload.transmission.cables)
     for (int k = 0; k < cable.n_coefficients(); ++k)

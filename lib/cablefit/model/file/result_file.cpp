@@ -14,7 +14,7 @@
 namespace cablefit::model_file {
 namespace {
 
-constexpr std::string_view kPreferredModel = "poly";  // the paper's own, see the contract
+constexpr std::string_view kPreferredModel = "poly";  // the paper's own; docs/reference/commands.md
 
 /// The item whose `key` is `wanted`; when nothing is wanted the preferred or else the first one.
 const JsonNode& pick(const JsonNode& list, std::string_view key, std::string_view wanted,

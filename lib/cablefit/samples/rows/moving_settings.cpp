@@ -14,10 +14,9 @@ namespace {
 using namespace settings_parts;
 
 constexpr double kRigidShareOfRate = 0.1;
-constexpr double kResonanceFactor =
-    2.5;                               // the elastic torque's band: J_motor within 0.5 % (README)
-constexpr double kNoiseBias = 0.0025;  // largest share of noise in the acceleration's variance
-constexpr double kLowestCutoff = 1;    // Hz
+constexpr double kResonanceFactor = 2.5;  // the elastic torque's band: J_motor within 0.5 %
+constexpr double kNoiseBias = 0.0025;     // largest share of noise in the acceleration's variance
+constexpr double kLowestCutoff = 1;       // Hz
 
 // The filter blurs a reversal over about 1/(2 pi cut-off): slower than the speed gained in that
 // time the sign of the velocity is not known, however good the encoder.

@@ -1,0 +1,137 @@
+#include "cablefit/dynamic/rows/first_shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cablefit/samples/rows/agreement.hpp"
+#include "cablefit/samples/rows/pilot.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr int kWindows = 6;      // of every log
+constexpr double kMost = 0.99;   // of the values, that LogScale covers
+constexpr double kUsual = 0.75;  // of |tau|
+
+bool is_blank(const RefinementInstance& effect) {
+  return std::any_of(effect.parameters.begin(), effect.parameters.end(),
+                     [](const Estimate& e) { return std::isnan(e.value); });
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+void append(std::vector<double>& all, const Eigen::ArrayXd& values) {
+  const Eigen::ArrayXd sizes = values.abs();
+  all.insert(all.end(), sizes.begin(), sizes.end());
+}
+
+LogScale scale_of(const DynamicJob& job) {
+  std::vector<double> speeds, deflections, torques;
+  double low = kUnbounded, high = -kUnbounded;
+  const SignalSettings& settings = job.settings.rows.signal;
+  const Eigen::Index halo = row_halo(job.settings.rows, sample_rates(job.logs, job.wanted).highest);
+  for (const PilotWindow& p : pilot_windows(job.logs, job.wanted, settings, halo, kWindows)) {
+    const JointSignals s = make_signals(p.window, job.logs[p.log].plan, settings).joints.front();
+    append(speeds, s.thetad);
+    append(torques, s.tau);
+    if (!job.rigid) append(deflections, s.theta - s.q);
+    low = std::min(low, s.theta.minCoeff());
+    high = std::max(high, s.theta.maxCoeff());
+  }
+  return {.peak = quantile(torques, 1),
+          .usual = quantile(torques, kUsual),
+          .travel = (high - low) / 2,
+          .speed = quantile(std::move(speeds), kMost),
+          .deflection = quantile(std::move(deflections), kMost)};
+}
+
+std::vector<double> values_of(const ShapeGrid& grid, const LogScale& scale) {
+  if (grid.canonical > 0) return {grid.canonical};
+  std::vector<double> values;
+  for (int i = 0; i < grid.n_values; ++i) values.push_back(grid.value(i, scale));
+  return values;
+}
+
+/// All combinations of the values of the row's nonlinear parameters.
+std::vector<std::vector<double>> points_of(const Refinement& row, const LogScale& scale) {
+  std::vector<std::vector<double>> points = {{}};
+  for (const ShapeGrid& grid : row.shape) {
+    std::vector<std::vector<double>> longer;
+    for (const std::vector<double>& point : points)
+      for (const double value : values_of(grid, scale)) {
+        longer.push_back(point);
+        longer.back().push_back(value);
+      }
+    points = std::move(longer);
+  }
+  return points;
+}
+
+/// An sd of 0 holds a nonlinear parameter; none frees it.
+void set_values(RefinementInstance& effect, const std::vector<double>& shape) {
+  const std::size_t n = effect.refinement->n_linear();
+  for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
+    effect.parameters[k].value = k < n ? 0 : shape[k - n];
+    if (k >= n) effect.parameters[k].sd = 0;
+  }
+}
+void set_free(RefinementInstance& effect) {
+  for (Estimate& e : effect.parameters) e.sd = std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Sum over the equations of the logarithm of what least squares leaves: each counts alike.
+double misfit(const DynamicJob& job) {
+  double sum = 0;
+  for (const EquationRows& e : pilot_equations(job, kWindows))
+    sum += std::log(
+        std::max(solve_equation(e, job.elastic, 0).rss, std::numeric_limits<double>::min()));
+  return sum;
+}
+
+}  // namespace
+
+RefinementInstance blank_effect(const Refinement& row) {
+  RefinementInstance effect{&row, {}};
+  for (const ParameterInfo& info : row.parameters) {
+    Estimate& e = effect.parameters.emplace_back();
+    e.name = info.name;
+    e.symbol = info.symbol;
+    e.unit = info.unit;
+  }
+  return effect;
+}
+
+void find_first_shapes(DynamicJob& job) {
+  if (std::none_of(job.added.begin(), job.added.end(), is_blank)) return;
+  const LogScale scale = scale_of(job);
+  const std::vector<RefinementInstance> wanted = std::move(job.added);
+  job.added.clear();
+  for (const RefinementInstance& effect : wanted) {
+    job.added.push_back(effect);
+    if (!is_blank(effect)) continue;
+    double least = kUnbounded;
+    std::vector<double> best;
+    for (const std::vector<double>& point : points_of(*effect.refinement, scale)) {
+      set_values(job.added.back(), point);
+      const double found = misfit(job);
+      if (found < least || best.empty()) best = point;
+      least = std::min(least, found);
+    }
+    set_values(job.added.back(), best);
+  }
+  for (const EquationRows& e : pilot_equations(job, kWindows)) {
+    const LinearSolution s = solve_equation(e, job.elastic, 0);
+    take_values(e.columns, s.x, job.added);
+  }
+  for (std::size_t k = 0; k < wanted.size(); ++k)
+    if (is_blank(wanted[k])) set_free(job.added[k]);
+}
+
+}  // namespace cablefit
