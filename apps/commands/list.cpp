@@ -54,7 +54,7 @@ std::string aliases_of(const Refinement& row) {
 std::vector<Table> refinement_tables() {
   Table rows = text_table_of("Refinements: what a drive may have beyond the model",
                              {"name", "side", "equation", "parameters", "source"});
-  Table differences = text_table_of("How refinements are told apart",
+  Table differences = text_table_of("What separates effects that look alike",
                                     {"name", "side", "never from", "signature", "experiment"});
   for (const Refinement& row : refinements()) {
     const std::string name(row.name), side(to_string(row.site));

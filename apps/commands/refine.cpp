@@ -423,7 +423,7 @@ int run_refine(const Arguments& arguments) {
         {std::filesystem::absolute(command.excite).string(), excite_csv(*result.next_run)});
   deliver(command.common, refine_document(result, names), files);
   if (!command.excite.empty() && !result.next_run)
-    complain(fmt::format("{} was not written: no motion would tell more\n", command.excite));
+    complain(fmt::format("{} was not written: no motion would separate more\n", command.excite));
   const std::vector<std::string> failed = failed_gates(command, result);
   for (const std::string& gate : failed) complain(gate + "\n");
   return failed.empty() ? 0 : kGateFailed;

@@ -119,8 +119,8 @@ TEST_CASE("one speed back and forth: viscous and dry friction are not promised",
   }
   CHECK(parameter(e, "f_v").closest == "f_s");
   CHECK(parameter(e, "offset").determined == Determined::identifiable);
-  CHECK(warns(e.sentences, "f_v and f_s can"));
-  CHECK(warns(e.sentences, "told apart: correlation -"));
+  CHECK(warns(e.sentences, "f_v and f_s are"));
+  CHECK(warns(e.sentences, "strongly correlated: -"));
   CHECK(
       warns(e.sentences, "move at several speeds, slow and fast (a speed ladder); now 0.5 rad/s"));
   CHECK(e.condition_scaled > 6);  // 2 sqrt of (1 + 0.95) / (1 - 0.95)
@@ -138,7 +138,7 @@ TEST_CASE("motion in one direction: dry friction and offset are not promised", "
   CHECK(parameter(e, "J").determined == Determined::identifiable);
   CHECK(parameter(e, "f_v").determined == Determined::identifiable);
   CHECK(warns(e.sentences,
-              "f_s and offset cannot be told apart: correlation -1.000, only offset + "
+              "f_s and offset are not separable: correlation -1.000, only offset + "
               "1 f_s shows; move in both directions"));
 }
 
@@ -148,7 +148,7 @@ TEST_CASE("one sine: an inertia is not promised", "[dynamic]") {
   CHECK(parameter(e, "f_v").determined == Determined::identifiable);
   CHECK(warns(e.sentences, "J: the acceleration is "));
   CHECK(warns(e.sentences,
-              "inertia cannot be told from stiffness or gravity; move at several "
+              "inertia is not separable from stiffness or gravity; move at several "
               "frequencies"));
 }
 

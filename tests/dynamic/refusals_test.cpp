@@ -36,7 +36,7 @@ TEST_CASE("the inertia of a drive that swings in one sine is refused", "[dynamic
   DynamicOptions options;
   options.models = {"rigid"};
   const DynamicFit fit = fit_dynamic(bench.logs(), {}, options).preloads.at(0).fits.at(0);
-  check_refused(fit.parameters, "J", "inertia cannot be told from stiffness or gravity");
+  check_refused(fit.parameters, "J", "inertia is not separable from stiffness or gravity");
   CHECK(fit.verdicts.at("J") == "not identifiable");
   // Friction shows all the same, within its 3 sd.
   check_recovered(fit.parameters, {{"f_v", 0.3}, {"f_s", 0.9}}, 3);

@@ -103,7 +103,7 @@ TEST_CASE("an arbitrary encoder zero is found", "[elastic]") {
 TEST_CASE("logs with zeros of their own are told from a loop", "[elastic]") {
   const truth::Rig rig = truth::Rig::low();
   constexpr double kShift = 0.002;
-  const std::string own_zeros = "the logs have zeros of their own";
+  const std::string own_zeros = "the encoder zero differs between logs";
   for (const double shift : {0.0, kShift}) {
     Bench bench;
     bench.add(blocked(rig, 4130));

@@ -60,10 +60,9 @@ TEST_CASE("at one speed viscous and dry friction are one, told with the speed", 
   Eigen::MatrixXd w = rigid_rows(6402);
   w.col(1) = 0.5 * w.col(2);
   const Identifiability found = identifiability(w, kRows, kRigid);
-  CHECK(
-      texts(found) ==
-      Texts{"f_v and f_s cannot be told apart: correlation -1.000, only f_s + 0.5 f_v shows; move "
-            "at several speeds, slow and fast (a speed ladder); now 0.5 rad/s rms"});
+  CHECK(texts(found) ==
+        Texts{"f_v and f_s are not separable: correlation -1.000, only f_s + 0.5 f_v shows; move "
+              "at several speeds, slow and fast (a speed ladder); now 0.5 rad/s rms"});
   CHECK(found.confusions[0].exact);
   CHECK(std::isinf(found.unit_sd(1)));
   CHECK(std::isinf(found.unit_sd(2)));
@@ -76,7 +75,7 @@ TEST_CASE("in one direction dry friction and the offset are one", "[estimate]") 
   w.col(1) = w.col(1).cwiseAbs();
   w.col(2).setOnes();
   CHECK(texts(identifiability(w, kRows, kRigid)) ==
-        Texts{"f_s and offset cannot be told apart: correlation -1.000, only offset + 1 f_s shows; "
+        Texts{"f_s and offset are not separable: correlation -1.000, only offset + 1 f_s shows; "
               "move in both directions"});
 }
 
@@ -94,9 +93,9 @@ TEST_CASE("two confusions at once are told one by one", "[estimate]") {
   w.col(1) = -2 * w.col(0);
   w.col(2).setOnes();
   CHECK(texts(identifiability(w, kRows, kRigid)) ==
-        Texts{"J and f_v cannot be told apart: correlation 1.000, only f_v - 0.5 J shows; reverse "
+        Texts{"J and f_v are not separable: correlation 1.000, only f_v - 0.5 J shows; reverse "
               "harder, and hold speeds between reversals; now 3 rad/s^2 rms",
-              "f_s and offset cannot be told apart: correlation -1.000, only offset + 1 f_s shows; "
+              "f_s and offset are not separable: correlation -1.000, only offset + 1 f_s shows; "
               "move in both directions"});
 }
 
@@ -134,7 +133,7 @@ TEST_CASE("a correlation above 0.95 is told with what would lower it", "[estimat
   // Regressors of correlation 1/sqrt(1.01); the estimates have it with a minus.
   CHECK(pair.correlation == Approx(-1 / std::sqrt(1.01)).margin(0.002));
   CHECK(pair.text ==
-        fmt::format("f_v and f_s can hardly be told apart: correlation {:.3f}; move at "
+        fmt::format("f_v and f_s are strongly correlated: {:.3f}; move at "
                     "several speeds, slow and fast (a speed ladder); now 0.5 rad/s rms",
                     pair.correlation));
   CHECK_FALSE(pair.exact);
@@ -157,12 +156,12 @@ TEST_CASE("three that lean on each other are told although no two do", "[estimat
   const Confusion& group = found.confusions.back();
   CHECK(group.members == std::vector<std::size_t>{0, 1, 2, 3});
   CHECK(group.condition_index == Approx(found.condition_scaled));
-  CHECK(group.text == fmt::format("a, b, c and d can hardly be told apart: mostly combinations of "
-                                  "them show (condition index {:.0f})",
+  CHECK(group.text == fmt::format("a, b, c and d are strongly correlated: mostly combinations of "
+                                  "them are determined (condition index {:.0f})",
                                   group.condition_index));
   w.col(3) = w.col(0) + w.col(1) + w.col(2);
   CHECK(texts(identifiability(w, kRows, names)) ==
-        Texts{"a, b, c and d cannot be told apart: only combinations of them show"});
+        Texts{"a, b, c and d are not separable: only combinations of them are determined"});
 }
 
 TEST_CASE("the triangular factor says what the rows say", "[estimate]") {

@@ -70,11 +70,11 @@ TEST_CASE("columns that cannot be told apart are named", "[estimate]") {
   data.w.col(2) = -0.7 * data.w.col(0);
   const LinearSolution s = fit(data, {"J_motor", "f_vm", "K", "offset"});
   CHECK(s.not_identifiable[0] ==
-        "cannot be told apart from K in these logs; K - 1.43 J_motor = -0.9438 +- 0.29 is "
+        "is not separable from K in these logs; K - 1.43 J_motor = -0.9438 +- 0.29 is "
         "determined");
   CHECK(s.not_identifiable[1].empty());
   CHECK(s.not_identifiable[2] ==
-        "cannot be told apart from J_motor in these logs; K - 1.43 J_motor = -0.9438 +- 0.29 is "
+        "is not separable from J_motor in these logs; K - 1.43 J_motor = -0.9438 +- 0.29 is "
         "determined");
   CHECK(s.not_identifiable[3].empty());
   CHECK(s.n_params == 2);
@@ -82,7 +82,7 @@ TEST_CASE("columns that cannot be told apart are named", "[estimate]") {
 
   data.w.col(2) = data.w.col(0) + data.w.col(1);
   const LinearSolution three = fit(data, {"a", "b", "c", "d"});
-  CHECK(three.not_identifiable[0] == "cannot be told apart from b, c in these logs");
+  CHECK(three.not_identifiable[0] == "is not separable from b, c in these logs");
   CHECK(three.not_identifiable[3].empty());
 }
 
@@ -127,7 +127,7 @@ TEST_CASE("estimates that lean on each other are told", "[estimate]") {
   // Correlation of the regressors 1/sqrt(1.01) = 0.995, of the estimates the same with a minus.
   CHECK_THAT(s.correlation(0, 1), Catch::WithinAbs(-0.995, 0.002));
   REQUIRE(s.warnings.size() == 1);
-  CHECK(s.warnings[0].find("f_v and f_s can hardly be told apart: correlation -0.99") == 0);
+  CHECK(s.warnings[0].find("f_v and f_s are strongly correlated: -0.99") == 0);
 }
 
 TEST_CASE("without cells the honest covariance is the white one", "[estimate]") {

@@ -105,8 +105,8 @@ TEST_CASE("a parameter stops at its bound, and says so", "[estimate]") {
 TEST_CASE("what the data cannot tell apart is named", "[estimate]") {
   const NonlinearSolution s = solve(line({2, 2, 2}, {1, 2, 3}));
   CHECK(s.rank == 1);
-  CHECK(s.not_identifiable[0] == "cannot be told apart from b in these logs");
-  CHECK(s.not_identifiable[1] == "cannot be told apart from a in these logs");
+  CHECK(s.not_identifiable[0] == "is not separable from b in these logs");
+  CHECK(s.not_identifiable[1] == "is not separable from a in these logs");
 }
 
 TEST_CASE("not to converge is a result", "[estimate]") {

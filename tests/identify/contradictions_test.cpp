@@ -24,7 +24,7 @@ TEST_CASE("a preload taken for none does not pass", "[identify]") {
   known.elongations = ElongationMode::known;
   const std::vector<std::string> warnings = all_warnings(identify(logs, known));
   CHECK(warns(warnings, "the blocked equation leaves "));  // 9 of 145 N m
-  CHECK(warns(warnings, "of its largest torque: sd do not tell of an error of the model"));
+  CHECK(warns(warnings, "of its largest torque: sd do not include an error of the model"));
   CHECK(warns(warnings, "try --l-o search"));
   CHECK(warns(warnings, "blocked and moving logs do not agree on them"));
   const std::vector<LogSurvey> right = {shipped("low/blocked.csv"),

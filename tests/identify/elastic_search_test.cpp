@@ -114,7 +114,7 @@ TEST_CASE("stage 1 refuses to name an l_o that no log tells", "[identify]") {
   const std::string message =
       message_of([&] { fit_elastic_with_search(bench.logs(), options, true); });
   INFO(message);
-  CHECK(message.starts_with("preload 'tight': l_o[1] cannot be told apart from"));
+  CHECK(message.starts_with("preload 'tight': l_o[1] is not separable from"));
   CHECK(message.find("determined is K1_0 + K2_0 = 3") != std::string::npos);
   CHECK(message.ends_with("move until cable 1 goes slack"));
 }

@@ -54,7 +54,7 @@ TEST_CASE("SEA spring 2: the encoder zero moved before one log", "[reference]") 
   }
   const ElasticPreload preload = fit_elastic(logs, {}).preloads.at(0);
   print_all("  warning", preload.warnings);
-  CHECK(warns(preload.warnings, "the logs have zeros of their own"));
+  CHECK(warns(preload.warnings, "the encoder zero differs between logs"));
   CHECK_FALSE(warns(preload.warnings, kNoStaticLaw));
 
   RefineLogs both;

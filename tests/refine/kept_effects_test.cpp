@@ -159,9 +159,10 @@ TEST_CASE("a kept effect that the logs do not tell from the base is refused", "[
     FAIL("it was taken");
   } catch (const Error& error) {
     CHECK(error.kind() == ErrorKind::not_identifiable);
-    CHECK(std::string(error.what()) ==
-          "the logs do not tell 'payload_change' (link) of the model from its other parameters; "
-          "give the logs that it was named from too, or a model without it");
+    CHECK(
+        std::string(error.what()) ==
+        "the logs do not separate 'payload_change' (link) of the model from its other parameters; "
+        "give the logs that it was named from too, or a model without it");
   }
 }
 

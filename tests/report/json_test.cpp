@@ -66,7 +66,7 @@ TEST_CASE("what the data cannot determine has no numbers that look like an uncer
   const json result = json::parse(dynamic_json(test::dynamic_result()));
   const json& f_v = result["preloads"][0]["fits"][1]["parameters"][1];
   for (const char* key : {"sd", "sd_white", "rsd_percent", "ci95"}) CHECK(f_v[key].is_null());
-  CHECK(f_v["not_identifiable"] == "cannot be told apart from f_s in these logs");
+  CHECK(f_v["not_identifiable"] == "is not separable from f_s in these logs");
   CHECK(result["preloads"][0]["fits"][1]["parameters"][2]["active_bound"] == "f_s >= 0");
 }
 

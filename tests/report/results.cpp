@@ -151,7 +151,7 @@ DynamicPreload dynamic_preload(const std::string& name) {
   const ElasticPreload stage1 = elastic_preload(name, 2, 2);
   preload.fits = {dynamic_fit("linear", stage1.fits[0]), dynamic_fit("poly", stage1.fits[1])};
   Estimate& f_v = preload.fits[1].parameters[1];
-  f_v = unknown(f_v, "cannot be told apart from f_s in these logs");
+  f_v = unknown(f_v, "is not separable from f_s in these logs");
   preload.fits[1].parameters[2] = at_bound(preload.fits[1].parameters[2]);
   preload.decisions = {{"cut-off", "190 Hz", "2.5 f0"}};
   return preload;

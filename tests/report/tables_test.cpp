@@ -69,7 +69,7 @@ TEST_CASE("Table 2 marks what is not identifiable and what stands at a bound") {
         Row{"not identifiable", "[1]"});
   CHECK(Row(table.rows[2].begin() + 5, table.rows[2].begin() + 7) == Row{"0", "[2]"});
   REQUIRE(table.notes.size() == 3);
-  CHECK(table.notes[0] == "[1] cannot be told apart from f_s in these logs");
+  CHECK(table.notes[0] == "[1] is not separable from f_s in these logs");
   CHECK(table.notes[1] == "[2] at its bound f_s >= 0: 95 % interval up to 0.12 N m");
   CHECK_THAT(table.notes[2], Contains("4.0 to 4.0 times that of the paper's (25)"));
 }

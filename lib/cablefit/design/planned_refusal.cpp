@@ -33,7 +33,7 @@ std::string refusal_of(const Eigen::MatrixXd& rows, const DynamicColumns& c, Eig
   const double left = (column - w * solver.solve(column)).squaredNorm();
   if (1 - left / column.squaredNorm() > kPositionAlias)
     return name +
-           " cannot be told from stiffness: its acceleration follows position, as in one "
+           " is not separable from stiffness: its acceleration follows position, as in one "
            "sine";
   // Cables that are never taut have columns of zeros.
   std::erase_if(allowed, [&](Eigen::Index j) { return rows.col(j).norm() == 0; });

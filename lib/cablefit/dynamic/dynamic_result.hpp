@@ -81,7 +81,7 @@ struct TorqueDelay {
   double seconds = 0, sd = 0;
   bool estimated = false;
   bool held = false;
-  bool undecided = false;  ///< the motion does not tell whether it is held
+  bool undecided = false;  ///< the motion does not show whether it is held
   std::string reason;
   std::string warning = {};  ///< when neither convention explains the delay; may be empty
 };

@@ -81,7 +81,7 @@ std::vector<std::string> worth_saying(const std::vector<std::string>& warnings,
   }
   if (between_coefficients > 0 && candidate.order > 2)
     kept.push_back(
-        fmt::format("coefficients of order {} lean on each other: trust the curve, not single "
+        fmt::format("coefficients of order {} are strongly correlated: trust the curve, not single "
                     "coefficients",
                     candidate.order));
   return kept;

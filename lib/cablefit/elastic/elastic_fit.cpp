@@ -100,9 +100,9 @@ void look_at_branches(Stage1& stage, ElasticPreload& preload) {
   stage.nuisance.speed = preload.both_branches && speed_tells_more(stage.rows);
   if (!preload.both_branches)
     preload.warnings.emplace_back(
-        "theta moves in one direction only: the motor's static friction cannot be told from the "
-        "elastic "
-        "torque; stiffness and offset may be off by it, f_sm is not estimated; sweep up and down");
+        "theta moves in one direction only: the motor's static friction is not separable from the "
+        "elastic torque; stiffness and offset may be off by it, f_sm is not estimated; sweep up "
+        "and down");
 }
 
 /// Refused rather than silently taken as 0.

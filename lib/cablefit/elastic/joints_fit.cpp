@@ -38,7 +38,7 @@ void look_at_branches(Stage1& stage, int joint, ElasticPreload& preload) {
   preload.both_branches = preload.both_branches && nuisance.branches;
   if (!nuisance.branches)
     preload.warnings.push_back(fmt::format(
-        "theta{0} moves in one direction only: the static friction of motor {0} cannot be told "
+        "theta{0} moves in one direction only: the static friction of motor {0} is not separable "
         "from the elastic torque; stiffness and offset[{0}] may be off by it, f_sm[{0}] is not "
         "estimated; sweep up and down",
         joint + 1));

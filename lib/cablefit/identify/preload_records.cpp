@@ -72,7 +72,7 @@ JointRecord blocked_record(std::span<const LogSurvey> logs, const IdentifyOption
   if (!both)
     facts.warnings.emplace_back(
         "theta moves in one direction only while the link is blocked: the motor's static friction "
-        "cannot be told from the elastic torque; sweep up and down");
+        "is not separable from the elastic torque; sweep up and down");
   JointEquation equation;
   equation.base = blocked_equation(job.basis, nullptr, !rows.plateaus, job.rest_speeds.front(),
                                    job.still_speeds.front());

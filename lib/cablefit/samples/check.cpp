@@ -182,7 +182,7 @@ void note_motion(const LogPlan& plan, bool trusted, CheckedPart& part) {
     warn(fmt::format("the drive rests in {:.0f} % of the rows", 100 * e.share_at_rest));
   }
   if (e.speed_bands == 1 && !trusted) {
-    warn("one speed only: viscous and Coulomb friction cannot be told apart");
+    warn("one speed only: viscous and Coulomb friction are not separable");
   }
   const bool has_load = plan.has(Channel::tau_load) || plan.rig.load.law != nullptr;
   if (!part.identifies.empty() && part.identifies.front() == "dynamic" && !has_load) {

@@ -43,7 +43,7 @@ ResidualTest whiteness(const TestedRows& tested, const WhitenessTest& test) {
     out.verdict = fmt::format("white below the cut-off ({})", p_text(test.p_value));
     if (test.effective_rows < kFewRows) {
       out.finding = Finding::untestable;
-      out.verdict = fmt::format("too few independent rows to tell ({:.0f})", test.effective_rows);
+      out.verdict = fmt::format("too few independent rows ({:.0f})", test.effective_rows);
     }
     return out;
   }
@@ -66,7 +66,7 @@ ResidualTest dependence(const TestedRows& tested, const JudgedVariable& variable
   out.name = variable.name;
   if (!test.is_possible) {
     out.finding = Finding::untestable;
-    out.verdict = test.dof_1 > 0 ? "too few independent rows to tell"
+    out.verdict = test.dof_1 > 0 ? "too few independent rows"
                                  : "the fit explains it: nothing is left to test";
     return out;
   }

@@ -173,7 +173,7 @@ std::string inertia_alias(const RowStatistics& rows, const DynamicColumns& c, Ei
   const MotionColumn column = motion_column(c, static_cast<std::size_t>(k), linear_motion);
   return fmt::format(
       "the acceleration is {:.1f} % a function of position, speed and direction (one sine?): "
-      "inertia cannot be told from stiffness or gravity; {}",
+      "inertia is not separable from stiffness or gravity; {}",
       100 * explained, separating_motion(column, 0, {MotionPart::position}, 0));
 }
 

@@ -218,10 +218,11 @@ void note_fit(const EstimationTask& task, const FittedRows& rows, const LoopPlan
                     "are wrong",
                     oe.residual_rms));
   if (std::abs(oe.correlation) > kWrongModel)
-    out.fit.warnings.push_back(fmt::format(
-        "what output error leaves is correlated from row to row ({:.2f}): the model is wrong, or "
-        "the torque noise far from white, and the estimates make up for it",
-        oe.correlation));
+    out.fit.warnings.push_back(
+        fmt::format("the residual of output error is correlated from row to row ({:.2f}): the "
+                    "model is wrong, or "
+                    "the torque noise far from white, and the estimates make up for it",
+                    oe.correlation));
 }
 
 void note_stage1(const EstimationTask& task, const OutputErrorOptions& options,
@@ -235,7 +236,7 @@ void note_stage1(const EstimationTask& task, const OutputErrorOptions& options,
   out.decisions.push_back(
       {label(task, "elastic coefficients"), "fitted",
        fmt::format(
-           "with stage 1 and its honest covariance as prior; l_o and theta_0 held; {} moves "
+           "with stage 1 and its robust covariance as prior; l_o and theta_0 held; {} moves "
            "furthest, by {:+.2f} sd of stage 1",
            shift.name, shift.in_sd)});
   if (std::abs(shift.in_sd) > kFarFromStage1)

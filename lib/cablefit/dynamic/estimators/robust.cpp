@@ -191,7 +191,7 @@ Estimation estimate(const EstimationTask& task) {
   Estimation out = last.estimation;
   if (!last.is_still)
     out.fit.warnings.push_back(
-        fmt::format("the robust fit did not stand still after {} steps", kMostSteps));
+        fmt::format("the robust fit did not converge in {} iterations", kMostSteps));
   for (std::size_t k = 0; k < task.equations.size(); ++k)  // of the rows as they are
     add_errors(*task.equations[k].rows, task.equations[k].equation.name, out.solutions[k], out.fit);
   out.fit.suspects = suspect_spans(task, last);

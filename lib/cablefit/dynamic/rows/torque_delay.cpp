@@ -64,7 +64,7 @@ void judge_delay(double hold, TorqueDelay& delay) {
   if (!(delay.sd < hold / 4)) {
     delay.held = false;
     delay.undecided = true;
-    delay.reason = found + ": the motion does not tell whether it is held";
+    delay.reason = found + ": the motion does not show whether it is held";
     delay.warning =
         "whether the torque is held over a sample does not show in these logs, none is assumed; "
         "say "

@@ -158,8 +158,8 @@ void note_first_stage(const RowStatistics& rows, const LinearProblem& problem,
     if (f >= kStrongFirstStage || !out.not_identifiable[static_cast<std::size_t>(k)].empty())
       continue;
     out.warnings.push_back(
-        fmt::format("weak instruments: the simulated motion tells little of what {} is the torque "
-                    "of (first-stage F = {:.2g}, below {:g})",
+        fmt::format("weak instruments: the simulated motion hardly determines {} (first-stage F = "
+                    "{:.2g}, below {:g})",
                     problem.names[static_cast<std::size_t>(k)], f, kStrongFirstStage));
   }
 }

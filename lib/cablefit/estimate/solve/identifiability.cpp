@@ -66,9 +66,9 @@ Confusion exact_confusion(const Columns& c, const Eigen::VectorXd& direction) {
   }
   const std::string advice = advice_for(c, found.members);
   if (found.members.size() > 2) {
-    found.text = with_advice(
-        enumerated(c, found.members) + " cannot be told apart: only combinations of them show",
-        advice);
+    found.text = with_advice(enumerated(c, found.members) +
+                                 " are not separable: only combinations of them are determined",
+                             advice);
     return found;
   }
   const auto a = static_cast<Eigen::Index>(found.members[0]);
@@ -77,7 +77,7 @@ Confusion exact_confusion(const Columns& c, const Eigen::VectorXd& direction) {
   // What stands at a right angle to the direction, in parameters as they are.
   const double share = -direction(b) * c.norm(a) / (direction(a) * c.norm(b));
   found.text = with_advice(
-      fmt::format("{} cannot be told apart: correlation {:.3f}, only {} {} {:.3g} {} shows",
+      fmt::format("{} are not separable: correlation {:.3f}, only {} {} {:.3g} {} shows",
                   enumerated(c, found.members), found.correlation, c.at(b).name,
                   share < 0 ? "-" : "+", std::abs(share), c.at(a).name),
       advice);
@@ -112,9 +112,10 @@ void add_groups(const Columns& c, const Eigen::MatrixXd& v, const Eigen::VectorX
         members.push_back(static_cast<std::size_t>(k));
     if (members.size() < 3) continue;
     std::string text = with_advice(
-        fmt::format("{} can hardly be told apart: mostly combinations of them show (condition "
-                    "index {:.0f})",
-                    enumerated(c, members), index),
+        fmt::format(
+            "{} are strongly correlated: mostly combinations of them are determined (condition "
+            "index {:.0f})",
+            enumerated(c, members), index),
         advice_for(c, members));
     out.confusions.push_back({std::move(members), false, index, kNone, std::move(text)});
   }
@@ -149,9 +150,9 @@ Eigen::MatrixXd sparse_directions(Eigen::MatrixXd directions) {
 
 std::string hardly_apart(const NamedColumn& a, double rms_a, const NamedColumn& b, double rms_b,
                          double correlation) {
-  return with_advice(fmt::format("{} and {} can hardly be told apart: correlation {:.3f}", a.name,
-                                 b.name, correlation),
-                     separating_motion(a.motion, rms_a, b.motion, rms_b));
+  return with_advice(
+      fmt::format("{} and {} are strongly correlated: {:.3f}", a.name, b.name, correlation),
+      separating_motion(a.motion, rms_a, b.motion, rms_b));
 }
 
 std::string not_determined(const Eigen::VectorXd& direction, Eigen::Index self,
@@ -164,9 +165,8 @@ std::string not_determined(const Eigen::VectorXd& direction, Eigen::Index self,
   if (others.empty())
     return with_advice("its column is zero: the log never excites it",
                        std::string(exciting_motion(c.at(self).motion.part)));
-  return with_advice(
-      fmt::format("cannot be told apart from {} in these logs", fmt::join(others, ", ")),
-      advice_for(c, members));
+  return with_advice(fmt::format("is not separable from {} in these logs", fmt::join(others, ", ")),
+                     advice_for(c, members));
 }
 
 Identifiability identifiability(const Eigen::MatrixXd& columns, Eigen::Index n_rows,

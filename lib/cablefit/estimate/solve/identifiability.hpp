@@ -41,7 +41,7 @@ struct Identifiability {
 Identifiability identifiability(const Eigen::MatrixXd& columns, Eigen::Index n_rows,
                                 std::span<const NamedColumn> names);
 
-/// "f_v and f_s can hardly be told apart: correlation 0.998; move at several speeds ...". `rms`:
+/// "f_v and f_s are strongly correlated: 0.998; move at several speeds ...". `rms`:
 /// of the columns.
 std::string hardly_apart(const NamedColumn& a, double rms_a, const NamedColumn& b, double rms_b,
                          double correlation);

@@ -103,7 +103,7 @@ std::string why_undetermined(const JointFit& fit, const JudgedPoint& judged, Eig
   if (judged.linearised.determines(unit(judged, k))) return "";
   const std::string others = partners(fit, judged, k);
   if (others.empty()) return why_unexcited(fit, judged, k);
-  std::string text = fmt::format("cannot be told apart from {} in these logs", others);
+  std::string text = fmt::format("is not separable from {} in these logs", others);
   const JointParameter& p = fit.layout.parameters[static_cast<std::size_t>(k)];
   const bool elastic = k < fit.layout.n_coefficients || k >= fit.layout.n_linear;
   if (const std::string sums = elastic ? determined_sums(fit, judged) : ""; !sums.empty())

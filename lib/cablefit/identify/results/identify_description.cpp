@@ -27,7 +27,7 @@ std::vector<std::string> correlation_warnings(const JointFit& fit, const JudgedP
     for (Eigen::Index k = 0; k < i; ++k) {
       const double scale = std::sqrt(c(i, i) * c(k, k));
       if (!(scale > 0) || std::abs(c(i, k)) < kCorrelationWarning * scale) continue;
-      warnings.push_back(fmt::format("{} and {} can hardly be told apart: correlation {:.3f}",
+      warnings.push_back(fmt::format("{} and {} are strongly correlated: {:.3f}",
                                      judged.problem.names[static_cast<std::size_t>(k)],
                                      judged.problem.names[static_cast<std::size_t>(i)],
                                      c(i, k) / scale));

@@ -24,8 +24,8 @@ Refinement constant_torque() {
               "the same on every link row, none on the motor rows; like asymmetric "
               "Coulomb friction, a wrong load zero, or a wrong elastic stage",
           .experiment =
-              "none tells it from asymmetric Coulomb friction; two loads and both cable "
-              "sides tell it from the rest",
+              "none separates it from asymmetric Coulomb friction; two loads and both cable sides "
+              "separate it from the rest",
           .source = "Fichera & Grossard 2017, Table 2 (the motor's offset)",
           .parameters = kTorque,
           .torque = one<Site::link>};

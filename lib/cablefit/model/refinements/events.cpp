@@ -56,8 +56,8 @@ Refinement contact() {
           .site = Site::link,
           .equation = "-a (1 - cos(2 pi (t - t_0) / w)) / 2 for w seconds",
           .signature =
-              "a short push on the link rows alone; any wandering disturbance looks like "
-              "some contacts",
+              "a short torque on the link rows alone; a low-frequency disturbance looks like some "
+              "contacts",
           .experiment = "the same motion again, out of reach",
           .source = "De Luca & Mattone 2005",
           .parameters = kContact,

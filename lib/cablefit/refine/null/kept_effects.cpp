@@ -64,10 +64,11 @@ void require_own_columns(const Design& bare, const std::vector<Variant>& kept,
     design = with_variant(design, variant, values);
     if (fit_blocks(grams_of(design, settings), levels, false, {kOwnPart, n_linear(variant)}))
       continue;
-    throw Error(ErrorKind::not_identifiable,
-                fmt::format("the logs do not tell {} of the model from its other parameters; give "
-                            "the logs that it was named from too, or a model without it",
-                            name_of(*variant.refinement)));
+    throw Error(
+        ErrorKind::not_identifiable,
+        fmt::format("the logs do not separate {} of the model from its other parameters; give "
+                    "the logs that it was named from too, or a model without it",
+                    name_of(*variant.refinement)));
   }
 }
 

@@ -21,7 +21,8 @@ void set_estimate(Estimate& e, double value, double sd, double dof) {
   e.sd = e.sd_white = e.ci_low = e.ci_high = none;
   e.profiled = false;
   e.active_bound.clear();
-  e.not_identifiable = std::isnan(sd) ? "the rows do not tell it from the other parameters" : "";
+  e.not_identifiable =
+      std::isnan(sd) ? "the logs do not separate it from the other parameters" : "";
   if (!(sd > 0) || !std::isfinite(sd)) return;
   e.sd = sd;  // see FinalFit; there is none of white residuals
   const double reach = t_quantile_975(dof) * sd;

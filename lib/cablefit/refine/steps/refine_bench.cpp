@@ -154,14 +154,13 @@ void check_blocks(const BaseFit& base, double block_seconds, RefineResult& resul
   if (alone == 0) return;
   const Eigen::Index judging = (base.fit.held_out > 0).count();
   if (judging == 0)
-    throw Error(
-        ErrorKind::not_identifiable,
-        fmt::format("one block of {:g} s alone tells a parameter of the model, and no other "
-                    "is there to judge by; record longer",
-                    block_seconds));
+    throw Error(ErrorKind::not_identifiable,
+                fmt::format("one block of {:g} s alone determines a parameter of the model, and "
+                            "there is no other to judge by; record longer",
+                            block_seconds));
   result.warnings.push_back(
-      fmt::format("{} of {} blocks of {:g} s tell a parameter of the model alone: they fit, but do "
-                  "not judge",
+      fmt::format("{} of {} blocks of {:g} s alone determine a parameter of the model: they are "
+                  "fitted, but do not judge",
                   alone, alone + judging, block_seconds));
 }
 

@@ -28,7 +28,7 @@ std::set<std::string> all_equations(const DynamicResult& result) {
 Table error_table(const DynamicResult& result) {
   const bool linear_motion = !result.preloads.empty() && result.preloads.front().linear_motion;
   Table table;
-  table.title = "Torque errors: what the model leaves, relative to the torque it explains";
+  table.title = "Torque errors: the residual, relative to the torque to be explained";
   table.columns = {{"", "preload", "", true}, {"", "model", "", true}};
   const std::set<std::string> equations = all_equations(result);
   for (const std::string& equation : equations) {
@@ -57,7 +57,7 @@ Table error_table(const DynamicResult& result) {
 /// What the test of each equation's regressors says; no rows where none was made.
 Table verdict_table(const DynamicResult& result) {
   Table table;
-  table.title = "Are regressors correlated with what the model leaves (Durbin-Wu-Hausman)?";
+  table.title = "Are regressors correlated with the residual (Durbin-Wu-Hausman)?";
   table.columns = {{"", "preload", "", true},
                    {"", "model", "", true},
                    {"", "equation", "", true},

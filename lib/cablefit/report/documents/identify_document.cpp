@@ -207,7 +207,7 @@ Table slack_table(const IdentifyResult& result) {
 
 Table equation_table(const IdentifyResult& result) {
   Table table;
-  table.title = "Equations: what the fit leaves, and what each weighs";
+  table.title = "Equations: residual and weight of each";
   table.columns = {{"", "preload", "", true},
                    {"", "equation", "", true},
                    {"", "rms", torque_unit(result.linear_motion)},

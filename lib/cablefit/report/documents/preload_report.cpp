@@ -63,8 +63,8 @@ Figure advice_figure(const std::vector<PreloadAdvice>& advice, bool linear_motio
   figure.section = "Preload trade-off";
   figure.title = "What a preload buys (smaller errors) and costs (friction)";
   figure.caption =
-      "Bars on the friction: 95 % intervals. A collision smaller than its mark cannot be told from "
-      "the model's own error.";
+      "Bars on the friction: 95 % intervals. A collision smaller than its mark is not separable "
+      "from the model's own error.";
   figure.x = {kPreloadAxis, ""};
   figure.y = {"torque", torque_unit(linear_motion)};
   figure.wide = true;

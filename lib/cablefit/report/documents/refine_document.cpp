@@ -68,7 +68,7 @@ std::string next_run_text(const NotSeparable& group) {
 
 Table separability_table(const RefineResult& result) {
   Table table;
-  table.title = "What these logs cannot tell apart";
+  table.title = "What these logs cannot separate";
   table.detail = result.verdict == Verdict::none || result.verdict == Verdict::named;
   table.columns = {{"", "effects", "", true}, {"", "from", "", true}, {"", "what would", "", true}};
   for (const NotSeparable& group : result.not_separable)

@@ -100,7 +100,7 @@ std::string depends_text(const JudgedEquation& e, const std::string& unit) {
   const bool testable = std::any_of(e.tests.begin(), e.tests.end(), [](const ResidualTest& test) {
     return test.name != "whiteness" && test.finding != Finding::untestable;
   });
-  return testable ? "nothing seen" : "too few independent rows to tell";
+  return testable ? "nothing seen" : "too few independent rows";
 }
 
 std::string torque_unit_of(const DynamicResult& result) {
@@ -130,7 +130,7 @@ std::vector<Table> validation_tables(const DynamicResult& result) {
 
 Table residual_summary(const DynamicResult& result) {
   Table table;
-  table.title = "Residuals: what the model leaves on the logs that were fitted";
+  table.title = "Residuals on the logs that were fitted";
   table.columns = {{"", "preload", "", true},
                    {"", "model", "", true},
                    {"", "equation", "", true},
