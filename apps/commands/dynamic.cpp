@@ -76,6 +76,17 @@ std::vector<std::string> estimator_names() {
   return names;
 }
 
+/// "a,b" -> a, b.
+std::vector<std::string> split(const std::string& names) {
+  std::vector<std::string> all = {""};
+  for (const char c : names)
+    if (c == ',')
+      all.emplace_back();
+    else
+      all.back() += c;
+  return all;
+}
+
 void add_dynamic_options(CLI::App& app, DynamicCommand& command) {
   command.fit.models = {"linear", "poly"};
   add_choice(
@@ -87,11 +98,10 @@ void add_dynamic_options(CLI::App& app, DynamicCommand& command) {
       "elastic model, or none [both: linear and poly]");
   app.add_option("--elastic", command.elastic_file, "result of stage 1 [OUT/elastic.json]")
       ->type_name("FILE");
-  app.add_option("--effects", command.effects,
-                 "effects to fit beside the paper's: stribeck[motor],cogging; see 'cablefit list "
-                 "effects'")
-      ->delimiter(',')
-      ->type_name("NAME[SIDE]");
+  app.add_option_function<std::string>(
+         "--effects", [&command](const std::string& names) { command.effects = split(names); },
+         "effects to fit beside the paper's: stribeck[motor],cogging; see 'cablefit list effects'")
+      ->type_name("NAME[SIDE],...");
   add_choice(
       app, "--estimator", "estimator", estimator_names(),
       [&command](const std::string& name) { command.fit.estimator = name; },

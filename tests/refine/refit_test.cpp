@@ -88,8 +88,8 @@ TEST_CASE("stage 2 without the effects is wrong where they are", "[refine]") {
 TEST_CASE("what stage 2 cannot fit of a model is refused by name", "[refine]") {
   const HiddenLogs logs = hidden_logs({});
   CHECK_THROWS_WITH(
-      refitted(logs, {instance("torque_gain", Site::drive, {0.1})}, "wls"),
-      "stage 2 does not fit 'torque_gain' (drive) of the model; mend the log or its rig file by "
+      refitted(logs, {instance("encoder_delay", Site::sensor, {1e-3})}, "wls"),
+      "stage 2 does not fit 'encoder_delay' (sensor) of the model; mend the log or its rig file by "
       "it, or drop it from the model; 'cablefit refine' fits it");
 }
 

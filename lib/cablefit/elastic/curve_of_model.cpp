@@ -1,31 +1,59 @@
 #include "cablefit/elastic/curve_of_model.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "cablefit/model/model_parameters.hpp"
 
 namespace cablefit {
 namespace {
 
-std::vector<std::string> coefficient_names(const Model& model) {
-  std::vector<std::string> names;
-  const int n = model.rig.n_joints();
-  if (model.transmission.cables.empty())
-    for (int joint = 1; joint <= n; ++joint) names.push_back(joint_parameter_name("K", joint, n));
-  for (const Cable& cable : model.transmission.cables)
-    for (int k = 0; k < cable.n_coefficients(); ++k)
-      names.push_back(coefficient_name(cable, k, model.rig.cables_given));
-  return names;
+Estimate coefficient(const Model& model, std::string name, std::string unit, double value) {
+  Estimate e;
+  if (const Estimate* found = find_estimate(model.elastic, name)) e = *found;
+  e.name = e.symbol = std::move(name);
+  e.unit = std::move(unit);
+  e.value = value;
+  return e;
 }
 
-Eigen::MatrixXd covariance_of(const Model& model) {
-  const std::vector<std::string> names = coefficient_names(model);
-  if (auto found = model.covariance.of(names)) return *std::move(found);
+/// Every coefficient, whatever the model tells of its sd.
+std::vector<Estimate> coefficients_of(const Model& model) {
+  std::vector<Estimate> all;
+  const int n = model.rig.n_joints();
+  if (model.transmission.cables.empty())
+    for (int joint = 0; joint < n; ++joint)
+      all.push_back(coefficient(model, joint_parameter_name("K", joint + 1, n),
+                                unit_on(model.rig, "N m/rad"),
+                                model.transmission.linear_stiffness[joint]));
+  const bool cable_space = model.rig.cables_given;
+  for (const Cable& cable : model.transmission.cables)
+    for (int k = 0; k < cable.n_coefficients(); ++k) {
+      const std::string unit = coefficient_unit(*cable.law, k, cable_space);
+      all.push_back(coefficient(model, coefficient_name(cable, k, cable_space),
+                                cable_space ? unit : unit_on(model.rig, unit),
+                                cable.coefficients[static_cast<std::size_t>(k)]));
+    }
+  return all;
+}
+
+Eigen::MatrixXd covariance_of(const std::vector<Estimate>& coefficients,
+                              const ParameterCovariance& known) {
+  std::vector<std::string> names;
+  for (const Estimate& e : coefficients) names.push_back(e.name);
+  if (auto found = known.of(names)) return *std::move(found);
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(names.size()));
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    const Estimate* e = find_estimate(model.elastic, names[k]);
-    if (e != nullptr && std::isfinite(e->sd))
-      variance(static_cast<Eigen::Index>(k)) = e->sd * e->sd;
-  }
+  for (std::size_t k = 0; k < coefficients.size(); ++k)
+    if (const double sd = coefficients[k].sd; std::isfinite(sd))
+      variance(static_cast<Eigen::Index>(k)) = sd * sd;
   return variance.asDiagonal();
+}
+
+/// What else stage 1 found: l_o, theta_0, offset, f_sm.
+void add_others(const Model& model, std::vector<Estimate>& parameters) {
+  for (const Estimate& e : model.elastic)
+    if (find_estimate(parameters, e.name) == nullptr) parameters.push_back(e);
 }
 
 }  // namespace
@@ -38,9 +66,10 @@ ElasticResult curve_of(const Model& model) {
   ElasticFit& fit = preload.fits.emplace_back();
   fit.model = model.transmission.cables.empty() ? "linear" : "poly";
   for (const Cable& cable : model.transmission.cables) fit.order = std::max(fit.order, cable.order);
-  fit.parameters = model.elastic;
+  fit.parameters = coefficients_of(model);
   fit.transmission = model.transmission;
-  fit.covariance = covariance_of(model);
+  fit.covariance = covariance_of(fit.parameters, model.covariance);
+  add_others(model, fit.parameters);
   preload.selected = fit.model;
   return {{}, {std::move(preload)}, {}};
 }
