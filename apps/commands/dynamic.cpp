@@ -191,6 +191,11 @@ Stage1 stage1_from(const StartModel& start) {
   stage1.result = stage1_of(start);
   stage1.inputs = {{start.path, sha256_of_file(start.path), 0}};
   stage1.decision = {"cables", start.path, "of the model given: " + start.choice};
+  const std::string without = start.model.rigid ? "" : missing_sd(start.model);
+  if (!without.empty())
+    stage1.warnings.push_back(fmt::format(
+        "{}: the model has no sd of {}: the error of the cables is not in the sd of this fit",
+        start.path, without));
   return stage1;
 }
 

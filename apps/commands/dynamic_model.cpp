@@ -1,18 +1,17 @@
 #include "commands/dynamic_model.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
 #include "cablefit/base/catalog.hpp"
 #include "cablefit/base/error.hpp"
-#include "cablefit/base/problems.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/dynamic/rows/first_shapes.hpp"
 #include "cablefit/elastic/curve_of_model.hpp"
-#include "cablefit/model/effect_walk.hpp"
 #include "cablefit/model/read_models.hpp"
-#include "cablefit/samples/weigh/weigh.hpp"
+#include "cablefit/session/read_logs.hpp"
 #include "cablefit/simulate/experiment.hpp"
 #include "commands/progress.hpp"
 #include "commands/stage1_logs.hpp"
@@ -21,13 +20,12 @@ namespace cablefit::apps {
 
 namespace {
 
-/// "stribeck[motor]", or "cogging" of what acts on one side only; of what stage 2 can fit.
+/// "stribeck[motor]", or "cogging" of what acts on one side only.
 const Refinement& effect_named(const std::string& text) {
   const bool has_side = text.find('[') != std::string::npos;
   std::vector<std::string> names;
   std::vector<const Refinement*> found;
   for (const Refinement& row : refinements()) {
-    if (!acts_as_torque(row) || row.is_event) continue;
     std::string name(row.name);
     if (has_side) name += fmt::format("[{}]", to_string(row.site));
     if (text == name) found.push_back(&row);
@@ -64,15 +62,9 @@ std::optional<StartModel> take_model(CommonOptions& options, const std::string& 
 
 std::vector<LogSurvey> read_logs_of(const StartModel& start, const CommonOptions& options) {
   const Progress progress(options.quiet, "reading logs");
-  std::vector<LogSurvey> logs;
-  Problems problems;
-  for (const std::string& path : options.logs)
-    problems.collect([&] {
-      logs.push_back(survey_for_simulation(path, options.rig, start.model, options.reading));
-    });
-  problems.throw_if_any();
-  weigh_logs(logs);
-  return logs;
+  return cablefit::read_logs(options.logs, [&](const std::string& path) {
+    return survey_for_simulation(path, options.rig, start.model, options.reading);
+  });
 }
 
 void use_model(const StartModel& start, DynamicOptions& fit) {
@@ -95,6 +87,13 @@ std::vector<RefinementInstance> named_effects(const std::vector<std::string>& na
   std::vector<RefinementInstance> effects;
   for (const std::string& name : names) effects.push_back(blank_effect(effect_named(name)));
   return effects;
+}
+
+std::string missing_sd(const Model& model) {
+  std::string names;
+  for (const Estimate& e : curve_of(model).preloads.front().fits.front().parameters)
+    if (!std::isfinite(e.sd)) names += (names.empty() ? "" : ", ") + e.name;
+  return names;
 }
 
 ElasticResult stage1_of(const StartModel& start) {

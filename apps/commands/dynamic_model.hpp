@@ -34,6 +34,9 @@ void use_model(const StartModel& start, IdentifyOptions& fit);
 /// Throws Error(usage) with what there is.
 std::vector<RefinementInstance> named_effects(const std::vector<std::string>& names);
 
+/// "K1_0, K1_1": coefficients of its cables without sd, whose error no sd of the fit has.
+std::string missing_sd(const Model& model);
+
 /// Its cables as a result of stage 1; nothing of a rigid drive.
 ElasticResult stage1_of(const StartModel& start);
 

@@ -23,7 +23,6 @@
 #include "cablefit/dynamic/rows/requirements.hpp"
 #include "cablefit/dynamic/rows/settled_effects.hpp"
 #include "cablefit/model/effect_parameter.hpp"
-#include "cablefit/model/effect_walk.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
 #include "cablefit/samples/rows/unused_rows.hpp"
 
@@ -75,15 +74,19 @@ void add_cad(DynamicFit& fit, const Rig& rig) {
   }
 }
 
-/// What is held keeps the numbers that the model came with.
+/// What is held keeps the numbers that the model came with, and what the logs do not determine the
+/// value about which the columns were made, without sd.
 std::vector<RefinementInstance> with_estimates(std::vector<RefinementInstance> effects,
                                                const std::vector<Estimate>& parameters) {
-  for (const Estimate& e : parameters)
-    if (Estimate* own = find_parameter(effects, e.name); own != nullptr && e.sd != 0) {
-      const std::string name = own->name;
-      *own = e;
-      own->name = name;
-    }
+  for (const Estimate& e : parameters) {
+    Estimate* own = find_parameter(effects, e.name);
+    if (own == nullptr || e.sd == 0) continue;
+    const std::string name = own->name;
+    const double value = std::isfinite(e.value) ? e.value : own->value;
+    *own = e;
+    own->name = name;
+    own->value = value;
+  }
   return effects;
 }
 
@@ -178,21 +181,6 @@ bool any_torque(std::span<const LogSurvey> logs, const PartFilter& wanted) {
   });
 }
 
-/// Throws Error(usage) for an effect that no equation of the model has, or that is named without a
-/// value and would be held.
-void require_fitted(const RefinementInstance& effect, bool rigid) {
-  const Refinement& row = *effect.refinement;
-  const std::string name = fmt::format("'{}' ({})", row.name, to_string(row.site));
-  if (rigid && acts_as_torque(row) && effects_of_side({&effect, 1}, Side::rigid).empty())
-    throw usage_error(fmt::format("a rigid drive has no effect {}", name),
-                      "it has one axis, which counts as the motor");
-  const bool has_value = std::all_of(effect.parameters.begin(), effect.parameters.end(),
-                                     [](const Estimate& e) { return std::isfinite(e.value); });
-  if (row.site == Site::transmission && !has_value)
-    throw usage_error(fmt::format("stage 2 does not fit {}: it acts on both sides", name),
-                      "'cablefit refine' fits it; a model that has it is taken as it is");
-}
-
 /// Effects are of one joint, and of one model: they go by its cables.
 void check_effects(std::span<const LogSurvey> logs, const DynamicOptions& options) {
   if (options.effects.empty()) return;
@@ -201,8 +189,7 @@ void check_effects(std::span<const LogSurvey> logs, const DynamicOptions& option
   if (options.models.size() != 1 || options.models.front() == "ratios")
     throw usage_error("effects beyond the paper's are fitted with one model at a time",
                       "give --model poly, --model linear or --model rigid");
-  for (const RefinementInstance& effect : options.effects)
-    require_fitted(effect, options.models.front() == "rigid");
+  require_fittable(options.effects, options.models.front() == "rigid");
 }
 
 void check_names(const DynamicOptions& options) {

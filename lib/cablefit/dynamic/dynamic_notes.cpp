@@ -62,7 +62,8 @@ bool is_far_beyond(const DynamicJob& job, const std::vector<EquationRows>& equat
     const Range known = deflections_of(*stage1, joint);
     const Range seen =
         deflections_of(equations, joint, job.elastic.front()->transmission.theta_0(joint));
-    if (seen.high - seen.low > kFarBeyond * (known.high - known.low)) return true;
+    if (known.high > known.low && seen.high - seen.low > kFarBeyond * (known.high - known.low))
+      return true;
   }
   return false;
 }
@@ -86,8 +87,10 @@ void note_extrapolations(const DynamicJob& job, const std::vector<EquationRows>&
   std::vector<std::string> warnings;
   for (int joint = 0; joint < job.n_joints(); ++joint) {
     const double theta_0 = job.elastic.front()->transmission.theta_0(joint);
-    std::string warning = extrapolation(*stage1, deflections_of(*stage1, joint),
-                                        deflections_of(equations, joint, theta_0), joint);
+    const Range known = deflections_of(*stage1, joint);
+    if (!(known.high > known.low)) continue;  // the cables of a model
+    std::string warning =
+        extrapolation(*stage1, known, deflections_of(equations, joint, theta_0), joint);
     if (!warning.empty()) warnings.push_back(std::move(warning));
   }
   preload.warnings.insert(preload.warnings.begin(), warnings.begin(), warnings.end());

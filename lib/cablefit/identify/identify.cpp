@@ -70,25 +70,22 @@ JointFit full_fit(std::span<const LogSurvey> logs, const IdentifyOptions& option
 }
 
 constexpr int kMostPasses = 10;
-constexpr double kStill = 1e-3;    // of a nonlinear parameter
-constexpr double kMostStep = 0.5;  // of it, at once
+constexpr double kStill = 1e-3;  // of a nonlinear parameter
 
 /// Moves the effects of a preload to where the fit has them; false: no nonlinear parameter moves.
 bool move_effects(const JointFit& fit, const JointPoint& point, std::size_t job,
                   std::vector<RefinementInstance>& added) {
   bool any = false;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(fit.layout.n_linear); ++k) {
-    const JointParameter& p = fit.layout.parameters[k];
-    if (p.preload != static_cast<int>(job)) continue;
-    Estimate* e = find_parameter(added, p.name);
-    if (e == nullptr) continue;
-    double step = point.solution.x(static_cast<Eigen::Index>(k));
-    if (p.known != 0) {
-      any = any || std::abs(step) > kStill * std::abs(p.known);
-      step = std::clamp(step, -kMostStep * std::abs(p.known), kMostStep * std::abs(p.known));
-    }
-    e->value = p.known + step;
-  }
+  for (const JointRecord& record : fit.jobs[job].records)
+    for (const JointEquation& equation : record.equations)
+      for (const DynamicParameter& p : equation.added) {
+        const double found = point.solution.x(fit.layout.find(p.name, static_cast<int>(job)));
+        Estimate* e = find_parameter(added, p.name);
+        if (e == nullptr || !std::isfinite(found)) continue;
+        e->value = p.is_nonlinear ? p.moved(found) : found;
+        any =
+            any || (p.is_nonlinear && std::abs(e->value - p.origin) > kStill * std::abs(p.origin));
+      }
   return any;
 }
 
@@ -135,6 +132,7 @@ bool curve_wants_search(std::span<const LogSurvey> logs, const IdentifyOptions& 
 IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& given) {
   IdentifyResult result;
   require_channels(logs);
+  require_fittable(given.effects, false);
   IdentifyOptions options = given;
   if (options.elongations == ElongationMode::automatic && !options.unconstrained &&
       curve_wants_search(logs, options)) {
@@ -145,6 +143,11 @@ IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& 
     result.inputs.push_back({log.plan.path, log.sha256, log.n_rows});
   result.warnings = input_warnings(logs);
   std::vector<PreloadFacts> facts = preloads_of(logs, options);
+  for (PreloadFacts& f : facts)
+    if (!f.added.empty() && f.has_blocked)
+      f.warnings.emplace_back(
+          "the effects of the model are fitted in the moving logs only: a blocked sweep has a "
+          "friction of its own");
   const std::vector<PreloadJob> jobs = begin_jobs(logs, options, facts, result);
   std::vector<JointRecord> blocked(facts.size());
   for (std::size_t j = 0; j < facts.size(); ++j)

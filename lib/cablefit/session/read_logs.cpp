@@ -30,7 +30,6 @@ void require_file(const std::string& path) {
 }
 
 LogSurvey read_log(const std::string& path, const LogOptions& options) {
-  require_file(path);
   const Rig rig = rig_for_log(path, options.rig);
   return survey_log(plan_log(path, rig, options.reading),
                     rig.preload.empty() ? options.preload : rig.preload, options.threads);
@@ -39,12 +38,20 @@ LogSurvey read_log(const std::string& path, const LogOptions& options) {
 }  // namespace
 
 std::vector<LogSurvey> read_logs(const std::vector<std::string>& paths, const LogOptions& options) {
+  return read_logs(paths, [&](const std::string& path) { return read_log(path, options); });
+}
+
+std::vector<LogSurvey> read_logs(const std::vector<std::string>& paths,
+                                 const std::function<LogSurvey(const std::string&)>& read) {
   if (paths.empty()) throw usage_error("no log given", "name one or more log files");
   require_distinct(paths);
   std::vector<LogSurvey> logs;
   Problems problems;
   for (const std::string& path : paths)
-    problems.collect([&] { logs.push_back(read_log(path, options)); });
+    problems.collect([&] {
+      require_file(path);
+      logs.push_back(read(path));
+    });
   problems.throw_if_any();
   weigh_logs(logs);
   return logs;

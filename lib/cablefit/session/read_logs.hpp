@@ -1,6 +1,7 @@
 // Log files as every command reads them: each with its rig, then weighed together.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,5 +21,9 @@ struct LogOptions {
 /// cannot be right.
 std::vector<LogSurvey> read_logs(const std::vector<std::string>& paths,
                                  const LogOptions& options = {});
+
+/// The same with another way to read one log.
+std::vector<LogSurvey> read_logs(const std::vector<std::string>& paths,
+                                 const std::function<LogSurvey(const std::string&)>& read);
 
 }  // namespace cablefit

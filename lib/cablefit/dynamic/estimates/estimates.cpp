@@ -193,6 +193,10 @@ void add_estimates(const RowStatistics& rows, const DynamicColumns& c, const Lin
       take_chosen(*chosen, s, k, extra(k, k), parameter.info.lower, e);
     e.name = parameter.name;
     move_by(parameter.origin, e);
+    if (parameter.is_nonlinear && (e.value < parameter.lowest || e.value > parameter.highest))
+      refuse(e, fmt::format("the fit leaves its range of {:.3g} to {:.3g}: the logs do not "
+                            "determine it",
+                            parameter.lowest, parameter.highest));
     if (!e.active_bound.empty() && parameter.info.lower == 0)
       e.active_bound = fmt::format("{} >= 0", e.name);
     if (parameter.is_inertia && !parameter.given)

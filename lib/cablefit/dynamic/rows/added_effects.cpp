@@ -12,18 +12,16 @@
 namespace cablefit {
 namespace {
 
-constexpr double kStep = 0.01;  // of a nonlinear parameter, for its difference quotient
+constexpr double kStep = 0.01;      // of a nonlinear parameter, for its difference quotient
+constexpr double kMostShare = 0.5;  // of it, or of its range, that one step may move it by
 
-void require_torque(const Refinement& row) {
-  if (row.correct == nullptr) return;
-  throw usage_error(
-      fmt::format("stage 2 does not fit '{}' ({}) of the model", row.name, to_string(row.site)),
-      "mend the log or its rig file by it, or drop it from the model; 'cablefit refine' fits it");
+/// In both equations, or held.
+bool is_of_both_sides(const Refinement& row) {
+  return row.site == Site::transmission || row.site == Site::sensor;
 }
 
-/// Whether the equation of a side has it; of a transmission both have.
 bool is_in_equation(const Refinement& row, Side side) {
-  if (row.site == Site::transmission) return side != Side::rigid;
+  if (is_of_both_sides(row)) return side != Side::rigid;
   if (row.site == Site::link)
     return side == Side::rigid ? counts_on_rigid(row) : side == Side::link;
   return side != Side::link;
@@ -42,9 +40,9 @@ std::vector<double> shape_values(const RefinementInstance& instance) {
   return values_of(instance, instance.refinement->n_linear(), instance.refinement->shape.size());
 }
 
-/// States of one joint over the rows of a window.
+/// States of the only joint over the rows of a window.
 std::vector<JointState> states_of(const Transmission* cables, const Signals& signals,
-                                  const JointSignals& s, int joint) {
+                                  const JointSignals& s) {
   const bool is_rigid = cables == nullptr;
   std::vector<JointState> states(static_cast<std::size_t>(s.theta.size()));
   Eigen::VectorXd q = Eigen::VectorXd::Zero(is_rigid ? 1 : cables->n_joints), theta = q;
@@ -64,9 +62,9 @@ std::vector<JointState> states_of(const Transmission* cables, const Signals& sig
       state.tau_elas = -state.load;
       continue;
     }
-    q[joint] = state.q;
-    theta[joint] = state.theta;
-    set_elastic(*cables, q, theta, joint, state);
+    q[0] = state.q;
+    theta[0] = state.theta;
+    set_elastic(*cables, q, theta, 0, state);
     state.deflection_rate = state.thetad - state.qd;
   }
   return states;
@@ -103,7 +101,7 @@ bool is_settled(const RefinementInstance& instance, std::size_t shape) {
 }
 
 AddedEffect in_equation(const RefinementInstance& instance, Side side) {
-  AddedEffect effect{instance, side, instance.refinement->site == Site::transmission, {}};
+  AddedEffect effect{instance, side, is_of_both_sides(*instance.refinement), {}};
   if (effect.is_held) return effect;
   for (std::size_t k = 0; k < instance.refinement->shape.size(); ++k)
     if (is_continuous(*instance.refinement, k) && !is_settled(instance, k) &&
@@ -114,17 +112,84 @@ AddedEffect in_equation(const RefinementInstance& instance, Side side) {
 
 }  // namespace
 
+double DynamicParameter::moved(double step) const {
+  const bool may_be_0 = lowest <= 0 && highest >= 0;
+  const double whole =
+      may_be_0 && std::isfinite(highest - lowest) ? highest - lowest : std::abs(origin);
+  const double most = kMostShare * whole;
+  return std::clamp(origin + std::clamp(step, -most, most), lowest, highest);
+}
+
+namespace {
+
+std::string name_of(const Refinement& row) {
+  return fmt::format("'{}' ({})", row.name, to_string(row.site));
+}
+
+/// Whether its inner states change while nothing moves.
+bool remembers_time(const RefinementInstance& effect) {
+  const Refinement& row = *effect.refinement;
+  if (row.advance == nullptr) return false;
+  const std::vector<double> shape = shape_values(effect);
+  if (std::any_of(shape.begin(), shape.end(), [](double v) { return std::isnan(v); })) return false;
+  std::vector<double> before(row.n_states), after;
+  JointState state;
+  state.tau_elas = state.deflection = state.stiffness = state.tension = 1;
+  row.advance(state, shape.data(), 1e-3, before.data());
+  after = before;
+  state.tau_elas = 2;
+  row.advance(state, shape.data(), 1, after.data());
+  return after != before;
+}
+
+void require_fittable(const RefinementInstance& effect, bool rigid) {
+  const Refinement& row = *effect.refinement;
+  const auto refuse = [&](const char* why, const char* hint) {
+    throw usage_error(fmt::format("{} is not fitted here: {}", name_of(row), why), hint);
+  };
+  const bool has_values = std::all_of(effect.parameters.begin(), effect.parameters.end(),
+                                      [](const Estimate& e) { return std::isfinite(e.value); });
+  if (row.correct != nullptr)
+    refuse("it is an error of a sensor or of the drive",
+           "correct the log by its rig file, or drop it from the model; 'cablefit refine' fits it");
+  if (!acts_as_torque(row))
+    refuse("it changes the cables", "give the model its cables, or let 'cablefit refine' fit it");
+  if (row.yardstick != Yardstick::none)
+    refuse("a scale of torques needs something known in their unit",
+           "'cablefit refine' fits it where the logs or the rig file have that");
+  if (row.is_event && !(row.lasts() && effect.event_log == 0 && effect.event_time == 0))
+    refuse("it has a date", "give a model of the state after it, or let 'cablefit refine' fit it");
+  if (remembers_time(effect))
+    refuse("it remembers longer than the pieces in which logs are read",
+           "drop it from the model; 'cablefit refine' fits it");
+  if (rigid && !is_in_equation(row, Side::rigid))
+    refuse("a rigid drive does not have it", "its one axis counts as the motor");
+  if (is_of_both_sides(row) && !has_values)
+    refuse("it acts on both sides, and is held at the value of a model",
+           "'cablefit refine' fits it");
+}
+
+}  // namespace
+
+void require_fittable(std::span<const RefinementInstance> effects, bool rigid) {
+  for (std::size_t k = 0; k < effects.size(); ++k) {
+    require_fittable(effects[k], rigid);
+    for (std::size_t i = 0; i < k; ++i)
+      if (effects[i].refinement == effects[k].refinement)
+        throw usage_error(fmt::format("{} is given twice", name_of(*effects[k].refinement)),
+                          "give it once");
+  }
+}
+
 Eigen::Index AddedEffect::n_columns() const {
   return static_cast<Eigen::Index>(instance.refinement->n_linear() + moving_shapes.size());
 }
 
 std::vector<AddedEffect> effects_of_side(std::span<const RefinementInstance> instances, Side side) {
   std::vector<AddedEffect> effects;
-  for (const RefinementInstance& instance : instances) {
-    require_torque(*instance.refinement);
+  for (const RefinementInstance& instance : instances)
     if (acts_as_torque(*instance.refinement) && is_in_equation(*instance.refinement, side))
       effects.push_back(in_equation(instance, side));
-  }
   return effects;
 }
 
@@ -144,8 +209,17 @@ std::vector<DynamicParameter> parameters_of(const AddedEffect& effect) {
   for (const std::size_t shape : effect.moving_shapes) {
     const std::size_t k = row.n_linear() + shape;
     DynamicParameter& p = add(k);
+    const ShapeGrid& grid = row.shape[shape];
+    const bool is_si = grid.unit == GridUnit::si;
+    p.is_nonlinear = true;
     p.origin = effect.instance.parameters[k].value;
+    p.lowest = std::max(p.info.lower, is_si ? grid.low : -kUnbounded);
+    p.highest = std::min(p.info.upper, is_si ? grid.high : kUnbounded);
+    // What came from other logs may lie outside, and goes no further out.
+    p.lowest = std::min(p.lowest, p.origin);
+    p.highest = std::max(p.highest, p.origin);
     p.info.lower = -kUnbounded;
+    p.info.upper = kUnbounded;
   }
   return parameters;
 }
@@ -153,7 +227,7 @@ std::vector<DynamicParameter> parameters_of(const AddedEffect& effect) {
 void fill_columns(const AddedEffect& effect, const Transmission* cables, const Signals& signals,
                   std::size_t joint, Eigen::Ref<Eigen::MatrixXd> out) {
   const JointSignals& s = signals.joints[joint];
-  const std::vector<JointState> states = states_of(cables, signals, s, 0);
+  const std::vector<JointState> states = states_of(cables, signals, s);
   const bool by_q = cables != nullptr && effect.instance.refinement->site == Site::link;
   const Eigen::ArrayXd& direction = by_q ? s.q_direction : s.theta_direction;
   const auto with = [&](const std::vector<double>& shape) {

@@ -22,13 +22,19 @@ struct DynamicParameter {
   bool is_inertia = false;      ///< of one axis
   std::optional<double> given;  ///< by the rig file, and not estimated
   MotionPart follows = MotionPart::several;
-  /// The column's parameter is the distance from here: that of a nonlinear one.
-  double origin = 0;
+  /// Of a nonlinear parameter the column's is the distance from `origin`; both ends of its range.
+  bool is_nonlinear = false;
+  double origin = 0, lowest = -kUnbounded, highest = kUnbounded;
+
+  /// From the origin by a step, of which no more is taken than half of the value (of its range,
+  /// where that may hold 0), and to no end of the range and beyond.
+  double moved(double step) const;
 };
 
 /// An effect in one equation. Linear parameters have a column each. A nonlinear one has the torque
 /// by which the equation changes per unit of it, about the value of `instance`. Both sides of the
-/// transmission have what acts between them: it is held at the values of `instance`.
+/// transmission have what acts between them, and what the sensors are wrong by: it is held at the
+/// values of `instance`.
 struct AddedEffect {
   RefinementInstance instance;
   Side side = Side::motor;
@@ -38,8 +44,12 @@ struct AddedEffect {
   Eigen::Index n_columns() const;
 };
 
-/// Those of `instances` that act in an equation of this side. Throws Error(usage) for what is no
-/// torque: an error of a sensor or of the drive has to be mended in the log or its rig file.
+/// Throws Error(usage) for effects that a fit of rows cannot have: given twice, no torque (an error
+/// of the drive, other cables), a scale of torques, a date, a memory of time, none on a rigid
+/// drive; and for one that would be held, but has no value.
+void require_fittable(std::span<const RefinementInstance> effects, bool rigid);
+
+/// Those of `instances`, which are fittable, that act in an equation of this side.
 std::vector<AddedEffect> effects_of_side(std::span<const RefinementInstance> instances, Side side);
 
 /// What the columns of an effect are.

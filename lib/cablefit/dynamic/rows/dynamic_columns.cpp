@@ -1,5 +1,7 @@
 #include "cablefit/dynamic/rows/dynamic_columns.hpp"
 
+#include <cmath>
+
 #include "cablefit/model/effect_parameter.hpp"
 #include "cablefit/model/model.hpp"
 
@@ -172,8 +174,10 @@ void take_values(const DynamicColumns& columns, const Eigen::VectorXd& x,
                  std::vector<RefinementInstance>& added) {
   for (std::size_t k = 0; k < columns.parameters.size(); ++k) {
     const DynamicParameter& parameter = columns.parameters[k];
-    if (Estimate* e = find_parameter(added, parameter.name); e != nullptr && !parameter.given)
-      e->value = parameter.origin + x(static_cast<Eigen::Index>(k));
+    const double found = x(static_cast<Eigen::Index>(k));
+    Estimate* e = find_parameter(added, parameter.name);
+    if (e != nullptr && !parameter.given && std::isfinite(found))
+      e->value = parameter.origin + found;
   }
 }
 

@@ -77,7 +77,8 @@ Eigen::VectorXd dynamic_response(const DynamicColumns& columns,
 MotionColumn motion_column(const DynamicColumns& columns, std::size_t parameter,
                            bool linear_motion);
 
-/// Values of the effects' columns, written into those of `added` that have them.
+/// Values of the effects' columns, written into those of `added` that have them, where they are
+/// finite.
 void take_values(const DynamicColumns& columns, const Eigen::VectorXd& x,
                  std::vector<RefinementInstance>& added);
 

@@ -176,7 +176,9 @@ LinearProblem problem_of(const DynamicColumns& columns,
     problem.names.push_back(parameter.name);
     problem.motion.push_back(motion_column(columns, static_cast<std::size_t>(k), linear_motion));
     problem.lower.push_back(parameter.info.lower);
-    problem.held.emplace_back(parameter.given ? "given by the rig file" : "");
+    problem.held.emplace_back(!parameter.given       ? ""
+                              : parameter.is_inertia ? "given by the rig file"
+                                                     : "held at the value of the model");
     if (parameter.given) problem.response(k) = -*parameter.given;
   }
   return problem;

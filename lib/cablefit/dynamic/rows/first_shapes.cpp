@@ -41,7 +41,8 @@ LogScale scale_of(const DynamicJob& job) {
     const JointSignals s = make_signals(p.window, job.logs[p.log].plan, settings).joints.front();
     append(speeds, s.thetad);
     append(torques, s.tau);
-    if (!job.rigid) append(deflections, s.theta - s.q);
+    if (!job.rigid)
+      append(deflections, s.theta - job.elastic.front()->transmission.encoder_zero()(0) - s.q);
     low = std::min(low, s.theta.minCoeff());
     high = std::max(high, s.theta.maxCoeff());
   }
@@ -126,12 +127,14 @@ void find_first_shapes(DynamicJob& job) {
     }
     set_values(job.added.back(), best);
   }
-  for (const EquationRows& e : pilot_equations(job, kWindows)) {
-    const LinearSolution s = solve_equation(e, job.elastic, 0);
-    take_values(e.columns, s.x, job.added);
-  }
+  std::vector<RefinementInstance> found = job.added;
+  for (const EquationRows& e : pilot_equations(job, kWindows))
+    take_values(e.columns, solve_equation(e, job.elastic, 0).x, found);
   for (std::size_t k = 0; k < wanted.size(); ++k)
-    if (is_blank(wanted[k])) set_free(job.added[k]);
+    if (is_blank(wanted[k])) {
+      job.added[k] = found[k];
+      set_free(job.added[k]);
+    }
 }
 
 }  // namespace cablefit

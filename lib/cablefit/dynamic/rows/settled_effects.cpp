@@ -4,43 +4,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cablefit {
 namespace {
 
 constexpr int kMostPasses = 12;
-constexpr double kStill = 0.1;      // sd
-constexpr double kMostShare = 0.5;  // of a value, that one step may move it by
-
-bool is_nonlinear(const DynamicParameter& parameter) { return parameter.origin != 0; }
+constexpr double kStill = 0.1;  // sd
 
 bool has_nonlinear(const std::vector<EquationRows>& equations) {
   return std::any_of(equations.begin(), equations.end(), [](const EquationRows& e) {
-    return std::any_of(e.columns.parameters.begin(), e.columns.parameters.end(), is_nonlinear);
+    return std::any_of(e.columns.parameters.begin(), e.columns.parameters.end(),
+                       [](const DynamicParameter& p) { return p.is_nonlinear; });
   });
 }
 
-/// Moves the effects of one equation to its solution. The parameter that moved most; empty: none
-/// did by more than kStill.
+/// Moves the effects of one equation to its solution; what that does not determine stays. The
+/// parameter that moved most; empty: none did by more than kStill.
 std::string move_effects(const DynamicColumns& columns, LinearSolution s,
                          std::vector<RefinementInstance>& added) {
   std::string moved;
   double furthest = kStill;
   for (std::size_t k = 0; k < columns.parameters.size(); ++k) {
     const DynamicParameter& p = columns.parameters[k];
-    double& step = s.x(static_cast<Eigen::Index>(k));
-    if (!is_nonlinear(p)) continue;
-    if (!s.not_identifiable[k].empty() || !std::isfinite(step)) {
-      step = 0;
-      continue;
-    }
-    const double sd =
-        std::sqrt(s.covariance(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)));
-    if (std::abs(step) > furthest * sd) {
-      furthest = std::abs(step) / sd;
-      moved = p.name;
-    }
-    step = std::clamp(step, -kMostShare * std::abs(p.origin), kMostShare * std::abs(p.origin));
+    const auto at = static_cast<Eigen::Index>(k);
+    if (!s.not_identifiable[k].empty()) s.x(at) = std::numeric_limits<double>::quiet_NaN();
+    if (!p.is_nonlinear || !std::isfinite(s.x(at))) continue;
+    s.x(at) = p.moved(s.x(at)) - p.origin;
+    const double sd = std::sqrt(s.covariance(at, at));
+    if (std::abs(s.x(at)) <= furthest * sd) continue;
+    furthest = std::abs(s.x(at)) / sd;
+    moved = p.name;
   }
   take_values(columns, s.x, added);
   return moved;
