@@ -106,6 +106,9 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
     if (estimator.by_filtered_rows) note_low_cutoff(task, estimation, fit);
     add_largest_errors(job, equations, estimation.solutions, m, fit);
     add_cad(fit, job.rig());
+    refuse_dependent(job.added, fit.parameters);
+    for (const Estimate& e : fit.parameters)
+      if (!e.not_identifiable.empty()) fit.verdicts[e.name] = "not identifiable";
     fit.effects = with_estimates(job.added, fit.parameters);
     if (estimation.joint && fit.elastic)
       fit.derived = drive_quantities(*estimation.joint, &fit.elastic->transmission,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/dynamic/estimates/estimates.hpp"
 #include "cablefit/elastic/elastic_fit.hpp"
 #include "cablefit/identify/aliased_inertias.hpp"
 #include "cablefit/identify/elongations/joint_solution.hpp"
@@ -166,6 +167,7 @@ IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& 
   const JudgedPoint& judged = found.judged;
   for (std::size_t j = 0; j < fit.jobs.size(); ++j) require_explained(fit, judged, j);
   std::vector<Estimate> estimates = joint_estimates(fit, judged, found.profiles, options.honest_sd);
+  for (const PreloadFacts& f : facts) refuse_dependent(f.added, estimates);
   add_method_floor(logs, options, fit, judged, facts, estimates);
   if (options.honest_sd) widen_aliased_inertias(logs, options, fit, judged, facts, estimates);
   describe(fit, judged, estimates, facts, options, result);

@@ -10,6 +10,7 @@
 #include "cablefit/estimate/fit/parameter_estimate.hpp"
 #include "cablefit/estimate/fit/sd_choice.hpp"
 #include "cablefit/estimate/spread/long_run.hpp"
+#include "cablefit/model/effect_parameter.hpp"
 
 namespace cablefit {
 namespace {
@@ -164,6 +165,26 @@ void refuse(Estimate& e, const std::string& why) {
   e.not_identifiable = why;
   e.active_bound.clear();
   e.value = e.sd = e.sd_white = e.ci_low = e.ci_high = std::numeric_limits<double>::quiet_NaN();
+}
+
+void refuse_dependent(std::span<const RefinementInstance> effects,
+                      std::vector<Estimate>& parameters) {
+  const auto find = [&](const Refinement& row, std::size_t k) {
+    const std::string name = added_parameter_name(row, row.parameters[k]);
+    return std::find_if(parameters.begin(), parameters.end(),
+                        [&](const Estimate& e) { return e.name == name; });
+  };
+  for (const RefinementInstance& effect : effects) {
+    const Refinement& row = *effect.refinement;
+    for (std::size_t shape = row.n_linear(); shape < row.parameters.size(); ++shape) {
+      const auto unknown = find(row, shape);
+      if (unknown == parameters.end() || unknown->not_identifiable.empty()) continue;
+      for (std::size_t k = 0; k < row.n_linear(); ++k)
+        if (const auto e = find(row, k); e != parameters.end() && e->not_identifiable.empty())
+          refuse(*e, fmt::format("it depends on {}, which the logs do not determine",
+                                 row.parameters[shape].name));
+    }
+  }
 }
 
 std::string inertia_alias(const RowStatistics& rows, const DynamicColumns& c, Eigen::Index k,

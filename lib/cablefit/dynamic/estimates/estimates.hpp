@@ -1,6 +1,8 @@
 // From the solution of one equation to parameters one can stand behind.
 #pragma once
 
+#include <span>
+
 #include "cablefit/dynamic/dynamic_result.hpp"
 #include "cablefit/dynamic/rows/dynamic_columns.hpp"
 #include "cablefit/estimate/fit/least_squares.hpp"
@@ -26,6 +28,11 @@ Estimate given_estimate(const DynamicParameter& parameter, bool linear_motion);
 
 /// Takes the numbers from an estimate and says why.
 void refuse(Estimate& e, const std::string& why);
+
+/// An amplitude means nothing without its nonlinear parameters: refuses the linear parameters of
+/// effects beyond (31) of which a nonlinear one is not determined.
+void refuse_dependent(std::span<const RefinementInstance> effects,
+                      std::vector<Estimate>& parameters);
 
 /// Why the motion of these rows cannot tell the inertia of column `k` from a torque that depends on
 /// position, whatever the estimator; empty when it can.
