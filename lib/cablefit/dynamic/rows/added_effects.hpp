@@ -1,5 +1,5 @@
 // Effects that a model has beyond those of (31), as columns of an equation of stage 2: whatever
-// `refine` may find, from its row of the catalogue.
+// `refine` finds, by its row of the catalogue.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,21 +20,20 @@ struct DynamicParameter {
   ParameterInfo info;
   std::string name;             ///< with the joint's index when there are several
   bool is_inertia = false;      ///< of one axis
-  std::optional<double> given;  ///< by the rig file, and not estimated
+  std::optional<double> given;  ///< by the rig file or a model, and not estimated
   MotionPart follows = MotionPart::several;
   /// Of a nonlinear parameter the column's is the distance from `origin`; both ends of its range.
   bool is_nonlinear = false;
   double origin = 0, lowest = -kUnbounded, highest = kUnbounded;
 
-  /// From the origin by a step, of which no more is taken than half of the value (of its range,
-  /// where that may hold 0), and to no end of the range and beyond.
+  /// The value after a step from the origin. A step is at most half of the value, or half of the
+  /// range where the range holds 0. The value stays in the range.
   double moved(double step) const;
 };
 
-/// An effect in one equation. Linear parameters have a column each. A nonlinear one has the torque
-/// by which the equation changes per unit of it, about the value of `instance`. Both sides of the
-/// transmission have what acts between them, and what the sensors are wrong by: it is held at the
-/// values of `instance`.
+/// An effect in one equation. A linear parameter has a column: torque per unit, N m. A nonlinear
+/// one has the derivative of the torque at the value of `instance`. Effects of the transmission and
+/// of the sensors act in both equations; they are held at the values of `instance`.
 struct AddedEffect {
   RefinementInstance instance;
   Side side = Side::motor;

@@ -8,9 +8,9 @@ namespace cablefit {
 /// An effect by its name alone: all its values are NaN.
 RefinementInstance blank_effect(const Refinement& row);
 
-/// Gives the job's blank effects values to begin with, one effect after the other: of the points of
-/// its grid of nonlinear parameters the one with which least squares leaves least on the first
-/// windows of the logs.
+/// Gives the job's blank effects start values, one effect after the other: the point of the grid of
+/// nonlinear parameters with the smallest residual of least squares on the first windows of the
+/// logs.
 void find_first_shapes(DynamicJob& job);
 
 }  // namespace cablefit

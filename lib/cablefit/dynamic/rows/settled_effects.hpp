@@ -8,9 +8,9 @@
 
 namespace cablefit {
 
-/// Makes the equations of the job and collects their rows. Where effects have nonlinear parameters,
-/// the columns are made anew about what least squares finds (of the first model), until no such
-/// parameter moves by more than a tenth of its sd. `warning`: that they still move in the end.
+/// Makes the equations of the job and collects their rows. Nonlinear parameters move to the
+/// solution of least squares, and the columns are made again there, until no parameter moves by
+/// more than a tenth of its sd. `warning`: the iteration did not converge.
 WindowCounts collect_settled(DynamicJob& job, std::vector<EquationRows>& equations,
                              std::string& warning);
 
