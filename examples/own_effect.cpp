@@ -28,7 +28,7 @@ constexpr ParameterInfo kParameters[] = {
     {"q_0", "q_0", "rad", "where the cushion begins", 0.01}};
 constexpr ShapeGrid kShape[] = {{.low = 0.2, .high = 0.8, .n_values = 7, .is_geometric = false}};
 
-Refinement end_cushion() {
+Effect end_cushion() {
   return {.name = "end_cushion",
           .site = Site::link,
           .equation = "a (|q| - q_0)^2 sgn(q) beyond |q| = q_0",
@@ -86,8 +86,8 @@ int main(int argc, char** argv) {
     add_effect(end_cushion());
     std::string choice;
     Model bench = read_model(argv[1], "", "", choice);
-    bench.joints[0].refinements.push_back({&find_refinement("end_cushion", Site::link),
-                                           {value("stiffening", 40), value("q_0", 0.5)}});
+    bench.joints[0].added.push_back(
+        {&find_candidate("end_cushion", Site::link), {value("stiffening", 40), value("q_0", 0.5)}});
     RefineLogs logs;
     logs.blocked = {recorded("blocked", bench, reference(20, 0.03, 0.1), true, 1)};
     logs.train = {recorded("fast", bench, reference(12, 0.6, 0.5), false, 2),
@@ -99,12 +99,12 @@ int main(int argc, char** argv) {
     const RefineResult result = missing_effects(logs, options);
     std::printf("%s: %s\n", std::string(to_string(result.verdict)).c_str(), result.reason.c_str());
     for (const NamedEffect& effect : result.effects) {
-      std::printf("%s\n", std::string(effect.instance.refinement->name).c_str());
+      std::printf("%s\n", std::string(effect.instance.effect->name).c_str());
       for (const Estimate& e : effect.instance.parameters)
         std::printf("  %s = %.4g +- %.2g %s\n", e.name.c_str(), e.value, e.sd, e.unit.c_str());
     }
     return result.verdict == Verdict::named &&
-                   result.effects.front().instance.refinement->name == "end_cushion"
+                   result.effects.front().instance.effect->name == "end_cushion"
                ? 0
                : 1;
   } catch (const Error& error) {

@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
     for (const cablefit::NamedEffect& effect : result.effects)
       for (const cablefit::Estimate& e : effect.instance.parameters)
         std::printf("  %s %s = %.4g +- %.2g %s\n",
-                    std::string(effect.instance.refinement->name).c_str(), e.name.c_str(), e.value,
+                    std::string(effect.instance.effect->name).c_str(), e.name.c_str(), e.value,
                     e.sd, e.unit.c_str());
     std::printf("gap on the test log: %.3g -> %.3g N m\n", result.torque.test_before,
                 result.torque.test_after);

@@ -180,7 +180,7 @@ std::optional<StartModel> start_model(DynamicCommand& command) {
   if (start && !command.elastic_file.empty())
     throw usage_error("a model and --elastic: both say what the cables do", "give one of them");
   if (start) use_model(*start, command.fit);
-  const std::vector<RefinementInstance> named = named_effects(command.effects);
+  const std::vector<EffectInstance> named = named_effects(command.effects);
   command.fit.effects.insert(command.fit.effects.end(), named.begin(), named.end());
   if (!named.empty() && !start && !is_chosen) command.fit.models = {"poly"};
   return start;

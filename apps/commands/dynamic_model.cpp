@@ -21,11 +21,11 @@ namespace cablefit::apps {
 namespace {
 
 /// "stribeck[motor]", or "cogging" of what acts on one side only.
-const Refinement& effect_named(const std::string& text) {
+const Effect& effect_named(const std::string& text) {
   const bool has_side = text.find('[') != std::string::npos;
   std::vector<std::string> names;
-  std::vector<const Refinement*> found;
-  for (const Refinement& row : refinements()) {
+  std::vector<const Effect*> found;
+  for (const Effect& row : candidate_effects()) {
     std::string name(row.name);
     if (has_side) name += fmt::format("[{}]", to_string(row.site));
     if (text == name) found.push_back(&row);
@@ -70,21 +70,21 @@ std::vector<LogSurvey> read_logs_of(const StartModel& start, const CommonOptions
 void use_model(const StartModel& start, DynamicOptions& fit) {
   fit.models = {std::string(default_model_name(start.model))};
   for (const JointModel& joint : start.model.joints)
-    fit.effects.insert(fit.effects.end(), joint.refinements.begin(), joint.refinements.end());
+    fit.effects.insert(fit.effects.end(), joint.added.begin(), joint.added.end());
 }
 
 void use_model(const StartModel& start, IdentifyOptions& fit) {
   if (start.model.rigid)
     throw usage_error("one step is made for cables, and the model is a rigid drive",
                       "use 'cablefit dynamic' with it");
-  fit.effects = start.model.joints.front().refinements;
+  fit.effects = start.model.joints.front().added;
   if (fit.order > 0 || start.model.rig.cables_given) return;
   for (const Cable& cable : start.model.transmission.cables)
     fit.order = std::max(fit.order, cable.order);
 }
 
-std::vector<RefinementInstance> named_effects(const std::vector<std::string>& names) {
-  std::vector<RefinementInstance> effects;
+std::vector<EffectInstance> named_effects(const std::vector<std::string>& names) {
+  std::vector<EffectInstance> effects;
   for (const std::string& name : names) effects.push_back(blank_effect(effect_named(name)));
   return effects;
 }

@@ -10,7 +10,6 @@
 #include "cablefit/model/cables.hpp"
 #include "cablefit/model/effects.hpp"
 #include "cablefit/model/load.hpp"
-#include "cablefit/model/refinements.hpp"
 #include "cablefit/report/json/list_json.hpp"
 #include "cablefit/report/writers/writers.hpp"
 #include "commands/command.hpp"
@@ -43,39 +42,33 @@ std::string parameters_of(std::span<const ParameterInfo> parameters) {
 }
 
 /// The other names of its class.
-std::string aliases_of(const Refinement& row) {
+std::string aliases_of(const Effect& row) {
   std::string text;
-  for (const Refinement& other : refinements())
+  for (const Effect& other : candidate_effects())
     if (!row.alias_class.empty() && other.alias_class == row.alias_class && &other != &row)
       text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", other.name, to_string(other.site));
   return text;
 }
 
-std::vector<Table> refinement_tables() {
-  Table rows = text_table_of("Refinements: what a drive may have beyond the model",
-                             {"name", "side", "equation", "parameters", "source"});
-  Table differences = text_table_of("What separates effects that look alike",
-                                    {"name", "side", "never from", "signature", "experiment"});
-  for (const Refinement& row : refinements()) {
-    const std::string name(row.name), side(to_string(row.site));
-    rows.rows.push_back({name, side, std::string(row.equation), parameters_of(row.parameters),
-                         std::string(row.source)});
-    differences.rows.push_back(
-        {name, side, aliases_of(row), std::string(row.signature), std::string(row.experiment)});
-  }
-  return {rows, differences};
+Table effect_table(const std::string& title, std::span<const Effect> effects) {
+  Table table = text_table_of(title, {"name", "side", "equation", "parameters", "source"});
+  for (const Effect& row : effects)
+    table.rows.push_back({std::string(row.name), std::string(to_string(row.site)),
+                          std::string(row.equation), parameters_of(row.parameters),
+                          std::string(row.source)});
+  return table;
 }
 
 std::vector<Table> effect_tables() {
-  Table table = text_table_of("Effects", {"name", "side", "equation", "parameters", "source"});
-  for (const Effect& effect : effects()) {
-    table.rows.push_back({std::string(effect.name), std::string(to_string(effect.side)),
-                          std::string(effect.equation), parameters_of(effect.parameters),
-                          std::string(effect.source)});
-  }
-  std::vector<Table> tables = refinement_tables();
-  tables.insert(tables.begin(), table);
-  return tables;
+  Table differences = text_table_of("What separates effects that look alike",
+                                    {"name", "side", "never from", "signature", "experiment"});
+  for (const Effect& row : candidate_effects())
+    differences.rows.push_back({std::string(row.name), std::string(to_string(row.site)),
+                                aliases_of(row), std::string(row.signature),
+                                std::string(row.experiment)});
+  return {effect_table("Base model", base_effects()),
+          effect_table("Effects beyond the base model, which refine may identify", candidate_effects()),
+          differences};
 }
 
 std::string orders_of(const CableLaw& law) {

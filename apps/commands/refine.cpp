@@ -390,7 +390,7 @@ std::vector<std::string> failed_gates(const RefineCommand& command, const Refine
                                  result.torque.test_after, unit, command.most_gap, unit));
   if (command.gate_new_effect && !result.effects.empty())
     failed.push_back(fmt::format("gate new-effect failed: '{}' was named",
-                                 result.effects.front().instance.refinement->name));
+                                 result.effects.front().instance.effect->name));
   return failed;
 }
 

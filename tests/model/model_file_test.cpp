@@ -253,12 +253,9 @@ const BadModel kBadModels[] = {
     {"\"f_v\"", "\"fv\"",
      "model.json:10:25: missing key 'f_v' in 'joints[0].link.viscous'; add it to this object"},
     {"\"viscous\": {\"f_v\": 5.601}", "\"viscos\": {\"f_v\": 5.601}",
-     "model.json:10:24: unknown effect 'viscos' on the link side; did you mean 'viscous'?"},
+     "model.json:10:24: unknown effect 'viscos' of the link; did you mean 'viscous'?"},
     {"\"f_s\": 3.274", "\"f_s\": 3.274, \"f_x\": 1",
      "model.json:10:74: unknown parameter 'f_x'; did you mean 'f_s'?"},
-    {"\"viscous\": {\"f_v\": 5.601}", "\"smooth_coulomb\": {\"f_s\": 3, \"v_s\": 0.05}",
-     "model.json:10:32: 'smooth_coulomb' beside 'coulomb'; they are two laws of the same friction: "
-     "keep one"},
     {"\"J_link\": {\"value\": 0.339", "\"J_link\": {\"value\": -0.339",
      "model.json:7:13: the link of joint '1' has no positive inertia; give its \"inertia\" a value "
      "above 0"},

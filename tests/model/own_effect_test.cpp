@@ -2,7 +2,7 @@
 // examples/own_effect.
 #include <catch2/catch.hpp>
 
-#include "cablefit/model/refinements.hpp"
+#include "cablefit/model/effects.hpp"
 
 namespace {
 
@@ -15,17 +15,17 @@ void pull(const JointState& state, const double* /*shape*/, const double* /*z*/,
 
 TEST_CASE("an effect of a program's own stands in the catalogue, once", "[model]") {
   static constexpr ParameterInfo kParameters[] = {{"stiffness", "k", "N m/rad", "of a spring", 0}};
-  const Refinement& stribeck = find_refinement("stribeck", Site::motor);
-  const std::size_t n = refinements().size();
-  Refinement row;
+  const Effect& stribeck = find_candidate("stribeck", Site::motor);
+  const std::size_t n = candidate_effects().size();
+  Effect row;
   row.name = "return_spring";
   row.site = Site::link;
   row.parameters = kParameters;
   row.torque = pull;
   add_effect(row);
-  CHECK(refinements().size() == n + 1);
-  CHECK(find_refinement("return_spring", Site::link).torque == pull);
-  CHECK(&find_refinement("stribeck", Site::motor) == &stribeck);  // models point to rows
+  CHECK(candidate_effects().size() == n + 1);
+  CHECK(find_candidate("return_spring", Site::link).torque == pull);
+  CHECK(&find_candidate("stribeck", Site::motor) == &stribeck);  // models point to rows
   CHECK_THROWS_WITH(add_effect(row),
                     "effect 'return_spring' of the link exists; give yours another name");
 }

@@ -39,9 +39,9 @@ TEST_CASE("refinements written by hand") {
     {"name": "stiffness_asymmetry", "side": "transmission"},
     {"name": "slip", "side": "transmission", "parameters": {"slip": {"value": 0.5, "unit": "mrad"}},
      "event": {"log": 2, "time": 12.5}}])"));
-  const std::vector<RefinementInstance>& refinements = model.joints.at(0).refinements;
+  const std::vector<EffectInstance>& refinements = model.joints.at(0).added;
   REQUIRE(refinements.size() == 3);
-  CHECK(refinements[0].refinement == &find_refinement("stribeck", Site::motor));
+  CHECK(refinements[0].effect == &find_candidate("stribeck", Site::motor));
   const Estimate& amplitude = refinements[0].parameters.at(0);
   CHECK(amplitude.name == "amplitude");
   CHECK(amplitude.unit == "N m");
@@ -66,11 +66,11 @@ TEST_CASE("every refinement written and read back is the same") {
     const std::string rig = linear_motion ? R"("rig": {"motion": "linear"}, )" : "";
     Model model = read(
         model_with(R"([{"name": "stiffness_asymmetry", "side": "transmission"}])", kJoint, rig));
-    std::vector<RefinementInstance>& refinements = model.joints[0].refinements;
+    std::vector<EffectInstance>& refinements = model.joints[0].added;
     refinements.clear();
-    for (const Refinement& row : cablefit::refinements()) {
-      RefinementInstance& instance = refinements.emplace_back();
-      instance.refinement = &row;
+    for (const Effect& row : cablefit::candidate_effects()) {
+      EffectInstance& instance = refinements.emplace_back();
+      instance.effect = &row;
       for (const ParameterInfo& info : row.parameters) {
         Estimate& estimate = instance.parameters.emplace_back();
         estimate.name = info.name;
@@ -83,11 +83,11 @@ TEST_CASE("every refinement written and read back is the same") {
       instance.event_time = 1.25;
     }
     const Model back = read(model_json(model));
-    const std::vector<RefinementInstance>& again = back.joints.at(0).refinements;
+    const std::vector<EffectInstance>& again = back.joints.at(0).added;
     REQUIRE(again.size() == refinements.size());
     for (std::size_t i = 0; i < again.size(); ++i) {
-      INFO(refinements[i].refinement->name);
-      CHECK(again[i].refinement == refinements[i].refinement);
+      INFO(refinements[i].effect->name);
+      CHECK(again[i].effect == refinements[i].effect);
       CHECK(again[i].event_log == refinements[i].event_log);
       CHECK(again[i].event_time == refinements[i].event_time);
       REQUIRE(again[i].parameters.size() == refinements[i].parameters.size());
@@ -106,15 +106,15 @@ TEST_CASE("every refinement written and read back is the same") {
 TEST_CASE("a model without refinements says nothing of them") {
   const Model model = read(R"({"schema": "cablefit/model/1", "joints": [{)" + std::string(kJoint) +
                            R"(}], "transmission": {"linear": 1500}})");
-  CHECK(model.joints.at(0).refinements.empty());
+  CHECK(model.joints.at(0).added.empty());
   CHECK(model_json(model).find("refinements") == std::string::npos);
 }
 
 TEST_CASE("a refinement that cannot be") {
   CHECK(complaint(R"([{"name": "stribek", "side": "motor", "parameters": {}}])") ==
-        "model.json:1:152: unknown refinement 'stribek' of the motor; did you mean 'stribeck'?");
+        "model.json:1:152: unknown effect 'stribek' of the motor; did you mean 'stribeck'?");
   CHECK(complaint(R"([{"name": "cogging", "side": "link", "parameters": {}}])") ==
-        "model.json:1:152: unknown refinement 'cogging' of the link; there is one of: motor");
+        "model.json:1:152: unknown effect 'cogging' of the link; there is one of: motor");
   CHECK(complaint(R"([{"name": "cogging", "side": "motr", "parameters": {}}])")
             .find("unknown value 'motr'; did you mean 'motor'?") != std::string::npos);
   CHECK(complaint(R"([{"name": "cable_damping", "side": "transmission"}])").find("'parameters'") !=
@@ -155,7 +155,7 @@ TEST_CASE("the model schema has every refinement") {
   std::set<std::string> names, sides, expected_names, expected_sides;
   for (const std::string& name : keys.at("name").at("enum").texts()) names.insert(name);
   for (const std::string& side : keys.at("side").at("enum").texts()) sides.insert(side);
-  for (const Refinement& row : refinements()) {
+  for (const Effect& row : candidate_effects()) {
     expected_names.insert(std::string(row.name));
     expected_sides.insert(std::string(to_string(row.site)));
   }

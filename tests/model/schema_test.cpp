@@ -113,8 +113,7 @@ TEST_CASE("the model schema has every effect with its parameters") {
   for (const Side side : {Side::link, Side::motor, Side::rigid}) {
     const JsonNode& side_node = joint.at(to_string(side));
     Names names;
-    for (const Effect& effect : effects()) {
-      if (effect.side != side) continue;
+    for (const Effect& effect : base_effects(side)) {
       names.insert(std::string(effect.name));
       Names parameters;
       for (const ParameterInfo& info : effect.parameters) parameters.insert(std::string(info.name));

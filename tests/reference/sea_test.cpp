@@ -69,8 +69,8 @@ TEST_CASE("SEA spring 2: the encoder zero moved before one log", "[reference]") 
   const RefineResult result = refine({&model, 1}, both, options);
   INFO(result.reason);
   REQUIRE_FALSE(result.effects.empty());
-  const RefinementInstance& slip = result.effects[0].instance;
-  CHECK(slip.refinement->name == "slip");
+  const EffectInstance& slip = result.effects[0].instance;
+  CHECK(slip.effect->name == "slip");
   CHECK(slip.event_log == 1);
   CHECK(slip.parameters.at(0).value == Approx(0.6e-3).epsilon(0.05));
   // What a log by itself leaves; their own stiffness.

@@ -24,7 +24,7 @@ std::string disagreement(const std::string& hidden, std::string_view name, Site 
                            smoothing_for(1e-3)),
                kBlockSeconds, nullptr);
   const Design with =
-      with_variant(base.design, {&find_refinement(name, site), {}, 0, 0, true}, base.fit.x);
+      with_variant(base.design, {&find_candidate(name, site), {}, 0, 0, true}, base.fit.x);
   const auto fit = fit_blocks(block_grams(with, kBlockSeconds), base.levels, false);
   REQUIRE(fit);
   return why_not_one_law(with, fit->x, base.levels, with.added.size() - 1, kBlockSeconds);

@@ -6,7 +6,7 @@
 using namespace cablefit;
 
 TEST_CASE("held-out equations have to fit better", "[refine]") {
-  const Refinement& row = find_refinement("presliding", Site::link);
+  const Effect& row = find_candidate("presliding", Site::link);
   CHECK(why_not_added({row, 1.5, 1.2}).empty());
   CHECK(why_not_added({row, 1.5, 1.6}) ==
         "the equations of held-out blocks do not fit better with it (1.5 times the squared floor "
@@ -14,7 +14,7 @@ TEST_CASE("held-out equations have to fit better", "[refine]") {
   // These data do not show the effect: what they show already is their floor.
   CHECK(why_not_added({row, 1.01, 1.015}).empty());
   CHECK_FALSE(why_not_added({row, 1.01, 1.1}).empty());
-  const Refinement& event = find_refinement("contact", Site::link);
+  const Effect& event = find_candidate("contact", Site::link);
   CHECK(why_not_added({event, 1.5, 1.6}).empty());  // is over elsewhere
 }
 
@@ -32,7 +32,7 @@ TEST_CASE("a closed loop has to be simulated better", "[refine]") {
 
 /// The trap: in a wandering torque the best of a search gains a little on other logs by chance.
 TEST_CASE("beside a remainder a gain on held-out data has to be clear", "[refine]") {
-  const Refinement& row = find_refinement("friction_drift", Site::link);
+  const Effect& row = find_candidate("friction_drift", Site::link);
   CHECK(why_not_added({row, 7, 6.9, true, 3}).empty());
   CHECK(why_not_added({row, 7, 6.9, false, 0.8}).empty());
   CHECK(why_not_added({row, 7, 3, true, 0.8}).empty());
@@ -49,7 +49,7 @@ TEST_CASE("beside a remainder a gain on held-out data has to be clear", "[refine
 
 /// The trap: a wandering torque has a slope, a mean, a period; of forty rows one fits by chance.
 TEST_CASE("beside a remainder a size has to be beyond chance", "[refine]") {
-  const Refinement& row = find_refinement("gravity_imbalance", Site::link);
+  const Effect& row = find_candidate("gravity_imbalance", Site::link);
   const auto why = [&](bool beside_remainder, double sd_better, double chance,
                        double closed = 0.03) {
     return why_not_added({row, 39, 38, beside_remainder, sd_better, false, closed, chance});
@@ -68,20 +68,20 @@ TEST_CASE("beside a remainder a size has to be beyond chance", "[refine]") {
 
 /// The trap: a pair of the catalogue mimics a third mass, 98.7 % of the gap closed.
 TEST_CASE("two at once have to leave nothing", "[refine]") {
-  const Refinement& row = find_refinement("stribeck", Site::link);
+  const Effect& row = find_candidate("stribeck", Site::link);
   CHECK(why_not_both({row, 56, 1.1}).empty());
   CHECK(
       why_not_both({row, 56, 1.7}) ==
       "two effects at once should leave nothing in the equations of held-out blocks (56 times the "
       "squared floor before, 1.7 after)");
   CHECK_FALSE(why_not_both({row, 1.5, 1.6}).empty());
-  const Refinement& event = find_refinement("contact", Site::link);
+  const Effect& event = find_candidate("contact", Site::link);
   CHECK_FALSE(why_not_both({event, 56, 1.1}).empty());
 }
 
 /// The traps: a date explains a little of any hum, and nothing of logs that it should show in.
 TEST_CASE("an event closes its part of the gap, and that of logs after it", "[refine]") {
-  const Refinement& row = find_refinement("payload_change", Site::link);
+  const Effect& row = find_candidate("payload_change", Site::link);
   const auto reason = [&](double after, bool leaves_remainder, bool is_after, double closed) {
     return why_not_added({row, 5, after, leaves_remainder, 3, is_after, closed});
   };
@@ -155,7 +155,7 @@ TEST_CASE("a replay of the measured torque refuses nothing", "[refine]") {
 }
 
 TEST_CASE("a name needs a size and a gain", "[refine]") {
-  const Refinement& row = find_refinement("stribeck", Site::motor);
+  const Effect& row = find_candidate("stribeck", Site::motor);
   const auto why = [&](double chance, double gone) {
     return why_not_added({row, 1.5, 1.4, false, 3, false, 0.9, chance, gone});
   };

@@ -31,8 +31,7 @@ RefineResult refined(const HiddenLogs& hidden) {
 }
 
 std::string first_name(const RefineResult& result) {
-  return result.effects.empty() ? ""
-                                : std::string(result.effects.front().instance.refinement->name);
+  return result.effects.empty() ? "" : std::string(result.effects.front().instance.effect->name);
 }
 
 }  // namespace
@@ -80,7 +79,7 @@ TEST_CASE("an encoder zero that moved between two blocked logs is a slip",
   const RefineResult result = refined(hidden);
   INFO(result.reason);
   REQUIRE(first_name(result) == "slip");
-  const RefinementInstance& slip = result.effects[0].instance;
+  const EffectInstance& slip = result.effects[0].instance;
   CHECK(slip.event_log == 1);
   CHECK(slip.event_time == 0);
   CHECK(std::abs(slip.parameters.at(0).value) == Approx(std::abs(shift)).epsilon(0.03));

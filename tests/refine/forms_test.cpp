@@ -25,8 +25,8 @@ BaseFit base_of(const HiddenLogs& hidden) {
 
 /// The best candidate of one row, its shape refined.
 Candidate best_of(const BaseFit& base, std::string_view name, Site site) {
-  std::vector<const Refinement*> others;
-  for (const Refinement& row : refinements())
+  std::vector<const Effect*> others;
+  for (const Effect& row : candidate_effects())
     if (row.name != name || row.site != site) others.push_back(&row);
   const ScanStart start{base.design, base.grams, base.fit, base.levels};
   const auto found = scan(start, {}, others);
@@ -74,8 +74,8 @@ TEST_CASE("presliding takes all of the dry friction, not more", "[refine]") {
   CHECK(best.variant.is_plain);
   CHECK(best.variant.shape.at(0) == Approx(truth(hidden)).epsilon(0.15));
   // The share left free comes out larger than one on these logs.
-  const Design free = with_variant(
-      base.design, {best.variant.refinement, best.variant.shape, 0, 0, false}, base.fit.x);
+  const Design free =
+      with_variant(base.design, {best.variant.effect, best.variant.shape, 0, 0, false}, base.fit.x);
   const auto fit = fit_blocks(block_grams(free.rows, free.stretches, 2), base.levels);
   REQUIRE(fit);
   CHECK(fit->x(fit->x.size() - 1) > fit->x(base.design.layout.dry_link));
@@ -91,14 +91,14 @@ TEST_CASE("presliding has its distance", "[refine]") {
 
 /// Beyond the peak there would be no torque left to explain.
 TEST_CASE("the grid of what the drive loses ends far below the peak", "[refine]") {
-  const Refinement& row = find_refinement("drive_dead_band", Site::drive);
+  const Effect& row = find_candidate("drive_dead_band", Site::drive);
   for (const double peak : {0.05, 50.0}) CHECK(row.shape[0].highest({peak, 1}) < 0.1 * peak);
 }
 
 TEST_CASE("a quick look is the fit in sample", "[refine]") {
   const HiddenLogs hidden = hidden_logs({"gravity_imbalance.link=1"});
   const BaseFit base = base_of(hidden);
-  const Variant gravity{&find_refinement("gravity_imbalance", Site::link), {}, 0, 0, false};
+  const Variant gravity{&find_candidate("gravity_imbalance", Site::link), {}, 0, 0, false};
   const VariantColumns columns = variant_columns(base.design, gravity, base.fit.x);
   const QuickLook look(base.design, base.grams, base.levels);
   const auto glance = look.with(look.products(columns), 4, 0);
@@ -124,7 +124,7 @@ TEST_CASE("a spring that stiffens is named on a linear base", "[refine]") {
   CHECK(order.gain > best_of(base, "saturation", Site::drive).gain);
   // What is made of cables needs some: a second variant may not stand alone.
   const Design pair = with_variant(base.design, order.variant, base.fit.x);
-  const Refinement& asymmetry = find_refinement("stiffness_asymmetry", Site::transmission);
+  const Effect& asymmetry = find_candidate("stiffness_asymmetry", Site::transmission);
   CHECK(applies(base.design, {&asymmetry, {}, 0, 0, false}));
   CHECK_FALSE(applies(pair, {&asymmetry, {}, 0, 0, false}));
 }

@@ -78,9 +78,9 @@ TEST_CASE("a refined model keeps a given inertia, and every value in its own pla
 }
 
 TEST_CASE("a scale of torques needs something known in their unit", "[refine]") {
-  const Refinement& gain = find_refinement("torque_gain", Site::drive);
-  const Refinement& scale = find_refinement("load_scale", Site::link);
-  const Refinement& drag = find_refinement("quadratic_drag", Site::link);
+  const Effect& gain = find_candidate("torque_gain", Site::drive);
+  const Effect& scale = find_candidate("load_scale", Site::link);
+  const Effect& drag = find_candidate("quadratic_drag", Site::link);
   const Design loaded = design_of_logs(no_effect().models, no_effect(), true);
   CHECK(is_candidate(gain, loaded));
   CHECK(is_candidate(scale, loaded));

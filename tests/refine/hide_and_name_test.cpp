@@ -22,8 +22,7 @@ RefineResult refined(const HiddenLogs& hidden, int threads = 2) {
 }
 
 std::string first_name(const RefineResult& result) {
-  return result.effects.empty() ? ""
-                                : std::string(result.effects.front().instance.refinement->name);
+  return result.effects.empty() ? "" : std::string(result.effects.front().instance.effect->name);
 }
 
 const Estimate& parameter(const RefineResult& result, std::string_view name) {
@@ -47,7 +46,7 @@ void check_two(const RefineResult& result, std::string_view first, std::string_v
   INFO(result.reason);
   REQUIRE(result.effects.size() == 2);
   CHECK(first_name(result) == first);
-  CHECK(result.effects[1].instance.refinement->name == second);
+  CHECK(result.effects[1].instance.effect->name == second);
   CHECK(result.rho_after < most_rho);
 }
 
@@ -86,7 +85,7 @@ TEST_CASE("a slip that ends with its log is named and sized", "[refine][slow]") 
   CHECK(result.effects[0].instance.event_log == hidden.logs.blocked.size() + slipped);
   CHECK(parameter(result, "slip").value == Approx(truth(hidden, "slip")).epsilon(0.05));
   CHECK(result.rho_after < 1.2);
-  CHECK(result.models[0].joints[0].refinements.empty());  // over with the log
+  CHECK(result.models[0].joints[0].added.empty());  // over with the log
 }
 
 TEST_CASE("a hidden Stribeck friction is named, sized and closes the gap", "[refine][slow]") {
@@ -94,7 +93,7 @@ TEST_CASE("a hidden Stribeck friction is named, sized and closes the gap", "[ref
   const RefineResult result = refined(hidden);
   INFO(result.reason);
   REQUIRE(first_name(result) == "stribeck");
-  CHECK(result.effects[0].instance.refinement->site == Site::motor);
+  CHECK(result.effects[0].instance.effect->site == Site::motor);
   CHECK(result.effects[0].evidence.p_value <= 0.01);
   const Estimate& amplitude = parameter(result, "amplitude");
   CHECK(std::abs(amplitude.value - truth(hidden, "amplitude")) <
@@ -235,7 +234,7 @@ TEST_CASE("the look-alikes of what is refused are tried, its aliases are not", "
   RefineResult result;
   const RefineState state = prepare(bench, hidden.models, hidden.logs, result);
   const auto name = [](const std::optional<Trial>& trial) {
-    return trial ? std::string(trial->winner.variant.refinement->name) : "";
+    return trial ? std::string(trial->winner.variant.effect->name) : "";
   };
   Trials trials(bench, state, true);
   CHECK(name(trials.next_alike("nothing was tried yet")).empty());
@@ -257,8 +256,7 @@ TEST_CASE("the first of two is named again beside the second", "[refine][slow]")
   INFO(result.reason);
   REQUIRE(result.effects.size() == 2);
   std::vector<std::string> names;
-  for (const NamedEffect& effect : result.effects)
-    names.emplace_back(effect.instance.refinement->name);
+  for (const NamedEffect& effect : result.effects) names.emplace_back(effect.instance.effect->name);
   std::sort(names.begin(), names.end());
   CHECK(names == std::vector<std::string>{"constant_torque", "tension_friction"});
 }
@@ -270,7 +268,7 @@ TEST_CASE("one tension friction serves two preloads", "[refine][slow]") {
   REQUIRE(hidden.models.size() == 2);
   const RefineResult result = refined(hidden);
   REQUIRE(first_name(result) == "tension_friction");
-  CHECK(result.effects[0].instance.refinement->site == Site::link);
+  CHECK(result.effects[0].instance.effect->site == Site::link);
   const Estimate& mu = parameter(result, "mu");
   CHECK(mu.value == Approx(truth(hidden, "mu")).epsilon(0.01));
   CHECK(result.rho_before > 100);

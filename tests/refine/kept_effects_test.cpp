@@ -18,21 +18,20 @@ using namespace cablefit::test;
 
 namespace {
 
-RefinementInstance instance_of(std::string_view name, Site site,
-                               const std::vector<double>& values) {
-  RefinementInstance instance;
-  instance.refinement = &find_refinement(name, site);
-  REQUIRE(values.size() == instance.refinement->parameters.size());
+EffectInstance instance_of(std::string_view name, Site site, const std::vector<double>& values) {
+  EffectInstance instance;
+  instance.effect = &find_candidate(name, site);
+  REQUIRE(values.size() == instance.effect->parameters.size());
   for (std::size_t p = 0; p < values.size(); ++p) {
     Estimate& e = instance.parameters.emplace_back();
-    e.name = instance.refinement->parameters[p].name;
+    e.name = instance.effect->parameters[p].name;
     e.value = values[p];
   }
   return instance;
 }
 
-std::vector<Model> with(std::vector<Model> models, const RefinementInstance& instance) {
-  for (Model& model : models) model.joints.front().refinements.push_back(instance);
+std::vector<Model> with(std::vector<Model> models, const EffectInstance& instance) {
+  for (Model& model : models) model.joints.front().added.push_back(instance);
   return models;
 }
 
@@ -59,7 +58,7 @@ double truth(const HiddenLogs& hidden, std::size_t effect, std::string_view name
   return 0;
 }
 
-const Estimate& parameter(const RefinementInstance& instance, std::string_view name) {
+const Estimate& parameter(const EffectInstance& instance, std::string_view name) {
   const Estimate* e = find_estimate(instance.parameters, name);
   REQUIRE(e != nullptr);
   return *e;
@@ -67,8 +66,7 @@ const Estimate& parameter(const RefinementInstance& instance, std::string_view n
 
 std::vector<std::string_view> names_in(const Model& model) {
   std::vector<std::string_view> names;
-  for (const RefinementInstance& has : model.joints.front().refinements)
-    names.push_back(has.refinement->name);
+  for (const EffectInstance& has : model.joints.front().added) names.push_back(has.effect->name);
   return names;
 }
 
@@ -79,10 +77,10 @@ const std::vector<std::string> kTwo = {"stribeck.motor=1", "quadratic_drag.link=
 TEST_CASE("what a model has is read in its plain form where the values are those of it",
           "[refine][kept]") {
   const Model model = hidden_logs({}).models.front();
-  const auto is_plain = [&](const RefinementInstance& instance) {
+  const auto is_plain = [&](const EffectInstance& instance) {
     const std::vector<Variant> kept = kept_variants(with({model}, instance).front());
     REQUIRE(kept.size() == 1);
-    CHECK(kept.front().refinement == instance.refinement);
+    CHECK(kept.front().effect == instance.effect);
     return kept.front().is_plain;
   };
   CHECK(is_plain(instance_of("stribeck", Site::motor, {0.2, 0.1, 2})));
@@ -93,7 +91,7 @@ TEST_CASE("what a model has is read in its plain form where the values are those
       is_plain(instance_of("creep", Site::transmission, {0.01, 3, 0})));  // has only one form
   double dry = 0;
   for (const EffectInstance& has : model.joints.front().link)
-    if (has.effect->dry != nullptr) dry = has.parameters.front().value;
+    if (has.effect->follows == MotionPart::direction) dry = has.parameters.front().value;
   REQUIRE(dry > 0);
   CHECK(is_plain(instance_of("presliding", Site::link, {dry, 1e-3})));
   CHECK_FALSE(is_plain(instance_of("presliding", Site::link, {0.5 * dry, 1e-3})));
@@ -112,11 +110,11 @@ TEST_CASE("an event of an earlier refine is refused, and one base for two struct
                                            instance_of("payload_change", Site::link, {0.1, 0, 0}))),
                     Catch::Contains("has 'payload_change' (link), an event of an earlier refine"));
   std::vector<Model> models = hidden.models;
-  models[1].joints.front().refinements = {instance_of("stribeck", Site::motor, {0.2, 0.1, 2})};
+  models[1].joints.front().added = {instance_of("stribeck", Site::motor, {0.2, 0.1, 2})};
   CHECK_THROWS_WITH(require_model_set(models), Catch::Contains("have different equations"));
-  models[0].joints.front().refinements = {instance_of("stribeck", Site::motor, {0.3, 0.1, 2})};
+  models[0].joints.front().added = {instance_of("stribeck", Site::motor, {0.3, 0.1, 2})};
   CHECK_NOTHROW(require_model_set(models));  // coefficients are fitted anew
-  models[0].joints.front().refinements = {instance_of("stribeck", Site::motor, {0.2, 0.2, 2})};
+  models[0].joints.front().added = {instance_of("stribeck", Site::motor, {0.2, 0.2, 2})};
   CHECK_THROWS_WITH(require_model_set(models), Catch::Contains("have different equations"));
 }
 
@@ -184,7 +182,7 @@ TEST_CASE("logs of a blocked link alone refuse what none of them shows", "[refin
 TEST_CASE("simulated data sets have what the model has", "[refine][kept]") {
   struct Case {
     std::string effect;
-    RefinementInstance has;
+    EffectInstance has;
     bool blocked;
   };
   const auto [effect, has, blocked] = GENERATE(
@@ -222,7 +220,7 @@ TEST_CASE("a refined model is refined again: the second effect, then none",
   INFO(two.reason);
   REQUIRE(two.kept.size() == 1);
   REQUIRE(two.effects.size() == 1);
-  CHECK(two.effects[0].instance.refinement == &find_refinement("stribeck", Site::motor));
+  CHECK(two.effects[0].instance.effect == &find_candidate("stribeck", Site::motor));
   CHECK(two.effects[0].evidence.p_value <= 0.01);
   CHECK(names_in(two.models.front()) ==
         std::vector<std::string_view>{"quadratic_drag", "stribeck"});
@@ -253,8 +251,8 @@ TEST_CASE("a refined model is refined again: the second effect, then none",
     CHECK_FALSE(is_kept);
   }
   for (std::size_t k = 0; k < 2; ++k) {
-    const Estimate& before = two.models.front().joints.front().refinements[k].parameters.front();
-    const Estimate& after = none.models.front().joints.front().refinements[k].parameters.front();
+    const Estimate& before = two.models.front().joints.front().added[k].parameters.front();
+    const Estimate& after = none.models.front().joints.front().added[k].parameters.front();
     CHECK(std::abs(after.value - before.value) < after.sd);  // of the same logs
   }
 }
@@ -295,7 +293,7 @@ TEST_CASE("new logs of a refined model: nothing is named", "[refine][kept][slow]
       refined(hidden_logs({effect}, 1).models, hidden_logs({effect}, 1).logs, 1);
   INFO(effect << ": " << one.reason);
   REQUIRE(one.effects.size() == 1);
-  if (!name.empty()) CHECK(one.effects[0].instance.refinement->name == name);
+  if (!name.empty()) CHECK(one.effects[0].instance.effect->name == name);
   const HiddenLogs later = hidden_logs({effect}, 2);
   const RefineResult again = refined(one.models, later.logs);
   INFO(again.reason);
@@ -337,7 +335,7 @@ TEST_CASE("a wrong effect of the model gives way to the right ones", "[refine][k
   INFO(result.reason);
   CHECK(result.kept.empty());
   REQUIRE(result.warnings.size() == 1);
-  CHECK(result.warnings[0] == taken_out(find_refinement("quadratic_drag", Site::link)));
+  CHECK(result.warnings[0] == taken_out(find_candidate("quadratic_drag", Site::link)));
   CHECK(names_in(result.models.front()) ==
         std::vector<std::string_view>{"stribeck", "nonlinear_viscous"});
 }

@@ -14,11 +14,11 @@ namespace {
 using namespace cablefit;
 using namespace cablefit::test;
 
-RefinementInstance instance(std::string_view name, Site site, const std::vector<double>& values) {
-  RefinementInstance effect{&find_refinement(name, site), {}};
+EffectInstance instance(std::string_view name, Site site, const std::vector<double>& values) {
+  EffectInstance effect{&find_candidate(name, site), {}};
   for (std::size_t k = 0; k < values.size(); ++k) {
     Estimate& e = effect.parameters.emplace_back();
-    e.name = effect.refinement->parameters[k].name;
+    e.name = effect.effect->parameters[k].name;
     e.value = values[k];
   }
   return effect;
@@ -31,7 +31,7 @@ double truth_of(const HiddenLogs& logs, std::size_t effect, const std::string& n
   return 0;
 }
 
-DynamicFit refitted(const HiddenLogs& logs, std::vector<RefinementInstance> effects,
+DynamicFit refitted(const HiddenLogs& logs, std::vector<EffectInstance> effects,
                     const std::string& estimator) {
   DynamicOptions options;
   options.models = {"poly"};

@@ -11,14 +11,14 @@ using namespace cablefit::test;
 
 TEST_CASE("output error refuses a model with refinements", "[refine][refused]") {
   Model model = hidden_logs({}).models.front();
-  RefinementInstance instance;
-  instance.refinement = &find_refinement("stribeck", Site::motor);
-  for (const ParameterInfo& info : instance.refinement->parameters) {
+  EffectInstance instance;
+  instance.effect = &find_candidate("stribeck", Site::motor);
+  for (const ParameterInfo& info : instance.effect->parameters) {
     instance.parameters.emplace_back();
     instance.parameters.back().name = info.name;
     instance.parameters.back().value = 0.1;
   }
-  model.joints.front().refinements.push_back(instance);
+  model.joints.front().added.push_back(instance);
   try {
     fit_output_error(model, {}, {});
     FAIL("it was taken");

@@ -85,7 +85,7 @@ TEST_CASE("a run tells rivals apart by what they cannot bend to", "[refine][sepa
   const Search found = search(base.design, floor, {});
   const auto candidate = [&](std::string_view name) {
     return *std::find_if(found.candidates.begin(), found.candidates.end(),
-                         [&](const Candidate& c) { return c.variant.refinement->name == name; });
+                         [&](const Candidate& c) { return c.variant.effect->name == name; });
   };
   const Candidate best = candidate("constant_torque"), rival = candidate("load_scale");
   Candidate bent = rival;

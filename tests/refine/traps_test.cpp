@@ -28,8 +28,8 @@ Design design_of(const HiddenLogs& hidden, const std::vector<Model>& models,
 /// Best gain of a row that is no event, in a scan on top of the base fit.
 double gain_of(const Design& design, std::string_view name, Site site) {
   const BaseFit base = fit_base(design, 2, nullptr);
-  std::vector<const Refinement*> others;
-  for (const Refinement& row : refinements())
+  std::vector<const Effect*> others;
+  for (const Effect& row : candidate_effects())
     if (row.name != name || row.site != site) others.push_back(&row);
   ScanSettings settings;
   const auto found = scan({base.design, base.grams, base.fit, base.levels}, settings, others);
@@ -96,7 +96,7 @@ TEST_CASE("draws follow the motion where the rig's loop would not", "[refine][tr
 TEST_CASE("a frozen base shrinks what is found", "[refine][trap]") {
   const HiddenLogs hidden = hidden_logs({"quadratic_drag.link=1"});
   const BaseFit base = fit_base(design_of(hidden, hidden.models), 2, nullptr);
-  const Variant drag{&find_refinement("quadratic_drag", Site::link), {2.0}, 0, 0};
+  const Variant drag{&find_candidate("quadratic_drag", Site::link), {2.0}, 0, 0};
   const VariantColumns columns = variant_columns(base.design, drag, base.fit.x);
   const BlockGrams grams =
       extended(base.grams, base.design.rows, base.design.stretches, columns, 2);

@@ -80,7 +80,7 @@ TEST_CASE("an effect is named beside a blocked log of another rate", "[refine][s
   INFO(result.reason);
   CHECK(result.verdict == Verdict::named);
   REQUIRE_FALSE(result.effects.empty());
-  CHECK(result.effects.front().instance.refinement->name == "stribeck");
+  CHECK(result.effects.front().instance.effect->name == "stribeck");
   CHECK(result.rho_after < 1.1);
 }
 
@@ -168,7 +168,7 @@ TEST_CASE("test logs at rest do not judge", "[refine][slow]") {
   CHECK(result.warnings.front() ==
         "the test logs do not move enough to judge by; the last third of the others is held out");
   REQUIRE_FALSE(result.effects.empty());
-  CHECK(result.effects.front().instance.refinement->name == "stribeck");
+  CHECK(result.effects.front().instance.effect->name == "stribeck");
 }
 
 TEST_CASE("a drive that stands in one log has the noise of the others", "[refine]") {
@@ -227,8 +227,8 @@ TEST_CASE("a block that tells a parameter alone does not judge", "[refine]") {
   BlockFit without = *fit;
   without.alone.setConstant(false);
   CHECK(std::isinf(fit->held_out_error(without)));
-  std::vector<const Refinement*> others;
-  for (const Refinement& row : refinements())
+  std::vector<const Effect*> others;
+  for (const Effect& row : candidate_effects())
     if (row.name != "stribeck" || row.site != Site::link) others.push_back(&row);
   const auto found = scan({design, grams, *fit, levels}, settings, others);
   REQUIRE(found.size() == 1);

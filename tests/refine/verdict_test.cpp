@@ -17,8 +17,8 @@ constexpr Eigen::Index kBlocks = 20;
 /// every block but for `unevenness`.
 Candidate candidate(std::string_view name, Site site, double share, double unevenness = 0) {
   Candidate c;
-  c.variant.refinement = &find_refinement(name, site);
-  c.x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(c.variant.refinement->n_linear()));
+  c.variant.effect = &find_candidate(name, site);
+  c.x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(c.variant.effect->n_linear()));
   c.gain = share;
   c.error = Eigen::ArrayXd::Constant(kBlocks, 1000 * (1 - share) / kBlocks);
   for (Eigen::Index b = 0; b < kBlocks; ++b) c.error(b) += (b % 2 == 0 ? 1 : -1) * unevenness;
@@ -32,15 +32,15 @@ std::vector<NullDraw> draws(double event_gain = 0.002) {
   std::vector<NullDraw> all;
   for (int k = 0; k < 20; ++k) {
     NullDraw draw;
-    draw.gains[&find_refinement("stribeck", Site::motor)] = 0.002 + 1e-4 * k;
-    draw.gains[&find_refinement("contact", Site::link)] = event_gain;
+    draw.gains[&find_candidate("stribeck", Site::motor)] = 0.002 + 1e-4 * k;
+    draw.gains[&find_candidate("contact", Site::link)] = event_gain;
     all.push_back(draw);
   }
   return all;
 }
 
 std::string best_name(const Judgement& j) {
-  return j.best == nullptr ? "" : std::string(j.best->variant.refinement->name);
+  return j.best == nullptr ? "" : std::string(j.best->variant.effect->name);
 }
 
 bool lists(const std::vector<Rival>& rivals, std::string_view name) {
@@ -76,9 +76,9 @@ TEST_CASE("a gain is counted in what its own row gains by chance", "[refine]") {
   for (int k = 0; k < 20; ++k) {
     NullDraw draw;
     const double luck = 1 + 0.05 * (k % 7);
-    draw.gains[&find_refinement("stribeck", Site::link)] = 0.04 * luck;
+    draw.gains[&find_candidate("stribeck", Site::link)] = 0.04 * luck;
     for (const char* name : {"stribeck", "quadratic_drag", "nonlinear_viscous"})
-      draw.gains[&find_refinement(name, Site::motor)] = 0.002 * luck;
+      draw.gains[&find_candidate(name, Site::motor)] = 0.002 * luck;
     wandering.push_back(draw);
   }
   const auto is_named = [&](Site site) {
@@ -91,7 +91,7 @@ TEST_CASE("a gain is counted in what its own row gains by chance", "[refine]") {
 /// One lucky draw of a row that gains nothing else is luck and no unit.
 TEST_CASE("a row that gained once is not beyond all measure", "[refine]") {
   std::vector<NullDraw> once = draws();
-  once.front().gains[&find_refinement("saturation", Site::drive)] = 0.004;
+  once.front().gains[&find_candidate("saturation", Site::drive)] = 0.004;
   CHECK(judge_search({candidate("stribeck", Site::motor, 0.1)}, kGap, once, {}, true).is_named);
 }
 
@@ -99,7 +99,7 @@ TEST_CASE("a row that gained once is not beyond all measure", "[refine]") {
 TEST_CASE("where there is no gap chance has to be ten times less likely", "[refine]") {
   std::vector<NullDraw> luck;
   for (int k = 0; k < 12; ++k)
-    luck.emplace_back().gains[&find_refinement("stribeck", Site::motor)] = 0.002 + 0.001 * k;
+    luck.emplace_back().gains[&find_candidate("stribeck", Site::motor)] = 0.002 + 0.001 * k;
   const auto at_rho = [&](double rho, double share) {
     const std::vector<Candidate> found = {candidate("stribeck", Site::motor, share)};
     return judge_search(found, {1000, 1000 / rho}, luck, {}, true);
@@ -254,7 +254,7 @@ TEST_CASE("p of few draws is that of the next one", "[refine]") {
 TEST_CASE("draws end where the answer is clear", "[refine]") {
   std::vector<NullDraw> six;
   for (int k = 0; k < 6; ++k)
-    six.emplace_back().gains[&find_refinement("stribeck", Site::motor)] = 0.01 + 0.002 * k;
+    six.emplace_back().gains[&find_candidate("stribeck", Site::motor)] = 0.01 + 0.002 * k;
   const auto is_settled = [&](double share) {
     return judge_search({candidate("stribeck", Site::motor, share)}, kGap, six, {}, true)
         .is_settled;
@@ -269,8 +269,8 @@ TEST_CASE("draws go on while a larger gain is open", "[refine]") {
   std::vector<NullDraw> six;
   for (int k = 0; k < 6; ++k) {
     NullDraw& draw = six.emplace_back();
-    draw.gains[&find_refinement("stribeck", Site::motor)] = 0.001 + 0.0002 * k;
-    draw.gains[&find_refinement("slip", Site::transmission)] = 0.1 + 0.03 * k;
+    draw.gains[&find_candidate("stribeck", Site::motor)] = 0.001 + 0.0002 * k;
+    draw.gains[&find_candidate("slip", Site::transmission)] = 0.1 + 0.03 * k;
   }
   const std::vector<Candidate> found = {candidate("slip", Site::transmission, 0.5),
                                         candidate("stribeck", Site::motor, 0.05)};

@@ -129,7 +129,7 @@ TEST_CASE("a result that does not fit together is refused with its place") {
 
 TEST_CASE("a result of stage 2 is a model") {
   DynamicResult result = test::dynamic_result();
-  const Effect& inertia = find_effect("inertia", Side::motor);
+  const Effect& inertia = find_base_effect("inertia", Side::motor);
   for (DynamicFit& fit : result.preloads[0].fits) {
     for (const Effect& effect : base_effects(Side::motor)) {
       for (const ParameterInfo& info : effect.parameters) {

@@ -63,7 +63,7 @@ Fitted base() {
 
 Fitted with_stribeck(const Fitted& start) {
   return fitted(with_variant(start.design,
-                             {&find_refinement("stribeck", Site::motor), {kStribeckSpeed, 2}, 0, 0},
+                             {&find_candidate("stribeck", Site::motor), {kStribeckSpeed, 2}, 0, 0},
                              start.x));
 }
 

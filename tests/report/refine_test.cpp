@@ -30,7 +30,7 @@ Rival rival(const std::string& name, const std::string& side, double gain, doubl
 
 NamedEffect stribeck() {
   NamedEffect effect;
-  effect.instance.refinement = &find_refinement("stribeck", Site::motor);
+  effect.instance.effect = &find_candidate("stribeck", Site::motor);
   effect.instance.parameters = {test::estimate("amplitude", "N m", 0.1821, 0.0077),
                                 test::estimate("v_s", "rad/s", 0.1358, 0.0068),
                                 test::estimate("exponent", "", 1.88, 0.21)};
@@ -171,7 +171,7 @@ TEST_CASE("derived amplitudes stand among the parameters, and an event has its l
   json j = json::parse(refine_json(r, kFiles));
   CHECK(j["effects"][0]["parameters"][3]["name"] == "amplitude");
   CHECK(j["effects"][0]["parameters"][3]["value"] == 0.5);
-  r.effects.front().instance.refinement = &find_refinement("slip", Site::transmission);
+  r.effects.front().instance.effect = &find_candidate("slip", Site::transmission);
   r.effects.front().instance.event_time = 7.25;
   j = json::parse(refine_json(r, kFiles));
   CHECK(j["effects"][0]["event"] ==
@@ -303,8 +303,8 @@ TEST_CASE("an event has its date, and a gain on held-out data where these can sh
   const auto judged_there =
       Catch::Matchers::Contains("dated, so judged on the log that it is in; p");
   RefineResult r = named();
-  RefinementInstance& slip = r.effects.front().instance;
-  slip.refinement = &find_refinement("slip", Site::transmission);
+  EffectInstance& slip = r.effects.front().instance;
+  slip.effect = &find_candidate("slip", Site::transmission);
   slip.event_time = 7.25;
   CHECK_THAT(story_of(r), Catch::Matchers::Contains("; at 7.25 s of slow.csv; carries"));
   CHECK_THAT(story_of(r), !judged_there);
@@ -313,7 +313,7 @@ TEST_CASE("an event has its date, and a gain on held-out data where these can sh
   CHECK_THAT(story_of(r), judged_there);
   r.held_out_blocks = true;
   CHECK_THAT(story_of(r), !judged_there);
-  slip.refinement = &find_refinement("contact", Site::link);
+  slip.effect = &find_candidate("contact", Site::link);
   CHECK_THAT(story_of(r), judged_there);
 }
 

@@ -1,5 +1,5 @@
 // Models with refinements: every row of the catalogue does in a simulation what its regressor says.
-#include "cablefit/model/refinements.hpp"
+#include "cablefit/model/effects.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -19,12 +19,12 @@ using Values = std::vector<double>;
 constexpr double kStep = 1e-4;  // s, of rows and of the simulation
 constexpr double kEvent = 1.0;  // s
 
-std::string label(const Refinement& row) {
+std::string label(const Effect& row) {
   return std::string(row.name) + " of the " + std::string(to_string(row.site));
 }
 
 /// The shape in the middle of the grids.
-Values middle_shape(const Refinement& row) {
+Values middle_shape(const Effect& row) {
   Values shape;
   for (const ShapeGrid& grid : row.shape)
     shape.push_back(grid.value(grid.n_values / 2,
@@ -32,9 +32,9 @@ Values middle_shape(const Refinement& row) {
   return shape;
 }
 
-RefinementInstance instance_of(const Refinement& row, const Values& linear, const Values& shape) {
-  RefinementInstance instance;
-  instance.refinement = &row;
+EffectInstance instance_of(const Effect& row, const Values& linear, const Values& shape) {
+  EffectInstance instance;
+  instance.effect = &row;
   instance.event_time = kEvent;
   for (std::size_t i = 0; i < row.parameters.size(); ++i) {
     Estimate& estimate = instance.parameters.emplace_back();
@@ -44,8 +44,8 @@ RefinementInstance instance_of(const Refinement& row, const Values& linear, cons
   return instance;
 }
 
-Model refined(Model model, const RefinementInstance& instance) {
-  model.joints[0].refinements = {instance};
+Model refined(Model model, const EffectInstance& instance) {
+  model.joints[0].added = {instance};
   return model;
 }
 
@@ -87,7 +87,7 @@ JointState middle(const Model& model, const SimulationInput& input, const Simula
   return state;
 }
 
-Regressor regressor(const Refinement& row, const Values& shape, const Model& model,
+Regressor regressor(const Effect& row, const Values& shape, const Model& model,
                     const SimulationInput& input, const SimulationResult& motion) {
   const Eigen::Index steps = motion.q.rows() - 1;
   const auto n = static_cast<Eigen::Index>(row.n_linear());
@@ -156,7 +156,7 @@ double rms(const Eigen::ArrayXd& x) {
 }
 
 /// Parameters of which each is worth 0.3 N m at most on the motion of the plain model.
-Values typical_size(const Refinement& row, const Values& shape, const Model& model,
+Values typical_size(const Effect& row, const Values& shape, const Model& model,
                     const SimulationInput& input, const SimulationResult& motion) {
   const Regressor columns = regressor(row, shape, model, input, motion);
   Values size;
@@ -166,7 +166,7 @@ Values typical_size(const Refinement& row, const Values& shape, const Model& mod
   return size;
 }
 
-void check_row(const Refinement& row, const Model& plain) {
+void check_row(const Effect& row, const Model& plain) {
   const SimulationInput input = lively_input(30000, kStep);
   const SimulationOptions options = step_of(kStep);
   const Values shape = middle_shape(row);
@@ -192,7 +192,7 @@ void check_row(const Refinement& row, const Model& plain) {
 }
 
 TEST_CASE("a refinement's torque is in the simulated motion", "[simulate]") {
-  for (const Refinement& row : refinements()) {
+  for (const Effect& row : candidate_effects()) {
     if ((!row.torque && !row.level) || row.name == "load_friction") continue;  // of rigid drives
     INFO(label(row));
     check_row(row, paper_rig_low());
@@ -202,7 +202,7 @@ TEST_CASE("a refinement's torque is in the simulated motion", "[simulate]") {
 }
 
 TEST_CASE("friction and position of either side act on a rigid drive", "[simulate]") {
-  for (const Refinement& row : refinements()) {
+  for (const Effect& row : candidate_effects()) {
     if ((!row.torque && !row.level) || row.name == "tension_friction") continue;  // needs cables
     if (row.site != Site::link && row.site != Site::motor) continue;
     INFO(label(row));
@@ -219,7 +219,7 @@ double energy(const Model& model, const SimulationResult& r, Eigen::Index row) {
 }
 
 TEST_CASE("friction that is added never feeds a motion", "[simulate]") {
-  for (const Refinement& row : refinements()) {
+  for (const Effect& row : candidate_effects()) {
     const auto linear = row.parameters.first(row.n_linear());
     const bool is_friction = (row.torque || row.level) &&
                              std::all_of(linear.begin(), linear.end(),
@@ -254,7 +254,7 @@ TEST_CASE("friction that is added never feeds a motion", "[simulate]") {
 TEST_CASE("refinements in blocks are the same as in one go", "[simulate]") {
   const SimulationInput input = lively_input(3000, 1e-3);
   for (const char* name : {"cable_hysteresis", "creep", "cable_damping", "slip"}) {
-    const Refinement& row = find_refinement(name, Site::transmission);
+    const Effect& row = find_candidate(name, Site::transmission);
     const Values shape = middle_shape(row);
     Model model = paper_rig_low();
     model = refined(model, instance_of(row, Values(row.n_linear(), 1e-4), shape));
@@ -274,12 +274,12 @@ TEST_CASE("refinements in blocks are the same as in one go", "[simulate]") {
 }
 
 TEST_CASE("an event belongs to one log", "[simulate]") {
-  const Refinement& slip = find_refinement("slip", Site::transmission);
-  const Refinement& contact = find_refinement("contact", Site::link);
+  const Effect& slip = find_candidate("slip", Site::transmission);
+  const Effect& contact = find_candidate("contact", Site::link);
   SimulationInput input = lively_input(2000, 1e-3);
   const SimulationResult plain = simulate(paper_rig_low(), input, {});
-  for (const Refinement* row : {&slip, &contact}) {
-    RefinementInstance instance = instance_of(*row, {0.001}, middle_shape(*row));
+  for (const Effect* row : {&slip, &contact}) {
+    EffectInstance instance = instance_of(*row, {0.001}, middle_shape(*row));
     instance.event_log = 1;
     const Model model = refined(paper_rig_low(), instance);
     const auto unlike_plain = [&](std::size_t log, double t0, Eigen::Index begin, Eigen::Index n) {
@@ -307,7 +307,7 @@ TEST_CASE("a drive in closed loop makes of a command what the refinement says", 
   input.theta_ref = 0.2 * (6 * t).sin();
   SimulationOptions closed;
   closed.closed_loop = true;
-  const Refinement& saturation = find_refinement("saturation", Site::drive);
+  const Effect& saturation = find_candidate("saturation", Site::drive);
   const SimulationResult clipped =
       simulate(refined(model, instance_of(saturation, {}, {12})), input, closed);
   Model weak = model;
@@ -317,7 +317,7 @@ TEST_CASE("a drive in closed loop makes of a command what the refinement says", 
   CHECK(clipped.tau.maxCoeff() > 12);  // the command
   CHECK(expected.tau.maxCoeff() == 12);
 
-  const Refinement& delay = find_refinement("torque_delay", Site::sensor);
+  const Effect& delay = find_candidate("torque_delay", Site::sensor);
   const SimulationResult late =
       simulate(refined(model, instance_of(delay, {0.003}, {})), input, closed);
   SimulationInput replay = input;
@@ -347,12 +347,12 @@ TEST_CASE("what a sensor or drive does wrong is put right before a replay", "[si
                                                               {"saturation", 12},
                                                               {"drive_dead_band", 1.5}};
   std::size_t n_rows = 0;
-  for (const Refinement& row : refinements()) n_rows += row.correct != nullptr;
+  for (const Effect& row : candidate_effects()) n_rows += row.correct != nullptr;
   CHECK(n_rows == values.size());
   for (const auto& [name, value] : values) {
     INFO(name);
     const Site site = std::string(name).ends_with("delay") ? Site::sensor : Site::drive;
-    const Refinement& row = find_refinement(name, site);
+    const Effect& row = find_candidate(name, site);
     SimulationInput input = lively_input(4000, 1e-3);
     Recording truth;
     truth.period = input.period;
@@ -382,7 +382,7 @@ TEST_CASE("what a sensor or drive does wrong is put right before a replay", "[si
 }
 
 TEST_CASE("what a cable remembers outlives the windows of a replay", "[simulate]") {
-  const Refinement& creep = find_refinement("creep", Site::transmission);
+  const Effect& creep = find_candidate("creep", Site::transmission);
   const Model model = refined(paper_rig_low(), instance_of(creep, {2e-5}, {2.0, 0}));
   SimulationInput input = lively_input(6000, 1e-3);
   input.tau += 12;

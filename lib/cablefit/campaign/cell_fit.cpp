@@ -53,8 +53,8 @@ DynamicOptions stage2_options(const Campaign& campaign, const CampaignCell& cell
 
 CellEffect effect_of(const NamedEffect& named) {
   CellEffect effect;
-  effect.name = named.instance.refinement->name;
-  effect.side = to_string(named.instance.refinement->site);
+  effect.name = named.instance.effect->name;
+  effect.side = to_string(named.instance.effect->site);
   effect.gain = named.evidence.gain;
   effect.p_value = named.evidence.p_value;
   effect.torque_rms = named.torque_rms;

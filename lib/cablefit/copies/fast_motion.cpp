@@ -47,16 +47,7 @@ Eigen::VectorXd motor_torque(const std::vector<EffectInstance>& effects,
                              const Eigen::ArrayXd& theta, double period) {
   const Eigen::ArrayXd speed = velocity(theta, period), direction = speed.sign();
   const Eigen::ArrayXd more = acceleration(theta, period);
-  const Motion motion{theta, speed, more, direction};
-  Eigen::VectorXd torque = Eigen::VectorXd::Zero(theta.size());
-  for (const EffectInstance& instance : effects) {
-    const auto n = static_cast<Eigen::Index>(instance.effect->n_linear());
-    Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(theta.size(), n);
-    instance.effect->regressor(motion, columns);
-    for (Eigen::Index p = 0; p < n; ++p)
-      torque += instance.parameters[static_cast<std::size_t>(p)].value * columns.col(p);
-  }
-  return torque;
+  return base_torque(effects, {theta, speed, more, direction});
 }
 
 /// Share of the squared torque `acted` that is also in `asked`.

@@ -14,15 +14,15 @@ std::vector<double> values_of(const std::vector<Estimate>& parameters) {
   return values;
 }
 
-double level_of(const std::vector<EffectInstance>& effects, double position) {
+double level_of(const std::vector<EffectInstance>& effects) {
   double sum = 0;
   for (const EffectInstance& e : effects)
-    if (e.effect->dry != nullptr) sum += e.effect->dry(position, 0, values_of(e.parameters).data());
+    if (e.effect->follows == MotionPart::direction) sum += e.parameters.front().value;
   return sum;
 }
 
-double level_of(const RefinementInstance& instance, const JointState& state, double direction) {
-  const Refinement& row = *instance.refinement;
+double level_of(const EffectInstance& instance, const JointState& state, double direction) {
+  const Effect& row = *instance.effect;
   if (row.level == nullptr) return 0;
   const std::vector<double> values = values_of(instance.parameters);
   std::array<double, kMostLinear> per_unit{};
@@ -43,8 +43,8 @@ double friction_at(const Model& model, const JointCurve& curve, double phi, doub
   set_elastic(curve.transmission(), curve.q(), curve.theta(phi), curve.joint(), state);
   state.q = curve.q()(curve.joint());
   state.theta = curve.theta(phi)(curve.joint());
-  sum += level_of(joint.link, state.q) + level_of(joint.motor, state.theta);
-  for (const RefinementInstance& more : joint.refinements) sum += level_of(more, state, direction);
+  sum += level_of(joint.link) + level_of(joint.motor);
+  for (const EffectInstance& more : joint.added) sum += level_of(more, state, direction);
   return sum;
 }
 

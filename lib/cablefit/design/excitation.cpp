@@ -30,16 +30,10 @@ double resonance(const Model& model) {
   if (model.rigid) return 0;
   double lowest = kUnbounded;
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
-    const auto inertia = [](const std::vector<EffectInstance>& effects) {
-      double sum = 0;
-      for (const EffectInstance& e : effects)
-        if (e.effect->inertia != nullptr) sum += e.effect->inertia(&e.parameters.front().value);
-      return sum;
-    };
     const JointCurve curve(model.transmission, static_cast<int>(k));
     const double stiffness = (curve.stiffness(1e-6) + curve.stiffness(-1e-6)) / 2;
-    lowest = std::min(lowest, std::sqrt(stiffness * (1 / inertia(model.joints[k].motor) +
-                                                     1 / inertia(model.joints[k].link))) /
+    lowest = std::min(lowest, std::sqrt(stiffness * (1 / inertia_of(model.joints[k].motor) +
+                                                     1 / inertia_of(model.joints[k].link))) /
                                   (2 * std::numbers::pi));
   }
   return lowest;

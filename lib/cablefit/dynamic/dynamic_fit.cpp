@@ -76,8 +76,8 @@ void add_cad(DynamicFit& fit, const Rig& rig) {
 
 /// What is held keeps the numbers that the model came with, and what the logs do not determine the
 /// value about which the columns were made, without sd.
-std::vector<RefinementInstance> with_estimates(std::vector<RefinementInstance> effects,
-                                               const std::vector<Estimate>& parameters) {
+std::vector<EffectInstance> with_estimates(std::vector<EffectInstance> effects,
+                                           const std::vector<Estimate>& parameters) {
   for (const Estimate& e : parameters) {
     Estimate* own = find_parameter(effects, e.name);
     if (own == nullptr || e.sd == 0) continue;

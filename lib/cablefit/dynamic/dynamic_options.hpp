@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cablefit/model/refinements.hpp"
+#include "cablefit/model/effects.hpp"
 #include "cablefit/samples/rows/settings.hpp"
 #include "cablefit/samples/survey/survey.hpp"
 
@@ -30,7 +30,7 @@ struct DynamicOptions {
   bool honest_sd = true;                       ///< --sd honest | white
   std::string preload;                         ///< only this one; empty: all
   /// What the joint has beyond the paper's (31), with values to start from; one model then.
-  std::vector<RefinementInstance> effects = {};
+  std::vector<EffectInstance> effects = {};
   bool figures = false;        ///< one more pass, for reports with plots
   bool residual_tests = true;  ///< a look at up to 40 windows of every log
   bool sweep = false;          ///< fit again with other cut-offs and rest speeds

@@ -10,7 +10,7 @@
 #include "cablefit/elastic/elastic_result.hpp"
 #include "cablefit/estimate/fit/recursive_trace.hpp"
 #include "cablefit/estimate/tests/fit_proof.hpp"
-#include "cablefit/model/refinements.hpp"
+#include "cablefit/model/effects.hpp"
 
 namespace cablefit {
 
@@ -72,7 +72,7 @@ struct DynamicFit {
   /// interval.
   std::map<std::string, double> method_floor = {}, estimator_difference = {}, stage1_misfit = {};
   /// What the model has beyond the paper's (31); its parameters are among `parameters` as well.
-  std::vector<RefinementInstance> effects = {};
+  std::vector<EffectInstance> effects = {};
   std::vector<Estimate> derived = {};  ///< stiffness, resonance, damping: of several parameters
 };
 

@@ -75,7 +75,7 @@ constexpr double kStill = 1e-3;  // of a nonlinear parameter
 
 /// Moves the effects of a preload to where the fit has them; false: no nonlinear parameter moves.
 bool move_effects(const JointFit& fit, const JointPoint& point, std::size_t job,
-                  std::vector<RefinementInstance>& added) {
+                  std::vector<EffectInstance>& added) {
   bool any = false;
   for (const JointRecord& record : fit.jobs[job].records)
     for (const JointEquation& equation : record.equations)

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cablefit/model/refinements.hpp"
+#include "cablefit/model/effects.hpp"
 #include "cablefit/samples/rows/settings.hpp"
 
 namespace cablefit {
@@ -25,7 +25,7 @@ struct IdentifyOptions {
   bool recursive = false;               ///< R-LSA beside the direct fit: its trace
   bool figures = false;
   /// What the joint has beyond the paper's (31), with values to start from.
-  std::vector<RefinementInstance> effects = {};
+  std::vector<EffectInstance> effects = {};
 };
 
 }  // namespace cablefit

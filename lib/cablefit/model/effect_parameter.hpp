@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cablefit/base/parameter.hpp"
-#include "cablefit/model/refinements.hpp"
+#include "cablefit/model/effects.hpp"
 
 namespace cablefit {
 
@@ -15,8 +15,8 @@ namespace cablefit {
 const ParameterInfo* effect_parameter(std::string_view name);
 
 /// Name in results of a parameter of an effect beyond the paper's: "stribeck[motor].a".
-std::string added_parameter_name(const Refinement& row, const ParameterInfo& info);
+std::string added_parameter_name(const Effect& row, const ParameterInfo& info);
 /// The parameter of that name; nullptr: none of the effects has it.
-Estimate* find_parameter(std::vector<RefinementInstance>& effects, std::string_view name);
+Estimate* find_parameter(std::vector<EffectInstance>& effects, std::string_view name);
 
 }  // namespace cablefit

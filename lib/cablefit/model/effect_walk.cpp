@@ -6,18 +6,18 @@
 
 namespace cablefit {
 
-bool acts_as_torque(const Refinement& row) { return row.torque != nullptr || row.level != nullptr; }
+bool acts_as_torque(const Effect& row) { return row.torque != nullptr || row.level != nullptr; }
 
-bool counts_on_rigid(const Refinement& row) {
-  const std::span<const Refinement> all = refinements();
-  return row.site == Site::link && std::none_of(all.begin(), all.end(), [&](const Refinement& r) {
+bool counts_on_rigid(const Effect& row) {
+  const std::span<const Effect> all = candidate_effects();
+  return row.site == Site::link && std::none_of(all.begin(), all.end(), [&](const Effect& r) {
            return r.site == Site::motor && r.name == row.name;
          });
 }
 
-bool is_continuous(const Refinement& row, std::size_t shape) { return !row.shape[shape].is_whole; }
+bool is_continuous(const Effect& row, std::size_t shape) { return !row.shape[shape].is_whole; }
 
-EffectWalk::EffectWalk(const Refinement& row, std::vector<double> shape)
+EffectWalk::EffectWalk(const Effect& row, std::vector<double> shape)
     : row_(row), shape_(std::move(shape)), z_(row.n_states), level_(row.n_linear()) {
   assert(acts_as_torque(row));
 }

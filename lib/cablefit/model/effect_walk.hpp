@@ -4,31 +4,31 @@
 
 #include <vector>
 
-#include "cablefit/model/refinements.hpp"
+#include "cablefit/model/effects.hpp"
 
 namespace cablefit {
 
 /// Has torques or a level of dry friction; others are in the cables or concern the log.
-bool acts_as_torque(const Refinement& row);
+bool acts_as_torque(const Effect& row);
 
 /// On the only axis of a rigid drive what acts on the link counts too, unless the catalogue has the
 /// same law for the motor.
-bool counts_on_rigid(const Refinement& row);
+bool counts_on_rigid(const Effect& row);
 
 /// Whether a shape is a number on a continuous range: whole ones (orders, harmonics) are not.
-bool is_continuous(const Refinement& row, std::size_t shape);
+bool is_continuous(const Effect& row, std::size_t shape);
 
 class EffectWalk {
  public:
   /// Of a row that acts_as_torque(), with its nonlinear parameters. Inner states begin at 0.
-  EffectWalk(const Refinement& row, std::vector<double> shape);
+  EffectWalk(const Effect& row, std::vector<double> shape);
 
   /// Adds the torques in this state to `link` and `motor` (N m per unit, n_linear() each), and goes
   /// h (s) on. `direction`: sgn of the speed of the row's own axis, or what a filter made of it.
   void step(const JointState& state, double direction, double h, double* link, double* motor);
 
  private:
-  const Refinement& row_;
+  const Effect& row_;
   std::vector<double> shape_, z_, level_;
 };
 

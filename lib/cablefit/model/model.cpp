@@ -21,19 +21,25 @@ constexpr std::array<std::pair<std::string_view, Reader>, 3> kReaders{
 
 }  // namespace
 
-double inertia_of(const std::vector<EffectInstance>& effects) {
-  double sum = 0;
-  for (const EffectInstance& instance : effects) {
-    if (instance.effect->inertia == nullptr) continue;
-    std::vector<double> values;
-    for (const Estimate& e : instance.parameters) values.push_back(e.value);
-    if (!values.empty()) sum += instance.effect->inertia(values.data());
-  }
-  return sum;
-}
-
 std::string joint_parameter_name(std::string_view name, int joint, int n_joints) {
   return n_joints > 1 ? fmt::format("{}[{}]", name, joint) : std::string(name);
+}
+
+Estimate blank_estimate(const ParameterInfo& parameter, int joint, const Rig& rig) {
+  Estimate estimate;
+  estimate.name = joint_parameter_name(parameter.name, joint, rig.n_joints());
+  estimate.symbol = parameter.symbol;
+  estimate.unit = unit_on(rig, parameter.unit);
+  return estimate;
+}
+
+std::vector<EffectInstance> base_instances(Side side, int joint, const Rig& rig,
+                                           const FindEstimate& find) {
+  std::vector<EffectInstance> instances;
+  for (const Effect& effect : base_effects(side))
+    if (std::optional<Estimate> e = find(blank_estimate(effect.parameters.front(), joint, rig)))
+      instances.push_back({&effect, {std::move(*e)}});
+  return instances;
 }
 
 std::string_view default_model_name(const Model& model) {

@@ -2,6 +2,8 @@
 // What `simulate` runs and `refine` extends.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,29 +12,26 @@
 #include "cablefit/base/window_mean.hpp"
 #include "cablefit/model/cables.hpp"
 #include "cablefit/model/effects.hpp"
-#include "cablefit/model/refinements.hpp"
 #include "cablefit/model/rig.hpp"
 
 namespace cablefit {
 
-/// An effect with numbers: parameters[i].name matches effect->parameters[i].name (with the joint's
-/// index "[k]" when there are several joints).
-struct EffectInstance {
-  const Effect* effect = nullptr;
-  std::vector<Estimate> parameters;
-};
-
-/// What the effects of an axis add to its inertia, kg m^2 (on a linear axis kg); 0 without any.
-double inertia_of(const std::vector<EffectInstance>& effects);
-
 /// Name of a joint's parameter in results: "f_v", or "f_v[2]" when there are several joints.
 std::string joint_parameter_name(std::string_view name, int joint, int n_joints);
+/// A base effect's parameter of joint `joint` (from 1) without a value: name, symbol and unit.
+Estimate blank_estimate(const ParameterInfo& parameter, int joint, const Rig& rig);
+
+/// What is known of a parameter by its blank estimate; nothing: the model does not have it.
+using FindEstimate = std::function<std::optional<Estimate>(const Estimate& blank)>;
+/// The base effects of one side of a joint (from 1) of which `find` has the parameter.
+std::vector<EffectInstance> base_instances(Side side, int joint, const Rig& rig,
+                                           const FindEstimate& find);
 
 struct JointModel {
   std::vector<EffectInstance> link;   ///< empty on a rigid drive
   std::vector<EffectInstance> motor;  ///< for a rigid drive the effects of Side::rigid
-  /// What `refine` added. The cables of the model are those with its `change` rows already.
-  std::vector<RefinementInstance> refinements = {};
+  /// Beyond (31). The cables of the model are those with its `change` rows already.
+  std::vector<EffectInstance> added = {};
 };
 
 struct Model {

@@ -8,24 +8,19 @@ namespace {
 void add_effects(const Model& model, int joint, bool on_link, std::vector<ModelParameter>& out) {
   const JointModel& axes = model.joints[static_cast<std::size_t>(joint)];
   const std::vector<EffectInstance>& instances = on_link ? axes.link : axes.motor;
-  const auto n_joints = static_cast<int>(model.joints.size());
   for (std::size_t e = 0; e < instances.size(); ++e) {
-    const Effect& effect = *instances[e].effect;
-    for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
-      const ParameterInfo& info = effect.parameters[k];
-      ModelParameter p;
-      p.name = joint_parameter_name(info.name, joint + 1, n_joints);
-      p.symbol = info.symbol;
-      p.unit = unit_on(model.rig, info.unit);
-      p.lower = info.lower;
-      p.upper = info.upper;
-      p.is_shape = k >= effect.n_linear();
-      p.joint = joint;
-      p.on_link = on_link;
-      p.effect = e;
-      p.index = k;
-      out.push_back(p);
-    }
+    const ParameterInfo& info = instances[e].effect->parameters.front();
+    const Estimate blank = blank_estimate(info, joint + 1, model.rig);
+    ModelParameter p;
+    p.name = blank.name;
+    p.symbol = blank.symbol;
+    p.unit = blank.unit;
+    p.lower = info.lower;
+    p.upper = info.upper;
+    p.joint = joint;
+    p.on_link = on_link;
+    p.effect = e;
+    out.push_back(p);
   }
 }
 
@@ -94,10 +89,6 @@ auto& number(SomeModel& model, const ModelParameter& p) {
 
 }  // namespace
 
-std::string unit_on(const Rig& rig, std::string_view unit) {
-  return rig.linear_motion ? linear_unit(unit) : std::string(unit);
-}
-
 std::vector<ModelParameter> model_parameters(const Model& model) {
   std::vector<ModelParameter> out;
   for (int joint = 0; joint < static_cast<int>(model.joints.size()); ++joint) {
@@ -111,7 +102,7 @@ std::vector<ModelParameter> model_parameters(const Model& model) {
 bool is_inertia(const Model& model, const ModelParameter& p) {
   if (p.kind != ParameterKind::effect) return false;
   const JointModel& joint = model.joints[static_cast<std::size_t>(p.joint)];
-  return (p.on_link ? joint.link : joint.motor)[p.effect].effect->inertia != nullptr;
+  return (p.on_link ? joint.link : joint.motor)[p.effect].effect->is_inertia();
 }
 
 double parameter_value(const Model& model, const ModelParameter& parameter) {

@@ -17,18 +17,14 @@ struct ModelParameter {
   ParameterKind kind = ParameterKind::effect;
   std::string name, symbol, unit;
   double lower = -kUnbounded, upper = kUnbounded;
-  bool is_shape = false;  ///< of an effect, see Effect::shape
-  int joint = 0;          ///< effect, stiffness, encoder_zero
-  bool on_link = false;   ///< effect: of the link side
+  int joint = 0;         ///< effect, stiffness, encoder_zero
+  bool on_link = false;  ///< effect: of the link side
   std::size_t effect = 0, cable = 0, index = 0;
 };
 
 /// In the order of the file: effects joint by joint (link, then motor), K or the coefficients of
 /// every cable, l_o of every cable, theta_0 of every joint. A rigid drive has effects only.
 std::vector<ModelParameter> model_parameters(const Model& model);
-
-/// A unit of the tables (of a rotary axis) on the rig's axes.
-std::string unit_on(const Rig& rig, std::string_view unit);
 
 /// Of an effect that adds to an axis' inertia.
 bool is_inertia(const Model& model, const ModelParameter& parameter);

@@ -33,6 +33,10 @@ void read_torque_hold(const JsonNode& node, Rig* rig) {
 
 }  // namespace
 
+std::string unit_on(const Rig& rig, std::string_view unit) {
+  return rig.linear_motion ? linear_unit(unit) : std::string(unit);
+}
+
 Rig default_rig() {
   Rig rig;
   set_default_cables(&rig);

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cablefit/base/parameter.hpp"
@@ -69,6 +70,9 @@ struct Rig {
 
   int n_joints() const { return static_cast<int>(joints.size()); }
 };
+
+/// A unit of the tables (of a rotary axis) on the rig's axes.
+std::string unit_on(const Rig& rig, std::string_view unit);
 
 /// The paper's rig: one joint, two antagonist cables in joint space.
 Rig default_rig();

@@ -4,31 +4,23 @@
 
 #include <cmath>
 
-#include "cablefit/model/effect_choice.hpp"
-
 namespace cablefit {
 namespace {
 
-/// The effects of the side that the fit has.
-std::vector<EffectInstance> effects_of(const DynamicFit& fit, Side side, int joint, int n_joints,
+/// The effects of the side that the fit has; what it does not determine is 0.
+std::vector<EffectInstance> effects_of(const DynamicFit& fit, Side side, int joint, const Rig& rig,
                                        std::string& why_not) {
-  const auto find = [&](std::string_view name) {
-    return find_estimate(fit.parameters, joint_parameter_name(name, joint, n_joints));
-  };
-  const auto has = [&](std::string_view name) { return find(name) != nullptr; };
-  std::vector<EffectInstance> result;
-  for (const Effect* effect : effects_with(side, has)) {
-    EffectInstance instance{effect, {}};
-    for (const ParameterInfo& info : effect->parameters) {
-      const Estimate* e = find(info.name);
-      if (e == nullptr) break;
-      instance.parameters.push_back(*e);
-      if (std::isfinite(e->value)) continue;
-      instance.parameters.back().value = 0;
-      if (effect->inertia != nullptr)
-        why_not = fmt::format("{} is not identifiable, so the fit cannot be simulated", e->name);
-    }
-    if (instance.parameters.size() == effect->parameters.size()) result.push_back(instance);
+  std::vector<EffectInstance> result =
+      base_instances(side, joint, rig, [&](const Estimate& blank) -> std::optional<Estimate> {
+        const Estimate* e = find_estimate(fit.parameters, blank.name);
+        return e == nullptr ? std::nullopt : std::optional(*e);
+      });
+  for (EffectInstance& instance : result) {
+    Estimate& e = instance.parameters.front();
+    if (std::isfinite(e.value)) continue;
+    e.value = 0;
+    if (instance.effect->is_inertia())
+      why_not = fmt::format("{} is not identifiable, so the fit cannot be simulated", e.name);
   }
   return result;
 }
@@ -46,9 +38,9 @@ Model fitted_model(const DynamicFit& fit, const DynamicPreload& preload, const R
   const int n = rig.n_joints();
   for (int joint = 1; joint <= n; ++joint) {
     JointModel& axes = model.joints.emplace_back();
-    if (!model.rigid) axes.link = effects_of(fit, Side::link, joint, n, why_not);
-    axes.motor = effects_of(fit, model.rigid ? Side::rigid : Side::motor, joint, n, why_not);
-    axes.refinements = fit.effects;
+    if (!model.rigid) axes.link = effects_of(fit, Side::link, joint, rig, why_not);
+    axes.motor = effects_of(fit, model.rigid ? Side::rigid : Side::motor, joint, rig, why_not);
+    axes.added = fit.effects;
     if (axes.motor.empty()) why_not = "the model has no motion of its own to simulate";
   }
   if (fit.elastic) model.transmission = fit.elastic->transmission;

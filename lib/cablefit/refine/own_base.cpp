@@ -20,18 +20,7 @@ constexpr int kPlainOrder = 2;
 constexpr double kAnyInertia = 1;  // kg m^2; it stands until the rows have told
 
 std::vector<EffectInstance> blank_effects(Side side, const Rig& rig) {
-  std::vector<EffectInstance> effects;
-  for (const Effect& effect : base_effects(side)) {
-    EffectInstance& instance = effects.emplace_back();
-    instance.effect = &effect;
-    for (const ParameterInfo& info : effect.parameters) {
-      Estimate& e = instance.parameters.emplace_back();
-      e.name = info.name;
-      e.symbol = info.symbol;
-      e.unit = unit_on(rig, info.unit);
-    }
-  }
-  return effects;
+  return base_instances(side, 1, rig, [](const Estimate& blank) { return std::optional(blank); });
 }
 
 Model blank_model(const std::string& preload, const Rig& rig, bool rigid) {
@@ -136,7 +125,7 @@ void take_given_inertia(Model& model) {
   const std::optional<double> given = given_link_inertia(model);
   if (!given) return;
   for (EffectInstance& instance : model.joints.front().link)
-    if (instance.effect->inertia != nullptr) instance.parameters.front().value = *given;
+    if (instance.effect->is_inertia()) instance.parameters.front().value = *given;
 }
 
 /// "J_link = 0.3 (cad)", or empty: there was a value.
@@ -202,7 +191,7 @@ std::vector<Decision> fill_start_values(std::vector<Model>& models) {
       for (auto* effects : {&axes.link, &axes.motor})
         for (EffectInstance& instance : *effects)
           for (std::size_t k = 0; k < instance.parameters.size(); ++k) {
-            const std::string name = fill(model.rig, instance.effect->inertia != nullptr,
+            const std::string name = fill(model.rig, instance.effect->is_inertia(),
                                           instance.effect->parameters[k], instance.parameters[k]);
             if (!name.empty()) filled += (filled.empty() ? "" : ", ") + name;
           }

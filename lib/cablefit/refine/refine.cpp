@@ -32,9 +32,8 @@ namespace {
 /// The model knows no date, so it simulates the log of an event as if nothing had happened.
 bool simulates_an_event(const RefineResult& result) {
   return result.held_out_blocks &&
-         std::any_of(result.effects.begin(), result.effects.end(), [](const NamedEffect& effect) {
-           return effect.instance.refinement->is_event;
-         });
+         std::any_of(result.effects.begin(), result.effects.end(),
+                     [](const NamedEffect& effect) { return effect.instance.effect->is_event; });
 }
 
 void tell_gaps(const RefineBench& bench, const Chain& chain,
@@ -95,8 +94,8 @@ void tell_effects(std::span<const Model> models, const std::vector<NamedEffect>&
   for (std::size_t k = 0; k < n_kept; ++k) {
     KeptEffect& kept = result.kept.emplace_back();
     kept.now = named[k];
-    for (const RefinementInstance& given : models.front().joints.front().refinements)
-      if (given.refinement == named[k].instance.refinement) kept.given = given.parameters;
+    for (const EffectInstance& given : models.front().joints.front().added)
+      if (given.effect == named[k].instance.effect) kept.given = given.parameters;
   }
   for (std::size_t k = 0; k < result.effects.size(); ++k) {
     const NamedEffect& fitted = named[n_kept + k];
@@ -214,9 +213,9 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
 }
 
 /// Of what the models had, the first that is not physical beside what was added; nullptr: none.
-const Refinement* unphysical(const RefineResult& result) {
+const Effect* unphysical(const RefineResult& result) {
   for (const KeptEffect& kept : result.kept) {
-    const Refinement& row = *kept.now.instance.refinement;
+    const Effect& row = *kept.now.instance.effect;
     for (std::size_t p = 0; p < row.n_linear(); ++p) {
       const double value = kept.now.instance.parameters[p].value;
       if (value < row.parameters[p].lower || value > row.parameters[p].upper) return &row;
@@ -236,15 +235,15 @@ RefineResult refine(std::span<const Model> models, const RefineLogs& logs,
     for (std::string& warning : input_warnings(*some)) warnings.push_back(std::move(warning));
   for (;;) {
     RefineResult result = refine_once(bases, logs, options);
-    const Refinement* gone = unphysical(result);
+    const Effect* gone = unphysical(result);
     if (gone == nullptr) {
       result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
       return result;
     }
     warnings.push_back(taken_out(*gone));
     for (Model& model : bases)
-      std::erase_if(model.joints.front().refinements,
-                    [gone](const RefinementInstance& has) { return has.refinement == gone; });
+      std::erase_if(model.joints.front().added,
+                    [gone](const EffectInstance& has) { return has.effect == gone; });
   }
 }
 

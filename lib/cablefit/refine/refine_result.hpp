@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "cablefit/figure/figure.hpp"
+#include "cablefit/model/effects.hpp"
 #include "cablefit/model/model.hpp"
-#include "cablefit/model/refinements.hpp"
 #include "cablefit/samples/plan/input_file.hpp"
 #include "cablefit/samples/rows/settings.hpp"
 
@@ -49,7 +49,7 @@ struct RefineEvidence {
 };
 
 struct NamedEffect {
-  RefinementInstance instance;
+  EffectInstance instance;
   std::vector<Estimate> derived;  ///< amplitude of a pair of sine and cosine
   RefineEvidence evidence;
   double torque_rms = 0;  ///< N m, what it carries where it acts

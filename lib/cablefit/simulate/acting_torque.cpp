@@ -8,7 +8,7 @@
 namespace cablefit {
 namespace {
 
-constexpr double kLongestDelay = 0.02;  // s, see refinements.hpp
+constexpr double kLongestDelay = 0.02;  // s, see effects.hpp
 constexpr double kFinest = 125e-6;      // s
 constexpr int kMostParts = 8;
 
@@ -21,7 +21,7 @@ ActingTorque::ActingTorque(const Model& model, double period)
       held_(model.joints.size()),
       parts_(n_parts_, static_cast<Eigen::Index>(model.joints.size())),
       acting_(model.joints.size()) {
-  for (const JointModel& joint : model.joints) refinements_.push_back(joint.refinements);
+  for (const JointModel& joint : model.joints) refinements_.push_back(joint.added);
 }
 
 void ActingTorque::command(const std::vector<double>& tau) {

@@ -24,7 +24,7 @@ class ActingTorque {
   bool is_needed_;
   Eigen::Index n_parts_;  ///< of a period, in which delays are resolved
   double part_;           ///< s
-  std::vector<std::vector<RefinementInstance>> refinements_;  ///< per joint
+  std::vector<std::vector<EffectInstance>> refinements_;  ///< per joint
   std::vector<Eigen::ArrayXd> held_;  ///< per joint: commands by parts, to the period's end
   Eigen::ArrayXXd parts_;             ///< parts of the period x joints: what acts
   std::vector<double> acting_;

@@ -13,25 +13,23 @@ constexpr std::array<std::pair<Channel, Eigen::ArrayXd Recording::*>, 4> kSignal
      {Channel::tau, &Recording::tau},
      {Channel::tau_load, &Recording::tau_load}}};
 
-bool corrects(const RefinementInstance& instance) {
-  return instance.refinement->correct != nullptr;
-}
+bool corrects(const EffectInstance& instance) { return instance.effect->correct != nullptr; }
 
 }  // namespace
 
 bool corrects(const Model& model) {
   return std::any_of(model.joints.begin(), model.joints.end(), [](const JointModel& joint) {
-    return std::any_of(joint.refinements.begin(), joint.refinements.end(),
-                       [](const RefinementInstance& instance) { return corrects(instance); });
+    return std::any_of(joint.added.begin(), joint.added.end(),
+                       [](const EffectInstance& instance) { return corrects(instance); });
   });
 }
 
-void correct(const std::vector<RefinementInstance>& refinements, Recording& recording) {
-  for (const RefinementInstance& instance : refinements) {
+void correct(const std::vector<EffectInstance>& refinements, Recording& recording) {
+  for (const EffectInstance& instance : refinements) {
     if (!corrects(instance)) continue;
     std::vector<double> values;
     for (const Estimate& parameter : instance.parameters) values.push_back(parameter.value);
-    instance.refinement->correct(values.data(), recording);
+    instance.effect->correct(values.data(), recording);
   }
 }
 
@@ -42,7 +40,7 @@ void correct(const Model& model, const LogPlan& plan, bool commands, Window& win
     const auto slot = [&](Channel channel) { return plan.find(channel, static_cast<int>(joint)); };
     for (const auto& [channel, signal] : kSignals)
       if (slot(channel) >= 0) recording.*signal = window.data.col(slot(channel)).array();
-    correct(model.joints[joint].refinements, recording);
+    correct(model.joints[joint].added, recording);
     for (const auto& [channel, signal] : kSignals)
       if (slot(channel) >= 0 && !(commands && channel == Channel::tau))
         window.data.col(slot(channel)) = (recording.*signal).matrix();

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cablefit/model/cables.hpp"
-#include "cablefit/model/refinements.hpp"
+#include "cablefit/model/effects.hpp"
 
 namespace cablefit {
 
@@ -17,7 +17,7 @@ class Coupling {
 
   /// tau_elas_l and tau_elas_m (N m, n_joints each) at these positions (rad).
   void torques(const double* q, const double* theta, double* link, double* motor) const;
-  /// As set_elastic of refinements.hpp, but for tau_elas, which `torques` gives.
+  /// As set_elastic of effects.hpp, but for tau_elas, which `torques` gives.
   void look(std::size_t joint, const double* q, const double* theta, JointState& state) const;
   /// Tension of one cable (N; joint space N m).
   double tension(std::size_t cable, const double* q, const double* theta) const;

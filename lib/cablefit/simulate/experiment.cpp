@@ -67,8 +67,8 @@ void choose_window(const ReplayOptions& options, Experiment& experiment) {
 void tell_refinements(const Model& model, Experiment& experiment) {
   std::string names;
   for (std::size_t k = 0; k < model.joints.size(); ++k)
-    for (const RefinementInstance& instance : model.joints[k].refinements) {
-      const Refinement& row = *instance.refinement;
+    for (const EffectInstance& instance : model.joints[k].added) {
+      const Effect& row = *instance.effect;
       if (!names.empty()) names += ", ";
       names += fmt::format("{} ({})", row.name, to_string(row.site));
       if (model.joints.size() > 1) names += fmt::format(" of joint {}", model.rig.joints[k]);

@@ -26,7 +26,7 @@ using RowSink = std::function<void(const ReplayedRows&)>;
 /// Rows of a log's window that a start from the measured state may look at, on either side; one
 /// more for the row that a block steps on to.
 inline constexpr Eigen::Index kReplayHalo = kStartRows + 1;
-/// The halo for a model: corrections of a recording (model/refinements.hpp) need neighbours too.
+/// The halo for a model: corrections of a recording (model/effects.hpp) need neighbours too.
 Eigen::Index replay_halo(const Model& model);
 
 class PartReplay {

@@ -42,7 +42,7 @@ Plant::Plant(const Model& model, const SimulationInput& input, bool link_blocked
   }
   if (!is_plain(model))
     for (const JointModel& joint : model.joints)
-      refined_.emplace_back(joint.refinements, input.log_number);
+      refined_.emplace_back(joint.added, input.log_number);
   q_ = initial(input.q0, n);
   qd_ = link_blocked ? std::vector<double>(n, 0.0) : initial(input.qd0, n);
   theta_ = initial(is_rigid_ && input.theta0.size() == 0 ? input.q0 : input.theta0, n);
@@ -75,7 +75,7 @@ void Plant::step_elastic(const double* tau, const double* tau_load, double h) {
 
 void Plant::advance_motors(const double* tau, double h) {
   for (std::size_t k = 0; k < theta_.size(); ++k) {
-    thetad_[k] = motor_[k].advance(theta_[k], thetad_[k], tau[k] - elastic_motor_[k], h);
+    thetad_[k] = motor_[k].advance(thetad_[k], tau[k] - elastic_motor_[k], h);
     theta_[k] += 0.5 * h * thetad_[k];
   }
 }
@@ -83,7 +83,7 @@ void Plant::advance_motors(const double* tau, double h) {
 void Plant::advance_links(const double* tau_load, double h) {
   for (std::size_t k = 0; k < q_.size(); ++k) {
     const double torque = elastic_link_[k] + tau_load[k] + load_at(q_[k]);
-    qd_[k] = link_[k].advance(q_[k], qd_[k], torque, h);
+    qd_[k] = link_[k].advance(qd_[k], torque, h);
     q_[k] += 0.5 * h * qd_[k];
   }
 }
@@ -108,11 +108,11 @@ JointState Plant::middle_of_step(std::size_t joint, double load, double h) const
 void Plant::advance_refined(const double* tau, const double* tau_load, double h) {
   for (std::size_t k = 0; k < theta_.size(); ++k) {
     const RefinedStep more = refined_[k].step(middle_of_step(k, 0, h), h);
-    thetad_[k] = motor_[k].advance(theta_[k], thetad_[k],
-                                   tau[k] - elastic_motor_[k] - more.motor_torque, h, more.motor);
+    thetad_[k] = motor_[k].advance(thetad_[k], tau[k] - elastic_motor_[k] - more.motor_torque, h,
+                                   more.motor);
     if (link_blocked_) continue;
     const double torque = elastic_link_[k] + tau_load[k] + load_at(q_[k]) - more.link_torque;
-    qd_[k] = link_[k].advance(q_[k], qd_[k], torque, h, more.link);
+    qd_[k] = link_[k].advance(qd_[k], torque, h, more.link);
   }
   for (std::size_t k = 0; k < theta_.size(); ++k) {
     theta_[k] += 0.5 * h * thetad_[k];
@@ -130,7 +130,7 @@ void Plant::advance_refined_rigid(const double* tau, const double* tau_load, dou
     const double torque = tau[k] + load - more.motor_torque - more.link_torque;
     const Axis::Extra all{more.link.up + more.motor.up, more.link.down + more.motor.down,
                           more.link.inertia + more.motor.inertia};
-    thetad_[k] = motor_[k].advance(theta_[k], thetad_[k], torque, h, all);
+    thetad_[k] = motor_[k].advance(thetad_[k], torque, h, all);
     theta_[k] += 0.5 * h * thetad_[k];
   }
   ++n_steps_;
@@ -144,7 +144,7 @@ void Plant::step_rigid(const double* tau, const double* tau_load, double h) {
   for (std::size_t k = 0; k < theta_.size(); ++k) {
     theta_[k] += 0.5 * h * thetad_[k];
     const double torque = tau[k] + tau_load[k] + load_at(theta_[k]);
-    thetad_[k] = motor_[k].advance(theta_[k], thetad_[k], torque, h);
+    thetad_[k] = motor_[k].advance(thetad_[k], torque, h);
     theta_[k] += 0.5 * h * thetad_[k];
   }
 }

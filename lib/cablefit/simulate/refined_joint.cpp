@@ -10,9 +10,9 @@ namespace cablefit {
 namespace {
 
 /// Acts as a torque or as dry friction; other rows are in the cables or concern the log.
-bool acts(const RefinementInstance& instance) { return acts_as_torque(*instance.refinement); }
+bool acts(const EffectInstance& instance) { return acts_as_torque(*instance.effect); }
 
-double event_time_in(const RefinementInstance& instance, std::size_t log_number) {
+double event_time_in(const EffectInstance& instance, std::size_t log_number) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   if (log_number == instance.event_log) return instance.event_time;
   return log_number < instance.event_log ? kNever : -kNever;
@@ -34,19 +34,17 @@ double extrapolated(double velocity, double before) {
 
 bool is_plain(const Model& model) {
   return std::all_of(model.joints.begin(), model.joints.end(), [](const JointModel& joint) {
-    return std::none_of(joint.refinements.begin(), joint.refinements.end(), acts);
+    return std::none_of(joint.added.begin(), joint.added.end(), acts);
   });
 }
 
-RefinedJoint::RefinedJoint(const std::vector<RefinementInstance>& refinements,
-                           std::size_t log_number) {
-  for (const RefinementInstance& instance : refinements)
+RefinedJoint::RefinedJoint(const std::vector<EffectInstance>& refinements, std::size_t log_number) {
+  for (const EffectInstance& instance : refinements)
     if (acts(instance)) terms_.push_back(make_term(instance, log_number));
 }
 
-RefinedJoint::Term RefinedJoint::make_term(const RefinementInstance& instance,
-                                           std::size_t log_number) {
-  const Refinement& row = *instance.refinement;
+RefinedJoint::Term RefinedJoint::make_term(const EffectInstance& instance, std::size_t log_number) {
+  const Effect& row = *instance.effect;
   assert(instance.parameters.size() == row.parameters.size());
   Term term{&row, {}, {}, {}, event_time_in(instance, log_number), false, false, {}, {}};
   for (std::size_t i = 0; i < instance.parameters.size(); ++i)
@@ -100,7 +98,7 @@ void RefinedJoint::take_history(const RefinedJoint& before) {
 }
 
 void RefinedJoint::act(Term& term, const JointState& state, double h, RefinedStep& sum) {
-  const Refinement& row = *term.row;
+  const Effect& row = *term.row;
   if (row.advance) row.advance(state, term.shape.data(), 0.5 * h, term.z.data());
   if (row.torque) {
     const auto [link, motor] = torques(term, state);

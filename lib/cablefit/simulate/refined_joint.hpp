@@ -18,7 +18,7 @@ struct RefinedStep {
 class RefinedJoint {
  public:
   /// `log_number`: of the log that is simulated, see SimulationInput.
-  RefinedJoint(const std::vector<RefinementInstance>& refinements, std::size_t log_number);
+  RefinedJoint(const std::vector<EffectInstance>& refinements, std::size_t log_number);
 
   /// Over a step of length h. `state`: of its middle, but with the velocities of its beginning,
   /// which are extrapolated to the middle, and without accelerations.
@@ -28,7 +28,7 @@ class RefinedJoint {
 
  private:
   struct Term {
-    const Refinement* row;
+    const Effect* row;
     std::vector<double> linear, shape, z;
     double event_time;  ///< s since this log began; +-infinity in a log before or after it
     bool is_directed;   ///< its level differs between directions
@@ -36,7 +36,7 @@ class RefinedJoint {
     std::vector<double> link, motor;  ///< per unit, room to write
   };
 
-  static Term make_term(const RefinementInstance& instance, std::size_t log_number);
+  static Term make_term(const EffectInstance& instance, std::size_t log_number);
   static std::pair<double, double> torques(Term& term, const JointState& state);
   static double level(Term& term, const JointState& state, double direction);
   static void act(Term& term, const JointState& state, double h, RefinedStep& sum);

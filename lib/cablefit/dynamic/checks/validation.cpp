@@ -19,29 +19,15 @@ namespace {
 // Of every log: what residual tests need, 0.3 million rows of a log at 1 kHz.
 constexpr std::size_t kTestedWindows = 40;
 
-/// The same torque whichever way the axis moves.
-bool is_smooth(const Effect& effect) {
-  const Eigen::ArrayXd one = Eigen::ArrayXd::Ones(1), minus = -one;
-  const auto n = static_cast<Eigen::Index>(effect.parameters.size());
-  Eigen::MatrixXd there(1, n), back(1, n);
-  effect.regressor({one, one, one, one}, there);
-  effect.regressor({one, one, one, minus}, back);
-  return there == back;
-}
-
 /// Inertia, viscous friction and offset alone, fitted to the same rows.
 Eigen::VectorXd smooth_residual(const EquationRows& e) {
   LinearProblem problem;
   problem.response = dynamic_response(e.columns, {}, 0);
-  Eigen::Index column = e.columns.first_effect;
-  for (const Effect* effect : e.columns.effects)
-    for (const ParameterInfo& info : effect->parameters) {
-      if (is_smooth(*effect)) {
-        problem.regressors.push_back(column);
-        problem.names.emplace_back(info.name);
-      }
-      ++column;
-    }
+  for (std::size_t k = 0; k < e.columns.effects.size(); ++k) {
+    if (e.columns.effects[k]->follows == MotionPart::direction) continue;
+    problem.regressors.push_back(e.columns.first_effect + static_cast<Eigen::Index>(k));
+    problem.names.emplace_back(e.columns.effects[k]->parameters.front().name);
+  }
   return solve(*e.rows, problem).residual_combination;
 }
 

@@ -167,15 +167,14 @@ void refuse(Estimate& e, const std::string& why) {
   e.value = e.sd = e.sd_white = e.ci_low = e.ci_high = std::numeric_limits<double>::quiet_NaN();
 }
 
-void refuse_dependent(std::span<const RefinementInstance> effects,
-                      std::vector<Estimate>& parameters) {
-  const auto find = [&](const Refinement& row, std::size_t k) {
+void refuse_dependent(std::span<const EffectInstance> effects, std::vector<Estimate>& parameters) {
+  const auto find = [&](const Effect& row, std::size_t k) {
     const std::string name = added_parameter_name(row, row.parameters[k]);
     return std::find_if(parameters.begin(), parameters.end(),
                         [&](const Estimate& e) { return e.name == name; });
   };
-  for (const RefinementInstance& effect : effects) {
-    const Refinement& row = *effect.refinement;
+  for (const EffectInstance& effect : effects) {
+    const Effect& row = *effect.effect;
     for (std::size_t shape = row.n_linear(); shape < row.parameters.size(); ++shape) {
       const auto unknown = find(row, shape);
       if (unknown == parameters.end() || unknown->not_identifiable.empty()) continue;

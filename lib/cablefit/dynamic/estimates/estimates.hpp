@@ -31,8 +31,7 @@ void refuse(Estimate& e, const std::string& why);
 
 /// An amplitude means nothing without its nonlinear parameters: refuses the linear parameters of
 /// effects beyond (31) of which a nonlinear one is not determined.
-void refuse_dependent(std::span<const RefinementInstance> effects,
-                      std::vector<Estimate>& parameters);
+void refuse_dependent(std::span<const EffectInstance> effects, std::vector<Estimate>& parameters);
 
 /// Why the motion of these rows cannot tell the inertia of column `k` from a torque that depends on
 /// position, whatever the estimator; empty when it can.

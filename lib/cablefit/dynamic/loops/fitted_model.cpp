@@ -4,28 +4,25 @@ namespace cablefit {
 namespace {
 
 /// The effects of the equation's own joint with their values.
-std::vector<EffectInstance> effects_of(const DynamicColumns& columns, const LinearSolution& s) {
-  std::vector<EffectInstance> result;
-  Eigen::Index next = columns.first_effect;
-  for (const Effect* effect : columns.effects) {
-    EffectInstance& instance = result.emplace_back();
-    instance.effect = effect;
-    for (std::size_t k = 0; k < effect->parameters.size(); ++k) {
-      const DynamicParameter& parameter = columns.parameters[static_cast<std::size_t>(next)];
-      Estimate& e = instance.parameters.emplace_back();
-      e.name = parameter.name;
-      e.value = parameter.given ? *parameter.given : s.x(next);
-      ++next;
-    }
-  }
-  return result;
+std::vector<EffectInstance> effects_of(const DynamicColumns& c, const LinearSolution& s,
+                                       const Rig& rig) {
+  return base_instances(
+      c.side, c.place.joint + 1, rig, [&](const Estimate& blank) -> std::optional<Estimate> {
+        for (std::size_t k = 0; k < c.parameters.size(); ++k) {
+          if (c.parameters[k].name != blank.name) continue;
+          Estimate e = blank;
+          e.value = c.parameters[k].given.value_or(s.x(static_cast<Eigen::Index>(k)));
+          return e;
+        }
+        return std::nullopt;
+      });
 }
 
 /// The effects beyond (31), with what the columns of either side say of their parameters.
-std::vector<RefinementInstance> added_of(const DynamicJob& job,
-                                         const std::vector<EquationRows>& equations,
-                                         const std::vector<LinearSolution>& solutions) {
-  std::vector<RefinementInstance> added = job.added;
+std::vector<EffectInstance> added_of(const DynamicJob& job,
+                                     const std::vector<EquationRows>& equations,
+                                     const std::vector<LinearSolution>& solutions) {
+  std::vector<EffectInstance> added = job.added;
   for (std::size_t k = 0; k < equations.size(); ++k)
     take_values(equations[k].columns, solutions[k].x, added);
   return added;
@@ -45,9 +42,10 @@ Model fitted_model(const DynamicJob& job, const std::vector<EquationRows>& equat
   for (std::size_t k = 0; k < equations.size(); ++k) {
     const DynamicColumns& columns = equations[k].columns;
     JointModel& joint = model.joints[static_cast<std::size_t>(columns.place.joint)];
-    (columns.side == Side::link ? joint.link : joint.motor) = effects_of(columns, solutions[k]);
+    (columns.side == Side::link ? joint.link : joint.motor) =
+        effects_of(columns, solutions[k], model.rig);
   }
-  model.joints.front().refinements = added_of(job, equations, solutions);
+  model.joints.front().added = added_of(job, equations, solutions);
   return model;
 }
 

@@ -31,12 +31,11 @@ constexpr double kNearer = 0.7;              // of the decrement: what a step at
 constexpr double kInwards = 1e-9;            // from a bound, to be free
 constexpr double kLeastInertiaShare = 0.05;  // of where it starts; J > 0
 
-/// l_o, theta_0 and shapes of effects stay as stage 1 and the table have them.
+/// l_o and theta_0 stay as stage 1 has them.
 bool is_fitted(const ModelParameter& p, const OutputErrorOptions& options) {
   if (std::find(options.held.begin(), options.held.end(), p.name) != options.held.end())
     return false;
-  return !p.is_shape && p.kind != ParameterKind::elongation &&
-         p.kind != ParameterKind::encoder_zero;
+  return p.kind != ParameterKind::elongation && p.kind != ParameterKind::encoder_zero;
 }
 
 std::vector<ModelParameter> fitted_parameters(const Model& model,
@@ -352,10 +351,10 @@ void Fit::fill(OutputErrorFit& fit, const NonlinearSolution& solution) {
 /// What refinements do to a simulation has no sensitivities.
 void require_no_refinements(const Model& model) {
   for (const JointModel& joint : model.joints)
-    for (const RefinementInstance& instance : joint.refinements)
+    for (const EffectInstance& instance : joint.added)
       throw usage_error(
-          fmt::format("output error cannot fit a model with '{}' ({}) in it",
-                      instance.refinement->name, to_string(instance.refinement->site)),
+          fmt::format("output error cannot fit a model with '{}' ({}) in it", instance.effect->name,
+                      to_string(instance.effect->site)),
           "it fits the paper's model; `cablefit refine` fits a model with refinements");
 }
 

@@ -76,7 +76,7 @@ void loosen_at_rest(const SensitivePlant& plant, const OutputErrorWindow& window
   model.force_sd = noise.force;
   for (Eigen::Index a = 0; a < n; ++a) {
     const auto axis = static_cast<std::size_t>(a);
-    const double level = plant.rest_level(axis, state.position[axis]);
+    const double level = plant.rest_level(axis);
     if (level == 0) continue;
     const double speed_sd =
         noise.force[a] * window.period / plant.inertia(axis) + noise.position[a] / window.period;

@@ -16,28 +16,28 @@ constexpr double kStep = 0.01;      // of a nonlinear parameter, for its differe
 constexpr double kMostShare = 0.5;  // of it, or of its range, that one step may move it by
 
 /// In both equations, or held.
-bool is_of_both_sides(const Refinement& row) {
+bool is_of_both_sides(const Effect& row) {
   return row.site == Site::transmission || row.site == Site::sensor;
 }
 
-bool is_in_equation(const Refinement& row, Side side) {
+bool is_in_equation(const Effect& row, Side side) {
   if (is_of_both_sides(row)) return side != Side::rigid;
   if (row.site == Site::link)
     return side == Side::rigid ? counts_on_rigid(row) : side == Side::link;
   return side != Side::link;
 }
 
-std::vector<double> values_of(const RefinementInstance& instance, std::size_t from, std::size_t n) {
+std::vector<double> values_of(const EffectInstance& instance, std::size_t from, std::size_t n) {
   std::vector<double> values;
   for (std::size_t k = from; k < from + n; ++k) values.push_back(instance.parameters[k].value);
   return values;
 }
 
-std::vector<double> linear_values(const RefinementInstance& instance) {
-  return values_of(instance, 0, instance.refinement->n_linear());
+std::vector<double> linear_values(const EffectInstance& instance) {
+  return values_of(instance, 0, instance.effect->n_linear());
 }
-std::vector<double> shape_values(const RefinementInstance& instance) {
-  return values_of(instance, instance.refinement->n_linear(), instance.refinement->shape.size());
+std::vector<double> shape_values(const EffectInstance& instance) {
+  return values_of(instance, instance.effect->n_linear(), instance.effect->shape.size());
 }
 
 /// States of the only joint over the rows of a window.
@@ -74,7 +74,7 @@ std::vector<JointState> states_of(const Transmission* cables, const Signals& sig
 Eigen::MatrixXd torques(const AddedEffect& effect, const std::vector<double>& shape,
                         const std::vector<JointState>& states, const Eigen::ArrayXd& direction,
                         double period) {
-  const Refinement& row = *effect.instance.refinement;
+  const Effect& row = *effect.instance.effect;
   const auto n = static_cast<Eigen::Index>(row.n_linear());
   const auto n_rows = static_cast<Eigen::Index>(states.size());
   Eigen::MatrixXd link = Eigen::MatrixXd::Zero(n, n_rows), motor = link;
@@ -86,26 +86,25 @@ Eigen::MatrixXd torques(const AddedEffect& effect, const std::vector<double>& sh
   return (effect.side == Side::link ? link : motor).transpose();
 }
 
-double step_of(const RefinementInstance& instance, std::size_t shape) {
-  const ShapeGrid& grid = instance.refinement->shape[shape];
-  const double value = instance.parameters[instance.refinement->n_linear() + shape].value;
+double step_of(const EffectInstance& instance, std::size_t shape) {
+  const ShapeGrid& grid = instance.effect->shape[shape];
+  const double value = instance.parameters[instance.effect->n_linear() + shape].value;
   if (grid.is_geometric || grid.unit != GridUnit::si) return kStep * std::abs(value);
   return kStep * (grid.high - grid.low);
 }
 
 /// The law of the textbooks has its exponent; and refine gives no sd to what it did not look for.
-bool is_settled(const RefinementInstance& instance, std::size_t shape) {
-  const ShapeGrid& grid = instance.refinement->shape[shape];
-  const Estimate& e = instance.parameters[instance.refinement->n_linear() + shape];
+bool is_settled(const EffectInstance& instance, std::size_t shape) {
+  const ShapeGrid& grid = instance.effect->shape[shape];
+  const Estimate& e = instance.parameters[instance.effect->n_linear() + shape];
   return e.sd == 0 || (grid.canonical > 0 && e.value == grid.canonical);
 }
 
-AddedEffect in_equation(const RefinementInstance& instance, Side side) {
-  AddedEffect effect{instance, side, is_of_both_sides(*instance.refinement), {}};
+AddedEffect in_equation(const EffectInstance& instance, Side side) {
+  AddedEffect effect{instance, side, is_of_both_sides(*instance.effect), {}};
   if (effect.is_held) return effect;
-  for (std::size_t k = 0; k < instance.refinement->shape.size(); ++k)
-    if (is_continuous(*instance.refinement, k) && !is_settled(instance, k) &&
-        step_of(instance, k) > 0)
+  for (std::size_t k = 0; k < instance.effect->shape.size(); ++k)
+    if (is_continuous(*instance.effect, k) && !is_settled(instance, k) && step_of(instance, k) > 0)
       effect.moving_shapes.push_back(k);
   return effect;
 }
@@ -122,13 +121,13 @@ double DynamicParameter::moved(double step) const {
 
 namespace {
 
-std::string name_of(const Refinement& row) {
+std::string name_of(const Effect& row) {
   return fmt::format("'{}' ({})", row.name, to_string(row.site));
 }
 
 /// Whether its inner states change while nothing moves.
-bool remembers_time(const RefinementInstance& effect) {
-  const Refinement& row = *effect.refinement;
+bool remembers_time(const EffectInstance& effect) {
+  const Effect& row = *effect.effect;
   if (row.advance == nullptr) return false;
   const std::vector<double> shape = shape_values(effect);
   if (std::any_of(shape.begin(), shape.end(), [](double v) { return std::isnan(v); })) return false;
@@ -142,8 +141,8 @@ bool remembers_time(const RefinementInstance& effect) {
   return after != before;
 }
 
-void require_fittable(const RefinementInstance& effect, bool rigid) {
-  const Refinement& row = *effect.refinement;
+void require_fittable(const EffectInstance& effect, bool rigid) {
+  const Effect& row = *effect.effect;
   const auto refuse = [&](const char* why, const char* hint) {
     throw usage_error(fmt::format("{} is not fitted here: {}", name_of(row), why), hint);
   };
@@ -171,30 +170,30 @@ void require_fittable(const RefinementInstance& effect, bool rigid) {
 
 }  // namespace
 
-void require_fittable(std::span<const RefinementInstance> effects, bool rigid) {
+void require_fittable(std::span<const EffectInstance> effects, bool rigid) {
   for (std::size_t k = 0; k < effects.size(); ++k) {
     require_fittable(effects[k], rigid);
     for (std::size_t i = 0; i < k; ++i)
-      if (effects[i].refinement == effects[k].refinement)
-        throw usage_error(fmt::format("{} is given twice", name_of(*effects[k].refinement)),
+      if (effects[i].effect == effects[k].effect)
+        throw usage_error(fmt::format("{} is given twice", name_of(*effects[k].effect)),
                           "give it once");
   }
 }
 
 Eigen::Index AddedEffect::n_columns() const {
-  return static_cast<Eigen::Index>(instance.refinement->n_linear() + moving_shapes.size());
+  return static_cast<Eigen::Index>(instance.effect->n_linear() + moving_shapes.size());
 }
 
-std::vector<AddedEffect> effects_of_side(std::span<const RefinementInstance> instances, Side side) {
+std::vector<AddedEffect> effects_of_side(std::span<const EffectInstance> instances, Side side) {
   std::vector<AddedEffect> effects;
-  for (const RefinementInstance& instance : instances)
-    if (acts_as_torque(*instance.refinement) && is_in_equation(*instance.refinement, side))
+  for (const EffectInstance& instance : instances)
+    if (acts_as_torque(*instance.effect) && is_in_equation(*instance.effect, side))
       effects.push_back(in_equation(instance, side));
   return effects;
 }
 
 std::vector<DynamicParameter> parameters_of(const AddedEffect& effect) {
-  const Refinement& row = *effect.instance.refinement;
+  const Effect& row = *effect.instance.effect;
   std::vector<DynamicParameter> parameters;
   const auto add = [&](std::size_t k) -> DynamicParameter& {
     DynamicParameter& p = parameters.emplace_back();
@@ -228,7 +227,7 @@ void fill_columns(const AddedEffect& effect, const Transmission* cables, const S
                   std::size_t joint, Eigen::Ref<Eigen::MatrixXd> out) {
   const JointSignals& s = signals.joints[joint];
   const std::vector<JointState> states = states_of(cables, signals, s);
-  const bool by_q = cables != nullptr && effect.instance.refinement->site == Site::link;
+  const bool by_q = cables != nullptr && effect.instance.effect->site == Site::link;
   const Eigen::ArrayXd& direction = by_q ? s.q_direction : s.theta_direction;
   const auto with = [&](const std::vector<double>& shape) {
     return torques(effect, shape, states, direction, signals.period);

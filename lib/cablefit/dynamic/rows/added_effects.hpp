@@ -10,7 +10,6 @@
 
 #include "cablefit/model/effects.hpp"
 #include "cablefit/model/motion_part.hpp"
-#include "cablefit/model/refinements.hpp"
 #include "cablefit/samples/rows/signals.hpp"
 
 namespace cablefit {
@@ -35,7 +34,7 @@ struct DynamicParameter {
 /// one has the derivative of the torque at the value of `instance`. Effects of the transmission and
 /// of the sensors act in both equations; they are held at the values of `instance`.
 struct AddedEffect {
-  RefinementInstance instance;
+  EffectInstance instance;
   Side side = Side::motor;
   bool is_held = false;
   std::vector<std::size_t> moving_shapes;  ///< with a column: continuous, and looked for
@@ -46,10 +45,10 @@ struct AddedEffect {
 /// Throws Error(usage) for effects that a fit of rows cannot have: given twice, no torque (an error
 /// of the drive, other cables), a scale of torques, a date, a memory of time, none on a rigid
 /// drive; and for one that would be held, but has no value.
-void require_fittable(std::span<const RefinementInstance> effects, bool rigid);
+void require_fittable(std::span<const EffectInstance> effects, bool rigid);
 
 /// Those of `instances`, which are fittable, that act in an equation of this side.
-std::vector<AddedEffect> effects_of_side(std::span<const RefinementInstance> instances, Side side);
+std::vector<AddedEffect> effects_of_side(std::span<const EffectInstance> instances, Side side);
 
 /// What the columns of an effect are.
 std::vector<DynamicParameter> parameters_of(const AddedEffect& effect);

@@ -58,7 +58,7 @@ bool is_coupled_link(const DynamicColumns& c) {
 }
 
 std::optional<double> given_inertia(const DynamicColumns& c, const Effect& effect, int joint) {
-  if (c.side != Side::link || effect.inertia == nullptr || c.place.arm == nullptr) return {};
+  if (c.side != Side::link || !effect.is_inertia() || c.place.arm == nullptr) return {};
   const std::vector<double>& given = c.place.arm->parameters.J_link;
   if (given.empty()) return {};
   return given[static_cast<std::size_t>(joint)];
@@ -68,23 +68,23 @@ std::optional<double> given_inertia(const DynamicColumns& c, const Effect& effec
 void add_effects(DynamicColumns& c, int joint) {
   if (joint == c.place.joint) c.first_effect = static_cast<Eigen::Index>(c.parameters.size());
   for (const Effect& effect : base_effects(c.side)) {
-    const bool is_inertia = effect.inertia != nullptr;
+    const bool is_inertia = effect.is_inertia();
     if (is_inertia && is_coupled_link(c)) continue;  // the arm's base parameters stand for it
     if (joint == c.place.joint) c.effects.push_back(&effect);
-    for (const ParameterInfo& info : effect.parameters)
-      c.parameters.push_back({info, joint_parameter_name(info.name, joint + 1, c.place.n_joints),
-                              is_inertia, given_inertia(c, effect, joint), effect.follows});
+    const ParameterInfo& info = effect.parameters.front();
+    c.parameters.push_back({info, joint_parameter_name(info.name, joint + 1, c.place.n_joints),
+                            is_inertia, given_inertia(c, effect, joint), effect.follows});
   }
 }
 
 /// What the joint has beyond (31), last.
-void add_added(DynamicColumns& c, std::span<const RefinementInstance> added) {
+void add_added(DynamicColumns& c, std::span<const EffectInstance> added) {
   c.added = effects_of_side(added, c.side);
   for (const AddedEffect& effect : c.added)
     for (DynamicParameter& p : parameters_of(effect)) c.parameters.push_back(std::move(p));
 }
 
-void add_parameters(DynamicColumns& c, std::span<const RefinementInstance> added) {
+void add_parameters(DynamicColumns& c, std::span<const EffectInstance> added) {
   if (!is_coupled_link(c)) {
     add_effects(c, c.place.joint);
     return add_added(c, added);
@@ -159,11 +159,7 @@ void effect_columns(const DynamicColumns& c, const Signals& signals, std::size_t
   if (c.n_arm > 0) fill_arm(c, signals, out);
   const Motion motion = motion_of(c.side, signals.joints[joint]);
   Eigen::Index first = c.first_effect;
-  for (const Effect* effect : c.effects) {
-    const auto n = static_cast<Eigen::Index>(effect->parameters.size());
-    effect->regressor(motion, out.middleCols(first, n));
-    first += n;
-  }
+  for (const Effect* effect : c.effects) fill_base_column(*effect, motion, out.col(first++));
   for (const AddedEffect& effect : c.added) {
     fill_columns(effect, c.cables.get(), signals, joint, out.middleCols(first, effect.n_columns()));
     first += effect.n_columns();
@@ -171,7 +167,7 @@ void effect_columns(const DynamicColumns& c, const Signals& signals, std::size_t
 }
 
 void take_values(const DynamicColumns& columns, const Eigen::VectorXd& x,
-                 std::vector<RefinementInstance>& added) {
+                 std::vector<EffectInstance>& added) {
   for (std::size_t k = 0; k < columns.parameters.size(); ++k) {
     const DynamicParameter& parameter = columns.parameters[k];
     const double found = x(static_cast<Eigen::Index>(k));

@@ -54,7 +54,7 @@ struct DynamicColumns {
 /// What a joint has beyond (31), with the values about which nonlinear parameters are linearised,
 /// and the cables that it goes by; none: those of the first fit.
 struct AddedToJoint {
-  std::span<const RefinementInstance> effects = {};
+  std::span<const EffectInstance> effects = {};
   std::shared_ptr<const Transmission> cables = {};
 };
 
@@ -80,7 +80,7 @@ MotionColumn motion_column(const DynamicColumns& columns, std::size_t parameter,
 /// Values of the effects' columns, written into those of `added` that have them, where they are
 /// finite.
 void take_values(const DynamicColumns& columns, const Eigen::VectorXd& x,
-                 std::vector<RefinementInstance>& added);
+                 std::vector<EffectInstance>& added);
 
 /// Coefficients of a stage-1 fit in the order of its basis columns.
 Eigen::VectorXd elastic_coefficients(const ElasticFit& fit);

@@ -124,7 +124,7 @@ Share share_of(const EquationBatch& batch, const EquationRows& e, const RowStati
     share.high = batch.rows.col(e.columns.deflection).maxCoeff();
   }
   // The regressor of an axis' own inertia is its acceleration; effects begin with it.
-  if (!e.columns.effects.empty() && e.columns.effects.front()->inertia != nullptr)
+  if (!e.columns.effects.empty() && e.columns.effects.front()->is_inertia())
     share.acceleration = batch.rows.col(0).cwiseAbs().maxCoeff();
   return share;
 }

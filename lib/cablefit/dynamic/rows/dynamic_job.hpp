@@ -26,7 +26,7 @@ struct DynamicJob {
   std::vector<ChosenSettings> joint_settings;  ///< of several joints, what each would choose
   const Arm* arm = nullptr;                    ///< nullptr: the links do not move each other
   /// Effects beyond (31), with the values about which the columns are made.
-  std::vector<RefinementInstance> added = {};
+  std::vector<EffectInstance> added = {};
 
   int n_joints() const { return rig().n_joints(); }
   const ChosenSettings& settings_of(int joint) const;

@@ -14,7 +14,7 @@ constexpr int kWindows = 6;      // of every log
 constexpr double kMost = 0.99;   // of the values, that LogScale covers
 constexpr double kUsual = 0.75;  // of |tau|
 
-bool is_blank(const RefinementInstance& effect) {
+bool is_blank(const EffectInstance& effect) {
   return std::any_of(effect.parameters.begin(), effect.parameters.end(),
                      [](const Estimate& e) { return std::isnan(e.value); });
 }
@@ -61,7 +61,7 @@ std::vector<double> values_of(const ShapeGrid& grid, const LogScale& scale) {
 }
 
 /// All combinations of the values of the row's nonlinear parameters.
-std::vector<std::vector<double>> points_of(const Refinement& row, const LogScale& scale) {
+std::vector<std::vector<double>> points_of(const Effect& row, const LogScale& scale) {
   std::vector<std::vector<double>> points = {{}};
   for (const ShapeGrid& grid : row.shape) {
     std::vector<std::vector<double>> longer;
@@ -76,14 +76,14 @@ std::vector<std::vector<double>> points_of(const Refinement& row, const LogScale
 }
 
 /// An sd of 0 holds a nonlinear parameter; none frees it.
-void set_values(RefinementInstance& effect, const std::vector<double>& shape) {
-  const std::size_t n = effect.refinement->n_linear();
+void set_values(EffectInstance& effect, const std::vector<double>& shape) {
+  const std::size_t n = effect.effect->n_linear();
   for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
     effect.parameters[k].value = k < n ? 0 : shape[k - n];
     if (k >= n) effect.parameters[k].sd = 0;
   }
 }
-void set_free(RefinementInstance& effect) {
+void set_free(EffectInstance& effect) {
   for (Estimate& e : effect.parameters) e.sd = std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -98,8 +98,8 @@ double misfit(const DynamicJob& job) {
 
 }  // namespace
 
-RefinementInstance blank_effect(const Refinement& row) {
-  RefinementInstance effect{&row, {}};
+EffectInstance blank_effect(const Effect& row) {
+  EffectInstance effect{&row, {}};
   for (const ParameterInfo& info : row.parameters) {
     Estimate& e = effect.parameters.emplace_back();
     e.name = info.name;
@@ -112,14 +112,14 @@ RefinementInstance blank_effect(const Refinement& row) {
 void find_first_shapes(DynamicJob& job) {
   if (std::none_of(job.added.begin(), job.added.end(), is_blank)) return;
   const LogScale scale = scale_of(job);
-  const std::vector<RefinementInstance> wanted = std::move(job.added);
+  const std::vector<EffectInstance> wanted = std::move(job.added);
   job.added.clear();
-  for (const RefinementInstance& effect : wanted) {
+  for (const EffectInstance& effect : wanted) {
     job.added.push_back(effect);
     if (!is_blank(effect)) continue;
     double least = kUnbounded;
     std::vector<double> best;
-    for (const std::vector<double>& point : points_of(*effect.refinement, scale)) {
+    for (const std::vector<double>& point : points_of(*effect.effect, scale)) {
       set_values(job.added.back(), point);
       const double found = misfit(job);
       if (found < least || best.empty()) best = point;
@@ -127,7 +127,7 @@ void find_first_shapes(DynamicJob& job) {
     }
     set_values(job.added.back(), best);
   }
-  std::vector<RefinementInstance> found = job.added;
+  std::vector<EffectInstance> found = job.added;
   for (const EquationRows& e : pilot_equations(job, kWindows))
     take_values(e.columns, solve_equation(e, job.elastic, 0).x, found);
   for (std::size_t k = 0; k < wanted.size(); ++k)

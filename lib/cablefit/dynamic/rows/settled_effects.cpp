@@ -22,7 +22,7 @@ bool has_nonlinear(const std::vector<EquationRows>& equations) {
 /// Moves the effects of one equation to its solution; what that does not determine stays. The
 /// parameter that moved most; empty: none did by more than kStill.
 std::string move_effects(const DynamicColumns& columns, LinearSolution s,
-                         std::vector<RefinementInstance>& added) {
+                         std::vector<EffectInstance>& added) {
   std::string moved;
   double furthest = kStill;
   for (std::size_t k = 0; k < columns.parameters.size(); ++k) {
@@ -48,7 +48,7 @@ WindowCounts collect_settled(DynamicJob& job, std::vector<EquationRows>& equatio
     equations = make_equations(job);
     const WindowCounts windows = collect_rows(job, equations);
     if (!has_nonlinear(equations)) return windows;
-    std::vector<RefinementInstance> added = job.added;
+    std::vector<EffectInstance> added = job.added;
     std::string moving;
     for (const EquationRows& e : equations)
       if (const std::string moved =

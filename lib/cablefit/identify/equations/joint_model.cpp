@@ -34,7 +34,7 @@ void add_effects(const std::vector<PreloadJob>& jobs, bool inertias, bool apart,
   const auto add = [&](int preload, const auto& is_used) {
     for (const Side side : {Side::link, Side::motor})
       for (const Effect& effect : base_effects(side)) {
-        if ((effect.inertia != nullptr) != inertias) continue;
+        if (effect.is_inertia() != inertias) continue;
         for (const ParameterInfo& info : effect.parameters)
           if (is_used(info.name))
             layout.parameters.push_back({std::string(info.name), std::string(info.symbol),
@@ -92,7 +92,7 @@ void add_loads(const std::vector<PreloadJob>& jobs, JointLayout& layout) {
   for (const Effect& effect : base_effects(Side::link))
     for (const ParameterInfo& info : effect.parameters)
       for (JointParameter& p : layout.parameters) {
-        if (effect.inertia == nullptr || p.name != info.name) continue;
+        if (!effect.is_inertia() || p.name != info.name) continue;
         if (p.preload != kShared) p.known = jobs[static_cast<std::size_t>(p.preload)].load_inertia;
         if (p.preload == kShared && same) p.known = first;
       }

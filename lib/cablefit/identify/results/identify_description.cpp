@@ -61,7 +61,7 @@ bool under_several_loads(const JointFit& fit, std::size_t k) {
   const JointParameter& p = fit.layout.parameters[k];
   const bool of_link = std::any_of(
       base_effects(Side::link).begin(), base_effects(Side::link).end(), [&](const Effect& effect) {
-        return effect.inertia != nullptr && effect.parameters.front().name == p.name;
+        return effect.is_inertia() && effect.parameters.front().name == p.name;
       });
   return of_link && std::any_of(fit.jobs.begin(), fit.jobs.end(), [&](const PreloadJob& job) {
            return job.load_inertia != fit.jobs.front().load_inertia;

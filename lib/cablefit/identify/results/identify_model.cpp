@@ -31,29 +31,26 @@ class Parameters {
   std::string why_not_;
 };
 
-std::vector<EffectInstance> effects_of(Side side, Parameters& parameters) {
-  std::vector<EffectInstance> instances;
-  for (const Effect& effect : base_effects(side)) {
-    EffectInstance instance{&effect, {}};
-    for (const ParameterInfo& info : effect.parameters) {
-      const std::optional<Estimate> e = parameters.find(info.name);
-      if (!e) return {};  // its equation was not fitted
-      if (effect.inertia != nullptr && !(e->value > 0))
-        parameters.refuse(fmt::format("{} is not positive", info.name));
-      instance.parameters.push_back(*e);
-    }
-    instances.push_back(std::move(instance));
+/// Empty: its equation was not fitted.
+std::vector<EffectInstance> effects_of(Side side, const Rig& rig, Parameters& parameters) {
+  std::vector<EffectInstance> instances = base_instances(
+      side, 1, rig, [&](const Estimate& blank) { return parameters.find(blank.name); });
+  if (instances.size() < base_effects(side).size()) return {};
+  for (const EffectInstance& instance : instances) {
+    const Estimate& e = instance.parameters.front();
+    if (instance.effect->is_inertia() && !(e.value > 0))
+      parameters.refuse(fmt::format("{} is not positive", e.name));
   }
   return instances;
 }
 
 /// Effects beyond (31) with what was estimated of them.
-std::vector<RefinementInstance> added_of(const PreloadFacts& facts, Parameters& parameters) {
-  std::vector<RefinementInstance> added = facts.added;
-  for (RefinementInstance& effect : added)
+std::vector<EffectInstance> added_of(const PreloadFacts& facts, Parameters& parameters) {
+  std::vector<EffectInstance> added = facts.added;
+  for (EffectInstance& effect : added)
     for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
-      const ParameterInfo& info = effect.refinement->parameters[k];
-      const auto e = parameters.find(added_parameter_name(*effect.refinement, info));
+      const ParameterInfo& info = effect.effect->parameters[k];
+      const auto e = parameters.find(added_parameter_name(*effect.effect, info));
       if (!e) continue;  // held
       effect.parameters[k] = *e;
       effect.parameters[k].name = info.name;
@@ -73,9 +70,10 @@ std::optional<Model> model_of(const IdentifyResult& result, const IdentifyPreloa
   model.rig.transmission = preload.transmission;
   if (model.rig.torque_hold == TorqueHold::automatic)
     model.rig.torque_hold = facts.delay.held ? TorqueHold::zoh : TorqueHold::none;
-  model.joints = {{effects_of(Side::link, parameters), effects_of(Side::motor, parameters)}};
+  model.joints = {{effects_of(Side::link, facts.rig, parameters),
+                   effects_of(Side::motor, facts.rig, parameters)}};
   if (model.joints.front().link.empty() || model.joints.front().motor.empty()) return std::nullopt;
-  model.joints.front().refinements = added_of(facts, parameters);
+  model.joints.front().added = added_of(facts, parameters);
   model.transmission = preload.transmission;
   for (const Cable& cable : preload.transmission.cables)
     for (int k = 0; k < cable.n_coefficients(); ++k)

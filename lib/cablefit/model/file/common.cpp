@@ -44,17 +44,6 @@ double read_value(const JsonNode& object, const std::string& name) {
                    text_or(object, "not_identifiable", "fit it from other data, or give a value"));
 }
 
-double total_inertia(const std::vector<EffectInstance>& effects) {
-  double total = 0;
-  for (const EffectInstance& instance : effects) {
-    if (!instance.effect->inertia) continue;
-    std::vector<double> values;
-    for (const Estimate& parameter : instance.parameters) values.push_back(parameter.value);
-    total += instance.effect->inertia(values.data());
-  }
-  return total;
-}
-
 /// The rig file named in another file, see read_rig_reference.
 std::filesystem::path locate(const std::string& named, const std::string& inside) {
   const auto folder = std::filesystem::path(inside).parent_path();
@@ -99,18 +88,6 @@ Estimate read_strict_estimate(const JsonNode& node, std::string name, std::strin
   return read_estimate(node, std::move(name), symbol, unit);
 }
 
-std::string parameter_unit(const ParameterInfo& parameter, const Rig& rig) {
-  return rig.linear_motion ? linear_unit(parameter.unit) : std::string(parameter.unit);
-}
-
-Estimate blank_estimate(const ParameterInfo& parameter, int joint, const Rig& rig) {
-  Estimate estimate;
-  estimate.name = joint_parameter_name(parameter.name, joint, rig.n_joints());
-  estimate.symbol = parameter.symbol;
-  estimate.unit = parameter_unit(parameter, rig);
-  return estimate;
-}
-
 std::string stiffness_unit(const Rig& rig) { return rig.linear_motion ? "N/m" : "N m/rad"; }
 
 Rig read_rig_reference(const JsonNode* node) {
@@ -140,8 +117,8 @@ void require_inertia(const Model& model, const JsonNode& node) {
                                    model.rig.joints[k]),
                        "fit moving logs with 'cablefit dynamic'; a model of blocked logs cannot "
                        "move");
-    const bool link_moves = model.rigid || total_inertia(joint.link) > 0;
-    if (link_moves && total_inertia(joint.motor) > 0) continue;
+    const bool link_moves = model.rigid || inertia_of(joint.link) > 0;
+    if (link_moves && inertia_of(joint.motor) > 0) continue;
     throw node.error(fmt::format("the {} of joint '{}' has no positive inertia",
                                  link_moves ? "motor" : "link", model.rig.joints[k]),
                      "give its \"inertia\" a value above 0");

@@ -41,15 +41,6 @@ const JsonNode& FitParameters::at_elastic(std::string_view name) {
                             : "add the \"elastic\" object of stage 1 to the fit");
 }
 
-void FitParameters::require_all(const Effect& effect, int joint, const Rig& rig) {
-  for (const ParameterInfo& info : effect.parameters) {
-    const std::string name = blank_estimate(info, joint, rig).name;
-    if (find_dynamic(name)) continue;
-    throw fit_.error(fmt::format("parameter '{}' is missing", name),
-                     fmt::format("effect '{}' needs it", effect.name));
-  }
-}
-
 void FitParameters::require_all_used() const {
   for (const Entry& entry : dynamic_) {
     if (entry.is_used) continue;

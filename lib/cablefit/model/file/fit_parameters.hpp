@@ -24,8 +24,6 @@ class FitParameters {
   const JsonNode* find_dynamic(std::string_view name);
   const JsonNode* find_elastic(std::string_view name);
   const JsonNode& at_elastic(std::string_view name);
-  /// Throws when a part of the effect's parameters is missing: it cannot be simulated.
-  void require_all(const Effect& effect, int joint, const Rig& rig);
   /// Throws for a parameter that nobody asked for: it would silently be left out.
   void require_all_used() const;
 

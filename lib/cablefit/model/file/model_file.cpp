@@ -13,7 +13,7 @@ namespace {
 EffectInstance read_effect(const std::string& name, const JsonNode& node, Side side, int joint,
                            const Rig& rig) {
   EffectInstance instance;
-  instance.effect = at_place_of(node, [&] { return &find_effect(name, side); });
+  instance.effect = at_place_of(node, [&] { return &find_base_effect(name, side); });
   std::vector<std::string_view> known;
   for (const ParameterInfo& parameter : instance.effect->parameters) {
     const JsonNode& value = node.at(parameter.name);
@@ -30,22 +30,11 @@ EffectInstance read_effect(const std::string& name, const JsonNode& node, Side s
   return instance;
 }
 
-/// Two laws of one thing on one axis would count it twice.
-void refuse_both(const JsonNode& node, const std::vector<EffectInstance>& effects) {
-  for (const EffectInstance& one : effects)
-    for (const EffectInstance& other : effects)
-      if (!one.effect->instead_of.empty() && other.effect->name == one.effect->instead_of)
-        throw node.at(std::string(one.effect->name))
-            .error(fmt::format("'{}' beside '{}'", one.effect->name, other.effect->name),
-                   "they are two laws of the same friction: keep one");
-}
-
 std::vector<EffectInstance> read_side(const JsonNode& node, Side side, int joint, const Rig& rig) {
   std::vector<EffectInstance> effects;
   for (const auto& [name, value] : members_of(node)) {
     effects.push_back(read_effect(name, value, side, joint, rig));
   }
-  refuse_both(node, effects);
   return effects;
 }
 
@@ -68,7 +57,7 @@ JointModel read_joint(const JsonNode& node, int joint, const Model& model) {
     axes.motor = read_side(node.at("motor"), Side::motor, joint, model.rig);
   }
   if (const JsonNode* refinements = node.find("refinements"))
-    axes.refinements = read_refinements(*refinements, model);
+    axes.added = read_refinements(*refinements, model);
   return axes;
 }
 

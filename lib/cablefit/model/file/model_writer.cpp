@@ -54,7 +54,7 @@ Json joints_json(const Model& model) {
       json["link"] = side_json(model.joints[k].link);
       json["motor"] = side_json(model.joints[k].motor);
     }
-    for (const RefinementInstance& instance : model.joints[k].refinements)
+    for (const EffectInstance& instance : model.joints[k].added)
       json["refinements"].push_back(model_file::refinement_json(instance));
     list.push_back(json);
   }
@@ -169,12 +169,12 @@ std::string pretty(const Json& json, std::size_t indent) {
 
 namespace model_file {
 
-Json refinement_json(const RefinementInstance& instance) {
-  Json json{{"name", instance.refinement->name}, {"side", to_string(instance.refinement->site)}};
+Json refinement_json(const EffectInstance& instance) {
+  Json json{{"name", instance.effect->name}, {"side", to_string(instance.effect->site)}};
   Json& values = json["parameters"] = Json::object();
   for (const Estimate& parameter : instance.parameters)
     values[parameter.name] = estimate_json(parameter);
-  if (instance.refinement->is_event)
+  if (instance.effect->is_event)
     json["event"] = {{"log", instance.event_log + 1}, {"time", instance.event_time}};
   return json;
 }

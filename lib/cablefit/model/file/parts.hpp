@@ -30,15 +30,11 @@ Estimate read_estimate(const JsonNode& node, std::string name, std::string_view 
 /// The same for a file written by hand: any other key is an error.
 Estimate read_strict_estimate(const JsonNode& node, std::string name, std::string_view symbol,
                               std::string_view unit);
-/// Unit of an effect's parameter on this rig's axes.
-std::string parameter_unit(const ParameterInfo& parameter, const Rig& rig);
-/// A blank estimate of an effect's parameter: name with the joint's index, symbol and unit.
-Estimate blank_estimate(const ParameterInfo& parameter, int joint, const Rig& rig);
 /// Unit of the linear stiffness K.
 std::string stiffness_unit(const Rig& rig);
 
 /// "refinements" of a joint: [{"name", "side", "parameters": {...}, "event": {"log", "time"}}].
-std::vector<RefinementInstance> read_refinements(const JsonNode& node, const Model& model);
+std::vector<EffectInstance> read_refinements(const JsonNode& node, const Model& model);
 
 /// "covariance": {"parameters": [names], "matrix": [rows]}. Throws for another number of rows or
 /// columns than names.

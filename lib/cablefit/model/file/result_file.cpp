@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "cablefit/base/quote.hpp"
-#include "cablefit/model/effect_choice.hpp"
 #include "cablefit/model/effect_parameter.hpp"
 #include "cablefit/model/file/fit_parameters.hpp"
 #include "cablefit/model/file/parts.hpp"
@@ -45,24 +44,12 @@ Estimate take(const JsonNode& node, const Estimate& blank) {
   return read_estimate(node, blank.name, blank.symbol, blank.unit);
 }
 
-/// Every effect of the side of which the fit has a parameter.
 std::vector<EffectInstance> take_effects(FitParameters* parameters, Side side, int joint,
                                          const Model& model) {
-  const auto has = [&](std::string_view name) {
-    return parameters->find_dynamic(joint_parameter_name(name, joint, model.rig.n_joints())) !=
-           nullptr;
-  };
-  std::vector<EffectInstance> result;
-  for (const Effect* effect : effects_with(side, has)) {
-    parameters->require_all(*effect, joint, model.rig);
-    EffectInstance& instance = result.emplace_back();
-    instance.effect = effect;
-    for (const ParameterInfo& info : effect->parameters) {
-      const Estimate blank = blank_estimate(info, joint, model.rig);
-      instance.parameters.push_back(take(*parameters->find_dynamic(blank.name), blank));
-    }
-  }
-  return result;
+  return base_instances(side, joint, model.rig, [&](const Estimate& blank) {
+    const JsonNode* node = parameters->find_dynamic(blank.name);
+    return node == nullptr ? std::nullopt : std::optional(take(*node, blank));
+  });
 }
 
 void take_coefficients(FitParameters* parameters, Cable* cable, Model* model) {
@@ -158,11 +145,11 @@ void take_torque_hold(const JsonNode& preload, Rig* rig) {
 void take_added(const JsonNode& fit, FitParameters* parameters, Model* model) {
   const JsonNode* effects = fit.find("effects");
   if (effects == nullptr || effects->items.empty()) return;
-  std::vector<RefinementInstance>& added = model->joints.front().refinements;
+  std::vector<EffectInstance>& added = model->joints.front().added;
   added = read_refinements(*effects, *model);
-  for (const RefinementInstance& effect : added)
-    for (const ParameterInfo& info : effect.refinement->parameters)
-      (void)parameters->find_dynamic(added_parameter_name(*effect.refinement, info));
+  for (const EffectInstance& effect : added)
+    for (const ParameterInfo& info : effect.effect->parameters)
+      (void)parameters->find_dynamic(added_parameter_name(*effect.effect, info));
 }
 
 void take_joints(FitParameters* parameters, Model* model) {

@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "cablefit/base/parameter_covariance.hpp"
-#include "cablefit/model/refinements.hpp"
+#include "cablefit/model/effects.hpp"
 #include "cablefit/model/rig.hpp"
 
 namespace cablefit::model_file {
@@ -13,7 +13,7 @@ namespace cablefit::model_file {
 nlohmann::ordered_json rig_json(const Rig& rig);
 
 /// An effect beyond the paper's: {"name", "side", "parameters": {...}, "event": {...}}.
-nlohmann::ordered_json refinement_json(const RefinementInstance& instance);
+nlohmann::ordered_json refinement_json(const EffectInstance& instance);
 
 /// {"parameters": [...], "matrix": [[...]]}
 nlohmann::ordered_json covariance_json(const ParameterCovariance& covariance);

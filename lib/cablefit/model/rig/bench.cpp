@@ -14,7 +14,7 @@ namespace {
 /// Every parameter that a fit of this rig can give: of the effects, the spring and the cables.
 std::vector<std::string> parameter_names(const Rig& rig) {
   std::vector<std::string> names{"K"};
-  for (const Effect& effect : effects()) {
+  for (const Effect& effect : base_effects()) {
     for (const ParameterInfo& parameter : effect.parameters) names.emplace_back(parameter.name);
   }
   for (const ParameterInfo& parameter : rig.arm.base_parameters())

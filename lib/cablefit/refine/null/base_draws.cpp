@@ -46,7 +46,7 @@ NullDraw BaseDraws::searched(std::uint64_t seed, const KindLevels& levels,
   out.floor = base.fit.rms();
   for (const Candidate& candidate :
        scan({base.design, base.grams, base.fit, base.levels}, settings, named_already(base.design)))
-    if (candidate.refused.empty()) out.gains[candidate.variant.refinement] = candidate.gain;
+    if (candidate.refused.empty()) out.gains[candidate.variant.effect] = candidate.gain;
   return out;
 }
 

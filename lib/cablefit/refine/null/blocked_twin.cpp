@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cablefit/base/random.hpp"
+#include "cablefit/model/effect_walk.hpp"
 #include "cablefit/samples/survey/channel_scan.hpp"
 
 namespace cablefit {
@@ -23,30 +25,20 @@ Eigen::ArrayXd directions(const Eigen::ArrayXd& speed, double least) {
 }
 
 /// Torque of an effect on the motor, along the motion.
-Eigen::ArrayXd torque_of(const RefinementInstance& instance, const std::vector<JointState>& states,
+Eigen::ArrayXd torque_of(const EffectInstance& instance, const std::vector<JointState>& states,
                          const Eigen::ArrayXd& direction, double period) {
-  const Refinement& row = *instance.refinement;
-  std::vector<double> shape, z(row.n_states), link(row.n_linear()), motor(row.n_linear());
-  for (std::size_t p = row.n_linear(); p < instance.parameters.size(); ++p)
-    shape.push_back(instance.parameters[p].value);
-  const auto sum = [&](const std::vector<double>& unit) {
-    double torque = 0;
-    for (std::size_t p = 0; p < unit.size(); ++p) torque += unit[p] * instance.parameters[p].value;
-    return torque;
-  };
+  const Effect& row = *instance.effect;
   Eigen::ArrayXd tau = Eigen::ArrayXd::Zero(direction.size());
+  if (!acts_as_torque(row)) return tau;
+  const std::size_t n = row.n_linear();
+  std::vector<double> shape, link(n), motor(n);
+  for (std::size_t p = n; p < instance.parameters.size(); ++p)
+    shape.push_back(instance.parameters[p].value);
+  EffectWalk walk(row, std::move(shape));
   for (Eigen::Index i = 0; i < tau.size(); ++i) {
-    const JointState& state = states[static_cast<std::size_t>(i)];
-    if (row.advance != nullptr) row.advance(state, shape.data(), period / 2, z.data());
     std::fill(motor.begin(), motor.end(), 0.0);
-    if (row.torque != nullptr) row.torque(state, shape.data(), z.data(), link.data(), motor.data());
-    tau(i) += sum(motor);
-    if (row.level != nullptr && row.site == Site::motor) {
-      std::fill(motor.begin(), motor.end(), 0.0);
-      row.level(state, direction(i), shape.data(), z.data(), motor.data());
-      tau(i) += direction(i) * sum(motor);
-    }
-    if (row.advance != nullptr) row.advance(state, shape.data(), period / 2, z.data());
+    walk.step(states[static_cast<std::size_t>(i)], direction(i), period, link.data(), motor.data());
+    for (std::size_t p = 0; p < n; ++p) tau(i) += motor[p] * instance.parameters[p].value;
   }
   return tau;
 }
@@ -56,15 +48,9 @@ Eigen::ArrayXd torque_of(const Model& model, const SmoothMotion& m, double least
   Eigen::ArrayXd tau(m.size());
   const std::vector<JointState> states = joint_states(m, model);
   for (Eigen::Index i = 0; i < m.size(); ++i) tau(i) = states[static_cast<std::size_t>(i)].tau_elas;
-  for (const RefinementInstance& instance : model.joints.front().refinements)
+  for (const EffectInstance& instance : model.joints.front().added)
     tau += torque_of(instance, states, direction, m.period);
-  for (const EffectInstance& instance : model.joints.front().motor) {
-    const auto n = static_cast<Eigen::Index>(instance.effect->n_linear());
-    Eigen::MatrixXd columns(m.size(), n);
-    instance.effect->regressor({m.theta, m.thetad, m.thetadd, direction}, columns);
-    for (Eigen::Index k = 0; k < n; ++k)
-      tau += columns.col(k).array() * instance.parameters[static_cast<std::size_t>(k)].value;
-  }
+  tau += base_torque(model.joints.front().motor, {m.theta, m.thetad, m.thetadd, direction}).array();
   return tau;
 }
 

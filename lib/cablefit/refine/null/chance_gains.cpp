@@ -12,7 +12,7 @@ constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 
 /// Of an event: what lasts, what passes. A search over dates finds more by chance, and what passes
 /// is judged in sample.
-std::size_t occurrence_of(const Refinement& row) { return row.lasts() ? 0 : 1; }
+std::size_t occurrence_of(const Effect& row) { return row.lasts() ? 0 : 1; }
 
 /// A gain as a log ratio of squared errors, which is not bounded by 1 (Wilks 1938).
 double log_ratio(double gain) {
@@ -54,7 +54,7 @@ ChanceGains::ChanceGains(const std::vector<NullDraw>& draws) {
   }
 }
 
-double ChanceGains::rms_without(const Refinement& row, std::size_t but) const {
+double ChanceGains::rms_without(const Effect& row, std::size_t but) const {
   const auto found = gains_.find(&row);
   if (found == gains_.end()) return 0;
   double squares = 0, n = 0;
@@ -66,7 +66,7 @@ double ChanceGains::rms_without(const Refinement& row, std::size_t but) const {
   return n > 0 ? std::sqrt(squares / n) : 0;
 }
 
-double ChanceGains::unit(const Refinement& row, std::size_t but) const {
+double ChanceGains::unit(const Effect& row, std::size_t but) const {
   // Some rows gain nothing but once: by their own rms alone that once would be beyond all measure.
   return std::max(kLeastUnit, std::hypot(rms_without(row, but), median_));
 }
@@ -75,7 +75,7 @@ ChanceTail ChanceGains::tail_of_search(double gain) const {
   return tail_of_largest(always_, log_ratio(gain));
 }
 
-ChanceTail ChanceGains::tail(const Refinement& row, double share) const {
+ChanceTail ChanceGains::tail(const Effect& row, double share) const {
   const double gain = log_ratio(share);
   if (row.is_event) return tail_of_largest(events_, gain);
   const ChanceTail plain = tail_of_largest(always_, gain);
@@ -85,7 +85,7 @@ ChanceTail ChanceGains::tail(const Refinement& row, double share) const {
   return smaller;
 }
 
-bool ChanceGains::is_beyond(const Refinement& row, double share, double times) const {
+bool ChanceGains::is_beyond(const Effect& row, double share, double times) const {
   const double gain = log_ratio(share);
   const auto beats = [times](const std::vector<double>& largest, double value) {
     return largest.empty() || value > times * *std::max_element(largest.begin(), largest.end());
@@ -94,7 +94,7 @@ bool ChanceGains::is_beyond(const Refinement& row, double share, double times) c
   return beats(always_, gain) || beats(in_units_, gain / unit(row, kAll));
 }
 
-double ChanceGains::usual(const Refinement& row) const {
+double ChanceGains::usual(const Effect& row) const {
   if (always_.empty()) return 0;
   return -std::expm1(-(row.is_event ? mean_events_[occurrence_of(row)] : unit(row, kAll)));
 }

@@ -24,24 +24,24 @@ class ChanceGains {
   /// (Bonferroni; not where no draws could tell less): as it is, and in units of what its own row
   /// gains under the null, as rows that act where one equation has a disturbance gain much and the
   /// others do not (studentized maximum; Westfall & Young 1993). Events compete with events.
-  ChanceTail tail(const Refinement& row, double share) const;
+  ChanceTail tail(const Effect& row, double share) const;
 
   /// Whether it is more than `times` the largest of all draws, in one of these ways.
-  bool is_beyond(const Refinement& row, double share, double times) const;
+  bool is_beyond(const Effect& row, double share, double times) const;
 
   /// What is gained by chance, about: by the row itself, by the luckiest event that lasts, or that
   /// passes. 0 without draws.
-  double usual(const Refinement& row) const;
+  double usual(const Effect& row) const;
 
  private:
   /// rms of the gains of a row in all draws but `but`.
-  double rms_without(const Refinement& row, std::size_t but) const;
-  double unit(const Refinement& row, std::size_t but) const;
+  double rms_without(const Effect& row, std::size_t but) const;
+  double unit(const Effect& row, std::size_t but) const;
 
-  std::map<const Refinement*, std::vector<double>> gains_;  ///< log ratios, of every row, by draw
-  double median_ = 0;                                       ///< rms gain of the median row
-  std::vector<double> always_, in_units_, events_;          ///< largest, by draw
-  std::array<double, 2> mean_events_{};                     ///< that last, that pass
+  std::map<const Effect*, std::vector<double>> gains_;  ///< log ratios, of every row, by draw
+  double median_ = 0;                                   ///< rms gain of the median row
+  std::vector<double> always_, in_units_, events_;      ///< largest, by draw
+  std::array<double, 2> mean_events_{};                 ///< that last, that pass
 };
 
 }  // namespace cablefit

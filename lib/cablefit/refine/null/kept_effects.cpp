@@ -15,21 +15,20 @@ namespace {
 // more, beside a base that the effect had bent; here the sd says what it is worth.
 constexpr double kOwnPart = 1e-7;
 
-double value_at(const RefinementInstance& instance, std::size_t parameter) {
+double value_at(const EffectInstance& instance, std::size_t parameter) {
   return instance.parameters[parameter].value;
 }
 
 /// Whether the row takes all of the dry friction of its axis.
-bool takes_all_dry(const RefinementInstance& instance, const Model& model) {
+bool takes_all_dry(const EffectInstance& instance, const Model& model) {
   constexpr double kAll = 1 - 1e-9;  // they are two numbers of a file
   const BaseLayout layout = base_layout(model);
-  const Eigen::Index dry =
-      instance.refinement->site == Site::link ? layout.dry_link : layout.dry_motor;
+  const Eigen::Index dry = instance.effect->site == Site::link ? layout.dry_link : layout.dry_motor;
   return dry >= 0 && value_at(instance, 0) >= kAll * base_values(layout, model)(dry);
 }
 
-bool is_plain(const RefinementInstance& instance, const Model& model) {
-  const Refinement& row = *instance.refinement;
+bool is_plain(const EffectInstance& instance, const Model& model) {
+  const Effect& row = *instance.effect;
   if (!has_plain_form(row)) return false;
   if (row.takes_dry_friction && !takes_all_dry(instance, model)) return false;
   const auto n = static_cast<std::size_t>(n_linear({&row, {}, 0, 0, true}));
@@ -42,7 +41,7 @@ bool is_plain(const RefinementInstance& instance, const Model& model) {
   return true;
 }
 
-std::string name_of(const Refinement& row) {
+std::string name_of(const Effect& row) {
   return fmt::format("'{}' ({})", row.name, to_string(row.site));
 }
 
@@ -68,7 +67,7 @@ void require_own_columns(const Design& bare, const std::vector<Variant>& kept,
         ErrorKind::not_identifiable,
         fmt::format("the logs do not separate {} of the model from its other parameters; give "
                     "the logs that it was named from too, or a model without it",
-                    name_of(*variant.refinement)));
+                    name_of(*variant.effect)));
   }
 }
 
@@ -114,8 +113,7 @@ std::size_t beyond_bounds(const Design& design, const Eigen::VectorXd& x) {
   const std::vector<Eigen::Index> first = first_columns(design);
   for (std::size_t k = 0; k < design.added.size(); ++k)
     for (Eigen::Index p = 0; p < n_linear(design.added[k]); ++p) {
-      const ParameterInfo& info =
-          design.added[k].refinement->parameters[static_cast<std::size_t>(p)];
+      const ParameterInfo& info = design.added[k].effect->parameters[static_cast<std::size_t>(p)];
       if (x(first[k] + p) < info.lower || x(first[k] + p) > info.upper) return k;
     }
   return design.added.size();
@@ -125,11 +123,11 @@ std::size_t beyond_bounds(const Design& design, const Eigen::VectorXd& x) {
 
 std::vector<Variant> kept_variants(const Model& model) {
   std::vector<Variant> kept;
-  for (const RefinementInstance& instance : model.joints.front().refinements) {
-    const Refinement& row = *instance.refinement;
+  for (const EffectInstance& instance : model.joints.front().added) {
+    const Effect& row = *instance.effect;
     if (row.change != nullptr) continue;
     Variant& variant = kept.emplace_back();
-    variant.refinement = &row;
+    variant.effect = &row;
     for (std::size_t i = 0; i < row.shape.size(); ++i)
       variant.shape.push_back(value_at(instance, row.n_linear() + i));
     variant.is_plain = is_plain(instance, model);
@@ -139,14 +137,14 @@ std::vector<Variant> kept_variants(const Model& model) {
 
 std::vector<Model> without_kept(std::span<const Model> models) {
   std::vector<Model> bare(models.begin(), models.end());
-  for (Model& model : bare) model.joints.front().refinements.clear();
+  for (Model& model : bare) model.joints.front().added.clear();
   return bare;
 }
 
 Design with_variants(Design design, const std::vector<Variant>& variants,
                      const Eigen::VectorXd& values) {
   for (const Variant& variant : variants) {
-    if (variant.refinement->change != nullptr)
+    if (variant.effect->change != nullptr)
       design.added.push_back(variant);
     else
       design = with_variant(design, variant, values);
@@ -169,7 +167,7 @@ Design design_of(std::span<const Model> models, std::vector<Stretch> stretches,
   return with_variants(std::move(bare), kept_variants(models.front()), values);
 }
 
-std::string taken_out(const Refinement& row) {
+std::string taken_out(const Effect& row) {
   return fmt::format(
       "{} of the model is beyond its physical bound in these logs and was taken out of it",
       name_of(row));
@@ -187,7 +185,7 @@ KeptBase fit_kept_base(std::span<const Model> models, std::vector<Stretch> stret
     out.base = fit_base(with_variants(out.bare, kept, values), settings.block_seconds, nullptr);
     const std::size_t k = beyond_bounds(out.base.design, out.base.fit.x);
     if (k == kept.size()) return out;
-    out.warnings.push_back(taken_out(*kept[k].refinement));
+    out.warnings.push_back(taken_out(*kept[k].effect));
     kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(k));
   }
 }

@@ -38,7 +38,7 @@ struct KeptBase {
 };
 
 /// A warning: an effect whose coefficient came out beyond its physical bound.
-std::string taken_out(const Refinement& row);
+std::string taken_out(const Effect& row);
 
 /// Nonlinear parameters of the effects follow the rows. What is beyond its physical bound in these
 /// is taken out, with a warning. Throws Error(not_identifiable) where the rows do not tell an

@@ -16,8 +16,8 @@ namespace cablefit {
 
 /// One simulated data set, searched.
 struct NullDraw {
-  KindLevels floor{};                         ///< rms the base model leaves
-  std::map<const Refinement*, double> gains;  ///< best of each row; events in sample
+  KindLevels floor{};                     ///< rms the base model leaves
+  std::map<const Effect*, double> gains;  ///< best of each row; events in sample
 };
 
 /// A base fit iterated twice: weights from its own residual (or `levels`), states from its values.

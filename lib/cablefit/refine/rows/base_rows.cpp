@@ -5,14 +5,6 @@
 namespace cablefit {
 namespace {
 
-/// A shape parameter (v_s) stays where the table has it; its linear ones are columns.
-Eigen::Index n_linear(const std::vector<EffectInstance>& effects) {
-  Eigen::Index n = 0;
-  for (const EffectInstance& instance : effects)
-    n += static_cast<Eigen::Index>(instance.effect->n_linear());
-  return n;
-}
-
 Eigen::Index n_elastic(const Model& model) {
   if (model.rigid) return 0;
   return model.transmission.cables.empty() ? 1 : n_elastic_columns(model.transmission);
@@ -20,12 +12,8 @@ Eigen::Index n_elastic(const Model& model) {
 
 void fill_effects(const std::vector<EffectInstance>& effects, const Motion& motion,
                   Eigen::Ref<Eigen::MatrixXd> out) {
-  Eigen::Index first = 0;
-  for (const EffectInstance& instance : effects) {
-    const auto n = static_cast<Eigen::Index>(instance.effect->n_linear());
-    instance.effect->regressor(motion, out.middleCols(first, n));
-    first += n;
-  }
+  for (std::size_t k = 0; k < effects.size(); ++k)
+    fill_base_column(*effects[k].effect, motion, out.col(static_cast<Eigen::Index>(k)));
 }
 
 void fill_elastic(const Model& model, const SmoothMotion& m, bool link,
@@ -118,19 +106,20 @@ std::optional<double> given_link_inertia(const Model& model) {
 BaseLayout base_layout(const Model& model) {
   BaseLayout layout;
   const JointModel& axes = model.joints.front();
-  layout.n_link = n_linear(axes.link);
-  layout.n_motor = n_linear(axes.motor);
+  layout.n_link = static_cast<Eigen::Index>(axes.link.size());
+  layout.n_motor = static_cast<Eigen::Index>(axes.motor.size());
   layout.n_elastic = n_elastic(model);
   const std::optional<double> given = given_link_inertia(model);
   for (ModelParameter& p : model_parameters(model)) {
     const bool is_column = p.kind == ParameterKind::effect || p.kind == ParameterKind::stiffness ||
                            p.kind == ParameterKind::coefficient;
-    if (!is_column || p.is_shape) continue;
+    if (!is_column) continue;
     const bool is_effect = p.kind == ParameterKind::effect;
-    if (is_effect && (p.on_link ? axes.link : axes.motor)[p.effect].effect->dry != nullptr)
+    if (is_effect &&
+        (p.on_link ? axes.link : axes.motor)[p.effect].effect->follows == MotionPart::direction)
       (p.on_link ? layout.dry_link : layout.dry_motor) =
           static_cast<Eigen::Index>(layout.parameters.size());
-    if (is_effect && p.on_link && given && axes.link[p.effect].effect->inertia != nullptr) {
+    if (is_effect && p.on_link && given && axes.link[p.effect].effect->is_inertia()) {
       layout.given = {{static_cast<Eigen::Index>(layout.parameters.size()), *given}};
       layout.n_link -= 1;
       continue;

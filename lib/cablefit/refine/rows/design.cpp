@@ -91,7 +91,7 @@ bool same_positions(const Recording& a, const Recording& b) {
 /// The column of dry friction with what the row does to all of it.
 std::vector<StretchRows> rows_of_dry_friction(const Design& design, Variant variant,
                                               Evaluation evaluation) {
-  const Eigen::Index dry = dry_column(design, *variant.refinement);
+  const Eigen::Index dry = dry_column(design, *variant.effect);
   if (dry < 0) return {};
   variant.is_plain = false;
   const VariantColumns columns = variant_columns(design, variant, {}, evaluation);
@@ -104,21 +104,21 @@ std::vector<StretchRows> rows_of_dry_friction(const Design& design, Variant vari
 
 }  // namespace
 
-bool has_plain_form(const Refinement& row) {
+bool has_plain_form(const Effect& row) {
   return row.n_harmonics > 1 || row.takes_dry_friction ||
          std::any_of(row.shape.begin(), row.shape.end(),
                      [](const ShapeGrid& g) { return g.canonical > 0; });
 }
 
 Eigen::Index n_linear(const Variant& variant) {
-  const Refinement& row = *variant.refinement;
+  const Effect& row = *variant.effect;
   if (variant.is_plain && row.takes_dry_friction) return 0;
   if (variant.is_plain && row.n_harmonics > 1) return 2;
   return static_cast<Eigen::Index>(row.n_linear());
 }
 
 bool is_free(const Variant& variant, std::size_t shape) {
-  const Refinement& row = *variant.refinement;
+  const Effect& row = *variant.effect;
   return is_continuous(row, shape) && !(variant.is_plain && row.shape[shape].canonical > 0);
 }
 
@@ -151,11 +151,11 @@ Design make_design(std::span<const Model> models, std::vector<Stretch> stretches
 
 bool replaces_rows(const Variant& variant) { return n_linear(variant) == 0; }
 
-Eigen::Index dry_column(const Design& design, const Refinement& row) {
+Eigen::Index dry_column(const Design& design, const Effect& row) {
   return row.site == Site::link ? design.layout.dry_link : design.layout.dry_motor;
 }
 
-StretchRows corrected_rows(const Design& design, std::size_t k, const Refinement& row,
+StretchRows corrected_rows(const Design& design, std::size_t k, const Effect& row,
                            const std::vector<double>& parameters, Evaluation evaluation) {
   Stretch stretch = design.stretches[k];
   if (row.correct != nullptr) row.correct(parameters.data(), stretch.recording);
@@ -175,7 +175,7 @@ StretchRows corrected_rows(const Design& design, std::size_t k, const Refinement
 
 std::vector<StretchRows> replaced_rows(const Design& design, const Variant& variant,
                                        Evaluation evaluation) {
-  const Refinement& row = *variant.refinement;
+  const Effect& row = *variant.effect;
   if (row.takes_dry_friction) return rows_of_dry_friction(design, variant, evaluation);
   std::vector<Model> models = design.models;
   BaseLayout layout = design.layout;
@@ -200,13 +200,13 @@ std::vector<StretchRows> replaced_rows(const Design& design, const Variant& vari
 }
 
 void change_again(const Variant& variant, Transmission& transmission) {
-  const auto again = variant.refinement->change_again;
+  const auto again = variant.effect->change_again;
   if (again == nullptr) return;
   if (auto changed = again(transmission, variant.shape.data())) transmission = std::move(*changed);
 }
 
 bool applies(const Design& design, const Variant& variant) {
-  const auto change = variant.refinement->change;
+  const auto change = variant.effect->change;
   if (change == nullptr) return true;
   return std::all_of(design.models.begin(), design.models.end(), [&](const Model& model) {
     return !model.rigid && change(model.transmission, variant.shape.data());
@@ -234,7 +234,7 @@ VariantColumns residuals(const std::vector<StretchRows>& rows, const Eigen::Vect
 
 Design with_variant(const Design& design, const Variant& variant, const Eigen::VectorXd& values) {
   Design out = design;
-  const Refinement& row = *variant.refinement;
+  const Effect& row = *variant.effect;
   if (replaces_rows(variant)) {
     out.rows = replaced_rows(design, variant);
     if (out.rows.empty())
@@ -265,7 +265,7 @@ Design relinearised(const Design& design, const Eigen::VectorXd& values) {
   out.added.clear();
   for (const Variant& variant : design.added) {
     // Cables and recordings are those of the effect already.
-    const Refinement& row = *variant.refinement;
+    const Effect& row = *variant.effect;
     if (row.change != nullptr || (row.correct != nullptr && replaces_rows(variant)))
       out.added.push_back(variant);
     else

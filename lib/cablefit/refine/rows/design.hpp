@@ -12,7 +12,7 @@ namespace cablefit {
 
 /// A row of the catalogue with its nonlinear parameters fixed, and its date.
 struct Variant {
-  const Refinement* refinement = nullptr;
+  const Effect* effect = nullptr;
   std::vector<double> shape;
   std::size_t event_log = 0;  ///< events only
   double event_time = 0;      ///< s
@@ -24,7 +24,7 @@ struct Variant {
 /// Some rows have more parameters than the law of the textbooks, so that they also name what is
 /// like it: a second harmonic, an exponent, a share. Their plain form has one harmonic, the
 /// canonical exponents, all of the dry friction.
-bool has_plain_form(const Refinement& row);
+bool has_plain_form(const Effect& row);
 /// How many of the row's linear parameters the variant has.
 Eigen::Index n_linear(const Variant& variant);
 /// Whether a nonlinear parameter was looked for on a continuous range.
@@ -52,7 +52,7 @@ Design make_design(std::span<const Model> models, std::vector<Stretch> stretches
                    Smoothing smoothing);
 
 /// Column of the dry friction of the axis that the row acts on; -1: there is none.
-Eigen::Index dry_column(const Design& design, const Refinement& row);
+Eigen::Index dry_column(const Design& design, const Effect& row);
 
 /// Columns of a variant, per stretch and kind of row (n_rows x n_linear). Rows that a variant
 /// replaces are not its business, see replaced_rows.
@@ -69,7 +69,7 @@ void append(std::vector<StretchRows>& rows, const VariantColumns& columns);
 
 /// The rows of a stretch with what `row` corrects in its recording. What was added before stays as
 /// it is.
-StretchRows corrected_rows(const Design& design, std::size_t stretch, const Refinement& row,
+StretchRows corrected_rows(const Design& design, std::size_t stretch, const Effect& row,
                            const std::vector<double>& parameters,
                            Evaluation evaluation = Evaluation::fine);
 

@@ -59,7 +59,7 @@ BlockGrams with_shape_columns(const Design& undone, const Design& design, const 
     add(at.variant, kShapeStep * unit_of(design, at),
         [&at](Variant& variant, double by) { variant.shape[at.shape] += by; });
   for (std::size_t k = 0; k < design.added.size(); ++k)
-    if (design.added[k].refinement->is_event)
+    if (design.added[k].effect->is_event)
       add(k, kDateStep, [](Variant& variant, double by) { variant.event_time += by; });
   return block_grams(rows, design.stretches, block_seconds);
 }

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "cablefit/model/refinements.hpp"
+#include "cablefit/model/effects.hpp"
 #include "cablefit/refine/rows/kernel.hpp"
 #include "cablefit/refine/rows/stretches.hpp"
 

@@ -12,7 +12,7 @@ namespace cablefit {
 std::vector<Model> recorded_models(std::vector<Model> models);
 
 /// Whether it would see this one.
-bool is_recorded(const Refinement& row);
+bool is_recorded(const Effect& row);
 
 /// Sets what belongs to the columns of those to 0. `x`: of all columns.
 void forget_unrecorded(const Design& design, Eigen::VectorXd& x);

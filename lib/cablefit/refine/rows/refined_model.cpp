@@ -45,7 +45,7 @@ double sd_at(const FinalFit& fit, Eigen::Index i) { return std::sqrt(fit.covaria
 std::vector<Estimate> amplitudes(const Variant& variant, const FinalFit& fit, Eigen::Index first) {
   constexpr std::array<std::string_view, 3> kNames{"amplitude", "amplitude_2", "amplitude_3"};
   std::vector<Estimate> out;
-  const Refinement& row = *variant.refinement;
+  const Effect& row = *variant.effect;
   const int n_harmonics = std::min<int>(row.n_harmonics, static_cast<int>(n_linear(variant)) / 2);
   for (int h = 0; h < std::min(n_harmonics, 3); ++h) {
     const Eigen::Index at = first + 2 * h;
@@ -105,7 +105,7 @@ std::vector<ParameterShift> kept_shifts(const Design& first, const Eigen::Vector
   const auto old = first_columns(first), now = first_columns(design);
   std::vector<ParameterShift> shifts;
   for (std::size_t k = 0; k < first.added.size(); ++k) {
-    const Refinement& row = *first.added[k].refinement;
+    const Effect& row = *first.added[k].effect;
     for (Eigen::Index p = 0; p < n_linear(first.added[k]); ++p) {
       const ParameterInfo& info = row.parameters[static_cast<std::size_t>(p)];
       shifts.push_back({fmt::format("{} ({}) {}", row.name, to_string(row.site), info.name),
@@ -118,8 +118,8 @@ std::vector<ParameterShift> kept_shifts(const Design& first, const Eigen::Vector
 
 /// What a model holds of an effect: other cables it has already, what passed is over, and what
 /// lasts has happened before any log to come.
-std::optional<RefinementInstance> as_state(RefinementInstance instance) {
-  const Refinement& row = *instance.refinement;
+std::optional<EffectInstance> as_state(EffectInstance instance) {
+  const Effect& row = *instance.effect;
   if (row.change != nullptr || row.passes() || instance.ends_with_log) return {};
   instance.event_log = 0;
   instance.event_time = 0;
@@ -130,14 +130,14 @@ std::optional<RefinementInstance> as_state(RefinementInstance instance) {
 std::vector<std::string> fitted_names(const Design& design) {
   std::vector<std::string> names;
   for (const ModelParameter& p : design.layout.parameters) names.push_back(p.name);
-  const auto name = [](const Refinement& row, std::size_t parameter) {
+  const auto name = [](const Effect& row, std::size_t parameter) {
     return row.change != nullptr ? "" : added_parameter_name(row, row.parameters[parameter]);
   };
   for (const Variant& variant : design.added)
     for (Eigen::Index p = 0; p < n_linear(variant); ++p)
-      names.push_back(name(*variant.refinement, static_cast<std::size_t>(p)));
+      names.push_back(name(*variant.effect, static_cast<std::size_t>(p)));
   for (const FreeShape& at : free_shapes(design)) {
-    const Refinement& row = *design.added[at.variant].refinement;
+    const Effect& row = *design.added[at.variant].effect;
     names.push_back(name(row, row.n_linear() + at.shape));
   }
   return names;
@@ -167,10 +167,10 @@ std::vector<NamedEffect> named_effects(const Design& design, const FinalFit& fit
   Eigen::Index shape_at = design.n_columns();
   for (std::size_t k = 0; k < design.added.size(); ++k) {
     const Variant& variant = design.added[k];
-    const Refinement& row = *variant.refinement;
+    const Effect& row = *variant.effect;
     const Eigen::Index n = n_linear(variant);
     NamedEffect& effect = effects.emplace_back();
-    effect.instance.refinement = &row;
+    effect.instance.effect = &row;
     effect.instance.event_log = variant.event_log;
     effect.instance.event_time = variant.event_time;
     effect.instance.ends_with_log = variant.ends_with_log;
@@ -225,7 +225,7 @@ std::vector<Model> models_with(const Design& design, const Eigen::VectorXd& x) {
     for (const Variant& variant : design.added) change_again(variant, model.transmission);
     for (const NamedEffect& effect : effects)
       if (auto instance = as_state(effect.instance))
-        model.joints.front().refinements.push_back(std::move(*instance));
+        model.joints.front().added.push_back(std::move(*instance));
   }
   return models;
 }
@@ -237,7 +237,7 @@ std::vector<Model> refined_models(const Design& design, const FinalFit& fit) {
     set_effect_estimates(design, fit, model);
     set_elastic_estimates(design, fit, model);
     model.covariance = covariance_of(design, fit);
-    auto& instances = model.joints.front().refinements;
+    auto& instances = model.joints.front().added;
     std::size_t next = 0;
     for (const NamedEffect& effect : effects)
       if (auto instance = as_state(effect.instance)) instances[next++] = std::move(*instance);

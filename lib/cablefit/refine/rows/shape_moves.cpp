@@ -15,13 +15,13 @@ std::vector<FreeShape> free_shapes(const Design& design) {
 
 double unit_of(const Design& design, const FreeShape& at) {
   const Variant& variant = design.added[at.variant];
-  const ShapeGrid& grid = variant.refinement->shape[at.shape];
+  const ShapeGrid& grid = variant.effect->shape[at.shape];
   return grid.is_geometric ? std::abs(variant.shape[at.shape])
                            : grid.highest(design.scale) - grid.lowest(design.scale);
 }
 
 bool can_move(const Variant& variant) {
-  const Refinement& row = *variant.refinement;
+  const Effect& row = *variant.effect;
   if (row.change != nullptr) return row.change_again != nullptr;
   return row.correct == nullptr;
 }
@@ -33,7 +33,7 @@ Design with_shapes(Design design, const Eigen::VectorXd& by, const Eigen::Vector
     const double step = by(static_cast<Eigen::Index>(k));
     Variant& variant = design.added[all[k].variant];
     if (step == 0 || !can_move(variant)) continue;
-    const ShapeGrid& grid = variant.refinement->shape[all[k].shape];
+    const ShapeGrid& grid = variant.effect->shape[all[k].shape];
     double& value = variant.shape[all[k].shape];
     // What came from other logs may lie outside of what these bound, and goes no further out.
     value = std::clamp(value + step, std::min(value, grid.lowest(design.scale)),
@@ -76,14 +76,14 @@ VariantColumns shape_derivative(const Design& design, const Eigen::VectorXd& x, 
 
 std::optional<ValueChange> change_to_fit(const Design& design, const Eigen::VectorXd& x,
                                          const KindLevels& levels, double block_seconds,
-                                         bool (*fixed)(const Refinement& row)) {
+                                         bool (*fixed)(const Effect& row)) {
   const std::vector<FreeShape> all = free_shapes(design);
   ValueChange change{{}, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(all.size()))};
   std::vector<StretchRows> rows = design.rows;
   std::vector<std::size_t> moving;
   for (std::size_t k = 0; k < all.size(); ++k) {
     const Variant& variant = design.added[all[k].variant];
-    if (!can_move(variant) || fixed(*variant.refinement)) continue;
+    if (!can_move(variant) || fixed(*variant.effect)) continue;
     const VariantColumns derivative = shape_derivative(design, x, k);
     if (derivative.empty()) continue;
     append(rows, derivative);

@@ -39,6 +39,6 @@ struct ValueChange {
 /// `fixed`. Nothing where the columns cannot be told apart.
 std::optional<ValueChange> change_to_fit(const Design& design, const Eigen::VectorXd& x,
                                          const KindLevels& levels, double block_seconds,
-                                         bool (*fixed)(const Refinement& row));
+                                         bool (*fixed)(const Effect& row));
 
 }  // namespace cablefit

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "cablefit/model/effects.hpp"
 #include "cablefit/model/model.hpp"
-#include "cablefit/model/refinements.hpp"
 #include "cablefit/samples/rows/row_stream.hpp"
 
 namespace cablefit {

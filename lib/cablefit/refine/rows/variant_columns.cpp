@@ -23,7 +23,7 @@ struct SampleRange {
 /// Those in which an effect may do something: of an event none before it or when it is over.
 SampleRange active_samples(const Variant& variant, const Stretch& stretch, double step,
                            Eigen::Index n) {
-  const Refinement& row = *variant.refinement;
+  const Effect& row = *variant.effect;
   if (!row.is_event) return {0, n};
   const bool is_over = stretch.log > variant.event_log && (row.passes() || variant.ends_with_log);
   if (stretch.log < variant.event_log || is_over) return {n, n};
@@ -48,7 +48,7 @@ struct SomeTorques {
 SomeTorques some_torques(const Variant& variant, const Stretch& stretch,
                          const std::vector<JointState>& states, Eigen::Index every,
                          Eigen::Index margin) {
-  const Refinement& row = *variant.refinement;
+  const Effect& row = *variant.effect;
   const auto n = static_cast<Eigen::Index>(row.n_linear());
   const auto samples = (static_cast<Eigen::Index>(states.size()) + every - 1) / every;
   const double h = static_cast<double>(every) * stretch.recording.period;
@@ -98,7 +98,7 @@ std::vector<Eigen::MatrixXd> torque_columns(const Design& design, const Variant&
   const Kernel filter = gaussian(smoothing.columns, static_cast<double>(every) * smoothing.period);
   SomeTorques torques =
       some_torques(variant, design.stretches[k], design.states[k], every, 2 * filter.reach());
-  if (design.models.front().rigid && counts_on_rigid(*variant.refinement))
+  if (design.models.front().rigid && counts_on_rigid(*variant.effect))
     torques.motor += torques.link;
   const Eigen::Index n = n_linear(variant);
   std::vector<Eigen::MatrixXd> columns;
@@ -112,7 +112,7 @@ std::vector<Eigen::MatrixXd> torque_columns(const Design& design, const Variant&
 }
 
 std::vector<double> parameters_of(const Variant& variant, double linear) {
-  std::vector<double> all(variant.refinement->n_linear(), linear);
+  std::vector<double> all(variant.effect->n_linear(), linear);
   all.insert(all.end(), variant.shape.begin(), variant.shape.end());
   return all;
 }
@@ -120,7 +120,7 @@ std::vector<double> parameters_of(const Variant& variant, double linear) {
 /// What a small error of a sensor changes in what the equations leave.
 std::vector<Eigen::MatrixXd> sensor_columns(const Design& design, const Variant& variant,
                                             const Eigen::VectorXd& values, std::size_t k) {
-  const Refinement& row = *variant.refinement;
+  const Effect& row = *variant.effect;
   const StretchRows corrected = corrected_rows(design, k, row, parameters_of(variant, row.step));
   const Eigen::VectorXd own = values.head(design.layout.n());
   std::vector<Eigen::MatrixXd> columns;
@@ -139,7 +139,7 @@ VariantColumns variant_columns(const Design& design, const Variant& variant,
                                const Eigen::VectorXd& values, Evaluation evaluation) {
   VariantColumns columns;
   for (std::size_t k = 0; k < design.stretches.size(); ++k)
-    columns.push_back(variant.refinement->correct != nullptr
+    columns.push_back(variant.effect->correct != nullptr
                           ? sensor_columns(design, variant, values, k)
                           : torque_columns(design, variant, k, evaluation));
   return columns;

@@ -12,7 +12,7 @@ constexpr double kEventMargin = 1.0;  // s, to the ends of a log
 constexpr double kBeforeLog = 0;      // s, when the event happened between this log and the last
 
 /// Every combination of the grid's values.
-std::vector<std::vector<double>> grid_points(const Refinement& row, const LogScale& scale) {
+std::vector<std::vector<double>> grid_points(const Effect& row, const LogScale& scale) {
   std::vector<std::vector<double>> points = {{}};
   for (const ShapeGrid& grid : row.shape) {
     std::vector<std::vector<double>> more;
@@ -32,7 +32,7 @@ double seconds_of(const Stretch& stretch) {
 
 /// Dates at which an event may have happened: inside the moving logs, and of what blocked logs show
 /// as well, as an axis that was homed anew, between two logs.
-std::vector<std::pair<std::size_t, double>> dates(const Refinement& row, const Design& design,
+std::vector<std::pair<std::size_t, double>> dates(const Effect& row, const Design& design,
                                                   double step) {
   std::vector<std::pair<std::size_t, double>> all;
   std::size_t log = design.stretches.front().log;
@@ -48,14 +48,14 @@ std::vector<std::pair<std::size_t, double>> dates(const Refinement& row, const D
 
 /// What lasts changes all rows after it, so that its date is known from far; what passes does not,
 /// and is missed between two dates that are further apart than it is long.
-double date_step(const Refinement& row, const std::vector<double>& shape, double event_step) {
+double date_step(const Effect& row, const std::vector<double>& shape, double event_step) {
   constexpr double kCoarser = 4, kOverlap = 0.75;
   return row.lasts() ? kCoarser * event_step : std::min(event_step, kOverlap * shape.front());
 }
 
 }  // namespace
 
-std::vector<Variant> variants_of(const Refinement& row, const Design& design, double event_step) {
+std::vector<Variant> variants_of(const Effect& row, const Design& design, double event_step) {
   std::vector<Variant> all;
   for (const auto& shape : grid_points(row, design.scale)) {
     if (!row.is_event) {
@@ -74,7 +74,7 @@ std::vector<Variant> variants_of(const Refinement& row, const Design& design, do
 }
 
 std::optional<Variant> plain_of(Variant variant) {
-  const Refinement& row = *variant.refinement;
+  const Effect& row = *variant.effect;
   if (!has_plain_form(row)) return {};
   variant.is_plain = true;
   if (replaces_rows(variant)) return {};  // no columns of its own
@@ -86,7 +86,7 @@ std::optional<Variant> plain_of(Variant variant) {
 }
 
 Variant other_form(Variant variant) {
-  const Refinement& row = *variant.refinement;
+  const Effect& row = *variant.effect;
   variant.is_plain = !variant.is_plain;
   for (std::size_t i = 0; variant.is_plain && i < row.shape.size(); ++i)
     if (row.shape[i].canonical > 0) variant.shape[i] = row.shape[i].canonical;
@@ -94,7 +94,7 @@ Variant other_form(Variant variant) {
 }
 
 Variant with_shape(Variant variant, std::size_t shape, double value) {
-  if (variant.refinement->passes() && shape == 0)
+  if (variant.effect->passes() && shape == 0)
     variant.event_time += (variant.shape[shape] - value) / 2;
   variant.shape[shape] = value;
   return variant;
@@ -114,7 +114,7 @@ std::pair<double, double> around(const ShapeGrid& grid, double value, const LogS
 std::pair<double, double> dates_around(const Design& design, const Variant& variant,
                                        double event_step) {
   if (variant.event_time == kBeforeLog) return {kBeforeLog, kBeforeLog};
-  const double step = date_step(*variant.refinement, variant.shape, event_step);
+  const double step = date_step(*variant.effect, variant.shape, event_step);
   double low = kUnbounded, high = -kUnbounded;
   for (const Stretch& stretch : design.stretches) {
     if (stretch.log != variant.event_log) continue;

@@ -12,7 +12,7 @@ namespace cablefit {
 
 /// Every combination of the grid's values, and of the dates at which an event may have happened;
 /// none where no log is long enough for one. `event_step`: s, longest between dates of what passes.
-std::vector<Variant> variants_of(const Refinement& row, const Design& design, double event_step);
+std::vector<Variant> variants_of(const Effect& row, const Design& design, double event_step);
 
 /// The plain form at the same shape; nothing where the shape is another one.
 std::optional<Variant> plain_of(Variant variant);

@@ -15,9 +15,9 @@ bool has_yardstick(Yardstick wanted, const Design& design) {
 
 }  // namespace
 
-bool is_candidate(const Refinement& refinement, const Design& design) {
-  return (refinement.is_static || !is_blocked_only(design.stretches)) &&
-         has_yardstick(refinement.yardstick, design);
+bool is_candidate(const Effect& effect, const Design& design) {
+  return (effect.is_static || !is_blocked_only(design.stretches)) &&
+         has_yardstick(effect.yardstick, design);
 }
 
 }  // namespace cablefit

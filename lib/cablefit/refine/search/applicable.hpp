@@ -7,6 +7,6 @@ namespace cablefit {
 
 /// Whether a row of the catalogue may be named from these rows: any with moving logs, else those
 /// that a blocked link can tell apart.
-bool is_candidate(const Refinement& refinement, const Design& design);
+bool is_candidate(const Effect& effect, const Design& design);
 
 }  // namespace cablefit

@@ -22,11 +22,10 @@ bool same_cables(const std::vector<Cable>& a, const std::vector<Cable>& b) {
 }
 
 /// What an earlier refine added, with its nonlinear parameters: the linear ones are fitted anew.
-bool same_refinements(const std::vector<RefinementInstance>& a,
-                      const std::vector<RefinementInstance>& b) {
-  const auto is_same = [](const RefinementInstance& x, const RefinementInstance& y) {
-    if (x.refinement != y.refinement) return false;
-    for (std::size_t p = x.refinement->n_linear(); p < x.parameters.size(); ++p)
+bool same_refinements(const std::vector<EffectInstance>& a, const std::vector<EffectInstance>& b) {
+  const auto is_same = [](const EffectInstance& x, const EffectInstance& y) {
+    if (x.effect != y.effect) return false;
+    for (std::size_t p = x.effect->n_linear(); p < x.parameters.size(); ++p)
       if (x.parameters[p].value != y.parameters[p].value) return false;
     return true;
   };
@@ -39,7 +38,7 @@ bool same_structure(const Model& a, const Model& b) {
          std::equal(a.joints.begin(), a.joints.end(), b.joints.begin(),
                     [](const JointModel& x, const JointModel& y) {
                       return same_effects(x.link, y.link) && same_effects(x.motor, y.motor) &&
-                             same_refinements(x.refinements, y.refinements);
+                             same_refinements(x.added, y.added);
                     });
 }
 
@@ -47,11 +46,11 @@ bool same_structure(const Model& a, const Model& b) {
 /// the base.
 void require_no_event(const Model& model) {
   for (const JointModel& joint : model.joints)
-    for (const RefinementInstance& has : joint.refinements)
-      if (has.refinement->is_event)
+    for (const EffectInstance& has : joint.added)
+      if (has.effect->is_event)
         throw usage_error(
             fmt::format("the model of preload '{}' has '{}' ({}), an event of an earlier refine",
-                        model.preload, has.refinement->name, to_string(has.refinement->site)),
+                        model.preload, has.effect->name, to_string(has.effect->site)),
             "what it changed is in all rows of later logs: fit the model anew "
             "('cablefit identify') to logs from after it");
 }

@@ -21,7 +21,7 @@ constexpr double kTolerance = 1e-4;
 constexpr std::string_view kCompliance = "rad/(N m)";
 
 /// `x`: of the variant's own columns.
-bool is_out_of_bounds(const Refinement& row, const Eigen::VectorXd& x) {
+bool is_out_of_bounds(const Effect& row, const Eigen::VectorXd& x) {
   for (Eigen::Index p = 0; p < x.size(); ++p) {
     const ParameterInfo& bounds = row.parameters[static_cast<std::size_t>(p)];
     if (x(p) < bounds.lower || x(p) > bounds.upper) return true;
@@ -54,7 +54,7 @@ struct Scanner {
 
   /// A cable that gives way in time by more than at once is no cable: cables creep by some per
   /// cent.
-  bool gives_way_too_much(const Refinement& row, const Eigen::VectorXd& x) const {
+  bool gives_way_too_much(const Effect& row, const Eigen::VectorXd& x) const {
     for (Eigen::Index p = 0; p < x.size(); ++p)
       if (row.parameters[static_cast<std::size_t>(p)].unit == kCompliance && x(p) > compliance)
         return true;
@@ -85,7 +85,7 @@ std::optional<Candidate> try_variant(const Scanner& scanner, Variant variant,
   const ScanStart& start = scanner.start;
   const auto grams = grams_with(scanner, variant, evaluation);
   if (!grams) return {};
-  const Refinement& row = *variant.refinement;
+  const Effect& row = *variant.effect;
   const Eigen::Index n = n_linear(variant);
   const bool in_sample = row.passes();
   const auto fit = fit_blocks(*grams, start.levels, !in_sample, {kTolerance, n});
@@ -126,7 +126,7 @@ std::optional<Looked> looked_at(const QuickLook& look, const QuickLook::Products
                                 const Variant& variant) {
   const auto glance = look.with(products, n_linear(variant), kTolerance);
   if (!glance) return {};
-  return Looked{variant, glance->error, !is_out_of_bounds(*variant.refinement, glance->x)};
+  return Looked{variant, glance->error, !is_out_of_bounds(*variant.effect, glance->x)};
 }
 
 void keep_better(std::optional<Looked>& best, std::optional<Looked> other) {
@@ -157,7 +157,7 @@ double median_error(const ErrorsByBlock& errors) {
 /// The variant with its nonlinear parameters (and date) where its squared error is least.
 Variant moved_shape(const Scanner& scanner, Variant variant, Evaluation evaluation) {
   const Design& design = scanner.start.design;
-  const Refinement& row = *variant.refinement;
+  const Effect& row = *variant.effect;
   const int rounds = row.passes() ? 3 : 2;  // place and length of what passes pull at each other
   const auto error_with = [&](const Variant& other) {
     if (!replaces_rows(other)) {
@@ -215,12 +215,12 @@ std::optional<Candidate> best_fitting(const Scanner& scanner,
   const auto tried = [&](const std::optional<Looked>& looked) -> std::optional<Candidate> {
     if (!looked) return {};
     // Blocks that a coarse date is wrong in would speak against what lasts.
-    const bool lasts = looked->variant.refinement->lasts();
+    const bool lasts = looked->variant.effect->lasts();
     return try_variant(scanner, lasts ? moved_shape(scanner, looked->variant, Evaluation::coarse)
                                       : looked->variant);
   };
   auto best = simpler(tried(plain), tried(full));
-  if (best && best->variant.refinement->passes())
+  if (best && best->variant.effect->passes())
     best->elsewhere = 1 - median_error(errors) / scanner.start.fit.in_sample.sum();
   return best;
 }
@@ -256,7 +256,7 @@ bool acts_in_full(const Scanner& scanner, const Variant& variant) {
   const VariantColumns before = residuals(start.design.rows, start.fit.x);
   for (std::size_t k = 0; k < change.size(); ++k)
     for (std::size_t i = 0; i < change[k].size(); ++i) change[k][i] -= before[k][i];
-  const ShapeGrid& grid = variant.refinement->shape.front();
+  const ShapeGrid& grid = variant.effect->shape.front();
   if (grid.is_rare && !stands_out(change, before)) return false;
   const auto fit = fit_blocks(extended(start.grams, start.design.rows, start.design.stretches,
                                        change, scanner.settings.block_seconds),
@@ -275,7 +275,7 @@ std::optional<Candidate> best_replacing(const Scanner& scanner,
     if (candidate && (!best || is_better(*candidate, *best))) best = std::move(candidate);
   }
   if (best) best = try_variant(scanner, best->variant);
-  const bool is_correction = best && best->variant.refinement->correct != nullptr;
+  const bool is_correction = best && best->variant.effect->correct != nullptr;
   if (!is_correction || !best->refused.empty() || acts_in_full(scanner, best->variant)) return best;
   // The grid may have missed the limit by half a step.
   auto moved = try_variant(scanner, moved_shape(scanner, best->variant, Evaluation::coarse));
@@ -284,7 +284,7 @@ std::optional<Candidate> best_replacing(const Scanner& scanner,
   return best;
 }
 
-std::optional<Candidate> best_variant(const Scanner& scanner, const Refinement& row) {
+std::optional<Candidate> best_variant(const Scanner& scanner, const Effect& row) {
   std::vector<Variant> variants =
       variants_of(row, scanner.start.design, scanner.settings.event_step);
   if (variants.empty()) return {};  // no log is long enough for a date
@@ -298,17 +298,16 @@ std::optional<Candidate> best_variant(const Scanner& scanner, const Refinement& 
 }  // namespace
 
 std::vector<Candidate> scan(const ScanStart& start, const ScanSettings& settings,
-                            const std::vector<const Refinement*>& without) {
+                            const std::vector<const Effect*>& without) {
   const Scanner scanner(start, settings);
-  std::vector<const Refinement*> rows;
-  for (const Refinement& row : refinements())
+  std::vector<const Effect*> rows;
+  for (const Effect& row : candidate_effects())
     if (is_candidate(row, start.design) &&
         std::find(without.begin(), without.end(), &row) == without.end())
       rows.push_back(&row);
   std::vector<Candidate> found;
-  for (auto& candidate : parallel_map(settings.threads, rows, [&](const Refinement* row) {
-         return best_variant(scanner, *row);
-       }))
+  for (auto& candidate : parallel_map(
+           settings.threads, rows, [&](const Effect* row) { return best_variant(scanner, *row); }))
     if (candidate) found.push_back(std::move(*candidate));
   return found;
 }
@@ -320,7 +319,7 @@ Candidate refined_shape(const ScanStart& start, const ScanSettings& settings,
     return try_variant(scanner, moved_shape(scanner, variant, Evaluation::fine));
   };
   auto best = moved(candidate.variant);
-  if (has_plain_form(*candidate.variant.refinement)) {
+  if (has_plain_form(*candidate.variant.effect)) {
     auto other = moved(other_form(candidate.variant));
     const bool is_plain = candidate.variant.is_plain;
     best = simpler(is_plain ? best : other, is_plain ? other : best);

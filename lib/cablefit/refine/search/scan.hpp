@@ -37,7 +37,7 @@ struct ScanStart {
 /// One candidate per applicable row, in the order of the table; rows in `without` are left out.
 /// What passes is judged in sample: it lies in one block.
 std::vector<Candidate> scan(const ScanStart& start, const ScanSettings& settings,
-                            const std::vector<const Refinement*>& without);
+                            const std::vector<const Effect*>& without);
 
 /// The nonlinear parameters (and date) of a candidate moved to where its squared error is least, by
 /// turns, between the neighbours on the grid.

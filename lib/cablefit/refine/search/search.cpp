@@ -18,17 +18,17 @@ bool is_same(const KindLevels& a, const KindLevels& b) {
 
 }  // namespace
 
-bool same_class(const Refinement& a, const Refinement& b) {
+bool same_class(const Effect& a, const Effect& b) {
   const bool other_axis = (a.site == Site::link && b.site == Site::motor) ||
                           (a.site == Site::motor && b.site == Site::link);
   return !a.alias_class.empty() && a.alias_class == b.alias_class && !other_axis;
 }
 
-std::vector<const Refinement*> named_already(const Design& design) {
-  std::vector<const Refinement*> out;
+std::vector<const Effect*> named_already(const Design& design) {
+  std::vector<const Effect*> out;
   for (const Variant& variant : design.added)
-    for (const Refinement& row : refinements()) {
-      const Refinement& named = *variant.refinement;
+    for (const Effect& row : candidate_effects()) {
+      const Effect& named = *variant.effect;
       if (&row == &named || same_class(row, named)) out.push_back(&row);
     }
   return out;
@@ -37,26 +37,26 @@ std::vector<const Refinement*> named_already(const Design& design) {
 const Candidate* best_lasting(const std::vector<Candidate>& candidates) {
   const Candidate* best = nullptr;
   for (const Candidate& c : candidates)
-    if (c.refused.empty() && !c.variant.refinement->is_event && c.gain > 0 &&
+    if (c.refused.empty() && !c.variant.effect->is_event && c.gain > 0 &&
         (best == nullptr || c.gain > best->gain))
       best = &c;
   return best;
 }
 
 std::vector<const Candidate*> best_candidates(const std::vector<Candidate>& candidates,
-                                              std::size_t most, const Refinement& but) {
-  const auto are_one = [](const Refinement& a, const Refinement& b) {
+                                              std::size_t most, const Effect& but) {
+  const auto are_one = [](const Effect& a, const Effect& b) {
     return &a == &b || same_class(a, b);
   };
   std::vector<const Candidate*> all, best;
   for (const Candidate& c : candidates)
-    if (c.refused.empty() && !c.variant.refinement->is_event && c.gain > 0) all.push_back(&c);
+    if (c.refused.empty() && !c.variant.effect->is_event && c.gain > 0) all.push_back(&c);
   std::stable_sort(all.begin(), all.end(),
                    [](const Candidate* a, const Candidate* b) { return a->gain > b->gain; });
   for (const Candidate* c : all) {
-    const Refinement& row = *c->variant.refinement;
+    const Effect& row = *c->variant.effect;
     const bool again = std::any_of(best.begin(), best.end(), [&](const Candidate* other) {
-      return are_one(row, *other->variant.refinement);
+      return are_one(row, *other->variant.effect);
     });
     if (best.size() < most && !again && !are_one(row, but)) best.push_back(c);
   }

@@ -7,10 +7,10 @@ namespace cablefit {
 
 /// Whether two rows are of one alias class, which no data tell apart. The same law on the link and
 /// on the motor is two.
-bool same_class(const Refinement& a, const Refinement& b);
+bool same_class(const Effect& a, const Effect& b);
 
 /// Rows that a design has, and their aliases.
-std::vector<const Refinement*> named_already(const Design& design);
+std::vector<const Effect*> named_already(const Design& design);
 
 struct Search {
   KindLevels levels{};  ///< weights that decided
@@ -30,6 +30,6 @@ const Candidate* best_lasting(const std::vector<Candidate>& candidates);
 
 /// The `most` best of these, one of each alias class; not `but`, its aliases or events.
 std::vector<const Candidate*> best_candidates(const std::vector<Candidate>& candidates,
-                                              std::size_t most, const Refinement& but);
+                                              std::size_t most, const Effect& but);
 
 }  // namespace cablefit

@@ -28,7 +28,7 @@ double largest(const Design& design, const Eigen::VectorXd& shapes) {
   return most;
 }
 
-bool none_is_fixed(const Refinement& /*row*/) { return false; }
+bool none_is_fixed(const Effect& /*row*/) { return false; }
 
 }  // namespace
 

@@ -29,7 +29,7 @@ RefineEvidence evidence_of(const RefineBench& bench, const RefineState& before,
 
 /// `reason`: of a refusal.
 RefineStep step_of(const RefineBench& bench, const Trial& trial, const std::string& reason) {
-  const Refinement& row = *trial.winner.variant.refinement;
+  const Effect& row = *trial.winner.variant.effect;
   RefineStep step;
   step.added = row.name;
   step.side = to_string(row.site);
@@ -75,7 +75,7 @@ double shared_rho(const RowGap& gap, const RowGap& other) {
 }
 
 /// On the training logs alone: by held-out blocks.
-HeldOutChange change_of(const RefineBench& bench, const Refinement& row, const RefineState& before,
+HeldOutChange change_of(const RefineBench& bench, const Effect& row, const RefineState& before,
                         const RefineState& after) {
   return {row,
           shared_rho(before.held_out, after.held_out),
@@ -101,7 +101,7 @@ bool carries_nothing(const RefineBench& bench, const RefineState& after) {
 }
 
 /// Reason against a step; empty: none.
-std::string why_not(const RefineBench& bench, const Refinement& row, const RefineState& before,
+std::string why_not(const RefineBench& bench, const Effect& row, const RefineState& before,
                     const RefineState& after) {
   // Dates are many, and most logs without a visible gap have no event.
   if (row.is_event && before.rho < kVisibleGap)
@@ -125,7 +125,7 @@ NamedEffect effect_of(const RefineBench& bench, const RefineState& before, const
 bool add_one(RefineBench& bench, Trials& trials, std::optional<Trial> trial, Chain& chain,
              RefineResult& result) {
   for (; trial; trial = trials.next_alike(result.steps.back().reason)) {
-    const Refinement& row = *trial->winner.variant.refinement;
+    const Effect& row = *trial->winner.variant.effect;
     const std::string reason = why_not(bench, row, chain.back(), trial->after);
     result.steps.push_back(step_of(bench, *trial, reason));
     if (reason.empty()) {
@@ -154,11 +154,11 @@ void take_both(RefineBench& bench, Trial one, Trial two, Chain& chain, RefineRes
 /// What was refused alone may be half of the truth: with the next best beside it, both are judged
 /// together. Two names at once need more evidence than one.
 bool add_both(RefineBench& bench, Trial one, Chain& chain, RefineResult& result) {
-  if (one.winner.variant.refinement->is_event) return false;
+  if (one.winner.variant.effect->is_event) return false;
   auto two = try_next(bench, one.after);
   if (!two) return false;
   const std::string reason =
-      why_not_both(change_of(bench, *two->winner.variant.refinement, chain.front(), two->after));
+      why_not_both(change_of(bench, *two->winner.variant.effect, chain.front(), two->after));
   if (reason.empty())
     take_both(bench, std::move(one), std::move(*two), chain, result);
   else
@@ -213,8 +213,8 @@ void name_first_again(RefineBench& bench, Chain& chain, RefineResult& result) {
     chain.push_back(std::move(alone.after));
     return;
   }
-  const Refinement& row = *trial->winner.variant.refinement;
-  if (&row == state.design.added[bench.n_kept].refinement) {
+  const Effect& row = *trial->winner.variant.effect;
+  if (&row == state.design.added[bench.n_kept].effect) {
     // Fewer: the second no longer blurs it.
     result.effects.front().rivals = trial->judgement.rivals;
     return;
@@ -228,7 +228,7 @@ void begin_otherwise(RefineBench& bench, Chain& chain, RefineResult& result) {
   constexpr std::size_t kBeginnings = 3;
   const RefineState first = chain.front();
   const Search& found = bench.first_search;
-  const Refinement& taken = *chain.back().design.added[bench.n_kept].refinement;
+  const Effect& taken = *chain.back().design.added[bench.n_kept].effect;
   const bool was_alone = result.effects.size() == 1;
   for (const Candidate* candidate : best_candidates(found.candidates, kBeginnings, taken)) {
     Trial one;
@@ -239,7 +239,7 @@ void begin_otherwise(RefineBench& bench, Chain& chain, RefineResult& result) {
     one.after = std::move(*after);
     auto two = try_next(bench, one.after);
     if (!two || two->after.rho >= chain.back().rho) continue;
-    const Refinement& row = *two->winner.variant.refinement;
+    const Effect& row = *two->winner.variant.effect;
     // Beside what was named alone, the beginning was too little to be named.
     if (was_alone && (&row == &taken || same_class(row, taken))) continue;
     if (!why_not_both(change_of(bench, row, first, two->after)).empty()) continue;

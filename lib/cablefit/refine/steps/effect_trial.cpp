@@ -99,7 +99,7 @@ std::optional<Trial> Trials::best() {
   league_ = judgement.league;
   chance_ = judgement.search;
   if (!judgement.is_named || is_at_floor(bench_, state_)) return {};
-  last_ = judgement.best->variant.refinement;
+  last_ = judgement.best->variant.effect;
   alike_ = judgement.rivals;
   return tried(std::move(judgement));
 }
@@ -107,13 +107,13 @@ std::optional<Trial> Trials::best() {
 std::optional<Trial> Trials::next_alike(const std::string& refusal) {
   if (last_ == nullptr) return {};
   for (Candidate& candidate : found_.candidates) {
-    const Refinement& row = *candidate.variant.refinement;
+    const Effect& row = *candidate.variant.effect;
     const bool both_dates = row.is_event && last_->is_event;
     if (&row == last_ || same_class(row, *last_) || both_dates) candidate.refused = refusal;
   }
   Judgement judgement = judged();
   if (!judgement.is_named) return {};
-  last_ = judgement.best->variant.refinement;
+  last_ = judgement.best->variant.effect;
   const bool is_alike = std::any_of(alike_.begin(), alike_.end(), [&](const Rival& rival) {
     return rival.name == last_->name && rival.side == to_string(last_->site);
   });
@@ -126,7 +126,7 @@ std::optional<Trial> Trials::tried(Judgement judgement) const {
   trial.winner = refined_shape({state_.design, found_.grams, found_.fit, found_.levels},
                                bench_.scan, *trial.judgement.best);
   trial.judgement.best = nullptr;  // of the search, which ends before the trial
-  auto next = trial.winner.variant.refinement->change_again != nullptr
+  auto next = trial.winner.variant.effect->change_again != nullptr
                   ? with_own_coefficients(bench_, state_, found_, trial.winner)
                   : with_candidate(bench_, state_, found_, trial.winner);
   if (!next) return {};

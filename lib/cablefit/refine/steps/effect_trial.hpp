@@ -43,8 +43,8 @@ class Trials {
   Search found_;
   std::vector<Rival> league_;
   ChanceTail chance_;
-  const Refinement* last_ = nullptr;  ///< tried
-  std::vector<Rival> alike_;          ///< of the best
+  const Effect* last_ = nullptr;  ///< tried
+  std::vector<Rival> alike_;      ///< of the best
 };
 
 /// The best name that a search on this state finds for a further effect.

@@ -27,21 +27,14 @@ bool any_part_of(const RefineLogs& logs, Predicate predicate) {
 /// Those of the base that are not there yet, at 0.
 void add_motor_effects(Model& model) {
   std::vector<EffectInstance>& motor = model.joints.front().motor;
-  for (const Effect& effect : base_effects(Side::motor)) {
+  for (EffectInstance& blank : base_instances(Side::motor, 1, model.rig,
+                                              [](const Estimate& e) { return std::optional(e); })) {
     const bool there = std::any_of(motor.begin(), motor.end(), [&](const EffectInstance& instance) {
-      return instance.effect == &effect || instance.effect->instead_of == effect.name;
+      return instance.effect == blank.effect;
     });
     if (there) continue;
-    EffectInstance& instance = motor.emplace_back();
-    instance.effect = &effect;
-    for (const ParameterInfo& info : effect.parameters) {
-      Estimate e;
-      e.name = info.name;
-      e.symbol = info.symbol;
-      e.unit = unit_on(model.rig, info.unit);
-      e.value = 0;
-      instance.parameters.push_back(std::move(e));
-    }
+    blank.parameters.front().value = 0;
+    motor.push_back(std::move(blank));
   }
 }
 
@@ -55,19 +48,15 @@ const Effect* least_visible(const Design& design, double block_seconds) {
   if (!fit) return motor.size() > 1 ? motor.front().effect : nullptr;
   const Effect* least = nullptr;
   double fewest = kVisibleSd;
-  Eigen::Index at = design.layout.n_link;
-  for (const EffectInstance& instance : motor) {
-    const auto n = static_cast<Eigen::Index>(instance.effect->n_linear());
-    for (Eigen::Index i = at; i < at + n; ++i) {
-      const ParameterInfo& info = instance.effect->parameters[static_cast<std::size_t>(i - at)];
-      const double sd = std::sqrt(fit->covariance(i, i));
-      const double visible = fit->x(i) < info.lower ? 0 : std::abs(fit->x(i)) / sd;
-      const bool may_go = std::isfinite(info.lower);  // an offset costs nothing
-      if (!may_go || visible >= fewest) continue;
-      fewest = visible;
-      least = instance.effect;
-    }
-    at += n;
+  for (std::size_t k = 0; k < motor.size(); ++k) {
+    const ParameterInfo& info = motor[k].effect->parameters.front();
+    const Eigen::Index at = design.layout.n_link + static_cast<Eigen::Index>(k);
+    const double sd = std::sqrt(fit->covariance(at, at));
+    const double visible = fit->x(at) < info.lower ? 0 : std::abs(fit->x(at)) / sd;
+    const bool may_go = std::isfinite(info.lower);  // an offset costs nothing
+    if (!may_go || visible >= fewest) continue;
+    fewest = visible;
+    least = motor[k].effect;
   }
   return least;
 }
@@ -152,12 +141,12 @@ void require_one_joint(std::span<const Model> models) {
 /// Of the effects that the models have, those that a blocked link shows could be fitted anew.
 void require_static(std::span<const Model> models) {
   for (const Model& model : models)
-    for (const RefinementInstance& has : model.joints.front().refinements)
-      if (!has.refinement->is_static)
+    for (const EffectInstance& has : model.joints.front().added)
+      if (!has.effect->is_static)
         throw input_error(
             {},
             fmt::format("the model has '{}' ({}), which no log with the link blocked shows",
-                        has.refinement->name, to_string(has.refinement->site)),
+                        has.effect->name, to_string(has.effect->site)),
             "give moving logs too, or a model without it");
 }
 

@@ -17,7 +17,7 @@ struct Values {
   Eigen::VectorXd x;
 };
 
-bool is_unrecorded(const Refinement& row) { return !is_recorded(row); }
+bool is_unrecorded(const Effect& row) { return !is_recorded(row); }
 
 std::optional<ValueChange> bias_at(const RefineBench& bench, const Values& values,
                                    const KindLevels& levels) {

@@ -86,7 +86,7 @@ std::optional<RunChoice> decisive_run(const Design& design, const Eigen::VectorX
           apart(trial, own, residuals_of(with, refitted(one_rival, with, floor)), floor);
       if (one.in_floors >= closest.in_floors) continue;
       closest = one;
-      name = rival.variant.refinement->name;
+      name = rival.variant.effect->name;
     }
     if (name.empty() || closest.in_floors <= most) continue;
     most = closest.in_floors;
@@ -101,7 +101,7 @@ namespace {
 const Candidate* find(const std::vector<Candidate>& candidates, std::string_view name,
                       std::string_view side) {
   const auto found = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& c) {
-    const Refinement& row = *c.variant.refinement;
+    const Effect& row = *c.variant.effect;
     return row.name == name && to_string(row.site) == side;
   });
   return found != candidates.end() ? &*found : nullptr;
@@ -118,12 +118,12 @@ std::string times(double ratio) {
 /// The rivals of the first effect that a run could tell from it.
 void tell_rivals_apart(const NextRunInput& input, RefineResult& result) {
   const NamedEffect& named = result.effects.front();
-  const Refinement& row = *named.instance.refinement;
+  const Effect& row = *named.instance.effect;
   const Candidate* best = find(input.candidates, row.name, to_string(row.site));
   std::vector<const Candidate*> rivals;
   for (const Rival& rival : named.rivals)
     if (const Candidate* c = find(input.candidates, rival.name, rival.side);
-        c != nullptr && !rival.by_rule && !c->variant.refinement->is_event)
+        c != nullptr && !rival.by_rule && !c->variant.effect->is_event)
       rivals.push_back(c);
   if (best == nullptr || row.is_event || rivals.empty()) return;
   const auto choice = decisive_run(input.design, input.x, *best, rivals, input.floor, input.runs);
@@ -175,7 +175,7 @@ namespace {
 
 /// On a blocked link a loop of the cables and one of the motor's friction are the same.
 bool is_loop(const NamedEffect& effect) {
-  const Refinement& row = *effect.instance.refinement;
+  const Effect& row = *effect.instance.effect;
   return row.n_states > 0 || row.level != nullptr;
 }
 

@@ -123,8 +123,7 @@ const Candidate* best_explaining(const Search& found, const KindLevels& floor) {
   if (total < kRemainder * noise) return best;
   for (const Candidate& c : found.candidates) {
     const bool most = c.refused.empty() && c.gain * total > kMost * (total - noise);
-    if (most && c.variant.refinement->is_event && (best == nullptr || c.gain > best->gain))
-      best = &c;
+    if (most && c.variant.effect->is_event && (best == nullptr || c.gain > best->gain)) best = &c;
   }
   return best;
 }

@@ -26,7 +26,7 @@ bool can_show(const RefineBench& bench, const Variant& variant) {
 /// As the test logs are: without what they cannot show.
 Design as_tested(const RefineBench& bench, Design design) {
   for (Variant& variant : design.added)
-    if (variant.refinement->is_event && !can_show(bench, variant)) variant.ends_with_log = true;
+    if (variant.effect->is_event && !can_show(bench, variant)) variant.ends_with_log = true;
   return design;
 }
 
@@ -60,18 +60,18 @@ std::string why_not_confirmed(const RefineBench& bench, const Chain& chain,
                               std::size_t to) {
   const RefineState &before = chain[from], &after = chain[to];
   const Variant& variant = after.design.added.back();
-  const HeldOutChange change{*variant.refinement,
+  const HeldOutChange change{*variant.effect,
                              readings[from].gap.rho,
                              readings[to].gap.rho,
                              after.rho > kRemainder,
                              sd_better(bench, after.levels, readings[from], readings[to]),
-                             variant.refinement->lasts() && can_show(bench, variant),
+                             variant.effect->lasts() && can_show(bench, variant),
                              (before.rho - after.rho) / std::max(1e-9, before.rho - 1),
                              0,
                              kUnbounded,
                              name_of_test(bench)};
   const std::string reason = why_not_added(change);
-  if (!reason.empty() || variant.refinement->is_event) return reason;
+  if (!reason.empty() || variant.effect->is_event) return reason;
   const std::string simulated =
       why_not_simulated(readings[from].simulated, readings[to].simulated, bench.simulation_floor);
   return simulated.empty() ? "" : fmt::format("on {} {}", name_of_test(bench), simulated);
@@ -80,7 +80,7 @@ std::string why_not_confirmed(const RefineBench& bench, const Chain& chain,
 bool has_event(const RefineState& state, std::size_t n_effects) {
   const std::vector<Variant>& added = state.design.added;
   return std::any_of(added.end() - static_cast<std::ptrdiff_t>(n_effects), added.end(),
-                     [](const Variant& variant) { return variant.refinement->is_event; });
+                     [](const Variant& variant) { return variant.effect->is_event; });
 }
 
 RefineStep& last_accepted(RefineResult& result) {
@@ -121,7 +121,7 @@ void tell_gains(const RefineBench& bench, const Chain& chain,
                 const std::vector<TestReading>& readings, RefineResult& result) {
   for (std::size_t k = 0; k < result.effects.size(); ++k) {
     const Variant& variant = chain[k + 1].design.added.back();
-    const bool is_shown = !variant.refinement->is_event || can_show(bench, variant);
+    const bool is_shown = !variant.effect->is_event || can_show(bench, variant);
     const bool visible = is_shown && readings[k].gap.rho > kVisibleGap;
     const double from = visible ? readings[k].gap.rho : chain[k].rho;
     const double to = visible ? readings[k + 1].gap.rho : chain[k + 1].rho;

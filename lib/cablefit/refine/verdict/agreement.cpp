@@ -70,7 +70,7 @@ std::string why_not_one_law(const Design& design, const Eigen::VectorXd& x,
                             const KindLevels& levels, std::size_t which, double block_seconds) {
   const Variant& effect = design.added[which];
   const Eigen::Index n = n_linear(effect);
-  if (n == 0 || effect.refinement->is_event) return "";
+  if (n == 0 || effect.effect->is_event) return "";
   Eigen::Index first = design.layout.n();
   for (std::size_t k = 0; k < which; ++k) first += n_linear(design.added[k]);
   for (const RegimeVariable& variable : regime_variables()) {

@@ -16,7 +16,7 @@ inline constexpr double kClearlyBetter = 2;
 
 /// What adding an effect did on data that it was not fitted to: held-out blocks, or test logs.
 struct HeldOutChange {
-  const Refinement& row;
+  const Effect& row;
   double rho_before = 0, rho_after = 0;  ///< equations
   bool leaves_remainder = false;         ///< of the training rows, above kRemainder
   double sd_better = kUnbounded;         ///< of its gain, blocks paired

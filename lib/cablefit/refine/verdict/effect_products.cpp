@@ -110,7 +110,7 @@ std::optional<Seen> see(const Design& design, const Variant& variant, const Stac
 std::vector<Family> families_of(const Design& design) {
   std::vector<Family> all;
   const auto kept = named_already(design);
-  for (const Refinement& row : refinements()) {
+  for (const Effect& row : candidate_effects()) {
     if (row.is_event || !is_candidate(row, design)) continue;
     if (std::find(kept.begin(), kept.end(), &row) != kept.end()) continue;
     std::vector<std::vector<double>> shapes = {{}};

@@ -11,7 +11,7 @@ namespace cablefit {
 
 /// A row of the catalogue at some of its shapes.
 struct Family {
-  const Refinement* row = nullptr;
+  const Effect* row = nullptr;
   std::vector<Variant> variants;
 };
 /// All that may be named from this design's rows and has no date.

@@ -71,7 +71,7 @@ bool are_aliases(const std::vector<Family>& families, const Group& group) {
   });
 }
 
-std::string name_of(const Refinement& row) {
+std::string name_of(const Effect& row) {
   return fmt::format("{} ({})", row.name, to_string(row.site));
 }
 

@@ -56,9 +56,9 @@ void react_motor(const JointState& /*state*/, const double* shape, const double*
 }
 
 /// No row of the catalogue: it is described, not named.
-const Refinement& attached_mass(bool link) {
+const Effect& attached_mass(bool link) {
   const auto row = [](Site site, auto advance, auto torque) {
-    Refinement mass;
+    Effect mass;
     mass.name = "attached mass";
     mass.site = site;
     mass.parameters = kMass;
@@ -68,8 +68,8 @@ const Refinement& attached_mass(bool link) {
     mass.torque = torque;
     return mass;
   };
-  static const Refinement kLink = row(Site::link, shake_link, react_link);
-  static const Refinement kMotor = row(Site::motor, shake_motor, react_motor);
+  static const Effect kLink = row(Site::link, shake_link, react_link);
+  static const Effect kMotor = row(Site::motor, shake_motor, react_motor);
   return link ? kLink : kMotor;
 }
 
@@ -186,7 +186,7 @@ Mode strongest_mode(const Design& design, const Eigen::VectorXd& x, const Equati
                     const KindLevels& floor, double block_seconds) {
   Mode best;
   if (gap.kind == RowKind::blocked) return best;
-  const Refinement& row = attached_mass(gap.kind == RowKind::link);
+  const Effect& row = attached_mass(gap.kind == RowKind::link);
   const BlockGrams grams = block_grams(design.rows, design.stretches, block_seconds);
   const auto without = fit_blocks(grams, floor, false);  // x may be of other weights
   if (!without) return best;

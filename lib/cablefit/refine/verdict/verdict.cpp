@@ -57,7 +57,7 @@ std::vector<double> inclusions(const std::vector<const Candidate*>& candidates) 
 
 std::size_t n_parameters(const Candidate& c) {
   const Variant& variant = c.variant;
-  const Refinement& row = *variant.refinement;
+  const Effect& row = *variant.effect;
   // Other cables may have more coefficients.
   std::size_t n = static_cast<std::size_t>(c.x.size()) + (row.is_event ? 1 : 0);
   for (std::size_t i = 0; i < row.shape.size(); ++i)
@@ -67,7 +67,7 @@ std::size_t n_parameters(const Candidate& c) {
 
 /// In sample, or held out.
 bool are_comparable(const Candidate& a, const Candidate& b) {
-  return a.variant.refinement->passes() == b.variant.refinement->passes();
+  return a.variant.effect->passes() == b.variant.effect->passes();
 }
 
 bool is_tie(const Candidate& a, const Candidate& b, const SquaredGap& gap) {
@@ -78,7 +78,7 @@ bool is_tie(const Candidate& a, const Candidate& b, const SquaredGap& gap) {
 }
 
 Rival rival_of(const Candidate& c, const SquaredGap& gap) {
-  const Refinement& row = *c.variant.refinement;
+  const Effect& row = *c.variant.effect;
   Rival rival;
   rival.name = row.name;
   rival.side = to_string(row.site);
@@ -99,10 +99,10 @@ class Significance {
 
   ChanceTail of_search(double gain) const { return chance_.tail_of_search(gain); }
 
-  ChanceTail tail(const Candidate& c) const { return chance_.tail(*c.variant.refinement, c.gain); }
+  ChanceTail tail(const Candidate& c) const { return chance_.tail(*c.variant.effect, c.gain); }
 
   bool holds(const Candidate& c) const {
-    const Refinement& row = *c.variant.refinement;
+    const Effect& row = *c.variant.effect;
     const double least =
         is_first_ ? options_.materiality : std::max(kNextMateriality, options_.materiality);
     if (!is_first_ && c.gain * gap_.total < kNextShare * gap_.above()) return false;
@@ -122,7 +122,7 @@ class Significance {
   }
 
   double beyond_chance(const Candidate& c) const {
-    return c.gain - chance_.usual(*c.variant.refinement);
+    return c.gain - chance_.usual(*c.variant.effect);
   }
 
  private:
@@ -151,7 +151,7 @@ std::vector<const Candidate*> ranked(const std::vector<Candidate>& candidates) {
   return able;
 }
 
-bool is_of_sensor(const Candidate& c) { return c.variant.refinement->site == Site::sensor; }
+bool is_of_sensor(const Candidate& c) { return c.variant.effect->site == Site::sensor; }
 
 /// Of two that tie: the one with fewer parameters, and what acts on the robot before what a sensor
 /// only reads, as a constant torque before a wrong zero of an encoder.
@@ -166,7 +166,7 @@ bool is_simpler(const Candidate& a, const Candidate& b) {
 bool is_better_name(const Candidate& other, const Candidate& best, const Significance& significance,
                     const SquaredGap& gap) {
   if (is_tie(other, best, gap) && is_simpler(other, best)) return true;
-  if (!other.variant.refinement->is_event && !best.variant.refinement->is_event)
+  if (!other.variant.effect->is_event && !best.variant.effect->is_event)
     return other.gain > best.gain;
   return significance.beyond_chance(other) > significance.beyond_chance(best);
 }
@@ -178,8 +178,7 @@ std::optional<std::size_t> best_of(const std::vector<const Candidate*>& able,
   std::optional<std::size_t> best;
   for (const bool is_event : {false, true})
     for (std::size_t k = 0; k < able.size(); ++k) {
-      if (able[k]->variant.refinement->is_event != is_event || !significance.holds(*able[k]))
-        continue;
+      if (able[k]->variant.effect->is_event != is_event || !significance.holds(*able[k])) continue;
       if (!best || is_better_name(*able[k], *able[*best], significance, gap)) best = k;
     }
   return best;
@@ -197,8 +196,8 @@ bool is_alike(const Candidate& c, const Candidate& best, const Paired& differenc
 }
 
 /// Aliases are listed by rule, also where their columns vanished beside each other.
-void add_aliases(const Refinement& named, std::vector<Rival>& rivals) {
-  for (const Refinement& row : refinements()) {
+void add_aliases(const Effect& named, std::vector<Rival>& rivals) {
+  for (const Effect& row : candidate_effects()) {
     if (&row == &named || !same_class(row, named)) continue;
     const bool there = std::any_of(rivals.begin(), rivals.end(), [&](const Rival& r) {
       return r.name == row.name && r.side == to_string(row.site);
@@ -214,10 +213,10 @@ void add_aliases(const Refinement& named, std::vector<Rival>& rivals) {
 
 std::vector<Rival> rivals_of(const Candidate& best, const std::vector<const Candidate*>& able,
                              const std::vector<double>& share, const SquaredGap& gap) {
-  const Refinement& named = *best.variant.refinement;
+  const Effect& named = *best.variant.effect;
   std::vector<Rival> rivals;
   for (std::size_t k = 0; k < able.size(); ++k) {
-    const Refinement& row = *able[k]->variant.refinement;
+    const Effect& row = *able[k]->variant.effect;
     if (&row == &named) continue;
     const Paired difference = paired(able[k]->error, best.error);
     const bool by_rule = same_class(row, named);
@@ -255,9 +254,8 @@ Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGa
   Judgement judgement;
   judgement.league = league_of(candidates, able, share, gap);
   const Significance significance(draws, gap, options, is_first);
-  const auto first = std::find_if(able.begin(), able.end(), [](const Candidate* c) {
-    return !c->variant.refinement->is_event;
-  });
+  const auto first = std::find_if(able.begin(), able.end(),
+                                  [](const Candidate* c) { return !c->variant.effect->is_event; });
   if (first != able.end()) judgement.search = significance.of_search((*first)->gain);
   const auto best = best_of(able, significance, gap);
   const double least_gain = best ? able[*best]->gain : 0;
@@ -284,7 +282,7 @@ Judgement judge_candidate(const Candidate& candidate, const std::vector<Candidat
   judgement.chance = significance.tail(candidate);
   judgement.rivals = rivals_of(candidate, able, share, gap);
   for (std::size_t k = 0; k < able.size(); ++k)
-    if (able[k]->variant.refinement == candidate.variant.refinement) judgement.inclusion = share[k];
+    if (able[k]->variant.effect == candidate.variant.effect) judgement.inclusion = share[k];
   return judgement;
 }
 

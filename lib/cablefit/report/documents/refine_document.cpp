@@ -122,7 +122,7 @@ void add_model_rows(Table& table, const Model& model) {
 }
 
 void add_effect_rows(Table& table, const NamedEffect& effect) {
-  const Refinement& row = *effect.instance.refinement;
+  const Effect& row = *effect.instance.effect;
   const std::string method = fmt::format("{}.{}", row.name, to_string(row.site));
   for (const auto* some : {&effect.instance.parameters, &effect.derived})
     for (const Estimate& e : *some) add_tidy(table, "", "refined", method, e);

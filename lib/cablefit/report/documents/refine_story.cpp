@@ -61,7 +61,7 @@ std::vector<SummaryLine> where_lines(const RefineResult& result) {
 SummaryLine verdict_line(const RefineResult& result) {
   std::string names;
   for (const NamedEffect& effect : result.effects) {
-    const Refinement& row = *effect.instance.refinement;
+    const Effect& row = *effect.instance.effect;
     names += (names.empty() ? "" : ", ") + effect_text(row.name, to_string(row.site));
   }
   std::string text(to_string(result.verdict));
@@ -80,8 +80,8 @@ std::string parameters_text(const NamedEffect& effect) {
 }
 
 /// Whether any of its coefficients stands out of its sd.
-bool is_seen(const RefinementInstance& instance) {
-  const std::size_t n = instance.refinement->n_linear();
+bool is_seen(const EffectInstance& instance) {
+  const std::size_t n = instance.effect->n_linear();
   for (std::size_t p = 0; p < n; ++p) {
     const Estimate& e = instance.parameters[p];
     if (std::isfinite(e.sd) && std::abs(e.value) > kMovedSd * e.sd) return true;
@@ -91,7 +91,7 @@ bool is_seen(const RefinementInstance& instance) {
 
 /// What the model has already: values as it says them, and in these logs.
 SummaryLine kept_line(const KeptEffect& kept) {
-  const Refinement& row = *kept.now.instance.refinement;
+  const Effect& row = *kept.now.instance.effect;
   std::string text;
   for (std::size_t p = 0; p < kept.given.size(); ++p) {
     const Estimate& e = kept.now.instance.parameters[p];
@@ -114,8 +114,8 @@ std::string chance_text(const RefineEvidence& e) {
 
 /// Whether it is in one log only, so that no other data can show it.
 bool is_over(const NamedEffect& effect, bool held_out_blocks) {
-  const RefinementInstance& instance = effect.instance;
-  return instance.refinement->passes() || (instance.ends_with_log && !held_out_blocks);
+  const EffectInstance& instance = effect.instance;
+  return instance.effect->passes() || (instance.ends_with_log && !held_out_blocks);
 }
 
 SummaryLine evidence_line(const NamedEffect& effect, bool held_out_blocks) {
@@ -140,7 +140,7 @@ SummaryLine rivals_line(const NamedEffect& effect, const std::vector<Rival>& lea
   std::string text;
   for (const Rival& rival : effect.rivals) text += (text.empty() ? "" : "; ") + rival_text(rival);
   if (!text.empty()) return {"rivals", text};
-  const Refinement& row = *effect.instance.refinement;
+  const Effect& row = *effect.instance.effect;
   const auto next = std::find_if(league.begin(), league.end(), [&](const Rival& r) {
     return r.refused.empty() && (r.name != row.name || r.side != to_string(row.site));
   });
@@ -149,7 +149,7 @@ SummaryLine rivals_line(const NamedEffect& effect, const std::vector<Rival>& lea
                                 effect_text(next->name, next->side), percent(next->gain))};
 }
 
-std::string date_text(const RefinementInstance& event, const RefineResult& result) {
+std::string date_text(const EffectInstance& event, const RefineResult& result) {
   const std::string& path = result.inputs.at(event.event_log).path;
   if (event.event_time > 0)
     return fmt::format("at {} s of {}{}", number(event.event_time), path,
@@ -160,7 +160,7 @@ std::string date_text(const RefinementInstance& event, const RefineResult& resul
 
 void add_effect_lines(const RefineResult& result, std::vector<SummaryLine>& lines) {
   for (const NamedEffect& effect : result.effects) {
-    const Refinement& row = *effect.instance.refinement;
+    const Effect& row = *effect.instance.effect;
     std::string text = fmt::format("{}: {}; {}", row.name, row.equation, parameters_text(effect));
     if (row.is_event) text += "; " + date_text(effect.instance, result);
     if (effect.torque_rms > 0)

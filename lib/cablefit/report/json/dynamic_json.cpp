@@ -72,7 +72,7 @@ Json fit_json(const DynamicFit& fit) {
             {"condition", by_name(fit.condition)},
             {"effective_rows", by_name(fit.effective_rows)}};
   if (!fit.effects.empty())
-    json["effects"] = list_of(fit.effects, [](const RefinementInstance& effect) {
+    json["effects"] = list_of(fit.effects, [](const EffectInstance& effect) {
       return model_file::refinement_json(effect);
     });
   if (fit.elastic) json["elastic"] = stage1_json(*fit.elastic);

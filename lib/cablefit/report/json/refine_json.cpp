@@ -56,9 +56,9 @@ Json evidence_json(const RefineEvidence& evidence) {
 }
 
 /// When it happened; null for what is always there.
-Json event_json(const RefineResult& result, const RefinementInstance& instance) {
-  if (!instance.refinement->is_event) return nullptr;
-  const bool passes = instance.refinement->passes();
+Json event_json(const RefineResult& result, const EffectInstance& instance) {
+  if (!instance.effect->is_event) return nullptr;
+  const bool passes = instance.effect->passes();
   return Json{{"log", result.inputs.at(instance.event_log).path},
               {"t", instance.event_time},
               {"duration", passes                   ? "passing"
@@ -69,10 +69,10 @@ Json event_json(const RefineResult& result, const RefinementInstance& instance) 
 Json effect_json(const RefineResult& result, const NamedEffect& effect) {
   std::vector<Estimate> parameters = effect.instance.parameters;
   parameters.insert(parameters.end(), effect.derived.begin(), effect.derived.end());
-  return Json{{"name", effect.instance.refinement->name},
-              {"side", to_string(effect.instance.refinement->site)},
+  return Json{{"name", effect.instance.effect->name},
+              {"side", to_string(effect.instance.effect->site)},
               {"joint", kJoint},
-              {"equation", effect.instance.refinement->equation},
+              {"equation", effect.instance.effect->equation},
               {"parameters", report_json::parameters(parameters)},
               {"event", event_json(result, effect.instance)},
               {"torque_rms", effect.torque_rms},
@@ -82,7 +82,7 @@ Json effect_json(const RefineResult& result, const NamedEffect& effect) {
 
 /// What an effect is and the numbers that it has.
 Json kept_json(const KeptEffect& kept) {
-  const Refinement& row = *kept.now.instance.refinement;
+  const Effect& row = *kept.now.instance.effect;
   std::vector<Estimate> parameters = kept.now.instance.parameters;
   parameters.insert(parameters.end(), kept.now.derived.begin(), kept.now.derived.end());
   return Json{{"name", row.name},

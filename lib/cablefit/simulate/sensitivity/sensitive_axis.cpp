@@ -4,105 +4,47 @@
 #include <cmath>
 
 namespace cablefit {
-namespace {
 
-constexpr int kMaxNewton = 30;
-// Of the step in velocity: the next correction is its square, rounding for any friction.
-constexpr double kNewtonTolerance = 1e-7;
-
-}  // namespace
-
-SensitiveAxis::SensitiveAxis(const std::vector<EffectInstance>& effects) {
-  std::size_t most = 0;
-  for (const EffectInstance& instance : effects) {
-    const std::size_t n = instance.parameters.size();
-    terms_.push_back({instance.effect, parameters_.size(), n});
-    for (const Estimate& parameter : instance.parameters) parameters_.push_back(parameter.value);
-    has_dry_ = has_dry_ || instance.effect->dry != nullptr;
-    most = std::max(most, n);
-  }
-  by_parameter_.assign(parameters_.size(), 0.0);
-  slopes_ = inertia_by_ = by_parameter_;
-  scratch_.assign(most + 2, 0.0);
-  update();
+SensitiveAxis::SensitiveAxis(const std::vector<EffectInstance>& effects)
+    : effects_(effects), axis_(effects), by_parameter_(effects.size(), 0.0) {
+  for (const EffectInstance& instance : effects)
+    has_dry_ = has_dry_ || instance.effect->follows == MotionPart::direction;
 }
 
-void SensitiveAxis::update() {
-  inertia_ = 0;
-  for (const Term& term : terms_) {
-    if (!term.effect->inertia) continue;
-    inertia_ += term.effect->inertia(parameters_.data() + term.first);
-    term.effect->inertia_slopes(parameters_.data() + term.first, inertia_by_.data() + term.first);
-  }
-}
-
-SensitiveAxis::Friction SensitiveAxis::friction(double position, double velocity, double sigma) {
-  Friction sum;
-  for (const Term& term : terms_) {
-    const double* parameters = parameters_.data() + term.first;
-    double* slopes = slopes_.data() + term.first;
-    if (term.effect->smooth_slopes) {
-      sum.torque += term.effect->smooth_slopes(position, velocity, parameters, scratch_.data());
-      sum.by_position += scratch_[0];
-      sum.by_velocity += scratch_[1];
-      for (std::size_t k = 0; k < term.n; ++k) slopes[k] = scratch_[2 + k];
-    }
-    if (!term.effect->dry_slopes) continue;
-    const bool alone = term.effect->smooth_slopes == nullptr;
-    sum.torque += sigma * term.effect->dry_slopes(position, velocity, parameters, scratch_.data());
-    sum.by_position += sigma * scratch_[0];
-    sum.by_velocity += sigma * scratch_[1];
-    for (std::size_t k = 0; k < term.n; ++k)
-      slopes[k] = (alone ? 0.0 : slopes[k]) + sigma * scratch_[2 + k];
-  }
-  return sum;
-}
-
-double SensitiveAxis::dry_level(double position, double velocity) const {
-  double level = 0;
-  for (const Term& term : terms_)
-    if (term.effect->dry)
-      level += term.effect->dry(position, velocity, parameters_.data() + term.first);
-  return level;
-}
-
-// Newton on J (v' - v) / h = force - friction((v + v') / 2).
-SensitiveAxis::Slide SensitiveAxis::slide(double position, double velocity, double force,
-                                          double sigma, double h) {
+SensitiveAxis::Slide SensitiveAxis::slide(double velocity, double force, double sigma,
+                                          double h) const {
+  const Axis::Friction& f = axis_.friction();
   Slide out;
-  out.velocity = velocity;
-  const double inertia_rate = inertia_ / h;
-  for (int i = 0; i < kMaxNewton; ++i) {
-    out.friction = friction(position, 0.5 * (velocity + out.velocity), sigma);
-    out.push = force - out.friction.torque;
-    const double gap = out.push - inertia_rate * (out.velocity - velocity);
-    const double step = gap / (inertia_rate + 0.5 * out.friction.by_velocity);
-    out.velocity += step;
-    if (!(std::abs(step) > kNewtonTolerance * (std::abs(out.velocity) + std::abs(velocity)))) break;
-  }
-  out.push = inertia_rate * (out.velocity - velocity);
+  out.sigma = sigma;
+  out.end = slid_velocity(inertia(), velocity, force - f.constant - sigma * f.level, f.damping, h);
+  out.mean = 0.5 * (velocity + out.end);
+  out.push = inertia() / h * (out.end - velocity);
   return out;
 }
 
-void SensitiveAxis::add_by_parameter(double factor, double push) {
-  const double by_inertia = push / inertia_;
-  for (std::size_t k = 0; k < by_parameter_.size(); ++k)
-    by_parameter_[k] -= factor * (slopes_[k] + inertia_by_[k] * by_inertia);
+void SensitiveAxis::add_by_parameter(double factor, const Slide& slide) {
+  const double acceleration = slide.push / inertia();
+  for (std::size_t k = 0; k < by_parameter_.size(); ++k) {
+    const MotionPart part = effects_[k].effect->follows;
+    by_parameter_[k] -= factor * (part == MotionPart::acceleration ? acceleration
+                                  : part == MotionPart::velocity   ? slide.mean
+                                  : part == MotionPart::direction  ? slide.sigma
+                                                                   : 1.0);
+  }
 }
 
-SensitiveAxis::Step SensitiveAxis::moving(double position, double velocity, double force,
-                                          double sigma, double h) {
-  const Slide s = slide(position, velocity, force, sigma, h);
-  const double rate = inertia_ / h, half = 0.5 * s.friction.by_velocity;
+SensitiveAxis::Step SensitiveAxis::moving(double velocity, double force, double sigma, double h) {
+  const Slide s = slide(velocity, force, sigma, h);
+  const double rate = inertia() / h, half = 0.5 * axis_.friction().damping;
   const double gain = 1 / (rate + half);
-  add_by_parameter(gain, s.push);
-  return {s.velocity, (rate - half) * gain, -gain * s.friction.by_position, gain};
+  add_by_parameter(gain, s);
+  return {s.end, (rate - half) * gain, gain};
 }
 
-SensitiveAxis::Step SensitiveAxis::leaving(double position, double force, double h) {
-  const double push = force - friction(position, 0.0, 0.0).torque;
-  if (std::abs(push) <= dry_level(position, 0.0)) return {};
-  Step step = moving(position, 0.0, force, std::copysign(1.0, push), h);
+SensitiveAxis::Step SensitiveAxis::leaving(double force, double h) {
+  const double push = force - axis_.friction().constant;
+  if (std::abs(push) <= dry_level()) return {};
+  const Step step = moving(0.0, force, std::copysign(1.0, push), h);
   if (step.velocity * push > 0) return step;
   std::fill(by_parameter_.begin(), by_parameter_.end(), 0.0);
   return {};
@@ -110,35 +52,32 @@ SensitiveAxis::Step SensitiveAxis::leaving(double position, double force, double
 
 // It moves on until tau = -J v / push with friction of v/2, and perhaps leaves the other way (or
 // again) in the time that is left. Both times depend on everything the first stretch does.
-SensitiveAxis::Step SensitiveAxis::stopping(double position, double velocity, double force,
-                                            double sigma, double h) {
-  const Friction first = friction(position, 0.5 * velocity, sigma);
-  const double push = force - first.torque;
-  const double until_rest = push * velocity < 0 ? std::min(h, -inertia_ * velocity / push) : h;
+SensitiveAxis::Step SensitiveAxis::stopping(double velocity, double force, double sigma, double h) {
+  const Axis::Friction& f = axis_.friction();
+  const double half = 0.5 * f.damping;
+  const double push = force - f.constant - half * velocity - sigma * f.level;
+  const double until_rest = push * velocity < 0 ? std::min(h, -inertia() * velocity / push) : h;
   const double left = h - until_rest;
   if (!(left > 1e-12 * h)) return {};
-  const double at_rest = force - friction(position, 0.0, 0.0).torque;
-  if (std::abs(at_rest) <= dry_level(position, 0.0)) return {};
-  const Slide second = slide(position, 0.0, force, std::copysign(1.0, at_rest), left);
-  const double c2 = 1 / (inertia_ / left + 0.5 * second.friction.by_velocity);
+  const double at_rest = force - f.constant;
+  if (std::abs(at_rest) <= f.level) return {};
+  const Slide second = slide(0.0, force, std::copysign(1.0, at_rest), left);
+  const double c2 = 1 / (inertia() / left + half);
   const double c1 = c2 * (second.push / left) * (until_rest / push);
-  add_by_parameter(c2, second.push);
-  friction(position, 0.5 * velocity, sigma);  // its slopes once more
-  add_by_parameter(c1, push);
-  return {second.velocity, c1 * (inertia_ / until_rest - 0.5 * first.by_velocity),
-          -c1 * first.by_position - c2 * second.friction.by_position, c1 + c2};
+  add_by_parameter(c2, second);
+  add_by_parameter(c1, {0.0, 0.5 * velocity, push, sigma});
+  return {second.end, c1 * (inertia() / until_rest - half), c1 + c2};
 }
 
-SensitiveAxis::Step SensitiveAxis::advance(double position, double velocity, double force,
-                                           double h) {
+SensitiveAxis::Step SensitiveAxis::advance(double velocity, double force, double h) {
   std::fill(by_parameter_.begin(), by_parameter_.end(), 0.0);
-  if (!has_dry_) return moving(position, velocity, force, 0.0, h);
-  if (velocity == 0) return leaving(position, force, h);
+  if (!has_dry_) return moving(velocity, force, 0.0, h);
+  if (velocity == 0) return leaving(force, h);
   const double sigma = std::copysign(1.0, velocity);
-  const Step step = moving(position, velocity, force, sigma, h);
+  const Step step = moving(velocity, force, sigma, h);
   if (step.velocity * velocity > 0) return step;
   std::fill(by_parameter_.begin(), by_parameter_.end(), 0.0);
-  return stopping(position, velocity, force, sigma, h);
+  return stopping(velocity, force, sigma, h);
 }
 
 }  // namespace cablefit

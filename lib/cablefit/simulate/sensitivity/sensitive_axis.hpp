@@ -3,68 +3,54 @@
 
 #include <vector>
 
-#include "cablefit/model/model.hpp"
+#include "cablefit/simulate/axis.hpp"
 
 namespace cablefit {
 
 class SensitiveAxis {
  public:
+  /// Of base effects, which have one parameter each.
   explicit SensitiveAxis(const std::vector<EffectInstance>& effects);
 
-  /// v' = velocity after a step as a function of velocity, position (that of friction) and force
-  /// (N m, all but friction): its value and partial derivatives there.
+  /// v' = velocity after a step as a function of velocity and force (N m, all but friction): its
+  /// value and partial derivatives there.
   struct Step {
     double velocity = 0;
-    double by_velocity = 0, by_position = 0, by_force = 0;
+    double by_velocity = 0, by_force = 0;
   };
 
-  /// As Axis::advance, with friction of the mean velocity (implicit midpoint rule, solved to
-  /// rounding) where that one linearises it: the same for friction that is affine in velocity, and
-  /// differentiable with first derivatives of friction alone. While the axis is held by dry
-  /// friction all derivatives are 0. Those by parameters are left in by_parameter().
-  Step advance(double position, double velocity, double force, double h);
+  /// As Axis::advance. While the axis is held by dry friction all derivatives are 0. Those by
+  /// parameters are left in by_parameter().
+  Step advance(double velocity, double force, double h);
 
-  double inertia() const { return inertia_; }
+  double inertia() const { return axis_.inertia(); }
   /// Level of dry friction, N m; 0 without.
-  double dry_level(double position, double velocity) const;
-  /// All effects' parameters, one after another.
-  std::vector<double>& parameters() { return parameters_; }
-  /// Number of the first parameter of the effect of that number.
-  std::size_t first_parameter(std::size_t effect) const { return terms_[effect].first; }
+  double dry_level() const { return axis_.friction().level; }
+  std::size_t n_parameters() const { return effects_.size(); }
+  /// The parameter of the effect of that number; update() is to be called afterwards.
+  double& parameter(std::size_t effect) { return effects_[effect].parameters.front().value; }
+  void update() { axis_ = Axis(effects_); }
   const std::vector<double>& by_parameter() const { return by_parameter_; }
-  /// To be called after parameters have changed.
-  void update();
 
  private:
-  struct Term {
-    const Effect* effect;
-    std::size_t first, n;
-  };
-  /// Friction level sigma included, at one mean velocity.
-  struct Friction {
-    double torque = 0, by_position = 0, by_velocity = 0;
-  };
   /// A stretch of the step in which the axis moves one way (sigma = +-1; 0: no dry friction).
   struct Slide {
-    double velocity = 0;  ///< at its end
-    double push = 0;      ///< mean force less friction, N m
-    Friction friction;
+    double end = 0;  ///< velocity, as `mean`
+    double mean = 0;
+    double push = 0;  ///< mean force less friction, N m
+    double sigma = 0;
   };
 
-  Friction friction(double position, double velocity, double sigma);
-  Slide slide(double position, double velocity, double force, double sigma, double h);
-  Step moving(double position, double velocity, double force, double sigma, double h);
-  Step stopping(double position, double velocity, double force, double sigma, double h);
-  Step leaving(double position, double force, double h);
-  /// Adds factor * d(push)/d(parameter) of the friction looked at last.
-  void add_by_parameter(double factor, double push);
+  Slide slide(double velocity, double force, double sigma, double h) const;
+  Step moving(double velocity, double force, double sigma, double h);
+  Step stopping(double velocity, double force, double sigma, double h);
+  Step leaving(double force, double h);
+  /// Adds factor * d(push)/d(parameter) of a slide.
+  void add_by_parameter(double factor, const Slide& slide);
 
-  std::vector<Term> terms_;
-  std::vector<double> parameters_, by_parameter_;
-  std::vector<double> slopes_;      ///< of friction by parameter, where it was looked at last
-  std::vector<double> inertia_by_;  ///< of the inertia by parameter
-  std::vector<double> scratch_;
-  double inertia_ = 0;
+  std::vector<EffectInstance> effects_;
+  Axis axis_;
+  std::vector<double> by_parameter_;
   bool has_dry_ = false;
 };
 

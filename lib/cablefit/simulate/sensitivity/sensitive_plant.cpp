@@ -33,7 +33,7 @@ SensitivePlant::SensitivePlant(const Model& model, const std::vector<ModelParame
       coupling_(model, moving, numbered(moving.size())) {
   assert(is_plain(model));  // what refinements do has no sensitivities
   n_columns_ = moving.size() + (with_inputs ? 3 * axes_.size() : 0);
-  for (SensitiveAxis& axis : axes_) axis_column_.emplace_back(axis.parameters().size(), -1);
+  for (SensitiveAxis& axis : axes_) axis_column_.emplace_back(axis.n_parameters(), -1);
   for (std::size_t k = 0; k < moving.size(); ++k) {
     const ModelParameter& p = moving[k];
     Target target;
@@ -41,7 +41,7 @@ SensitivePlant::SensitivePlant(const Model& model, const std::vector<ModelParame
     if (!target.elastic) {
       target.axis =
           static_cast<std::size_t>(p.joint) + (model.rigid || p.on_link ? 0 : model.joints.size());
-      target.place = axes_[target.axis].first_parameter(p.effect) + p.index;
+      target.place = p.effect;
       axis_column_[target.axis][target.place] = static_cast<int>(k);
     }
     targets_.push_back(target);
@@ -53,7 +53,7 @@ SensitivePlant::SensitivePlant(const Model& model, const std::vector<ModelParame
 bool SensitivePlant::set_parameters(const double* values) {
   for (std::size_t k = 0; k < moving_.size(); ++k) {
     set_parameter_value(model_, moving_[k], values[k]);
-    if (!targets_[k].elastic) axes_[targets_[k].axis].parameters()[targets_[k].place] = values[k];
+    if (!targets_[k].elastic) axes_[targets_[k].axis].parameter(targets_[k].place) = values[k];
   }
   coupling_.update(model_);
   for (SensitiveAxis& axis : axes_) axis.update();
@@ -93,14 +93,13 @@ void SensitivePlant::step(SensitiveState& state, const double* force, double h) 
   coupling_.evaluate(state.position.data(), force_.data());
   const double* stiffness = coupling_.stiffness().data();
   for (std::size_t a = 0; a < n; ++a) {
-    const SensitiveAxis::Step s =
-        axes_[a].advance(state.position[a], state.velocity[a], force_[a] + force[a], h);
+    const SensitiveAxis::Step s = axes_[a].advance(state.velocity[a], force_[a] + force[a], h);
     steps_[a] = s;
     state.velocity[a] = s.velocity;
     double* dva = dv + a * columns;
     for (std::size_t c = 0; c < columns; ++c) dva[c] *= s.by_velocity;
     for (std::size_t b = 0; b < n; ++b) {
-      const double by = s.by_force * stiffness[a * n + b] + (a == b ? s.by_position : 0.0);
+      const double by = s.by_force * stiffness[a * n + b];
       const double* dxb = dx + b * columns;
       if (by == 0) continue;
       for (std::size_t c = 0; c < columns; ++c) dva[c] += by * dxb[c];

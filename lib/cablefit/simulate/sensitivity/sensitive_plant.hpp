@@ -28,10 +28,8 @@ class SensitivePlant {
 
   std::size_t n_axes() const { return axes_.size(); }
   double inertia(std::size_t axis) const { return axes_[axis].inertia(); }
-  /// Level of dry friction of an axis at rest there, N m.
-  double rest_level(std::size_t axis, double position) const {
-    return axes_[axis].dry_level(position, 0.0);
-  }
+  /// Level of dry friction of an axis at rest, N m.
+  double rest_level(std::size_t axis) const { return axes_[axis].dry_level(); }
   std::size_t n_columns() const { return n_columns_; }
   std::size_t first_input() const { return moving_.size(); }
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/model/refinements/rows.hpp"
+#include "cablefit/model/catalogue/rows.hpp"
 
 // Signals that are late. A whole number of samples is a shift, the rest Lagrange's cubic through
 // the four neighbours: exact where the signal is a cubic, and exactly the sample at zero delay.
@@ -40,7 +40,7 @@ void delay_tau(const double* parameters, Recording& recording) {
 
 }  // namespace
 
-Refinement encoder_delay() {
+Effect encoder_delay() {
   return {.name = "encoder_delay",
           .site = Site::sensor,
           .equation = "logged q(t) = true q(t - d)",
@@ -54,7 +54,7 @@ Refinement encoder_delay() {
           .step = kStep};
 }
 
-Refinement torque_delay() {
+Effect torque_delay() {
   return {.name = "torque_delay",
           .site = Site::sensor,
           .equation = "true tau(t) = logged tau(t - d)",

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "cablefit/model/refinements/rows.hpp"
+#include "cablefit/model/catalogue/rows.hpp"
 
 // Dry friction that grows with what the drive carries.
 namespace cablefit::rows {
@@ -29,7 +29,7 @@ void driving_level(const JointState& state, double direction, const double* /*sh
 
 }  // namespace
 
-Refinement tension_friction(Site side) {
+Effect tension_friction(Site side) {
   constexpr TwoSides<std::string_view> kEquation{"mu (T1 + T2) sgn(qd)",
                                                  "mu (T1 + T2) sgn(thetad)"};
   return {.name = "tension_friction",
@@ -45,7 +45,7 @@ Refinement tension_friction(Site side) {
           .level = tension_level};
 }
 
-Refinement load_friction() {
+Effect load_friction() {
   return {.name = "load_friction",
           .site = Site::motor,
           .equation = "mu |tau_load| sgn(thetad), on a rigid drive",
@@ -59,7 +59,7 @@ Refinement load_friction() {
           .level = load_level};
 }
 
-Refinement drive_efficiency() {
+Effect drive_efficiency() {
   return {.name = "drive_efficiency",
           .site = Site::motor,
           .equation = "a |tau_elas| sgn(thetad) while tau_elas thetad > 0",

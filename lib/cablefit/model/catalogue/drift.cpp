@@ -1,4 +1,4 @@
-#include "cablefit/model/refinements/rows.hpp"
+#include "cablefit/model/catalogue/rows.hpp"
 
 // What settles as the drive runs.
 namespace cablefit::rows {
@@ -31,7 +31,7 @@ void offset(const JointState& state, const double* shape, const double* /*z*/, d
 
 }  // namespace
 
-Refinement friction_drift(Site side) {
+Effect friction_drift(Site side) {
   constexpr TwoSides<std::string_view> kEquation{
       "(a_v qd + a_s sgn(qd)) (1 - exp(-t / T))",
       "(a_v thetad + a_s sgn(thetad)) (1 - exp(-t / T))"};
@@ -49,7 +49,7 @@ Refinement friction_drift(Site side) {
           .level = dry_part};
 }
 
-Refinement offset_drift() {
+Effect offset_drift() {
   return {.name = "offset_drift",
           .site = Site::sensor,
           .equation = "a (1 - exp(-t / T)) on the motor",

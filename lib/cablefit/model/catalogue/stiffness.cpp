@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "cablefit/model/refinements/rows.hpp"
+#include "cablefit/model/catalogue/rows.hpp"
 
 // Cables of another law.
 namespace cablefit::rows {
@@ -43,7 +43,7 @@ Transmission linear_pairs(const Transmission& transmission) {
   return pairs;
 }
 
-Refinement stiffness_order() {
+Effect stiffness_order() {
   return {.name = "stiffness_order",
           .site = Site::transmission,
           .equation = "f = sum_j K_j l^(j+1), `order` more terms than the model has",
@@ -58,7 +58,7 @@ Refinement stiffness_order() {
           .change = raise_order};
 }
 
-Refinement stiffness_asymmetry() {
+Effect stiffness_asymmetry() {
   return {.name = "stiffness_asymmetry",
           .site = Site::transmission,
           .equation = "K1 for phi > 0, K2 for phi < 0 instead of one K",

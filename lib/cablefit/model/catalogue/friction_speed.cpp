@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "cablefit/model/refinements/rows.hpp"
+#include "cablefit/model/catalogue/rows.hpp"
 
 // Friction as a function of the axis' own speed. Whatever changes sign with the speed is a level of
 // dry friction, so that a simulation solves it as one and never drives with it.
@@ -53,7 +53,7 @@ void power_level(const JointState& state, double /*direction*/, const double* sh
 
 }  // namespace
 
-Refinement asymmetric_viscous(Site side) {
+Effect asymmetric_viscous(Site side) {
   constexpr TwoSides<std::string_view> kEquation{"a |qd|", "a |thetad|"};
   return {.name = "asymmetric_viscous",
           .site = side,
@@ -65,7 +65,7 @@ Refinement asymmetric_viscous(Site side) {
           .torque = side == Site::link ? absolute<Site::link> : absolute<Site::motor>};
 }
 
-Refinement stribeck(Site side) {
+Effect stribeck(Site side) {
   constexpr TwoSides<std::string_view> kEquation{"a exp(-|qd / v_s|^s) sgn(qd)",
                                                  "a exp(-|thetad / v_s|^s) sgn(thetad)"};
   return {.name = "stribeck",
@@ -81,7 +81,7 @@ Refinement stribeck(Site side) {
           .level = side == Site::link ? stribeck_level<Site::link> : stribeck_level<Site::motor>};
 }
 
-Refinement quadratic_drag(Site side) {
+Effect quadratic_drag(Site side) {
   constexpr TwoSides<std::string_view> kEquation{"a |qd|^p sgn(qd), p about 2",
                                                  "a |thetad|^p sgn(thetad), p about 2"};
   return {.name = "quadratic_drag",
@@ -97,7 +97,7 @@ Refinement quadratic_drag(Site side) {
           .level = side == Site::link ? power_level<Site::link> : power_level<Site::motor>};
 }
 
-Refinement nonlinear_viscous(Site side) {
+Effect nonlinear_viscous(Site side) {
   constexpr TwoSides<std::string_view> kEquation{"a |qd|^p sgn(qd), p < 1",
                                                  "a |thetad|^p sgn(thetad), p < 1"};
   return {.name = "nonlinear_viscous",

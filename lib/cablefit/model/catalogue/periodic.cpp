@@ -1,4 +1,4 @@
-#include "cablefit/model/refinements/rows.hpp"
+#include "cablefit/model/catalogue/rows.hpp"
 
 // What repeats with the angle. Two harmonics each, so that a form that is no sine is named as well.
 namespace cablefit::rows {
@@ -44,7 +44,7 @@ void eccentricity(const JointState& state, const double* /*shape*/, const double
 
 }  // namespace
 
-Refinement gravity_imbalance() {
+Effect gravity_imbalance() {
   return {.name = "gravity_imbalance",
           .site = Site::link,
           .equation = "a_sin sin(q) + a_cos cos(q) + b_sin sin(2 q) + b_cos cos(2 q)",
@@ -58,7 +58,7 @@ Refinement gravity_imbalance() {
           .torque = gravity};
 }
 
-Refinement cogging() {
+Effect cogging() {
   return {.name = "cogging",
           .site = Site::motor,
           .equation =
@@ -76,7 +76,7 @@ Refinement cogging() {
           .torque = ripple};
 }
 
-Refinement pulley_eccentricity() {
+Effect pulley_eccentricity() {
   return {.name = "pulley_eccentricity",
           .site = Site::transmission,
           .equation =

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "cablefit/model/refinements/rows.hpp"
+#include "cablefit/model/catalogue/rows.hpp"
 
 // What happens once.
 namespace cablefit::rows {
@@ -36,7 +36,7 @@ void carry(const JointState& state, const double* /*shape*/, const double* /*z*/
 
 }  // namespace
 
-Refinement slip() {
+Effect slip() {
   return {.name = "slip",
           .site = Site::transmission,
           .equation = "tau_elas(phi + a) - tau_elas(phi) = k a from t_0 on",
@@ -51,7 +51,7 @@ Refinement slip() {
           .torque = slipped};
 }
 
-Refinement contact() {
+Effect contact() {
   return {.name = "contact",
           .site = Site::link,
           .equation = "-a (1 - cos(2 pi (t - t_0) / w)) / 2 for w seconds",
@@ -66,7 +66,7 @@ Refinement contact() {
           .torque = push};
 }
 
-Refinement payload_change() {
+Effect payload_change() {
   return {.name = "payload_change",
           .site = Site::link,
           .equation = "dJ qdd + a_cos cos(q) + a_sin sin(q) from t_0 on",

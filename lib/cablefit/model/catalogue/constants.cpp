@@ -1,4 +1,4 @@
-#include "cablefit/model/refinements/rows.hpp"
+#include "cablefit/model/catalogue/rows.hpp"
 
 namespace cablefit::rows {
 namespace {
@@ -15,7 +15,7 @@ void one(const JointState& /*state*/, const double* /*shape*/, const double* /*z
 
 }  // namespace
 
-Refinement constant_torque() {
+Effect constant_torque() {
   return {.name = "constant_torque",
           .site = Site::link,
           .alias_class = "constant",
@@ -31,7 +31,7 @@ Refinement constant_torque() {
           .torque = one<Site::link>};
 }
 
-Refinement asymmetric_coulomb(Site side) {
+Effect asymmetric_coulomb(Site side) {
   constexpr TwoSides<std::string_view> kEquation{"a, beside f_s sgn(qd)",
                                                  "a, beside f_sm sgn(thetad)"};
   constexpr TwoSides<std::string_view> kSignature{

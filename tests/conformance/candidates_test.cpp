@@ -1,5 +1,5 @@
-// Every row of the catalogue of refinements keeps the promises of refinements.hpp.
-#include "cablefit/model/refinements.hpp"
+// Every candidate row of the catalogue keeps the promises of effects.hpp.
+#include "cablefit/model/effects.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -21,12 +21,12 @@ using Values = std::vector<double>;
 
 constexpr LogScale kScale{.peak = 30, .travel = 0.4, .speed = 2.5, .deflection = 0.03};
 
-std::string label(const Refinement& row) {
+std::string label(const Effect& row) {
   return std::string(row.name) + " of the " + std::string(to_string(row.site));
 }
 
 /// Every combination of the values of the grids.
-std::vector<Values> shapes_of(const Refinement& row) {
+std::vector<Values> shapes_of(const Effect& row) {
   std::vector<Values> all{{}};
   for (const ShapeGrid& grid : row.shape) {
     std::vector<Values> longer;
@@ -41,7 +41,7 @@ std::vector<Values> shapes_of(const Refinement& row) {
 }
 
 /// Where nothing happens: 0 where that is allowed, and no torque beyond the peak.
-Values neutral_parameters(const Refinement& row) {
+Values neutral_parameters(const Effect& row) {
   Values values;
   for (std::size_t i = 0; i < row.parameters.size(); ++i) {
     const bool is_limit =
@@ -71,7 +71,7 @@ struct Torques {
   Values link, motor, level;
 };
 
-Torques act(const Refinement& row, const JointState& state, double direction, const Values& shape,
+Torques act(const Effect& row, const JointState& state, double direction, const Values& shape,
             const Values& z) {
   const Values none(row.n_linear(), 0.0);
   Torques torques{none, none, none};
@@ -128,23 +128,23 @@ TEST_CASE("the catalogue is the list of docs/reference/effects.md", "[conformanc
        {"encoder_scale", "encoder_offset", "encoder_delay", "torque_delay", "offset_drift"})
     expected.insert({name, "sensor", ""});
   std::set<Row> found;
-  for (const Refinement& row : refinements())
+  for (const Effect& row : candidate_effects())
     found.insert(
         {std::string(row.name), std::string(to_string(row.site)), std::string(row.alias_class)});
   CHECK(found == expected);
-  CHECK(refinements().size() == expected.size());
+  CHECK(candidate_effects().size() == expected.size());
 }
 
-TEST_CASE("a refinement is found by name and side", "[conformance]") {
-  for (const Refinement& row : refinements()) CHECK(&find_refinement(row.name, row.site) == &row);
-  CHECK(test::message_of([] { (void)find_refinement("cogging", Site::link); }) ==
-        "unknown refinement 'cogging' of the link; there is one of: motor");
-  CHECK(test::message_of([] { (void)find_refinement("stribek", Site::motor); }) ==
-        "unknown refinement 'stribek' of the motor; did you mean 'stribeck'?");
+TEST_CASE("a candidate is found by name and side", "[conformance]") {
+  for (const Effect& row : candidate_effects()) CHECK(&find_candidate(row.name, row.site) == &row);
+  CHECK(test::message_of([] { (void)find_candidate("cogging", Site::link); }) ==
+        "unknown effect 'cogging' of the link; there is one of: motor");
+  CHECK(test::message_of([] { (void)find_candidate("stribek", Site::motor); }) ==
+        "unknown effect 'stribek' of the motor; did you mean 'stribeck'?");
 }
 
-TEST_CASE("a refinement is documented", "[conformance]") {
-  for (const Refinement& row : refinements()) {
+TEST_CASE("a candidate is documented", "[conformance]") {
+  for (const Effect& row : candidate_effects()) {
     INFO(label(row));
     for (const std::string_view text : {row.equation, row.signature, row.experiment, row.source})
       CHECK_FALSE(text.empty());
@@ -163,8 +163,8 @@ TEST_CASE("a refinement is documented", "[conformance]") {
   }
 }
 
-TEST_CASE("a grid of a refinement rises within the bounds of its parameter", "[conformance]") {
-  for (const Refinement& row : refinements())
+TEST_CASE("a grid of a candidate rises within the bounds of its parameter", "[conformance]") {
+  for (const Effect& row : candidate_effects())
     for (std::size_t i = 0; i < row.shape.size(); ++i) {
       const ShapeGrid& grid = row.shape[i];
       const ParameterInfo& info = row.parameters[row.n_linear() + i];
@@ -187,8 +187,8 @@ TEST_CASE("a grid of a refinement rises within the bounds of its parameter", "[c
   CHECK(orders.value(1, {.travel = 0.5}) == Approx(6));
 }
 
-TEST_CASE("a refinement is of one kind", "[conformance]") {
-  for (const Refinement& row : refinements()) {
+TEST_CASE("a candidate is of one kind", "[conformance]") {
+  for (const Effect& row : candidate_effects()) {
     INFO(label(row));
     const bool acts = row.torque || row.level;
     CHECK(int(acts) + int(row.correct != nullptr) + int(row.change != nullptr) == 1);
@@ -201,9 +201,9 @@ TEST_CASE("a refinement is of one kind", "[conformance]") {
   }
 }
 
-TEST_CASE("a refinement acts where it says", "[conformance]") {
+TEST_CASE("a candidate acts where it says", "[conformance]") {
   std::mt19937 engine(3);
-  for (const Refinement& row : refinements()) {
+  for (const Effect& row : candidate_effects()) {
     if (!row.torque && !row.level) continue;
     INFO(label(row));
     bool on_link = false, on_motor = false;
@@ -227,9 +227,9 @@ TEST_CASE("a refinement acts where it says", "[conformance]") {
   }
 }
 
-TEST_CASE("a refinement with a date does nothing before it", "[conformance]") {
+TEST_CASE("a candidate with a date does nothing before it", "[conformance]") {
   std::mt19937 engine(4);
-  for (const Refinement& row : refinements()) {
+  for (const Effect& row : candidate_effects()) {
     if (!row.is_event) continue;
     INFO(label(row));
     bool acts = false;
@@ -252,8 +252,7 @@ TEST_CASE("a refinement with a date does nothing before it", "[conformance]") {
 
 /// What the row takes from a drive that moves periodically, J over one period, all parameters 1,
 /// beside as much Coulomb friction as it takes away. Its states have settled before.
-double work_over_cycle(const Refinement& row, const Transmission& transmission,
-                       const Values& shape) {
+double work_over_cycle(const Effect& row, const Transmission& transmission, const Values& shape) {
   constexpr int kSteps = 20000, kSettle = 3;
   const double h = 1.0 / kSteps, w = 2 * std::numbers::pi;
   Values z(row.n_states, 0.0);
@@ -285,7 +284,7 @@ double work_over_cycle(const Refinement& row, const Transmission& transmission,
 
 TEST_CASE("what cannot be negative takes energy over every cycle", "[conformance]") {
   int n_rows = 0;
-  for (const Refinement& row : refinements()) {
+  for (const Effect& row : candidate_effects()) {
     if (!row.torque && !row.level) continue;
     const auto linear = row.parameters.first(row.n_linear());
     if (std::any_of(linear.begin(), linear.end(),
@@ -304,7 +303,7 @@ TEST_CASE("what cannot be negative takes energy over every cycle", "[conformance
 
 TEST_CASE("states are bounded and do not depend on the step", "[conformance]") {
   std::mt19937 engine(5);
-  for (const Refinement& row : refinements()) {
+  for (const Effect& row : candidate_effects()) {
     if (!row.advance) continue;
     INFO(label(row));
     for (const Values& shape : shapes_of(row))
@@ -330,7 +329,7 @@ TEST_CASE("states are bounded and do not depend on the step", "[conformance]") {
 }
 
 Torques per_unit(std::string_view name, Site site, const JointState& state, const Values& z = {}) {
-  return act(find_refinement(name, site), state, 1, {1.0, 1.0}, z);
+  return act(find_candidate(name, site), state, 1, {1.0, 1.0}, z);
 }
 
 TEST_CASE("what moves the deflection changes the cables' torque by as much", "[conformance]") {
@@ -377,7 +376,7 @@ TEST_CASE("scales are those that make a logged torque the true one", "[conforman
 }
 
 TEST_CASE("a drive loses while it drives, and a contact pushes", "[conformance]") {
-  const Refinement& efficiency = find_refinement("drive_efficiency", Site::motor);
+  const Effect& efficiency = find_candidate("drive_efficiency", Site::motor);
   JointState state;
   for (const double tau_elas : {-7.0, 7.0})
     for (const double direction : {-1.0, 1.0}) {
@@ -408,7 +407,7 @@ bool same(const Recording& a, const Recording& b) {
 }
 
 TEST_CASE("a correction by nothing changes nothing", "[conformance]") {
-  for (const Refinement& row : refinements()) {
+  for (const Effect& row : candidate_effects()) {
     if (!row.correct) continue;
     INFO(label(row));
     Recording recording = sines();
@@ -429,8 +428,8 @@ TEST_CASE("a delay is undone", "[conformance]") {
     recording.period = 1e-3;
     recording.q = (30 * (t - d)).sin();
     recording.tau = (30 * t).sin();
-    find_refinement("encoder_delay", Site::sensor).correct(&d, recording);
-    find_refinement("torque_delay", Site::sensor).correct(&d, recording);
+    find_candidate("encoder_delay", Site::sensor).correct(&d, recording);
+    find_candidate("torque_delay", Site::sensor).correct(&d, recording);
     const Eigen::ArrayXd q_off = recording.q - (30 * t).sin();
     const Eigen::ArrayXd tau_off = recording.tau - (30 * (t - d)).sin();
     CHECK(q_off.segment(10, 480).abs().maxCoeff() < 2.5e-8);
@@ -444,8 +443,8 @@ TEST_CASE("a drive's limits act on large and on small torques", "[conformance]")
   recording.tau << -20, -2, 0.5, 3, 30;
   Recording clipped = recording, banded = recording;
   const double limit = 10, band = 1;
-  find_refinement("saturation", Site::drive).correct(&limit, clipped);
-  find_refinement("drive_dead_band", Site::drive).correct(&band, banded);
+  find_candidate("saturation", Site::drive).correct(&limit, clipped);
+  find_candidate("drive_dead_band", Site::drive).correct(&band, banded);
   CHECK(Values(clipped.tau.begin(), clipped.tau.end()) == Values{-10, -2, 0.5, 3, 10});
   CHECK(Values(banded.tau.begin(), banded.tau.end()) == Values{-19, -1, 0, 2, 29});
 }
@@ -458,7 +457,7 @@ double motor_torque(const Transmission& transmission, double q, double theta) {
 }
 
 TEST_CASE("another transmission with nothing more has the same torque", "[conformance]") {
-  for (const Refinement& row : refinements()) {
+  for (const Effect& row : candidate_effects()) {
     if (!row.change) continue;
     INFO(label(row));
     Values shape = neutral_parameters(row);
@@ -476,8 +475,8 @@ TEST_CASE("another transmission with nothing more has the same torque", "[confor
 }
 
 TEST_CASE("a dead zone is flat and preload is stiff near zero", "[conformance]") {
-  const Refinement& dead_zone = find_refinement("dead_zone", Site::transmission);
-  const Refinement& preload = find_refinement("preload", Site::transmission);
+  const Effect& dead_zone = find_candidate("dead_zone", Site::transmission);
+  const Effect& preload = find_candidate("preload", Site::transmission);
   const double size = 0.002;
   for (const Transmission& before : {paper_cables(), paper_spring()}) {
     const double zero = before.encoder_zero()[0];
@@ -500,8 +499,8 @@ TEST_CASE("in cable space elongations follow the motor's pulley", "[conformance]
   Transmission rope = test::transmission_of(test::routings().front(), find_cable_law("polynomial"));
   for (Cable& cable : rope.cables) cable.initial_elongation = 0;
   const double angle = 0.01;  // rad; its pulleys have 30 mm
-  const auto slack = find_refinement("dead_zone", Site::transmission).change(rope, &angle);
-  const auto taut = find_refinement("preload", Site::transmission).change(rope, &angle);
+  const auto slack = find_candidate("dead_zone", Site::transmission).change(rope, &angle);
+  const auto taut = find_candidate("preload", Site::transmission).change(rope, &angle);
   REQUIRE(slack);
   REQUIRE(taut);
   CHECK(slack->cables[1].initial_elongation == Approx(-3e-4));
@@ -514,8 +513,8 @@ TEST_CASE("in cable space elongations follow the motor's pulley", "[conformance]
 
 TEST_CASE("no other transmission where it makes no sense", "[conformance]") {
   const double one = 1;
-  const Refinement& order = find_refinement("stiffness_order", Site::transmission);
-  const Refinement& asymmetry = find_refinement("stiffness_asymmetry", Site::transmission);
+  const Effect& order = find_candidate("stiffness_order", Site::transmission);
+  const Effect& asymmetry = find_candidate("stiffness_asymmetry", Site::transmission);
   CHECK(order.change(paper_spring(), &one)->cables[1].order ==
         2);  // a pair that is no longer linear
   CHECK_FALSE(asymmetry.change(paper_cables(), nullptr));
@@ -529,7 +528,7 @@ TEST_CASE("no other transmission where it makes no sense", "[conformance]") {
   const double l_o = 0.001;
   const Transmission finger =
       test::transmission_of(test::routings().back(), find_cable_law("polynomial"));
-  CHECK_FALSE(find_refinement("preload", Site::transmission).change(finger, &l_o));
+  CHECK_FALSE(find_candidate("preload", Site::transmission).change(finger, &l_o));
 }
 
 TEST_CASE("what a state says of the transmission is the transmission's", "[conformance]") {

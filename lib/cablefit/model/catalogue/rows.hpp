@@ -1,54 +1,57 @@
-// The rows of the catalogue of refinements, by family. Internal to refinements.cpp; everybody else
-// goes through refinements().
+// The rows of the catalogue of effects, by family. Internal to effects.cpp; everybody else goes
+// through effects().
 #pragma once
 
-#include "cablefit/model/refinements.hpp"
+#include "cablefit/model/effects.hpp"
 
 namespace cablefit::rows {
 
+/// The paper's model, side by side.
+std::vector<Effect> base();
+
 // Torques that depend on nothing but the side, or on position.
-Refinement constant_torque();
-Refinement asymmetric_coulomb(Site side);
-Refinement gravity_imbalance();
-Refinement cogging();
+Effect constant_torque();
+Effect asymmetric_coulomb(Site side);
+Effect gravity_imbalance();
+Effect cogging();
 
 // Friction. `side`: link or motor.
-Refinement asymmetric_viscous(Site side);
-Refinement stribeck(Site side);
-Refinement quadratic_drag(Site side);
-Refinement nonlinear_viscous(Site side);
-Refinement position_friction(Site side);
-Refinement tension_friction(Site side);
-Refinement load_friction();
-Refinement drive_efficiency();
-Refinement presliding(Site side);
-Refinement friction_drift(Site side);
+Effect asymmetric_viscous(Site side);
+Effect stribeck(Site side);
+Effect quadratic_drag(Site side);
+Effect nonlinear_viscous(Site side);
+Effect position_friction(Site side);
+Effect tension_friction(Site side);
+Effect load_friction();
+Effect drive_efficiency();
+Effect presliding(Site side);
+Effect friction_drift(Site side);
 
 // Between the sides.
-Refinement cable_damping();
-Refinement cable_hysteresis();
-Refinement creep();
-Refinement pulley_eccentricity();
-Refinement stiffness_order();
-Refinement stiffness_asymmetry();
-Refinement dead_zone();
-Refinement preload();
+Effect cable_damping();
+Effect cable_hysteresis();
+Effect creep();
+Effect pulley_eccentricity();
+Effect stiffness_order();
+Effect stiffness_asymmetry();
+Effect dead_zone();
+Effect preload();
 
 // What is measured and what is commanded.
-Refinement encoder_scale();
-Refinement encoder_offset();
-Refinement encoder_delay();
-Refinement torque_delay();
-Refinement offset_drift();
-Refinement torque_gain();
-Refinement load_scale();
-Refinement saturation();
-Refinement drive_dead_band();
+Effect encoder_scale();
+Effect encoder_offset();
+Effect encoder_delay();
+Effect torque_delay();
+Effect offset_drift();
+Effect torque_gain();
+Effect load_scale();
+Effect saturation();
+Effect drive_dead_band();
 
 // Dated.
-Refinement slip();
-Refinement contact();
-Refinement payload_change();
+Effect slip();
+Effect contact();
+Effect payload_change();
 
 /// What differs between the two sides of one row.
 template <typename T>

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/model/refinements/rows.hpp"
+#include "cablefit/model/catalogue/rows.hpp"
 
 // Cables that are not just taut in the reference pose, as the model has them.
 namespace cablefit::rows {
@@ -98,7 +98,7 @@ std::optional<Transmission> stretch_again(const Transmission& transmission, cons
 
 }  // namespace
 
-Refinement dead_zone() {
+Effect dead_zone() {
   return {.name = "dead_zone",
           .site = Site::transmission,
           .alias_class = "l_o",
@@ -114,7 +114,7 @@ Refinement dead_zone() {
           .change = slacken};
 }
 
-Refinement preload() {
+Effect preload() {
   return {.name = "preload",
           .site = Site::transmission,
           .alias_class = "l_o",

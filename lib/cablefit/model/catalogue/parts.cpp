@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "cablefit/model/refinements/rows.hpp"
+#include "cablefit/model/catalogue/rows.hpp"
 
 namespace cablefit {
 

@@ -20,7 +20,7 @@ constexpr std::array<std::pair<std::string_view, Site>, 5> kSites{
 
 Estimate read_parameter(const JsonNode& node, const ParameterInfo& info, const Rig& rig) {
   Estimate estimate =
-      read_strict_estimate(node, std::string(info.name), info.symbol, parameter_unit(info, rig));
+      read_strict_estimate(node, std::string(info.name), info.symbol, unit_on(rig, info.unit));
   if (estimate.value >= info.lower && estimate.value <= info.upper) return estimate;
   const std::string range = std::isinf(info.upper)
                                 ? fmt::format("at least {:g}", info.lower)
@@ -30,7 +30,7 @@ Estimate read_parameter(const JsonNode& node, const ParameterInfo& info, const R
 }
 
 /// A shape that may be 0; a file may leave it out, and then it is 0.
-bool is_optional(const Refinement& row, std::size_t parameter) {
+bool is_optional(const Effect& row, std::size_t parameter) {
   if (parameter < row.n_linear()) return false;
   return row.shape[parameter - row.n_linear()].low == 0;
 }
@@ -39,13 +39,13 @@ Estimate left_out(const ParameterInfo& info, const Rig& rig) {
   Estimate estimate;
   estimate.name = info.name;
   estimate.symbol = info.symbol;
-  estimate.unit = parameter_unit(info, rig);
+  estimate.unit = unit_on(rig, info.unit);
   estimate.value = 0;
   return estimate;
 }
 
 std::vector<Estimate> read_parameters(const JsonNode* node, const JsonNode& row_node,
-                                      const Refinement& row, const Rig& rig) {
+                                      const Effect& row, const Rig& rig) {
   std::vector<Estimate> parameters;
   if (!node && row.parameters.empty()) return parameters;
   const JsonNode& values = node ? *node : row_node.at("parameters");
@@ -64,11 +64,11 @@ std::vector<Estimate> read_parameters(const JsonNode* node, const JsonNode& row_
   return parameters;
 }
 
-void read_event(const JsonNode& node, RefinementInstance& instance) {
+void read_event(const JsonNode& node, EffectInstance& instance) {
   const JsonNode* event = node.find("event");
-  if (!instance.refinement->is_event) {
+  if (!instance.effect->is_event) {
     if (!event) return;
-    throw event->error(fmt::format("'{}' has no date", instance.refinement->name), "drop it");
+    throw event->error(fmt::format("'{}' has no date", instance.effect->name), "drop it");
   }
   const JsonNode& date = node.at("event");
   date.allow_only({"log", "time"});
@@ -79,25 +79,24 @@ void read_event(const JsonNode& node, RefinementInstance& instance) {
   instance.event_time = date.at("time").number();
 }
 
-RefinementInstance read_refinement(const JsonNode& node, const Model& model) {
+EffectInstance read_refinement(const JsonNode& node, const Model& model) {
   node.allow_only({"name", "side", "parameters", "event"});
   const Site site = choose(node.at("side"), kSites);
   const JsonNode& name = node.at("name");
-  RefinementInstance instance;
-  instance.refinement = at_place_of(name, [&] { return &find_refinement(name.text(), site); });
+  EffectInstance instance;
+  instance.effect = at_place_of(name, [&] { return &find_candidate(name.text(), site); });
   if (model.rigid && site == Site::transmission)
     throw name.error(fmt::format("{} on a rigid drive", cablefit::quoted(name.text())),
                      "it has no transmission: drop it, or give link and motor");
-  instance.parameters =
-      read_parameters(node.find("parameters"), node, *instance.refinement, model.rig);
+  instance.parameters = read_parameters(node.find("parameters"), node, *instance.effect, model.rig);
   read_event(node, instance);
   return instance;
 }
 
 }  // namespace
 
-std::vector<RefinementInstance> read_refinements(const JsonNode& node, const Model& model) {
-  std::vector<RefinementInstance> refinements;
+std::vector<EffectInstance> read_refinements(const JsonNode& node, const Model& model) {
+  std::vector<EffectInstance> refinements;
   for (const JsonNode& item : some_items(node)) refinements.push_back(read_refinement(item, model));
   return refinements;
 }

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "cablefit/model/refinements/rows.hpp"
+#include "cablefit/model/catalogue/rows.hpp"
 
 // What the drive makes of a command, where the log holds the command.
 namespace cablefit::rows {
@@ -31,7 +31,7 @@ void lose_band(const double* parameters, Recording& recording) {
 
 }  // namespace
 
-Refinement saturation() {
+Effect saturation() {
   return {.name = "saturation",
           .site = Site::drive,
           .equation = "true tau = logged tau, clipped at +-T",
@@ -45,7 +45,7 @@ Refinement saturation() {
           .correct = clip};
 }
 
-Refinement drive_dead_band() {
+Effect drive_dead_band() {
   return {.name = "drive_dead_band",
           .site = Site::drive,
           .equation = "true tau = logged tau less b towards 0, 0 below",

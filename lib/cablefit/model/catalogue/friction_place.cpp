@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "cablefit/model/refinements/rows.hpp"
+#include "cablefit/model/catalogue/rows.hpp"
 
 // Dry friction that depends on where the axis is, and on where it last turned round.
 namespace cablefit::rows {
@@ -46,7 +46,7 @@ void less_dry(const JointState& /*state*/, double /*direction*/, const double* /
 
 }  // namespace
 
-Refinement position_friction(Site side) {
+Effect position_friction(Site side) {
   constexpr TwoSides<std::string_view> kEquation{
       "(a_sin sin(n q) + a_cos cos(n q)) sgn(qd)",
       "(a_sin sin(n theta) + a_cos cos(n theta)) sgn(thetad)"};
@@ -64,7 +64,7 @@ Refinement position_friction(Site side) {
           .level = side == Site::link ? position_level<Site::link> : position_level<Site::motor>};
 }
 
-Refinement presliding(Site side) {
+Effect presliding(Site side) {
   constexpr TwoSides<std::string_view> kEquation{
       "a (z - sgn(qd)), dz/dq = (1 - z sgn(qd)) / d",
       "a (z - sgn(thetad)), dz/dtheta = (1 - z sgn(thetad)) / d"};

@@ -1,4 +1,4 @@
-#include "cablefit/model/refinements/rows.hpp"
+#include "cablefit/model/catalogue/rows.hpp"
 
 // Scales and offsets of what is measured. As torques of the MODEL: a column of the measured torque
 // would fit itself.
@@ -35,7 +35,7 @@ void link_share(const JointState& state, const double* /*shape*/, const double* 
 
 }  // namespace
 
-Refinement encoder_scale() {
+Effect encoder_scale() {
   return {.name = "encoder_scale",
           .site = Site::sensor,
           .equation =
@@ -50,7 +50,7 @@ Refinement encoder_scale() {
           .torque = scaled};
 }
 
-Refinement encoder_offset() {
+Effect encoder_offset() {
   return {.name = "encoder_offset",
           .site = Site::sensor,
           .equation = "tau_elas(phi + a) - tau_elas(phi) = k a, true theta - q = logged + a",
@@ -64,7 +64,7 @@ Refinement encoder_offset() {
           .torque = shifted};
 }
 
-Refinement torque_gain() {
+Effect torque_gain() {
   return {.name = "torque_gain",
           .site = Site::drive,
           .alias_class = "scale",
@@ -79,7 +79,7 @@ Refinement torque_gain() {
           .torque = motor_share};
 }
 
-Refinement load_scale() {
+Effect load_scale() {
   return {.name = "load_scale",
           .site = Site::link,
           .alias_class = "scale",

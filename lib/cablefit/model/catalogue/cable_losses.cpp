@@ -1,4 +1,4 @@
-#include "cablefit/model/refinements/rows.hpp"
+#include "cablefit/model/catalogue/rows.hpp"
 
 // Cables that take energy: with the rate of the deflection, with its way, with time.
 namespace cablefit::rows {
@@ -50,7 +50,7 @@ void give_way(const JointState& state, const double* /*shape*/, const double* z,
 
 }  // namespace
 
-Refinement cable_damping() {
+Effect cable_damping() {
   return {.name = "cable_damping",
           .site = Site::transmission,
           .equation = "d phid on the motor, -d phid on the link",
@@ -63,7 +63,7 @@ Refinement cable_damping() {
           .torque = damp};
 }
 
-Refinement cable_hysteresis() {
+Effect cable_hysteresis() {
   return {.name = "cable_hysteresis",
           .site = Site::transmission,
           .equation = "a z on the motor, -a z on the link, dz/dphi = (1 - z sgn(phid)) / y",
@@ -80,7 +80,7 @@ Refinement cable_hysteresis() {
           .torque = hold};
 }
 
-Refinement creep() {
+Effect creep() {
   return {.name = "creep",
           .site = Site::transmission,
           .equation = "tau_elas(phi - a c) - tau_elas(phi) = -k a c, dc/dt = (tau_elas - c) / T",
