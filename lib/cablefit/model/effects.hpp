@@ -88,6 +88,8 @@ struct ShapeGrid {
   bool is_whole = false;  ///< values are whole numbers, and nothing lies between them
   bool is_rare = false;   ///< of torques: no value is below LogScale::usual
   double canonical = 0;   ///< the value of the textbooks, an exponent of 2; 0: none is special
+  /// Beyond the highest value the logs show another effect: refine names none that stands there.
+  bool is_open_above = false;
 
   /// Value i = 0 .. n_values-1, in SI.
   double value(int i, const LogScale& scale) const;

@@ -10,6 +10,7 @@
 #include "cablefit/refine/gap_levels.hpp"
 #include "cablefit/refine/steps/effect_trial.hpp"
 #include "cablefit/refine/verdict/conclusion.hpp"
+#include "cablefit/refine/verdict/plausible.hpp"
 #include "cablefit/refine/verdict/verdict.hpp"
 
 namespace cablefit {
@@ -110,6 +111,7 @@ std::string why_not(const RefineBench& bench, const Effect& row, const RefineSta
         "needs {:g}",
         before.rho, kVisibleGap);
   if (carries_nothing(bench, after)) return "it carries nothing once all is fitted with it";
+  if (std::string reason = why_not_plausible(after.design, after.x); !reason.empty()) return reason;
   return why_not_added(change_of(bench, row, before, after));
 }
 

@@ -1,0 +1,16 @@
+// Whether what was fitted can be the law that the row names. A flexible law fits much; where it
+// does so by an extreme of its parameters, it stands for something else. Internal to refine/.
+#pragma once
+
+#include <string>
+
+#include "cablefit/refine/rows/design.hpp"
+
+namespace cablefit {
+
+/// Of the last of design.added, whose linear parameters are the last entries of `x`: a nonlinear
+/// parameter at the end of its range beyond which the law is another one (ShapeGrid), or parts that
+/// cancel each other. Empty: nothing speaks against it.
+std::string why_not_plausible(const Design& design, const Eigen::VectorXd& x);
+
+}  // namespace cablefit
