@@ -22,12 +22,15 @@ int run(apps::Arguments arguments) {
   if (arguments.empty()) throw cablefit::usage_error("no command given", "see 'cablefit --help'");
   const std::string name = arguments.front();
   arguments.erase(arguments.begin());
-  if (name == "--help" || name == "-h" || name == "help") {
+  const bool wants_help = name == "help" || name == "--help" || name == "-h";
+  if (name == "help" && !arguments.empty())  // 'help X' is 'X --help'
+    return apps::find_command(arguments.front()).run({"--help"});
+  if (wants_help) {
     write_whole("-", apps::overview());
     return 0;
   }
-  if (name == "--version") {
-    write_whole("-", fmt::format("cablefit {}\n", cablefit::kVersion));
+  if (name == "--version" || name == "-V") {
+    write_whole("-", fmt::format("cablefit {}\n{}\n", cablefit::kVersion, cablefit::kBuildFacts));
     return 0;
   }
   return apps::find_command(name).run(arguments);

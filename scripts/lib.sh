@@ -4,11 +4,12 @@ root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 cd "$root"
 jobs="$(nproc)"
 
-# What cablefit needs of Debian 12 to be built (tinyxml2 only to read URDF files), what its tests need
-# on top (a browser for the HTML reports, a judge of arms), and what steps of scripts/check need.
+# What cablefit needs of Debian 12 to be built (tinyxml2 only to read URDF files, help2man only for
+# manual pages), what its tests need on top (a browser for the HTML reports, a judge of arms), and
+# what steps of scripts/check need.
 build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libceres-dev libcli11-dev
                 nlohmann-json3-dev libfmt-dev libfast-float-dev zlib1g-dev libzstd-dev libssl-dev
-                libtinyxml2-dev catch2 npm)
+                libtinyxml2-dev catch2 npm help2man)
 test_packages=(nodejs chromium liborocos-kdl-dev libkdl-parser-dev)
 fuzz_packages=(clang-14 libclang-rt-14-dev)
 declare -A step_packages=([format]=clang-format-14 [readme]=python3 [tidy]=clang-tidy-14

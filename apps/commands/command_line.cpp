@@ -9,12 +9,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <system_error>
 
 #include "cablefit/base/catalog.hpp"
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/output_file.hpp"
 #include "cablefit/base/quote.hpp"
+#include "cablefit/report/writers/wrap.hpp"
 
 namespace cablefit::apps {
 namespace {
@@ -57,6 +59,10 @@ Error unknown_option(const CLI::App& app, const std::string& argument) {
 }
 
 }  // namespace
+
+void begin_group(CLI::App& app, const std::string& heading) {
+  app.option_defaults()->group(heading);
+}
 
 double parse_number(const std::string& option, const std::string& text, Range range) {
   char* end = nullptr;
@@ -107,13 +113,44 @@ void add_choice(CLI::App& app, const std::string& name, const std::string& what,
       ->type_name(fmt::format("{}", fmt::join(known, "|")));
 }
 
+namespace {
+
+/// Options in two columns, at most kTextWidth wide.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option(const CLI::Option* option, bool is_positional) const override {
+    constexpr std::size_t kNames = 30;
+    const std::string name =
+        "  " + make_option_name(option, is_positional) + make_option_opts(option);
+    const std::string help = wrapped(std::string(kNames, ' '), make_option_desc(option), kNames);
+    if (name.size() + 2 > kNames) return name + "\n" + help;
+    return name + help.substr(name.size());
+  }
+  std::string make_description(const CLI::App* app) const override {
+    return wrapped("", app->get_description(), 0) + "\n";
+  }
+};
+
+}  // namespace
+
+namespace {
+
+std::string without_double_blank_lines(std::string text) {
+  for (std::size_t at = text.find("\n\n\n"); at != std::string::npos; at = text.find("\n\n\n"))
+    text.erase(at, 1);
+  return text;
+}
+
+}  // namespace
+
 bool parse(CLI::App& app, const Arguments& arguments) {
   app.name("cablefit " + app.get_name());
+  app.formatter(std::make_shared<HelpFormatter>());
   app.allow_extras();
   try {
     app.parse(Arguments(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
   } catch (const CLI::CallForHelp&) {
-    write_whole("-", app.help());
+    write_whole("-", without_double_blank_lines(app.help()));
     return false;
   } catch (const CLI::ArgumentMismatch& error) {
     const std::string message = error.what();  // "--cutoff: 1 required HZ missing"

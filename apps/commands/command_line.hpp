@@ -36,6 +36,9 @@ long parse_whole(const std::string& option, const std::string& text, Range range
 void require_known(const std::string& what, const std::string& text,
                    const std::vector<std::string>& known);
 
+/// Options added from here on stand under this heading of --help.
+void begin_group(CLI::App& app, const std::string& heading);
+
 /// False when help was asked for (and printed). Throws Error(usage).
 bool parse(CLI::App& app, const Arguments& arguments);
 

@@ -55,7 +55,7 @@ std::string overview() {
     text += fmt::format("  {:<10}{}\n", command.name, command.help);
   }
   return text +
-         "\n'cablefit COMMAND --help' shows its options and an example; 'cablefit --version' the "
+         "\n'cablefit help COMMAND' shows its options and an example, 'cablefit --version' the "
          "version.\n"
          "Exit codes: 0 done, 1 a gate failed, 2 usage, 3 bad input, 4 not identifiable or not "
          "converged,\n5 could not write, 70 internal error.\n";

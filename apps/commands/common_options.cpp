@@ -41,6 +41,7 @@ int default_threads() {
 }
 
 void add_reading_options(CLI::App& app, Reading& reading) {
+  begin_group(app, "How logs are read");
   app.add_flag("--trust-units", reading.trust_units,
                "go on where the units or signs of a log cannot be right");
   add_choice(
@@ -70,9 +71,11 @@ void add_log_options(CLI::App& app, CommonOptions& options) {
       ->type_name("FILE");
   app.add_option("--preload", options.preload, "only this preload")->type_name("NAME");
   add_reading_options(app, options.reading);
+  begin_group(app, "Options");
 }
 
 void add_output_options(CLI::App& app, CommonOptions& options) {
+  begin_group(app, "Output");
   app.add_option("--out", options.out, "folder of the result files [cablefit-out]")
       ->type_name("DIR");
   app.add_option("--json", options.json, "the whole result as JSON; - for standard output")
@@ -101,6 +104,7 @@ void add_output_options(CLI::App& app, CommonOptions& options) {
 }
 
 void add_sample_options(CLI::App& app, CommonOptions& options) {
+  begin_group(app, "Filters and samples");
   SampleOptions& samples = options.samples;
   add_choice(
       app, "--torque-hold", "torque hold", {"auto", "zoh", "none"},

@@ -1,16 +1,21 @@
 #include "commands/delivery.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/output_file.hpp"
 #include "cablefit/base/problems.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/report/documents/escape.hpp"
+#include "cablefit/report/writers/screen.hpp"
+#include "cablefit/report/writers/wrap.hpp"
 #include "cablefit/report/writers/writers.hpp"
+#include "commands/colour.hpp"
 #include "process.hpp"
 
 namespace cablefit::apps {
@@ -35,14 +40,33 @@ std::vector<std::string> targets(const CommonOptions& options,
   return paths;
 }
 
+bool prints_document(const CommonOptions& options) {
+  return !options.quiet && !is_stdout(options.json);
+}
+
 void print(const CommonOptions& options, const Document& document) {
-  if (!options.quiet && !is_stdout(options.json)) {
-    write_whole("-", write_text(options.verbose ? document : without_details(document)));
+  if (prints_document(options)) {
+    const std::string text = write_text(options.verbose ? document : on_screen(document));
+    write_whole("-", shows_colour() ? coloured(text) : text);
     return;
   }
   for (const std::string& warning : document.warnings) {
     complain(fmt::format("warning: {}\n", printable(warning)));
   }
+}
+
+/// Where the files are, once they are there, and how to see more.
+void print_closing_lines(const CommonOptions& options, const Document& document,
+                         const std::vector<ResultFile>& results) {
+  if (!prints_document(options)) return;
+  std::string text;
+  const std::vector<std::string> paths = targets(options, results);
+  if (!paths.empty()) text += fmt::format("Written: {}. ", fmt::join(paths, ", "));
+  const bool has_more = write_text(on_screen(document)) != write_text(document);
+  if (has_more && !options.verbose)
+    text += fmt::format("All tables and choices: --verbose{}",
+                        options.reports.empty() ? "; plots: --report FILE.html" : "");
+  if (!text.empty()) write_whole("-", "\n" + wrapped("", printable(text), 0));
 }
 
 /// Every file this run reads, the rig files that it finds beside its logs among them.
@@ -101,6 +125,7 @@ void deliver(const CommonOptions& options, const Document& document,
     write(path, report_writer_for(path).write(document));
   }
   problems.throw_if_any();
+  print_closing_lines(options, document, results);
 }
 
 }  // namespace cablefit::apps

@@ -62,13 +62,15 @@ Table effect_table(const std::string& title, std::span<const Effect> effects) {
 std::vector<Table> effect_tables() {
   Table differences = text_table_of("What separates effects that look alike",
                                     {"name", "side", "never from", "signature", "experiment"});
+  differences.detail = true;
   for (const Effect& row : candidate_effects())
     differences.rows.push_back({std::string(row.name), std::string(to_string(row.site)),
                                 aliases_of(row), std::string(row.signature),
                                 std::string(row.experiment)});
-  return {effect_table("Base model", base_effects()),
-          effect_table("Effects beyond the base model, which refine may identify", candidate_effects()),
-          differences};
+  return {
+      effect_table("Base model", base_effects()),
+      effect_table("Effects beyond the base model, which refine may identify", candidate_effects()),
+      differences};
 }
 
 std::string orders_of(const CableLaw& law) {
@@ -151,6 +153,8 @@ int run_list(const Arguments& arguments) {
   std::string wanted;
   app.add_option("WHAT", wanted, "effects, models, estimators or formats [all]")->type_name("");
   app.add_option("--json", options.json, "as JSON; - for standard output")->type_name("FILE");
+  app.add_flag("--verbose", options.verbose,
+               "print what separates effects that look alike as well");
   app.footer(kListExample);
   if (!parse(app, arguments)) return 0;
   if (!wanted.empty()) require_known("list", wanted, section_names());

@@ -160,7 +160,7 @@ TEST_CASE("the high polynomial row of Table 1 is refused, with the reason", "[el
   CHECK_FALSE(warns(poly.warnings, "with which cable 2"));
   // Torque is negative on both sides of the kink; that is no arbitrary encoder zero.
   CHECK(find_estimate(poly.parameters, "theta_0") == nullptr);
-  const std::string text = write_text(elastic_document(result));
+  const std::string text = write_markdown(elastic_document(result));
   INFO(text);
   CHECK(text.find("selected, at bounds") != std::string::npos);
   CHECK(text.find("[1] at its bound: cable 1 only pulls") != std::string::npos);

@@ -8,6 +8,7 @@
 
 #include "cablefit/report/documents/refine_story.hpp"
 #include "cablefit/report/json/refine_json.hpp"
+#include "cablefit/report/writers/screen.hpp"
 #include "cablefit/report/writers/writers.hpp"
 #include "tests/report/results.hpp"
 #include "tests/report/schema.hpp"
@@ -211,34 +212,23 @@ TEST_CASE("models of several preloads are listed") {
 }
 
 TEST_CASE("a refinement as text") {
-  CHECK(write_text(without_details(refine_document(named(), kFiles))) == R"(What the model lacks
+  CHECK(write_text(on_screen(refine_document(named(), kFiles))) == R"(What the model lacks
 
-where      motor equation, thetad from -0.386 to 0.208 rad/s: 76 % of its squared gap in 41 % of its rows;
-           0.117 N m rms there, noise floor 0.0854
-and        link equation, sgn(qd) = -1: 90 % of its squared gap in 50 % of its rows; 0.0500 N m rms there,
-           noise floor 0.0360
 verdict    named: stribeck (motor); 93 % of the squared gap above the noise floor closed
-effect     stribeck: a exp(-|thetad / v_s|^s) sgn(thetad); amplitude = 0.1821 +- 0.0077 N m, v_s = 0.1358 +-
-           0.0068 rad/s, exponent = 1.88 +- 0.21; carries 0.0930 N m rms
-evidence   removes 24 % of the squared gap above the noise floor on held-out data; p < 0.0004 (tail fitted to
-           24 simulated data sets); the best in 100 % of resamples
+effect     stribeck: a exp(-|thetad / v_s|^s) sgn(thetad); amplitude = 0.1821 +- 0.0077 N m, v_s =
+           0.1358 +- 0.0068 rad/s, exponent = 1.88 +- 0.21; carries 0.0930 N m rms
+evidence   removes 24 % of the squared gap above the noise floor on held-out data; p < 0.0004 (tail
+           fitted to 24 simulated data sets); the best in 100 % of resamples
 rivals     none; the next best, quadratic_drag (motor), removes 44 % alone
 gap        torque, N m rms: train 0.0977 -> 0.0864, test 0.106 -> 0.102, noise floor 0.0854
 remainder  link 0.00370 N m, motor 0.0150 N m rms above the noise floor
-shifts     f_vm 1.0606 -> 1.1439 +- 0.0043 N m s/rad (+19 sd), f_sm 2.8757 -> 2.7682 +- 0.0044 N m (-24 sd)
+where      motor equation, thetad from -0.386 to 0.208 rad/s: 76 % of its squared gap in 41 % of its
+           rows; 0.117 N m rms there, noise floor 0.0854
+and        link equation, sgn(qd) = -1: 90 % of its squared gap in 50 % of its rows; 0.0500 N m rms
+           there, noise floor 0.0360
+shifts     f_vm 1.0606 -> 1.1439 +- 0.0043 N m s/rad (+19 sd), f_sm 2.8757 -> 2.7682 +- 0.0044 N m
+           (-24 sd)
 model      refined.json
-
-Where the gap is
-
-                                                            share of
-equation  by         where                              squared gap  rows     rms  noise floor
-                                                                [%]   [%]   [N m]        [N m]
-----------------------------------------------------------------------------------------------
-motor     speed      thetad from -0.386 to 0.208 rad/s           76    41   0.117       0.0854
-motor     speed      thetad from 0.208 to 0.300 rad/s            20    10   0.117       0.0854
-motor     position   theta from -0.386 to 0.208 rad              76    41   0.117       0.0854
-link      direction  sgn(qd) = -1                                90    50  0.0500       0.0360
-before anything was added; a share may pass 100 % where other rows lie below the floor
 
 Candidates for the first effect
 
@@ -249,26 +239,6 @@ effect          side      squared gap  resamples  why not
 stribeck        motor              89        100
 quadratic_drag  motor              44          0
 stribeck        link              -10          0  a negative friction
-
-Steps
-
-                           gap
-added     side    train  held out   test  kept  why not
-                  [N m]     [N m]  [N m]
--------------------------------------------------------
-stribeck  motor  0.0864    0.0871  0.102  yes
-
-Parameters before and after
-
-parameter  unit         before     after        sd  moved
-                                                     [sd]
----------------------------------------------------------
-J_motor    kg m^2     0.015280  0.015284  0.000057   +0.1
-f_vm       N m s/rad    1.0606    1.1439    0.0043  +19.4
-f_sm       N m          2.8757    2.7682    0.0044  -24.4
-before: the model given, fitted to the same logs in the same way
-
-Model: preload 'low', model 'poly', from out/identify.json.
 )");
 }
 
@@ -278,15 +248,15 @@ TEST_CASE("look-alikes and the run that separates them, in the story") {
   for (const SummaryLine& line : document.summary) story += line.label + ": " + line.text + "\n";
   CHECK(
       story ==
-      R"(where: motor equation, thetad from -0.386 to 0.208 rad/s: 76 % of its squared gap in 41 % of its rows; 0.117 N m rms there, noise floor 0.0854
-and: link equation, sgn(qd) = -1: 90 % of its squared gap in 50 % of its rows; 0.0500 N m rms there, noise floor 0.0360
-verdict: ambiguous: stribeck (motor) or a look-alike; 93 % of the squared gap above the noise floor closed
+      R"(verdict: ambiguous: stribeck (motor) or a look-alike; 93 % of the squared gap above the noise floor closed
 effect: stribeck: a exp(-|thetad / v_s|^s) sgn(thetad); amplitude = 0.1821 +- 0.0077 N m, v_s = 0.1358 +- 0.0068 rad/s, exponent = 1.88 +- 0.21; carries 0.0930 N m rms
 evidence: removes 24 % of the squared gap above the noise floor on held-out data; p < 0.0004 (tail fitted to 24 simulated data sets); the best in 100 % of resamples
 rivals: quadratic_drag (motor) removes 85 %, 1.3 sd behind; asymmetric_coulomb (motor) is the same in any log of the usual kind
 gap: torque, N m rms: train 0.0977 -> 0.0864, test 0.106 -> 0.102, noise floor 0.0854; test: the last third of every moving log
 simulation: of the test logs, mrad rms: 0.910 -> 0.120 (0.110 .. 0.130), noise floor 0.100
 remainder: link 0.00370 N m, motor 0.0150 N m rms above the noise floor
+where: motor equation, thetad from -0.386 to 0.208 rad/s: 76 % of its squared gap in 41 % of its rows; 0.117 N m rms there, noise floor 0.0854
+and: link equation, sgn(qd) = -1: 90 % of its squared gap in 50 % of its rows; 0.0500 N m rms there, noise floor 0.0360
 shifts: f_vm 1.0606 -> 1.1439 +- 0.0043 N m s/rad (+19 sd), f_sm 2.8757 -> 2.7682 +- 0.0044 N m (-24 sd)
 next run: slow sweeps through several speeds
 model: refined.json

@@ -5,6 +5,7 @@
 
 #include "cablefit/report/documents/simulate_document.hpp"
 #include "cablefit/report/json/simulate_json.hpp"
+#include "cablefit/report/writers/screen.hpp"
 #include "cablefit/report/writers/writers.hpp"
 #include "tests/report/schema.hpp"
 
@@ -86,35 +87,24 @@ TEST_CASE("a simulation as JSON") {
 }
 
 TEST_CASE("a simulation as text") {
-  const std::string text = write_text(without_details(simulate_document(simulate_result())));
+  const std::string text = write_text(on_screen(simulate_document(simulate_result())));
   CHECK(text == R"(Simulation of the model on the input of the logs
+
+used  model 'poly' of model.json
 
 Gap: simulated minus measured
 
-                                                          largest
-log              mode           signal  unit      rms     gap      at  relative  sensor noise
-                                                                  [s]       [%]
----------------------------------------------------------------------------------------------
-low/moving.csv   closed loop    theta   mrad  0.00900  0.0403  15.752   0.00480        0.0069
-                                tau     N m     0.310    1.29  9.9720      2.24          0.30
-low/blocked.csv  torque replay  q       mrad        0       0       0         -        0.0017
-relative: rms gap / rms of the measured signal about its mean; sensor noise: sd, rounding included, what a perfect model in closed loop leaves
-torque replay: the noise of the replayed torque adds to the gap of the positions, growing from the start of each window
-
-Simulated
-
-                                                                rows
-log              preload  phase    window  starts  simulated  resampled  too short  all taut
-                                      [s]                                                [%]
---------------------------------------------------------------------------------------------
-low/moving.csv   low      moving        -       1      16000          0          0      75.0
-low/blocked.csv  low      blocked    1.00      40      20000          0          0         -
-
-Model: model 'poly' of model.json, from model.json.
-
-Choices
-  low/moving.csv: mode = closed loop (given)
-  low/blocked.csv: mode = torque replay (no controller in the rig file)
+                                                      largest
+log          mode           signal  unit      rms     gap      at  relative  sensor noise
+                                                              [s]       [%]
+-----------------------------------------------------------------------------------------
+moving.csv   closed loop    theta   mrad  0.00900  0.0403  15.752   0.00480        0.0069
+                            tau     N m     0.310    1.29  9.9720      2.24          0.30
+blocked.csv  torque replay  q       mrad        0       0       0         -        0.0017
+relative: rms gap / rms of the measured signal about its mean; sensor noise: sd, rounding
+  included, what a perfect model in closed loop leaves
+torque replay: the noise of the replayed torque adds to the gap of the positions, growing from the
+  start of each window
 
 warning: low/blocked.csv: no tau_load column
 )");

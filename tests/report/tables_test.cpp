@@ -4,6 +4,7 @@
 #include "cablefit/report/documents/dynamic_document.hpp"
 #include "cablefit/report/documents/elastic_document.hpp"
 #include "cablefit/report/writers/text_table.hpp"
+#include "cablefit/report/writers/wrap.hpp"
 #include "cablefit/report/writers/writers.hpp"
 #include "tests/report/results.hpp"
 
@@ -65,11 +66,10 @@ TEST_CASE("Table 2 marks what is not identifiable and what stands at a bound") {
   REQUIRE(table.rows.size() == 3);
   CHECK(Row(table.rows[0].begin(), table.rows[0].begin() + 5) ==
         Row{"J_link (J_M)", "kg m^2", "0.3", "0.339", "4.3"});
-  CHECK(Row(table.rows[1].begin() + 5, table.rows[1].begin() + 7) ==
-        Row{"not identifiable", "[1]"});
+  CHECK(Row(table.rows[1].begin() + 5, table.rows[1].begin() + 7) == Row{"-", "[1]"});
   CHECK(Row(table.rows[2].begin() + 5, table.rows[2].begin() + 7) == Row{"0", "[2]"});
   REQUIRE(table.notes.size() == 3);
-  CHECK(table.notes[0] == "[1] is not separable from f_s in these logs");
+  CHECK(table.notes[0] == "[1] not identifiable: is not separable from f_s in these logs");
   CHECK(table.notes[1] == "[2] at its bound f_s >= 0: 95 % interval up to 0.12 N m");
   CHECK_THAT(table.notes[2], Contains("4.0 to 4.0 times that of the paper's (25)"));
 }

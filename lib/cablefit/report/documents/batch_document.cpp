@@ -124,6 +124,7 @@ Document batch_document(const BatchResult& result) {
   document.warnings = result.warnings;
   document.figures = parameter_figures(result);
   append(document, elastic_document(result.all_elastic()));
+  for (Table& table : document.tables) table.detail = true;  // what the advice rests on
   append(document, dynamic_document(result.all_dynamic()));
   if (Table refine = refine_table(result); !refine.rows.empty())
     document.tables.push_back(std::move(refine));

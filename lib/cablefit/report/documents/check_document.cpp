@@ -24,6 +24,32 @@ std::string part_name(const CheckedPart& part) {
 /// A printed time is rounded: less than 0.001 % of jitter is none.
 std::string percent(double share) { return share < 1e-5 ? "0" : significant(100 * share, 2); }
 
+std::string good_for(const CheckedPart& part) {
+  return part.identifies.empty() ? "nothing" : fmt::format("{}", fmt::join(part.identifies, ", "));
+}
+
+/// All logs in short.
+Table logs_table(const CheckResult& result) {
+  Table table;
+  const bool linear = !result.logs.empty() && result.logs.front().linear_motion;
+  table.columns = {{"", "log", "", true},     {"", "part", "", true},
+                   {"", "phase", "", true},   {"", "duration", "s"},
+                   {"", "rate", "Hz"},        {"", "gaps", ""},
+                   {"", "at rest", "%"},      {"", "fastest", linear ? "m/s" : "rad/s"},
+                   {"", "good for", "", true}};
+  for (const CheckedLog& log : result.logs)
+    for (const CheckedPart& part : log.parts) {
+      const PartSurvey& s = part.survey;
+      const bool known = !part.excitation.channel.empty();
+      table.rows.push_back(
+          {log.path, part_name(part), std::string(to_string(s.phase)),
+           significant(s.t_last - s.t_first, kDigits), significant(1 / s.period, kDigits),
+           fmt::format("{}", s.n_gaps), known ? percent(part.excitation.share_at_rest) : kNoNumber,
+           known ? significant(part.excitation.fastest, 3) : kNoNumber, good_for(part)});
+    }
+  return table;
+}
+
 Table parts_table(const CheckedLog& log) {
   Table table;
   table.title = fmt::format("{}: {} rows", log.path, log.rows);
@@ -43,15 +69,13 @@ Table parts_table(const CheckedLog& log) {
     const PartSurvey& s = part.survey;
     const CheckedExcitation& e = part.excitation;
     const bool known = !e.channel.empty();
-    table.rows.push_back(
-        {part_name(part), std::string(to_string(s.phase)), fmt::format("{}", s.n_rows),
-         significant(s.t_last - s.t_first, kDigits), significant(1 / s.period, kDigits),
-         percent(s.jitter), percent(s.worst_jitter), fmt::format("{}", s.n_gaps),
-         known ? percent(e.share_at_rest) : kNoNumber,
-         known ? significant(e.fastest, 3) : kNoNumber,
-         known ? fmt::format("{}", e.speed_bands) : kNoNumber,
-         part.identifies.empty() ? "nothing"
-                                 : fmt::format("{}", fmt::join(part.identifies, ", "))});
+    table.rows.push_back({part_name(part), std::string(to_string(s.phase)),
+                          fmt::format("{}", s.n_rows), significant(s.t_last - s.t_first, kDigits),
+                          significant(1 / s.period, kDigits), percent(s.jitter),
+                          percent(s.worst_jitter), fmt::format("{}", s.n_gaps),
+                          known ? percent(e.share_at_rest) : kNoNumber,
+                          known ? significant(e.fastest, 3) : kNoNumber,
+                          known ? fmt::format("{}", e.speed_bands) : kNoNumber, good_for(part)});
   }
   for (const Decision& decision : log.decisions)
     table.notes.push_back(
@@ -183,9 +207,8 @@ std::string closest_text(const PredictedParameter& p) {
 std::string about(const Prediction& p, const PredictedEquation& e) {
   const std::string torque = torque_unit(p.linear_motion);
   return fmt::format(
-      "{}: {} rows, scaled condition number {}, noise of the sensors {} {}, a rough model leaves "
-      "{} "
-      "{}",
+      "{}: {} samples, scaled condition number {}, sensor noise {} {}, residual of the preliminary "
+      "fit {} {}",
       e.name, e.rows,
       std::isfinite(e.condition_scaled) ? significant(e.condition_scaled, 2) : "infinite",
       significant(e.noise, 2), torque, significant(e.left, 2), torque);
@@ -193,14 +216,13 @@ std::string about(const Prediction& p, const PredictedEquation& e) {
 
 Table prediction_table(const Prediction& p) {
   Table table;
-  const bool one = p.logs.size() == 1;
-  table.title = fmt::format("{}: what {} of the {} drive, predicted", p.preload,
-                            one ? "this motion will tell" : "its moving logs will tell together",
-                            p.rigid ? "rigid" : "elastic");
-  table.columns = {
-      {"", "equation", "", true}, {"", "parameter", "", true}, {"", "unit", "", true},
-      {"at best", "sd", ""},      {"first look", "size", ""},  {"first look", "sd", ""},
-      {"first look", "sd", "%"},  {"", "closest", "", true},   {"", "verdict", "", true}};
+  table.title = fmt::format("{}: what stage 2 will determine of the {} drive (predicted)",
+                            p.preload, p.rigid ? "rigid" : "elastic");
+  table.columns = {{"", "equation", "", true},      {"", "parameter", "", true},
+                   {"", "unit", "", true},          {"lower bound", "sd", ""},
+                   {"preliminary fit", "size", ""}, {"preliminary fit", "sd", ""},
+                   {"preliminary fit", "sd", "%"},  {"", "closest", "", true},
+                   {"", "verdict", "", true}};
   for (const PredictedEquation& e : p.equations) {
     for (const PredictedParameter& parameter : e.parameters)
       table.rows.push_back({e.name, parameter.name, parameter.unit, sd_number(parameter.sd_best),
@@ -214,8 +236,7 @@ Table prediction_table(const Prediction& p) {
 
 void add_prediction(const Prediction& p, Document& document) {
   if (!p.none.empty()) {
-    document.paragraphs.push_back(p.preload +
-                                  ": no prediction of what stage 2 will tell: " + p.none);
+    document.paragraphs.push_back(p.preload + ": no prediction of stage 2: " + p.none);
     return;
   }
   document.tables.push_back(prediction_table(p));
@@ -225,21 +246,22 @@ void add_prediction(const Prediction& p, Document& document) {
 }
 
 constexpr const char* kHowPredicted =
-    "at best: noise of the sensors alone, white; first look: a rough model fitted to these logs "
-    "alone "
-    "(one digit of each size), with the honest sd that all it leaves makes; stage 1 betters the "
-    "model and adds its own error";
+    "lower bound: white sensor noise alone (Cramer-Rao); preliminary fit: a rough model of these "
+    "logs alone, one digit of each size, with the robust sd of its residual; stage 1 makes the "
+    "model better and adds its own error; closest: the parameter with the strongest correlation";
 
 }  // namespace
 
 Document check_document(const CheckResult& result, const std::vector<Prediction>& predictions) {
   Document document;
+  document.title = "What the logs hold";
   document.tidy = tidy_check_table();
+  add_table(document, logs_table(result));
   document.warnings = result.warnings;
   for (const CheckedLog& log : result.logs) {
     add_figures(document, log.figures);
-    document.tables.push_back(parts_table(log));
-    document.tables.push_back(channels_table(log));
+    add_detail(document, parts_table(log));
+    add_detail(document, channels_table(log));
     for (const CheckedPart& part : log.parts) {
       add_tidy_rows(document.tidy, log, part);
       const std::string where = log.path + ", " + part_name(part) + ": ";

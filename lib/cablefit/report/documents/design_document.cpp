@@ -302,10 +302,10 @@ void add_sweep(const DesignResult& result, Document& document) {
                                     : std::string("preload"),
                                 needed_text(words, needed)});
   add_claim(words, document);
-  document.tables = {preload_table(words), cost_table(words)};
-  if (Table friction = friction_table(words); !friction.rows.empty())
-    document.tables.push_back(std::move(friction));
-  document.tables.push_back(tension_table(words));
+  add_table(document, preload_table(words));
+  add_detail(document, cost_table(words));
+  add_detail(document, friction_table(words));
+  add_detail(document, tension_table(words));
   document.figures = result.figures;
   add_tidy_rows(words, document);
 }

@@ -39,8 +39,8 @@ struct Document {
   std::string title;
   std::vector<SummaryLine> summary;  ///< before the tables
   std::vector<Table> tables;
-  std::vector<std::string> paragraphs;  ///< after the tables
-  std::vector<DecisionLine> decisions;
+  std::vector<std::string> paragraphs;  ///< after the tables: reasons, for --verbose and files
+  std::vector<DecisionLine> decisions;  ///< likewise
   std::vector<std::string> warnings;
   std::vector<Figure> figures;  ///< in order of sections, then groups
   Table tidy;  ///< one row per preload, model and parameter at full precision, for CSV
@@ -49,7 +49,7 @@ struct Document {
 /// "low, high: " or nothing.
 std::string where_text(const DecisionLine& line);
 
-/// The document without what only --verbose shows.
+/// The document without its tables of details.
 Document without_details(Document document);
 
 }  // namespace cablefit

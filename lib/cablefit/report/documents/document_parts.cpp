@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "cablefit/report/documents/numbers.hpp"
 
@@ -63,6 +64,15 @@ void add_warnings(Document& document, const std::string& where,
   for (const std::string& warning : warnings) {
     document.warnings.push_back(where.empty() ? warning : where + ": " + warning);
   }
+}
+
+void add_table(Document& document, Table table) {
+  if (!table.rows.empty()) document.tables.push_back(std::move(table));
+}
+
+void add_detail(Document& document, Table table) {
+  table.detail = true;
+  add_table(document, std::move(table));
 }
 
 void add_figures(Document& document, const std::vector<Figure>& figures) {

@@ -30,6 +30,10 @@ void finish_decisions(Document& document, std::size_t n_preloads);
 void add_warnings(Document& document, const std::string& where,
                   const std::vector<std::string>& warnings);
 
+/// A table that has rows; `detail`: see Table::detail.
+void add_table(Document& document, Table table);
+void add_detail(Document& document, Table table);
+
 void add_figures(Document& document, const std::vector<Figure>& figures);
 
 /// Columns and one row of the table of rows used.

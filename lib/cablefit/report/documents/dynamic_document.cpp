@@ -74,13 +74,12 @@ Table verdict_table(const DynamicResult& result) {
 
 Table sd_table(const DynamicResult& result) {
   Table table;
-  table.title = "Standard deviations: the one cablefit stands behind, and the paper's (25)";
+  table.title = "Robust standard deviations, and the white-noise ones of (25)";
   table.columns = {{"", "preload", "", true},   {"", "model", "", true},
                    {"", "parameter", "", true}, {"", "unit", "", true},
                    {"", "value", ""},           {"", "sd", ""},
                    {"", "sd of (25)", ""},      {"95 % interval", "from", ""},
                    {"95 % interval", "to", ""}};
-  table.detail = true;
   for (const DynamicPreload& preload : result.preloads) {
     for (const DynamicFit& fit : preload.fits) {
       for (const Estimate& e : fit.parameters) {
@@ -115,28 +114,47 @@ Table suspect_table(const DynamicResult& result) {
   return table;
 }
 
-/// A table per preload and model: parameters down, settings across.
-std::vector<Table> sweep_tables(const DynamicResult& result) {
-  std::vector<Table> tables;
+/// One line per setting that was varied.
+Table sweep_summary(const DynamicResult& result) {
+  Table table;
+  table.title = "Sweep: are the estimates flat against settings that should not matter?";
+  table.columns = {{"", "preload", "", true},
+                   {"", "model", "", true},
+                   {"", "setting", "", true},
+                   {"", "verdict", "", true}};
   for (const DynamicPreload& preload : result.preloads)
     for (const DynamicFit& fit : preload.fits) {
       if (!fit.sweep) continue;
-      Table table;
-      table.title =
-          fmt::format("Sweep: {}, {}: change of every parameter in sd", preload.name, fit.model);
-      table.columns = {{"", "parameter", "", true}};
-      for (const SweepPoint& point : fit.sweep->points)
-        table.columns.push_back({point.setting, significant(point.value, kErrorDigits), ""});
-      for (std::size_t k = 0; k < fit.sweep->parameters.size(); ++k) {
-        std::vector<std::string> row = {fit.sweep->parameters[k]};
-        for (const SweepPoint& point : fit.sweep->points)
-          row.push_back(std::isfinite(point.change[k]) ? fmt::format("{:+.2f}", point.change[k])
-                                                       : kNoNumber);
-        table.rows.push_back(row);
-      }
       for (const SweepVerdict& verdict : fit.sweep->verdicts)
-        table.notes.push_back(verdict.setting + ": " + verdict.text);
-      tables.push_back(std::move(table));
+        table.rows.push_back({preload.name, fit.model, verdict.setting, verdict.text});
+    }
+  return table;
+}
+
+/// A table per preload, model and setting: parameters down, its values across.
+std::vector<Table> sweep_tables(const DynamicResult& result) {
+  std::vector<Table> tables;
+  const auto table_of = [&](const DynamicPreload& preload, const DynamicFit& fit,
+                            const std::string& setting) {
+    Table table;
+    table.title = fmt::format("Sweep: {}, {}, {}: change of every parameter in sd", preload.name,
+                              fit.model, setting);
+    table.columns = {{"", "parameter", "", true}};
+    for (const std::string& parameter : fit.sweep->parameters) table.rows.push_back({parameter});
+    for (const SweepPoint& point : fit.sweep->points) {
+      if (point.setting != setting) continue;
+      table.columns.push_back({setting, significant(point.value, kErrorDigits), ""});
+      for (std::size_t k = 0; k < table.rows.size(); ++k)
+        table.rows[k].push_back(
+            std::isfinite(point.change[k]) ? fmt::format("{:+.2f}", point.change[k]) : kNoNumber);
+    }
+    return table;
+  };
+  for (const DynamicPreload& preload : result.preloads)
+    for (const DynamicFit& fit : preload.fits) {
+      if (!fit.sweep) continue;
+      for (const SweepVerdict& verdict : fit.sweep->verdicts)
+        tables.push_back(table_of(preload, fit, verdict.setting));
     }
   return tables;
 }
@@ -172,7 +190,6 @@ Table conditioning_table(const DynamicResult& result) {
                    {"", "equation", "", true},
                    {"", "cond(W)", ""},
                    {"", "effective rows", ""}};
-  table.detail = true;
   for (const DynamicPreload& preload : result.preloads) {
     for (const DynamicFit& fit : preload.fits) {
       for (const auto& [equation, condition] : fit.condition) {
@@ -203,6 +220,59 @@ void add_tidy_rows(Table& table, const DynamicPreload& preload, const DynamicFit
   }
 }
 
+/// Of several models the one to use: the smallest error, unless a simpler one that stands before it
+/// comes close.
+const DynamicFit* better_fit(const DynamicPreload& preload) {
+  constexpr double kClose = 1.05;  // of the relative errors of all equations together
+  const auto error_of = [](const DynamicFit& fit) {
+    double sum = 0;
+    for (const auto& [equation, error] : fit.torque_error) sum += error.relative * error.relative;
+    return std::sqrt(sum);
+  };
+  const DynamicFit* best = nullptr;
+  for (const DynamicFit& fit : preload.fits)
+    if (best == nullptr || kClose * error_of(fit) < error_of(*best)) best = &fit;
+  return best;
+}
+
+/// "link 0.169 N m rms (1.3 % of the torque), motor 0.167 N m rms (4.3 %)".
+std::string residual_text(const DynamicFit& fit, const std::string& unit) {
+  std::string text;
+  for (const auto& [equation, error] : fit.torque_error)
+    text += fmt::format("{}{} {} {} rms ({} %{})", text.empty() ? "" : ", ", equation,
+                        significant(error.rms, kErrorDigits), unit,
+                        significant(100 * error.relative, 2), text.empty() ? " of the torque" : "");
+  return text;
+}
+
+/// On what the residual of that model depends, of all equations.
+std::string dependence_text(const DynamicPreload& preload, const std::string& model) {
+  std::string text, first;
+  bool is_same = true;
+  for (const JudgedEquation& e : preload.residual_tests) {
+    if (e.model != model) continue;
+    const std::string depends = depends_text(e, torque_unit(preload.linear_motion));
+    if (text.empty()) first = depends;
+    is_same = is_same && depends == first;
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", e.equation, depends);
+  }
+  return is_same ? first : text;
+}
+
+void add_answer(const DynamicPreload& preload, Document& document) {
+  const DynamicFit* best = better_fit(preload);
+  if (best == nullptr || best->torque_error.empty()) return;
+  const std::string unit = torque_unit(preload.linear_motion);
+  std::string text =
+      fmt::format("{}residual {}", preload.fits.size() > 1 ? "use " + best->model + ": " : "",
+                  residual_text(*best, unit));
+  for (const DynamicFit& fit : preload.fits)
+    if (&fit != best) text += fmt::format("; {}: {}", fit.model, residual_text(fit, unit));
+  document.summary.push_back({preload.name, text});
+  if (const std::string depends = dependence_text(preload, best->model); !depends.empty())
+    document.summary.push_back({"", "residual against motion and load: " + depends});
+}
+
 }  // namespace
 
 Document dynamic_document(const DynamicResult& result) {
@@ -215,6 +285,7 @@ Document dynamic_document(const DynamicResult& result) {
     for (const auto& [equation, rows] : preload.counts) {
       add_counts(counts, preload.name, equation, rows, preload.windows);
     }
+    add_answer(preload, document);
     add_decisions(document, preload.name, preload.decisions);
     add_warnings(document, preload.name, preload.warnings);
     add_figures(document, preload.figures);
@@ -229,29 +300,26 @@ Document dynamic_document(const DynamicResult& result) {
   }
   finish_decisions(document, result.preloads.size());
   document.tables = parameter_tables(result);
-  const Table errors = error_table(result);
-  if (errors.columns.size() > 2) document.tables.push_back(errors);
-  const Table verdicts = verdict_table(result);
-  if (!verdicts.rows.empty()) document.tables.push_back(verdicts);
-  if (Table suspects = suspect_table(result); !suspects.rows.empty())
-    document.tables.push_back(std::move(suspects));
-  for (Table& table : sweep_tables(result)) document.tables.push_back(std::move(table));
-  for (Table& table : validation_tables(result)) document.tables.push_back(std::move(table));
-  if (const Table summary = residual_summary(result); !summary.rows.empty()) {
-    document.tables.push_back(summary);
-    document.tables.push_back(residual_table(result));
-  }
+  add_table(document, sweep_summary(result));
+  for (Table& table : sweep_tables(result)) add_detail(document, std::move(table));
+  for (Table& table : validation_tables(result)) add_table(document, std::move(table));
   for (const DynamicPreload& preload : result.preloads)
     for (const DynamicFit& fit : preload.fits)
       if (fit.proof)
-        document.tables.push_back(proof_table(
-            fmt::format("{}, {} by {}", preload.name, fit.model, fit.estimator), *fit.proof));
-  if (Table reasons = sd_reason_table(result); !reasons.rows.empty())
-    document.tables.push_back(std::move(reasons));
-  if (!derived.rows.empty()) document.tables.push_back(std::move(derived));
-  document.tables.push_back(sd_table(result));
-  document.tables.push_back(conditioning_table(result));
-  document.tables.push_back(counts);
+        add_table(document,
+                  proof_table(fmt::format("{}, {} by {}", preload.name, fit.model, fit.estimator),
+                              *fit.proof));
+  add_table(document, suspect_table(result));
+  if (Table errors = error_table(result); errors.columns.size() > 2)
+    add_detail(document, std::move(errors));
+  add_detail(document, verdict_table(result));
+  add_detail(document, residual_summary(result));
+  add_detail(document, residual_table(result));
+  add_detail(document, sd_reason_table(result));
+  add_detail(document, std::move(derived));
+  add_detail(document, sd_table(result));
+  add_detail(document, conditioning_table(result));
+  add_detail(document, std::move(counts));
   return document;
 }
 

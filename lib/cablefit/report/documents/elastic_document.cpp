@@ -121,7 +121,7 @@ std::string balance_text(const ElasticPreload& preload, const ElasticFit& fit) {
       numbers_text(alone.motor));
 }
 
-/// "high: all cables taut (force closure) in 12.0 % of the rows; slack: 1 in 44.1 %, ...".
+/// "all cables taut (force closure) in 12.0 % of the samples; slack: 1 in 44.1 %, ...".
 std::string modes_text(const ElasticPreload& preload) {
   const auto percent = [&](std::size_t rows) {
     const auto all = static_cast<double>(preload.counts.rows_used);
@@ -130,8 +130,8 @@ std::string modes_text(const ElasticPreload& preload) {
   std::string slack;
   for (const ModeCounts::Slack& own : preload.modes.slack)
     slack += fmt::format("{}{} in {}", slack.empty() ? "" : ", ", own.cable, percent(own.rows));
-  return fmt::format("{}: all cables taut (force closure) in {} of the rows; slack: {}",
-                     preload.name, percent(preload.modes.closure), slack);
+  return fmt::format("all cables taut (force closure) in {} of the samples; slack: {}",
+                     percent(preload.modes.closure), slack);
 }
 
 /// Where cables of a preloaded fit go slack, within the deflections of the logs; no rows otherwise:
@@ -165,13 +165,12 @@ Table slack_table(const ElasticResult& result) {
 
 Table sd_table(const ElasticResult& result) {
   Table table;
-  table.title = "Standard deviations: the one cablefit stands behind, and the paper's (25)";
+  table.title = "Robust standard deviations, and the white-noise ones of (25)";
   table.columns = {{"", "preload", "", true},   {"", "model", "", true},
                    {"", "parameter", "", true}, {"", "unit", "", true},
                    {"", "value", ""},           {"", "sd", ""},
                    {"", "sd of (25)", ""},      {"95 % interval", "from", ""},
                    {"95 % interval", "to", ""}};
-  table.detail = true;
   for (const ElasticPreload& preload : result.preloads) {
     for (const ElasticFit& fit : preload.fits) {
       for (const Estimate& e : fit.parameters) {
@@ -200,6 +199,38 @@ void add_tidy_rows(Table& table, const ElasticPreload& preload, const ElasticFit
   add("deflection_high", preload.unit, preload.deflection_high);
 }
 
+/// What to take, and by how much it is better.
+SummaryLine answer_of(const ElasticPreload& preload) {
+  const std::string torque = torque_unit(preload.linear_motion);
+  const auto named = [](const ElasticFit& fit) {
+    return fit.model == "linear" ? std::string("linear")
+                                 : fmt::format("{}, order {}", fit.model, fit.order);
+  };
+  std::string text, others;
+  for (const ElasticFit& fit : preload.fits) {
+    const std::string error = fmt::format("{} {}", error_text(fit.held_out_max), torque);
+    if (fit.model == preload.selected || preload.fits.size() == 1)
+      text = fmt::format("use {}: its largest error on held-out blocks is {}", named(fit), error);
+    else
+      others += fmt::format("{}{} {}", others.empty() ? "" : ", ", named(fit), error);
+  }
+  if (!others.empty()) text += fmt::format(" ({})", others);
+  return {preload.name, text};
+}
+
+/// Initial elongations that were searched, and how often all cables are taut; no lines without.
+void add_elongations(const ElasticPreload& preload, Document& document) {
+  const ElasticFit* fit = preload.find(preload.selected);
+  if (fit == nullptr) return;
+  std::string found;
+  for (const Estimate& e : fit->parameters)
+    if (e.name.starts_with("l_o[") && e.not_identifiable.empty())
+      found += fmt::format("{}{} = {} {}", found.empty() ? "" : ", ", e.name,
+                           value_with_sd(1e3 * e.value, 1e3 * e.sd), "m" + e.unit);
+  if (!found.empty()) document.summary.push_back({"", found});
+  if (is_preloaded(fit->transmission)) document.summary.push_back({"", modes_text(preload)});
+}
+
 }  // namespace
 
 Document elastic_document(const ElasticResult& result) {
@@ -210,12 +241,12 @@ Document elastic_document(const ElasticResult& result) {
   add_warnings(document, "", result.warnings);
   for (const ElasticPreload& preload : result.preloads) {
     add_counts(counts, preload.name, "blocked", preload.counts, preload.windows);
+    document.summary.push_back(answer_of(preload));
+    add_elongations(preload, document);
     add_decisions(document, preload.name, preload.decisions);
     for (const std::string& words : preload.selection) {
       document.paragraphs.push_back(preload.name + ": " + words);
     }
-    if (!preload.fits.empty() && is_preloaded(preload.fits.back().transmission))
-      document.paragraphs.push_back(modes_text(preload));
     add_warnings(document, preload.name, preload.warnings);
     add_figures(document, preload.figures);
     for (const ElasticFit& fit : preload.fits) {
@@ -228,17 +259,16 @@ Document elastic_document(const ElasticResult& result) {
   }
   finish_decisions(document, result.preloads.size());
   document.tables = stiffness_tables(result);
-  document.tables.push_back(fits_table(result));
-  if (Table slack = slack_table(result); !slack.rows.empty())
-    document.tables.push_back(std::move(slack));
+  add_detail(document, fits_table(result));
+  add_detail(document, slack_table(result));
   for (const ElasticPreload& preload : result.preloads)
     for (const ElasticFit& fit : preload.fits)
       if (fit.proof)
-        document.tables.push_back(
-            proof_table(fmt::format("{}, {}", preload.name, fit.model), *fit.proof));
-  if (!derived.rows.empty()) document.tables.push_back(std::move(derived));
-  document.tables.push_back(sd_table(result));
-  document.tables.push_back(counts);
+        add_table(document,
+                  proof_table(fmt::format("{}, {}", preload.name, fit.model), *fit.proof));
+  add_detail(document, std::move(derived));
+  add_detail(document, sd_table(result));
+  add_detail(document, std::move(counts));
   return document;
 }
 

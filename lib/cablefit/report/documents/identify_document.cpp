@@ -28,7 +28,8 @@ struct Cells {
 
 Cells cells_of(const Estimate* e, Footnotes& notes) {
   if (e == nullptr) return {kNoNumber, ""};
-  if (!e->not_identifiable.empty()) return {"not identifiable", notes.mark(e->not_identifiable)};
+  if (!e->not_identifiable.empty())
+    return {kNoNumber, notes.mark("not identifiable: " + e->not_identifiable)};
   if (!e->active_bound.empty())
     return {significant(e->value, kRsdDigits),
             notes.mark(fmt::format("at its bound {}: 95 % interval up to {} {}", e->active_bound,
@@ -237,7 +238,7 @@ void add_sd_rows(Table& table, const std::string& preload, const std::vector<Est
 
 Table sd_table(const IdentifyResult& result) {
   Table table;
-  table.title = "Standard deviations: the one cablefit stands behind, and the paper's (25)";
+  table.title = "Robust standard deviations, and the white-noise ones of (25)";
   table.columns = {{"", "preload", "", true},
                    {"", "parameter", "", true},
                    {"", "unit", "", true},
@@ -246,7 +247,6 @@ Table sd_table(const IdentifyResult& result) {
                    {"", "sd of (25)", ""},
                    {"95 % interval", "from", ""},
                    {"95 % interval", "to", ""}};
-  table.detail = true;
   add_sd_rows(table, "all", result.parameters);
   for (const IdentifyPreload& preload : result.preloads)
     add_sd_rows(table, preload.name, preload.parameters);
@@ -256,6 +256,15 @@ Table sd_table(const IdentifyResult& result) {
 void add_tidy_rows(Document& document, const std::string& preload,
                    const std::vector<Estimate>& parameters) {
   for (const Estimate& e : parameters) add_tidy(document.tidy, preload, "poly", "joint", e);
+}
+
+/// "residual: blocked 0.0549 N m rms, link ...".
+std::string residual_text(const IdentifyPreload& preload, bool linear_motion) {
+  std::string text;
+  for (const IdentifyEquation& e : preload.equations)
+    text += fmt::format("{} {} {} {} rms", text.empty() ? "residual:" : ",", e.name,
+                        significant(e.rms, kErrorDigits), torque_unit(linear_motion));
+  return text;
 }
 
 }  // namespace
@@ -268,6 +277,7 @@ Document identify_document(const IdentifyResult& result) {
   add_tidy_rows(document, "all", result.parameters);
   Table derived = derived_table();
   for (const IdentifyPreload& preload : result.preloads) {
+    document.summary.push_back({preload.name, residual_text(preload, result.linear_motion)});
     add_decisions(document, preload.name, preload.decisions);
     add_decisions(document, preload.name, result.decisions);
     add_warnings(document, preload.name, preload.warnings);
@@ -279,11 +289,19 @@ Document identify_document(const IdentifyResult& result) {
   finish_decisions(document, result.preloads.size());
   for (const std::string& bound : result.active_bounds)
     document.paragraphs.push_back("held by its bound: " + bound);
-  for (Table& table :
-       std::vector<Table>{shared_table(result), elongation_table(result), dynamics_table(result),
-                          line_table(result), slack_table(result), derived, equation_table(result),
-                          sd_table(result)})
-    if (!table.rows.empty()) document.tables.push_back(std::move(table));
+  add_table(document, shared_table(result));
+  add_table(document, dynamics_table(result));
+  const bool searched = std::any_of(
+      result.preloads.begin(), result.preloads.end(), [](const IdentifyPreload& preload) {
+        return std::any_of(preload.parameters.begin(), preload.parameters.end(), is_elongation);
+      });
+  if (searched)
+    add_table(document, elongation_table(result));
+  else
+    add_detail(document, elongation_table(result));
+  for (Table& table : std::vector<Table>{line_table(result), slack_table(result), derived,
+                                         equation_table(result), sd_table(result)})
+    add_detail(document, std::move(table));
   return document;
 }
 

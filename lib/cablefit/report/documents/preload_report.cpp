@@ -34,9 +34,9 @@ Table advice_table(const std::vector<PreloadAdvice>& advice, const AdviceDetecto
   table.title = "What each preload buys and costs";
   table.columns = {{"", "cell", "", true},
                    {"", "deflection", way},
-                   {"linear spring off by", "", torque},
-                   {"linear spring off by", "of peak", "%"},
-                   {"stage 1's choice off by", "", torque},
+                   {"largest error", "linear", torque},
+                   {"largest error", "of peak", "%"},
+                   {"largest error", "choice", torque},
                    {"", "friction", torque},
                    {"", "all taut", way},
                    {"smallest collision", "linear", torque},
@@ -49,8 +49,9 @@ Table advice_table(const std::vector<PreloadAdvice>& advice, const AdviceDetecto
          range_text(a.closure_low, a.closure_high), significant(a.collision_linear, kDigits),
          significant(a.collision_model, kDigits)});
   table.notes = {
-      "off by: largest error on the blocked rows; friction: f_s + f_sm; all taut: needs l_o in the "
-      "rig file ('cablefit identify' finds it)",
+      "largest error: on the blocked samples, of the linear spring and of stage 1's choice; "
+      "friction: "
+      "f_s + f_sm; all taut: needs l_o in the rig file ('cablefit identify' finds it)",
       fmt::format("smallest collision: link torque that stands out of the model's largest error "
                   "and the link equation's residual with a probability of {:.4g}; one look every "
                   "{:.4g} s, false alarms an hour: {:.4g}",

@@ -24,7 +24,7 @@ Table where_table(const RefineResult& result) {
   const std::string torque = torque_unit(result.linear_motion);
   Table table;
   table.title = "Where the gap is";
-  table.detail = result.verdict == Verdict::none;
+  table.detail = true;
   table.columns = {{"", "equation", "", true}, {"", "by", "", true},
                    {"", "where", "", true},    {"share of", "squared gap", "%"},
                    {"share of", "rows", "%"},  {"", "rms", torque},
@@ -69,7 +69,7 @@ std::string next_run_text(const NotSeparable& group) {
 Table separability_table(const RefineResult& result) {
   Table table;
   table.title = "What these logs cannot separate";
-  table.detail = result.verdict == Verdict::none || result.verdict == Verdict::named;
+  table.detail = true;
   table.columns = {{"", "effects", "", true}, {"", "from", "", true}, {"", "what would", "", true}};
   for (const NotSeparable& group : result.not_separable)
     table.rows.push_back({fmt::format("{}", fmt::join(group.effects, ", ")),
@@ -85,6 +85,7 @@ Table step_table(const RefineResult& result) {
   const std::string torque = torque_unit(result.linear_motion);
   Table table;
   table.title = "Steps";
+  table.detail = true;
   table.columns = {{"", "added", "", true},     {"", "side", "", true},  {"gap", "train", torque},
                    {"gap", "held out", torque}, {"gap", "test", torque}, {"", "kept", "", true},
                    {"", "why not", "", true}};
@@ -97,6 +98,7 @@ Table step_table(const RefineResult& result) {
 Table shift_table(const RefineResult& result) {
   Table table;
   table.title = "Parameters before and after";
+  table.detail = true;  // in short among the lines of the summary
   table.columns = {{"", "parameter", "", true}, {"", "unit", "", true}, {"", "before", ""},
                    {"", "after", ""},           {"", "sd", ""},         {"", "moved", "sd"}};
   if (result.effects.empty()) return table;  // then nothing moved them

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cablefit/refine/null/chance_tail.hpp"
 #include "cablefit/refine/rows/regime_variables.hpp"
@@ -281,9 +282,7 @@ double moved_sd(const ParameterShift& shift) { return (shift.after - shift.befor
 
 std::vector<SummaryLine> refine_story(const RefineResult& result,
                                       const std::vector<std::string>& model_files) {
-  std::vector<SummaryLine> lines;
-  if (result.verdict != Verdict::none) lines = where_lines(result);
-  lines.push_back(verdict_line(result));
+  std::vector<SummaryLine> lines = {verdict_line(result)};
   for (const KeptEffect& kept : result.kept) lines.push_back(kept_line(kept));
   add_effect_lines(result, lines);
   if (result.torque.known) lines.push_back(gap_line(result));
@@ -291,6 +290,8 @@ std::vector<SummaryLine> refine_story(const RefineResult& result,
   lines.push_back(remainder_line(result));
   if (result.unexplained)
     lines.push_back({"left over", unexplained_text(*result.unexplained, result.linear_motion)});
+  if (result.verdict != Verdict::none)
+    for (SummaryLine& line : where_lines(result)) lines.push_back(std::move(line));
   if (!result.effects.empty()) lines.push_back(shifts_line(result));
   if (!result.next_experiment.empty()) lines.push_back({"next run", result.next_experiment});
   if (!model_files.empty())

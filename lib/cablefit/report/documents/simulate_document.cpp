@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "cablefit/report/documents/document_parts.hpp"
 #include "cablefit/report/documents/numbers.hpp"
@@ -17,12 +18,32 @@ constexpr int kTimeDigits = 5;
 std::string count(std::size_t n) { return fmt::format("{}", n); }
 
 /// The log, and what of it when it has several parts.
-std::string part_name(const SimulateResult& result, const SimulatedPart& part) {
+/// The file's name alone where that tells the logs apart.
+std::string log_name(const SimulateResult& result, const std::string& path) {
+  const auto name_of = [](const std::string& p) {
+    return std::filesystem::path(p).filename().string();
+  };
+  const bool is_unique = std::none_of(
+      result.parts.begin(), result.parts.end(),
+      [&](const SimulatedPart& p) { return p.log != path && name_of(p.log) == name_of(path); });
+  return is_unique ? name_of(path) : path;
+}
+
+std::string part_name(const SimulateResult& result, const SimulatedPart& part,
+                      const std::string& log) {
   const auto n_parts = std::count_if(result.parts.begin(), result.parts.end(),
                                      [&](const SimulatedPart& p) { return p.log == part.log; });
-  if (n_parts == 1) return part.log;
-  return fmt::format("{} ({}{}{}{})", part.log, part.preload, part.preload.empty() ? "" : ", ",
+  if (n_parts == 1) return log;
+  return fmt::format("{} ({}{}{}{})", log, part.preload, part.preload.empty() ? "" : ", ",
                      part.phase, part.run.empty() ? "" : ", " + part.run);
+}
+
+/// In warnings and choices, and in the first column of a table.
+std::string part_name(const SimulateResult& result, const SimulatedPart& part) {
+  return part_name(result, part, part.log);
+}
+std::string cell_name(const SimulateResult& result, const SimulatedPart& part) {
+  return part_name(result, part, log_name(result, part.log));
 }
 
 /// Gaps of positions are small: printed in mrad, or mm on a linear axis.
@@ -49,7 +70,7 @@ Table gap_table(const SimulateResult& result) {
       const bool first = &gap == &part.gaps.front();
       const auto [factor, unit] = shown(gap.unit);
       table.rows.push_back(
-          {first ? part_name(result, part) : "", first ? std::string(part.mode()) : "", gap.signal,
+          {first ? cell_name(result, part) : "", first ? std::string(part.mode()) : "", gap.signal,
            unit, significant(factor * gap.rms, kGapDigits),
            significant(factor * gap.max_abs, kGapDigits), significant(gap.t_of_max, kTimeDigits),
            significant(100 * gap.relative, kGapDigits), significant(factor * gap.noise, 2)});
@@ -74,7 +95,7 @@ Table part_table(const SimulateResult& result) {
                    {"rows", "resampled", ""}, {"rows", "too short", ""}, {"", "all taut", "%"}};
   for (const SimulatedPart& part : result.parts) {
     table.rows.push_back(
-        {part_name(result, part), part.preload, part.phase,
+        {cell_name(result, part), part.preload, part.phase,
          part.window_seconds > 0 ? significant(part.window_seconds, kGapDigits) : kNoNumber,
          count(part.n_windows), count(part.n_rows), count(part.counts.rows_resampled),
          count(part.counts.rows_too_short),
@@ -91,7 +112,7 @@ Table cable_table(const SimulateResult& result) {
   table.detail = true;
   for (const SimulatedPart& part : result.parts) {
     for (const CableTension& cable : part.cables) {
-      table.rows.push_back({part_name(result, part), cable.cable, cable.unit,
+      table.rows.push_back({cell_name(result, part), cable.cable, cable.unit,
                             significant(cable.min, kGapDigits), significant(cable.max, kGapDigits),
                             significant(100 * cable.slack_share, kShareDigits)});
     }
@@ -123,15 +144,16 @@ Table tidy_gaps(const SimulateResult& result) {
 Document simulate_document(const SimulateResult& result) {
   Document document;
   document.title = "Simulation of the model on the input of the logs";
-  document.tables = {gap_table(result), part_table(result)};
-  const Table cables = cable_table(result);
-  if (!cables.rows.empty()) document.tables.push_back(cables);
+  const bool says_path = result.model_choice.find(result.model_path) != std::string::npos;
+  document.summary.push_back(
+      {"used", says_path ? result.model_choice
+                         : fmt::format("{}, from {}", result.model_choice, result.model_path)});
+  add_table(document, gap_table(result));
+  add_table(document, cable_table(result));
+  add_detail(document, part_table(result));
   document.tidy = tidy_gaps(result);
-  document.paragraphs.push_back(
-      fmt::format("Model: {}, from {}.", result.model_choice, result.model_path));
-  if (!result.trajectories.empty()) {
-    document.paragraphs.push_back(fmt::format("Trajectories: {}.", result.trajectories));
-  }
+  if (!result.trajectories.empty())
+    document.summary.push_back({"trajectories", result.trajectories});
   add_warnings(document, "", result.warnings);
   for (const SimulatedPart& part : result.parts) {
     add_decisions(document, part_name(result, part), part.decisions);

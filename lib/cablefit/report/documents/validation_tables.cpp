@@ -14,9 +14,13 @@ constexpr int kDigits = 3;
 
 std::string number(double value) { return significant(value, kDigits); }
 
+std::string torque_unit_of(const DynamicResult& result) {
+  return torque_unit(!result.preloads.empty() && result.preloads.front().linear_motion);
+}
+
 Table condition_table(const std::string& unit, const std::string& linear) {
   Table table;
-  table.title = "Validation: torque errors on logs that were not fitted";
+  table.title = "Validation: torque errors on held-out logs under every condition";
   table.columns = {{"", "preload", "", true},
                    {"", "model", "", true},
                    {"", "equation", "", true},
@@ -37,6 +41,40 @@ Table condition_table(const std::string& unit, const std::string& linear) {
       "what the verdict goes by; zero model: says 0, so its error is the torque to be explained; "
       "noise floor: what no model can explain, of all logs together and of each");
   if (!linear.empty()) table.notes.back() += "; linear: " + linear;
+  return table;
+}
+
+std::string condition_text(const ConditionError& c) {
+  return c.condition + (c.value.empty() ? "" : " " + c.value);
+}
+
+/// The condition under which the model fails most; nullptr: it holds.
+const ConditionError* worst_of(const JudgedEquation& e) {
+  const ConditionError* worst = nullptr;
+  for (const ConditionError& c : e.conditions)
+    if (c.fails && (worst == nullptr || c.ratio() > worst->ratio())) worst = &c;
+  return worst;
+}
+
+/// Of each equation the error on all held-out rows, and where it is worst.
+Table summary_table(const DynamicResult& result) {
+  const std::string unit = torque_unit_of(result);
+  Table table;
+  table.title = "Validation: torque errors on held-out logs";
+  table.columns = {{"", "preload", "", true},  {"", "model", "", true},
+                   {"", "equation", "", true}, {"rms of", "held out", unit},
+                   {"rms of", "fitted", unit}, {"rms of", "noise floor", unit},
+                   {"", "verdict", "", true},  {"", "worst at", "", true}};
+  for (const DynamicPreload& preload : result.preloads) {
+    if (!preload.validation) continue;
+    for (const JudgedEquation& e : preload.validation->equations) {
+      const ConditionError& all = e.conditions.front();
+      const ConditionError* worst = worst_of(e);
+      table.rows.push_back({preload.name, e.model, e.equation, number(all.rms), number(all.fitted),
+                            number(all.floor), all.verdict,
+                            worst == nullptr ? kNoNumber : condition_text(*worst)});
+    }
+  }
   return table;
 }
 
@@ -84,7 +122,8 @@ std::string white_text(const JudgedEquation& e) {
   return kNoNumber;
 }
 
-/// "deflection (1.5 N m rms)", the largest first.
+}  // namespace
+
 std::string depends_text(const JudgedEquation& e, const std::string& unit) {
   std::vector<const ResidualTest*> seen;
   for (const ResidualTest& test : e.tests)
@@ -103,18 +142,12 @@ std::string depends_text(const JudgedEquation& e, const std::string& unit) {
   return testable ? "nothing seen" : "too few independent rows";
 }
 
-std::string torque_unit_of(const DynamicResult& result) {
-  return torque_unit(!result.preloads.empty() && result.preloads.front().linear_motion);
-}
-
-}  // namespace
-
 std::vector<Table> validation_tables(const DynamicResult& result) {
   std::string linear;
   for (const DynamicPreload& preload : result.preloads)
     if (preload.validation) linear = preload.validation->linear_name;
   Table conditions = condition_table(torque_unit_of(result), linear);
-  Table tests = test_table("Validation: residuals on logs that were not fitted");
+  Table tests = test_table("Validation: residuals on held-out logs");
   for (const DynamicPreload& preload : result.preloads) {
     if (!preload.validation) continue;
     for (const JudgedEquation& e : preload.validation->equations) {
@@ -125,7 +158,8 @@ std::vector<Table> validation_tables(const DynamicResult& result) {
     }
   }
   if (conditions.rows.empty()) return {};
-  return {std::move(conditions), std::move(tests)};
+  conditions.detail = tests.detail = true;
+  return {summary_table(result), std::move(conditions), std::move(tests)};
 }
 
 Table residual_summary(const DynamicResult& result) {
@@ -145,7 +179,6 @@ Table residual_summary(const DynamicResult& result) {
 
 Table residual_table(const DynamicResult& result) {
   Table table = test_table("Residual tests on the logs that were fitted");
-  table.detail = true;
   for (const DynamicPreload& preload : result.preloads)
     for (const JudgedEquation& e : preload.residual_tests) add_tests(table, preload, e);
   return table;
@@ -156,12 +189,10 @@ std::vector<std::string> validation_warnings(const DynamicPreload& preload) {
   if (!preload.validation) return warnings;
   const std::string unit = torque_unit(preload.linear_motion);
   for (const JudgedEquation& e : preload.validation->equations) {
-    const ConditionError* worst = nullptr;
-    for (const ConditionError& c : e.conditions)
-      if (c.fails && (worst == nullptr || c.ratio() > worst->ratio())) worst = &c;
+    const ConditionError* worst = worst_of(e);
     if (worst == nullptr) continue;
     warnings.push_back(fmt::format(
-        "{}, {} equation: fails on logs that were not fitted: {} instead of {} {} rms; worst: "
+        "{}, {} equation: fails on held-out logs: {} instead of {} {} rms; worst: "
         "{}{}, {} instead of {} {}",
         e.model, e.equation, number(e.conditions.front().rms), number(e.conditions.front().fitted),
         unit, worst->condition, worst->value.empty() ? "" : " " + worst->value, number(worst->rms),

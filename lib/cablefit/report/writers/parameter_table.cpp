@@ -9,6 +9,7 @@
 #include "cablefit/report/documents/dynamic_document.hpp"
 #include "cablefit/report/documents/numbers.hpp"
 #include "cablefit/report/writers/text_table.hpp"
+#include "cablefit/report/writers/wrap.hpp"
 
 namespace cablefit {
 namespace {
@@ -67,9 +68,8 @@ std::string bound_note(const Estimate& e) {
 
 Cells cells_of(const Estimate* e, Footnotes& notes) {
   if (e == nullptr) return {kNoNumber, ""};
-  if (!e->not_identifiable.empty()) {
-    return {"not identifiable", notes.mark(e->not_identifiable)};
-  }
+  if (!e->not_identifiable.empty())
+    return {kNoNumber, notes.mark("not identifiable: " + e->not_identifiable)};
   if (!e->active_bound.empty())
     return {significant(e->value, kRsdDigits), notes.mark(bound_note(*e))};
   return {value_text(e->value, e->sd), significant(e->rsd_percent(), kRsdDigits)};

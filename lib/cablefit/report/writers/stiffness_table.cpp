@@ -7,6 +7,7 @@
 #include "cablefit/report/documents/elastic_document.hpp"
 #include "cablefit/report/documents/numbers.hpp"
 #include "cablefit/report/writers/text_table.hpp"
+#include "cablefit/report/writers/wrap.hpp"
 
 namespace cablefit {
 namespace {

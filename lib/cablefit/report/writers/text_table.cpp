@@ -4,11 +4,13 @@
 #include <numeric>
 
 #include "cablefit/report/documents/escape.hpp"
+#include "cablefit/report/writers/wrap.hpp"
 
 namespace cablefit {
 namespace {
 
-constexpr std::size_t kGap = 2;  // blanks between columns
+constexpr std::size_t kGap = 2;         // blanks between columns
+constexpr std::size_t kLeastText = 12;  // characters of a text column that is wrapped
 
 std::string unit_line(const Column& column) {
   return column.unit.empty() ? "" : "[" + column.unit + "]";
@@ -55,6 +57,21 @@ std::vector<std::size_t> column_widths(const Table& table) {
   return widths;
 }
 
+/// The widest text columns give way until all of it fits.
+std::vector<std::size_t> fitted_widths(const Table& table) {
+  std::vector<std::size_t> widths = column_widths(table);
+  for (std::size_t all = width_of(widths, {0, widths.size()}); all > kTextWidth; --all) {
+    std::size_t widest = widths.size();
+    for (std::size_t k = 0; k < widths.size(); ++k)
+      if (table.columns[k].is_text && widths[k] > kLeastText &&
+          (widest == widths.size() || widths[k] > widths[widest]))
+        widest = k;
+    if (widest == widths.size()) break;
+    --widths[widest];
+  }
+  return widths;
+}
+
 enum class Flush { left, right, centre };
 
 std::string padded(const std::string& text, std::size_t width, Flush flush) {
@@ -86,6 +103,24 @@ std::string line_of_cells(const Table& table, const std::vector<std::size_t>& wi
   return line_of(parts);
 }
 
+/// Lines of a row whose texts are wrapped.
+std::string lines_of_cells(const Table& table, const std::vector<std::size_t>& widths,
+                           const std::vector<std::string>& cells) {
+  std::vector<std::vector<std::string>> lines(1, std::vector<std::string>(cells.size()));
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const std::string shown = printable(cells[k]);
+    const bool fits = !table.columns[k].is_text || n_characters(shown) <= widths[k];
+    const std::vector<std::string> pieces =
+        fits ? std::vector<std::string>{shown} : wrapped_lines(shown, widths[k]);
+    if (pieces.size() > lines.size())
+      lines.resize(pieces.size(), std::vector<std::string>(cells.size()));
+    for (std::size_t i = 0; i < pieces.size(); ++i) lines[i][k] = pieces[i];
+  }
+  std::string text;
+  for (const std::vector<std::string>& line : lines) text += line_of_cells(table, widths, line);
+  return text;
+}
+
 std::string header(const Table& table, const std::vector<std::size_t>& widths) {
   std::vector<std::string> groups, titles, units;
   for (const Span& span : group_spans(table)) {
@@ -109,12 +144,12 @@ std::string header(const Table& table, const std::vector<std::size_t>& widths) {
 }  // namespace
 
 std::string text_table(const Table& table) {
-  const std::vector<std::size_t> widths = column_widths(table);
-  std::string text = table.title.empty() ? "" : printable(table.title) + "\n\n";
+  const std::vector<std::size_t> widths = fitted_widths(table);
+  std::string text = table.title.empty() ? "" : wrapped("", printable(table.title), 0) + "\n";
   text += header(table, widths);
-  text += std::string(text_table_width(table), '-') + "\n";
-  for (const auto& row : table.rows) text += line_of_cells(table, widths, row);
-  for (const std::string& note : table.notes) text += printable(note) + "\n";
+  text += std::string(width_of(widths, {0, widths.size()}), '-') + "\n";
+  for (const auto& row : table.rows) text += lines_of_cells(table, widths, row);
+  for (const std::string& note : table.notes) text += wrapped("", printable(note), 2);
   return text;
 }
 

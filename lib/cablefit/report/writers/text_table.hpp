@@ -7,13 +7,11 @@
 
 namespace cablefit {
 
-/// Title, header of up to three lines (group, title, unit), rule, rows and notes.
+/// Title, header of up to three lines (group, title, unit), rule, rows and notes, at most
+/// kTextWidth wide: texts are wrapped where they must be. A table with too many numbers is wider.
 std::string text_table(const Table& table);
 
-/// Characters of its longest row.
+/// Characters of its longest row, nothing wrapped.
 std::size_t text_table_width(const Table& table);
-
-/// Tables wider than this are laid out otherwise by those who make documents.
-inline constexpr std::size_t kTextWidth = 110;
 
 }  // namespace cablefit

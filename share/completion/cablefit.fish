@@ -1,0 +1,11 @@
+# fish completion of cablefit: commands, and the options that --help names.
+function __cablefit_commands
+    cablefit --help 2>/dev/null | sed -n 's/^  \([a-z]*\)  *\(.*\)/\1\t\2/p'
+end
+function __cablefit_options
+    set -l words (commandline -opc)
+    cablefit $words[2] --help 2>/dev/null | grep -o -e '--[a-z][a-z-]*' | sort -u
+end
+complete -c cablefit -n __fish_use_subcommand -f -a '(__cablefit_commands)'
+complete -c cablefit -n 'not __fish_use_subcommand; and string match -q -- "-*" (commandline -ct)' -f -a '(__cablefit_options)'
+complete -c cablefit -n '__fish_seen_subcommand_from list' -f -a 'effects models estimators formats'
