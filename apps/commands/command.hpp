@@ -27,6 +27,7 @@ std::string overview();
 
 /// The rows of the table.
 int run_check(const Arguments& arguments);
+int run_study(const Arguments& arguments);
 int run_elastic(const Arguments& arguments);
 int run_dynamic(const Arguments& arguments);
 int run_identify(const Arguments& arguments);

@@ -11,6 +11,9 @@ namespace cablefit::apps {
 namespace {
 
 constexpr std::array kCommands{
+    Command{"study",
+            "all in one go, from logs to what the model lacks; the other commands go deeper",
+            run_study},
     Command{"check", "what is in a log, is it usable, and what can be identified from it",
             run_check},
     Command{"elastic", "stage 1, link blocked: linear and per-cable polynomial stiffness (Table 1)",

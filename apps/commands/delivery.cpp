@@ -60,7 +60,13 @@ void print_closing_lines(const CommonOptions& options, const Document& document,
                          const std::vector<ResultFile>& results) {
   if (!prints_document(options)) return;
   std::string text;
-  const std::vector<std::string> paths = targets(options, results);
+  constexpr std::size_t kMostNamed = 4;
+  std::vector<std::string> paths = targets(options, results);
+  if (paths.size() > options.reports.size() + kMostNamed) {
+    const std::size_t n = paths.size() - options.reports.size();
+    paths.resize(options.reports.size());
+    paths.push_back(fmt::format("{} files in {}", n, options.out));
+  }
   if (!paths.empty()) text += fmt::format("Written: {}. ", fmt::join(paths, ", "));
   const bool has_more = write_text(on_screen(document)) != write_text(document);
   if (has_more && !options.verbose)

@@ -2,15 +2,14 @@
 #include "cablefit/identify/identify.hpp"
 
 #include "cablefit/report/documents/identify_document.hpp"
-#include "cablefit/report/json/identify_json.hpp"
 #include "cablefit/report/writers/trace_csv.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
 #include "commands/dynamic_model.hpp"
 #include "commands/elongation_option.hpp"
-#include "commands/file_names.hpp"
 #include "commands/progress.hpp"
+#include "commands/result_files.hpp"
 
 namespace cablefit::apps {
 namespace {
@@ -30,18 +29,6 @@ void add_identify_options(CLI::App& app, IdentifyOptions& identify) {
                "recursive least squares (R-LSA) too: its trace in OUT/identify_trace.csv");
   app.add_flag("--unconstrained", identify.unconstrained,
                "plain least squares: let cables push, with a warning");
-}
-
-/// One file per preload whose dynamics were identified.
-void add_models(const IdentifyResult& result, std::vector<ResultFile>& files) {
-  std::vector<std::string> preloads, contents;
-  for (const IdentifyPreload& preload : result.preloads) {
-    if (!preload.model) continue;
-    preloads.push_back(preload.name);
-    contents.push_back(model_json(*preload.model));
-  }
-  const std::vector<std::string> names = preload_file_names("model", preloads);
-  for (std::size_t k = 0; k < names.size(); ++k) files.push_back({names[k], contents[k]});
 }
 
 }  // namespace
@@ -69,8 +56,7 @@ int run_identify(const Arguments& arguments) {
     const Progress progress(options.quiet, "identifying");
     return identify(logs, fit);
   });
-  std::vector<ResultFile> files = {{"identify.json", identify_json(result)}};
-  add_models(result, files);
+  std::vector<ResultFile> files = files_of(result);
   if (result.trace) files.push_back({"identify_trace.csv", trace_csv(*result.trace)});
   deliver(options, identify_document(result), files);
   return 0;

@@ -15,15 +15,16 @@
 #include "cablefit/refine/search/model_set.hpp"
 #include "cablefit/report/documents/refine_document.hpp"
 #include "cablefit/report/json/elastic_models.hpp"
-#include "cablefit/report/json/refine_json.hpp"
 #include "cablefit/report/writers/excite_csv.hpp"
 #include "cablefit/samples/weigh/weigh.hpp"
 #include "cablefit/simulate/experiment.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
+#include "commands/draws_option.hpp"
 #include "commands/file_names.hpp"
 #include "commands/progress.hpp"
+#include "commands/result_files.hpp"
 #include "commands/stage1_logs.hpp"
 #include "process.hpp"
 
@@ -36,8 +37,7 @@ constexpr const char* kRefineExample =
     "  cablefit refine cablefit-out/dynamic.json data/low/*.csv --draws 8\n"
     "Writes refined.json (refined_PRELOAD.json for several), a model with what was found.\n";
 
-constexpr const char* kResultFile = "refine.json";
-constexpr std::size_t kLeastDraws = 4, kMostDraws = 100000, kMostEffects = 10;
+constexpr std::size_t kMostEffects = 10;
 
 struct RefineCommand {
   CommonOptions common;  ///< its logs: all of them
@@ -91,10 +91,7 @@ void add_file_options(CLI::App& app, RefineCommand& command) {
 }
 
 void add_search_options(CLI::App& app, RefineOptions& refine) {
-  add_whole(
-      app, "--draws", "N", {kLeastDraws, kMostDraws},
-      [&refine](long n) { refine.n_draws = static_cast<std::size_t>(n); },
-      "simulated data sets without any effect, at most, for the p-values [24]");
+  add_draws_option(app, refine);
   add_number(
       app, "--materiality", "PERCENT", {0, 100},
       [&refine](double percent) { refine.materiality = percent / 100; },
@@ -375,13 +372,6 @@ RefineResult run(RefineCommand& command) {
   return result;
 }
 
-std::vector<std::string> model_file_names(const RefineResult& result) {
-  if (result.models.size() == 1) return {"refined.json"};
-  std::vector<std::string> preloads;
-  for (const Model& model : result.models) preloads.push_back(model.preload);
-  return preload_file_names("refined", preloads);
-}
-
 std::vector<std::string> failed_gates(const RefineCommand& command, const RefineResult& result) {
   std::vector<std::string> failed;
   const std::string unit = result.linear_motion ? "N" : "N m";
@@ -414,14 +404,11 @@ int run_refine(const Arguments& arguments) {
   require_enough_draws(command.refine);
 
   const RefineResult result = run(command);
-  const std::vector<std::string> names = model_file_names(result);
-  std::vector<ResultFile> files = {{kResultFile, refine_json(result, names)}};
-  for (std::size_t k = 0; k < names.size(); ++k)
-    files.push_back({names[k], model_json(result.models[k])});
+  std::vector<ResultFile> files = files_of(result);
   if (!command.excite.empty() && result.next_run)
     files.push_back(
         {std::filesystem::absolute(command.excite).string(), excite_csv(*result.next_run)});
-  deliver(command.common, refine_document(result, names), files);
+  deliver(command.common, refine_document(result, model_file_names(result)), files);
   if (!command.excite.empty() && !result.next_run)
     complain(fmt::format("{} was not written: no motion would separate more\n", command.excite));
   const std::vector<std::string> failed = failed_gates(command, result);

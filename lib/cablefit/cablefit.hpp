@@ -4,6 +4,7 @@
 //   logs      read_logs() from files, survey_memory() from arrays; a Rig says what they are of
 //   stages    stiffness() -> dynamics(); identify() for both in one step
 //   answers   missing_effects(): where model and logs disagree, and which effect is missing
+//   all       study(): every stage that the logs allow
 //   model     read_model(), model_json(); add_effect() for an effect of your own
 //   simulate  simulate()
 //
@@ -20,5 +21,6 @@
 #include "cablefit/samples/survey/memory_log.hpp"
 #include "cablefit/session/read_logs.hpp"
 #include "cablefit/session/stages.hpp"
+#include "cablefit/session/study.hpp"
 #include "cablefit/simulate/simulator.hpp"
 #include "cablefit/version.hpp"

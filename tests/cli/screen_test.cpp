@@ -25,7 +25,7 @@ Outcome run(const std::string& command) {
 
 TEST_CASE("what a terminal shows of the shipped examples fits on it") {
   for (const char* command :
-       {"cablefit check data/low/*.csv",
+       {"cablefit study data/low/*.csv --draws 4", "cablefit check data/low/*.csv",
         "cablefit elastic data/low/blocked.csv data/high/blocked.csv",
         "cablefit dynamic data/low/moving*.csv data/high/moving*.csv",
         "cablefit dynamic data/low/moving_load30.csv --validate data/low/moving_load-40.csv",
@@ -50,7 +50,7 @@ TEST_CASE("what a terminal shows of the shipped examples fits on it") {
 }
 
 TEST_CASE("help fits on a terminal") {
-  for (const char* name : {"check", "elastic", "dynamic", "identify", "simulate", "refine",
+  for (const char* name : {"study", "check", "elastic", "dynamic", "identify", "simulate", "refine",
                            "design", "compare", "batch", "init", "list"}) {
     const Outcome outcome = run(std::string("cablefit ") + name + " --help");
     INFO(name);

@@ -18,19 +18,6 @@ constexpr int kDigits = 3;
 constexpr std::size_t kMostCellsInFull = 12;
 constexpr const char* kFailed = "FAILED";
 
-void append(Document& all, const Document& part) {
-  all.tables.insert(all.tables.end(), part.tables.begin(), part.tables.end());
-  all.paragraphs.insert(all.paragraphs.end(), part.paragraphs.begin(), part.paragraphs.end());
-  all.decisions.insert(all.decisions.end(), part.decisions.begin(), part.decisions.end());
-  add_figures(all, part.figures);
-  all.warnings.insert(all.warnings.end(), part.warnings.begin(), part.warnings.end());
-  if (all.tidy.columns.empty()) {
-    all.tidy = part.tidy;
-  } else {
-    all.tidy.rows.insert(all.tidy.rows.end(), part.tidy.rows.begin(), part.tidy.rows.end());
-  }
-}
-
 template <class Items, class Is>
 std::size_t n_with(const Items& items, Is is) {
   return static_cast<std::size_t>(std::count_if(items.begin(), items.end(), is));

@@ -79,6 +79,19 @@ void add_figures(Document& document, const std::vector<Figure>& figures) {
   document.figures.insert(document.figures.end(), figures.begin(), figures.end());
 }
 
+void append(Document& all, const Document& part) {
+  all.tables.insert(all.tables.end(), part.tables.begin(), part.tables.end());
+  all.paragraphs.insert(all.paragraphs.end(), part.paragraphs.begin(), part.paragraphs.end());
+  all.decisions.insert(all.decisions.end(), part.decisions.begin(), part.decisions.end());
+  add_figures(all, part.figures);
+  all.warnings.insert(all.warnings.end(), part.warnings.begin(), part.warnings.end());
+  if (all.tidy.columns.empty()) {
+    all.tidy = part.tidy;
+  } else {
+    all.tidy.rows.insert(all.tidy.rows.end(), part.tidy.rows.begin(), part.tidy.rows.end());
+  }
+}
+
 Table counts_table() {
   Table table;
   table.title = "Rows";

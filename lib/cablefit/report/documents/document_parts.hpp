@@ -34,6 +34,9 @@ void add_warnings(Document& document, const std::string& where,
 void add_table(Document& document, Table table);
 void add_detail(Document& document, Table table);
 
+/// All of a document behind another, but for its title and summary.
+void append(Document& all, const Document& part);
+
 void add_figures(Document& document, const std::vector<Figure>& figures);
 
 /// Columns and one row of the table of rows used.

@@ -263,12 +263,13 @@ void add_answer(const DynamicPreload& preload, Document& document) {
   const DynamicFit* best = better_fit(preload);
   if (best == nullptr || best->torque_error.empty()) return;
   const std::string unit = torque_unit(preload.linear_motion);
-  std::string text =
-      fmt::format("{}residual {}", preload.fits.size() > 1 ? "use " + best->model + ": " : "",
-                  residual_text(*best, unit));
+  const std::string use = preload.fits.size() > 1 ? "use " + best->model + "; " : "";
+  document.summary.push_back(
+      {preload.name, fmt::format("{}residual: {}", use, residual_text(*best, unit))});
   for (const DynamicFit& fit : preload.fits)
-    if (&fit != best) text += fmt::format("; {}: {}", fit.model, residual_text(fit, unit));
-  document.summary.push_back({preload.name, text});
+    if (&fit != best)
+      document.summary.push_back(
+          {"  " + fit.model, fmt::format("residual: {}", residual_text(fit, unit))});
   if (const std::string depends = dependence_text(preload, best->model); !depends.empty())
     document.summary.push_back({"", "residual against motion and load: " + depends});
 }

@@ -1,0 +1,37 @@
+#include "commands/result_files.hpp"
+
+#include "cablefit/report/json/identify_json.hpp"
+#include "cablefit/report/json/refine_json.hpp"
+#include "commands/file_names.hpp"
+
+namespace cablefit::apps {
+
+std::vector<ResultFile> files_of(const IdentifyResult& result) {
+  std::vector<ResultFile> files = {{"identify.json", identify_json(result)}};
+  std::vector<std::string> preloads, contents;
+  for (const IdentifyPreload& preload : result.preloads) {
+    if (!preload.model) continue;
+    preloads.push_back(preload.name);
+    contents.push_back(model_json(*preload.model));
+  }
+  const std::vector<std::string> names = preload_file_names("model", preloads);
+  for (std::size_t k = 0; k < names.size(); ++k) files.push_back({names[k], contents[k]});
+  return files;
+}
+
+std::vector<std::string> model_file_names(const RefineResult& result) {
+  if (result.models.size() == 1) return {"refined.json"};
+  std::vector<std::string> preloads;
+  for (const Model& model : result.models) preloads.push_back(model.preload);
+  return preload_file_names("refined", preloads);
+}
+
+std::vector<ResultFile> files_of(const RefineResult& result) {
+  const std::vector<std::string> names = model_file_names(result);
+  std::vector<ResultFile> files = {{"refine.json", refine_json(result, names)}};
+  for (std::size_t k = 0; k < names.size(); ++k)
+    files.push_back({names[k], model_json(result.models[k])});
+  return files;
+}
+
+}  // namespace cablefit::apps

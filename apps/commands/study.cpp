@@ -1,0 +1,112 @@
+// cablefit study: all stages in one go.
+#include "cablefit/session/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/report/documents/study_document.hpp"
+#include "cablefit/report/json/dynamic_json.hpp"
+#include "cablefit/report/json/elastic_json.hpp"
+#include "cablefit/report/json/study_json.hpp"
+#include "commands/command.hpp"
+#include "commands/command_line.hpp"
+#include "commands/delivery.hpp"
+#include "commands/draws_option.hpp"
+#include "commands/progress.hpp"
+#include "commands/result_files.hpp"
+
+namespace cablefit::apps {
+namespace {
+
+constexpr const char* kStudyExample =
+    "Example:\n"
+    "  cablefit study data/low/*.csv --report study.html\n"
+    "Writes the result files of 'elastic', 'dynamic', 'identify' and 'refine' as well.\n";
+
+struct StudyCommand {
+  CommonOptions common;
+  std::vector<std::string> test;
+  RefineOptions refine;
+};
+
+/// The test logs, read as the others are.
+std::vector<LogSurvey> read_test(StudyCommand& command) {
+  if (command.test.empty()) return {};
+  for (const std::string& path : command.test)
+    if (std::find(command.common.logs.begin(), command.common.logs.end(), path) !=
+        command.common.logs.end())
+      throw usage_error(fmt::format("log {} is given to be fitted and to --test", path),
+                        "a log is for one of them");
+  CommonOptions options = command.common;
+  options.logs = command.test;
+  command.common.more_inputs = command.test;
+  return read_logs(options);
+}
+
+StudyOptions options_of(const StudyCommand& command) {
+  StudyOptions options;
+  options.samples = command.common.samples;
+  options.honest_sd = command.common.honest_sd;
+  options.preload = command.common.preload;
+  options.figures = wants_figures(command.common);
+  options.refine = command.refine;
+  options.refine.seed = command.common.seed;
+  options.refine.threads = command.common.samples.threads;
+  options.refine.figures = options.figures;
+  return options;
+}
+
+/// Of every stage that has a result, behind that of the study itself.
+std::vector<ResultFile> files_of(const Study& study, const Document& document) {
+  std::vector<ResultFile> files;
+  if (study.elastic) files.push_back({"elastic.json", elastic_json(*study.elastic)});
+  if (study.dynamic) files.push_back({"dynamic.json", dynamic_json(*study.dynamic)});
+  const auto add = [&files](std::vector<ResultFile> more) {
+    for (ResultFile& file : more) files.push_back(std::move(file));
+  };
+  if (study.identify) add(apps::files_of(*study.identify));
+  if (study.refine) add(apps::files_of(*study.refine));
+  std::vector<std::string> names;
+  for (const ResultFile& file : files) names.push_back(file.name);
+  files.insert(files.begin(), {"study.json", study_json(study, document, names)});
+  return files;
+}
+
+}  // namespace
+
+int run_study(const Arguments& arguments) {
+  CLI::App app(
+      "All in one go: are the logs right, how stiff, how heavy and how rough is the drive, what "
+      "does "
+      "its model lack, and what to record next.",
+      "study");
+  StudyCommand command;
+  CommonOptions& options = command.common;
+  add_log_options(app, options);
+  app.add_option("--test", command.test,
+                 "test logs, read once in the end: does the gap shrink? give them last [the last "
+                 "third of every moving log]")
+      ->type_name("LOG");
+  add_draws_option(app, command.refine);
+  add_sd_option(app, options);
+  add_sample_options(app, options);
+  add_output_options(app, options);
+  app.footer(kStudyExample);
+  if (!parse(app, arguments)) return 0;
+
+  const std::vector<LogSurvey> logs = read_logs(options), test = read_test(command);
+  StudyOptions settings = options_of(command);
+  Progress display(options.quiet, "study");
+  settings.progress = [&display](std::string_view stage) {
+    display.rename(fmt::format("study: {}", stage));
+  };
+  const Study result = study(logs, test, settings);
+  const Document document = study_document(
+      result, result.refine ? model_file_names(*result.refine) : std::vector<std::string>{});
+  deliver(options, document, files_of(result, document));
+  return 0;
+}
+
+}  // namespace cablefit::apps

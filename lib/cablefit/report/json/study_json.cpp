@@ -1,0 +1,35 @@
+#include "cablefit/report/json/study_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "cablefit/report/json/json_list.hpp"
+#include "cablefit/report/json/json_parts.hpp"
+
+namespace cablefit {
+
+namespace {
+
+using report_json::Json;
+using report_json::list_of;
+
+Json not_done_json(const Study::NotDone& stage) {
+  return Json{{"stage", stage.stage}, {"reason", stage.reason}};
+}
+
+Json line_json(const SummaryLine& line) { return Json{{"label", line.label}, {"text", line.text}}; }
+
+}  // namespace
+
+std::string study_json(const Study& study, const Document& document,
+                       const std::vector<std::string>& files) {
+  std::vector<InputFile> inputs;
+  for (const CheckedLog& log : study.check.logs) inputs.push_back({log.path, log.sha256, log.rows});
+  Json json = report_json::header("study", inputs, document.warnings);
+  json["files"] = files;
+  json["verdict"] = study.refine ? Json(to_string(study.refine->verdict)) : Json(nullptr);
+  json["not_done"] = list_of(study.not_done, not_done_json);
+  json["summary"] = list_of(document.summary, line_json);
+  return report_json::text(json);
+}
+
+}  // namespace cablefit

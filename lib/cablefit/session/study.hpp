@@ -1,0 +1,49 @@
+// All stages in one go: what logs hold, how stiff, how heavy and how rough the drive is, and what
+// its model lacks.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cablefit/dynamic/prediction.hpp"
+#include "cablefit/samples/check.hpp"
+#include "cablefit/session/stages.hpp"
+
+namespace cablefit {
+
+struct StudyOptions {
+  SampleOptions samples;
+  bool honest_sd = true;
+  std::string preload;  ///< only this one; empty: all
+  RefineOptions refine;
+  bool figures = false;
+  /// Called as each stage begins, with its name.
+  std::function<void(std::string_view stage)> progress;
+};
+
+struct Study {
+  /// A stage without a result: its name, and why.
+  struct NotDone {
+    std::string stage, reason;
+  };
+
+  CheckResult check;
+  std::vector<Prediction> predictions;
+  std::optional<ElasticResult> elastic;
+  std::optional<DynamicResult> dynamic;
+  std::optional<IdentifyResult> identify;
+  std::optional<RefineResult> refine;
+  std::vector<NotDone> not_done;
+};
+
+/// `test`: logs that only the last stage reads, once, in its end; none: the last third of every
+/// moving log. A stage that the logs do not allow is no error, its reason is kept; the others go
+/// on. Throws Error(output) alone.
+Study study(std::span<const LogSurvey> logs, std::span<const LogSurvey> test,
+            const StudyOptions& options);
+
+}  // namespace cablefit
