@@ -106,6 +106,8 @@ int run_study(const Arguments& arguments) {
   const Document document = study_document(
       result, result.refine ? model_file_names(*result.refine) : std::vector<std::string>{});
   deliver(options, document, files_of(result, document));
+  if (!result.elastic && !result.dynamic && !result.identify && !result.refine)
+    throw Error(ErrorKind::not_identifiable, "no stage has a result; the reasons stand above");
   return 0;
 }
 
