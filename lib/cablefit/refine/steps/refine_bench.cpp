@@ -139,7 +139,7 @@ void disturb_null(RefineBench& bench, const RefineState& state, const Search& fo
   if (is_quiet(first)) return;
   bench.null->logs().disturb(first);
   const std::vector<KindMemory> drawn =
-      run_draws(bench, kFloorCopies, bench.options.seed, "what is left", [&](std::uint64_t seed) {
+      run_draws(bench, kFloorCopies, bench.options.seed, "the remainder", [&](std::uint64_t seed) {
         const BaseFit base = bench.null->fitted(seed, &found.levels);
         return memory_with(base.design, base.fit, best, found.levels, block_seconds);
       });
