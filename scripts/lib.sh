@@ -34,7 +34,8 @@ fail() {
 # configure FOLDER BUILD_TYPE OPTION...
 configure() {
   show cmake --log-level=WARNING -S . -B "$1" -G Ninja -DCMAKE_BUILD_TYPE="$2" \
-    -DCABLEFIT_TOGETHER="${CABLEFIT_TOGETHER:-OFF}" "${@:3}"
+    -DCABLEFIT_TOGETHER="${CABLEFIT_TOGETHER:-OFF}" \
+    -DCABLEFIT_WARNINGS_AS_ERRORS="${CABLEFIT_WARNINGS_AS_ERRORS:-OFF}" "${@:3}"
 }
 
 # build FOLDER TARGET...

@@ -56,7 +56,7 @@ BinnedTestResult fitted(const Case& c, const Eigen::VectorXd& variable, const Ei
   return binned(c, variable, y - c.w * fit(c, y)).of_fitted_rows();
 }
 
-constexpr int kRuns = 300;
+constexpr int kDataSets = 300;
 // 15 of 300 expected at 5 %; HAC covariances of 7 means refuse somewhat more than they say, the
 // more the slower the noise. 42 is 14 %.
 constexpr int kMostRefused = 42;
@@ -64,7 +64,7 @@ constexpr int kMostRefused = 42;
 TEST_CASE("the test of bins keeps its level on white and coloured noise", "[estimate]") {
   for (const double rho : {0.0, 0.8, 0.95}) {
     int refused = 0, refused_unseen = 0;
-    for (int run = 0; run < kRuns; ++run) {
+    for (int run = 0; run < kDataSets; ++run) {
       const Case c(rho, 4000 + static_cast<unsigned>(run));
       refused += fitted(c, c.position, c.noise).p_value < 0.05;
       const Case other(rho, 9000 + static_cast<unsigned>(run));
@@ -77,7 +77,7 @@ TEST_CASE("the test of bins keeps its level on white and coloured noise", "[esti
       refused_unseen += binned(c, c.position, unseen).of_unseen_rows(covariance).p_value < 0.05;
     }
     std::printf("  correlation %.2f a row: refused at 5 %%: %d of %d fitted, %d unseen\n", rho,
-                refused, kRuns, refused_unseen);
+                refused, kDataSets, refused_unseen);
     CHECK(refused <= kMostRefused);
     CHECK(refused_unseen <= kMostRefused);
   }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kSchema = "cablefit/campaign/1";
 
-CampaignLimits read_limits(const JsonNode& node, const FindFiles& find_files) {
+CampaignLimits read_limits(const JsonNode& node) {
   node.allow_only({"rsd_percent", "torque_error", "drift", "new_effect"});
   CampaignLimits limits;
   if (const JsonNode* rsd = node.find("rsd_percent")) limits.rsd_percent = rsd->positive();
@@ -52,8 +52,7 @@ Campaign parse_campaign(const JsonNode& root, const FindFiles& find_files) {
   if (const JsonNode* name = root.find("name")) campaign.name = name->text();
   if (const JsonNode* models = root.find("models")) read_models(*models, campaign);
   if (const JsonNode* estimator = root.find("estimator")) campaign.estimator = estimator->text();
-  if (const JsonNode* limits = root.find("limits"))
-    campaign.limits = read_limits(*limits, find_files);
+  if (const JsonNode* limits = root.find("limits")) campaign.limits = read_limits(*limits);
   campaign.cells = read_cells(root.at("cells"), find_files);
   return campaign;
 }

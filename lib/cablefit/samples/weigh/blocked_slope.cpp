@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "cablefit/samples/weigh/checks.hpp"
 
@@ -21,15 +20,6 @@ constexpr Eigen::Index kFewBlocks = 50;
 bool has_dead_q(const PartSurvey& survey, const CoarsePart::Joint& joint, const CoarseLine& line) {
   return !survey.phase_given && joint.tau.size() > kFewBlocks &&
          std::abs(line.correlation) < kNoSlope && coarse_range(joint.theta) > kDeadRange;
-}
-
-/// Cables that stiffen make large ratios too, but none of a unit.
-bool is_unit(double ratio) {
-  constexpr double kSame = 0.1;
-  for (const double unit : {1000.0, 180 / std::numbers::pi, 2 * std::numbers::pi})
-    for (const double factor : {unit, 1 / unit})
-      if (std::abs(ratio / factor - 1) < kSame) return true;
-  return false;
 }
 
 struct BlockedSlope {
