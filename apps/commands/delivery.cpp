@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -62,10 +63,14 @@ void print_closing_lines(const CommonOptions& options, const Document& document,
   std::string text;
   constexpr std::size_t kMostNamed = 4;
   std::vector<std::string> paths = targets(options, results);
-  if (paths.size() > options.reports.size() + kMostNamed) {
-    const std::size_t n = paths.size() - options.reports.size();
-    paths.resize(options.reports.size());
-    paths.push_back(fmt::format("{} files in {}", n, options.out));
+  const auto is_below_out = [&options](const ResultFile& result) {
+    return !result.name.empty() && !result.has_own_path;
+  };
+  const auto n_below = std::count_if(results.begin(), results.end(), is_below_out);
+  if (n_below > static_cast<std::ptrdiff_t>(kMostNamed)) {  // a folder says it shorter
+    for (const ResultFile& result : results)
+      if (is_below_out(result)) std::erase(paths, path_of(options, result));
+    paths.push_back(fmt::format("{} files in {}", n_below, options.out));
   }
   if (!paths.empty()) text += fmt::format("Written: {}. ", fmt::join(paths, ", "));
   const bool has_more = write_text(on_screen(document)) != write_text(document);

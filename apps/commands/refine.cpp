@@ -22,7 +22,7 @@
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
 #include "commands/draws_option.hpp"
-#include "commands/file_names.hpp"
+#include "commands/given_logs.hpp"
 #include "commands/progress.hpp"
 #include "commands/result_files.hpp"
 #include "commands/stage1_logs.hpp"
@@ -132,32 +132,6 @@ void require_enough_draws(const RefineOptions& refine) {
         "ask for more of them with --draws");
 }
 
-/// A log in two places would count double, or judge what was made from it.
-void require_distinct(const RefineCommand& command) {
-  struct Given {
-    std::string path, option;
-  };
-  std::vector<Given> all;
-  const auto add = [&](const char* option, const std::vector<std::string>& paths) {
-    for (const std::string& path : paths) {
-      const std::string whole =
-          std::filesystem::weakly_canonical(std::filesystem::absolute(path)).string();
-      const auto same = std::find_if(all.begin(), all.end(),
-                                     [&](const Given& given) { return given.path == whole; });
-      if (same != all.end())
-        throw usage_error(
-            same->option == option
-                ? fmt::format("log {} is given twice", path)
-                : fmt::format("log {} is given to {} and {}", path, same->option, option),
-            same->option == option ? "its rows would count double" : "a log is for one of them");
-      all.push_back({whole, option});
-    }
-  };
-  add("--train", command.train);
-  add("--test", command.test);
-  add("--blocked", command.blocked);
-}
-
 Error no_log() {
   return usage_error("no log given", "name the logs to fit, or a result that names its own");
 }
@@ -167,7 +141,9 @@ void sort_files(RefineCommand& command) {
   for (const std::string& path : command.files)
     (is_model(path) ? command.models : command.train).push_back(path);
   if (command.models.empty() && command.train.empty() && command.blocked.empty()) throw no_log();
-  require_distinct(command);
+  const GivenLogs given[] = {
+      {"--train", command.train}, {"--test", command.test}, {"--blocked", command.blocked}};
+  require_distinct(given);
 }
 
 std::vector<Model> read_all_models(const RefineCommand& command, std::string& choice) {

@@ -5,6 +5,15 @@
 #include "commands/file_names.hpp"
 
 namespace cablefit::apps {
+namespace {
+
+std::vector<std::string> preloads_of(const RefineResult& result) {
+  std::vector<std::string> preloads;
+  for (const Model& model : result.models) preloads.push_back(model.preload);
+  return preloads;
+}
+
+}  // namespace
 
 std::vector<ResultFile> files_of(const IdentifyResult& result) {
   std::vector<ResultFile> files = {{"identify.json", identify_json(result)}};
@@ -19,16 +28,16 @@ std::vector<ResultFile> files_of(const IdentifyResult& result) {
   return files;
 }
 
-std::vector<std::string> model_file_names(const RefineResult& result) {
-  if (result.models.size() == 1) return {"refined.json"};
-  std::vector<std::string> preloads;
-  for (const Model& model : result.models) preloads.push_back(model.preload);
-  return preload_file_names("refined", preloads);
+std::vector<std::string> model_file_names(const RefineResult& result, bool beside_others) {
+  if (result.models.size() == 1 && !beside_others) return {"refined.json"};
+  return preload_file_names("refined", preloads_of(result));
 }
 
-std::vector<ResultFile> files_of(const RefineResult& result) {
-  const std::vector<std::string> names = model_file_names(result);
-  std::vector<ResultFile> files = {{"refine.json", refine_json(result, names)}};
+std::vector<ResultFile> files_of(const RefineResult& result, bool beside_others) {
+  const std::vector<std::string> names = model_file_names(result, beside_others);
+  const std::string own =
+      beside_others ? preload_file_names("refine", preloads_of(result)).front() : "refine.json";
+  std::vector<ResultFile> files = {{own, refine_json(result, names)}};
   for (std::size_t k = 0; k < names.size(); ++k)
     files.push_back({names[k], model_json(result.models[k])});
   return files;

@@ -14,6 +14,7 @@
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
 #include "commands/draws_option.hpp"
+#include "commands/given_logs.hpp"
 #include "commands/progress.hpp"
 #include "commands/result_files.hpp"
 
@@ -34,11 +35,8 @@ struct StudyCommand {
 /// The test logs, read as the others are.
 std::vector<LogSurvey> read_test(StudyCommand& command) {
   if (command.test.empty()) return {};
-  for (const std::string& path : command.test)
-    if (std::find(command.common.logs.begin(), command.common.logs.end(), path) !=
-        command.common.logs.end())
-      throw usage_error(fmt::format("log {} is given to be fitted and to --test", path),
-                        "a log is for one of them");
+  const GivenLogs given[] = {{"the fit", command.common.logs}, {"--test", command.test}};
+  require_distinct(given);
   CommonOptions options = command.common;
   options.logs = command.test;
   command.common.more_inputs = command.test;
@@ -67,7 +65,8 @@ std::vector<ResultFile> files_of(const Study& study, const Document& document) {
     for (ResultFile& file : more) files.push_back(std::move(file));
   };
   if (study.identify) add(apps::files_of(*study.identify));
-  if (study.refine) add(apps::files_of(*study.refine));
+  for (const Study::Missing& missing : study.refine)
+    add(apps::files_of(missing.result, study.refine.size() > 1));
   std::vector<std::string> names;
   for (const ResultFile& file : files) names.push_back(file.name);
   files.insert(files.begin(), {"study.json", study_json(study, document, names)});
@@ -79,8 +78,7 @@ std::vector<ResultFile> files_of(const Study& study, const Document& document) {
 int run_study(const Arguments& arguments) {
   CLI::App app(
       "All in one go: are the logs right, how stiff, how heavy and how rough is the drive, what "
-      "does "
-      "its model lack, and what to record next.",
+      "does its model lack, and what to record next.",
       "study");
   StudyCommand command;
   CommonOptions& options = command.common;
@@ -103,10 +101,12 @@ int run_study(const Arguments& arguments) {
     display.rename(fmt::format("study: {}", stage));
   };
   const Study result = study(logs, test, settings);
-  const Document document = study_document(
-      result, result.refine ? model_file_names(*result.refine) : std::vector<std::string>{});
+  std::vector<std::vector<std::string>> model_files;
+  for (const Study::Missing& missing : result.refine)
+    model_files.push_back(model_file_names(missing.result, result.refine.size() > 1));
+  const Document document = study_document(result, model_files);
   deliver(options, document, files_of(result, document));
-  if (!result.elastic && !result.dynamic && !result.identify && !result.refine)
+  if (!result.elastic && !result.dynamic && !result.identify && result.refine.empty())
     throw Error(ErrorKind::not_identifiable, "no stage has a result; the reasons stand above");
   return 0;
 }

@@ -30,4 +30,20 @@ TEST_CASE("an effect of a program's own stands in the catalogue, once", "[model]
                     "effect 'return_spring' of the link exists; give yours another name");
 }
 
+TEST_CASE("an effect of a program's own is no base row and has one kind of functions", "[model]") {
+  Effect row;
+  row.name = "odd";
+  row.site = Site::link;
+  const std::size_t n = candidate_effects().size();
+  CHECK_THROWS_WITH(add_effect(row),
+                    "effect 'odd' has 0 kinds of functions; give torque or level (or both), or "
+                    "correct, or change");
+  row.torque = pull;
+  row.site = Site::rigid;
+  CHECK_THROWS_WITH(add_effect(row),
+                    "effect 'odd' would be of the base model; leave `follows` alone; on a rigid "
+                    "drive effects of the motor act");
+  CHECK(candidate_effects().size() == n);
+}
+
 }  // namespace

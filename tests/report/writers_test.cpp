@@ -63,6 +63,16 @@ TEST_CASE("a summary stands before the tables, its texts beside their labels") {
                                          " end\n- **verdict**: named\\\\x1b\n\n## Numbers\n"));
 }
 
+TEST_CASE("a long label of a summary has a line of its own") {
+  Document d;
+  d.title = "A title";
+  const std::string label(30, 'y');
+  d.summary = {{"gap", "0.1 N m"}, {label, "none"}};
+  d.tables = {{"Numbers", {{"", "x", ""}}, {{"1"}}, {}}};
+  CHECK(write_text(d) ==
+        "A title\n\ngap  0.1 N m\n" + label + "\n     none\n\nNumbers\n\nx\n-\n1\n");
+}
+
 TEST_CASE("details are for files") {
   CHECK_THAT(write_text(document()), Catch::Matchers::Contains("Details\n\nx\n-\n1\n"));
 }

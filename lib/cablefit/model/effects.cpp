@@ -152,7 +152,25 @@ std::span<const Effect> base_effects(Side side) {
 
 std::span<const Effect> candidate_effects() { return effects().subspan(n_base()); }
 
+namespace {
+
+/// What a row of one's own has to be: one group of functions, and not of the base model.
+void require_candidate(const Effect& row) {
+  const int kinds = static_cast<int>(row.torque != nullptr || row.level != nullptr) +
+                    static_cast<int>(row.correct != nullptr) +
+                    static_cast<int>(row.change != nullptr);
+  if (kinds != 1)
+    throw usage_error(fmt::format("effect '{}' has {} kinds of functions", row.name, kinds),
+                      "give torque or level (or both), or correct, or change");
+  if (row.is_base() || row.site == Site::rigid)
+    throw usage_error(fmt::format("effect '{}' would be of the base model", row.name),
+                      "leave `follows` alone; on a rigid drive effects of the motor act");
+}
+
+}  // namespace
+
 void add_effect(const Effect& row) {
+  require_candidate(row);
   std::vector<Effect>& all = table();
   const bool is_there = std::any_of(all.begin(), all.end(), [&](const Effect& other) {
     return other.name == row.name && other.site == row.site;

@@ -191,7 +191,8 @@ std::span<const Effect> base_effects(Side side);
 std::span<const Effect> candidate_effects();
 /// A row of your own: from now on refine looks for it, model files may hold it, and it is simulated
 /// and fitted as all others. Call it before anything else of the library runs; at most 64. Throws
-/// Error(usage) for a name and site that is there already.
+/// Error(usage) for a name and site that is there already, for functions of several kinds or none,
+/// and for what only the base model has (`follows`, Site::rigid).
 void add_effect(const Effect& row);
 /// The row of that name; throws Error(input) with a suggestion.
 const Effect& find_base_effect(std::string_view name, Side side);

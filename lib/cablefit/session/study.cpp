@@ -1,15 +1,51 @@
 #include "cablefit/session/study.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <utility>
 
 #include "cablefit/base/error.hpp"
 
 namespace cablefit {
 namespace {
 
-bool has(std::span<const LogSurvey> logs, Channel channel) {
-  return std::any_of(logs.begin(), logs.end(),
-                     [channel](const LogSurvey& log) { return log.plan.has(channel); });
+bool has_preload(const LogSurvey& log, const std::string& preload) {
+  return std::any_of(log.parts.begin(), log.parts.end(),
+                     [&](const PartSurvey& part) { return part.preload == preload; });
+}
+
+std::vector<LogSurvey> logs_with(std::span<const LogSurvey> logs,
+                                 const std::vector<std::string>& preloads) {
+  std::vector<LogSurvey> chosen;
+  for (const LogSurvey& log : logs)
+    if (std::any_of(preloads.begin(), preloads.end(),
+                    [&](const std::string& preload) { return has_preload(log, preload); }))
+      chosen.push_back(log);
+  return chosen;
+}
+
+std::vector<std::string> all_preloads(std::span<const LogSurvey> logs) {
+  return preload_names(logs, [](const PartSurvey& /*part*/) { return true; });
+}
+
+/// Preloads one by one; those that share a log together.
+std::vector<std::vector<std::string>> preload_groups(std::span<const LogSurvey> logs) {
+  std::vector<std::vector<std::string>> groups;
+  std::vector<std::string> left = all_preloads(logs);
+  while (!left.empty()) {
+    std::vector<std::string> group = {left.front()};
+    for (std::size_t before = 0; before < group.size();) {
+      before = group.size();
+      group = all_preloads(logs_with(logs, group));
+    }
+    std::erase_if(left, [&](const std::string& name) {
+      return std::find(group.begin(), group.end(), name) != group.end();
+    });
+    groups.push_back(std::move(group));
+  }
+  return groups;
 }
 
 /// Runs stages, and keeps why one of them has no result.
@@ -37,8 +73,10 @@ class Stages {
   Study& study_;
 };
 
-ElasticOptions elastic_options(const StudyOptions& given) {
-  ElasticOptions options;
+/// What the options of all stages have in common.
+template <typename Options>
+Options stage_options(const StudyOptions& given) {
+  Options options;
   options.samples = given.samples;
   options.honest_sd = given.honest_sd;
   options.preload = given.preload;
@@ -47,62 +85,70 @@ ElasticOptions elastic_options(const StudyOptions& given) {
 }
 
 DynamicOptions dynamic_options(const StudyOptions& given, bool is_elastic) {
-  DynamicOptions options;
-  options.samples = given.samples;
-  options.honest_sd = given.honest_sd;
+  auto options = stage_options<DynamicOptions>(given);
   options.residual_tests = given.honest_sd;
-  options.preload = given.preload;
-  options.figures = given.figures;
   options.models =
       is_elastic ? std::vector<std::string>{"linear", "poly"} : std::vector<std::string>{"rigid"};
   return options;
 }
 
-IdentifyOptions identify_options(const StudyOptions& given) {
-  IdentifyOptions options;
-  options.samples = given.samples;
-  options.honest_sd = given.honest_sd;
-  options.preload = given.preload;
-  options.figures = given.figures;
-  return options;
+void add_refine(std::span<const LogSurvey> logs, std::span<const LogSurvey> test,
+                const StudyOptions& options, Stages& stages, Study& study) {
+  const std::vector<std::vector<std::string>> groups = preload_groups(logs);
+  for (const std::vector<std::string>& preloads : groups) {
+    const std::string name =
+        groups.size() > 1 ? fmt::format("refine of {}", fmt::join(preloads, ", ")) : "refine";
+    stages.run(name, [&] {
+      const RefineLogs own{logs_with(logs, preloads), logs_with(test, preloads), {}};
+      study.refine.push_back({preloads, missing_effects(own, options.refine)});
+    });
+  }
 }
 
-}  // namespace
-
-Study study(std::span<const LogSurvey> logs, std::span<const LogSurvey> test,
-            const StudyOptions& options) {
-  Study study;
-  Stages stages(options, study);
-  stages.run("check", [&] {
-    study.check = check_logs(logs, options.samples);
-    study.predictions = predict_estimates(logs, study.check, options.samples);
+/// The stages from `logs` to one step.
+void add_fits(std::span<const LogSurvey> logs, const StudyOptions& options, Stages& stages,
+              Study& study) {
+  const bool is_elastic = std::any_of(logs.begin(), logs.end(), [](const LogSurvey& log) {
+    return log.plan.has(Channel::q) && log.plan.has(Channel::theta);
   });
-  const bool is_elastic = has(logs, Channel::q) && has(logs, Channel::theta);
-  const bool is_blocked = !logs_of(logs, Phase::blocked).empty();
-  const bool is_moving = !logs_of(logs, Phase::moving).empty();
-  if (is_elastic && is_blocked)
-    stages.run("stage 1", [&] { study.elastic = stiffness(logs, elastic_options(options)); });
+  if (!is_elastic)
+    stages.skip("stage 1", "no log has both q and theta: a rigid drive");
+  else if (logs_of(logs, Phase::blocked).empty())
+    stages.skip("stage 1", "no log with the link blocked");
   else
-    stages.skip("stage 1", is_elastic ? "no log with the link blocked"
-                                      : "no log has both q and theta: a rigid drive");
-  if (!is_moving) {
+    stages.run("stage 1",
+               [&] { study.elastic = stiffness(logs, stage_options<ElasticOptions>(options)); });
+  if (logs_of(logs, Phase::moving).empty())
     stages.skip("stage 2", "no log in which the link moves");
-  } else if (is_elastic && !study.elastic) {
+  else if (is_elastic && !study.elastic)
     stages.skip("stage 2", "it needs the cables of stage 1; one step finds both");
-  } else {
+  else
     stages.run("stage 2", [&] {
       study.dynamic = dynamics(logs, study.elastic.value_or(ElasticResult{}),
                                dynamic_options(options, is_elastic));
     });
-  }
   if (is_elastic)
-    stages.run("one step", [&] { study.identify = identify(logs, identify_options(options)); });
-  stages.run("refine", [&] {
-    RefineLogs all;
-    all.train.assign(logs.begin(), logs.end());
-    all.test.assign(test.begin(), test.end());
-    study.refine = missing_effects(all, options.refine);
+    stages.run("one step",
+               [&] { study.identify = identify(logs, stage_options<IdentifyOptions>(options)); });
+}
+
+}  // namespace
+
+Study study(std::span<const LogSurvey> given, std::span<const LogSurvey> given_test,
+            const StudyOptions& options) {
+  const auto wanted = [&](std::span<const LogSurvey> logs) {
+    return options.preload.empty() ? std::vector<LogSurvey>(logs.begin(), logs.end())
+                                   : logs_with(logs, {options.preload});
+  };
+  const std::vector<LogSurvey> logs = wanted(given), test = wanted(given_test);
+  Study study;
+  Stages stages(options, study);
+  stages.run("check", [&] {
+    study.check = check_logs(logs, options.samples);
+    study.predictions = predict_estimates(logs, *study.check, options.samples);
   });
+  add_fits(logs, options, stages, study);
+  add_refine(logs, test, options, stages, study);
   return study;
 }
 

@@ -18,7 +18,7 @@ namespace cablefit {
 struct StudyOptions {
   SampleOptions samples;
   bool honest_sd = true;
-  std::string preload;  ///< only this one; empty: all
+  std::string preload;  ///< only logs that have it; empty: all
   RefineOptions refine;
   bool figures = false;
   /// Called as each stage begins, with its name.
@@ -30,13 +30,19 @@ struct Study {
   struct NotDone {
     std::string stage, reason;
   };
+  /// What refine answers of one preload: each has its friction. Of preloads that share a log, of
+  /// all of them together.
+  struct Missing {
+    std::vector<std::string> preloads;
+    RefineResult result;
+  };
 
-  CheckResult check;
+  std::optional<CheckResult> check;
   std::vector<Prediction> predictions;
   std::optional<ElasticResult> elastic;
   std::optional<DynamicResult> dynamic;
   std::optional<IdentifyResult> identify;
-  std::optional<RefineResult> refine;
+  std::vector<Missing> refine;
   std::vector<NotDone> not_done;
 };
 

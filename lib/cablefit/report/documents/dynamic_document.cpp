@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "cablefit/report/documents/document_parts.hpp"
@@ -221,17 +222,20 @@ void add_tidy_rows(Table& table, const DynamicPreload& preload, const DynamicFit
 }
 
 /// Of several models the one to use: the smallest error, unless a simpler one that stands before it
-/// comes close.
+/// comes close. nullptr: no error is known.
 const DynamicFit* better_fit(const DynamicPreload& preload) {
   constexpr double kClose = 1.05;  // of the relative errors of all equations together
-  const auto error_of = [](const DynamicFit& fit) {
-    double sum = 0;
-    for (const auto& [equation, error] : fit.torque_error) sum += error.relative * error.relative;
-    return std::sqrt(sum);
-  };
   const DynamicFit* best = nullptr;
-  for (const DynamicFit& fit : preload.fits)
-    if (best == nullptr || kClose * error_of(fit) < error_of(*best)) best = &fit;
+  double least = std::numeric_limits<double>::infinity();
+  for (const DynamicFit& fit : preload.fits) {
+    double squares = fit.torque_error.empty() ? least : 0;
+    for (const auto& [equation, error] : fit.torque_error)
+      squares += error.relative * error.relative;
+    const double error = std::sqrt(squares);
+    if (!(kClose * error < least)) continue;
+    least = error;
+    best = &fit;
+  }
   return best;
 }
 
@@ -261,7 +265,7 @@ std::string dependence_text(const DynamicPreload& preload, const std::string& mo
 
 void add_answer(const DynamicPreload& preload, Document& document) {
   const DynamicFit* best = better_fit(preload);
-  if (best == nullptr || best->torque_error.empty()) return;
+  if (best == nullptr) return;
   const std::string unit = torque_unit(preload.linear_motion);
   const std::string use = preload.fits.size() > 1 ? "use " + best->model + "; " : "";
   document.summary.push_back(

@@ -220,15 +220,16 @@ SummaryLine answer_of(const ElasticPreload& preload) {
 
 /// Initial elongations that were searched, and how often all cables are taut; no lines without.
 void add_elongations(const ElasticPreload& preload, Document& document) {
-  const ElasticFit* fit = preload.find(preload.selected);
-  if (fit == nullptr) return;
+  if (preload.fits.empty()) return;
+  const ElasticFit& cables =
+      preload.fits.back();  // the straight line, where there is one, is first
   std::string found;
-  for (const Estimate& e : fit->parameters)
+  for (const Estimate& e : cables.parameters)
     if (e.name.starts_with("l_o[") && e.not_identifiable.empty())
       found += fmt::format("{}{} = {} {}", found.empty() ? "" : ", ", e.name,
                            value_with_sd(1e3 * e.value, 1e3 * e.sd), "m" + e.unit);
   if (!found.empty()) document.summary.push_back({"", found});
-  if (is_preloaded(fit->transmission)) document.summary.push_back({"", modes_text(preload)});
+  if (is_preloaded(cables.transmission)) document.summary.push_back({"", modes_text(preload)});
 }
 
 }  // namespace

@@ -50,8 +50,7 @@ Table advice_table(const std::vector<PreloadAdvice>& advice, const AdviceDetecto
          significant(a.collision_model, kDigits)});
   table.notes = {
       "largest error: on the blocked samples, of the linear spring and of stage 1's choice; "
-      "friction: "
-      "f_s + f_sm; all taut: needs l_o in the rig file ('cablefit identify' finds it)",
+      "friction: f_s + f_sm; all taut: needs l_o in the rig file ('cablefit identify' finds it)",
       fmt::format("smallest collision: link torque that stands out of the model's largest error "
                   "and the link equation's residual with a probability of {:.4g}; one look every "
                   "{:.4g} s, false alarms an hour: {:.4g}",

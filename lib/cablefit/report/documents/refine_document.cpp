@@ -149,6 +149,8 @@ Table tidy_rows(const RefineResult& result) {
   for (const NamedEffect& effect : result.effects) add_effect_rows(table, effect);
   add_gap_rows(table, result.torque, "torque", torque_unit(result.linear_motion));
   add_gap_rows(table, result.simulation, "simulation", result.linear_motion ? "m" : "rad");
+  if (result.models.size() == 1)  // then all of it is about its preload
+    for (auto& row : table.rows) row.front() = result.models.front().preload;
   return table;
 }
 

@@ -17,7 +17,6 @@ constexpr int kTimeDigits = 5;
 
 std::string count(std::size_t n) { return fmt::format("{}", n); }
 
-/// The log, and what of it when it has several parts.
 /// The file's name alone where that tells the logs apart.
 std::string log_name(const SimulateResult& result, const std::string& path) {
   const auto name_of = [](const std::string& p) {
@@ -29,6 +28,7 @@ std::string log_name(const SimulateResult& result, const std::string& path) {
   return is_unique ? name_of(path) : path;
 }
 
+/// The log, and what of it when it has several parts.
 std::string part_name(const SimulateResult& result, const SimulatedPart& part,
                       const std::string& log) {
   const auto n_parts = std::count_if(result.parts.begin(), result.parts.end(),

@@ -1,6 +1,7 @@
 #include "cablefit/report/documents/study_document.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
@@ -40,56 +41,86 @@ void add_answers(const std::string& label, std::size_t n_preloads, const Documen
 }
 
 /// Of refine what a reader acts upon.
-void add_verdict(const Document& refine, bool is_named, Document& document) {
+void add_verdict(const Document& refine, const std::string& of, bool is_named, Document& document) {
   for (const SummaryLine& line : refine.summary)
     if (line.label == "verdict")
-      document.summary.push_back({"missing", line.text});
+      document.summary.push_back({"missing", of + line.text});
     else if (line.label == "next run")
       document.summary.push_back({"record next", line.text});
     else if (is_named && (line.label == "effect" || line.label == "gap"))
       document.summary.push_back(line);
 }
 
-/// `shown`: of its tables on the screen; the others are details.
-void append_stage(const std::string& name, Document stage, std::size_t shown, Document& document) {
-  for (std::size_t k = 0; k < stage.tables.size(); ++k) {
-    Table& table = stage.tables[k];
-    table.detail = table.detail || k >= shown;
-    if (!table.title.empty()) table.title = fmt::format("{}: {}", name, table.title);
-    std::erase_if(table.notes, [](const std::string& note) { return note.starts_with("rsd: "); });
+/// The stages' tables, plots and warnings, behind each other.
+class Appendix {
+ public:
+  explicit Appendix(Document& document) : document_(document) {}
+
+  /// `is_shown`: its tables are not all details.
+  void add(const std::string& name, Document stage, bool is_shown) {
+    for (Table& table : stage.tables) {
+      table.detail = table.detail || !is_shown;
+      if (!table.title.empty()) table.title = fmt::format("{}: {}", name, table.title);
+      std::erase_if(table.notes, [](const std::string& note) { return note.starts_with("rsd: "); });
+    }
+    warnings_.emplace_back();
+    for (const std::string& warning : stage.warnings)
+      warnings_.back().push_back(fmt::format("{}: {}", name, warning));
+    stage.warnings.clear();
+    append(document_, stage);
   }
-  stage.summary.clear();
-  for (std::string& warning : stage.warnings) warning = fmt::format("{}: {}", name, warning);
-  append(document, stage);
-}
+
+  /// The first of each stage, the second of each, ...: a screen shows the first ones.
+  void add_warnings() {
+    std::size_t most = 0;
+    for (const auto& some : warnings_) most = std::max(most, some.size());
+    for (std::size_t k = 0; k < most; ++k)
+      for (const auto& some : warnings_)
+        if (k < some.size()) document_.warnings.push_back(some[k]);
+  }
+
+ private:
+  Document& document_;
+  std::vector<std::vector<std::string>> warnings_;
+};
 
 }  // namespace
 
-Document study_document(const Study& study, const std::vector<std::string>& model_files) {
+Document study_document(const Study& study,
+                        const std::vector<std::vector<std::string>>& model_files) {
   Document document;
   document.title = "Study of the logs: how stiff, how heavy, how rough, and what is missing";
-  document.summary.push_back({"logs", logs_text(study.check)});
-  append_stage("check", check_document(study.check, study.predictions), 0, document);
+  Appendix appendix(document);
+  if (study.check) {
+    document.summary.push_back({"logs", logs_text(*study.check)});
+    Document stage = check_document(*study.check, study.predictions);
+    stage.tidy = {};  // channels and predictions, where the other stages have estimates
+    appendix.add("check", std::move(stage), false);
+  }
   if (study.elastic) {
     const Document stage = elastic_document(*study.elastic);
     add_answers("stiffness", study.elastic->preloads.size(), stage, document);
-    append_stage("stage 1", stage, 1, document);
+    appendix.add("stage 1", stage, true);
   }
   if (study.dynamic) {
     const Document stage = dynamic_document(*study.dynamic);
     add_answers("dynamics", study.dynamic->preloads.size(), stage, document);
-    append_stage("stage 2", stage, 1, document);
+    appendix.add("stage 2", stage, true);
   }
   if (study.identify) {
     const Document stage = identify_document(*study.identify);
     if (!study.dynamic) add_answers("one step", study.identify->preloads.size(), stage, document);
-    append_stage("one step", stage, study.dynamic ? 0 : 2, document);
+    appendix.add("one step", stage, !study.dynamic);
   }
-  if (study.refine) {
-    const Document stage = refine_document(*study.refine, model_files);
-    add_verdict(stage, !study.refine->effects.empty(), document);
-    append_stage("refine", stage, 0, document);
+  for (std::size_t k = 0; k < study.refine.size(); ++k) {
+    const Study::Missing& missing = study.refine[k];
+    const Document stage = refine_document(missing.result, model_files[k]);
+    const bool several = study.refine.size() > 1;
+    const std::string of = fmt::format("{}", fmt::join(missing.preloads, ", "));
+    add_verdict(stage, several ? of + ": " : "", !missing.result.effects.empty(), document);
+    appendix.add(several ? "refine of " + of : "refine", stage, false);
   }
+  appendix.add_warnings();
   for (const Study::NotDone& stage : study.not_done)
     document.summary.push_back({stage.stage, "not done: " + stage.reason});
   return document;

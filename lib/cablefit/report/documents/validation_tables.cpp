@@ -68,6 +68,7 @@ Table summary_table(const DynamicResult& result) {
   for (const DynamicPreload& preload : result.preloads) {
     if (!preload.validation) continue;
     for (const JudgedEquation& e : preload.validation->equations) {
+      if (e.conditions.empty()) continue;
       const ConditionError& all = e.conditions.front();
       const ConditionError* worst = worst_of(e);
       table.rows.push_back({preload.name, e.model, e.equation, number(all.rms), number(all.fitted),

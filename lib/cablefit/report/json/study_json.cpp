@@ -16,6 +16,10 @@ Json not_done_json(const Study::NotDone& stage) {
   return Json{{"stage", stage.stage}, {"reason", stage.reason}};
 }
 
+Json missing_json(const Study::Missing& missing) {
+  return Json{{"preloads", missing.preloads}, {"verdict", to_string(missing.result.verdict)}};
+}
+
 Json line_json(const SummaryLine& line) { return Json{{"label", line.label}, {"text", line.text}}; }
 
 }  // namespace
@@ -23,10 +27,12 @@ Json line_json(const SummaryLine& line) { return Json{{"label", line.label}, {"t
 std::string study_json(const Study& study, const Document& document,
                        const std::vector<std::string>& files) {
   std::vector<InputFile> inputs;
-  for (const CheckedLog& log : study.check.logs) inputs.push_back({log.path, log.sha256, log.rows});
+  if (study.check)
+    for (const CheckedLog& log : study.check->logs)
+      inputs.push_back({log.path, log.sha256, log.rows});
   Json json = report_json::header("study", inputs, document.warnings);
   json["files"] = files;
-  json["verdict"] = study.refine ? Json(to_string(study.refine->verdict)) : Json(nullptr);
+  json["verdicts"] = list_of(study.refine, missing_json);
   json["not_done"] = list_of(study.not_done, not_done_json);
   json["summary"] = list_of(document.summary, line_json);
   return report_json::text(json);

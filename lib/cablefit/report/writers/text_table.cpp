@@ -60,10 +60,13 @@ std::vector<std::size_t> column_widths(const Table& table) {
 /// The widest text columns give way until all of it fits.
 std::vector<std::size_t> fitted_widths(const Table& table) {
   std::vector<std::size_t> widths = column_widths(table);
+  const auto least = [&table](std::size_t k) {
+    return std::max(kLeastText, n_characters(printable(table.columns[k].title)));
+  };
   for (std::size_t all = width_of(widths, {0, widths.size()}); all > kTextWidth; --all) {
     std::size_t widest = widths.size();
     for (std::size_t k = 0; k < widths.size(); ++k)
-      if (table.columns[k].is_text && widths[k] > kLeastText &&
+      if (table.columns[k].is_text && widths[k] > least(k) &&
           (widest == widths.size() || widths[k] > widths[widest]))
         widest = k;
     if (widest == widths.size()) break;

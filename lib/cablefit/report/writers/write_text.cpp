@@ -15,15 +15,19 @@ std::string decision_text(const DecisionLine& line) {
   return wrapped("  ", printable(text), 4);
 }
 
-/// Labels in one column, texts beside them.
+/// Labels in one column, texts beside them; a long label has a line of its own.
 std::string summary_text(const std::vector<SummaryLine>& summary) {
+  constexpr std::size_t kLongLabel = 24;
   std::size_t width = 0;
-  for (const SummaryLine& line : summary)
-    width = std::max(width, n_characters(printable(line.label)));
+  for (const SummaryLine& line : summary) {
+    const std::size_t n = n_characters(printable(line.label));
+    if (n <= kLongLabel) width = std::max(width, n);
+  }
   std::string text;
   for (const SummaryLine& line : summary) {
     std::string label = printable(line.label);
-    label += std::string(width + 2 - n_characters(label), ' ');
+    const std::size_t n = n_characters(label);
+    label += n > width ? "\n" + std::string(width + 2, ' ') : std::string(width + 2 - n, ' ');
     text += wrapped(label, printable(line.text), width + 2);
   }
   return text;

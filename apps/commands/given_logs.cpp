@@ -1,0 +1,28 @@
+#include "commands/given_logs.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+
+#include "cablefit/base/error.hpp"
+
+namespace cablefit::apps {
+
+void require_distinct(std::span<const GivenLogs> given) {
+  std::map<std::filesystem::path, std::string> option_of;
+  for (const GivenLogs& logs : given)
+    for (const std::string& path : logs.paths) {
+      const auto whole = std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+      const auto [same, is_new] = option_of.emplace(whole, logs.option);
+      if (is_new) continue;
+      if (same->second == logs.option)
+        throw usage_error(fmt::format("log {} is given twice", path),
+                          "its rows would count double");
+      throw usage_error(
+          fmt::format("log {} is given to {} and {}", path, same->second, logs.option),
+          "a log is for one of them");
+    }
+}
+
+}  // namespace cablefit::apps
