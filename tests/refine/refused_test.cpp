@@ -9,10 +9,10 @@
 using namespace cablefit;
 using namespace cablefit::test;
 
-TEST_CASE("output error refuses a model with refinements", "[refine][refused]") {
+TEST_CASE("output error refuses a model whose sensors are wrong", "[refine][refused]") {
   Model model = hidden_logs({}).models.front();
   EffectInstance instance;
-  instance.effect = &find_candidate("stribeck", Site::motor);
+  instance.effect = &find_candidate("encoder_delay", Site::sensor);
   for (const ParameterInfo& info : instance.effect->parameters) {
     instance.parameters.emplace_back();
     instance.parameters.back().name = info.name;
@@ -25,8 +25,8 @@ TEST_CASE("output error refuses a model with refinements", "[refine][refused]") 
   } catch (const Error& error) {
     CHECK(error.kind() == ErrorKind::usage);
     CHECK(std::string(error.what()) ==
-          "output error cannot fit a model with 'stribeck' (motor) in it; it fits the paper's "
-          "model; `cablefit refine` fits a model with refinements");
+          "output error cannot fit a model with 'encoder_delay' (sensor) in it; it fits torques of "
+          "the motion; `cablefit refine` fits this effect");
   }
 }
 

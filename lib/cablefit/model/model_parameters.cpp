@@ -1,6 +1,8 @@
 #include "cablefit/model/model_parameters.hpp"
 
-#include <fmt/core.h>
+#include <algorithm>
+
+#include "cablefit/model/effect_parameter.hpp"
 
 namespace cablefit {
 namespace {
@@ -22,6 +24,35 @@ void add_effects(const Model& model, int joint, bool on_link, std::vector<ModelP
     p.effect = e;
     out.push_back(p);
   }
+}
+
+/// What came from other logs may lie outside, and goes no further out.
+void keep_in_range(const ShapeGrid& grid, double value, ModelParameter& p) {
+  if (grid.unit != GridUnit::si) return;
+  p.lower = std::min(std::max(p.lower, grid.low), value);
+  p.upper = std::max(std::min(p.upper, grid.high), value);
+}
+
+void add_added(const Model& model, int joint, std::vector<ModelParameter>& out) {
+  const std::vector<EffectInstance>& added = model.joints[static_cast<std::size_t>(joint)].added;
+  for (std::size_t e = 0; e < added.size(); ++e)
+    for (std::size_t k = 0; k < added[e].parameters.size(); ++k) {
+      const ParameterInfo& info = added[e].effect->parameters[k];
+      const std::size_t n_linear = added[e].effect->n_linear();
+      ModelParameter p;
+      p.kind = ParameterKind::added;
+      p.name = added_parameter_name(*added[e].effect, info);
+      p.symbol = info.symbol;
+      p.unit = unit_on(model.rig, info.unit);
+      p.lower = info.lower;
+      p.upper = info.upper;
+      p.joint = joint;
+      p.effect = e;
+      p.index = k;
+      if (k >= n_linear)
+        keep_in_range(added[e].effect->shape[k - n_linear], added[e].parameters[k].value, p);
+      out.push_back(p);
+    }
 }
 
 ModelParameter per_joint(ParameterKind kind, std::string_view name, std::string_view unit,
@@ -75,6 +106,11 @@ auto& number(SomeModel& model, const ModelParameter& p) {
       auto& axes = model.joints[static_cast<std::size_t>(p.joint)];
       return (p.on_link ? axes.link : axes.motor)[p.effect].parameters[p.index].value;
     }
+    case ParameterKind::added:
+      return model.joints[static_cast<std::size_t>(p.joint)]
+          .added[p.effect]
+          .parameters[p.index]
+          .value;
     case ParameterKind::stiffness:
       return transmission.linear_stiffness[p.joint];
     case ParameterKind::coefficient:
@@ -94,6 +130,7 @@ std::vector<ModelParameter> model_parameters(const Model& model) {
   for (int joint = 0; joint < static_cast<int>(model.joints.size()); ++joint) {
     if (!model.rigid) add_effects(model, joint, true, out);
     add_effects(model, joint, false, out);
+    add_added(model, joint, out);
   }
   if (!model.rigid) add_elastic(model, out);
   return out;

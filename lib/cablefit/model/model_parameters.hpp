@@ -1,5 +1,5 @@
-// Every number of a model that a fit can move, by name: effects of every axis, stiffness or cable
-// coefficients, initial elongations and encoder zeros.
+// Every number of a model that a fit can move, by name: effects of every axis and those added
+// to them, stiffness or cable coefficients, initial elongations and encoder zeros.
 #pragma once
 
 #include <string>
@@ -10,19 +10,20 @@
 
 namespace cablefit {
 
-enum class ParameterKind { effect, stiffness, coefficient, elongation, encoder_zero };
+/// `added`: of an effect beyond (31).
+enum class ParameterKind { effect, added, stiffness, coefficient, elongation, encoder_zero };
 
 /// Where a parameter stands in a model. Which members count depends on `kind`.
 struct ModelParameter {
   ParameterKind kind = ParameterKind::effect;
   std::string name, symbol, unit;
   double lower = -kUnbounded, upper = kUnbounded;
-  int joint = 0;         ///< effect, stiffness, encoder_zero
+  int joint = 0;         ///< effect, added, stiffness, encoder_zero
   bool on_link = false;  ///< effect: of the link side
   std::size_t effect = 0, cable = 0, index = 0;
 };
 
-/// In the order of the file: effects joint by joint (link, then motor), K or the coefficients of
+/// In the order of the file: effects joint by joint (link, motor, added), K or the coefficients of
 /// every cable, l_o of every cable, theta_0 of every joint. A rigid drive has effects only.
 std::vector<ModelParameter> model_parameters(const Model& model);
 

@@ -1,5 +1,6 @@
 #include "cablefit/simulate/plant.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cablefit {
@@ -49,6 +50,44 @@ Plant::Plant(const Model& model, const SimulationInput& input, bool link_blocked
   thetad_ = initial(is_rigid_ && input.thetad0.size() == 0 ? input.qd0 : input.thetad0, n);
   elastic_link_.resize(n);
   elastic_motor_.resize(n);
+  extra_.resize(link_.size() + motor_.size());
+  no_load_.resize(n);
+}
+
+void Plant::start(const double* position, const double* velocity, double t) {
+  const std::size_t n = theta_.size(), n_links = link_.size();
+  std::copy_n(position, n_links, q_.begin());
+  std::copy_n(velocity, n_links, qd_.begin());
+  std::copy_n(position + n_links, n, theta_.begin());
+  std::copy_n(velocity + n_links, n, thetad_.begin());
+  for (RefinedJoint& joint : refined_) joint.forget_motion();
+  t0_ = t;
+  n_steps_ = 0;
+}
+
+void Plant::read(double* position, double* velocity) const {
+  const std::size_t n = theta_.size(), n_links = link_.size();
+  std::copy_n(q_.begin(), n_links, position);
+  std::copy_n(qd_.begin(), n_links, velocity);
+  std::copy_n(theta_.begin(), n, position + n_links);
+  std::copy_n(thetad_.begin(), n, velocity + n_links);
+}
+
+double Plant::inertia(std::size_t number) const {
+  return axis(number).inertia() + extra_[number].inertia;
+}
+
+double Plant::dry_level(std::size_t number) const {
+  const Axis::Extra& extra = extra_[number];
+  return std::max(axis(number).friction().level + std::max(extra.up, extra.down), 0.0);
+}
+
+void Plant::step(const double* force, double h) {
+  if (is_rigid_) {
+    step_rigid(force, no_load_.data(), h);
+  } else {
+    step_elastic(force + theta_.size(), force, h);
+  }
 }
 
 void Plant::step(const double* tau, const double* tau_load, double h) {
@@ -113,6 +152,8 @@ void Plant::advance_refined(const double* tau, const double* tau_load, double h)
     if (link_blocked_) continue;
     const double torque = elastic_link_[k] + tau_load[k] + load_at(q_[k]) - more.link_torque;
     qd_[k] = link_[k].advance(qd_[k], torque, h, more.link);
+    extra_[k] = more.link;
+    extra_[theta_.size() + k] = more.motor;
   }
   for (std::size_t k = 0; k < theta_.size(); ++k) {
     theta_[k] += 0.5 * h * thetad_[k];
@@ -131,6 +172,7 @@ void Plant::advance_refined_rigid(const double* tau, const double* tau_load, dou
     const Axis::Extra all{more.link.up + more.motor.up, more.link.down + more.motor.down,
                           more.link.inertia + more.motor.inertia};
     thetad_[k] = motor_[k].advance(thetad_[k], torque, h, all);
+    extra_[k] = all;
     theta_[k] += 0.5 * h * thetad_[k];
   }
   ++n_steps_;

@@ -17,6 +17,16 @@ class Plant {
   /// One step of length h (s). tau and tau_load (N m): one per joint, at the middle of the step;
   /// tau_load is what the log gives, a load law of q is added.
   void step(const double* tau, const double* tau_load, double h);
+  /// The same by axes: the links of all joints, then the motors; of rigid drives one each. `force`:
+  /// measured load on links, torque on motors (rigid: their sum).
+  void step(const double* force, double h);
+  /// Goes on from these positions and velocities of the axes, at `t` (s since the log began).
+  void start(const double* position, const double* velocity, double t);
+  void read(double* position, double* velocity) const;
+  /// Of an axis, with what effects beyond (31) added in the last step: inertia, and the level of
+  /// dry friction that holds it at rest, N m.
+  double inertia(std::size_t axis) const;
+  double dry_level(std::size_t axis) const;
 
   /// Inner states of refinements as `before` has them, a plant of the same model.
   void take_history(const Plant& before);
@@ -40,6 +50,9 @@ class Plant {
   void advance_refined(const double* tau, const double* tau_load, double h);
   void advance_refined_rigid(const double* tau, const double* tau_load, double h);
   /// `load`: N m, of a rigid drive.
+  const Axis& axis(std::size_t number) const {
+    return number < link_.size() ? link_[number] : motor_[number - link_.size()];
+  }
   JointState middle_of_step(std::size_t joint, double load, double h) const;
 
   bool is_rigid_, link_blocked_;
@@ -49,6 +62,8 @@ class Plant {
   std::vector<double> q_, qd_, theta_, thetad_;
   std::vector<double> elastic_link_, elastic_motor_;  ///< N m, of the present step
   std::vector<RefinedJoint> refined_;                 ///< empty: the model has none
+  std::vector<Axis::Extra> extra_;                    ///< per axis, of the last step
+  std::vector<double> no_load_;                       ///< zeros, per joint
   double t0_;                                         ///< s
   double n_steps_ = 0;                                ///< counted for refinements
 };

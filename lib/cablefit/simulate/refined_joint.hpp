@@ -23,6 +23,8 @@ class RefinedJoint {
   /// Over a step of length h. `state`: of its middle, but with the velocities of its beginning,
   /// which are extrapolated to the middle, and without accelerations.
   RefinedStep step(JointState state, double h);
+  /// The next step is not to be extrapolated from the one before.
+  void forget_motion() { has_begun_ = false; }
   /// Inner states as `before` has them, of the same refinements.
   void take_history(const RefinedJoint& before);
 

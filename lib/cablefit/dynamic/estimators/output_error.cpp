@@ -34,12 +34,23 @@ std::string label(const EstimationTask& task, const char* what) {
   return fmt::format("{}, {}", what, task.job.models[task.model]);
 }
 
+/// A load torque that logs give, and no law of the rig file.
+bool has_load(const DynamicJob& job) {
+  const LoadLaw* law = job.rig().load.law;
+  if (law != nullptr && !law->from_column) return false;
+  return std::any_of(job.logs.begin(), job.logs.end(),
+                     [](const LogSurvey& log) { return log.plan.has(Channel::tau_load); });
+}
+
 /// Why these logs cannot be fitted by output error; empty when they can.
 std::string obstacle(const EstimationTask& task, const Model& start) {
   const DynamicJob& job = task.job;
   if (job.arm != nullptr && job.arm->is_coupled())
     return "links that move each other are not simulated yet";
-  if (!job.added.empty()) return "effects beyond the paper's have no sensitivities yet";
+  if (job.rigid && !job.added.empty() && has_load(job))
+    return "the simulation by axes of a rigid drive does not separate a logged load from the "
+           "torque, "
+           "which effects beyond the paper's may need";
   for (const LogSurvey& log : job.logs) {
     if (std::none_of(log.parts.begin(), log.parts.end(), job.wanted)) continue;
     for (int joint = 0; joint < job.n_joints(); ++joint)
@@ -101,6 +112,14 @@ LoopPlan add_noise_free_loop(const DynamicJob& job, const FittedRows& rows,
   return plan;
 }
 
+/// Whether a parameter has a column of its own, and is not given.
+bool is_free(const EstimationTask& task, const std::string& name) {
+  for (const EquationRows& e : task.equations)
+    for (const DynamicParameter& p : e.columns.parameters)
+      if (p.name == name) return !p.given;
+  return false;
+}
+
 OutputErrorOptions options_of(const EstimationTask& task, const Model& start) {
   OutputErrorOptions options;
   options.position_sd = position_noise_of(task.job);
@@ -108,6 +127,8 @@ OutputErrorOptions options_of(const EstimationTask& task, const Model& start) {
   for (const EquationRows& e : task.equations)
     for (const DynamicParameter& p : e.columns.parameters)
       if (p.given) options.held.push_back(p.name);
+  for (const ModelParameter& p : model_parameters(start))
+    if (p.kind == ParameterKind::added && !is_free(task, p.name)) options.held.push_back(p.name);
   if (const ElasticFit* stage1 = task.stage1()) {
     Stage1Prior prior = stage1_prior(start, *stage1);
     options.prior = std::move(prior.prior);
@@ -124,7 +145,11 @@ double lower_of(const EquationRows& e, Eigen::Index k) {
 std::string doubt(const EstimationTask& task, const EquationRows& e, Eigen::Index k,
                   const OutputErrorFit& oe, const Estimate& found) {
   if (!found.not_identifiable.empty()) return found.not_identifiable;
-  const bool is_inertia = e.columns.parameters[static_cast<std::size_t>(k)].is_inertia;
+  const DynamicParameter& parameter = e.columns.parameters[static_cast<std::size_t>(k)];
+  const bool is_inertia = parameter.is_inertia;
+  if (parameter.is_nonlinear && !found.active_bound.empty())
+    return fmt::format("it stands on the end of its range, {}: the logs do not determine it",
+                       found.active_bound);
   if (is_inertia) {
     const std::string alias = inertia_alias(*e.rows, e.columns, k, task.job.rig().linear_motion);
     if (!alias.empty()) return alias;
@@ -166,7 +191,8 @@ LinearSolution solution_of(const EstimationTask& task, const EquationRows& e,
   for (std::size_t k = 0; k < e.columns.parameters.size(); ++k) {
     const DynamicParameter& parameter = e.columns.parameters[k];
     const auto i = static_cast<Eigen::Index>(k);
-    if (!parameter.given) solution.x(i) = find_estimate(oe.parameters, parameter.name)->value;
+    if (!parameter.given)
+      solution.x(i) = find_estimate(oe.parameters, parameter.name)->value - parameter.origin;
     solution.residual_combination(i) = -(parameter.given ? *parameter.given : solution.x(i));
   }
   solution.rss = (e.rows->r() * solution.residual_combination).squaredNorm();

@@ -94,7 +94,9 @@ Estimate estimate_of(const FinalRows& last, std::size_t k, const OutputErrorFit&
     return e;
   }
   if (solution.at_bound[k]) {
-    e.active_bound = fmt::format("{} >= {:g}", p.name, p.lower);
+    const bool is_upper = e.value - p.lower > p.upper - e.value;
+    e.active_bound =
+        fmt::format("{} {} {:g}", p.name, is_upper ? "<=" : ">=", is_upper ? p.upper : p.lower);
     set_on_bound(last, k, fit, e);
     return e;
   }

@@ -30,10 +30,9 @@ Eigen::ArrayXXd channel(const LogPlan& plan, const Grown& rows, Channel wanted, 
 }
 
 MeasuredStretch stretch_of(const DynamicJob& job, const LogPlan& plan, const Grown& rows,
-                           double period, bool simulated) {
+                           bool simulated) {
   const int n = job.n_joints(), first = simulated ? n : 0;
   MeasuredStretch stretch;
-  stretch.period = period;
   stretch.hold_torque = job.settings.rows.signal.torque_held;
   if (!job.rigid) stretch.q = channel(plan, rows, Channel::q, n, first);
   stretch.theta = channel(plan, rows, Channel::theta, n, first);
@@ -55,15 +54,20 @@ std::vector<MeasuredStretch> measured_stretches(const DynamicJob& job,
   std::vector<MeasuredStretch> stretches;
   for (const LogSurvey& log : logs) {
     Grown rows;
-    double period = 0;
+    WindowPlace first;  // of the stretch that grows
     const auto finish = [&] {
-      if (!rows.empty()) stretches.push_back(stretch_of(job, log.plan, rows, period, simulated));
+      if (rows.empty()) return;
+      stretches.push_back(stretch_of(job, log.plan, rows, simulated));
+      stretches.back().period = first.period;
+      stretches.back().t0 = first.t0 - log.parts.front().t_first;
       rows.clear();
     };
     for_each_window(log, job.wanted, 0, kLeastRows, bridge_seconds(job.settings.rows.signal),
                     [&](Window&& window) {
-                      if (window.begin == 0) finish();
-                      period = window.period;
+                      if (window.begin == 0) {
+                        finish();
+                        first = window;
+                      }
                       for (Eigen::Index i = 0; i < window.data.rows(); ++i)
                         rows.insert(rows.end(), window.data.row(i).begin(),
                                     window.data.row(i).end());

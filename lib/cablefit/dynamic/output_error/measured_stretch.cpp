@@ -20,6 +20,7 @@ OutputErrorWindow window_of(const Model& model, const MeasuredStretch& stretch, 
   const bool by_column = !model.rig.load.law || model.rig.load.law->from_column;
   OutputErrorWindow w;
   w.period = stretch.period;
+  w.t0 = stretch.t0 + static_cast<double>(begin) * stretch.period;
   w.hold_torque = stretch.hold_torque;
   w.n_rows = static_cast<std::size_t>(n_rows);
   w.n_axes = static_cast<std::size_t>(model.rigid ? n_joints : 2 * n_joints);

@@ -11,6 +11,7 @@ namespace cablefit {
 /// Gapless rows, rows x joints, SI. What the model does not need may be empty.
 struct MeasuredStretch {
   double period = 0;              ///< s
+  double t0 = 0;                  ///< s since the log began, of the first row
   bool hold_torque = true;        ///< tau held over a row (zoh), else linear between rows
   Eigen::ArrayXXd q, theta;       ///< rad
   Eigen::ArrayXXd tau, tau_load;  ///< N m; tau_load: 0 when empty
@@ -20,7 +21,7 @@ struct MeasuredStretch {
 /// One window: positions and forces of every axis (links, then motors; rigid drives: one each), and
 /// where the simulation starts. Row r of axis a is at [r * n_axes + a].
 struct OutputErrorWindow {
-  double period = 0;
+  double period = 0, t0 = 0;
   bool hold_torque = true;
   std::size_t n_rows = 0, n_axes = 0;
   std::size_t first_number = 0;        ///< of its first row, over all windows

@@ -14,6 +14,7 @@
 #include "cablefit/dynamic/output_error/window_pass.hpp"
 #include "cablefit/estimate/fit/nonlinear_least_squares.hpp"
 #include "cablefit/estimate/fit/parameter_estimate.hpp"
+#include "cablefit/model/effect_walk.hpp"
 
 namespace cablefit {
 namespace {
@@ -31,8 +32,16 @@ constexpr double kNearer = 0.7;              // of the decrement: what a step at
 constexpr double kInwards = 1e-9;            // from a bound, to be free
 constexpr double kLeastInertiaShare = 0.05;  // of where it starts; J > 0
 
+/// Whole numbers have no slopes.
+bool is_whole(const Model& model, const ModelParameter& p) {
+  if (p.kind != ParameterKind::added) return false;
+  const Effect& row = *model.joints[static_cast<std::size_t>(p.joint)].added[p.effect].effect;
+  return p.index >= row.n_linear() && !is_continuous(row, p.index - row.n_linear());
+}
+
 /// l_o and theta_0 stay as stage 1 has them.
-bool is_fitted(const ModelParameter& p, const OutputErrorOptions& options) {
+bool is_fitted(const Model& model, const ModelParameter& p, const OutputErrorOptions& options) {
+  if (is_whole(model, p)) return false;
   if (std::find(options.held.begin(), options.held.end(), p.name) != options.held.end())
     return false;
   return p.kind != ParameterKind::elongation && p.kind != ParameterKind::encoder_zero;
@@ -42,7 +51,7 @@ std::vector<ModelParameter> fitted_parameters(const Model& model,
                                               const OutputErrorOptions& options) {
   std::vector<ModelParameter> fitted;
   for (const ModelParameter& p : model_parameters(model))
-    if (is_fitted(p, options)) fitted.push_back(p);
+    if (is_fitted(model, p, options)) fitted.push_back(p);
   return fitted;
 }
 
@@ -348,21 +357,20 @@ void Fit::fill(OutputErrorFit& fit, const NonlinearSolution& solution) {
   if (!fit.converged) fit.warnings.push_back("output error: " + fit.message);
 }
 
-/// What refinements do to a simulation has no sensitivities.
-void require_no_refinements(const Model& model) {
+void require_torques(const Model& model) {
   for (const JointModel& joint : model.joints)
     for (const EffectInstance& instance : joint.added)
-      throw usage_error(
-          fmt::format("output error cannot fit a model with '{}' ({}) in it", instance.effect->name,
-                      to_string(instance.effect->site)),
-          "it fits the paper's model; `cablefit refine` fits a model with refinements");
+      if (instance.effect->correct != nullptr || instance.effect->is_event)
+        throw usage_error(fmt::format("output error cannot fit a model with '{}' ({}) in it",
+                                      instance.effect->name, to_string(instance.effect->site)),
+                          "it fits torques of the motion; `cablefit refine` fits this effect");
 }
 
 }  // namespace
 
 OutputErrorFit fit_output_error(const Model& model, const std::vector<MeasuredStretch>& stretches,
                                 const OutputErrorOptions& options) {
-  require_no_refinements(model);
+  require_torques(model);
   return Fit(model, stretches, options).run();
 }
 

@@ -68,7 +68,8 @@ struct OutputErrorFit {
 };
 
 /// Starts from the parameters of `model`; the result does not depend on `threads`. Not to converge
-/// is a result. Throws Error(usage) for a model with refinements.
+/// is a result. Throws Error(usage) for a model with effects that are no torques of the motion
+/// alone: errors of sensors and of the drive, events.
 OutputErrorFit fit_output_error(const Model& model, const std::vector<MeasuredStretch>& stretches,
                                 const OutputErrorOptions& options);
 

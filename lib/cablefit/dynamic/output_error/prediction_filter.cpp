@@ -30,15 +30,18 @@ struct Of {
 constexpr double kVelocityUncertainty = 4;  // of what a first difference would have
 constexpr double kRestSpeeds = 2;           // sd of a speed: what a row's noise does to it
 
-/// Drives the plant from row `row` to the next, `correction` added to the forces.
+/// Drives the plant from a row to the next, `correction` added to the forces.
 class RowStepper {
  public:
   RowStepper(const OutputErrorWindow& window, int steps)
       : window_(window), steps_(steps), h_(window.period / steps), force_(window.n_axes) {}
 
-  void step(SensitivePlant& plant, SensitiveState& state, std::size_t row,
-            const double* correction) {
+  /// From `x`, positions and velocities.
+  template <typename States>
+  void step(const States& x, std::size_t row, const double* correction, SensitivePlant& plant,
+            SensitiveState& state) {
     const std::size_t n = window_.n_axes;
+    plant.start(x.data(), x.data() + n, window_.t0 + static_cast<double>(row) * window_.period);
     const double* held = window_.held.data() + row * n;
     const double* from = window_.sloping.data() + row * n;
     const double* to = row + 1 < window_.n_rows ? from + n : from;
@@ -47,8 +50,9 @@ class RowStepper {
       for (std::size_t a = 0; a < n; ++a)
         force_[a] =
             held[a] + from[a] + fraction * (to[a] - from[a]) + (correction ? correction[a] : 0.0);
-      plant.step(state, force_.data(), h_);
+      plant.step(force_.data(), h_);
     }
+    plant.read(state);
   }
 
  private:
@@ -151,15 +155,6 @@ class Covariance {
   typename Of<N>::Axes whitener_;
 };
 
-template <typename States>
-void set_state(const States& from, SensitiveState& state) {
-  const std::size_t n = state.position.size();
-  for (std::size_t a = 0; a < n; ++a) {
-    state.position[a] = from[static_cast<Eigen::Index>(a)];
-    state.velocity[a] = from[static_cast<Eigen::Index>(n + a)];
-  }
-}
-
 template <int N>
 typename Of<N>::PerState state_vector(const SensitiveState& state) {
   const auto n = static_cast<Eigen::Index>(state.position.size());
@@ -225,7 +220,8 @@ SmoothedMotion smoothed(SensitivePlant& plant, const OutputErrorWindow& window,
   SmoothedMotion motion;
   motion.minus_log_likelihood = std::numeric_limits<double>::infinity();
   if (smooth) motion.state.resize(2 * n, static_cast<Eigen::Index>(window.n_rows));
-  SensitiveState state = plant.blank_state();
+  SensitiveState state;
+  plant.restart();
   RowStepper stepper(window, settings.smoothing_steps);
   Covariance<N> covariance(window, noise);
   const typename Of<N>::Transition start_covariance = covariance.covariance();
@@ -235,9 +231,7 @@ SmoothedMotion smoothed(SensitivePlant& plant, const OutputErrorWindow& window,
   if (smooth) motion.state.col(0) = x;
   double sum = 0;
   for (std::size_t row = 0; row + 1 < window.n_rows; ++row) {
-    set_state(x, state);
-    plant.reset_sensitivities(state);
-    stepper.step(plant, state, row, nullptr);
+    stepper.step(x, row, nullptr, plant, state);
     const PerState before = x;
     x = state_vector<N>(state);
     if (!(x.cwiseAbs().maxCoeff() < kLargestState)) return motion;
@@ -277,7 +271,8 @@ Eigen::MatrixXd residuals(SensitivePlant& plant, const OutputErrorWindow& window
   const auto n_compared = static_cast<Eigen::Index>((window.n_rows - 1) / settings.compare_every);
   Eigen::MatrixXd rows(n_compared * n, p + 1);
   Eigen::Index next = 0;
-  SensitiveState state = plant.blank_state();
+  SensitiveState state;
+  plant.restart();
   RowStepper stepper(window, settings.steps);
   Covariance<N> covariance(window, noise);
   RowModel<N> model;
@@ -288,9 +283,7 @@ Eigen::MatrixXd residuals(SensitivePlant& plant, const OutputErrorWindow& window
   typename Of<N>::AxisColumns error(n, p + 1);
   for (std::size_t row = 0; row + 1 < window.n_rows; ++row) {
     const auto at = static_cast<Eigen::Index>(row);
-    set_state(motion.state.col(at), state);
-    plant.reset_sensitivities(state);
-    stepper.step(plant, state, row, motion.correction.col(at).data());
+    stepper.step(motion.state.col(at), row, motion.correction.col(at).data(), plant, state);
     const PerState x = state_vector<N>(state);
     if (!(x.cwiseAbs().maxCoeff() < kLargestState)) return {};
     read_model(plant, state, window.period, model);

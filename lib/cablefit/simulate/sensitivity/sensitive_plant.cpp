@@ -1,26 +1,19 @@
 #include "cablefit/simulate/sensitivity/sensitive_plant.hpp"
 
 #include <algorithm>
-#include <cassert>
-
-#include "cablefit/simulate/refined_joint.hpp"
+#include <cmath>
 
 namespace cablefit {
 namespace {
 
-std::vector<SensitiveAxis> axes_of(const Model& model) {
-  std::vector<SensitiveAxis> axes;
-  if (!model.rigid)
-    for (const JointModel& joint : model.joints) axes.emplace_back(joint.link);
-  for (const JointModel& joint : model.joints) axes.emplace_back(joint.motor);
-  return axes;
-}
+// What a copy is moved by. Rounding, 1e-16 of a state of 1, is 1e-6 of what the smallest of them
+// makes in a row of 1 ms at the least; curvature (a cable of twice the slope in 1 mrad) 1e-4.
+constexpr double kPosition = 1e-7, kVelocity = 1e-6, kForce = 1e-4;  // rad, rad/s, N m
+constexpr double kShare = 1e-6, kLeast = 1e-8;                       // of a parameter, and in SI
 
-std::vector<int> numbered(std::size_t n) {
-  std::vector<int> numbers;
-  for (std::size_t k = 0; k < n; ++k) numbers.push_back(static_cast<int>(k));
-  return numbers;
-}
+std::size_t axes_of(const Model& model) { return model.joints.size() * (model.rigid ? 1 : 2); }
+
+double larger_for(double unit, double value) { return unit * std::max(1.0, std::abs(value)); }
 
 }  // namespace
 
@@ -28,93 +21,95 @@ SensitivePlant::SensitivePlant(const Model& model, const std::vector<ModelParame
                                bool with_inputs)
     : model_(model),
       moving_(moving),
+      n_axes_(axes_of(model)),
       with_inputs_(with_inputs),
-      axes_(axes_of(model)),
-      coupling_(model, moving, numbered(moving.size())) {
-  assert(is_plain(model));  // what refinements do has no sensitivities
-  n_columns_ = moving.size() + (with_inputs ? 3 * axes_.size() : 0);
-  for (SensitiveAxis& axis : axes_) axis_column_.emplace_back(axis.n_parameters(), -1);
-  for (std::size_t k = 0; k < moving.size(); ++k) {
-    const ModelParameter& p = moving[k];
-    Target target;
-    target.elastic = p.kind != ParameterKind::effect;
-    if (!target.elastic) {
-      target.axis =
-          static_cast<std::size_t>(p.joint) + (model.rigid || p.on_link ? 0 : model.joints.size());
-      target.place = p.effect;
-      axis_column_[target.axis][target.place] = static_cast<int>(k);
-    }
-    targets_.push_back(target);
+      plant_(model, {}, false),
+      position_(n_axes_),
+      velocity_(n_axes_),
+      force_(n_axes_) {
+  make_copies();
+}
+
+void SensitivePlant::make_copies() {
+  plant_ = Plant(model_, {}, false);
+  copies_.clear();
+  for (const ModelParameter& p : moving_) {
+    const double value = parameter_value(model_, p);
+    const double moved = std::max(kShare * std::abs(value), kLeast);
+    set_parameter_value(model_, p, value + moved);
+    copies_.push_back({Plant(model_, {}, false), moved});
+    set_parameter_value(model_, p, value);
   }
-  force_.resize(axes_.size());
-  steps_.resize(axes_.size());
+  for (std::size_t k = 0; with_inputs_ && k < 3 * n_axes_; ++k) copies_.push_back({plant_, 0});
 }
 
 bool SensitivePlant::set_parameters(const double* values) {
-  for (std::size_t k = 0; k < moving_.size(); ++k) {
+  for (std::size_t k = 0; k < moving_.size(); ++k)
     set_parameter_value(model_, moving_[k], values[k]);
-    if (!targets_[k].elastic) axes_[targets_[k].axis].parameter(targets_[k].place) = values[k];
-  }
-  coupling_.update(model_);
-  for (SensitiveAxis& axis : axes_) axis.update();
-  return std::all_of(axes_.begin(), axes_.end(),
-                     [](const SensitiveAxis& axis) { return axis.inertia() > 0; });
+  make_copies();
+  for (std::size_t axis = 0; axis < n_axes_; ++axis)
+    if (!(plant_.inertia(axis) > 0)) return false;
+  return true;
 }
 
-SensitiveState SensitivePlant::blank_state() const {
-  SensitiveState state;
-  state.position.assign(n_axes(), 0.0);
-  state.velocity = state.position;
-  state.by_position.assign(n_axes() * n_columns_, 0.0);
-  state.by_velocity = state.by_position;
-  reset_sensitivities(state);
-  return state;
-}
-
-void SensitivePlant::reset_sensitivities(SensitiveState& state) const {
-  std::fill(state.by_position.begin(), state.by_position.end(), 0.0);
-  std::fill(state.by_velocity.begin(), state.by_velocity.end(), 0.0);
-  if (!with_inputs_) return;
-  const std::size_t n = n_axes();
-  for (std::size_t a = 0; a < n; ++a) {
-    state.by_position[a * n_columns_ + first_input() + a] = 1;
-    state.by_velocity[a * n_columns_ + first_input() + n + a] = 1;
-  }
-}
-
-void SensitivePlant::step(SensitiveState& state, const double* force, double h) {
-  const std::size_t n = n_axes(), columns = n_columns_;
-  const double half = 0.5 * h;
-  for (std::size_t a = 0; a < n; ++a) state.position[a] += half * state.velocity[a];
-  double* dx = state.by_position.data();
-  double* dv = state.by_velocity.data();
-  for (std::size_t i = 0; i < n * columns; ++i) dx[i] += half * dv[i];
-
-  coupling_.evaluate(state.position.data(), force_.data());
-  const double* stiffness = coupling_.stiffness().data();
-  for (std::size_t a = 0; a < n; ++a) {
-    const SensitiveAxis::Step s = axes_[a].advance(state.velocity[a], force_[a] + force[a], h);
-    steps_[a] = s;
-    state.velocity[a] = s.velocity;
-    double* dva = dv + a * columns;
-    for (std::size_t c = 0; c < columns; ++c) dva[c] *= s.by_velocity;
-    for (std::size_t b = 0; b < n; ++b) {
-      const double by = s.by_force * stiffness[a * n + b];
-      const double* dxb = dx + b * columns;
-      if (by == 0) continue;
-      for (std::size_t c = 0; c < columns; ++c) dva[c] += by * dxb[c];
+void SensitivePlant::start(const double* position, const double* velocity, double t) {
+  plant_.start(position, velocity, t);
+  std::copy_n(position, n_axes_, position_.begin());
+  std::copy_n(velocity, n_axes_, velocity_.begin());
+  for (std::size_t column = 0; column < copies_.size(); ++column) {
+    Copy& copy = copies_[column];
+    if (column < first_input()) {
+      copy.plant.start(position, velocity, t);
+      continue;
     }
-    const std::vector<double>& own = axes_[a].by_parameter();
-    for (std::size_t k = 0; k < own.size(); ++k)
-      if (axis_column_[a][k] >= 0) dva[axis_column_[a][k]] += own[k];
-    if (with_inputs_) dva[first_input() + 2 * n + a] += s.by_force;
+    const std::size_t axis = axis_of(column), kind = kind_of(column);
+    copy.plant.take_history(plant_);
+    copy.moved = kind == 0   ? larger_for(kPosition, position[axis])
+                 : kind == 1 ? larger_for(kVelocity, velocity[axis])
+                             : kForce;
+    double& own = kind == 0 ? position_[axis] : velocity_[axis];
+    const double value = own;
+    if (kind < 2) own += copy.moved;
+    if (kind < 2) copy.moved = own - value;  // as it is rounded
+    copy.plant.start(position_.data(), velocity_.data(), t);
+    own = value;
   }
-  for (const SensitiveCoupling::Entry& entry : coupling_.by_parameter())
-    dv[entry.axis * columns + static_cast<std::size_t>(entry.column)] +=
-        steps_[entry.axis].by_force * entry.value;
+}
 
-  for (std::size_t a = 0; a < n; ++a) state.position[a] += half * state.velocity[a];
-  for (std::size_t i = 0; i < n * columns; ++i) dx[i] += half * dv[i];
+void SensitivePlant::step(const double* force, double h) {
+  plant_.step(force, h);
+  std::copy_n(force, n_axes_, force_.begin());
+  for (std::size_t column = 0; column < copies_.size(); ++column) {
+    Copy& copy = copies_[column];
+    const bool pushes = column >= first_input() && kind_of(column) == 2;
+    if (!pushes) {
+      copy.plant.step(force, h);
+      continue;
+    }
+    double& own = force_[axis_of(column)];
+    const double value = own;
+    own += copy.moved;
+    copy.plant.step(force_.data(), h);
+    own = value;
+  }
+}
+
+void SensitivePlant::read(SensitiveState& state) const {
+  const std::size_t n = n_axes_, columns = n_columns();
+  state.position.resize(n);
+  state.velocity.resize(n);
+  state.by_position.resize(n * columns);
+  state.by_velocity.resize(n * columns);
+  plant_.read(state.position.data(), state.velocity.data());
+  std::vector<double> position(n), velocity(n);
+  for (std::size_t c = 0; c < columns; ++c) {
+    copies_[c].plant.read(position.data(), velocity.data());
+    const double per = 1 / copies_[c].moved;
+    for (std::size_t a = 0; a < n; ++a) {
+      state.by_position[a * columns + c] = per * (position[a] - state.position[a]);
+      state.by_velocity[a * columns + c] = per * (velocity[a] - state.velocity[a]);
+    }
+  }
 }
 
 }  // namespace cablefit
