@@ -159,13 +159,4 @@ std::vector<LogSurvey> read_logs(const CommonOptions& options) {
   return logs;
 }
 
-std::vector<LogSurvey> logs_with(const std::vector<LogSurvey>& logs,
-                                 const std::function<bool(const PartSurvey&)>& wanted) {
-  std::vector<LogSurvey> chosen;
-  for (const LogSurvey& log : logs) {
-    if (std::any_of(log.parts.begin(), log.parts.end(), wanted)) chosen.push_back(log);
-  }
-  return chosen;
-}
-
 }  // namespace cablefit::apps

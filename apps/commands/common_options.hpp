@@ -2,7 +2,6 @@
 #pragma once
 
 #include <CLI/App.hpp>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -49,9 +48,5 @@ bool wants_figures(const CommonOptions& options);
 /// Surveys every log, each with its rig. All that is wrong with any of them is told at once. Throws
 /// Error(usage) without logs, for one given twice and for a --preload that none of them has.
 std::vector<LogSurvey> read_logs(const CommonOptions& options);
-
-/// The logs with a part for which `wanted` says true.
-std::vector<LogSurvey> logs_with(const std::vector<LogSurvey>& logs,
-                                 const std::function<bool(const PartSurvey&)>& wanted);
 
 }  // namespace cablefit::apps

@@ -1,6 +1,4 @@
 // cablefit dynamic: stage 2.
-#include "cablefit/dynamic/dynamic_fit.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -23,6 +21,7 @@
 #include "cablefit/report/json/elastic_reader.hpp"
 #include "cablefit/report/writers/trace_csv.hpp"
 #include "cablefit/samples/weigh/weigh.hpp"
+#include "cablefit/session/stages.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
@@ -199,12 +198,8 @@ Stage1 stage1_from(const StartModel& start) {
   return stage1;
 }
 
-std::vector<LogSurvey> blocked_of(const std::vector<LogSurvey>& logs) {
-  return logs_with(logs, [](const PartSurvey& part) { return part.phase == Phase::blocked; });
-}
-
 Stage1 stage1_from_logs(const DynamicCommand& command, const std::vector<LogSurvey>& logs) {
-  const std::vector<LogSurvey> blocked = blocked_of(logs);
+  const std::vector<LogSurvey> blocked = logs_of(logs, Phase::blocked);
   if (!blocked.empty()) return fit_stage1(command, blocked);
   throw input_error({default_elastic_file(command.common), 0, 0}, "no result of stage 1",
                     "run 'cablefit elastic' on blocked logs first, add them here, name a result "
@@ -378,8 +373,7 @@ int run_dynamic(const Arguments& arguments) {
                                       : options.logs.empty() ? campaign_logs(options)
                                                              : read_logs(options);
   command.fit.validation = read_unseen(command);
-  const std::vector<LogSurvey> moving =
-      logs_with(logs, [](const PartSurvey& part) { return part.phase == Phase::moving; });
+  const std::vector<LogSurvey> moving = logs_of(logs, Phase::moving);
   if (own_logs && moving.empty())
     throw usage_error(
         fmt::format("no log given, no {} here, and the logs of {} have no moving parts",
@@ -396,7 +390,7 @@ int run_dynamic(const Arguments& arguments) {
   const bool is_named = !command.elastic_file.empty() || own_logs;
   if (start) {
     stage1 = stage1_from(*start);
-  } else if (takes_stage1 && earlier && (is_named || blocked_of(logs).empty())) {
+  } else if (takes_stage1 && earlier && (is_named || logs_of(logs, Phase::blocked).empty())) {
     require_same_rig(*earlier, moving);
     for (const std::string& changed : changed_logs(named_elastic_file(command)))
       earlier->warnings.push_back(fmt::format("{}: {}; run 'cablefit elastic' again",
@@ -410,9 +404,9 @@ int run_dynamic(const Arguments& arguments) {
     if (!stage1.is_new) options.more_inputs.push_back(input.path);
   DynamicResult result = or_why(logs, [&] {
     const Progress progress(options.quiet, "fitting stage 2");
-    return fit_dynamic(moving.empty() ? logs : moving, stage1.result, command.fit);
+    return dynamics(logs, stage1.result, command.fit);
   });
-  if (command.prove > 0) prove(command, moving, blocked_of(logs), stage1, result);
+  if (command.prove > 0) prove(command, moving, logs_of(logs, Phase::blocked), stage1, result);
   if (takes_stage1 || start) add_stage1(stage1, result);
   if (own_logs) add_own_logs(*own_logs, result);
 

@@ -9,6 +9,7 @@
 #include "cablefit/prove/prove.hpp"
 #include "cablefit/report/documents/elastic_document.hpp"
 #include "cablefit/report/json/elastic_json.hpp"
+#include "cablefit/session/stages.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
@@ -111,8 +112,7 @@ int run_elastic(const Arguments& arguments) {
   elastic.preload = options.preload;
   elastic.honest_sd = options.honest_sd;
   elastic.figures = wants_figures(options);
-  const std::vector<LogSurvey> blocked = logs_with(
-      logs, [&](const PartSurvey& part) { return elastic.still || part.phase == Phase::blocked; });
+  const std::vector<LogSurvey> blocked = elastic.still ? logs : logs_of(logs, Phase::blocked);
   const bool searches = !blocked.empty() && !elastic.still &&
                         elongations != ElongationMode::known && (search || wants_search(blocked));
   if (searches) require_searchable(elastic, order_auto);

@@ -1,6 +1,4 @@
 // cablefit refine: where the gap is, which effect is missing, and does adding it help.
-#include "cablefit/refine/refine.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,12 +9,11 @@
 #include "cablefit/base/problems.hpp"
 #include "cablefit/model/read_models.hpp"
 #include "cablefit/refine/null/chance_tail.hpp"
-#include "cablefit/refine/own_base.hpp"
-#include "cablefit/refine/search/model_set.hpp"
 #include "cablefit/report/documents/refine_document.hpp"
 #include "cablefit/report/json/elastic_models.hpp"
 #include "cablefit/report/writers/excite_csv.hpp"
 #include "cablefit/samples/weigh/weigh.hpp"
+#include "cablefit/session/stages.hpp"
 #include "cablefit/simulate/experiment.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
@@ -183,15 +180,12 @@ LogSurvey read_log_for(const std::string& path, const CommonOptions& options,
   return survey_for_simulation(path, options.rig, model, options.reading);
 }
 
-bool have_phase(const std::vector<LogSurvey>& logs, Phase phase) {
-  return std::any_of(logs.begin(), logs.end(), [phase](const LogSurvey& log) {
-    return std::any_of(log.parts.begin(), log.parts.end(),
-                       [phase](const PartSurvey& part) { return part.phase == phase; });
-  });
+bool has_blocked(const std::vector<LogSurvey>& logs) {
+  return !logs_of(logs, Phase::blocked).empty();
 }
-
-bool has_blocked(const std::vector<LogSurvey>& logs) { return have_phase(logs, Phase::blocked); }
-bool has_moving(const std::vector<LogSurvey>& logs) { return have_phase(logs, Phase::moving); }
+bool has_moving(const std::vector<LogSurvey>& logs) {
+  return !logs_of(logs, Phase::moving).empty();
+}
 
 /// Blocked, and of a preload that there is a model of.
 bool is_wanted(const LogSurvey& log, const std::vector<Model>& models) {
@@ -271,23 +265,6 @@ void require_moving(const RefineCommand& command, const RefineInput& input) {
     if (!is_elastic_result(model)) refuse_without_logs(model, "moving log", input.gone);
 }
 
-/// What the models lack, or all of them.
-void complete_models(RefineCommand& command, RefineInput& input) {
-  std::vector<Decision> decisions;
-  if (input.models.empty()) {
-    OwnBase base = own_base(input.logs, command.common.samples.threads);
-    input.models = std::move(base.models);
-    std::erase_if(input.models, [&](const Model& model) {
-      return !command.common.preload.empty() && model.preload != command.common.preload;
-    });
-    input.choice = "fitted to the logs";
-    decisions = std::move(base.decisions);
-  } else {
-    decisions = fill_start_values(input.models);
-  }
-  input.decisions.insert(input.decisions.end(), decisions.begin(), decisions.end());
-}
-
 /// All logs together: what one of them is read with, the others are.
 void weigh_input(RefineLogs& logs) {
   std::vector<LogSurvey> all;
@@ -317,11 +294,6 @@ RefineInput read_input(RefineCommand& command) {
   add_stage1_logs(command, input);
   weigh_input(input.logs);
   if (input.logs.train.empty() && input.logs.blocked.empty()) throw no_log();
-  complete_models(command, input);
-  std::vector<LogSurvey> fitted = input.logs.train;
-  fitted.insert(fitted.end(), input.logs.blocked.begin(), input.logs.blocked.end());
-  input.models = models_with_logs(std::move(input.models), fitted);
-  require_model_set(input.models);
   return input;
 }
 
@@ -331,6 +303,7 @@ RefineResult run(RefineCommand& command) {
     common.logs.insert(common.logs.end(), some->begin(), some->end());
   const RefineInput input = read_input(command);
   common.more_inputs = command.models;
+  command.refine.preload = common.preload;
   command.refine.seed = common.seed;
   command.refine.threads = common.samples.threads;
   command.refine.figures = wants_figures(common);
@@ -338,10 +311,10 @@ RefineResult run(RefineCommand& command) {
   command.refine.progress = [&display](std::string_view what, double share) {
     display.rename(fmt::format("refining: {} {:.0f} %", what, 100 * share));
   };
-  RefineResult result = refine(input.models, input.logs, command.refine);
+  RefineResult result = missing_effects(input.logs, input.models, command.refine);
   result.warnings.insert(result.warnings.begin(), input.warnings.begin(), input.warnings.end());
   result.model_path = fmt::format("{}", fmt::join(command.models, ", "));
-  result.model_choice = input.choice;
+  if (!input.models.empty()) result.model_choice = input.choice;
   result.decisions.insert(result.decisions.begin(), input.decisions.begin(), input.decisions.end());
   for (const std::string& path : command.models)
     result.inputs.push_back({path, sha256_of_file(path), 0});

@@ -3,23 +3,20 @@
 #include <algorithm>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/identify/elastic_stage.hpp"
 #include "cablefit/prove/fitted_model.hpp"
-#include "cablefit/refine/own_base.hpp"
-#include "cablefit/refine/refine.hpp"
-#include "cablefit/samples/weigh/weigh.hpp"
+#include "cablefit/session/read_logs.hpp"
+#include "cablefit/session/stages.hpp"
 
 namespace cablefit {
 namespace {
 
 std::vector<LogSurvey> survey(const std::vector<std::string>& paths, const CampaignCell& cell,
                               const BatchOptions& options) {
-  std::vector<LogSurvey> logs;
-  for (const std::string& path : paths)
-    logs.push_back(survey_log(plan_log(path, rig_for_log(path, cell.rig), options.reading),
-                              cell.preload, options.samples.threads));
-  weigh_logs(logs);
-  return logs;
+  if (paths.empty()) return {};
+  return read_logs(paths, [&](const std::string& path) {
+    return survey_log(plan_log(path, rig_for_log(path, cell.rig), options.reading), cell.preload,
+                      options.samples.threads);
+  });
 }
 
 /// A result is kept under the content that the logs had when the cell was begun.
@@ -73,15 +70,15 @@ CellRefine verdict_of(const RefineResult& result) {
   return refine;
 }
 
-/// The model of stage 2 as refine starts from it; where that cannot move, refine's own.
+/// The model of stage 2 as refine starts from it; none where that cannot move.
 std::vector<Model> base_models(const ElasticResult& elastic, const DynamicResult& dynamic,
-                               const Rig& rig, const RefineLogs& logs, int threads) {
+                               const Rig& rig) {
   const DynamicPreload& preload = dynamic.preloads.front();
   const DynamicFit* fit = chosen_fit(elastic, preload);
   std::string why_not = fit == nullptr ? "stage 2 has no fit to start from" : "";
   Model model;
   if (fit != nullptr) model = fitted_model(*fit, preload, rig, why_not);
-  if (!why_not.empty()) return own_base(logs, threads).models;
+  if (!why_not.empty()) return {};
   if (fit->elastic) model.elastic = fit->elastic->parameters;
   return {model};
 }
@@ -94,9 +91,8 @@ CellRefine refine_cell(const CampaignCell& cell, const CellResults& fitted, Refi
   refine_options.threads = options.samples.threads;
   try {
     const Rig rig = rig_for_log(cell.moving.front(), cell.rig);
-    const std::vector<Model> models =
-        base_models(*fitted.elastic, *fitted.dynamic, rig, logs, options.samples.threads);
-    return verdict_of(refine(models, logs, refine_options));
+    return verdict_of(
+        missing_effects(logs, base_models(*fitted.elastic, *fitted.dynamic, rig), refine_options));
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::output) throw;  // a full disk says nothing about the robot
     CellRefine none;
@@ -133,14 +129,12 @@ CellResults fit_cell(const Campaign& campaign, const CampaignCell& cell, const C
   CellResults results;
   RefineLogs logs;
   logs.blocked = read(cell.blocked);
-  results.elastic =
-      fit_elastic_stage(logs.blocked, stage1_options(cell, options, with_figures(campaign)),
-                        ElongationMode::automatic);
+  results.elastic = stiffness(logs.blocked, stage1_options(cell, options, with_figures(campaign)));
   if (cell.moving.empty()) return results;
   const std::vector<LogSurvey> moving = read(cell.moving);
   DynamicOptions dynamic = stage2_options(campaign, cell, options);
   dynamic.validation = read(cell.validation);
-  results.dynamic = fit_dynamic(moving, *results.elastic, dynamic);
+  results.dynamic = dynamics(moving, *results.elastic, dynamic);
   if (!cell.refine) return results;
   logs.train = cell.refine->train.empty() ? moving : read(cell.refine->train);
   logs.test = read(cell.refine->test);

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct RefineOptions {
   std::optional<double> material;  ///< N m that matter; nothing: see material_torque()
   double significance = 0.01;      ///< largest p value of a name
   std::size_t most_effects = 3;
+  std::string preload;  ///< of models that are fitted to the logs, only this one; empty: all
   int threads = 1;
   bool figures = false;
   std::function<void(std::string_view what, double share)> progress;

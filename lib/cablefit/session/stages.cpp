@@ -18,25 +18,60 @@ std::vector<LogSurvey> logs_of(std::span<const LogSurvey> logs, Phase phase) {
   return chosen;
 }
 
+namespace {
+
+/// Without one of this phase all of them: the stage says what it misses.
+std::vector<LogSurvey> logs_for(std::span<const LogSurvey> logs, Phase phase) {
+  std::vector<LogSurvey> chosen = logs_of(logs, phase);
+  return chosen.empty() ? std::vector<LogSurvey>(logs.begin(), logs.end()) : chosen;
+}
+
+}  // namespace
+
 ElasticResult stiffness(std::span<const LogSurvey> logs, const ElasticOptions& options) {
-  return fit_elastic_stage(logs_of(logs, Phase::blocked), options, ElongationMode::automatic);
+  return fit_elastic_stage(logs_for(logs, Phase::blocked), options, ElongationMode::automatic);
 }
 
 DynamicResult dynamics(std::span<const LogSurvey> logs, const ElasticResult& stage1,
                        const DynamicOptions& options) {
-  return fit_dynamic(logs_of(logs, Phase::moving), stage1, options);
+  return fit_dynamic(logs_for(logs, Phase::moving), stage1, options);
+}
+
+namespace {
+
+/// The models of preloads that there are logs of, and what was chosen for them.
+OwnBase complete(std::vector<Model> models, const RefineLogs& logs, const RefineOptions& options) {
+  OwnBase base;
+  if (models.empty()) {
+    base = own_base(logs, options.threads);
+    std::erase_if(base.models, [&](const Model& model) {
+      return !options.preload.empty() && model.preload != options.preload;
+    });
+  } else {
+    base.decisions = fill_start_values(models);
+    base.models = std::move(models);
+  }
+  std::vector<LogSurvey> fitted = logs.train;
+  fitted.insert(fitted.end(), logs.blocked.begin(), logs.blocked.end());
+  base.models = models_with_logs(std::move(base.models), fitted);
+  require_model_set(base.models);
+  return base;
+}
+
+}  // namespace
+
+RefineResult missing_effects(const RefineLogs& logs, std::vector<Model> models,
+                             const RefineOptions& options) {
+  const bool is_own = models.empty();
+  const OwnBase base = complete(std::move(models), logs, options);
+  RefineResult result = refine(base.models, logs, options);
+  if (is_own) result.model_choice = "fitted to the logs";
+  result.decisions.insert(result.decisions.begin(), base.decisions.begin(), base.decisions.end());
+  return result;
 }
 
 RefineResult missing_effects(const RefineLogs& logs, const RefineOptions& options) {
-  OwnBase base = own_base(logs, options.threads);
-  std::vector<LogSurvey> fitted = logs.train;
-  fitted.insert(fitted.end(), logs.blocked.begin(), logs.blocked.end());
-  const std::vector<Model> models = models_with_logs(std::move(base.models), fitted);
-  require_model_set(models);
-  RefineResult result = refine(models, logs, options);
-  result.model_choice = "fitted to the logs";
-  result.decisions.insert(result.decisions.begin(), base.decisions.begin(), base.decisions.end());
-  return result;
+  return missing_effects(logs, {}, options);
 }
 
 }  // namespace cablefit

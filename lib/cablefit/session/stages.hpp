@@ -25,9 +25,12 @@ ElasticResult stiffness(std::span<const LogSurvey> logs, const ElasticOptions& o
 DynamicResult dynamics(std::span<const LogSurvey> logs, const ElasticResult& stage1,
                        const DynamicOptions& options = {});
 
-/// Where a model disagrees with the logs, and which effect is missing. The base model is fitted to
-/// the logs, moving and blocked ones; without test logs the last third of every moving one is held
-/// out. Throws as own_base() and refine().
+/// Where models disagree with the logs, and which effect is missing. `models`: one per preload, and
+/// what they lack gets start values; none: fitted to the logs, moving and blocked ones. Without
+/// test logs the last third of every moving one is held out. Throws as own_base() and refine(), and
+/// Error(usage) for models that do not go together.
+RefineResult missing_effects(const RefineLogs& logs, std::vector<Model> models,
+                             const RefineOptions& options);
 RefineResult missing_effects(const RefineLogs& logs, const RefineOptions& options = {});
 
 }  // namespace cablefit
