@@ -11,8 +11,9 @@ set(CPACK_PACKAGE_VENDOR "the cablefit authors")
 set(CPACK_PACKAGE_CONTACT "the cablefit authors <cablefit@example.org>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "identification of cable-driven robot transmissions from logs")
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
-    "Fits stiffness, inertias and friction of cable-driven joints to logs of positions and torques,
-with standard deviations, and finds which physical effect a model lacks.")
+    "Fits stiffness, inertia and friction of cable-driven joints to logs of
+positions and torques, with standard deviations. It identifies the physical
+effect that a model lacks.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL runtime)
