@@ -5,15 +5,15 @@ cd "$root"
 jobs="$(nproc)"
 
 # What cablefit needs of Debian 12 to be built (tinyxml2 only to read URDF files, help2man only for
-# manual pages), what its tests need on top (a browser for the HTML reports, a judge of arms), and
-# what steps of scripts/check need.
+# manual pages), what its tests need on top (a browser for the HTML reports, a judge of arms, a
+# spelling dictionary), and what steps of scripts/check need (one string for each step).
 build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libceres-dev libcli11-dev
                 nlohmann-json3-dev libfmt-dev libfast-float-dev zlib1g-dev libzstd-dev libssl-dev
                 libtinyxml2-dev catch2 npm help2man)
-test_packages=(nodejs chromium liborocos-kdl-dev libkdl-parser-dev)
+test_packages=(nodejs chromium liborocos-kdl-dev libkdl-parser-dev hunspell hunspell-en-gb)
 fuzz_packages=(clang-14 libclang-rt-14-dev)
-declare -A step_packages=([format]=clang-format-14 [readme]=python3 [tidy]=clang-tidy-14
-                          [sanitize]=chromium)
+declare -A step_packages=([format]=clang-format-14 [readme]="python3 hunspell hunspell-en-gb"
+                          [tidy]=clang-tidy-14 [sanitize]=chromium)
 # Packages whose program may as well come from elsewhere, and are then not wanted: Debian's npm cannot
 # stand beside a node of nodesource.org.
 declare -A program_of=([npm]=npm [nodejs]=node [chromium]=chromium)
