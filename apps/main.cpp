@@ -8,6 +8,7 @@
 #include "cablefit/base/output_file.hpp"
 #include "cablefit/version.hpp"
 #include "commands/command.hpp"
+#include "origin.hpp"
 #include "process.hpp"
 
 namespace {
@@ -19,6 +20,7 @@ namespace apps = cablefit::apps;
 constexpr int kInternalError = 70;  // EX_SOFTWARE of sysexits.h: a mistake of ours, not the user's
 
 int run(apps::Arguments arguments) {
+  apps::remember_command(arguments);
   if (arguments.empty()) throw cablefit::usage_error("no command given", "see 'cablefit --help'");
   const std::string name = arguments.front();
   arguments.erase(arguments.begin());

@@ -17,6 +17,7 @@
 #include "cablefit/report/writers/wrap.hpp"
 #include "cablefit/report/writers/writers.hpp"
 #include "commands/colour.hpp"
+#include "origin.hpp"
 #include "process.hpp"
 
 namespace cablefit::apps {
@@ -132,9 +133,10 @@ void deliver(const CommonOptions& options, const Document& document,
     if (!result.name.empty()) write(path_of(options, result), result.content);
   }
   if (!options.json.empty()) write(options.json, results.front().content);
-  for (const std::string& path : options.reports) {
-    write(path, report_writer_for(path).write(document));
-  }
+  Document reported = document;
+  reported.origin = origin();
+  for (const std::string& path : options.reports)
+    write(path, report_writer_for(path).write(reported));
   problems.throw_if_any();
   print_closing_lines(options, document, results);
 }

@@ -2,9 +2,14 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "cablefit/report/page/html_text.hpp"
+#include "cablefit/report/page/page_body.hpp"
 #include "cablefit/report/page/page_data.hpp"
 #include "cablefit/report/page/page_parts.hpp"
+#include "cablefit/report/page/svg_figure.hpp"
+#include "cablefit/report/page/trace_look.hpp"
 #include "cablefit/report/writers/writers.hpp"
 #include "tests/support/message.hpp"
 
@@ -19,12 +24,17 @@ constexpr const char* kHostile[] = {"<script>alert(1)</script>",
                                     "]]>&amp;",
                                     "\xE2\x80\xA8\xE2\x80\xA9",
                                     "{{data}}{{script}}",
+                                    "\" onmouseover=\"alert(1)",
+                                    "' onmouseover='alert(1)",
                                     "\xFF\x1b[31m\"'\\"};
 
 Document hostile(const std::string& text) {
   Document d;
   d.title = text;
-  d.tables = {{text, {{text, text, text, true}}, {{text}}, {text}}};
+  d.tables = {{text, {{text, text, text, true}}, {{text}}, {text}},
+              {text, {{text, text, text, true, true}}, {{text}}, {text}, true}};
+  d.headline = {text, Tone::bad, text, {{text, text}}};
+  d.origin = {text, text};
   d.paragraphs = d.warnings = {text};
   d.summary = {{text, text}};
   d.decisions = {{{text}, text, text, text}};
@@ -33,7 +43,9 @@ Document hostile(const std::string& text) {
   figure.x = figure.y = {text, text};
   figure.marks = {{1, text}};
   figure.traces = {{text, TraceStyle::interval, 1, {}, {1}, {0}, {2}, {text}}};
-  d.figures = {figure};
+  d.figures = {figure, figure, figure};
+  d.figures[0].rank = FigureRank::main;
+  d.figures[2].rank = FigureRank::detail;
   return d;
 }
 
@@ -48,14 +60,105 @@ TEST_CASE("nothing from a log can leave the JSON of the page") {
   }
 }
 
-TEST_CASE("the JSON of the page says what the document says") {
+std::size_t count(std::string_view text, std::string_view what) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(what); at != std::string_view::npos; at = text.find(what, at + 1))
+    ++n;
+  return n;
+}
+
+TEST_CASE("nothing from a log becomes an element or an attribute of the page") {
+  const std::string harmless = page_body(hostile("x"));
+  for (const std::string text : kHostile) {
+    const std::string body = page_body(hostile(text));
+    INFO(text);
+    for (const char* bad :
+         {"<script", "<img", "<!--", "</script", "\" onmouseover", "' onmouseover"})
+      CHECK(body.find(bad) == std::string::npos);
+    // Of every text each < > and quote is escaped: the page has as many as with an "x".
+    for (const char* c : {"<", ">", "\"", "'"}) CHECK(count(body, c) == count(harmless, c));
+  }
+}
+
+TEST_CASE("the page reads without a script: its texts and tables are HTML") {
+  const std::string body = page_body(hostile("a & b"));
+  // Title, command and date; headline; summary; the figures; tables; the rest.
+  CHECK(body.find("<h1>a &amp; b</h1>") != std::string::npos);
+  CHECK(body.find("<code>a &amp; b</code>") != std::string::npos);
+  CHECK(body.find("<span class=\"badge bad\">a &amp; b</span>") != std::string::npos);
+  CHECK(body.find("<dt>a &amp; b</dt><dd>a &amp; b</dd>") != std::string::npos);
+  CHECK(body.find("<td class=\"text\">a &amp; b</td>") != std::string::npos);
+  CHECK(body.find("<small>[a &amp; b]</small>") != std::string::npos);
+  CHECK(count(body, "<svg") == 1);  // of the main figure
+  CHECK(body.find("<figcaption>a &amp; b</figcaption>") != std::string::npos);
+}
+
+TEST_CASE("what is no result is folded") {
+  const std::string body = page_body(hostile("x"));
+  const std::size_t fold = body.find("<details class=\"fold");
+  REQUIRE(fold != std::string::npos);
+  CHECK(body.find("data-figure=\"1\"") < fold);
+  CHECK(body.find("data-figure=\"2\"") > fold);
+  CHECK(count(body.substr(0, fold), "<table>") == 1);
+  Document many = hostile("x");
+  many.figures.assign(50, many.figures[1]);
+  const std::string crowded = page_body(many);
+  CHECK(count(crowded.substr(0, crowded.find("<details class=\"fold")), "<figure") ==
+        kMostShownFigures);
+}
+
+TEST_CASE("units and symbols look as in print") {
+  CHECK(pretty_unit("kg m^2") == "kg m²");
+  CHECK(pretty_unit("10^-12 ^") == "10^-12 ^");
+  CHECK(pretty_symbols("tau_load, theta - q, taut, tau") == "τ_load, θ − q, taut, τ");
+  CHECK(pretty_cell("1.0 +- 0.1 -> 2") == "1.0 ± 0.1 → 2");
+}
+
+TEST_CASE("series differ by more than their colour") {
+  Figure figure;
+  for (int series = 1; series < 4; ++series) {
+    figure.traces.push_back({"", TraceStyle::line, series, {}, {}, {}, {}, {}});
+    figure.traces.back().x = figure.traces.back().y = std::vector<double>(100, 1);
+  }
+  std::set<std::string> dashes, symbols;
+  for (std::size_t k = 0; k < figure.traces.size(); ++k) {
+    dashes.insert(look_of(figure, k).dash);
+    symbols.insert(look_of(figure, k).symbol);
+    CHECK(look_of(figure, k).n_symbols > 0);
+  }
+  CHECK(dashes.size() == 3);
+  CHECK(symbols.size() == 3);
+}
+
+TEST_CASE("a figure as SVG: every trace, round ticks, nothing that is no number") {
+  Figure figure;
+  figure.title = "a < b";
+  figure.x = {"time", "s"};
+  figure.y = {"torque tau", "N m"};
+  for (const TraceStyle style :
+       {TraceStyle::line, TraceStyle::broad, TraceStyle::dashed, TraceStyle::points,
+        TraceStyle::steps, TraceStyle::interval, TraceStyle::area}) {
+    Trace trace{"t", style, 1, {0, 5, 7, 10}, {1, std::nan(""), 2, 3}, {}, {}, {}};
+    if (style == TraceStyle::interval) trace.low = trace.high = trace.y;
+    figure.traces.push_back(trace);
+  }
+  const std::string svg = svg_figure(figure);
+  INFO(svg);
+  CHECK(svg.starts_with("<svg "));
+  CHECK(svg.find("<title>a &lt; b</title>") != std::string::npos);
+  CHECK(count(svg, ">t</text>") == 7);
+  CHECK(svg.find(">10</text>") != std::string::npos);
+  CHECK(svg.find("torque τ [N m]") != std::string::npos);
+  CHECK(svg.find("nan") == std::string::npos);
+  CHECK(svg.find("inf") == std::string::npos);
+  figure.traces.clear();  // nothing to draw is no reason to fail
+  CHECK(svg_figure(figure).find("nan") == std::string::npos);
+}
+
+TEST_CASE("the JSON of the page says what the figures say") {
   const auto data = nlohmann::json::parse(page_data(hostile("<b>&\"")));
-  CHECK(data["title"] == "<b>&\"");
-  CHECK(data["tables"][0]["columns"][0]["unit"] == "<b>&\"");
-  CHECK(data["tables"][0]["rows"][0][0] == "<b>&\"");
-  CHECK(data["summary"][0]["label"] == "<b>&\"");
-  CHECK(data["summary"][0]["text"] == "<b>&\"");
-  CHECK(data["decisions"][0]["reason"] == "<b>&\"");
+  CHECK(data["figures"][0]["title"] == "<b>&\"");
+  CHECK(data["figures"][0]["y"]["unit"] == "<b>&\"");
   CHECK(data["figures"][0]["traces"][0]["style"] == "interval");
   CHECK(data["figures"][0]["traces"][0]["labels"][0] == "<b>&\"");
 }

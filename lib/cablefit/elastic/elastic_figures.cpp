@@ -65,7 +65,8 @@ class CurveScan {
         theta_0_(theta_0),
         branches_(2, PointCloud(kFineX, kFineY)),
         errors_(preload.fits.size(), PointCloud(kFineX, kFineY)),
-        curves_(preload.fits.size(), BinnedMean(kCurveBins)) {}
+        curves_(preload.fits.size(), BinnedMean(kCurveBins)),
+        explained_(preload.fits.size()) {}
 
   void add(const SeenRows& rows) {
     for (Eigen::Index i = 0; i < rows.values.rows(); ++i) {
@@ -76,12 +77,14 @@ class CurveScan {
       for (std::size_t k = 0; k < curves_.size(); ++k) {
         errors_[k].add(deflection, rows.values(i, residual_of(k)));
         curves_[k].add(deflection, rows.values(i, curve_of(k)));
+        explained_[k].add(rows.values(i, kTau), rows.values(i, residual_of(k)));
       }
     }
   }
 
   Figure torque(Figure figure) const {
     figure.title = "Torque against deflection";
+    figure.rank = FigureRank::main;
     figure.caption =
         "The motor's torque on the way up and on the way down lies apart by twice its static "
         "friction; the curves are the models without friction, with the offset.";
@@ -93,6 +96,7 @@ class CurveScan {
     }
     for (std::size_t k = 0; k < curves_.size(); ++k) {
       Trace trace = model_trace(k, TraceStyle::line);
+      trace.name += fmt::format(", {} explained", explained_[k].of_squares());
       curves_[k].draw(trace, 1, false);
       figure.traces.push_back(std::move(trace));
     }
@@ -127,6 +131,7 @@ class CurveScan {
   std::vector<PointCloud> branches_;  ///< falling, rising
   std::vector<PointCloud> errors_;    ///< by fit
   std::vector<BinnedMean> curves_;
+  std::vector<Explained> explained_;  ///< of the torque, the motor's friction included
 };
 
 ScanPlan scan_plan(const ElasticPreload& preload, const std::string& section,

@@ -47,6 +47,13 @@ struct Note {
   std::string text;
 };
 
+/// How soon a report shows a figure.
+enum class FigureRank {
+  main,    ///< first of all: what was measured against the model
+  shown,   ///< with the results
+  detail,  ///< a diagnostic, folded until the reader asks for it
+};
+
 struct Figure {
   std::string section;  ///< heading above its figures: the preload, or the log
   std::string group;    ///< heading below that: "motor equation"; may be empty
@@ -57,6 +64,7 @@ struct Figure {
   std::vector<Mark> marks;
   std::vector<Note> notes;
   bool wide = false;  ///< over the full width, as things over time are
+  FigureRank rank = FigureRank::shown;
 };
 
 }  // namespace cablefit

@@ -208,7 +208,8 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
     result.figures = refine_figures(
         result, {bench.all, first.design, first.x, state.design, state.x, bench.floor},
         {bench.all, readings.front().rows, readings.front().x, readings.back().rows,
-         readings.back().x, bench.test_floor});
+         readings.back().x, bench.test_floor},
+        {bench.test_logs, bench.compared()});
   return result;
 }
 

@@ -1,5 +1,7 @@
 #include "cablefit/simulate/replay_figures.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 
 namespace cablefit {
@@ -68,7 +70,9 @@ void ReplayFigures::add(const ReplayedRows& rows) {
         signal.near_measured.add(t, measured(i, signal.joint));
         signal.near_simulated.add(t, simulated(i, signal.joint));
       }
-      signal.gap_line.add(t, simulated(i, signal.joint) - measured(i, signal.joint));
+      const double gap = simulated(i, signal.joint) - measured(i, signal.joint);
+      signal.gap_line.add(t, gap);
+      signal.explained.add(measured(i, signal.joint), gap);
     }
   }
 }
@@ -85,7 +89,7 @@ Figure ReplayFigures::blank(const Signal& signal) const {
 
 std::vector<Figure> ReplayFigures::figures() const {
   std::vector<Figure> figures;
-  const auto draw = [](Figure& figure, const ThinnedLine& line, const char* name, int series,
+  const auto draw = [](Figure& figure, const ThinnedLine& line, const std::string& name, int series,
                        TraceStyle style = TraceStyle::line) {
     figure.traces.push_back({name, style, series, {}, {}, {}, {}, {}});
     line.draw(figure.traces.back());
@@ -93,11 +97,14 @@ std::vector<Figure> ReplayFigures::figures() const {
   for (const Signal& signal : signals_) {
     Figure both = blank(signal);
     both.title = "Measured and simulated " + signal.name;
+    both.rank = FigureRank::main;
     draw(both, signal.measured_line, "measured", kMeasured, TraceStyle::broad);
-    draw(both, signal.simulated_line, "simulated", 2);
+    draw(both, signal.simulated_line,
+         fmt::format("simulated, {} explained", signal.explained.about_mean()), 2);
     Figure near = blank(signal);
     near.title = both.title + ", close-up";
     near.caption = "Row by row, in the middle of the log.";
+    near.rank = FigureRank::detail;
     draw(near, signal.near_measured, "measured", kMeasured, TraceStyle::broad);
     draw(near, signal.near_simulated, "simulated", 2);
     Figure gap = blank(signal);

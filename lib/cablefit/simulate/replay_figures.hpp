@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/figure/explained.hpp"
 #include "cablefit/figure/figure.hpp"
 #include "cablefit/samples/rows/time_axis.hpp"
 #include "cablefit/simulate/part_replay.hpp"
@@ -29,6 +30,7 @@ class ReplayFigures {
     Eigen::Index joint;
     ThinnedLine measured_line, simulated_line, gap_line;
     ThinnedLine near_measured, near_simulated;
+    Explained explained = {};
   };
   void add_signal(const LogSurvey& log, Channel channel, int joint);
   Figure blank(const Signal& signal) const;

@@ -65,6 +65,7 @@ std::vector<Figure> trace_figures(const RecursiveTrace& trace) {
     figure.section = "recursive least squares";
     figure.group = trace.preloads[k];
     figure.title = trace.names[k];
+    figure.rank = FigureRank::detail;
     figure.caption =
         "The estimate after so many rows, with +-2 sd; it ends at that of the direct fit.";
     figure.x = {"rows taken in", ""};

@@ -35,7 +35,8 @@ ResidualScan::ResidualScan(const ScanPlan& plan, const TimeAxis& time) : plan_(p
                       {},
                       {},
                       std::vector<PointCloud>(plan.variables.size()),
-                      std::vector<BinnedMean>(plan.variables.size(), BinnedMean(kMeanBins))});
+                      std::vector<BinnedMean>(plan.variables.size(), BinnedMean(kMeanBins)),
+                      {}});
 }
 
 void ResidualScan::add(const SeenRows& rows) {
@@ -52,6 +53,7 @@ void ResidualScan::add(const SeenRows& rows) {
       scan.measured.add(x, measured(row));
       scan.predicted.add(x, measured(row) - residual(row));
       scan.residual.add(x, residual(row));
+      scan.explained.add(measured(row), residual(row));
       if (time_.in_close_up(x)) {
         scan.near_measured.add(x, measured(row));
         scan.near_predicted.add(x, measured(row) - residual(row));
@@ -73,6 +75,7 @@ Figure ResidualScan::blank(const std::string& title) const {
   figure.section = plan_.section;
   figure.group = plan_.group;
   figure.title = title;
+  figure.rank = FigureRank::detail;
   return figure;
 }
 
@@ -84,6 +87,7 @@ Figure ResidualScan::over_time(std::size_t first, std::size_t last, bool near) c
   Figure figure = blank("Measured and predicted");
   if (!plan_.same_measured) figure.title += ", " + plan_.models[first].name;
   if (near) figure.title += ", close-up";
+  if (!near) figure.rank = FigureRank::main;
   figure.caption =
       near ? "Row by row, in the middle of the longest log; the line breaks where the fit "
              "leaves rows out."
@@ -97,6 +101,8 @@ Figure ResidualScan::over_time(std::size_t first, std::size_t last, bool near) c
   (near ? any.near_measured : any.measured).draw(figure.traces.back());
   for (std::size_t m = first; m < last; ++m) {
     figure.traces.push_back(model_trace(m, TraceStyle::line));
+    if (!near)
+      figure.traces.back().name += fmt::format(", {} explained", scans_[m].explained.of_squares());
     (near ? scans_[m].near_predicted : scans_[m].predicted).draw(figure.traces.back());
   }
   return figure;
@@ -105,6 +111,7 @@ Figure ResidualScan::over_time(std::size_t first, std::size_t last, bool near) c
 Figure ResidualScan::residual_over_time() const {
   Figure figure = blank(capital(plan_.error) + " over time");
   figure.caption = "Measured minus predicted.";
+  figure.rank = FigureRank::shown;
   figure.x = time_.axis();
   figure.y = {plan_.error, plan_.unit};
   figure.marks = time_.marks();

@@ -8,6 +8,7 @@
 
 #include "cablefit/figure/autocorrelation.hpp"
 #include "cablefit/figure/binned_mean.hpp"
+#include "cablefit/figure/explained.hpp"
 #include "cablefit/figure/figure.hpp"
 #include "cablefit/figure/histogram.hpp"
 #include "cablefit/figure/point_cloud.hpp"
@@ -70,7 +71,9 @@ class ResidualScan {
     Autocorrelation autocorrelation;
     std::vector<PointCloud> clouds;  ///< by variable
     std::vector<BinnedMean> means;
+    Explained explained;
   };
+  /// Ranked as a diagnostic.
   Figure blank(const std::string& title) const;
   Figure over_time(std::size_t first, std::size_t last, bool near) const;
   Figure residual_over_time() const;

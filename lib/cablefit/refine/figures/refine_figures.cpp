@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "cablefit/figure/autocorrelation.hpp"
 #include "cablefit/figure/binned_mean.hpp"
@@ -12,6 +13,7 @@
 #include "cablefit/figure/thinned_line.hpp"
 #include "cablefit/refine/figures/outcome_figures.hpp"
 #include "cablefit/refine/figures/shown_rows.hpp"
+#include "cablefit/refine/rows/refined_model.hpp"
 #include "cablefit/refine/rows/regime_variables.hpp"
 
 namespace cablefit {
@@ -38,6 +40,7 @@ Figure blank(const Pair& pair, std::string title) {
   figure.section = pair.section;
   figure.group = pair.group;
   figure.title = std::move(title);
+  figure.rank = FigureRank::detail;
   figure.y = {"residual", pair.unit};
   return figure;
 }
@@ -52,6 +55,7 @@ Figure over_time(const Pair& pair, const Timeline& time) {
   figure.x = {"time, logs one after the other", "s"};
   figure.marks = time.marks;
   figure.wide = true;
+  figure.rank = FigureRank::shown;
   for (std::size_t k = 0; k < n_states(pair); ++k) {
     ThinnedLine line(0, time.end, time.spacing);
     for (const ShownRow& row : pair.both()[k]->rows) line.add(row.t, row.residual);
@@ -195,6 +199,17 @@ Figure memory(const Pair& pair) {
 
 enum class Detail { full, over_time };
 
+/// The equation in which the gap shows: that of the effect, else that where the model misses most.
+bool shows_gap(const RefineResult& result, RowKind kind) {
+  std::string_view equation;
+  if (!result.where.empty()) equation = result.where.front().equation;
+  if (!result.effects.empty() && result.effects.front().instance.effect != nullptr) {
+    const std::string_view side = to_string(result.effects.front().instance.effect->site);
+    if (side == to_string(RowKind::link) || side == to_string(RowKind::motor)) equation = side;
+  }
+  return equation.empty() || equation == to_string(kind);
+}
+
 void add_residuals(const BeforeAfter& rows, const std::string& section, Detail detail,
                    const RefineResult& result, std::vector<Figure>& figures) {
   const Timeline time = timeline_of(rows.before, rows.logs);
@@ -211,9 +226,12 @@ void add_residuals(const BeforeAfter& rows, const std::string& section, Detail d
     if (pair.before.rows.empty()) continue;
     figures.push_back(over_time(pair, time));
     if (detail == Detail::over_time) continue;
+    FigureRank rank = shows_gap(result, kind) ? FigureRank::main : FigureRank::shown;
     for (const std::size_t variable : revealing(pair)) {
-      if (Figure mean = mean_against(pair, variable); !mean.traces.empty())
+      if (Figure mean = mean_against(pair, variable); !mean.traces.empty()) {
+        mean.rank = std::exchange(rank, FigureRank::detail);  // the first reveals most
         figures.push_back(std::move(mean));
+      }
       if (Figure rms = rms_against(pair, variable); !rms.traces.empty())
         figures.push_back(std::move(rms));
     }
@@ -224,9 +242,16 @@ void add_residuals(const BeforeAfter& rows, const std::string& section, Detail d
 }  // namespace
 
 std::vector<Figure> refine_figures(const RefineResult& result, const BeforeAfter& train,
-                                   const BeforeAfter& test) {
+                                   const BeforeAfter& test, const TestLogs& simulated) {
   std::vector<Figure> figures = outcome_figures(result);
   add_residuals(train, "Logs that were fitted", Detail::full, result, figures);
+  if (!result.elastic_only && !simulated.logs.empty()) {
+    const bool changed = test.after.added.size() > test.before.added.size();
+    Figure figure =
+        simulated_figure(simulated, models_with(test.before, test.x_before),
+                         changed ? models_with(test.after, test.x_after) : std::vector<Model>{});
+    if (!figure.traces.empty()) figures.push_back(std::move(figure));
+  }
   add_residuals(test, "Unseen logs", Detail::over_time, result, figures);
   return figures;
 }

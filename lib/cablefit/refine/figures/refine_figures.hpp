@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "cablefit/refine/figures/simulated_figure.hpp"
 #include "cablefit/refine/refine_result.hpp"
 #include "cablefit/refine/rows/evidence.hpp"
 #include "cablefit/samples/survey/survey.hpp"
@@ -20,9 +21,10 @@ struct BeforeAfter {
   KindLevels floor;  ///< N m, of these rows
 };
 
-/// Candidates and shifts, then all about the residuals of the logs that were fitted, and those of
+/// The gap shrinking first: the residual against what reveals the effect, and a test log simulated.
+/// Then candidates and shifts, all about the residuals of the logs that were fitted, and those of
 /// the test logs over time.
 std::vector<Figure> refine_figures(const RefineResult& result, const BeforeAfter& train,
-                                   const BeforeAfter& test);
+                                   const BeforeAfter& test, const TestLogs& simulated = {});
 
 }  // namespace cablefit

@@ -48,7 +48,7 @@ Table gate_table(const BatchResult& result) {
                    {"", "gate", "", true},
                    {"", "limit", "", false},
                    {"", "value", "", false},
-                   {"", "", "", true}};
+                   {"", "", "", true, true}};
   for (const Gate& gate : result.gates)
     table.rows.push_back({gate.cell, gate.name, fmt::format("{:.4g}", gate.limit),
                           fmt::format("{:.4g}", gate.value), gate.passed ? "passed" : "FAILED"});
@@ -93,6 +93,26 @@ Table refine_table(const BatchResult& result) {
   return table;
 }
 
+/// Whether everything passed, before anything else.
+Headline headline_of(const BatchResult& result, const Headline& dynamic) {
+  const auto failed =
+      n_with(result.cells, [](const BatchCell& cell) { return !cell.error.empty(); });
+  const auto closed = n_with(result.gates, [](const Gate& gate) { return !gate.passed; });
+  const std::size_t n_cells = result.cells.size(), n_gates = result.gates.size();
+  const bool is_bad = failed > 0 || closed > 0;
+  Headline headline;
+  headline.word = is_bad ? kFailed : n_gates > 0 ? "passed" : "fitted";
+  headline.tone = is_bad ? Tone::bad : Tone::good;
+  headline.verdict = fmt::format("{} of {} cells failed", failed, n_cells);
+  if (n_gates > 0) headline.verdict += fmt::format(", {} of {} gates failed", closed, n_gates);
+  headline.numbers = {{"cells fitted", fmt::format("{} of {}", n_cells - failed, n_cells)}};
+  if (n_gates > 0)
+    headline.numbers.push_back(
+        {"gates passed", fmt::format("{} of {}", n_gates - closed, n_gates)});
+  if (!dynamic.numbers.empty()) headline.numbers.push_back(dynamic.numbers.front());
+  return headline;
+}
+
 /// Of many cells what people read; GitHub takes a summary of 1 MB.
 Document in_short(Document document) {
   document = without_details(std::move(document));
@@ -112,11 +132,14 @@ Document batch_document(const BatchResult& result) {
   document.figures = parameter_figures(result);
   append(document, elastic_document(result.all_elastic()));
   for (Table& table : document.tables) table.detail = true;  // what the advice rests on
-  append(document, dynamic_document(result.all_dynamic()));
+  const Document dynamic = dynamic_document(result.all_dynamic());
+  append(document, dynamic);
+  document.headline = headline_of(result, dynamic.headline);
   if (Table refine = refine_table(result); !refine.rows.empty())
     document.tables.push_back(std::move(refine));
   add_preload_advice(result, document);
   if (!result.gates.empty()) document.tables.push_back(gate_table(result));
+  lead_with(document, 1);
   return result.cells.size() > kMostCellsInFull ? in_short(std::move(document)) : document;
 }
 

@@ -222,7 +222,7 @@ Table prediction_table(const Prediction& p) {
                    {"", "unit", "", true},          {"lower bound", "sd", ""},
                    {"preliminary fit", "size", ""}, {"preliminary fit", "sd", ""},
                    {"preliminary fit", "sd", "%"},  {"", "closest", "", true},
-                   {"", "verdict", "", true}};
+                   {"", "verdict", "", true, true}};
   for (const PredictedEquation& e : p.equations) {
     for (const PredictedParameter& parameter : e.parameters)
       table.rows.push_back({e.name, parameter.name, parameter.unit, sd_number(parameter.sd_best),
@@ -243,6 +243,38 @@ void add_prediction(const Prediction& p, Document& document) {
   for (const PredictedEquation& e : p.equations)
     for (const std::string& sentence : e.sentences)
       document.warnings.push_back(fmt::format("{}, {}: {}", p.preload, e.name, sentence));
+}
+
+/// How much there is, and what it is good for.
+Headline headline_of(const CheckResult& result, const std::vector<Prediction>& predictions) {
+  std::size_t n_parts = 0, n_useful = 0, n_parameters = 0, n_weak = 0;
+  double seconds = 0;
+  for (const CheckedLog& log : result.logs)
+    for (const CheckedPart& part : log.parts) {
+      ++n_parts;
+      n_useful += part.identifies.empty() ? 0 : 1;
+      seconds += part.survey.t_last - part.survey.t_first;
+    }
+  for (const Prediction& p : predictions)
+    for (const PredictedEquation& e : p.equations)
+      for (const PredictedParameter& parameter : e.parameters) {
+        ++n_parameters;
+        n_weak += parameter.determined == Determined::weak ||
+                          parameter.determined == Determined::not_identifiable
+                      ? 1
+                      : 0;
+      }
+  Headline headline;
+  const bool is_good = n_useful == n_parts && n_weak == 0;
+  headline.word = n_useful == 0 ? "not usable" : is_good ? "usable" : "partly usable";
+  headline.tone = n_useful == 0 ? Tone::bad : is_good ? Tone::good : Tone::neutral;
+  headline.verdict = fmt::format("{} of {} parts of the logs can be fitted", n_useful, n_parts);
+  headline.numbers = {{"logs", fmt::format("{}", result.logs.size())},
+                      {"recorded", significant(seconds, 3) + " s"}};
+  if (n_parameters > 0)
+    headline.numbers.push_back({"parameters that stage 2 will determine well",
+                                fmt::format("{} of {}", n_parameters - n_weak, n_parameters)});
+  return headline;
 }
 
 constexpr const char* kHowPredicted =
@@ -276,6 +308,8 @@ Document check_document(const CheckResult& result, const std::vector<Prediction>
   const bool any = std::any_of(predictions.begin(), predictions.end(),
                                [](const Prediction& p) { return p.none.empty(); });
   if (any) document.tables.back().notes.emplace_back(kHowPredicted);
+  document.headline = headline_of(result, predictions);
+  lead_with(document, 1);
   return document;
 }
 

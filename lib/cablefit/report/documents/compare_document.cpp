@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cablefit/model/effect_parameter.hpp"
 #include "cablefit/report/documents/document_parts.hpp"
@@ -89,12 +90,17 @@ Table table_of(const CompareResult& result) {
   Table table;
   table.title =
       fmt::format("{} (A) and {} (B){}", result.first.path, result.second.path, model_text(result));
-  table.columns = {{"", "preload", "", true}, {"", "parameter", "", true},
-                   {"", "unit", "", true},    {"A", "value", ""},
-                   {"A", "sd", ""},           {"B", "value", ""},
-                   {"B", "sd", ""},           {"B - A", "", "%"},
-                   {"B - A", "in sd", ""},    {"", "p", ""},
-                   {"", "verdict", "", true}};
+  table.columns = {{"", "preload", "", true},
+                   {"", "parameter", "", true},
+                   {"", "unit", "", true},
+                   {"A", "value", ""},
+                   {"A", "sd", ""},
+                   {"B", "value", ""},
+                   {"B", "sd", ""},
+                   {"B - A", "", "%"},
+                   {"B - A", "in sd", ""},
+                   {"", "p", ""},
+                   {"", "verdict", "", true, true}};
   const bool several = has_several(result, &ComparedParameter::preload);
   if (!several) table.columns.erase(table.columns.begin());
   for (const ComparedParameter& p : result.parameters) {
@@ -122,6 +128,20 @@ std::string conclusion(const CompareResult& result) {
                                 [](const ComparedParameter& p) { return p.difference == 0; });
   if (same) return fmt::format("all {} parameters are the same in every digit", n);
   return fmt::format("all {} parameters are equal within {}", n, margin_text(result));
+}
+
+Headline headline_of(const CompareResult& result) {
+  const std::size_t different = result.count(Sameness::different);
+  const std::size_t undecided = result.count(Sameness::undecided);
+  const std::size_t equal = result.count(Sameness::equal);
+  Headline headline;
+  headline.word = different > 0 ? "different" : undecided > 0 ? "undecided" : "equal";
+  headline.tone = tone_of(headline.word);
+  headline.verdict = conclusion(result);
+  for (const auto& [label, n] : {std::pair("different", different),
+                                 std::pair("undecided", undecided), std::pair("equal", equal)})
+    headline.numbers.push_back({label, fmt::format("{} of {}", n, result.parameters.size())});
+  return headline;
 }
 
 /// Differences in the unit of sd of the difference, side by side whatever their units.
@@ -199,6 +219,8 @@ Document compare_document(const CompareResult& result) {
                                               one.reason));
   document.warnings = result.warnings;
   document.figures = {difference_figure(result)};
+  document.headline = headline_of(result);
+  lead_with(document, 1);
   document.tidy = tidy_of(result);
   return document;
 }

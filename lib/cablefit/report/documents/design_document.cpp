@@ -310,6 +310,36 @@ void add_sweep(const DesignResult& result, Document& document) {
   add_tidy_rows(words, document);
 }
 
+/// From the first to the last design of the sweep.
+std::string range_text(double first, double last, const std::string& unit) {
+  const std::string from = few(first), to = few(last);
+  return (from == to ? from : from + " .. " + to) + " " + unit;
+}
+
+Headline headline_of(const DesignResult& result) {
+  Headline headline;
+  if (!result.points.empty()) {
+    const Words words(result);
+    const DesignJoint &first = result.points.front().joints.front(),
+                      &last = result.points.back().joints.front();
+    if (!result.needed.empty()) headline.verdict = needed_text(words, result.needed.front());
+    headline.numbers = {{"all cables taut up to",
+                         range_text(first.closure_torque, last.closure_torque, words.torque)},
+                        {"stiffness without load",
+                         range_text(first.stiffness_zero, last.stiffness_zero, words.stiffness)},
+                        {"largest error of a linear spring",
+                         range_text(first.model("linear").max_error, last.model("linear").max_error,
+                                    words.torque)}};
+  } else if (result.excitation) {
+    const ExcitationPlan& plan = *result.excitation;
+    headline.verdict = fmt::format("record {} of {:g} s", plan.shape, plan.limits.duration);
+    headline.numbers = {
+        {"worst error", significant(100 * plan.fit.worst(), 2) + " %"},
+        {"worst error of a plain sine", significant(100 * plan.plain.worst, 2) + " %"}};
+  }
+  return headline;
+}
+
 }  // namespace
 
 Document design_document(const DesignResult& result) {
@@ -324,6 +354,8 @@ Document design_document(const DesignResult& result) {
   add_decisions(document, result.preload, result.decisions);
   if (result.excitation) add_excitation(result, document);
   finish_decisions(document, 1);
+  document.headline = headline_of(result);
+  lead_with(document, 1);
   document.warnings = result.warnings;
   return document;
 }

@@ -1,6 +1,7 @@
 #include "cablefit/report/documents/document_parts.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
@@ -77,6 +78,25 @@ void add_detail(Document& document, Table table) {
 
 void add_figures(Document& document, const std::vector<Figure>& figures) {
   document.figures.insert(document.figures.end(), figures.begin(), figures.end());
+}
+
+void lead_with(Document& document, std::size_t n) {
+  const auto is_main = [](const Figure& figure) { return figure.rank == FigureRank::main; };
+  const bool none = std::none_of(document.figures.begin(), document.figures.end(), is_main);
+  for (Figure& figure : document.figures) {
+    if (!none && !is_main(figure)) continue;
+    if (n > 0)
+      figure.rank = FigureRank::main;
+    else if (is_main(figure))
+      figure.rank = FigureRank::shown;
+    n -= n > 0 ? 1 : 0;
+  }
+}
+
+std::string joined_numbers(const std::vector<std::string>& numbers) {
+  constexpr std::size_t kFew = 2;
+  if (numbers.size() > kFew) return numbers.front() + " ... " + numbers.back();
+  return fmt::format("{}", fmt::join(numbers, " / "));
 }
 
 void append(Document& all, const Document& part) {

@@ -39,6 +39,12 @@ void append(Document& all, const Document& part);
 
 void add_figures(Document& document, const std::vector<Figure>& figures);
 
+/// Leaves so many main figures, the first; without any the first figures become it.
+void lead_with(Document& document, std::size_t n);
+
+/// A number of a headline of every one of a few things: "1 / 2", of more the first and the last.
+std::string joined_numbers(const std::vector<std::string>& numbers);
+
 /// Columns and one row of the table of rows used.
 Table counts_table();
 void add_counts(Table& table, const std::string& preload, const std::string& equation,

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "cablefit/figure/explained.hpp"
 #include "cablefit/report/documents/document_parts.hpp"
 #include "cablefit/report/documents/numbers.hpp"
 #include "cablefit/report/documents/proof_report.hpp"
@@ -278,6 +279,59 @@ void add_answer(const DynamicPreload& preload, Document& document) {
     document.summary.push_back({"", "residual against motion and load: " + depends});
 }
 
+/// Share of the squared torque of an equation that the best model of every preload explains.
+void add_explained(const DynamicResult& result, const char* equation, Headline& headline) {
+  std::vector<std::string> shares;
+  for (const DynamicPreload& preload : result.preloads) {
+    const DynamicFit* best = better_fit(preload);
+    if (best == nullptr || !best->torque_error.contains(equation)) continue;
+    const double relative = best->torque_error.at(equation).relative;
+    shares.push_back(explained_percent(1, relative * relative));
+  }
+  if (!shares.empty())
+    headline.numbers.push_back(
+        {fmt::format("{} torque explained", equation), joined_numbers(shares)});
+}
+
+void add_inertia(const DynamicResult& result, Headline& headline) {
+  for (const char* name : {"J_link", "J"}) {
+    std::vector<std::string> values;
+    std::string unit;
+    for (const DynamicPreload& preload : result.preloads) {
+      const DynamicFit* best = better_fit(preload);
+      const Estimate* e = best == nullptr ? nullptr : find_estimate(best->parameters, name);
+      if (e == nullptr || !e->not_identifiable.empty()) continue;
+      values.push_back(value_with_sd(e->value, e->sd));
+      unit = e->unit;
+    }
+    if (values.empty()) continue;
+    headline.numbers.push_back({name, joined_numbers(values) + " " + unit});
+    return;
+  }
+}
+
+Headline headline_of(const DynamicResult& result) {
+  Headline headline;
+  std::size_t n = 0, n_missing = 0;
+  for (const DynamicPreload& preload : result.preloads) {
+    const DynamicFit* best = better_fit(preload);
+    if (best == nullptr) continue;
+    for (const Estimate& e : best->parameters) {
+      ++n;
+      n_missing += e.not_identifiable.empty() ? 0 : 1;
+    }
+    headline.verdict += fmt::format("{}{}: use {}", headline.verdict.empty() ? "" : "; ",
+                                    preload.name, best->model);
+  }
+  headline.word = n_missing == 0 ? "identified" : "partly identified";
+  headline.tone = n_missing == 0 ? Tone::good : Tone::neutral;
+  headline.verdict += fmt::format("; {} of {} parameters identified", n - n_missing, n);
+  for (const char* equation : {"motor", "link", "torque"})
+    add_explained(result, equation, headline);
+  add_inertia(result, headline);
+  return headline;
+}
+
 }  // namespace
 
 Document dynamic_document(const DynamicResult& result) {
@@ -304,6 +358,8 @@ Document dynamic_document(const DynamicResult& result) {
     add_warnings(document, preload.name, validation_warnings(preload));
   }
   finish_decisions(document, result.preloads.size());
+  document.headline = headline_of(result);
+  lead_with(document, 1);
   document.tables = parameter_tables(result);
   add_table(document, sweep_summary(result));
   for (Table& table : sweep_tables(result)) add_detail(document, std::move(table));

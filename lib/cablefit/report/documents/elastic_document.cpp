@@ -218,6 +218,27 @@ SummaryLine answer_of(const ElasticPreload& preload) {
   return {preload.name, text};
 }
 
+Headline headline_of(const ElasticResult& result) {
+  constexpr std::size_t kMostNumbers = 3;
+  Headline headline{"fitted", Tone::good, "", {}};
+  for (const ElasticPreload& preload : result.preloads) {
+    const ElasticFit* fit = preload.find(preload.selected);
+    if (fit == nullptr) continue;
+    if (!fit->passive || !preload.shape_doubt.empty()) {
+      headline.word = fit->passive ? "doubtful" : "not physical";
+      headline.tone = Tone::bad;
+    }
+    headline.verdict += fmt::format(
+        "{}{}: use {}", headline.verdict.empty() ? "" : "; ", preload.name,
+        fit->model == "linear" ? "linear" : fmt::format("{}, order {}", fit->model, fit->order));
+    if (headline.numbers.size() < kMostNumbers)
+      headline.numbers.push_back({fmt::format("largest error on held-out blocks, {}", preload.name),
+                                  fmt::format("{} {}", error_text(fit->held_out_max),
+                                              torque_unit(preload.linear_motion))});
+  }
+  return headline;
+}
+
 /// Initial elongations that were searched, and how often all cables are taut; no lines without.
 void add_elongations(const ElasticPreload& preload, Document& document) {
   if (preload.fits.empty()) return;
@@ -259,6 +280,8 @@ Document elastic_document(const ElasticResult& result) {
     }
   }
   finish_decisions(document, result.preloads.size());
+  document.headline = headline_of(result);
+  lead_with(document, 1);
   document.tables = stiffness_tables(result);
   add_detail(document, fits_table(result));
   add_detail(document, slack_table(result));

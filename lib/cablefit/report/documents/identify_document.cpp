@@ -267,6 +267,42 @@ std::string residual_text(const IdentifyPreload& preload, bool linear_motion) {
   return text;
 }
 
+Headline headline_of(const IdentifyResult& result) {
+  Headline headline;
+  std::size_t n = 0, n_missing = 0;
+  const auto count = [&](const std::vector<Estimate>& all) {
+    n += all.size();
+    for (const Estimate& e : all) n_missing += e.not_identifiable.empty() ? 0 : 1;
+  };
+  count(result.parameters);
+  for (const IdentifyPreload& preload : result.preloads) count(preload.parameters);
+  headline.word = n_missing == 0 ? "identified" : "partly identified";
+  headline.tone = n_missing == 0 ? Tone::good : Tone::neutral;
+  headline.verdict = fmt::format("{} of {} parameters identified", n - n_missing, n);
+  for (const char* name : {"J_link", "J_motor"}) {
+    std::vector<std::string> values;
+    std::string unit;
+    const auto add = [&](const std::vector<Estimate>& all) {
+      const Estimate* e = find_estimate(all, name);
+      if (e == nullptr || !e->not_identifiable.empty()) return;
+      values.push_back(value_with_sd(e->value, e->sd));
+      unit = e->unit;
+    };
+    add(result.parameters);
+    for (const IdentifyPreload& preload : result.preloads) add(preload.parameters);
+    if (!values.empty()) headline.numbers.push_back({name, joined_numbers(values) + " " + unit});
+  }
+  std::vector<std::string> residuals;
+  for (const IdentifyPreload& preload : result.preloads)
+    for (const IdentifyEquation& e : preload.equations)
+      if (e.name == "motor") residuals.push_back(significant(e.rms, kErrorDigits));
+  if (!residuals.empty())
+    headline.numbers.push_back(
+        {"residual, motor equation",
+         fmt::format("{} {} rms", joined_numbers(residuals), torque_unit(result.linear_motion))});
+  return headline;
+}
+
 }  // namespace
 
 Document identify_document(const IdentifyResult& result) {
@@ -287,6 +323,8 @@ Document identify_document(const IdentifyResult& result) {
   }
   add_figures(document, result.figures);
   finish_decisions(document, result.preloads.size());
+  document.headline = headline_of(result);
+  lead_with(document, 1);
   for (const std::string& bound : result.active_bounds)
     document.paragraphs.push_back("held by its bound: " + bound);
   add_table(document, shared_table(result));

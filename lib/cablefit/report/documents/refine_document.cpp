@@ -160,6 +160,7 @@ Document refine_document(const RefineResult& result, const std::vector<std::stri
   Document document;
   document.title = "What the model lacks";
   document.summary = refine_story(result, model_files);
+  document.headline = refine_headline(result);
   for (Table table : {where_table(result), league_table(result), separability_table(result),
                       step_table(result), shift_table(result)})
     if (!table.rows.empty()) document.tables.push_back(std::move(table));
@@ -172,6 +173,7 @@ Document refine_document(const RefineResult& result, const std::vector<std::stri
   finish_decisions(document, 0);
   add_warnings(document, "", result.warnings);
   add_figures(document, result.figures);
+  lead_with(document, 2);  // the residual, and the simulation of a test log
   document.tidy = tidy_rows(result);
   return document;
 }

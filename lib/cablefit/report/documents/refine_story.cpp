@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "cablefit/refine/null/chance_tail.hpp"
@@ -279,6 +281,37 @@ std::string regime_text(const Regime& regime, bool linear_motion) {
 }
 
 double moved_sd(const ParameterShift& shift) { return (shift.after - shift.before) / shift.sd; }
+
+Headline refine_headline(const RefineResult& result) {
+  constexpr std::array<std::pair<const char*, Tone>, 4> kWords{{{"identified effect", Tone::good},
+                                                                {"nothing missing", Tone::good},
+                                                                {"ambiguous", Tone::neutral},
+                                                                {"unexplained", Tone::bad}}};
+  Headline headline;
+  std::tie(headline.word, headline.tone) = kWords.at(static_cast<std::size_t>(result.verdict));
+  std::string names;
+  for (const NamedEffect& effect : result.effects) {
+    const Effect& row = *effect.instance.effect;
+    names += (names.empty() ? "" : ", ") + effect_text(row.name, to_string(row.site));
+  }
+  headline.verdict = names.empty() ? result.reason : names + "; " + result.reason;
+  const bool changed = !result.effects.empty();
+  const std::string torque = torque_unit(result.linear_motion);
+  const auto numbers = [&](const GapStory& gap, double scale, const std::string& unit) {
+    return fmt::format(
+        "{} {}", before_after(scale * gap.test_before, scale * gap.test_after, changed), unit);
+  };
+  if (result.torque.known)
+    headline.numbers = {{"torque gap on test data, rms", numbers(result.torque, 1, torque)}};
+  if (result.simulation.known)
+    headline.numbers.push_back(
+        {"simulation gap on test data, rms",
+         numbers(result.simulation, 1e3, result.linear_motion ? "mm" : "mrad")});
+  if (result.torque.known)
+    headline.numbers.push_back(
+        {"noise floor, torque", fmt::format("{} {}", number(result.torque.noise_floor), torque)});
+  return headline;
+}
 
 std::vector<SummaryLine> refine_story(const RefineResult& result,
                                       const std::vector<std::string>& model_files) {

@@ -6,6 +6,7 @@
 
 namespace cablefit {
 
+Headline refine_headline(const RefineResult& result);
 std::vector<SummaryLine> refine_story(const RefineResult& result,
                                       const std::vector<std::string>& model_files);
 

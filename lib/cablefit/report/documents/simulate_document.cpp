@@ -139,6 +139,36 @@ Table tidy_gaps(const SimulateResult& result) {
   return table;
 }
 
+/// Of every signal the largest gap among the parts.
+Headline headline_of(const SimulateResult& result) {
+  constexpr std::size_t kMostNumbers = 3;
+  Headline headline;
+  std::vector<SignalGap> worst;
+  for (const SimulatedPart& part : result.parts) {
+    if (!part.diverged.empty()) headline = {"diverged", Tone::bad, part.diverged, {}};
+    for (const SignalGap& gap : part.gaps) {
+      const auto same = std::find_if(worst.begin(), worst.end(), [&](const SignalGap& other) {
+        return other.signal == gap.signal;
+      });
+      if (same == worst.end())
+        worst.push_back(gap);
+      else if (gap.rms > same->rms)
+        *same = gap;
+    }
+  }
+  if (worst.size() > kMostNumbers) worst.resize(kMostNumbers);
+  for (const SignalGap& gap : worst) {
+    const auto [factor, unit] = shown(gap.unit);
+    headline.numbers.push_back(
+        {fmt::format("gap of {}{}, rms", gap.signal, result.parts.size() > 1 ? ", largest" : ""),
+         fmt::format("{} {}", significant(factor * gap.rms, kGapDigits), unit)});
+  }
+  if (headline.verdict.empty())
+    headline.verdict = fmt::format("{} part{} simulated with the model {}", result.parts.size(),
+                                   result.parts.size() == 1 ? "" : "s", result.model_name);
+  return headline;
+}
+
 }  // namespace
 
 Document simulate_document(const SimulateResult& result) {
@@ -161,6 +191,8 @@ Document simulate_document(const SimulateResult& result) {
     add_figures(document, part.figures);
   }
   finish_decisions(document, result.parts.size());
+  document.headline = headline_of(result);
+  lead_with(document, 1);
   return document;
 }
 

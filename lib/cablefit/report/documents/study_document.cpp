@@ -51,13 +51,27 @@ void add_verdict(const Document& refine, const std::string& of, bool is_named, D
       document.summary.push_back(line);
 }
 
+/// The verdict of refine above the numbers of the fits.
+void add_missing(const Headline& refine, Headline& headline) {
+  headline.word = refine.word;
+  headline.tone = refine.tone;
+  headline.verdict = refine.verdict;
+}
+
 /// The stages' tables, plots and warnings, behind each other.
 class Appendix {
  public:
-  explicit Appendix(Document& document) : document_(document) {}
+  /// The page begins with the plot of the stage `leader`.
+  Appendix(Document& document, std::string leader)
+      : document_(document), leader_(std::move(leader)) {}
 
-  /// `is_shown`: its tables are not all details.
+  /// `is_shown`: its tables and plots are not all details, but for its main plots.
   void add(const std::string& name, Document stage, bool is_shown) {
+    for (Figure& figure : stage.figures)
+      if (figure.rank == FigureRank::main && name != leader_)
+        figure.rank = FigureRank::shown;
+      else if (!is_shown)
+        figure.rank = FigureRank::detail;
     for (Table& table : stage.tables) {
       table.detail = table.detail || !is_shown;
       if (!table.title.empty()) table.title = fmt::format("{}: {}", name, table.title);
@@ -81,6 +95,7 @@ class Appendix {
 
  private:
   Document& document_;
+  std::string leader_;
   std::vector<std::vector<std::string>> warnings_;
 };
 
@@ -90,20 +105,24 @@ Document study_document(const Study& study,
                         const std::vector<std::vector<std::string>>& model_files) {
   Document document;
   document.title = "Study of the logs: how stiff, how heavy, how rough, and what is missing";
-  Appendix appendix(document);
+  Appendix appendix(document, study.dynamic ? "stage 2" : study.elastic ? "stage 1" : "check");
   if (study.check) {
     document.summary.push_back({"logs", logs_text(*study.check)});
     Document stage = check_document(*study.check, study.predictions);
+    document.headline = stage.headline;
+    lead_with(stage, study.dynamic || study.elastic ? 0 : 1);
     stage.tidy = {};  // channels and predictions, where the other stages have estimates
     appendix.add("check", std::move(stage), false);
   }
   if (study.elastic) {
     const Document stage = elastic_document(*study.elastic);
+    document.headline = stage.headline;
     add_answers("stiffness", study.elastic->preloads.size(), stage, document);
     appendix.add("stage 1", stage, true);
   }
   if (study.dynamic) {
     const Document stage = dynamic_document(*study.dynamic);
+    document.headline = stage.headline;
     add_answers("dynamics", study.dynamic->preloads.size(), stage, document);
     appendix.add("stage 2", stage, true);
   }
@@ -117,6 +136,7 @@ Document study_document(const Study& study,
     const Document stage = refine_document(missing.result, model_files[k]);
     const bool several = study.refine.size() > 1;
     const std::string of = fmt::format("{}", fmt::join(missing.preloads, ", "));
+    if (k == 0) add_missing(stage.headline, document.headline);
     add_verdict(stage, several ? of + ": " : "", !missing.result.effects.empty(), document);
     appendix.add(several ? "refine of " + of : "refine", stage, false);
   }

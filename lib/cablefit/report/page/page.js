@@ -1,12 +1,10 @@
-// Draws the report from the JSON in the page. Texts come from logs and rig files: they only ever
-// become text nodes, or go through plain() on their way to plotly.
+// Draws the plots of the report, from the JSON in the page into the places that stand there. Texts
+// come from logs and rig files: they go through plain() on their way to plotly.
 "use strict";
 (() => {
   const report = JSON.parse(document.getElementById("report").textContent);
   const darkWanted = matchMedia("(prefers-color-scheme: dark)");
   const plots = [];
-
-  // --- pieces of the page -------------------------------------------------------------------------
 
   /** make("p", {class: "note"}, "text", node, ...) */
   function make(tag, attributes, ...children) {
@@ -14,62 +12,6 @@
     for (const [name, value] of Object.entries(attributes || {})) node.setAttribute(name, value);
     for (const child of children) node.append(child);  // strings become text nodes
     return node;
-  }
-
-  function headerCell(column) {
-    const cell = make("th", {class: column.text ? "text" : "", scope: "col"}, column.title);
-    if (column.unit) cell.append(make("small", {}, "[" + prettyUnit(column.unit) + "]"));
-    return cell;
-  }
-
-  function groupRow(columns) {
-    const row = make("tr");
-    for (let k = 0; k < columns.length;) {
-      let end = k + 1;
-      while (end < columns.length && columns[k].group && columns[end].group === columns[k].group) ++end;
-      const group = columns[k].group;
-      row.append(make("th", {colspan: end - k, class: group ? "group" : ""}, group));
-      k = end;
-    }
-    return row;
-  }
-
-  const printed = (cell) => prettyUnit(cell.replace(/\+- /g, "± ").replace(/ -> /g, " → "));
-  const isLong = (text) => text.length > 60;
-
-  function tableNode(table) {
-    const head = make("thead");
-    if (table.columns.some((column) => column.group)) head.append(groupRow(table.columns));
-    head.append(make("tr", {}, ...table.columns.map(headerCell)));
-    const body = make("tbody");
-    for (const row of table.rows) {
-      body.append(make("tr", {}, ...row.map((cell, k) => make("td", {
-        class: (table.columns[k].text ? "text" : "") + (isLong(cell) ? " long" : "")
-      }, printed(cell)))));
-    }
-    const node = make("div", {}, make("div", {class: "scroll"}, make("table", {}, head, body)));
-    for (const note of table.notes) node.append(make("p", {class: "note"}, note));
-    return node;
-  }
-
-  function titledTable(table) {
-    const node = tableNode(table);
-    if (table.title) node.prepend(make("h4", {}, table.title));
-    return node;
-  }
-
-  function detailTable(table) {
-    return make("details", {open: ""}, make("summary", {}, table.title || "Table"), tableNode(table));
-  }
-
-  function decisionTable(decisions) {
-    return {
-      title: "",
-      columns: ["preload", "choice", "value", "reason"].map((title) => (
-          {group: "", title, unit: "", text: true})),
-      rows: decisions.map((line) => [line.where.join(", ") || "all", line.name, line.value, line.reason]),
-      notes: []
-    };
   }
 
   // --- figures ------------------------------------------------------------------------------------
@@ -87,13 +29,8 @@
   /** Plotly reads some HTML in its texts; what comes from a log has none. */
   const plain = (text) => text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;");
 
-  /** "rad^2" as it is printed; symbols as the paper writes them. */
-  const powers = {0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹"};
-  const prettyUnit = (text) => text.replace(/\^(\d+)/g, (_, n) => [...n].map((d) => powers[d]).join(""));
-  const prettySymbols = (text) => text.replace(/theta/g, "θ").replace(/\btau(?![a-z])/g, "τ").replace(/ - /g, " − ");
   const withIndices = (html) => html.replace(/([A-Za-zθτ]\d*)_([A-Za-z0-9]+)/g, "$1<sub>$2</sub>");
-  const axisTitle = (axis) => withIndices(plain(prettySymbols(axis.title))) +
-      (axis.unit ? " [" + plain(prettyUnit(axis.unit)) + "]" : "");
+  const axisTitle = (axis) => withIndices(plain(axis.title)) + (axis.unit ? " [" + plain(axis.unit) + "]" : "");
 
   /** Colours of page.css, of the dark or the light scheme. */
   function palette(dark) {
@@ -101,33 +38,35 @@
     const was = root.classList.contains("dark");
     root.classList.toggle("dark", dark);
     const style = getComputedStyle(root);
-    const colour = (name) => style.getPropertyValue("--" + name).trim();
-    const colours = {
-      ground: colour("ground"), ink: colour("ink"), grid: colour("grid"), rule: colour("rule"),
-      faint: colour("faint"), again: colour("again"), below: colour("below"), reference: colour("reference"),
-      series: [0, 1, 2, 3, 4, 5, 6].map((k) => colour("series-" + k))
-    };
+    const names = ["ground", "ink", "grid", "rule", "faint", "again", "below", "reference",
+                   ...[0, 1, 2, 3, 4, 5, 6].map((k) => "series-" + k)];
+    const colours = Object.fromEntries(
+        names.map((name) => [name, style.getPropertyValue("--" + name).trim()]));
     root.classList.toggle("dark", was);
     return colours;
   }
 
-  function drawnLook(trace, colour, fillColour, many, few) {
+  /** Symbols of a line: every point has one, or some that are evenly spread. */
+  function lineWithSymbols(look, line, colour, n) {
+    if (look.symbols === 0) return {mode: "lines", line};
+    const few = look.symbols < n ? {maxdisplayed: look.symbols} : {};
+    return {mode: "lines+markers", line, marker: {color: colour, size: 7, symbol: look.symbol, ...few}};
+  }
+
+  function drawnLook(trace, colour, fillColour, n) {
+    const look = trace.look;
+    const line = {color: colour, width: look.width, dash: look.dash || "solid"};
     switch (trace.style) {
       case "points":
-        return {mode: "markers", marker: {color: colour, size: many ? 3 : 4, opacity: 0.65}};
+        return {mode: "markers", marker: {color: colour, size: n > 400 ? 3 : 4, opacity: 0.65, symbol: look.symbol}};
       case "steps":
-        return {mode: "lines", line: {color: colour, width: 1.5, shape: "hvh"}};
-      case "dashed":
-        return {mode: "lines", line: {color: colour, width: 1.5, dash: "dash"}};
+        return {mode: "lines", line: {...line, shape: "hvh"}};
       case "interval":
-        return {mode: "markers", marker: {color: colour, size: 8}};
+        return {mode: "markers", marker: {color: colour, size: 8, symbol: look.symbol}};
       case "area":
-        return {mode: "lines", fill: "toself", fillcolor: fillColour, line: {color: colour, width: 1}};
-      case "broad":
-        return {mode: "lines", line: {color: colour, width: 4}};
-      default:  // few points may have no neighbour to be joined with
-        return {mode: few ? "lines+markers" : "lines", line: {color: colour, width: 1.4},
-                marker: {color: colour, size: 6}};
+        return {mode: "lines", fill: "toself", fillcolor: fillColour, line};
+      default:
+        return lineWithSymbols(look, line, colour, n);
     }
   }
 
@@ -160,20 +99,16 @@
 
   function drawnTrace(figure, k, colours) {
     const trace = figure.traces[k];
-    const before = figure.traces.slice(0, k).some(
-        (other) => other.series === trace.series && other.style === trace.style);
-    let colour = trace.series < 0 ? colours.reference : colours.series[trace.series % 7];
-    if (before && trace.style === "points") colour = colours.again;
-    if (trace.style === "broad") colour = colours.below;
+    const colour = colours[trace.look.colour];
     const y = numbers(trace.y);
     const drawn = {
-      type: "scatter", name: withIndices(plain(prettySymbols(trace.name))), y, connectgaps: false,
+      type: "scatter", name: withIndices(plain(trace.name)), y, connectgaps: false,
       x: trace.labels ? labelPlaces(figure, trace, k) : numbers(trace.x),
       showlegend: trace.name !== "",
       customdata: trace.labels,
-      hovertemplate: (figure.x.dates ? "%{customdata}<br>" : trace.labels ? "" : "%{x:.6g} " + plain(prettyUnit(figure.x.unit)) + "<br>") + "%{y:.5g} " +
-          plain(prettyUnit(figure.y.unit)) + "<extra>%{fullData.name}</extra>",
-      ...drawnLook(trace, colour, colours.grid, y.length > 400, y.length < 16)
+      hovertemplate: (figure.x.dates ? "%{customdata}<br>" : trace.labels ? "" : "%{x:.6g} " + plain(figure.x.unit) + "<br>") + "%{y:.5g} " +
+          plain(figure.y.unit) + "<extra>%{fullData.name}</extra>",
+      ...drawnLook(trace, colour, colours.grid, y.length)
     };
     if (trace.style === "interval") {
       const [low, high] = [numbers(trace.low), numbers(trace.high)];
@@ -243,6 +178,7 @@
 
   function draw(plot, dark, width) {
     const {data, layout, config} = drawn(plot.figure, dark, width);
+    if (!plot.isDrawn) plot.place.replaceChildren();  // what stood there until now
     plot.isDrawn = true;
     return Plotly.react(plot.place, data, layout, config);
   }
@@ -269,95 +205,24 @@
     return Plotly.relayout(plot.place, {...x, "yaxis.autorange": true});
   }
 
-  function figureNode(figure) {
-    const place = make("div", {class: "plot", role: "img", "aria-label": figure.title});
+  /** A plot and its buttons in the place that the page has for it. */
+  function prepare(node) {
+    const place = node.querySelector(".plot");
+    const plot = {figure: report.figures[Number(node.dataset.figure)], place, isDrawn: false};
     const save = make("button", {type: "button", title: "Save this plot as SVG"}, "SVG");
     const reset = make("button", {type: "button", title: "Show everything again"}, "Reset");
-    const node = make("figure", {class: figure.wide ? "wide" : ""},
-                      make("div", {class: "head"}, make("strong", {}, prettySymbols(figure.title)),
-                           make("span", {class: "buttons"}, reset, save)), place);
-    if (figure.caption) node.append(make("figcaption", {}, prettySymbols(figure.caption)));
-    const plot = {figure, place, isDrawn: false};
     save.addEventListener("click", () => saveSvg(plot));
     reset.addEventListener("click", () => resetZoom(plot));
-    plots.push(plot);
-    return node;
+    node.querySelector(".head").append(make("span", {class: "buttons"}, reset, save));
+    return plot;
   }
 
   // --- the page -----------------------------------------------------------------------------------
 
-  function grouped(figures, key) {
-    const groups = new Map();
-    for (const figure of figures) {
-      if (!groups.has(figure[key])) groups.set(figure[key], []);
-      groups.get(figure[key]).push(figure);
-    }
-    return groups;
-  }
-
-  const contents = make("ul");
-  let nChapters = 0;
-  function chapter(title, tag, list) {
-    const heading = make(tag, {id: "chapter-" + (++nChapters)}, title);
-    const entry = make("li", {}, make("a", {href: "#" + heading.id}, title));
-    list.append(entry);
-    return {heading, entry};
-  }
-
-  function addFigures(main) {
-    for (const [section, ofSection] of grouped(report.figures, "section")) {
-      const {heading, entry} = chapter(section || "Plots", "h2", contents);
-      main.append(heading);
-      const sublist = make("ul");
-      entry.append(sublist);
-      for (const [group, figures] of grouped(ofSection, "group")) {
-        if (group) main.append(chapter(group, "h3", sublist).heading);
-        main.append(make("div", {class: "figures"}, ...figures.map(figureNode)));
-      }
-    }
-  }
-
-  function summaryNode() {
-    return make("dl", {class: "summary"}, ...report.summary.flatMap((line) => [
-      make("dt", {}, line.label), make("dd", {}, printed(line.text))]));
-  }
-
-  function addTables(main) {
-    const tables = report.tables.filter((table) => !table.detail);
-    if (!tables.length && !report.paragraphs.length) return;
-    main.append(chapter("Results", "h2", contents).heading, ...tables.map(titledTable),
-                make("ul", {}, ...report.paragraphs.map((text) => make("li", {}, text))));
-  }
-
-  function addRest(main) {
-    if (report.decisions.length) {
-      main.append(chapter("Choices", "h2", contents).heading, tableNode(decisionTable(report.decisions)));
-    }
-    const details = report.tables.filter((table) => table.detail && table.rows.length);
-    if (details.length) main.append(chapter("Details", "h2", contents).heading, ...details.map(detailTable));
-  }
-
-  function warningsNode() {
-    return make("section", {class: "warnings"}, make("h2", {}, "Warnings"),
-                make("ul", {}, ...report.warnings.map((text) => make("li", {}, text))));
-  }
-
-  function build() {
-    const title = report.title || "What is in the logs";
-    document.title = title + " - cablefit";
-    const main = make("main");
-    if (report.warnings.length) main.append(warningsNode());
-    if (report.summary.length) main.append(chapter("In short", "h2", contents).heading, summaryNode());
-    addTables(main);
-    addFigures(main);
-    addRest(main);
-    document.body.append(make("div", {class: "frame"},
-        make("header", {}, make("h1", {}, title),
-             make("p", {}, "Drag to zoom, double-click to go back; click a name in a legend to hide it, " +
-                           "double-click to see it alone. Curves and clouds are thinned for drawing " +
-                           "so that no peak is lost; fits use every row.")),
-        make("div", {class: "columns"}, make("nav", {"aria-label": "Contents"}, contents), main),
-        make("footer", {}, "cablefit " + report.version + ". Plots by plotly.js (MIT licence).")));
+  /** A link of the contents leads to something folded: it opens. */
+  function openTarget() {
+    const target = document.getElementById(location.hash.slice(1));
+    for (let node = target; node; node = node.parentElement) if (node.matches("details")) node.open = true;
   }
 
   /** Plots are drawn when they come near the screen, which keeps long pages quick to open. */
@@ -371,12 +236,15 @@
     for (const plot of plots) observer.observe(plot.place);
   }
 
+  const isWide = (plot) => plot.place.parentElement.classList.contains("wide");
   const kPaperWidth = 670;  // px, A4 within its margins
 
   function forPaper() {
     document.documentElement.classList.remove("dark");
-    for (const detail of document.querySelectorAll("details")) detail.open = true;
-    for (const plot of plots) draw(plot, false, plot.figure.wide ? kPaperWidth : kPaperWidth * 0.48);
+    for (const plot of plots) {
+      if (plot.place.closest("details:not([open])")) continue;  // what is folded is not printed
+      draw(plot, false, isWide(plot) ? kPaperWidth : kPaperWidth * 0.48);
+    }
   }
 
   function forScreen() {
@@ -385,8 +253,10 @@
   }
 
   document.documentElement.classList.toggle("dark", darkWanted.matches);
-  build();
+  plots.push(...[...document.querySelectorAll("figure[data-figure]")].map(prepare));
   drawWhenSeen();
+  openTarget();
+  addEventListener("hashchange", openTarget);
   darkWanted.addEventListener("change", forScreen);
   addEventListener("beforeprint", forPaper);
   addEventListener("afterprint", forScreen);

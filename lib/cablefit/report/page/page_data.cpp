@@ -6,9 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cablefit/base/base64.hpp"
+#include "cablefit/base/quote.hpp"
 #include "cablefit/report/documents/batch_figures.hpp"
-#include "cablefit/report/documents/escape.hpp"
-#include "cablefit/version.hpp"
+#include "cablefit/report/page/html_text.hpp"
+#include "cablefit/report/page/trace_look.hpp"
 
 namespace cablefit {
 namespace {
@@ -18,6 +19,9 @@ using Json = nlohmann::ordered_json;
 /// In the order of TraceStyle.
 constexpr const char* kStyles[] = {"line",  "broad",    "dashed", "points",
                                    "steps", "interval", "area"};
+
+/// As it is shown: symbols as in print.
+std::string shown(const std::string& text) { return pretty_symbols(printable(text)); }
 
 Json texts(const std::vector<std::string>& all) {
   Json list = Json::array();
@@ -36,15 +40,24 @@ Json numbers(const std::vector<double>& values) {
 }
 
 Json axis_json(const FigureAxis& axis) {
-  return {{"title", printable(axis.title)},
-          {"unit", printable(axis.unit)},
+  return {{"title", shown(axis.title)},
+          {"unit", pretty_unit(printable(axis.unit))},
           {"dates", axis.title == kDateAxis}};
 }
 
-Json trace_json(const Trace& trace) {
-  Json json = {{"name", printable(trace.name)},
+Json look_json(const TraceLook& look) {
+  return {{"colour", look.colour},
+          {"width", look.width},
+          {"dash", look.dash},
+          {"symbol", look.symbol},
+          {"symbols", look.n_symbols}};
+}
+
+Json trace_json(const Figure& figure, std::size_t k) {
+  const Trace& trace = figure.traces[k];
+  Json json = {{"name", shown(trace.name)},
                {"style", kStyles[static_cast<std::size_t>(trace.style)]},
-               {"series", trace.series}};
+               {"look", look_json(look_of(figure, k))}};
   if (trace.labels.empty()) {
     json["x"] = numbers(trace.x);
   } else {
@@ -60,34 +73,19 @@ Json trace_json(const Trace& trace) {
 Json figure_json(const Figure& figure) {
   Json json = {{"section", printable(figure.section)},
                {"group", printable(figure.group)},
-               {"title", printable(figure.title)},
-               {"caption", printable(figure.caption)},
+               {"title", shown(figure.title)},
                {"x", axis_json(figure.x)},
                {"y", axis_json(figure.y)},
                {"wide", figure.wide},
                {"traces", Json::array()},
                {"marks", Json::array()},
                {"notes", Json::array()}};
-  for (const Trace& trace : figure.traces) json["traces"].push_back(trace_json(trace));
+  for (std::size_t k = 0; k < figure.traces.size(); ++k)
+    json["traces"].push_back(trace_json(figure, k));
   for (const Mark& mark : figure.marks)
     json["marks"].push_back({{"x", mark.x}, {"text", printable(mark.text)}});
   for (const Note& note : figure.notes)
     json["notes"].push_back({{"x", note.x}, {"y", note.y}, {"text", printable(note.text)}});
-  return json;
-}
-
-Json table_json(const Table& table) {
-  Json json = {{"title", printable(table.title)},
-               {"detail", table.detail},
-               {"columns", Json::array()},
-               {"rows", Json::array()},
-               {"notes", texts(table.notes)}};
-  for (const Column& column : table.columns)
-    json["columns"].push_back({{"group", printable(column.group)},
-                               {"title", printable(column.title)},
-                               {"unit", printable(column.unit)},
-                               {"text", column.is_text}});
-  for (const auto& row : table.rows) json["rows"].push_back(texts(row));
   return json;
 }
 
@@ -126,22 +124,7 @@ std::string packed(const std::vector<double>& values, double base) {
 }
 
 std::string page_data(const Document& document) {
-  Json json = {{"version", kVersion},
-               {"title", printable(document.title)},
-               {"summary", Json::array()},
-               {"tables", Json::array()},
-               {"paragraphs", texts(document.paragraphs)},
-               {"decisions", Json::array()},
-               {"warnings", texts(document.warnings)},
-               {"figures", Json::array()}};
-  for (const SummaryLine& line : document.summary)
-    json["summary"].push_back({{"label", printable(line.label)}, {"text", printable(line.text)}});
-  for (const Table& table : document.tables) json["tables"].push_back(table_json(table));
-  for (const DecisionLine& line : document.decisions)
-    json["decisions"].push_back({{"where", texts(line.where)},
-                                 {"name", printable(line.name)},
-                                 {"value", printable(line.value)},
-                                 {"reason", printable(line.reason)}});
+  Json json = {{"figures", Json::array()}};
   for (const Figure& figure : document.figures) json["figures"].push_back(figure_json(figure));
   return for_script(json.dump());
 }

@@ -1,4 +1,4 @@
-// A document as the JSON that the page's script draws.
+// The figures of a document as the JSON that the page's script draws.
 #pragma once
 
 #include <string>

@@ -6,6 +6,8 @@
 #include "cablefit/base/base64.hpp"
 #include "cablefit/base/digest.hpp"
 #include "cablefit/base/error.hpp"
+#include "cablefit/report/page/html_text.hpp"
+#include "cablefit/report/page/page_body.hpp"
 #include "cablefit/report/page/page_data.hpp"
 #include "cablefit/report/page/page_parts.hpp"
 #include "cablefit/report/writers/writers.hpp"
@@ -47,8 +49,11 @@ std::string write_html(const Document& document) {
   const std::string data = page_data(document);
   const std::string scripts = allowed(page_parts::plotly()) + " " + allowed(page_parts::script());
   // Content is never searched for places: it may hold anything.
-  const std::array<Filling, 5> fillings = {{{"{{allowed}}", scripts},
+  const std::string title = html_text(page_title(document)), body = page_body(document);
+  const std::array<Filling, 7> fillings = {{{"{{allowed}}", scripts},
+                                            {"{{title}}", title},
                                             {"{{style}}", page_parts::style()},
+                                            {"{{body}}", body},
                                             {"{{data}}", data},
                                             {"{{plotly}}", page_parts::plotly()},
                                             {"{{script}}", page_parts::script()}}};

@@ -1,0 +1,26 @@
+#include "cablefit/figure/explained.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace cablefit {
+
+std::string explained_percent(double squares, double residual_squares) {
+  if (!(squares > 0) || !std::isfinite(residual_squares)) return "-";
+  const double rest = 100 * residual_squares / squares;
+  if (rest >= 100) return "0 %";
+  // Two digits of the rest: 99.983 says more than 100.0.
+  constexpr double kMostDecimals = 4;
+  const double decimals = rest > 0 ? std::floor(1 - std::log10(rest)) : kMostDecimals;
+  return fmt::format("{:.{}f} %", 100 - rest,
+                     static_cast<int>(std::clamp(decimals, 0.0, kMostDecimals)));
+}
+
+std::string Explained::about_mean() const {
+  const double mean_squares = n_ > 0 ? sum_ * sum_ / static_cast<double>(n_) : 0;
+  return explained_percent(squares_ - mean_squares, residual_squares_);
+}
+
+}  // namespace cablefit

@@ -1,0 +1,32 @@
+#include <algorithm>
+#include <array>
+
+#include "cablefit/report/documents/document.hpp"
+
+namespace cablefit {
+namespace {
+
+/// Verdicts that are not grey, by their first words.
+struct KnownVerdict {
+  std::string_view begins;
+  Tone tone;
+};
+
+constexpr std::array kKnown{
+    KnownVerdict{"passed", Tone::good},      KnownVerdict{"FAILED", Tone::bad},
+    KnownVerdict{"equal", Tone::good},       KnownVerdict{"different, within", Tone::neutral},
+    KnownVerdict{"different", Tone::bad},    KnownVerdict{"identifiable", Tone::good},
+    KnownVerdict{"identified", Tone::good},  KnownVerdict{"not identifiable", Tone::bad},
+    KnownVerdict{"unexplained", Tone::bad},  KnownVerdict{"holds", Tone::good},
+    KnownVerdict{"does not hold", Tone::bad}};
+
+}  // namespace
+
+Tone tone_of(std::string_view verdict) {
+  const auto found = std::find_if(kKnown.begin(), kKnown.end(), [&](const KnownVerdict& known) {
+    return verdict.starts_with(known.begins);
+  });
+  return found == kKnown.end() ? Tone::neutral : found->tone;
+}
+
+}  // namespace cablefit
