@@ -95,6 +95,10 @@ SeenEquation see_equation(const DynamicJob& job, const EquationRows& rows, std::
     seen.plan.about =
         "Measured: the torque that the cables (by this model of stage 1) and the load put on the "
         "link. Predicted: what inertia and friction need.";
+  if (side == Side::motor)
+    seen.plan.about =
+        "Explained: of the squared torque that inertia and friction have to explain, the motor's "
+        "without that of the cables.";
   seen.plan.unit = preload.linear_motion ? "N" : "N m";
   seen.plan.same_measured = side != Side::link;
   for (std::size_t m = 0; m < solutions.size(); ++m) {
@@ -105,8 +109,11 @@ SeenEquation see_equation(const DynamicJob& job, const EquationRows& rows, std::
     const LinearSolution& solution = solutions[m][place];
     const std::string& model = preload.fits[m].model;
     const Eigen::Index left = see(seen, measured);
-    seen.plan.models.push_back(
-        {model, series_of(model), left, see(seen, solution.residual_combination), solution.rms()});
+    const auto& errors = preload.fits[m].torque_error;
+    const auto error = errors.find(rows.equation.name);
+    seen.plan.models.push_back({model, series_of(model), left,
+                                see(seen, solution.residual_combination), solution.rms(),
+                                error == errors.end() ? 0 : error->second.relative});
   }
   see_variables(seen, observed);
   return seen;

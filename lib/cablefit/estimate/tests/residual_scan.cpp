@@ -83,11 +83,18 @@ Trace ResidualScan::model_trace(std::size_t model, TraceStyle style) const {
   return new_trace(plan_.models[model].name, style, plan_.models[model].series);
 }
 
+std::string ResidualScan::explained(std::size_t model) const {
+  const double relative = plan_.models[model].relative;
+  return relative > 0 ? explained_percent(1, relative * relative)
+                      : scans_[model].explained.of_squares();
+}
+
 Figure ResidualScan::over_time(std::size_t first, std::size_t last, bool near) const {
   Figure figure = blank("Measured and predicted");
   if (!plan_.same_measured) figure.title += ", " + plan_.models[first].name;
   if (near) figure.title += ", close-up";
-  if (!near) figure.rank = FigureRank::main;
+  // A torque that each model sees differently is no measure of a model.
+  if (!near) figure.rank = plan_.same_measured ? FigureRank::main : FigureRank::shown;
   figure.caption =
       near ? "Row by row, in the middle of the longest log; the line breaks where the fit "
              "leaves rows out."
@@ -101,8 +108,7 @@ Figure ResidualScan::over_time(std::size_t first, std::size_t last, bool near) c
   (near ? any.near_measured : any.measured).draw(figure.traces.back());
   for (std::size_t m = first; m < last; ++m) {
     figure.traces.push_back(model_trace(m, TraceStyle::line));
-    if (!near)
-      figure.traces.back().name += fmt::format(", {} explained", scans_[m].explained.of_squares());
+    if (!near) figure.traces.back().name += fmt::format(", {} explained", explained(m));
     (near ? scans_[m].near_predicted : scans_[m].predicted).draw(figure.traces.back());
   }
   return figure;

@@ -34,6 +34,8 @@ struct ScannedModel {
   Eigen::Index measured = 0;  ///< left side of the equation, N m
   Eigen::Index residual = 0;  ///< measured minus what the model says
   double rms = 0;             ///< of the residual, by which the histogram is scaled
+  /// Residual over the torque that the fit has to explain, rms; 0: over `measured`.
+  double relative = 0;
 };
 
 /// What residuals are plotted against.
@@ -75,6 +77,7 @@ class ResidualScan {
   };
   /// Ranked as a diagnostic.
   Figure blank(const std::string& title) const;
+  std::string explained(std::size_t model) const;
   Figure over_time(std::size_t first, std::size_t last, bool near) const;
   Figure residual_over_time() const;
   Figure distribution() const;

@@ -201,13 +201,13 @@ enum class Detail { full, over_time };
 
 /// The equation in which the gap shows: that of the effect, else that where the model misses most.
 bool shows_gap(const RefineResult& result, RowKind kind) {
-  std::string_view equation;
+  std::string_view equation = to_string(result.elastic_only ? RowKind::blocked : RowKind::motor);
   if (!result.where.empty()) equation = result.where.front().equation;
   if (!result.effects.empty() && result.effects.front().instance.effect != nullptr) {
     const std::string_view side = to_string(result.effects.front().instance.effect->site);
     if (side == to_string(RowKind::link) || side == to_string(RowKind::motor)) equation = side;
   }
-  return equation.empty() || equation == to_string(kind);
+  return equation == to_string(kind);
 }
 
 void add_residuals(const BeforeAfter& rows, const std::string& section, Detail detail,

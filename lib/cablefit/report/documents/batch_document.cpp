@@ -103,8 +103,13 @@ Headline headline_of(const BatchResult& result, const Headline& dynamic) {
   Headline headline;
   headline.word = is_bad ? kFailed : n_gates > 0 ? "passed" : "fitted";
   headline.tone = is_bad ? Tone::bad : Tone::good;
-  headline.verdict = fmt::format("{} of {} cells failed", failed, n_cells);
-  if (n_gates > 0) headline.verdict += fmt::format(", {} of {} gates failed", closed, n_gates);
+  const auto add = [&headline](const std::string& text) {
+    headline.verdict += (headline.verdict.empty() ? "" : ", ") + text;
+  };
+  if (failed > 0) add(fmt::format("{} of {} cells failed", failed, n_cells));
+  if (closed > 0) add(fmt::format("{} of {} gates failed", closed, n_gates));
+  if (!is_bad) add(fmt::format("all {} cells fitted", n_cells));
+  if (!is_bad && n_gates > 0) add(fmt::format("all {} gates passed", n_gates));
   headline.numbers = {{"cells fitted", fmt::format("{} of {}", n_cells - failed, n_cells)}};
   if (n_gates > 0)
     headline.numbers.push_back(

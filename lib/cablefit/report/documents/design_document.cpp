@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cablefit/report/documents/document_parts.hpp"
 #include "cablefit/report/documents/numbers.hpp"
@@ -280,7 +282,7 @@ void add_excitation(const DesignResult& result, Document& document) {
                              100 * plan.motion.torque_share, plan.limits.max_torque,
                              torque_unit(result.linear_motion))});
   document.tables.push_back(excitation_table(plan));
-  document.figures.insert(document.figures.end(), plan.figures.begin(), plan.figures.end());
+  add_figures(document, plan.figures);
   add_decisions(document, result.preload, plan.decisions);
   for (const PlannedParameter& p : plan.fit.parameters) {
     const auto add = [&](const std::string& name, double value) {
@@ -306,13 +308,19 @@ void add_sweep(const DesignResult& result, Document& document) {
   add_detail(document, cost_table(words));
   add_detail(document, friction_table(words));
   add_detail(document, tension_table(words));
-  document.figures = result.figures;
+  add_figures(document, result.figures);
   add_tidy_rows(words, document);
 }
 
-/// From the first to the last design of the sweep.
-std::string range_text(double first, double last, const std::string& unit) {
-  const std::string from = few(first), to = few(last);
+/// Least and largest among the designs of the sweep.
+template <typename Number>
+std::string range_text(const DesignResult& result, const std::string& unit, Number number) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const DesignPoint& point : result.points) {
+    least = std::min(least, number(point.joints.front()));
+    most = std::max(most, number(point.joints.front()));
+  }
+  const std::string from = few(least), to = few(most);
   return (from == to ? from : from + " .. " + to) + " " + unit;
 }
 
@@ -320,16 +328,16 @@ Headline headline_of(const DesignResult& result) {
   Headline headline;
   if (!result.points.empty()) {
     const Words words(result);
-    const DesignJoint &first = result.points.front().joints.front(),
-                      &last = result.points.back().joints.front();
     if (!result.needed.empty()) headline.verdict = needed_text(words, result.needed.front());
-    headline.numbers = {{"all cables taut up to",
-                         range_text(first.closure_torque, last.closure_torque, words.torque)},
-                        {"stiffness without load",
-                         range_text(first.stiffness_zero, last.stiffness_zero, words.stiffness)},
-                        {"largest error of a linear spring",
-                         range_text(first.model("linear").max_error, last.model("linear").max_error,
-                                    words.torque)}};
+    headline.numbers = {
+        {"all cables taut up to",
+         range_text(result, words.torque, [](const DesignJoint& j) { return j.closure_torque; })},
+        {"stiffness without load",
+         range_text(result, words.stiffness,
+                    [](const DesignJoint& j) { return j.stiffness_zero; })},
+        {"largest error of a linear spring",
+         range_text(result, words.torque,
+                    [](const DesignJoint& j) { return j.model("linear").max_error; })}};
   } else if (result.excitation) {
     const ExcitationPlan& plan = *result.excitation;
     headline.verdict = fmt::format("record {} of {:g} s", plan.shape, plan.limits.duration);

@@ -4,8 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "cablefit/report/documents/figure_units.hpp"
 #include "cablefit/report/documents/numbers.hpp"
 
 namespace cablefit {
@@ -77,7 +79,7 @@ void add_detail(Document& document, Table table) {
 }
 
 void add_figures(Document& document, const std::vector<Figure>& figures) {
-  document.figures.insert(document.figures.end(), figures.begin(), figures.end());
+  for (const Figure& figure : figures) document.figures.push_back(in_table_units(figure));
 }
 
 void lead_with(Document& document, std::size_t n) {
@@ -97,6 +99,11 @@ std::string joined_numbers(const std::vector<std::string>& numbers) {
   constexpr std::size_t kFew = 2;
   if (numbers.size() > kFew) return numbers.front() + " ... " + numbers.back();
   return fmt::format("{}", fmt::join(numbers, " / "));
+}
+
+std::string headline_value(const Estimate& e) {
+  constexpr double kFourDigits = 1e-2;  // sd of a value with them, see value_text
+  return value_text(e.value, std::max(e.sd, kFourDigits * std::abs(e.value)));
 }
 
 void append(Document& all, const Document& part) {

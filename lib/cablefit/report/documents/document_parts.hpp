@@ -37,6 +37,7 @@ void add_detail(Document& document, Table table);
 /// All of a document behind another, but for its title and summary.
 void append(Document& all, const Document& part);
 
+/// In the units of the tables.
 void add_figures(Document& document, const std::vector<Figure>& figures);
 
 /// Leaves so many main figures, the first; without any the first figures become it.
@@ -44,6 +45,9 @@ void lead_with(Document& document, std::size_t n);
 
 /// A number of a headline of every one of a few things: "1 / 2", of more the first and the last.
 std::string joined_numbers(const std::vector<std::string>& numbers);
+
+/// At most four digits of an estimate, fewer where its sd is larger.
+std::string headline_value(const Estimate& e);
 
 /// Columns and one row of the table of rows used.
 Table counts_table();

@@ -301,7 +301,7 @@ void add_inertia(const DynamicResult& result, Headline& headline) {
       const DynamicFit* best = better_fit(preload);
       const Estimate* e = best == nullptr ? nullptr : find_estimate(best->parameters, name);
       if (e == nullptr || !e->not_identifiable.empty()) continue;
-      values.push_back(value_with_sd(e->value, e->sd));
+      values.push_back(headline_value(*e));
       unit = e->unit;
     }
     if (values.empty()) continue;

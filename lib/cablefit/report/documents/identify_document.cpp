@@ -285,7 +285,7 @@ Headline headline_of(const IdentifyResult& result) {
     const auto add = [&](const std::vector<Estimate>& all) {
       const Estimate* e = find_estimate(all, name);
       if (e == nullptr || !e->not_identifiable.empty()) return;
-      values.push_back(value_with_sd(e->value, e->sd));
+      values.push_back(headline_value(*e));
       unit = e->unit;
     };
     add(result.parameters);

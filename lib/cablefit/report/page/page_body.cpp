@@ -159,11 +159,12 @@ class PageBody {
   std::string summary() const {
     std::string html;
     for (const SummaryLine& line : document_.summary) {
-      const Tone tone = tone_of(line.label);
-      html +=
-          fmt::format("<dt>{}</dt><dd>{}</dd>\n",
-                      tone == Tone::neutral ? html_text(line.label) : badge_html(line.label, tone),
-                      html_text(pretty_cell(line.text)));
+      if (line.text == document_.headline.verdict) continue;  // said above
+      const bool is_bad = tone_of(line.label) == Tone::bad;
+      html += fmt::format("<dt{}>{}</dt><dd>{}</dd>\n",
+                          line.label.starts_with(' ') ? " class=\"sub\"" : "",
+                          is_bad ? badge_html(line.label, Tone::bad) : html_text(line.label),
+                          html_text(pretty_cell(line.text)));
     }
     return html.empty() ? "" : "<dl class=\"summary\">\n" + html + "</dl>\n";
   }

@@ -12,6 +12,7 @@ namespace cablefit {
 namespace {
 
 constexpr std::size_t kLongCell = 60;  // characters, from which on it is broken into lines
+constexpr std::size_t kLongKey = 20;   // the same for the first column on a phone
 
 std::string group_row(const std::vector<Column>& columns) {
   std::string row;
@@ -47,12 +48,12 @@ std::string head_html(const std::vector<Column>& columns) {
   return "<thead>" + head + "</tr></thead>";
 }
 
-std::string cell_html(const Column& column, const std::string& cell) {
-  const bool is_long = n_characters(cell) > kLongCell;
-  const char* kind = column.is_text && is_long ? " class=\"text long\""
-                     : column.is_text          ? " class=\"text\""
-                     : is_long                 ? " class=\"long\""
-                                               : "";
+std::string cell_html(const Column& column, const std::string& cell, bool is_first) {
+  const std::size_t n = n_characters(cell);
+  std::string kind = column.is_text ? " text" : "";
+  if (n > kLongCell) kind += " long";
+  if (is_first && n > kLongKey) kind += " key";
+  if (!kind.empty()) kind = fmt::format(" class=\"{}\"", kind.substr(1));
   const bool is_badge = column.is_verdict && !cell.empty() && cell != "-";
   return fmt::format("<td{}>{}</td>", kind,
                      is_badge ? badge_html(cell, tone_of(cell)) : html_text(pretty_cell(cell)));
@@ -72,7 +73,8 @@ std::string table_html(const Table& table) {
   html += "<div class=\"scroll\" tabindex=\"0\"><table>" + head_html(table.columns) + "<tbody>\n";
   for (const auto& row : table.rows) {
     html += "<tr>";
-    for (std::size_t k = 0; k < row.size(); ++k) html += cell_html(table.columns[k], row[k]);
+    for (std::size_t k = 0; k < row.size(); ++k)
+      html += cell_html(table.columns[k], row[k], k == 0);
     html += "</tr>\n";
   }
   html += "</tbody></table></div>\n";

@@ -14,9 +14,9 @@
 namespace cablefit {
 namespace {
 
-constexpr double kWidth = 720, kHeight = 330;
+constexpr double kWidth = 560, kHeight = 300;
 constexpr double kLeft = 64, kRight = 12, kBottom = 46;
-constexpr double kLegendRow = 18, kCharacter = 6.6;  // px, of 12 px text
+constexpr double kLegendRow = 18, kCharacter = 7.2;  // px, of 12 px text
 constexpr int kTicks = 6;
 
 /// A colour of page.css, and what it is where that is not there.
@@ -88,12 +88,13 @@ std::string axis_text(const FigureAxis& axis) {
 
 /// 6 px wide, around its middle.
 std::string symbol_at(std::string_view symbol, double x, double y) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kShapes{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kShapes{
       {{"square", "m-3-3h6v6h-6z"},
        {"diamond", "m0-4l4 4l-4 4l-4-4z"},
        {"triangle-up", "m0-4l4 7h-8z"},
        {"x", "m-3-3l6 6m0-6l-6 6"},
-       {"cross", "m-4 0h8m-4-4v8"}}};
+       {"cross", "m-4 0h8m-4-4v8"},
+       {"star", "m-4 0h8m-6-3.5l4 7m0-7l-4 7"}}};
   std::string_view shape = "m-3 0a3 3 0 1 0 6 0a3 3 0 1 0-6 0";
   for (const auto& [name, path] : kShapes)
     if (name == symbol) shape = path;
@@ -124,6 +125,7 @@ class Drawing {
            {&figure.traces[k].y, &figure.traces[k].low, &figure.traces[k].high})
         for (const double value : *values) y.add(value);
     }
+    for (const Mark& mark : figure.marks) x.add(mark.x);
     x_ = labels_.empty()
              ? x.scale(kLeft, kWidth - kRight, 0)
              : Scale{-0.5, static_cast<double>(labels_.size()) - 0.5, kLeft, kWidth - kRight};

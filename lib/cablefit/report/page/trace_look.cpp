@@ -11,9 +11,9 @@ constexpr std::size_t kFewPoints = 16;     // may have no neighbour to be joined
 constexpr std::size_t kDensePoints = 600;  // on which dashes cannot be seen
 constexpr std::size_t kSymbolsOfLine = 9;
 constexpr std::array<const char*, kSeries> kDashes{
-    "", "", "9px,3px", "3px,3px", "9px,3px,2px,3px", "14px,4px", "14px,4px,2px,4px"};
-constexpr std::array<const char*, kSeries> kSymbols{"circle",      "circle", "square", "diamond",
-                                                    "triangle-up", "x",      "cross"};
+    "1px,2px", "", "9px,3px", "3px,3px", "9px,3px,2px,3px", "14px,4px", "14px,4px,2px,4px"};
+constexpr std::array<const char*, kSeries> kSymbols{"circle", "square", "diamond", "triangle-up",
+                                                    "x",      "cross",  "star"};
 
 bool is_line(const Trace& trace) { return trace.style == TraceStyle::line && trace.series >= 0; }
 
