@@ -54,8 +54,8 @@ export class Browser {
     });
   }
 
-  /** A page at a URL, loaded; `dark`: for readers who prefer that. */
-  async open(url, {dark = false, width = 1280, height = 900} = {}) {
+  /** A page at a URL, loaded; `dark`: for readers who prefer that; `scripts`: whether the page's run. */
+  async open(url, {dark = false, width = 1280, height = 900, scripts = true} = {}) {
     const {targetId} = await this.send("Target.createTarget", {url: "about:blank"});
     const {sessionId} = await this.send("Target.attachToTarget", {targetId, flatten: true});
     const page = new Page(this, targetId, sessionId);
@@ -63,6 +63,7 @@ export class Browser {
     await page.send("Emulation.setDeviceMetricsOverride", {width, height, deviceScaleFactor: 1, mobile: false});
     await page.send("Emulation.setEmulatedMedia",
                     {features: [{name: "prefers-color-scheme", value: dark ? "dark" : "light"}]});
+    await page.send("Emulation.setScriptExecutionDisabled", {value: !scripts});
     const loaded = page.once("Page.loadEventFired");
     await page.send("Page.navigate", {url});
     await loaded;

@@ -33,6 +33,10 @@ const kCommands = {
   identify: () => ["identify", "--recursive", "--out", "identify-out",
                    ...at("low/blocked.csv", "low/moving_load30.csv", "high/blocked.csv", "high/moving_load30.csv")],
   simulate: () => ["simulate", "cablefit-out/dynamic.json", ...at("low/moving_load30.csv", "low/blocked.csv")],
+  refine: () => ["refine", ...at("low/blocked.csv", "low/moving_load30.csv", "low/moving_load-40.csv"),
+                 "--draws", "8", "--out", "refine-out"],
+  design: () => ["design", "cablefit-out/dynamic.json", "--preload", "high", "--torque", "20", "--out", "design-out"],
+  compare: () => ["compare", "cablefit-out/dynamic.json", "cablefit-out/dynamic.json", "--preload", "low", "high"],
   batch: () => ["batch", ...at("campaign_strict.json")],
   fleet: () => ["batch", fleet(), "--out", "fleet-out"]
 };
@@ -66,6 +70,9 @@ const kWanted = {
   rigid: {"Measured and predicted": 1, ...counted(kResidualTitles, 1)},
   identify: {"Elastic torque of each cable": 2, "Force closure and disclosure over q and θ": 2, "Profile likelihood of l_o[1]": 2, "Profile likelihood of l_o[2]": 2, K1_0: 1, J_link: 2},
   simulate: {"Measured and simulated q": 2, "Measured and simulated q, close-up": 2, "Measured and simulated θ": 2, "Gap of q": 2, "Gap of θ": 2},
+  refine: {"Mean residual against speed": 1, "Measured and simulated θ − q": 1},
+  design: {"Elastic torque": 1, Stiffness: 1},
+  compare: {"Difference B − A, in per cent of A": 1},
   batch: {K: 1, J_link: 1, "Torque against deflection": 2, "Torque error over time": 6},
   fleet: {K: 2, J_link: 2, "f_v": 2}
 };
@@ -82,6 +89,12 @@ function assertQuiet(page) {
   assert.deepEqual(page.errors, []);
   assert.deepEqual(page.requests.slice(1).filter((url) => !/^(data|blob):/.test(url)), []);
 }
+
+/** Folded plots have no size: everything is opened before all of it is drawn. */
+const kDrawAll = `(() => {
+  for (const fold of document.querySelectorAll("details")) fold.open = true;
+  return cablefitReport.drawAll().then(() => true);
+})()`;
 
 /** Everything that is wrong with the plots as they are drawn, in words. */
 const kComplaints = `(() => {
@@ -124,7 +137,7 @@ before(() => {
     try {
       cablefit(...words(), "--report", `${name}.html`);
     } catch (error) {
-      if (name !== "batch" || error.status !== 1) throw error;  // its gates fail, on purpose
+      if (!["batch", "compare"].includes(name) || error.status !== 1) throw error;  // gates fail, on purpose
     }
   }
 });
@@ -138,7 +151,7 @@ for (const name of Object.keys(kCommands)) {
   test(`${name}: every plot is drawn`, async () => {
     assert.ok(statSync(inFolder(`${name}.html`)).size < kMostBytes);
     const page = await open(`${name}.html`);
-    await page.evaluate("cablefitReport.drawAll().then(() => true)");
+    await page.evaluate(kDrawAll);
     const titles = await page.evaluate('[...document.querySelectorAll("figure strong")].map((s) => s.textContent)');
     for (const [title, times] of Object.entries(kWanted[name])) {
       assert.equal(titles.filter((one) => one === title).length, times, title);
@@ -148,13 +161,127 @@ for (const name of Object.keys(kCommands)) {
   });
 }
 
+const kScreens = [[1400, 900], [390, 844]];
+const kMostBeforeFold = 20;
+
+for (const name of Object.keys(kCommands)) {
+  for (const [width, height] of kScreens) {
+    test(`${name}: the first plot is on the first screen of ${width} px, and nothing sticks out`, async () => {
+      const page = await open(`${name}.html`, {width, height});
+      const {first, head, overflow, nShown} = await page.evaluate(`(() => {
+        const figures = [...document.querySelectorAll("figure[data-figure]")];
+        const box = (node) => { const b = node.getBoundingClientRect(); return {top: b.top, bottom: b.bottom}; };
+        return {first: box(figures[0].querySelector(".plot")), head: box(document.querySelector(".verdict")),
+                overflow: document.documentElement.scrollWidth - innerWidth,
+                nShown: figures.filter((node) => !node.closest("details")).length};
+      })()`);
+      assert.ok(first.top > head.bottom - 1, "the verdict is not above the plot");
+      assert.ok(first.bottom <= height, `the plot ends at ${first.bottom} px`);
+      assert.equal(overflow, 0);
+      assert.ok(nShown <= kMostBeforeFold, `${nShown} figures before the fold`);
+    });
+  }
+}
+
+test("refine begins with the gap: two plots before any table", async () => {
+  const page = await open("refine.html");
+  const titles = await page.evaluate(`[...document.querySelectorAll("figure")]
+      .filter((figure) => !document.querySelector("table") ||
+          figure.compareDocumentPosition(document.querySelector("table")) & Node.DOCUMENT_POSITION_FOLLOWING)
+      .map((figure) => figure.querySelector("strong").textContent)`);
+  assert.match(titles[0], /^Mean residual against/);
+  assert.match(titles[1], /^Measured and simulated/);
+});
+
+test("batch says FAILED before anything else", async () => {
+  const page = await open("batch.html");
+  const text = await page.evaluate('document.querySelector(".short").innerText');
+  assert.match(text, /^In short\s+FAILED/);
+  const gates = await page.evaluate('[...document.querySelectorAll("td .badge")].map((node) => [node.textContent, node.className])');
+  assert.ok(gates.some(([text, kind]) => text === "passed" && kind === "badge good"));
+  assert.ok(gates.some(([text, kind]) => text === "FAILED" && kind === "badge bad"));
+});
+
+/** WCAG 2: relative luminance and contrast of two colours. */
+function contrast(a, b) {
+  const luminance = (text) => colour(text).map((v) => v / 255)
+      .map((v) => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
+      .reduce((sum, v, k) => sum + v * [0.2126, 0.7152, 0.0722][k], 0);
+  const [low, high] = [luminance(a), luminance(b)].sort((x, y) => x - y);
+  return (high + 0.05) / (low + 0.05);
+}
+
+test("badges are readable in light and dark", async () => {
+  for (const dark of [false, true]) {
+    const page = await open("batch.html", {dark});
+    const badges = await page.evaluate(`["good", "bad", "neutral", "warning"].map((kind) => {
+      const badge = document.createElement("span");
+      badge.className = "badge " + kind;
+      document.body.append(badge);
+      const style = getComputedStyle(badge);
+      return [kind, style.color, style.backgroundColor];
+    })`);
+    for (const [kind, ink, ground] of badges) assert.ok(contrast(ink, ground) >= 4.5, `${kind}: ${ink} on ${ground}`);
+  }
+});
+
+test("without JavaScript: all text, the tables and the main plot", async () => {
+  const page = await open("dynamic.html", {scripts: false});
+  const {root} = await page.send("DOM.getDocument", {depth: -1});
+  const find = async (selector) => (await page.send("DOM.querySelectorAll", {nodeId: root.nodeId, selector})).nodeIds;
+  assert.ok((await find("table tbody td")).length > 50);
+  assert.equal((await find("figure.main svg")).length, 1);
+  const [svg] = await find("figure.main svg");
+  const {model} = await page.send("DOM.getBoxModel", {nodeId: svg});
+  assert.ok(model.width > 300 && model.height > 150, "the plot has no room");
+  // Places of plots that nobody draws are not shown.
+  const [other] = await find("figure:not(.main)");
+  await assert.rejects(page.send("DOM.getBoxModel", {nodeId: other}));
+});
+
+test("the first column of a wide table stays on a phone", async () => {
+  const page = await open("check.html", {width: 390, height: 844});
+  const [before, after, moved] = await page.evaluate(`(() => {
+    const table = document.querySelector("main .scroll");
+    const cell = table.querySelector("tbody td");
+    const before = cell.getBoundingClientRect().left;
+    table.scrollLeft = 200;
+    return [before, cell.getBoundingClientRect().left, table.scrollLeft];
+  })()`);
+  assert.ok(moved > 100, "the table does not scroll");
+  assert.ok(Math.abs(after - before) < 1, "the first column scrolls away");
+});
+
+test("a page says when, by what command and by which version it was made", async () => {
+  const page = await open("elastic.html");
+  const text = await page.evaluate('document.querySelector("header").innerText');
+  assert.match(text, /\d{4}-\d\d-\d\d · cablefit \d+\.\d+/);
+  assert.match(text, /cablefit elastic .*blocked\.csv .*--report elastic\.html/);
+  const made = (...threads) => {
+    execFileSync(program, ["elastic", ...at("low/blocked.csv"), "--quiet", "--report", "again.html", ...threads],
+                 {cwd: folder, env: {...process.env, SOURCE_DATE_EPOCH: "86400"}, stdio: ["ignore", "ignore", "pipe"]});
+    return readFileSync(inFolder("again.html"), "utf8");
+  };
+  const once = made("--threads", "1");
+  assert.ok(once.includes("1970-01-02 · cablefit"));
+  assert.equal(made("--threads", "2"), once);
+});
+
+test("dynamic prints on few pages", async () => {
+  const page = await open("dynamic.html");
+  const pdf = await page.pdf();
+  assert.ok(pdf.length < 3e6, `${pdf.length} bytes`);
+  const nPages = pdf.toString("latin1").match(/\/Type\s*\/Page\b/g).length;
+  assert.ok(nPages <= 8, `${nPages} pages`);
+});
+
 test("plots appear as the reader comes to them, and links of the contents lead there", async () => {
   const page = await open("dynamic.html");
   const nDrawn = "cablefitReport.plots.filter((plot) => plot.isDrawn).length";
   const nAll = await page.evaluate("cablefitReport.plots.length");
   assert.ok(await page.evaluate(nDrawn) < nAll);
   await page.evaluate('document.documentElement.style.scrollBehavior = "auto"; ' +
-                      '[...document.querySelectorAll("nav a")].at(-3).click(); ' +
+                      '[...document.querySelectorAll("nav a")].at(-4).click(); ' +
                       "new Promise((done) => setTimeout(done, 1500))");
   const seen = await page.evaluate("cablefitReport.plots.filter(({place}) => { " +
       "const box = place.getBoundingClientRect(); return box.bottom > 0 && box.top < innerHeight; })" +
@@ -257,7 +384,7 @@ test("dark for readers who like it dark, light on paper", async () => {
 test("a map names its regions, readable in light and dark", async () => {
   for (const dark of [false, true]) {
     const page = await open("preloaded.html", {dark});
-    await page.evaluate("cablefitReport.drawAll().then(() => true)");
+    await page.evaluate(kDrawAll);
     const maps = await page.evaluate(`cablefitReport.plots.filter(({figure}) => figure.notes.length).map(({place}) => ({
       words: [...place.querySelectorAll(".annotation-text")].map((node) => node.textContent),
       ink: getComputedStyle([...place.querySelectorAll(".annotation-text")].at(-1)).fill,
@@ -276,7 +403,7 @@ test("a map names its regions, readable in light and dark", async () => {
 
 test("dates stand as far apart as they are, each bar at its own", async () => {
   const page = await open("fleet.html");
-  await page.evaluate("cablefitReport.drawAll().then(() => true)");
+  await page.evaluate(kDrawAll);
   const axis = await page.evaluate(`(() => {
     const plot = cablefitReport.plots.find(({figure}) => figure.x.dates && figure.title === "J_link");
     return {type: plot.place.layout.xaxis.type, range: plot.place.layout.xaxis.range,
@@ -312,7 +439,8 @@ test("nothing in a log gets to run", async () => {
   for (const command of ["check", "elastic"]) {
     cablefit(command, name, "--rig", "rig-of-it.json", "--out", "hostile-out", "--report", `hostile-${command}.html`);
     const page = await open(`hostile-${command}.html`);
-    await page.evaluate("cablefitReport.drawAll().then(() => new Promise((done) => setTimeout(done, 500)))");
+    await page.evaluate(kDrawAll);
+    await page.evaluate("new Promise((done) => setTimeout(done, 500))");
     assert.deepEqual(await page.evaluate(kComplaints), []);
     assertQuiet(page);
     assert.equal(await page.evaluate('document.querySelectorAll("img, b, [onclick], [onerror]").length'), 0);

@@ -151,16 +151,16 @@ TEST_CASE("without an effect there is no after") {
     }
 }
 
-TEST_CASE("fitted logs are shown in full, unseen ones over time") {
+TEST_CASE("fitted logs are shown in full, held-out ones over time") {
   const Fitted before = base();
-  std::size_t n_fitted = 0, n_unseen = 0;
+  std::size_t n_fitted = 0, n_held_out = 0;
   for (const Figure& figure : figures_of(before, with_stribeck(before))) {
     CHECK(figure.traces.front().y.size() > 0);
     if (figure.section == "Logs that were fitted") ++n_fitted;
-    if (figure.section == "Unseen logs") ++n_unseen;
+    if (figure.section == "Held-out logs") ++n_held_out;
   }
   CHECK(n_fitted > 3);
-  CHECK(n_unseen == 1);
+  CHECK(n_held_out == 1);
 }
 
 }  // namespace

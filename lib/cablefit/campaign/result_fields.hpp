@@ -66,7 +66,7 @@ template <class Archive>
 void fields(Archive& a, Figure& v) {
   a("section", v.section), a("group", v.group), a("title", v.title), a("caption", v.caption);
   a("x", v.x), a("y", v.y), a("traces", v.traces), a("marks", v.marks), a("notes", v.notes);
-  a("wide", v.wide);
+  a("wide", v.wide), a("rank", v.rank);
 }
 
 // Stage 1

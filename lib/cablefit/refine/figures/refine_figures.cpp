@@ -252,7 +252,7 @@ std::vector<Figure> refine_figures(const RefineResult& result, const BeforeAfter
                          changed ? models_with(test.after, test.x_after) : std::vector<Model>{});
     if (!figure.traces.empty()) figures.push_back(std::move(figure));
   }
-  add_residuals(test, "Unseen logs", Detail::over_time, result, figures);
+  add_residuals(test, "Held-out logs", Detail::over_time, result, figures);
   return figures;
 }
 

@@ -87,7 +87,7 @@ Figure simulated_figure(const TestLogs& test, const std::vector<Model>& before,
   if (part.log == nullptr) return figure;
   const Model& first = before[part.model];
   const std::string log = std::filesystem::path(part.log->plan.path).filename().string();
-  figure.section = "Unseen logs";
+  figure.section = "Held-out logs";
   figure.title = fmt::format("Measured and simulated {}", first.rigid ? "theta" : "theta - q");
   figure.caption =
       fmt::format("{}{}, which no fit has read. Explained: share of the square about the mean.",

@@ -151,6 +151,7 @@ Figure difference_figure(const CompareResult& result) {
   figure.caption =
       "Bars: intervals that hold for all parameters together. One that leaves zero out is a "
       "difference.";
+  figure.x = {"parameter", ""};
   figure.y = {"difference", "%"};
   figure.wide = true;
   Trace trace{"B - A", TraceStyle::interval, 1, {}, {}, {}, {}, {}};

@@ -13,12 +13,10 @@ struct KnownVerdict {
 };
 
 constexpr std::array kKnown{
-    KnownVerdict{"passed", Tone::good},      KnownVerdict{"FAILED", Tone::bad},
-    KnownVerdict{"equal", Tone::good},       KnownVerdict{"different, within", Tone::neutral},
-    KnownVerdict{"different", Tone::bad},    KnownVerdict{"identifiable", Tone::good},
-    KnownVerdict{"identified", Tone::good},  KnownVerdict{"not identifiable", Tone::bad},
-    KnownVerdict{"unexplained", Tone::bad},  KnownVerdict{"holds", Tone::good},
-    KnownVerdict{"does not hold", Tone::bad}};
+    KnownVerdict{"passed", Tone::good},         KnownVerdict{"FAILED", Tone::bad},
+    KnownVerdict{"equal", Tone::good},          KnownVerdict{"different, within", Tone::neutral},
+    KnownVerdict{"different", Tone::bad},       KnownVerdict{"identifiable", Tone::good},
+    KnownVerdict{"not identifiable", Tone::bad}};
 
 }  // namespace
 

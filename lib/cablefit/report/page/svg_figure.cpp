@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "cablefit/report/page/html_text.hpp"
 #include "cablefit/report/page/trace_look.hpp"
