@@ -15,7 +15,7 @@ std::string explained_percent(double squares, double residual_squares) {
   if (rest < kNothing) return "100 %";
   // Two digits of the rest: 99.983 says more than 100.0.
   constexpr double kMostDecimals = 4;
-  const double decimals = std::floor(1 - std::log10(rest));
+  const double decimals = 1 - std::floor(std::log10(rest));
   return fmt::format("{:.{}f} %", 100 - rest,
                      static_cast<int>(std::clamp(decimals, 0.0, kMostDecimals)));
 }

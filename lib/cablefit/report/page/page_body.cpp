@@ -100,7 +100,7 @@ class PageBody {
  private:
   /// The id of a new chapter, which the contents list. `kind`: class of its entry.
   std::string chapter(const std::string& title, const char* kind = "") {
-    const std::string id = fmt::format("chapter-{}", ++n_chapters_);
+    std::string id = fmt::format("chapter-{}", ++n_chapters_);
     contents_ +=
         fmt::format("<li class=\"{}\"><a href=\"#{}\">{}</a></li>", kind, id, html_text(title));
     return id;

@@ -41,10 +41,10 @@ std::string colour_of(const Figure& figure, std::size_t k) {
 
 }  // namespace
 
-TraceLook look_of(const Figure& figure, std::size_t k) {
-  const Trace& trace = figure.traces[k];
+TraceLook look_of(const Figure& figure, std::size_t trace_number) {
+  const Trace& trace = figure.traces[trace_number];
   const auto series = static_cast<std::size_t>(std::max(0, trace.series)) % kSeries;
-  TraceLook look{colour_of(figure, k)};
+  TraceLook look{colour_of(figure, trace_number)};
   look.symbol = kSymbols[series];
   switch (trace.style) {
     case TraceStyle::broad:

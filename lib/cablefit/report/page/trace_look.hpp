@@ -20,7 +20,6 @@ struct TraceLook {
 
 inline constexpr std::size_t kEveryPoint = 1u << 20;
 
-/// Of the trace of this number.
-TraceLook look_of(const Figure& figure, std::size_t trace);
+TraceLook look_of(const Figure& figure, std::size_t trace_number);
 
 }  // namespace cablefit
