@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "cablefit/report/documents/figure_units.hpp"
 #include "cablefit/report/page/html_text.hpp"
 #include "cablefit/report/page/page_body.hpp"
 #include "cablefit/report/page/page_data.hpp"
@@ -112,6 +113,23 @@ TEST_CASE("units and symbols look as in print") {
   CHECK(pretty_unit("10^-12 ^") == "10^-12 ^");
   CHECK(pretty_symbols("tau_load, theta - q, taut, tau") == "τ_load, θ − q, taut, τ");
   CHECK(pretty_cell("1.0 +- 0.1 -> 2") == "1.0 ± 0.1 → 2");
+}
+
+TEST_CASE("deflections and gaps have the units of the tables, other positions their own") {
+  Figure figure;
+  figure.x = {"deflection theta - q", "rad"};
+  figure.y = {"gap of q", "m"};
+  figure.traces = {{"", TraceStyle::interval, 1, {0.001}, {0.002}, {0.001}, {0.003}, {}}};
+  figure.marks = {{0.004, ""}};
+  const Figure shown = in_table_units(figure);
+  CHECK(shown.x.unit == "mrad");
+  CHECK(shown.y.unit == "mm");
+  CHECK(shown.traces[0].x[0] == Approx(1));
+  CHECK(shown.traces[0].y[0] == Approx(2));
+  CHECK(shown.traces[0].high[0] == Approx(3));
+  CHECK(shown.marks[0].x == Approx(4));
+  figure.x = {"position q", "rad"};
+  CHECK(in_table_units(figure).x.unit == "rad");
 }
 
 TEST_CASE("series differ by more than their colour") {

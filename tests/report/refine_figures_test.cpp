@@ -120,6 +120,16 @@ TEST_CASE("the mean residual shows the effect, and its absence once it is added"
   CHECK(largest(mean.traces[2].y) < 0.1 * largest(mean.traces[0].y));
 }
 
+TEST_CASE("the gap against what reveals it comes first, diagnostics later") {
+  const Fitted before = base();
+  std::vector<std::string> first;
+  for (const Figure& figure : figures_of(before, with_stribeck(before))) {
+    if (figure.rank == FigureRank::main) first.push_back(figure.title);
+    if (figure.title.starts_with("Autocorrelation")) CHECK(figure.rank == FigureRank::detail);
+  }
+  CHECK(first == std::vector<std::string>{"Mean residual against speed"});
+}
+
 TEST_CASE("the residual over time is as large as its name says") {
   const Fitted before = base();
   const std::vector<Figure> figures = figures_of(before, with_stribeck(before));

@@ -97,8 +97,9 @@ SeenEquation see_equation(const DynamicJob& job, const EquationRows& rows, std::
         "link. Predicted: what inertia and friction need.";
   if (side == Side::motor)
     seen.plan.about =
-        "Explained: of the squared torque that inertia and friction have to explain, the motor's "
-        "without that of the cables.";
+        "Explained: share of the squared torque of inertia and friction. The torque of the cables "
+        "is "
+        "not counted.";
   seen.plan.unit = preload.linear_motion ? "N" : "N m";
   seen.plan.same_measured = side != Side::link;
   for (std::size_t m = 0; m < solutions.size(); ++m) {

@@ -98,7 +98,7 @@ std::vector<Figure> ReplayFigures::figures() const {
     Figure both = blank(signal);
     both.title = "Measured and simulated " + signal.name;
     both.rank = FigureRank::main;
-    both.caption = "Explained: share of the squared signal about its mean.";
+    both.caption = "Explained: share of the variance.";
     draw(both, signal.measured_line, "measured", kMeasured, TraceStyle::broad);
     draw(both, signal.simulated_line,
          fmt::format("simulated, {} explained", signal.explained.about_mean()), 2);

@@ -89,9 +89,8 @@ Figure simulated_figure(const TestLogs& test, const std::vector<Model>& before,
   const std::string log = std::filesystem::path(part.log->plan.path).filename().string();
   figure.section = "Held-out logs";
   figure.title = fmt::format("Measured and simulated {}", first.rigid ? "theta" : "theta - q");
-  figure.caption =
-      fmt::format("{}{}, which no fit has read. Explained: share of the square about the mean.",
-                  test.compared < 1 ? "The last part of " : "", log);
+  figure.caption = fmt::format("{}{}, which no fit has read. Explained: share of the variance.",
+                               test.compared < 1 ? "The last part of " : "", log);
   figure.x = {"time", "s"};
   figure.y = {first.rigid ? "motor position theta" : "deflection theta - q",
               first.rig.linear_motion ? "mm" : "mrad"};
