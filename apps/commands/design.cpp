@@ -118,8 +118,8 @@ void add_collision_options(CLI::App& app, DesignOptions& design) {
       "rig's sensor tau]");
   add_number(
       app, "--floor", "N_M", {0}, [&design](double floor) { design.floor = floor; },
-      "largest torque that even the cables get wrong, as stage 1 says; adds to every model's "
-      "error, for collisions [0]");
+      "largest torque error of the cables' model, as stage 1 says; adds to every model's error, "
+      "for collisions [0]");
   add_number(
       app, "--window", "S", {1e-4, 60}, [&design](double seconds) { design.window = seconds; },
       "over which a collision detector averages [0.05]");

@@ -102,7 +102,7 @@ moving.csv   closed loop    theta   mrad  0.00900  0.0403  15.752   0.00480     
                             tau     N m     0.310    1.29  9.9720      2.24          0.30
 blocked.csv  torque replay  q       mrad        0       0       0         -        0.0017
 relative: rms gap / rms of the measured signal about its mean; sensor noise: sd, rounding
-  included, what a perfect model in closed loop leaves
+  included: the gap of a perfect model in closed loop
 torque replay: the noise of the replayed torque adds to the gap of the positions, growing from the
   start of each window
 

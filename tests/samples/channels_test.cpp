@@ -79,17 +79,36 @@ TEST_CASE("what does not fit is told at its place", "[samples]") {
   CHECK(logs.message("t [N],theta,tau\n0,0,0\n") ==
         "log.csv:1:1: unit 'N' of column 't' is not a time's; correct the unit in the header or in "
         "the rig file");
-  CHECK(logs.message("theta,tau\n0,0\n") ==
-        "log.csv:1: no column 't' and no sample rate; name the time column 't' or map it in the "
-        "rig file, or give the rate by --rate HZ or \"sample_rate\" in the rig file; columns are "
-        "theta, tau");
+  CHECK(
+      logs.message("theta,tau\n0,0\n") ==
+      "log.csv:1: no column 't' and no sample rate; name the time column 't' or map it in a "
+      "rig file ('cablefit init' writes one), or give the rate by --rate HZ or \"sample_rate\" in "
+      "the rig file; columns are theta, tau");
+  CHECK(logs.message("# a comment\n\ntheta,tau\n0,0\n").starts_with("log.csv:3: no column 't'"));
+  CHECK(logs.message("t,theta,tau [A]\n0,0,0\n") ==
+        "log.csv:1:9: unit 'A' of column 'tau' is not a torque's; for a current give the torque "
+        "constant as \"scale\" (N m/A) and \"unit\": \"N m\" in the rig file");
   CHECK(logs.message("t,a,b\n0,0,0\n") ==
-        "log.csv:1: no column is called q, theta, w, tau or tau_load; rename columns or write a "
-        "rig file that maps them; columns are t, a, b");
+        "log.csv:1: no column is called q, theta, w, tau or tau_load; rename columns or map "
+        "them in a rig file ('cablefit init' writes one); columns are t, a, b");
   Rig rig = default_rig();
   rig.columns["tau"] = {"i_qq", 1, 0, ""};
   CHECK(logs.message("t,theta,i_q\n0,0,0\n", rig) ==
         "log.csv:1: no column 'i_qq', which the rig file names for tau; did you mean 'i_q'?");
+}
+
+TEST_CASE("times since an epoch are times since the log began", "[samples]") {
+  std::string text = "t [ns],q,theta,tau\n";
+  for (int i = 0; i < 40; ++i)
+    text += fmt::format("17000000000000{:05}000,{},{},0\n", 1000 * i, 1e-3 * i, 2e-3 * i);
+  Bench bench;
+  const LogSurvey& log = bench.add_text(text);
+  const PartSurvey& part = log.parts.at(0);
+  CHECK(part.t_first == 0);
+  CHECK_THAT(part.period, Catch::WithinRel(1e-3, 1e-9));
+  REQUIRE(!log.plan.decisions.empty());
+  CHECK(log.plan.decisions.back().name == "clock");
+  CHECK(log.plan.decisions.back().value == "from 1700000000 s on");
 }
 
 /// A log of t and theta, 2000 rows, each `step` after the one before.

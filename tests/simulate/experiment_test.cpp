@@ -72,7 +72,8 @@ TEST_CASE("closed loop with a controller whose reference is in the log", "[simul
   CHECK(decision(experiment, "torque hold") == "none");
   REQUIRE(experiment.warnings.size() == 1);
   CHECK(experiment.warnings[0] ==
-        "no tau_load column and no load law in the rig file: the load torque is taken as 0");
+        "no tau_load column and no load law in the rig file: the load torque is taken as 0; "
+        "give one as \"load\" in the rig file, {\"type\": \"none\"} where there is none");
 }
 
 TEST_CASE("else the torque is replayed, in windows", "[simulate]") {

@@ -186,7 +186,9 @@ void note_motion(const LogPlan& plan, bool trusted, CheckedPart& part) {
   }
   const bool has_load = plan.has(Channel::tau_load) || plan.rig.load.law != nullptr;
   if (!part.identifies.empty() && part.identifies.front() == "dynamic" && !has_load) {
-    warn("no tau_load column and no load law in the rig file: the load will be taken as 0");
+    warn(
+        "no tau_load column and no load law in the rig file: the load will be taken as 0; "
+        "give one as \"load\" in the rig file, {\"type\": \"none\"} where there is none");
   }
 }
 

@@ -90,7 +90,8 @@ void require_channels(const Model& model, const LogPlan& plan, const PartSurvey&
     require_in_every_joint(plan, Channel::tau_load, "the load that the rig file says is a column");
   } else if (!law && !model.rigid && !plan.has_for_all(Channel::tau_load)) {
     experiment.warnings.emplace_back(
-        "no tau_load column and no load law in the rig file: the load torque is taken as 0");
+        "no tau_load column and no load law in the rig file: the load torque is taken as 0; "
+        "give one as \"load\" in the rig file, {\"type\": \"none\"} where there is none");
   }
   (void)part;
 }

@@ -155,6 +155,8 @@ class ChannelsLayout final : public JsonLayout {
   void check_key(std::span<const std::string_view> known, KeySet& given, const std::string& in,
                  TextPosition at) const {
     if (std::find(known.begin(), known.end(), key_) == known.end()) {
+      if (key_ == "schema")
+        throw error(at, "this is a file of cablefit, not a log", "give a rig file by --rig FILE");
       throw error(at, "unknown key " + quoted(key_) + in, suggestion(key_, known));
     }
     if (!given.insert(key_).second) {

@@ -137,7 +137,7 @@ void tell_rivals_apart(const NextRunInput& input, RefineResult& result) {
       times(choice->difference / choice->floor));
 }
 
-/// "a, b from c, d", or "a, b apart".
+/// "a, b from c, d", or "a, b".
 std::string told_apart(const NotSeparable& group) {
   const auto is_left = [&](const std::string& name) {
     return std::find(group.still_together.begin(), group.still_together.end(), name) !=
@@ -145,7 +145,7 @@ std::string told_apart(const NotSeparable& group) {
   };
   std::vector<std::string> told, left;
   for (const std::string& name : group.effects) (is_left(name) ? left : told).push_back(name);
-  if (told.empty() || left.empty()) return fmt::format("{} apart", fmt::join(group.effects, ", "));
+  if (told.empty() || left.empty()) return fmt::format("{}", fmt::join(group.effects, ", "));
   return fmt::format("{} from {}", fmt::join(told, ", "), fmt::join(left, ", "));
 }
 
@@ -164,7 +164,7 @@ void tell_groups_apart(const NextRunInput& input, RefineResult& result) {
                    [number](const NotSeparable& group) { return group.run == number; });
   if (!result.next_experiment.empty()) result.next_experiment += "; then ";
   result.next_experiment += fmt::format(
-      "{}: it tells {}{}", text_of(run, result.linear_motion), told_apart(*asked),
+      "{}: it separates {}{}", text_of(run, result.linear_motion), told_apart(*asked),
       *most > 1 ? fmt::format(" ({} of {} groups of that kind)", *most, result.not_separable.size())
                 : "");
 }

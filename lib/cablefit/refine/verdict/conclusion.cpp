@@ -160,7 +160,7 @@ void conclude(RefineResult& result) {
   }
   const bool refused = !result.steps.empty();
   const std::string level =
-      fmt::format("the squared residual is {:.3g} times what the sensors' noise leaves", rho);
+      fmt::format("the squared residual is {:.3g} times that of the sensors' noise", rho);
   // At the floor there is nothing to explain, whatever was tried and refused.
   if (rho < (refused ? kNoGap : kRemainder)) {
     result.verdict = Verdict::none;

@@ -78,7 +78,7 @@ Table gap_table(const SimulateResult& result) {
   }
   table.notes = {
       "relative: rms gap / rms of the measured signal about its mean; sensor noise: sd, rounding "
-      "included, what a perfect model in closed loop leaves"};
+      "included: the gap of a perfect model in closed loop"};
   if (replayed) {
     table.notes.emplace_back(
         "torque replay: the noise of the replayed torque adds to the gap of the positions, growing "

@@ -176,10 +176,17 @@ LogPlan plan_columns(LogHeader header, const Rig& rig, const Reading& reading) {
   plan.run_column = column_of(plan.header, rig, "run");
   if (plan.slots.empty())
     throw input_error(
-        {plan.path, 1, 0}, "no column is called q, theta, w, tau or tau_load",
-        fmt::format("rename columns or write a rig file that maps them; columns are {}",
-                    names_of(plan.header)));
+        {plan.path, header_line(plan.header), 0},
+        "no column is called q, theta, w, tau or tau_load",
+        fmt::format(
+            "rename columns or map them in a rig file ('cablefit init' writes one); columns are {}",
+            names_of(plan.header)));
   return plan;
+}
+
+double LogPlan::time_origin(double first) const {
+  constexpr double kEpoch = 1e8;  // s: no log has run for three years
+  return std::abs(first * time_factor) > kEpoch ? first : 0;
 }
 
 std::vector<std::size_t> LogPlan::numeric_columns() const {

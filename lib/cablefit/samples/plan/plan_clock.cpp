@@ -132,10 +132,11 @@ void replace_time(LogPlan& plan, const GivenRate& given) {
 void require_rate(const LogPlan& plan) {
   if (plan.sample_rate > 0) return;
   throw input_error(
-      {plan.path, 1, 0}, "no column 't' and no sample rate",
-      fmt::format("name the time column 't' or map it in the rig file, or give the rate by "
-                  "--rate HZ or \"sample_rate\" in the rig file; columns are {}",
-                  names_of(plan.header)));
+      {plan.path, header_line(plan.header), 0}, "no column 't' and no sample rate",
+      fmt::format(
+          "name the time column 't' or map it in a rig file ('cablefit init' writes one), or "
+          "give the rate by --rate HZ or \"sample_rate\" in the rig file; columns are {}",
+          names_of(plan.header)));
 }
 
 void resolve_time_unit(LogPlan& plan) {

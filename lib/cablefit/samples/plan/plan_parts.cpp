@@ -70,6 +70,10 @@ std::optional<std::size_t> find_column(const LogHeader& header, std::string_view
   return std::nullopt;
 }
 
+std::uint64_t header_line(const LogHeader& header) {
+  return header.columns.empty() ? 1 : std::max<std::uint64_t>(1, header.columns.front().place.line);
+}
+
 std::string names_of(const LogHeader& header) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < std::min<std::size_t>(header.columns.size(), 20); ++k)
@@ -99,6 +103,8 @@ std::optional<std::size_t> column_of(const LogHeader& header, const Rig& rig,
                    : find_column(header, channel);
 }
 
+bool is_current_unit(const std::string& text) { return text == "A" || text == "mA"; }
+
 Unit checked_unit(const std::string& text, const Place& place, const Dimension& expected,
                   std::string_view what, std::string_view quantity) {
   Unit unit;
@@ -109,7 +115,9 @@ Unit checked_unit(const std::string& text, const Place& place, const Dimension& 
   }
   if (unit.dimension != expected)
     throw input_error(place, fmt::format("unit '{}' of {} is not {}'s", text, what, quantity),
-                      "correct the unit in the header or in the rig file");
+                      is_current_unit(text) ? "for a current give the torque constant as \"scale\" "
+                                              "(N m/A) and \"unit\": \"N m\" in the rig file"
+                                            : "correct the unit in the header or in the rig file");
   return unit;
 }
 

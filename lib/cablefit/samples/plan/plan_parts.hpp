@@ -23,6 +23,8 @@ std::optional<std::size_t> find_column(const LogHeader& header, std::string_view
 
 /// The first names of a log's columns, for messages.
 std::string names_of(const LogHeader& header);
+/// The line of its first column.
+std::uint64_t header_line(const LogHeader& header);
 
 /// Where the rig file maps the channel to a column that is not there: the error that says so.
 std::optional<Error> absent_column(const LogHeader& header, const Rig& rig,

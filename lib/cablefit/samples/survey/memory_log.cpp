@@ -55,6 +55,11 @@ void integrate(const Eigen::VectorXd& t, Eigen::Ref<Eigen::VectorXd> values) {
   }
 }
 
+Eigen::VectorXd time_of(const LogPlan& plan, const Eigen::VectorXd& stamps) {
+  const double origin = plan.time_origin(stamps(0));
+  return plan.time_factor * (stamps.array() - origin).matrix();
+}
+
 }  // namespace
 
 LogSurvey survey_memory(const std::string& name, std::span<const MemoryColumn> columns,
@@ -67,10 +72,9 @@ LogSurvey survey_memory(const std::string& name, std::span<const MemoryColumn> c
   part.preload = rig.preload.empty() ? "default" : rig.preload;
   part.phase_given = false;
   part.rows.resize(n, static_cast<Eigen::Index>(plan.slots.size()) + 1);
-  part.rows.col(0) =
-      plan.time_column
-          ? Eigen::VectorXd(plan.time_factor * values_of(columns[*plan.time_column]))
-          : Eigen::VectorXd::LinSpaced(n, 0, static_cast<double>(n - 1) / plan.sample_rate);
+  part.rows.col(0) = plan.time_column ? time_of(plan, values_of(columns[*plan.time_column]))
+                                      : Eigen::VectorXd::LinSpaced(
+                                            n, 0, static_cast<double>(n - 1) / plan.sample_rate);
   for (std::size_t k = 0; k < plan.slots.size(); ++k) {
     const Slot& slot = plan.slots[k];
     auto column = part.rows.col(static_cast<Eigen::Index>(k) + 1);

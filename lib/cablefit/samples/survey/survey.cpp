@@ -99,6 +99,10 @@ class LogScan {
 
   LogSurvey result(std::string sha256) {
     LogSurvey survey{plan_, std::move(sha256), n_rows_, {}, std::move(samples_)};
+    if (time_origin_ != 0)
+      survey.plan.decisions.push_back(
+          {"clock", fmt::format("from {:.12g} s on", time_origin_ * plan_.time_factor),
+           "the first time of the log, which counts from an epoch: times are those since then"});
     for (PartScan& scan : scans_) {
       survey.parts.push_back(scan.result(plan_));
       require_usable(survey.parts.back(), plan_);
@@ -115,7 +119,8 @@ class LogScan {
     };
     rows_.resize(n, static_cast<Eigen::Index>(1 + plan_.slots.size()));
     if (plan_.time_column) {
-      rows_.col(0) = column(0) * plan_.time_factor;
+      if (n_rows_ == 0) time_origin_ = plan_.time_origin(chunk.numbers[0].front());
+      rows_.col(0) = (column(0) - time_origin_) * plan_.time_factor;
     } else {
       for (std::size_t i = 0; i < chunk.n_rows; ++i)
         rows_(static_cast<Eigen::Index>(i), 0) =
@@ -219,6 +224,7 @@ class LogScan {
   std::shared_ptr<SampleStore> samples_;
   std::vector<PartScan> scans_;
   std::size_t current_ = 0, n_rows_ = 0;
+  double time_origin_ = 0;
   Eigen::MatrixXd rows_;  // of one chunk, [t, slots]
   struct {
     double t = kUnbounded, rate = 0, value = 0;

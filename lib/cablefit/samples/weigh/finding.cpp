@@ -40,13 +40,14 @@ std::string mending_line(const LogPlan& plan, Channel channel, int joint, double
   if (mapping.shift != 0) more += fmt::format(", \"shift\": {:g}", mapping.shift * factor);
   if (!mapping.unit.empty()) more += fmt::format(", \"unit\": \"{}\"", mapping.unit);
   return fmt::format(
-      "\"{}\": {{\"column\": \"{}\", \"scale\": {:.4g}{}}} in the rig file's columns", name,
+      "write \"{}\": {{\"column\": \"{}\", \"scale\": {:.4g}{}}} in the rig file's columns", name,
       column_name(plan, channel, joint), mapping.scale * factor, more);
 }
 
 std::string mending_unit(const LogPlan& plan, Channel channel, int joint, std::string_view unit) {
-  return fmt::format("\"{}\": {{\"column\": \"{}\", \"unit\": \"{}\"}} in the rig file's columns",
-                     weighed_name(plan, channel, joint), column_name(plan, channel, joint), unit);
+  return fmt::format(
+      "write \"{}\": {{\"column\": \"{}\", \"unit\": \"{}\"}} in the rig file's columns",
+      weighed_name(plan, channel, joint), column_name(plan, channel, joint), unit);
 }
 
 std::uint64_t line_of_row(const LogPlan& plan, std::size_t row) {

@@ -239,7 +239,7 @@ void weigh_range(const Logs& logs, const CoarsePart& part, Findings& findings) {
          fmt::format("{} moves {:.3g} rad{}: degrees, or another column?",
                      weighed_name(plan, channel, j), range,
                      blocked ? " against a blocked link" : ""),
-         fmt::format("\"unit\": \"deg\" of {} and {} in the rig file's columns",
+         fmt::format("write \"unit\": \"deg\" of {} and {} in the rig file's columns",
                      weighed_name(plan, Channel::q, j), weighed_name(plan, Channel::theta, j))});
   }
 }
