@@ -10,7 +10,7 @@ jobs="$(nproc)"
 build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libceres-dev libcli11-dev
                 nlohmann-json3-dev libfmt-dev libfast-float-dev zlib1g-dev libzstd-dev libssl-dev
                 libtinyxml2-dev catch2 npm help2man)
-test_packages=(nodejs chromium liborocos-kdl-dev libkdl-parser-dev hunspell hunspell-en-gb)
+test_packages=(nodejs chromium liborocos-kdl-dev hunspell hunspell-en-gb)
 fuzz_packages=(clang-14 libclang-rt-14-dev)
 declare -A step_packages=([format]=clang-format-14 [readme]="python3 hunspell hunspell-en-gb"
                           [tidy]=clang-tidy-14 [sanitize]=chromium)

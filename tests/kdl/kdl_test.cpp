@@ -1,26 +1,17 @@
-// Serial arms against numbers that KDL computed: kdl_parser and urdfdom read the URDF, KDL's
-// recursive Newton-Euler algorithm gives the torques.
+// Serial arms against numbers that KDL computed by its recursive Newton-Euler algorithm.
 #include <Eigen/SVD>
 #include <catch2/catch.hpp>
 #include <kdl/chainidsolver_recursive_newton_euler.hpp>
-#include <kdl_parser/kdl_parser.hpp>
 
 #include "cablefit/model/arm/serial_arm.hpp"
 #include "cablefit/model/rig.hpp"
+#include "tests/kdl/urdf_chain_of_kdl.hpp"
 #include "tests/support/plain_arm.hpp"
 #include "tests/support/serial_states.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace cablefit::test {
 namespace {
-
-KDL::Chain kdl_chain(const std::string& urdf, const std::string& base, const std::string& tip) {
-  KDL::Tree tree;
-  KDL::Chain chain;
-  REQUIRE(kdl_parser::treeFromString(urdf, tree));
-  REQUIRE(tree.getChain(base, tip, chain));
-  return chain;
-}
 
 KDL::JntArray joints_of(const Eigen::VectorXd& v) {
   KDL::JntArray array;
@@ -88,9 +79,6 @@ TEST_CASE("torques are KDL's: sliding joints") {
   std::string urdf = content_of(std::string(CABLEFIT_SOURCE) + "/tests/model/skew.urdf");
   for (const std::string turning : {"\"continuous\"", "\"revolute\""})
     urdf.replace(urdf.find(turning), turning.size(), "\"prismatic\"");
-  // The limit KDL's parser asks of a joint that slides.
-  const std::string axis = "<axis xyz=\"0 0.6 0.8\"/>";
-  urdf.insert(urdf.find(axis), "<limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/>");
   const KDL::Chain chain = kdl_chain(urdf, "world", "hand");
   const TempFolder folder;
   folder.write("arm.urdf", urdf);

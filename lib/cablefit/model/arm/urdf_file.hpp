@@ -1,7 +1,6 @@
 // Reading a URDF: an optional component, since only this needs an XML library. That is tinyxml2
 // alone and not urdfdom, which prints to stderr through a global of another library, names no lines
-// and has no limit on how deep elements nest; a test compares what is read with urdfdom and
-// kdl_parser.
+// and has no limit on how deep elements nest; a test compares the torques of arms with KDL's.
 #pragma once
 
 #include "cablefit/model/arm/urdf_tree.hpp"
