@@ -271,9 +271,10 @@ Eigen::MatrixXd residuals(SensitivePlant& plant, const OutputErrorWindow& window
   const auto n_compared = static_cast<Eigen::Index>((window.n_rows - 1) / settings.compare_every);
   Eigen::MatrixXd rows(n_compared * n, p + 1);
   Eigen::Index next = 0;
-  SensitiveState state;
+  SensitiveState state, exact;
   plant.restart();
-  RowStepper stepper(window, settings.steps);
+  SensitivePlant fine(plant.model(), {}, false);
+  RowStepper stepper(window, settings.smoothing_steps), fine_stepper(window, settings.steps);
   Covariance<N> covariance(window, noise);
   RowModel<N> model;
   // Deviation from the smoothed motion, by each parameter and (last) as it is.
@@ -283,8 +284,10 @@ Eigen::MatrixXd residuals(SensitivePlant& plant, const OutputErrorWindow& window
   typename Of<N>::AxisColumns error(n, p + 1);
   for (std::size_t row = 0; row + 1 < window.n_rows; ++row) {
     const auto at = static_cast<Eigen::Index>(row);
-    stepper.step(motion.state.col(at), row, motion.correction.col(at).data(), plant, state);
-    const PerState x = state_vector<N>(state);
+    const double* correction = motion.correction.col(at).data();
+    stepper.step(motion.state.col(at), row, correction, plant, state);
+    fine_stepper.step(motion.state.col(at), row, correction, fine, exact);
+    const PerState x = state_vector<N>(exact);
     if (!(x.cwiseAbs().maxCoeff() < kLargestState)) return {};
     read_model(plant, state, window.period, model);
     loosen_at_rest(plant, window, noise, motion.state.col(at), state, model);

@@ -29,8 +29,8 @@ struct NoiseLevels {
 /// How a window is stepped through and looked at.
 struct FilterSettings {
   int steps = 4;  ///< per row, of the simulation that is held against the log
-  /// Of the one that motions are smoothed with, and likelihoods made of. Residuals are exact
-  /// whatever motion they are linear about, as long as it is near.
+  /// Of the one that motions are smoothed with, and likelihoods and derivatives made of. Residuals
+  /// are exact whatever motion they are linear about, as long as it is near.
   int smoothing_steps = 4;
   /// Every so many rows positions are compared. Where force noise moves an axis less than the
   /// position noise from row to row, the fastest differences say nothing of the parameters but
