@@ -66,7 +66,8 @@ void add_reading_options(CLI::App& app, Reading& reading) {
 }
 
 void add_log_options(CLI::App& app, CommonOptions& options) {
-  app.add_option("LOG", options.logs, "logs: CSV or JSON, also .gz and .zst")->type_name("");
+  app.add_option("LOG", options.logs, "logs: CSV or JSON, also .gz and .zst; - is standard input")
+      ->type_name("");
   app.add_option("--rig", options.rig, "rig file; default: rig.json beside each log")
       ->type_name("FILE");
   app.add_option("--preload", options.preload, "only this preload")->type_name("NAME");

@@ -10,6 +10,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/read_progress.hpp"
+#include "cablefit/base/standard_input.hpp"
 
 namespace cablefit {
 namespace {
@@ -26,18 +27,23 @@ ssize_t read_uninterrupted(int descriptor, char* to, std::size_t n_bytes) {
   return n_read;
 }
 
+int open_for_reading(const std::string& path) {
+  if (path == kStandardInput) return open_standard_input();
+  return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+}
+
 }  // namespace
 
 FileStamp stamp_of(const std::string& path) {
   struct stat status {};
+  if (path == kStandardInput) return {};  // nobody writes to its copy
   if (::stat(path.c_str(), &status) != 0) throw_cannot_read(path);
   return {status.st_dev, status.st_ino, static_cast<std::uint64_t>(status.st_size),
           status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
 }
 
 FileReader::FileReader(std::string path)
-    : path_(std::move(path)),
-      descriptor_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
+    : path_(std::move(path)), descriptor_(open_for_reading(path_)) {
   if (descriptor_ < 0) throw_cannot_read(path_);
   struct stat status {};
   if (::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode)) {
