@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <system_error>
 
 #include "cablefit/base/error.hpp"
 
@@ -13,7 +14,8 @@ void require_distinct(std::span<const GivenLogs> given) {
   std::map<std::filesystem::path, std::string> option_of;
   for (const GivenLogs& logs : given)
     for (const std::string& path : logs.paths) {
-      const auto whole = std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+      std::error_code ignored;  // a path that is none is told when it is read
+      const auto whole = std::filesystem::weakly_canonical(path, ignored);
       const auto [same, is_new] = option_of.emplace(whole, logs.option);
       if (is_new) continue;
       if (same->second == logs.option)

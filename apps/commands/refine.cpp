@@ -353,11 +353,12 @@ int run_refine(const Arguments& arguments) {
   require_enough_draws(command.refine);
 
   const RefineResult result = run(command);
-  std::vector<ResultFile> files = files_of(result);
+  const std::vector<std::string> model_names = model_file_names(result);
+  std::vector<ResultFile> files = files_of(result, "refine.json", model_names);
   if (!command.excite.empty() && result.next_run)
     files.push_back(
         {std::filesystem::absolute(command.excite).string(), excite_csv(*result.next_run)});
-  deliver(command.common, refine_document(result, model_file_names(result)), files);
+  deliver(command.common, refine_document(result, model_names), files);
   if (!command.excite.empty() && !result.next_run)
     complain(fmt::format("{} was not written: no motion would separate more\n", command.excite));
   const std::vector<std::string> failed = failed_gates(command, result);

@@ -5,15 +5,6 @@
 #include "commands/file_names.hpp"
 
 namespace cablefit::apps {
-namespace {
-
-std::vector<std::string> preloads_of(const RefineResult& result) {
-  std::vector<std::string> preloads;
-  for (const Model& model : result.models) preloads.push_back(model.preload);
-  return preloads;
-}
-
-}  // namespace
 
 std::vector<ResultFile> files_of(const IdentifyResult& result) {
   std::vector<ResultFile> files = {{"identify.json", identify_json(result)}};
@@ -28,18 +19,23 @@ std::vector<ResultFile> files_of(const IdentifyResult& result) {
   return files;
 }
 
-std::vector<std::string> model_file_names(const RefineResult& result, bool beside_others) {
-  if (result.models.size() == 1 && !beside_others) return {"refined.json"};
-  return preload_file_names("refined", preloads_of(result));
+std::vector<std::string> names_by_preload(const std::string& stem,
+                                          const std::vector<std::string>& preloads) {
+  if (preloads.size() == 1) return {stem + ".json"};
+  return preload_file_names(stem, preloads);
 }
 
-std::vector<ResultFile> files_of(const RefineResult& result, bool beside_others) {
-  const std::vector<std::string> names = model_file_names(result, beside_others);
-  const std::string own =
-      beside_others ? preload_file_names("refine", preloads_of(result)).front() : "refine.json";
-  std::vector<ResultFile> files = {{own, refine_json(result, names)}};
-  for (std::size_t k = 0; k < names.size(); ++k)
-    files.push_back({names[k], model_json(result.models[k])});
+std::vector<std::string> model_file_names(const RefineResult& result) {
+  std::vector<std::string> preloads;
+  for (const Model& model : result.models) preloads.push_back(model.preload);
+  return names_by_preload("refined", preloads);
+}
+
+std::vector<ResultFile> files_of(const RefineResult& result, const std::string& name,
+                                 const std::vector<std::string>& model_names) {
+  std::vector<ResultFile> files = {{name, refine_json(result, model_names)}};
+  for (std::size_t k = 0; k < model_names.size(); ++k)
+    files.push_back({model_names[k], model_json(result.models[k])});
   return files;
 }
 

@@ -11,10 +11,13 @@ namespace cablefit::apps {
 
 /// identify.json, and a model file per preload whose dynamics were identified.
 std::vector<ResultFile> files_of(const IdentifyResult& result);
-/// "refined.json", or "refined_PRELOAD.json" of each of several preloads, or of one that stands
-/// `beside_others`.
-std::vector<std::string> model_file_names(const RefineResult& result, bool beside_others = false);
-/// refine.json (refine_PRELOAD.json beside others), and those models.
-std::vector<ResultFile> files_of(const RefineResult& result, bool beside_others = false);
+/// "STEM.json", or "STEM_PRELOAD.json" of each of several preloads.
+std::vector<std::string> names_by_preload(const std::string& stem,
+                                          const std::vector<std::string>& preloads);
+/// "refined.json", or "refined_PRELOAD.json" of each of several models.
+std::vector<std::string> model_file_names(const RefineResult& result);
+/// The result as `name`, and its models.
+std::vector<ResultFile> files_of(const RefineResult& result, const std::string& name,
+                                 const std::vector<std::string>& model_names);
 
 }  // namespace cablefit::apps

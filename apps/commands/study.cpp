@@ -57,7 +57,19 @@ StudyOptions options_of(const StudyCommand& command) {
 }
 
 /// Of every stage that has a result, behind that of the study itself.
-std::vector<ResultFile> files_of(const Study& study, const Document& document) {
+/// Of the entries of Study::refine: their results, and their models.
+struct RefineFiles {
+  std::vector<std::string> results, models;
+};
+
+RefineFiles refine_files_of(const Study& study) {
+  std::vector<std::string> preloads;
+  for (const Study::Missing& missing : study.refine) preloads.push_back(missing.preload);
+  return {names_by_preload("refine", preloads), names_by_preload("refined", preloads)};
+}
+
+std::vector<ResultFile> files_of(const Study& study, const RefineFiles& refine,
+                                 const Document& document) {
   std::vector<ResultFile> files;
   if (study.elastic) files.push_back({"elastic.json", elastic_json(*study.elastic)});
   if (study.dynamic) files.push_back({"dynamic.json", dynamic_json(*study.dynamic)});
@@ -65,8 +77,8 @@ std::vector<ResultFile> files_of(const Study& study, const Document& document) {
     for (ResultFile& file : more) files.push_back(std::move(file));
   };
   if (study.identify) add(apps::files_of(*study.identify));
-  for (const Study::Missing& missing : study.refine)
-    add(apps::files_of(missing.result, study.refine.size() > 1));
+  for (std::size_t k = 0; k < study.refine.size(); ++k)
+    add(apps::files_of(study.refine[k].result, refine.results[k], {refine.models[k]}));
   std::vector<std::string> names;
   for (const ResultFile& file : files) names.push_back(file.name);
   files.insert(files.begin(), {"study.json", study_json(study, document, names)});
@@ -101,11 +113,9 @@ int run_study(const Arguments& arguments) {
     display.rename(fmt::format("study: {}", stage));
   };
   const Study result = study(logs, test, settings);
-  std::vector<std::vector<std::string>> model_files;
-  for (const Study::Missing& missing : result.refine)
-    model_files.push_back(model_file_names(missing.result, result.refine.size() > 1));
-  const Document document = study_document(result, model_files);
-  deliver(options, document, files_of(result, document));
+  const RefineFiles refine = refine_files_of(result);
+  const Document document = study_document(result, refine.models);
+  deliver(options, document, files_of(result, refine, document));
   if (!result.elastic && !result.dynamic && !result.identify && result.refine.empty())
     throw Error(ErrorKind::not_identifiable, "no stage has a result; the reasons stand above");
   return 0;

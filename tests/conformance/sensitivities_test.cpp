@@ -59,7 +59,8 @@ std::vector<double> states(SensitivePlant& plant, const Start& start,
 /// changes by all of it within 1 mrad leave 1e-4 of the largest derivative.
 constexpr double kShare = 1e-4;
 
-void check_all(const Model& model, double amplitude) {
+/// `torque`: what the torques of the model are counted in, N m.
+void check_all(const Model& model, double amplitude, double torque = 1) {
   const std::vector<ModelParameter> moving = model_parameters(model);
   SensitivePlant plant(model, moving, true);
   const std::size_t n = plant.n_axes(), columns = plant.n_columns();
@@ -81,7 +82,8 @@ void check_all(const Model& model, double amplitude) {
                        : c < moving.size() + 2 * n ? &moved.velocity[c - moving.size() - n]
                                                    : &moved.extra[c - moving.size() - 2 * n];
     INFO((c < moving.size() ? moving[c].name : "input " + std::to_string(c - moving.size())));
-    const double step = 1e-6 * std::max(std::abs(*quantity), 0.1);
+    const bool is_torque = c < moving.size() || c >= moving.size() + 2 * n;
+    const double step = 1e-6 * std::max(std::abs(*quantity), is_torque ? 0.1 * torque : 0.1);
     *quantity += step;
     const std::vector<double> above = states(plant, moved, values, amplitude);
     const bool is_on_bound = c < moving.size() && *quantity == step;  // friction is not negative
@@ -109,6 +111,14 @@ TEST_CASE("sensitivities of every base effect are derivatives", "[conformance]")
   check_all(rigid_drive({0.2, 0.4, 0.3, 0.1}), 3);
   check_all(spring_joint({0.3, 0.5, 0.4}, {0.02, 0.3, 0.2, 0.1}, 900), 3);
   check_all(rigid_drive({0.2, 0.4, 0, 0.1}), 3);
+}
+
+TEST_CASE("sensitivities of a drive of micronewtons are derivatives", "[conformance]") {
+  const double micro = 1e-5;
+  check_all(rigid_drive({0.2 * micro, 0.4 * micro, 0.3 * micro, 0.1 * micro}), 3 * micro, micro);
+  check_all(spring_joint({0.3 * micro, 0.5 * micro, 0.4 * micro},
+                         {0.02 * micro, 0.3 * micro, 0, 0.1 * micro}, 900 * micro),
+            3 * micro, micro);
 }
 
 TEST_CASE("sensitivities of every cable law and routing are derivatives", "[conformance]") {

@@ -112,6 +112,8 @@ TEST_CASE("units and symbols look as in print") {
   CHECK(pretty_unit("kg m^2") == "kg m²");
   CHECK(pretty_unit("10^-12 ^") == "10^-12 ^");
   CHECK(pretty_symbols("tau_load, theta - q, taut, tau") == "τ_load, θ − q, taut, τ");
+  CHECK(pretty_symbols("theta of run_theta.csv, tau.json: tau") ==
+        "θ of run_theta.csv, tau.json: τ");
   CHECK(pretty_cell("1.0 +- 0.1 -> 2") == "1.0 ± 0.1 → 2");
 }
 
@@ -171,6 +173,20 @@ TEST_CASE("a figure as SVG: every trace, round ticks, nothing that is no number"
   CHECK(svg.find("inf") == std::string::npos);
   figure.traces.clear();  // nothing to draw is no reason to fail
   CHECK(svg_figure(figure).find("nan") == std::string::npos);
+}
+
+TEST_CASE("a plot of values that differ by rounding alone, far from 0, or with many names") {
+  Figure figure;
+  figure.traces = {
+      {"q", TraceStyle::line, 0, {0, 1, 2}, {0.1, std::nextafter(0.1, 1), 0.1}, {}, {}, {}}};
+  CHECK(count(svg_figure(figure), "</text>") < 30);  // it used to make ticks without end
+  figure.traces.front().y = {123456.1, 123456.9, 123456.5};
+  CHECK(svg_figure(figure).find(">123456.4</text>") != std::string::npos);
+  const Trace one{std::string(50, 'x'), TraceStyle::line, 0, {0, 1}, {0, 1}, {}, {}, {}};
+  figure.traces.assign(40, one);
+  const std::string svg = svg_figure(figure);
+  CHECK(svg.find(">+ 35 more</text>") != std::string::npos);
+  CHECK(count(svg, one.name) == 5);
 }
 
 TEST_CASE("the JSON of the page says what the figures say") {

@@ -92,15 +92,38 @@ DynamicOptions dynamic_options(const StudyOptions& given, bool is_elastic) {
   return options;
 }
 
+/// A log with several preloads, of those that share one with others.
+const LogSurvey& shared_log(std::span<const LogSurvey> logs, const std::string& preload) {
+  return *std::find_if(logs.begin(), logs.end(), [&](const LogSurvey& log) {
+    return has_preload(log, preload) && all_preloads({&log, 1}).size() > 1;
+  });
+}
+
+void require_fitted(std::span<const LogSurvey> logs, std::span<const LogSurvey> test) {
+  const std::vector<std::string> fitted = all_preloads(logs);
+  for (const LogSurvey& log : test)
+    for (const PartSurvey& part : log.parts)
+      if (std::find(fitted.begin(), fitted.end(), part.preload) == fitted.end())
+        throw input_error({log.plan.path},
+                          fmt::format("no log of preload '{}' is fitted", part.preload),
+                          "add one, or leave out this test log");
+}
+
 void add_refine(std::span<const LogSurvey> logs, std::span<const LogSurvey> test,
                 const StudyOptions& options, Stages& stages, Study& study) {
   const std::vector<std::vector<std::string>> groups = preload_groups(logs);
   for (const std::vector<std::string>& preloads : groups) {
     const std::string name =
         groups.size() > 1 ? fmt::format("refine of {}", fmt::join(preloads, ", ")) : "refine";
+    if (preloads.size() > 1) {
+      stages.skip(name, fmt::format("{} holds several preloads, and refine looks at one at a time; "
+                                    "split the log",
+                                    shared_log(logs, preloads.front()).plan.path));
+      continue;
+    }
     stages.run(name, [&] {
       const RefineLogs own{logs_with(logs, preloads), logs_with(test, preloads), {}};
-      study.refine.push_back({preloads, missing_effects(own, options.refine)});
+      study.refine.push_back({preloads.front(), missing_effects(own, options.refine)});
     });
   }
 }
@@ -141,6 +164,7 @@ Study study(std::span<const LogSurvey> given, std::span<const LogSurvey> given_t
                                    : logs_with(logs, {options.preload});
   };
   const std::vector<LogSurvey> logs = wanted(given), test = wanted(given_test);
+  require_fitted(logs, test);
   Study study;
   Stages stages(options, study);
   stages.run("check", [&] {

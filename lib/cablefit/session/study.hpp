@@ -30,10 +30,9 @@ struct Study {
   struct NotDone {
     std::string stage, reason;
   };
-  /// What refine answers of one preload: each has its friction. Of preloads that share a log, of
-  /// all of them together.
+  /// What refine answers of one preload: each has its friction.
   struct Missing {
-    std::vector<std::string> preloads;
+    std::string preload;
     RefineResult result;
   };
 
@@ -48,7 +47,7 @@ struct Study {
 
 /// `test`: logs that only the last stage reads, once, in its end; none: the last third of every
 /// moving log. A stage that the logs do not allow is no error, its reason is kept; the others go
-/// on. Throws Error(output) alone.
+/// on. Throws Error(input) for a test log of a preload that is not fitted, and Error(output).
 Study study(std::span<const LogSurvey> logs, std::span<const LogSurvey> test,
             const StudyOptions& options);
 

@@ -48,9 +48,8 @@ std::string obstacle(const EstimationTask& task, const Model& start) {
   if (job.arm != nullptr && job.arm->is_coupled())
     return "links that move each other are not simulated yet";
   if (job.rigid && !job.added.empty() && has_load(job))
-    return "the simulation by axes of a rigid drive does not separate a logged load from the "
-           "torque, "
-           "which effects beyond the paper's may need";
+    return "an added effect of a rigid drive may depend on its load, and output error adds the "
+           "logged load to the torque";
   for (const LogSurvey& log : job.logs) {
     if (std::none_of(log.parts.begin(), log.parts.end(), job.wanted)) continue;
     for (int joint = 0; joint < job.n_joints(); ++joint)

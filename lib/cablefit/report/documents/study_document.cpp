@@ -40,22 +40,37 @@ void add_answers(const std::string& label, std::size_t n_preloads, const Documen
   }
 }
 
-/// Of refine what a reader acts upon.
+/// Of refine what a reader acts upon. `of`: "low: ", or nothing.
 void add_verdict(const Document& refine, const std::string& of, bool is_named, Document& document) {
   for (const SummaryLine& line : refine.summary)
     if (line.label == "verdict")
       document.summary.push_back({"missing", of + line.text});
     else if (line.label == "next run")
-      document.summary.push_back({"record next", line.text});
+      document.summary.push_back({"record next", of + line.text});
     else if (is_named && (line.label == "effect" || line.label == "gap"))
-      document.summary.push_back(line);
+      document.summary.push_back({line.label, of + line.text});
 }
 
-/// The verdict of refine above the numbers of the fits.
-void add_missing(const Headline& refine, Headline& headline) {
+/// What is left to do, of several answers: a green one is the least.
+int urgency(const Headline& headline) {
+  switch (headline.tone) {
+    case Tone::good:
+      return 0;
+    case Tone::neutral:
+      return 1;
+    case Tone::bad:
+      break;
+  }
+  return 2;
+}
+
+/// The verdict of refine above the numbers of the fits; of several preloads the one that asks most
+/// of the reader.
+void add_missing(const Headline& refine, const std::string& of, bool is_first, Headline& headline) {
+  if (!is_first && urgency(refine) <= urgency(headline)) return;
   headline.word = refine.word;
   headline.tone = refine.tone;
-  headline.verdict = refine.verdict;
+  headline.verdict = of + refine.verdict;
 }
 
 /// The stages' tables, plots and warnings, behind each other.
@@ -65,13 +80,17 @@ class Appendix {
   Appendix(Document& document, std::string leader)
       : document_(document), leader_(std::move(leader)) {}
 
-  /// `is_shown`: its tables and plots are not all details, but for its main plots.
-  void add(const std::string& name, Document stage, bool is_shown) {
+  /// `is_shown`: its tables and plots are not all details, but for its main plots. `own_sections`:
+  /// another stage has plots of the same titles.
+  void add(const std::string& name, Document stage, bool is_shown, bool own_sections = false) {
     for (Figure& figure : stage.figures)
       if (figure.rank == FigureRank::main && name != leader_)
         figure.rank = FigureRank::shown;
       else if (!is_shown)
         figure.rank = FigureRank::detail;
+    if (own_sections)
+      for (Figure& figure : stage.figures)
+        figure.section = fmt::format("{}: {}", name, figure.section);
     for (Table& table : stage.tables) {
       table.detail = table.detail || !is_shown;
       if (!table.title.empty()) table.title = fmt::format("{}: {}", name, table.title);
@@ -101,8 +120,7 @@ class Appendix {
 
 }  // namespace
 
-Document study_document(const Study& study,
-                        const std::vector<std::vector<std::string>>& model_files) {
+Document study_document(const Study& study, const std::vector<std::string>& model_files) {
   Document document;
   document.title = "Study of the logs: how stiff, how heavy, how rough, and what is missing";
   Appendix appendix(document, study.dynamic ? "stage 2" : study.elastic ? "stage 1" : "check");
@@ -133,12 +151,12 @@ Document study_document(const Study& study,
   }
   for (std::size_t k = 0; k < study.refine.size(); ++k) {
     const Study::Missing& missing = study.refine[k];
-    const Document stage = refine_document(missing.result, model_files[k]);
+    const Document stage = refine_document(missing.result, {model_files[k]});
     const bool several = study.refine.size() > 1;
-    const std::string of = fmt::format("{}", fmt::join(missing.preloads, ", "));
-    if (k == 0) add_missing(stage.headline, document.headline);
-    add_verdict(stage, several ? of + ": " : "", !missing.result.effects.empty(), document);
-    appendix.add(several ? "refine of " + of : "refine", stage, false);
+    const std::string of = several ? missing.preload + ": " : "";
+    add_missing(stage.headline, of, k == 0, document.headline);
+    add_verdict(stage, of, !missing.result.effects.empty(), document);
+    appendix.add(several ? "refine of " + missing.preload : "refine", stage, false, several);
   }
   appendix.add_warnings();
   for (const Study::NotDone& stage : study.not_done)

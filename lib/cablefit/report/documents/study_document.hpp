@@ -9,8 +9,7 @@
 
 namespace cablefit {
 
-/// `model_files`: names of the models of each entry of Study::refine.
-Document study_document(const Study& study,
-                        const std::vector<std::vector<std::string>>& model_files);
+/// `model_files`: name of the model of each entry of Study::refine.
+Document study_document(const Study& study, const std::vector<std::string>& model_files);
 
 }  // namespace cablefit

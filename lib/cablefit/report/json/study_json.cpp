@@ -17,7 +17,7 @@ Json not_done_json(const Study::NotDone& stage) {
 }
 
 Json missing_json(const Study::Missing& missing) {
-  return Json{{"preloads", missing.preloads}, {"verdict", to_string(missing.result.verdict)}};
+  return Json{{"preload", missing.preload}, {"verdict", to_string(missing.result.verdict)}};
 }
 
 Json line_json(const SummaryLine& line) { return Json{{"label", line.label}, {"text", line.text}}; }
@@ -30,6 +30,11 @@ std::string study_json(const Study& study, const Document& document,
   if (study.check)
     for (const CheckedLog& log : study.check->logs)
       inputs.push_back({log.path, log.sha256, log.rows});
+  for (const Study::Missing& missing : study.refine)  // has read the test logs too
+    for (const InputFile& input : missing.result.inputs)
+      if (std::none_of(inputs.begin(), inputs.end(),
+                       [&](const InputFile& other) { return other.path == input.path; }))
+        inputs.push_back(input);
   Json json = report_json::header("study", inputs, document.warnings);
   json["files"] = files;
   json["verdicts"] = list_of(study.refine, missing_json);

@@ -24,16 +24,29 @@ std::string replaced(std::string_view text, std::string_view what, std::string_v
 constexpr std::array<std::string_view, 10> kPowers{"⁰", "¹", "²", "³", "⁴",
                                                    "⁵", "⁶", "⁷", "⁸", "⁹"};
 
-/// "tau" and "tau_load", but not within another word.
-std::string with_tau(std::string_view text) {
-  constexpr std::string_view kTau = "tau";
+/// Whether the word at `at` is the name of a file: it has a dot before a letter.
+bool is_in_file_name(std::string_view text, std::size_t at) {
+  const std::size_t space = text.rfind(' ', at);
+  const std::size_t begin = space == std::string_view::npos ? 0 : space + 1;
+  const std::string_view word = text.substr(begin, text.find(' ', at) - begin);
+  for (std::size_t i = 0; i + 1 < word.size(); ++i)
+    if (word[i] == '.' && is_word(word[i + 1]) && !is_digit(word[i + 1])) return true;
+  return false;
+}
+
+/// theta and tau in Greek, "tau" not within another word, and neither in the names of files.
+std::string with_greek(std::string_view text) {
+  constexpr std::string_view kTau = "tau", kTheta = "theta";
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const bool begins = i == 0 || !is_word(text[i - 1]);
     const std::string_view rest = text.substr(i);
-    if (begins && rest.starts_with(kTau) && (rest.size() == 3 || !is_lower(rest[3]))) {
-      result += "τ";
-      i += kTau.size() - 1;
+    const bool is_theta = rest.starts_with(kTheta);
+    const bool is_tau =
+        begins && rest.starts_with(kTau) && (rest.size() == 3 || !is_lower(rest[3]));
+    if ((is_theta || is_tau) && !is_in_file_name(text, i)) {
+      result += is_theta ? "θ" : "τ";
+      i += (is_theta ? kTheta : kTau).size() - 1;
     } else {
       result += text[i];
     }
@@ -81,7 +94,7 @@ std::string pretty_unit(std::string_view text) {
 }
 
 std::string pretty_symbols(std::string_view text) {
-  return replaced(with_tau(replaced(text, "theta", "θ")), " - ", " − ");
+  return replaced(with_greek(text), " - ", " − ");
 }
 
 std::string pretty_cell(std::string_view text) {

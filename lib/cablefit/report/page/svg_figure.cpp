@@ -19,6 +19,7 @@ namespace {
 constexpr double kWidth = 560, kHeight = 300;
 constexpr double kLeft = 64, kRight = 12, kBottom = 46;
 constexpr double kLegendRow = 18, kCharacter = 7.2;  // px, of 12 px text
+constexpr double kLowestLegend = 90;
 constexpr int kTicks = 6;
 
 /// A colour of page.css, and what it is where that is not there.
@@ -51,7 +52,9 @@ struct Extent {
   /// With some room; something even for no or one value.
   Scale scale(double from, double to, double room) const {
     if (!(high >= low)) return {0, 1, from, to};
-    const double span = high > low ? high - low : std::max(1.0, std::abs(low));
+    const double largest = std::max(std::abs(low), std::abs(high));
+    // Rounding is no range, and has no ticks.
+    const double span = high - low > 1e-9 * largest ? high - low : std::max(1.0, largest);
     return {low - room * span, high + room * span, from, to};
   }
 };
@@ -66,14 +69,18 @@ std::vector<double> ticks_of(const Scale& scale) {
       step = nice * power;
       break;
     }
+  const double first = std::ceil(scale.low / step);
   std::vector<double> ticks;
-  for (double k = std::ceil(scale.low / step); k * step <= scale.high; ++k)
-    ticks.push_back(k * step);
+  for (int k = 0; k <= 2 * kTicks && (first + k) * step <= scale.high; ++k)
+    ticks.push_back((first + k) * step);
   return ticks;
 }
 
-std::string tick_text(double value) {
-  std::string text = fmt::format("{:.6g}", value);
+/// With the digits that tell it from its neighbours.
+std::string tick_text(double value, double step) {
+  const double largest = std::max(std::abs(value), step);
+  const int digits = 2 + static_cast<int>(std::floor(std::log10(largest / step)));
+  std::string text = fmt::format("{:.{}g}", value, std::clamp(digits, 6, 15));
   return text.starts_with('-') ? "−" + text.substr(1) : text;
 }
 
@@ -160,14 +167,18 @@ class Drawing {
     const std::string grid =
         fmt::format("<path style=\"stroke:{};fill:none\" d=\"", colour("grid"));
     std::string lines, words;
-    for (const double tick : ticks_of(y_)) {
+    const auto step_of = [](const std::vector<double>& ticks) {
+      return ticks.size() > 1 ? ticks[1] - ticks[0] : 1;
+    };
+    const std::vector<double> across = ticks_of(x_), up = ticks_of(y_);
+    for (const double tick : up) {
       lines += fmt::format("M{:.1f} {:.1f}H{:.1f}", kLeft, y_(tick), right);
-      words += text_at(kLeft - 6, y_(tick) + 4, "end", tick_text(tick));
+      words += text_at(kLeft - 6, y_(tick) + 4, "end", tick_text(tick, step_of(up)));
     }
     if (labels_.empty())
-      for (const double tick : ticks_of(x_)) {
+      for (const double tick : across) {
         lines += fmt::format("M{:.1f} {:.1f}V{:.1f}", x_(tick), top_, bottom);
-        words += text_at(x_(tick), bottom + 16, "middle", tick_text(tick));
+        words += text_at(x_(tick), bottom + 16, "middle", tick_text(tick, step_of(across)));
       }
     for (std::size_t k = 0; k < labels_.size(); ++k) {
       words += text_at(x_(static_cast<double>(k)), bottom + 16 + (k % 2 == 0 ? 0.0 : 12.0),
@@ -286,6 +297,10 @@ class Drawing {
       if (x > kLeft && x + width > kWidth) {
         x = kLeft;
         y += kLegendRow;
+      }
+      if (y > kLowestLegend) {  // the plot needs the room
+        legend += text_at(kLeft, y, "start", fmt::format("+ {} more", figure_.traces.size() - k));
+        break;
       }
       TraceLook look = look_of(figure_, k);
       const bool has_line = figure_.traces[k].style != TraceStyle::points;

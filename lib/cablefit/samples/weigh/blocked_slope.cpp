@@ -8,6 +8,7 @@
 namespace cablefit::weighing {
 namespace {
 
+constexpr double kRounding = 1e-9;   // of theta: a smaller range is no motion
 constexpr double kClearSlope = 0.7;  // correlation of torque and deflection
 constexpr double kOtherUnit =
     5;  // ratio of the slopes of two logs; a cable that softens stays below
@@ -48,7 +49,9 @@ Findings blocked_slope(const Logs& logs) {
                        coarse_range(joint.theta), line.correlation),
            "read q from the column of the link's encoder; of a link that is blocked, give a column "
            "'phase' with 'blocked'"});
-    if (std::abs(line.correlation) < kClearSlope) continue;
+    const double middle = joint.theta.abs().maxCoeff();
+    const bool is_still = coarse_range(joint.theta) <= kRounding * middle;
+    if (is_still || std::abs(line.correlation) < kClearSlope) continue;
     if (line.slope < 0) {
       findings.push_back({part.log,
                           {},

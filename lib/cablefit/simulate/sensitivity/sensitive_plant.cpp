@@ -8,10 +8,26 @@ namespace {
 
 // What a copy is moved by. Rounding, 1e-16 of a state of 1, is 1e-6 of what the smallest of them
 // makes in a row of 1 ms at the least; curvature (a cable of twice the slope in 1 mrad) 1e-4.
-constexpr double kPosition = 1e-7, kVelocity = 1e-6, kForce = 1e-4;  // rad, rad/s, N m
-constexpr double kShare = 1e-6, kLeast = 1e-8;                       // of a parameter, and in SI
+// Torques go by inertias: a drive of micronewtons has the derivatives of a large one.
+constexpr double kPosition = 1e-7, kVelocity = 1e-6;        // rad, rad/s
+constexpr double kAcceleration = 1e-2;                      // rad/s^2, of a force
+constexpr double kShare = 1e-6;                             // of a parameter that is not 0
+constexpr double kLeastAcceleration = 1e-6, kLeast = 1e-8;  // else: per unit of motion; in SI
 
 std::size_t axes_of(const Model& model) { return model.joints.size() * (model.rigid ? 1 : 2); }
+
+bool is_shape(const Model& model, const ModelParameter& p) {
+  if (p.kind != ParameterKind::added) return false;
+  const auto& added = model.joints[static_cast<std::size_t>(p.joint)].added;
+  return p.index >= added[p.effect].effect->n_linear();
+}
+
+/// For a parameter that is 0. `inertia`: the smallest of the model.
+double least_move(const Model& model, const ModelParameter& p, double inertia) {
+  const bool is_length =
+      p.kind == ParameterKind::elongation || p.kind == ParameterKind::encoder_zero;
+  return is_length || is_shape(model, p) ? kLeast : kLeastAcceleration * inertia;
+}
 
 double larger_for(double unit, double value) { return unit * std::max(1.0, std::abs(value)); }
 
@@ -33,9 +49,13 @@ SensitivePlant::SensitivePlant(const Model& model, const std::vector<ModelParame
 void SensitivePlant::make_copies() {
   plant_ = Plant(model_, {}, false);
   copies_.clear();
+  double inertia = plant_.inertia(0);
+  for (std::size_t axis = 1; axis < n_axes_; ++axis)
+    inertia = std::min(inertia, plant_.inertia(axis));
   for (const ModelParameter& p : moving_) {
     const double value = parameter_value(model_, p);
-    const double moved = std::max(kShare * std::abs(value), kLeast);
+    const double moved =
+        std::max(kShare * std::abs(value), least_move(model_, p, std::abs(inertia)));
     set_parameter_value(model_, p, value + moved);
     copies_.push_back({Plant(model_, {}, false), moved});
     set_parameter_value(model_, p, value);
@@ -66,7 +86,7 @@ void SensitivePlant::start(const double* position, const double* velocity, doubl
     copy.plant.take_history(plant_);
     copy.moved = kind == 0   ? larger_for(kPosition, position[axis])
                  : kind == 1 ? larger_for(kVelocity, velocity[axis])
-                             : kForce;
+                             : kAcceleration * plant_.inertia(axis);
     double& own = kind == 0 ? position_[axis] : velocity_[axis];
     const double value = own;
     if (kind < 2) own += copy.moved;
