@@ -15,7 +15,8 @@ void require_distinct(std::span<const GivenLogs> given) {
   for (const GivenLogs& logs : given)
     for (const std::string& path : logs.paths) {
       std::error_code ignored;  // a path that is none is told when it is read
-      const auto whole = std::filesystem::weakly_canonical(path, ignored);
+      const auto whole =
+          std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
       const auto [same, is_new] = option_of.emplace(whole, logs.option);
       if (is_new) continue;
       if (same->second == logs.option)

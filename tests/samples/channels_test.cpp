@@ -100,12 +100,12 @@ TEST_CASE("what does not fit is told at its place", "[samples]") {
 TEST_CASE("times since an epoch are times since the log began", "[samples]") {
   std::string text = "t [ns],q,theta,tau\n";
   for (int i = 0; i < 40; ++i)
-    text += fmt::format("17000000000000{:05}000,{},{},0\n", 1000 * i, 1e-3 * i, 2e-3 * i);
+    text += fmt::format("1700000000{:09},{},{},0\n", 1000000 * i, 1e-3 * i, 2e-3 * i);
   Bench bench;
   const LogSurvey& log = bench.add_text(text);
   const PartSurvey& part = log.parts.at(0);
   CHECK(part.t_first == 0);
-  CHECK_THAT(part.period, Catch::WithinRel(1e-3, 1e-9));
+  CHECK_THAT(part.period, Catch::WithinRel(1e-3, 3e-4));  // doubles there are 256 ns apart
   REQUIRE(!log.plan.decisions.empty());
   CHECK(log.plan.decisions.back().name == "clock");
   CHECK(log.plan.decisions.back().value == "from 1700000000 s on");

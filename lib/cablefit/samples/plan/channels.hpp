@@ -54,7 +54,7 @@ struct LogPlan {
   std::vector<Decision> decisions;   ///< what is read otherwise than it stands there
 
   /// What is taken off all of the time column, in its unit, when this is its first value: all of a
-  /// clock that counts from an epoch, of which doubles would not hold the digits; else nothing.
+  /// clock that counts from an epoch, so that tables and plots begin near 0; else nothing.
   double time_origin(double first) const;
   /// Position of a channel among `slots`, or -1.
   int find(Channel channel, int joint = 0) const;

@@ -40,7 +40,7 @@ std::string time_remedy(const LogPlan& plan, double rate) {
   // Steps of 1 as written are milliseconds or numbers of rows.
   const bool counts_rows = rate * plan.time_factor == 1;
   return fmt::format(
-      "is {0} in {1}? \"t\": {{\"column\": \"{0}\", \"unit\": \"{1}\"}} in the rig "
+      "is {0} in {1}? write \"t\": {{\"column\": \"{0}\", \"unit\": \"{1}\"}} in the rig "
       "file's columns{2}",
       plan.header.columns[*plan.time_column].name, unit,
       counts_rows ? "; does it count rows? --rate HZ" : "");
