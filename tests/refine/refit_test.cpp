@@ -51,6 +51,7 @@ TEST_CASE("stage 2 finds the values of two effects of a model", "[refine]") {
                                   {instance("stribeck", Site::motor, {0.1, 1.4 * v_s, 2}),
                                    instance("quadratic_drag", Site::link, {0.1, 2})},
                                   estimator);
+  if (estimator != "auto") CHECK(fit.estimator == estimator);  // none fell back to another
   const std::vector<std::pair<std::string, double>> truth = {
       {"stribeck[motor].amplitude", truth_of(logs, 0, "amplitude")},
       {"stribeck[motor].v_s", v_s},

@@ -140,7 +140,12 @@ class Covariance {
     whitener_ = llt.matrixL().solve(Of<N>::Axes::Identity(n_, n_));
     const typename Of<N>::Output half = whitener_ * covariance_.topRows(n_);
     gain_ = half.transpose() * whitener_;
-    covariance_.noalias() -= half.transpose() * half;
+    // Joseph's form, which rounding does not make indefinite where the plant is unstable (friction
+    // that falls with the speed).
+    typename Of<N>::Transition rest = Of<N>::Transition::Identity(2 * n_, 2 * n_);
+    rest.leftCols(n_) -= gain_;
+    const typename Of<N>::Input noisy = gain_ * noise_.position.asDiagonal();
+    covariance_ = rest * covariance_ * rest.transpose() + noisy * noisy.transpose();
   }
 
   const typename Of<N>::Input& gain() const { return gain_; }
