@@ -60,7 +60,7 @@ void Plant::start(const double* position, const double* velocity, double t) {
   std::copy_n(velocity, n_links, qd_.begin());
   std::copy_n(position + n_links, n, theta_.begin());
   std::copy_n(velocity + n_links, n, thetad_.begin());
-  for (RefinedJoint& joint : refined_) joint.forget_motion();
+  for (RefinedJoint& joint : refined_) joint.jump();
   t0_ = t;
   n_steps_ = 0;
 }

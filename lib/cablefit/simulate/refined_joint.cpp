@@ -76,11 +76,18 @@ double RefinedJoint::level(Term& term, const JointState& state, double direction
 
 RefinedStep RefinedJoint::step(JointState state, double h) {
   const double qd = state.qd, thetad = state.thetad;
+  if (has_jumped_) {
+    qd_before_ = qd - qd_change_;
+    thetad_before_ = thetad - thetad_change_;
+  }
   if (has_begun_) {
     state.qd = extrapolated(qd, qd_before_);
     state.thetad = extrapolated(thetad, thetad_before_);
+    qd_change_ = qd - qd_before_;
+    thetad_change_ = thetad - thetad_before_;
   }
   has_begun_ = true;
+  has_jumped_ = false;
   qd_before_ = qd;
   thetad_before_ = thetad;
   state.deflection_rate = state.thetad - state.qd;
@@ -95,6 +102,8 @@ RefinedStep RefinedJoint::step(JointState state, double h) {
 void RefinedJoint::take_history(const RefinedJoint& before) {
   assert(terms_.size() == before.terms_.size());
   for (std::size_t i = 0; i < terms_.size(); ++i) terms_[i].z = before.terms_[i].z;
+  qd_change_ = before.qd_change_;
+  thetad_change_ = before.thetad_change_;
 }
 
 void RefinedJoint::act(Term& term, const JointState& state, double h, RefinedStep& sum) {

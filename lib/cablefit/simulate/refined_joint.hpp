@@ -23,8 +23,9 @@ class RefinedJoint {
   /// Over a step of length h. `state`: of its middle, but with the velocities of its beginning,
   /// which are extrapolated to the middle, and without accelerations.
   RefinedStep step(JointState state, double h);
-  /// The next step is not to be extrapolated from the one before.
-  void forget_motion() { has_begun_ = false; }
+  /// The next step begins with other velocities than the last one ended with, and goes on with its
+  /// accelerations.
+  void jump() { has_jumped_ = true; }
   /// Inner states as `before` has them, of the same refinements.
   void take_history(const RefinedJoint& before);
 
@@ -46,8 +47,9 @@ class RefinedJoint {
                           RefinedStep& sum);
 
   std::vector<Term> terms_;
-  double qd_before_ = 0, thetad_before_ = 0;
-  bool has_begun_ = false;
+  double qd_before_ = 0, thetad_before_ = 0;  ///< at the beginning of the last step
+  double qd_change_ = 0, thetad_change_ = 0;  ///< up to then, over the step before it
+  bool has_begun_ = false, has_jumped_ = false;
 };
 
 /// No refinement that acts on the plant, as most models have it.
