@@ -14,7 +14,7 @@ void require_distinct(std::span<const GivenLogs> given) {
   std::map<std::filesystem::path, std::string> option_of;
   for (const GivenLogs& logs : given)
     for (const std::string& path : logs.paths) {
-      std::error_code ignored;  // a path that is none is told when it is read
+      std::error_code ignored;  // reading says what is wrong with a path
       const auto whole =
           std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
       const auto [same, is_new] = option_of.emplace(whole, logs.option);

@@ -27,8 +27,9 @@ int copy_of_input() {
     const ssize_t n = ::read(STDIN_FILENO, buffer.data(), buffer.size());
     if (n == 0) break;
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0 || std::fwrite(buffer.data(), 1, static_cast<std::size_t>(n), file) == 0)
-      throw_cannot_read();
+    if (n < 0) throw_cannot_read();
+    const auto size = static_cast<std::size_t>(n);
+    if (std::fwrite(buffer.data(), 1, size, file) != size) throw_cannot_read();
   }
   if (std::fflush(file) != 0) throw_cannot_read();
   return ::fileno(file);

@@ -98,8 +98,7 @@ SeenEquation see_equation(const DynamicJob& job, const EquationRows& rows, std::
   if (side == Side::motor)
     seen.plan.about =
         "Explained: share of the squared torque of inertia and friction. The torque of the cables "
-        "is "
-        "not counted.";
+        "is not counted.";
   seen.plan.unit = preload.linear_motion ? "N" : "N m";
   seen.plan.same_measured = side != Side::link;
   for (std::size_t m = 0; m < solutions.size(); ++m) {

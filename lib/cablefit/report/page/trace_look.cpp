@@ -17,7 +17,7 @@ constexpr std::array<const char*, kSeries> kSymbols{"circle", "square", "diamond
 
 bool is_line(const Trace& trace) { return trace.style == TraceStyle::line && trace.series >= 0; }
 
-/// Whether others have to be told from it by more than their colour.
+/// Whether it has to differ from others by more than a colour.
 bool has_several_lines(const Figure& figure) {
   return std::count_if(figure.traces.begin(), figure.traces.end(), is_line) > 1;
 }
