@@ -34,6 +34,18 @@ def said(verdict, *names, rivals=(), parameters=()):
     return {"verdict": verdict, "effects": effects, "gap": {}}
 
 
+def later_steps(draws):
+    """Every p that is counted among the later draws alone."""
+    all_p, step = [], 1 / (1 + draws)
+    for j in range(draws - 5):
+        all_p.append(step + (all_p[-1] if all_p else 0))
+        step *= (draws - 6 - j) / (draws - j)
+    return all_p
+
+
+STEPS_OF_24 = later_steps(24)
+
+
 class Judge(unittest.TestCase):
     def judged(self, truth, answer):
         return score.judge(result([truth], answer))
@@ -117,6 +129,11 @@ class Figures(unittest.TestCase):
             return {"answer": {"search": search}}
         counted = answer(p_value=2 / 7, p_is_fitted=False, draws=6)
         self.assertAlmostEqual(score.search_p(counted, lambda: 0.5), 1.5 / 7)
+        # None of 6, one of 18 later ones: steps of 1 / 25 and 18 / 24 / 25.
+        later = answer(p_value=1.75 / 25, p_is_fitted=False, draws=24)
+        self.assertAlmostEqual(score.search_p(later, lambda: 1.0), 1 / 25)
+        # All of 18: the whole of what none of the first 6 leaves.
+        self.assertAlmostEqual(sum(score.step_of_p(p, 24) for p in STEPS_OF_24), 1 / 7)
         fitted = answer(p_value=0.003, p_is_fitted=True, draws=6)
         self.assertEqual(score.search_p(fitted, lambda: 0.5), 0.003)
         self.assertIsNone(score.search_p({"answer": None}, lambda: 0.5))

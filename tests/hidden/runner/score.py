@@ -140,14 +140,32 @@ def kolmogorov(values):
     return distance, min(1.0, max(0.0, chance))
 
 
+FIRST_DRAWS = 6
+
+
+def step_of_p(p, draws):
+    """Height of the step of a counted p. More than the first draws are made where none of these came as
+    far as the logs; j of the later ones then do with C(later, j) / C(draws, j) / (1 + draws)."""
+    later = draws - FIRST_DRAWS
+    if later <= 0 or p > 1 / (1 + FIRST_DRAWS) + 1e-9:
+        return 1 / (1 + min(draws, FIRST_DRAWS))
+    total, step = 0, 1 / (1 + draws)
+    for j in range(later + 1):
+        total += step
+        if total >= p - 1e-9:
+            break
+        step *= (later - j) / (draws - j)
+    return step
+
+
 def search_p(result, draw):
-    """p of the whole search; None: not told. One that is counted among n simulated data sets has steps
-    of 1 / (1 + n): `draw` (uniform on 0 .. 1) chooses in its step."""
+    """p of the whole search; None: not told. One that is counted among simulated data sets has steps:
+    `draw` (uniform on 0 .. 1) chooses in its step."""
     search = (result["answer"] or {}).get("search") or {}
     p = search.get("p_value")
     if p is None or search.get("p_is_fitted") or not search.get("draws"):
         return p
-    return p - draw() / (1 + search["draws"])
+    return p - draw() * step_of_p(p, search["draws"])
 
 
 def quantile(values, share):

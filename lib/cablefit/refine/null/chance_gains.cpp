@@ -72,7 +72,7 @@ double ChanceGains::unit(const Effect& row, std::size_t but) const {
 }
 
 ChanceTail ChanceGains::tail_of_search(double gain) const {
-  return tail_of_largest(always_, log_ratio(gain));
+  return tail_of_sequence(always_, log_ratio(gain));
 }
 
 ChanceTail ChanceGains::tail(const Effect& row, double share) const {

@@ -17,6 +17,15 @@ struct ChanceTail {
 /// far, never below least_tail(n).
 ChanceTail tail_of_largest(const std::vector<double>& largest, double gain);
 
+/// Draws before it is first asked whether more are needed.
+inline constexpr std::size_t kFirstDraws = 6;
+
+/// The same where more than kFirstDraws were made only because of what those said, so that p is
+/// uniform under the null whatever made them be drawn (a sequential test; Besag & Clifford 1991).
+/// Where some of the first came that far, they decide. Where none did, p is the probability that
+/// none of them does and no more than counted of the others.
+ChanceTail tail_of_sequence(const std::vector<double>& largest, double gain);
+
 /// The least p that n draws support: two decades beyond what they can count, and none below 1e-4.
 double least_tail(std::size_t n_draws);
 

@@ -9,6 +9,7 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/parallel.hpp"
 #include "cablefit/refine/gap_levels.hpp"
+#include "cablefit/refine/null/chance_tail.hpp"
 #include "cablefit/refine/null/kept_effects.hpp"
 #include "cablefit/refine/null/remainder.hpp"
 #include "cablefit/refine/rows/physical_values.hpp"
@@ -200,7 +201,6 @@ void judge(const RefineBench& bench, const BlockFit& fit, RefineState& state) {
 }
 
 bool draw_more(RefineBench& bench, const RefineState& state, const Search& found) {
-  constexpr std::size_t kAtOnce = 6;
   const std::size_t before = bench.draws.size();
   if (before >= bench.options.n_draws) return false;
   if (before == 0) {
@@ -210,7 +210,7 @@ bool draw_more(RefineBench& bench, const RefineState& state, const Search& found
   ScanSettings settings = bench.scan;
   settings.threads = 1;
   std::vector<NullDraw> more = run_draws(
-      bench, std::min(kAtOnce, bench.options.n_draws - before),
+      bench, std::min(kFirstDraws, bench.options.n_draws - before),
       bench.options.seed + kFloorCopies + before, "null distribution",
       [&](std::uint64_t seed) { return bench.null->searched(seed, bench.draw_levels, settings); });
   bench.draws.insert(bench.draws.end(), std::make_move_iterator(more.begin()),
