@@ -170,6 +170,10 @@ struct Effect {
   /// form of the law, more than all of it never.
   bool takes_dry_friction = false;
 
+  /// The only linear parameter is a step of the logged deflection (rad): none is larger than what
+  /// the logs show.
+  bool steps_deflection = false;
+
   std::size_t n_linear() const { return parameters.size() - shape.size(); }
   /// Of the paper's model, which every fit has.
   bool is_base() const { return follows != MotionPart::several; }

@@ -48,7 +48,8 @@ Effect slip() {
           .parameters = kSlip,
           .is_event = true,
           .is_static = true,
-          .torque = slipped};
+          .torque = slipped,
+          .steps_deflection = true};
 }
 
 Effect contact() {

@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kAtEnd = 0.97;    // of the highest value
 constexpr double kMostParts = 20;  // rms of the parts together, in rms of their sum
+// Of the largest deflection: twice for the whole range, and once more for its rare values.
+constexpr double kMostStep = 3;
 
 std::string at_open_end(const Variant& variant, const LogScale& scale) {
   const Effect& row = *variant.effect;
@@ -21,6 +23,12 @@ std::string at_open_end(const Variant& variant, const LogScale& scale) {
         variant.shape[k], info.unit);
   }
   return "";
+}
+
+std::string larger_than_deflection(const Effect& row, const LogScale& scale, double step) {
+  if (!row.steps_deflection || std::abs(step) <= kMostStep * scale.deflection) return "";
+  return fmt::format("{:.3g} rad are more than the logs show: the deflection is at most {:.3g} rad",
+                     std::abs(step), scale.deflection);
 }
 
 /// Rms of the parts together over that of their sum; 1 for a single one.
@@ -41,6 +49,7 @@ std::string why_not_plausible(const Design& design, const Eigen::VectorXd& x) {
   const Variant& variant = design.added.back();
   if (std::string reason = at_open_end(variant, design.scale); !reason.empty()) return reason;
   const Eigen::Index n = n_linear(variant);
+  if (n == 1) return larger_than_deflection(*variant.effect, design.scale, x[x.size() - 1]);
   if (n < 2) return "";
   const double parts = parts_over_sum(design, x, n);
   if (parts <= kMostParts) return "";

@@ -9,8 +9,9 @@
 namespace cablefit {
 
 /// Of the last of design.added, whose linear parameters are the last entries of `x`: a nonlinear
-/// parameter at the end of its range beyond which the law is another one (ShapeGrid), or parts that
-/// cancel each other. Empty: nothing speaks against it.
+/// parameter at the end of its range beyond which the law is another one (ShapeGrid), parts that
+/// cancel each other, or a step of the deflection that the logs cannot have missed. Empty: nothing
+/// speaks against it.
 std::string why_not_plausible(const Design& design, const Eigen::VectorXd& x);
 
 }  // namespace cablefit
