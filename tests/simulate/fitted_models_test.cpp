@@ -1,5 +1,7 @@
 // Both stages on the shipped logs, then the fitted model against the same logs.
+#include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdio>
 #include <stdexcept>
 
@@ -78,6 +80,35 @@ void compare(const Model& fitted, const std::string& preload) {
       CHECK(gap < kTimes * floor + allowed);
     }
   }
+}
+
+TEST_CASE("a result carries the joint covariance of its parameters", "[simulate]") {
+  const Model model = Fitted("low").model("poly");
+  const Eigen::MatrixXd& covariance = model.covariance.matrix;
+  std::size_t found = 0;
+  for (const JointModel& joint : model.joints)
+    for (const auto* side : {&joint.link, &joint.motor})
+      for (const EffectInstance& effect : *side) {
+        const Estimate& e = effect.parameters.front();
+        const auto own = model.covariance.of({e.name});
+        REQUIRE(own);
+        CHECK_THAT(std::sqrt((*own)(0, 0)), Catch::Matchers::WithinRel(e.sd, 1e-9));
+        ++found;
+      }
+  for (const Estimate& e : model.elastic)
+    if (const auto own = model.covariance.of({e.name}); own && e.name.front() == 'K') {
+      CHECK_THAT(std::sqrt((*own)(0, 0)), Catch::Matchers::WithinRel(e.sd, 1e-9));
+      ++found;
+    }
+  CHECK(found == 11);  // J, f_v, f_s of both sides, offset, two coefficients of two cables
+  // Both equations rest on the same curve: what it gets wrong moves their parameters together.
+  const auto both = *model.covariance.of({"J_link", "K1_1"});
+  CHECK(std::abs(both(0, 1)) > 0);
+  const Eigen::VectorXd sd = covariance.diagonal().cwiseSqrt();
+  const Eigen::MatrixXd correlation =
+      sd.cwiseInverse().asDiagonal() * covariance * sd.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation);
+  CHECK(eigen.eigenvalues().minCoeff() > -1e-9);
 }
 
 TEST_CASE("the model fitted to the low logs simulates them as the true one does", "[simulate]") {

@@ -192,6 +192,11 @@ void fields(Archive& a, RecursiveTrace& v) {
   a("names", v.names), a("preloads", v.preloads), a("units", v.units), a("points", v.points);
 }
 
+template <class Archive>
+void fields(Archive& a, ParameterCovariance& v) {
+  a("parameters", v.parameters), a("matrix", v.matrix);
+}
+
 /// Without a proof and a sweep, which campaigns do not make.
 template <class Archive>
 void fields(Archive& a, DynamicFit& v) {
@@ -200,6 +205,7 @@ void fields(Archive& a, DynamicFit& v) {
   a("effective_rows", v.effective_rows), a("elastic", v.elastic), a("verdicts", v.verdicts);
   a("warnings", v.warnings), a("sd_reason", v.sd_reason), a("suspects", v.suspects);
   a("trace", v.trace), a("derived", v.derived), a("method_floor", v.method_floor);
+  a("covariance", v.covariance);
   a("estimator_difference", v.estimator_difference), a("stage1_misfit", v.stage1_misfit);
 }
 

@@ -90,6 +90,17 @@ std::vector<EffectInstance> with_estimates(std::vector<EffectInstance> effects,
   return effects;
 }
 
+/// Of what is still identified when all checks are done.
+ParameterCovariance known_together(const JointEstimates& joint,
+                                   const std::vector<Estimate>& parameters) {
+  std::vector<std::string> names;
+  for (const std::string& name : joint.names) {
+    const Estimate* e = find_estimate(parameters, name);
+    if (e == nullptr || e->not_identifiable.empty()) names.push_back(name);
+  }
+  return joint.covariance_of(names);
+}
+
 void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equations,
                 DynamicPreload& preload) {
   const Estimator& estimator = find_estimator(job.options.estimator);
@@ -110,6 +121,7 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
     for (const Estimate& e : fit.parameters)
       if (!e.not_identifiable.empty()) fit.verdicts[e.name] = "not identifiable";
     fit.effects = with_estimates(job.added, fit.parameters);
+    if (estimation.joint) fit.covariance = known_together(*estimation.joint, fit.parameters);
     if (estimation.joint && fit.elastic)
       fit.derived = drive_quantities(*estimation.joint, &fit.elastic->transmission,
                                      job.rig().cables_given, job.rig().linear_motion);
@@ -135,12 +147,14 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
 void refuse_doubtful(const ElasticResult& elastic, DynamicPreload& preload) {
   for (const ElasticPreload& stage1 : elastic.preloads) {
     if (stage1.name != preload.name || stage1.shape_doubt.empty()) continue;
-    for (DynamicFit& fit : preload.fits)
+    for (DynamicFit& fit : preload.fits) {
+      fit.covariance = {};
       for (Estimate& e : fit.parameters) {
         if (!e.not_identifiable.empty()) continue;
         refuse(e, "stage 1 does not describe the cables: " + stage1.shape_doubt);
         fit.verdicts[e.name] = "not identifiable";
       }
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/base/parameter_covariance.hpp"
 #include "cablefit/dynamic/validation_result.hpp"
 #include "cablefit/elastic/elastic_result.hpp"
 #include "cablefit/estimate/fit/recursive_trace.hpp"
@@ -73,6 +74,8 @@ struct DynamicFit {
   std::map<std::string, double> method_floor = {}, estimator_difference = {}, stage1_misfit = {};
   /// What the model has beyond the paper's (31); its parameters are among `parameters` as well.
   std::vector<EffectInstance> effects = {};
+  /// Of these parameters and stage 1's together, as far as they are identified; empty: not known.
+  ParameterCovariance covariance = {};
   std::vector<Estimate> derived = {};  ///< stiffness, resonance, damping: of several parameters
 };
 

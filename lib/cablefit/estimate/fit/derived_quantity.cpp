@@ -17,6 +17,19 @@ Eigen::Index JointEstimates::find(std::string_view name) const {
   return found == names.end() ? -1 : found - names.begin();
 }
 
+ParameterCovariance JointEstimates::covariance_of(const std::vector<std::string>& some) const {
+  ParameterCovariance out;
+  std::vector<Eigen::Index> places;
+  for (const std::string& name : some) {
+    const Eigen::Index place = find(name);
+    if (place < 0) continue;
+    out.parameters.push_back(name);
+    places.push_back(place);
+  }
+  out.matrix = covariance(places, places);
+  return out;
+}
+
 Estimate derive(const DerivedQuantity& quantity, const JointEstimates& from) {
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(from.value.size());
   for (Eigen::Index k = 0; k < from.value.size(); ++k) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cablefit/base/parameter.hpp"
+#include "cablefit/base/parameter_covariance.hpp"
 
 namespace cablefit {
 
@@ -20,6 +21,8 @@ struct JointEstimates {
 
   /// Place of a name; -1 when it is not among them.
   Eigen::Index find(std::string_view name) const;
+  /// Of those of `some` that are among them.
+  ParameterCovariance covariance_of(const std::vector<std::string>& some) const;
 };
 
 struct DerivedQuantity {

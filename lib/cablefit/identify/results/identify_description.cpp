@@ -13,6 +13,7 @@
 #include "cablefit/identify/results/identify_checks.hpp"
 #include "cablefit/identify/results/identify_model.hpp"
 #include "cablefit/identify/results/identify_preload.hpp"
+#include "cablefit/model/model_parameters.hpp"
 
 namespace cablefit {
 namespace {
@@ -83,10 +84,15 @@ void add_given(const PreloadJob& job, IdentifyPreload& preload) {
         preload.parameters.push_back(given_estimate(given.parameter, job.linear_motion));
 }
 
-void add_model(const PreloadFacts& facts, IdentifyResult& result, IdentifyPreload& preload) {
+void add_model(const PreloadFacts& facts, const JointEstimates& known, IdentifyResult& result,
+               IdentifyPreload& preload) {
   std::string why_not;
   preload.model = model_of(result, preload, facts, why_not);
   if (!why_not.empty()) preload.warnings.push_back("no model file: " + why_not);
+  if (!preload.model) return;
+  std::vector<std::string> names;
+  for (const ModelParameter& p : model_parameters(*preload.model)) names.push_back(p.name);
+  preload.model->covariance = known.covariance_of(names);
 }
 
 /// The bounds that hold the solution; where a cable would push, that this was refused.
@@ -127,7 +133,8 @@ JointEstimates known_together(const JointFit& fit, const JudgedPoint& judged,
   from.value =
       Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   from.covariance = (honest ? judged.covariance.covariance : judged.covariance.white)(kept, kept);
-  from.degrees_of_freedom = judged.covariance.degrees_of_freedom(kept).minCoeff();
+  if (!kept.empty())
+    from.degrees_of_freedom = judged.covariance.degrees_of_freedom(kept).minCoeff();
   return from;
 }
 
@@ -166,10 +173,9 @@ void describe(const JointFit& fit, const JudgedPoint& judged,
     IdentifyPreload& preload = result.preloads[j];
     add_cad(facts[j].rig, preload.parameters);
     add_slack_points(preload);
-    if (preload.knows_elongations())
-      add_derived(fit.jobs[j], known_together(fit, judged, estimates, j, options.honest_sd),
-                  preload);
-    add_model(facts[j], result, preload);
+    const JointEstimates known = known_together(fit, judged, estimates, j, options.honest_sd);
+    if (preload.knows_elongations()) add_derived(fit.jobs[j], known, preload);
+    add_model(facts[j], known, result, preload);
     note_pushing(fit, preload, result);
     for (std::string& warning : misfit_warnings(fit, judged, j, preload))
       preload.warnings.push_back(std::move(warning));

@@ -199,6 +199,9 @@ Model read_result_file(const JsonNode& root, const Wanted& wanted, std::string* 
   parameters.require_all_used();
   if (wanted.completeness == Completeness::can_move) require_inertia(model, fit);
   model.link_residual = link_residual(preload, model.name);
+  const JsonNode* covariance = fit.find("covariance");
+  if (covariance != nullptr && !covariance->is_null())
+    model.covariance = read_covariance(*covariance);
   *choice = describe(preloads, preload, "preload", "name", wanted.preload) + ", " +
             describe(fits, fit, "model", "model", wanted.model);
   return model;

@@ -62,10 +62,15 @@ Json sweep_json(const Sweep& sweep) {
   return Json{{"parameters", sweep.parameters}, {"points", points}, {"verdicts", verdicts}};
 }
 
+Json covariance_or_null(const ParameterCovariance& covariance) {
+  return covariance.empty() ? Json() : model_file::covariance_json(covariance);
+}
+
 Json fit_json(const DynamicFit& fit) {
   Json json{{"model", fit.model},
             {"estimator", fit.estimator},
             {"parameters", report_json::parameters(fit.parameters)},
+            {"covariance", covariance_or_null(fit.covariance)},
             {"derived", report_json::parameters(fit.derived)},
             {"torque_error", errors_json(fit.torque_error)},
             {"weight", by_name(fit.weight)},

@@ -31,6 +31,9 @@ Model model_of(const ElasticPreload& preload, const ElasticFit& fit, const Rig& 
   model.rig = rig;
   model.transmission = fit.transmission;
   model.elastic = fit.parameters;
+  for (Eigen::Index k = 0; k < fit.covariance.rows(); ++k)
+    model.covariance.parameters.push_back(fit.parameters[static_cast<std::size_t>(k)].name);
+  model.covariance.matrix = fit.covariance;
   model.joints.resize(static_cast<std::size_t>(rig.n_joints()));
   return model;
 }

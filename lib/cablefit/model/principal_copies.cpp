@@ -1,0 +1,83 @@
+#include "cablefit/model/principal_copies.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "cablefit/model/model_parameters.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr double kLeastShare = 1e-12;  // of a variance of 1: rounding
+// Up, down, and ever less: a parameter that is less sure than large leaves its bounds soon.
+constexpr std::array<double, 6> kSteps = {1, -1, 0.3, -0.3, 0.1, -0.1};
+
+/// The parameters of the model that its covariance knows, and their places in it.
+struct Known {
+  std::vector<ModelParameter> parameters;
+  std::vector<Eigen::Index> places;
+};
+
+Known known_parameters(const Model& model) {
+  const std::vector<std::string>& names = model.covariance.parameters;
+  Known known;
+  for (const ModelParameter& p : model_parameters(model)) {
+    const auto found = std::find(names.begin(), names.end(), p.name);
+    if (found == names.end()) continue;
+    const Eigen::Index place = found - names.begin();
+    if (!(model.covariance.matrix(place, place) > 0)) continue;
+    known.parameters.push_back(p);
+    known.places.push_back(place);
+  }
+  return known;
+}
+
+/// Columns whose outer products add up to the covariance. Axes are those of the correlations: the
+/// parameters have different units.
+Eigen::MatrixXd principal_axes(const Eigen::MatrixXd& covariance) {
+  const Eigen::VectorXd sd = covariance.diagonal().cwiseSqrt();
+  const Eigen::MatrixXd correlation =
+      sd.cwiseInverse().asDiagonal() * covariance * sd.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation);
+  const Eigen::VectorXd spread = eigen.eigenvalues().cwiseMax(0).cwiseSqrt();
+  return sd.asDiagonal() * eigen.eigenvectors() * spread.asDiagonal();
+}
+
+/// The model with its parameters moved by `step`; nothing when one leaves its bounds.
+std::optional<Model> moved(const Model& model, const std::vector<ModelParameter>& parameters,
+                           const Eigen::VectorXd& step) {
+  Model copy = model;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const ModelParameter& p = parameters[k];
+    const double before = parameter_value(model, p);
+    const double after = before + step(static_cast<Eigen::Index>(k));
+    // What stands on a bound or beyond it already is not held against the copy.
+    if ((after < p.lower && after < before) || (after > p.upper && after > before))
+      return std::nullopt;
+    if (is_inertia(model, p) && !(after > 0)) return std::nullopt;
+    set_parameter_value(copy, p, after);
+  }
+  return copy;
+}
+
+}  // namespace
+
+std::vector<MovedModel> principal_copies(const Model& model) {
+  std::vector<MovedModel> copies;
+  const Known known = known_parameters(model);
+  if (known.places.empty()) return copies;
+  const Eigen::MatrixXd axes = principal_axes(model.covariance.matrix(known.places, known.places));
+  for (const auto& axis : axes.colwise()) {
+    if (axis.squaredNorm() <= kLeastShare * axes.squaredNorm() * kLeastShare) continue;
+    for (const double by : kSteps)
+      if (auto copy = moved(model, known.parameters, by * axis)) {
+        copies.push_back({std::move(*copy), by});
+        break;
+      }
+  }
+  return copies;
+}
+
+}  // namespace cablefit
