@@ -48,6 +48,12 @@ SimulatedPart replayed_part() {
   return part;
 }
 
+/// With the band of a model that knows its covariance.
+SimulateResult with_band(SimulateResult result) {
+  result.parts[0].gaps[0].band = SignalBand{2e-5, 0.97};
+  return result;
+}
+
 SimulateResult simulate_result() {
   SimulateResult result;
   result.inputs = {{"model.json", std::string(64, 'a'), 0},
@@ -63,6 +69,7 @@ SimulateResult simulate_result() {
 TEST_CASE("a simulation is as its schema says") {
   SimulateResult result = simulate_result();
   CHECK(test::schema_errors("simulate", simulate_json(result)) == "");
+  CHECK(test::schema_errors("simulate", simulate_json(with_band(result))) == "");
   result.trajectories = "rows.csv";
   result.rig_path = "rig.json";
   result.parts[0].gaps.clear();  // diverged before the first row
@@ -84,6 +91,15 @@ TEST_CASE("a simulation as JSON") {
   CHECK(replayed["gaps"][0]["relative"].is_null());
   CHECK(replayed["diverged"] == "low/blocked.csv: the simulation diverged at t = 1 s");
   CHECK(json["model"]["choice"] == "model 'poly' of model.json");
+}
+
+TEST_CASE("the band of a simulation has a table of its own") {
+  const auto json = nlohmann::json::parse(simulate_json(with_band(simulate_result())));
+  CHECK(json["simulations"][0]["gaps"][0]["band95"]["half_width"] == 2e-5);
+  CHECK(json["simulations"][0]["gaps"][1]["band95"].is_null());
+  const std::string text = write_text(on_screen(simulate_document(with_band(simulate_result()))));
+  CHECK_THAT(text, Catch::Matchers::Contains("\n\nWhat the parameters leave open\n\n"));
+  CHECK_THAT(text, Catch::Matchers::Contains("moving.csv  theta   mrad       0.020    97.0\n"));
 }
 
 TEST_CASE("a simulation as text") {
@@ -111,15 +127,15 @@ warning: low/blocked.csv: no tau_load column
 }
 
 TEST_CASE("a simulation as CSV: one row per signal") {
-  const std::string csv = write_csv(simulate_document(simulate_result()));
+  const std::string csv = write_csv(simulate_document(with_band(simulate_result())));
   CHECK(csv ==
         "log,preload,phase,run,model,mode,window,rows,signal,unit,rms,max_abs,t_of_max,relative,"
-        "noise,worst_window_t,worst_window_rms\n"
+        "noise,worst_window_t,worst_window_rms,band95_half_width,band95_inside\n"
         "low/moving.csv,low,moving,,poly,closed loop,0,16000,theta,rad,9e-06,4.03e-05,15.752,"
-        "4.8e-05,6.9e-06,0,9e-06\n"
+        "4.8e-05,6.9e-06,0,9e-06,2e-05,0.97\n"
         "low/moving.csv,low,moving,,poly,closed loop,0,16000,tau,N m,0.31,1.29,9.972,0.0224,0.3,0,"
-        "0.31\n"
-        "low/blocked.csv,low,blocked,,poly,torque replay,1,20000,q,rad,0,0,0,,1.7e-06,0,0\n");
+        "0.31,,\n"
+        "low/blocked.csv,low,blocked,,poly,torque replay,1,20000,q,rad,0,0,0,,1.7e-06,0,0,,\n");
 }
 
 }  // namespace

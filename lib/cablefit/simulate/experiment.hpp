@@ -30,7 +30,8 @@ struct ReplayOptions {
   double step = SimulationOptions{}.step;  ///< s
   std::string trajectories;                ///< CSV file of every row; empty: none
   bool figures = false;                    ///< for reports with plots
-  int threads = 1;                         ///< logs at a time, unless trajectories are written
+  bool band = false;                       ///< simulates what the parameters leave open, too
+  int threads = 1;
 };
 
 /// The rig of a log as the simulation of `model` wants it: --rig, else the one beside the log, else

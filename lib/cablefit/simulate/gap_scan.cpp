@@ -50,6 +50,20 @@ void GapScan::fill(SignalGap& gap) const {
   close_window(&gap.worst_window_rms, &gap.t_of_worst_window);
 }
 
+void BandScan::add(const Eigen::Ref<const Eigen::ArrayXd>& gap,
+                   const Eigen::Ref<const Eigen::ArrayXd>& half_width, double noise) {
+  const double of_noise = kNormal975 * noise;
+  n_rows_ += static_cast<double>(gap.size());
+  squares_ += half_width.square().sum();
+  const Eigen::ArrayXd allowed = (half_width.square() + of_noise * of_noise).sqrt();
+  n_inside_ += static_cast<double>((gap.abs() <= allowed).count());
+}
+
+void BandScan::fill(SignalGap& gap) const {
+  if (n_rows_ == 0 || !std::isfinite(squares_)) return;
+  gap.band = SignalBand{std::sqrt(squares_ / n_rows_), n_inside_ / n_rows_};
+}
+
 void TensionScan::add(const Eigen::ArrayXXd& tension) {
   if (tension.size() == 0) return;
   if (n_rows_ == 0) {

@@ -32,6 +32,19 @@ class GapScan {
   double shift_ = 0, sum_ = 0, sum_squares_ = 0;  ///< of the measured signal less its first value
 };
 
+/// A 95 % band beside the gap, row by row.
+class BandScan {
+ public:
+  /// Half widths of the band, and the sd of the sensor's noise.
+  void add(const Eigen::Ref<const Eigen::ArrayXd>& gap,
+           const Eigen::Ref<const Eigen::ArrayXd>& half_width, double noise);
+  /// Writes the band into `gap`; nothing where there were no rows, or a width is no number.
+  void fill(SignalGap& gap) const;
+
+ private:
+  double n_rows_ = 0, squares_ = 0, n_inside_ = 0;
+};
+
 /// How the cables were pulled, row by row.
 class TensionScan {
  public:

@@ -24,6 +24,10 @@ void cut(Eigen::Index n_rows, ReplayedRows* rows) {
         &rows->simulated.tension}) {
     table->conservativeResize(n_rows, Eigen::NoChange);
   }
+  if (rows->band.empty()) return;
+  for (Eigen::ArrayXXd* table :
+       {&rows->band.q, &rows->band.theta, &rows->band.deflection, &rows->band.tau})
+    table->conservativeResize(n_rows, Eigen::NoChange);
 }
 
 std::string unit_of(Channel channel, bool linear_motion) {
@@ -38,7 +42,7 @@ Eigen::Index replay_halo(const Model& model) {
 }
 
 PartReplay::PartReplay(Experiment experiment, const LogSurvey& log, const PartSurvey& part,
-                       std::size_t log_number)
+                       std::size_t log_number, int band_threads)
     : experiment_(std::move(experiment)),
       log_(log),
       part_(part),
@@ -53,6 +57,7 @@ PartReplay::PartReplay(Experiment experiment, const LogSurvey& log, const PartSu
   result_.window_seconds = experiment_.window_seconds;
   result_.decisions = experiment_.decisions;
   result_.warnings = experiment_.warnings;
+  if (band_threads > 0) moved_.emplace(experiment_.model, experiment_.simulation, band_threads);
   choose_signals();
 }
 
@@ -67,6 +72,32 @@ void PartReplay::choose_signals() {
     if (has_q) signals_.push_back({Channel::theta, joint, true});
     if (result_.closed_loop && has_tau) signals_.push_back({Channel::tau, joint});
   }
+  for (Signal& signal : signals_) {
+    signal.noise = position_noise(log_, part_, signal.channel, signal.joint);
+    if (signal.is_deflection)
+      signal.noise =
+          std::hypot(signal.noise, position_noise(log_, part_, Channel::q, signal.joint));
+  }
+}
+
+Eigen::ArrayXd PartReplay::Signal::measured(const ReplayedRows& rows) const {
+  if (is_deflection) return rows.theta.col(joint) - rows.q.col(joint);
+  if (channel == Channel::q) return rows.q.col(joint);
+  return (channel == Channel::theta ? rows.theta : rows.tau).col(joint);
+}
+
+Eigen::ArrayXd PartReplay::Signal::simulated(const ReplayedRows& rows) const {
+  const SimulationResult& s = rows.simulated;
+  if (is_deflection) return s.theta.col(joint) - s.q.col(joint);
+  if (channel == Channel::q) return s.q.col(joint);
+  return (channel == Channel::theta ? s.theta : s.tau).col(joint);
+}
+
+Eigen::ArrayXd PartReplay::Signal::half_width(const ReplayedRows& rows) const {
+  const SimulationBand& all = rows.band;
+  if (is_deflection) return all.deflection.col(joint);
+  if (channel == Channel::q) return all.q.col(joint);
+  return (channel == Channel::theta ? all.theta : all.tau).col(joint);
 }
 
 void PartReplay::add(const Window& window, const RowSink& sink) {
@@ -139,6 +170,7 @@ void PartReplay::start_anew(const Window& window, Eigen::Index row) {
   Simulation anew(experiment_.model, start, experiment_.simulation);
   if (simulation_) anew.take_history(*simulation_);
   simulation_.emplace(std::move(anew));
+  if (moved_) moved_->start(start);
   ++result_.n_windows;
   for (Signal& signal : signals_) signal.scan.start_window(t);
 }
@@ -156,6 +188,7 @@ void PartReplay::simulate_rows(const Window& window, Eigen::Index begin, Eigen::
   rows.theta = measured(window, Channel::theta, begin, n_rows);
   rows.tau = block.tau.topRows(n_rows);
   rows.simulated = simulation_->run(block, n_rows);
+  if (moved_) rows.band = moved_->run(block, n_rows, rows.simulated);
   if (const auto row = rows.simulated.diverged_at) diverge(rows, *row);
   if (rows.simulated.diverged_at) cut(*rows.simulated.diverged_at, &rows);
   compare(rows);
@@ -176,21 +209,13 @@ void PartReplay::compare(const ReplayedRows& rows) {
   const double before = std::ceil((experiment_.compared_from - rows.t0) / rows.period);
   const auto first = static_cast<Eigen::Index>(std::clamp(before, 0.0, n));
   const double t0 = rows.t0 + static_cast<double>(first) * rows.period;
+  const Eigen::Index compared = s.theta.rows() - first;
   for (Signal& signal : signals_) {
-    const auto add = [&](const Eigen::ArrayXd& measured, const Eigen::ArrayXd& simulated) {
-      const Eigen::Index compared = simulated.size() - first;
-      signal.scan.add(measured.tail(compared), simulated.tail(compared), t0, rows.period);
-    };
-    const Eigen::Index k = signal.joint;
-    if (signal.is_deflection) {
-      add(rows.theta.col(k) - rows.q.col(k), s.theta.col(k) - s.q.col(k));
-    } else if (signal.channel == Channel::q) {
-      add(rows.q.col(k), s.q.col(k));
-    } else if (signal.channel == Channel::theta) {
-      add(rows.theta.col(k), s.theta.col(k));
-    } else {
-      add(rows.tau.col(k), s.tau.col(k));
-    }
+    const Eigen::ArrayXd measured = signal.measured(rows).tail(compared);
+    const Eigen::ArrayXd simulated = signal.simulated(rows).tail(compared);
+    signal.scan.add(measured, simulated, t0, rows.period);
+    if (!rows.band.empty())
+      signal.band.add(measured - simulated, signal.half_width(rows).tail(compared), signal.noise);
   }
   tensions_.add(s.tension);
   result_.n_rows += static_cast<std::size_t>(s.theta.rows());
@@ -201,11 +226,9 @@ SignalGap PartReplay::gap_of(const Signal& signal) const {
   gap.signal = signal.is_deflection ? "deflection" : channel_name(signal.channel);
   if (log_.plan.rig.n_joints() > 1) gap.signal += std::to_string(signal.joint + 1);
   gap.unit = unit_of(signal.channel, log_.plan.rig.linear_motion);
-  gap.noise = position_noise(log_, part_, signal.channel, signal.joint);
-  if (signal.is_deflection) {
-    gap.noise = std::hypot(gap.noise, position_noise(log_, part_, Channel::q, signal.joint));
-  }
+  gap.noise = signal.noise;
   signal.scan.fill(gap);
+  signal.band.fill(gap);
   return gap;
 }
 

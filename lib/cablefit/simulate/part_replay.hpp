@@ -9,6 +9,7 @@
 #include "cablefit/samples/survey/windows.hpp"
 #include "cablefit/simulate/experiment.hpp"
 #include "cablefit/simulate/gap_scan.hpp"
+#include "cablefit/simulate/moved_simulations.hpp"
 #include "cablefit/simulate/start_state.hpp"
 
 namespace cablefit {
@@ -20,6 +21,7 @@ struct ReplayedRows {
   Eigen::ArrayXXd q, theta;   ///< measured, rad
   Eigen::ArrayXXd tau;        ///< measured, N m
   SimulationResult simulated;
+  SimulationBand band;  ///< of the simulated rows, when asked for
 };
 using RowSink = std::function<void(const ReplayedRows&)>;
 
@@ -31,9 +33,10 @@ Eigen::Index replay_halo(const Model& model);
 
 class PartReplay {
  public:
-  /// `log` and `part` must outlive it. `log_number`: see SimulationInput.
+  /// `log` and `part` must outlive it. `log_number`: see SimulationInput. A band is made by
+  /// `band_threads`; 0: none.
   PartReplay(Experiment experiment, const LogSurvey& log, const PartSurvey& part,
-             std::size_t log_number);
+             std::size_t log_number, int band_threads = 0);
 
   /// The next window of the part, which has replay_halo rows. Signals are compared as the model's
   /// refinements correct them. `sink`: takes the rows. After a divergence nothing is done.
@@ -47,7 +50,13 @@ class PartReplay {
     Channel channel = Channel::q;
     int joint = 0;
     bool is_deflection = false;
+    double noise = 0;  ///< of the sensor, sd
     GapScan scan = {};
+    BandScan band = {};
+
+    Eigen::ArrayXd measured(const ReplayedRows& rows) const;
+    Eigen::ArrayXd simulated(const ReplayedRows& rows) const;
+    Eigen::ArrayXd half_width(const ReplayedRows& rows) const;
   };
 
   void choose_signals();
@@ -68,6 +77,7 @@ class PartReplay {
   std::size_t log_number_;
   Eigen::Index window_rows_;  ///< between starts from the measured state; 0: never
   std::optional<Simulation> simulation_;
+  std::optional<MovedSimulations> moved_;  ///< for the band, when asked for
   std::vector<Signal> signals_;
   TensionScan tensions_;
   SimulatedPart result_;

@@ -34,9 +34,20 @@ bool has_part_of_model(const Model& model, const LogSurvey& log) {
                      [&](const PartSurvey& part) { return is_of_model(model, part); });
 }
 
+/// Logs run side by side, unless the rows of one file are written in their order; the threads that
+/// this leaves simulate the band.
+int log_threads(const ReplayOptions& options) {
+  return options.trajectories.empty() ? options.threads : 1;
+}
+int band_threads(const ReplayOptions& options, std::size_t n_logs) {
+  if (!options.band) return 0;
+  const int busy = std::min(log_threads(options), static_cast<int>(n_logs));
+  return std::max(1, options.threads / std::max(1, busy));
+}
+
 /// One replay per part of the log, empty for those left out.
 std::vector<std::unique_ptr<PartReplay>> plan_parts(const Model& model, const LogSurvey& log,
-                                                    std::size_t log_number,
+                                                    std::size_t log_number, std::size_t n_logs,
                                                     const ReplayOptions& options,
                                                     SimulateResult& result) {
   const bool of_model = has_part_of_model(model, log);
@@ -59,18 +70,18 @@ std::vector<std::unique_ptr<PartReplay>> plan_parts(const Model& model, const Lo
                                             cablefit::quoted(model.preload)));
     }
     replay = std::make_unique<PartReplay>(plan_experiment(model, log, part, options), log, part,
-                                          log_number);
+                                          log_number, band_threads(options, n_logs));
   }
   return replays;
 }
 
 class LogReplay {
  public:
-  LogReplay(const Model& model, const LogSurvey& log, std::size_t log_number,
+  LogReplay(const Model& model, const LogSurvey& log, std::size_t log_number, std::size_t n_logs,
             const ReplayOptions& options, SimulateResult& result)
       : log_(log),
         halo_(replay_halo(model)),
-        replays_(plan_parts(model, log, log_number, options, result)),
+        replays_(plan_parts(model, log, log_number, n_logs, options, result)),
         figures_(log.parts.size()) {
     for (std::size_t k = 0; options.figures && k < replays_.size(); ++k)
       if (replays_[k]) figures_[k].emplace(log, log.parts[k], replays_[k]->result().closed_loop);
@@ -120,7 +131,7 @@ std::vector<LogReplay> plan_logs(const Model& model, std::span<const LogSurvey> 
   for (const LogSurvey& log : logs) {
     result.inputs.push_back({log.plan.path, log.sha256, log.n_rows});
     const std::size_t number = replays.size();
-    replays.emplace_back(model, log, number, options, result);
+    replays.emplace_back(model, log, number, logs.size(), options, result);
   }
   const bool nothing = std::all_of(replays.begin(), replays.end(),
                                    [](const LogReplay& replay) { return replay.is_empty(); });
@@ -161,12 +172,13 @@ SimulateResult simulate_logs(const Model& model, std::span<const LogSurvey> logs
   result.trajectories = options.trajectories;
   std::vector<LogReplay> replays = plan_logs(model, logs, options, result);
   if (options.trajectories.empty()) {
-    run_logs(replays, options.threads, nullptr, result);
+    run_logs(replays, log_threads(options), nullptr, result);
     return result;
   }
-  TrajectoryFile file(options.trajectories, model);
+  TrajectoryFile file(options.trajectories, model, options.band && !model.covariance.empty());
   const auto write = [&](std::size_t log, const ReplayedRows& rows) { file.add(log, rows); };
-  run_logs(replays, 1, write, result);  // rows of the file in the order of the logs
+  run_logs(replays, log_threads(options), write,
+           result);  // rows of the file in the order of the logs
   file.finish();
   return result;
 }

@@ -19,13 +19,17 @@ struct Compared {
   const char* unit;
   Eigen::ArrayXXd ReplayedRows::*measured;
   Eigen::ArrayXXd SimulationResult::*simulated;
+  Eigen::ArrayXXd SimulationBand::*band;
 };
 
 const Compared& compared_of(Channel channel) {
   static const std::array<Compared, 3> kCompared = {
-      {{Channel::q, "link position", "rad", &ReplayedRows::q, &SimulationResult::q},
-       {Channel::theta, "motor position", "rad", &ReplayedRows::theta, &SimulationResult::theta},
-       {Channel::tau, "motor torque", "N m", &ReplayedRows::tau, &SimulationResult::tau}}};
+      {{Channel::q, "link position", "rad", &ReplayedRows::q, &SimulationResult::q,
+        &SimulationBand::q},
+       {Channel::theta, "motor position", "rad", &ReplayedRows::theta, &SimulationResult::theta,
+        &SimulationBand::theta},
+       {Channel::tau, "motor torque", "N m", &ReplayedRows::tau, &SimulationResult::tau,
+        &SimulationBand::tau}}};
   for (const Compared& one : kCompared)
     if (one.channel == channel) return one;
   return kCompared.front();
@@ -52,9 +56,9 @@ void ReplayFigures::add_signal(const LogSurvey& log, Channel channel, int joint)
   const std::string unit =
       log.plan.rig.linear_motion ? linear_unit(one.unit) : std::string(one.unit);
   signals_.push_back({std::string(channel_name(channel)) + (many ? std::to_string(joint + 1) : ""),
-                      one.kind, unit, one.measured, one.simulated, joint, time_.new_line(),
-                      time_.new_line(), time_.new_line(), time_.new_close_up(),
-                      time_.new_close_up()});
+                      one.kind, unit, one.measured, one.simulated, joint, one.band,
+                      time_.new_line(), time_.new_line(), time_.new_line(), time_.new_close_up(),
+                      time_.new_close_up(), time_.new_line(), time_.new_line()});
 }
 
 void ReplayFigures::add(const ReplayedRows& rows) {
@@ -74,6 +78,17 @@ void ReplayFigures::add(const ReplayedRows& rows) {
       signal.gap_line.add(t, gap);
       signal.explained.add(measured(i, signal.joint), gap);
     }
+    if (!rows.band.empty()) add_band(rows, signal);
+  }
+  has_band_ = has_band_ || !rows.band.empty();
+}
+
+void ReplayFigures::add_band(const ReplayedRows& rows, Signal& signal) const {
+  const auto half_width = (rows.band.*signal.band).col(signal.joint);
+  for (Eigen::Index i = 0; i < half_width.size(); ++i) {
+    const double t = rows.t0 + static_cast<double>(i) * rows.period;
+    signal.band_above.add(t, half_width(i));
+    signal.band_below.add(t, -half_width(i));
   }
 }
 
@@ -113,6 +128,11 @@ std::vector<Figure> ReplayFigures::figures() const {
     gap.caption = "Simulated minus measured.";
     gap.y.title = "gap of " + signal.name;
     draw(gap, signal.gap_line, "simulated - measured", 2);
+    if (has_band_) {
+      gap.caption += " The band is what the parameters leave open, 95 %, without sensor noise.";
+      draw(gap, signal.band_above, "band of the parameters, above", kReference, TraceStyle::dashed);
+      draw(gap, signal.band_below, "below", kReference, TraceStyle::dashed);
+    }
     figures.push_back(std::move(both));
     if (!near.traces.front().x.empty()) figures.push_back(std::move(near));
     figures.push_back(std::move(gap));

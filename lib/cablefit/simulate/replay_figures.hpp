@@ -28,16 +28,20 @@ class ReplayFigures {
     Eigen::ArrayXXd ReplayedRows::*measured;
     Eigen::ArrayXXd SimulationResult::*simulated;
     Eigen::Index joint;
+    Eigen::ArrayXXd SimulationBand::*band;
     ThinnedLine measured_line, simulated_line, gap_line;
     ThinnedLine near_measured, near_simulated;
+    ThinnedLine band_above, band_below;
     Explained explained = {};
   };
   void add_signal(const LogSurvey& log, Channel channel, int joint);
   Figure blank(const Signal& signal) const;
+  void add_band(const ReplayedRows& rows, Signal& signal) const;
 
   TimeAxis time_;
   std::string section_, group_;
   std::vector<Signal> signals_;
+  bool has_band_ = false;
 };
 
 }  // namespace cablefit

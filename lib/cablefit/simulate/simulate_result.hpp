@@ -11,6 +11,14 @@
 
 namespace cablefit {
 
+inline constexpr double kNormal975 = 1.959964;  ///< quantile, for 95 % bands
+
+/// What the joint covariance of the parameters leaves open of a simulated signal.
+struct SignalBand {
+  double half_width = 0;  ///< of the 95 % band, rms over the rows, without sensor noise
+  double inside = 0;      ///< share of the rows (0..1) whose gap band and noise together allow
+};
+
 /// Simulated minus measured over all simulated rows of a part. SI.
 struct SignalGap {
   std::string signal;  ///< "q", "theta", "deflection" (theta - q), "tau"; "q2" with several joints
@@ -20,7 +28,8 @@ struct SignalGap {
   double relative = 0;  ///< rms / rms of the measured signal about its mean; that 0: inf or NaN
   double noise = 0;     ///< sd of the sensor's noise or rounding: a perfect model leaves this rms
   double worst_window_rms = 0;
-  double t_of_worst_window = 0;  ///< s, its first row
+  double t_of_worst_window = 0;         ///< s, its first row
+  std::optional<SignalBand> band = {};  ///< when asked for, of a model that knows its covariance
 };
 
 /// How one cable was pulled in the simulation.

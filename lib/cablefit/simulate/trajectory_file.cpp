@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <string_view>
 
 namespace cablefit {
 namespace {
@@ -22,8 +23,8 @@ std::string without_commas(std::string name) {
 
 }  // namespace
 
-TrajectoryFile::TrajectoryFile(const std::string& path, const Model& model)
-    : file_(path), n_joints_(model.rig.n_joints()) {
+TrajectoryFile::TrajectoryFile(const std::string& path, const Model& model, bool with_band)
+    : file_(path), n_joints_(model.rig.n_joints()), with_band_(with_band) {
   for (const Cable& cable : model.transmission.cables) {
     if (!model.rigid) cables_.push_back(without_commas(cable.name));
   }
@@ -32,7 +33,8 @@ TrajectoryFile::TrajectoryFile(const std::string& path, const Model& model)
 
 void TrajectoryFile::write_header() {
   line_ = "log,start,t";
-  for (const char* suffix : {"", "_sim"}) {
+  for (const char* suffix : {"", "_sim", "_band"}) {
+    if (!with_band_ && suffix == std::string_view("_band")) continue;
     for (const char* signal : {"q", "theta", "tau"}) {
       for (Eigen::Index k = 1; k <= n_joints_; ++k) {
         append(&line_, ",{}{}{}", signal, n_joints_ > 1 ? std::to_string(k) : "", suffix);
@@ -56,6 +58,9 @@ void TrajectoryFile::add_row(std::size_t log, const ReplayedRows& rows, Eigen::I
   for (const Eigen::ArrayXXd* table : {&rows.q, &rows.theta, &rows.tau, &s.q, &s.theta, &s.tau}) {
     add_cells(*table, row);
   }
+  if (with_band_)
+    for (const Eigen::ArrayXXd* table : {&rows.band.q, &rows.band.theta, &rows.band.tau})
+      add_cells(*table, row);
   if (!cables_.empty()) add_tensions(s.tension, row);
   line_ += '\n';
   file_.append(line_);

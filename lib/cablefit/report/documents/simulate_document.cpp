@@ -57,6 +57,29 @@ Shown shown(const std::string& unit) {
   return {1, unit};
 }
 
+Table band_table(const SimulateResult& result) {
+  Table table;
+  table.title = "What the parameters leave open";
+  table.columns = {{"", "log", "", true},
+                   {"", "signal", "", true},
+                   {"", "unit", "", true},
+                   {"95 % band", "half width", ""},
+                   {"rows", "within", "%"}};
+  for (const SimulatedPart& part : result.parts)
+    for (const SignalGap& gap : part.gaps) {
+      if (!gap.band) continue;
+      const auto [factor, unit] = shown(gap.unit);
+      const bool first = &gap == &part.gaps.front();
+      table.rows.push_back({first ? cell_name(result, part) : "", gap.signal, unit,
+                            significant(factor * gap.band->half_width, 2),
+                            significant(100 * gap.band->inside, kShareDigits)});
+    }
+  table.notes = {
+      "band: by the joint covariance of the parameters, rms over the rows; within: rows whose gap "
+      "the band and the sensor noise together allow"};
+  return table;
+}
+
 Table gap_table(const SimulateResult& result) {
   Table table;
   table.title = "Gap: simulated minus measured";
@@ -124,7 +147,8 @@ Table tidy_gaps(const SimulateResult& result) {
   Table table;
   for (const char* name :
        {"log", "preload", "phase", "run", "model", "mode", "window", "rows", "signal", "unit",
-        "rms", "max_abs", "t_of_max", "relative", "noise", "worst_window_t", "worst_window_rms"}) {
+        "rms", "max_abs", "t_of_max", "relative", "noise", "worst_window_t", "worst_window_rms",
+        "band95_half_width", "band95_inside"}) {
     table.columns.push_back({"", name, ""});
   }
   for (const SimulatedPart& part : result.parts) {
@@ -133,7 +157,8 @@ Table tidy_gaps(const SimulateResult& result) {
           {part.log, part.preload, part.phase, part.run, result.model_name,
            std::string(part.mode()), exact(part.window_seconds), count(part.n_rows), gap.signal,
            gap.unit, exact(gap.rms), exact(gap.max_abs), exact(gap.t_of_max), exact(gap.relative),
-           exact(gap.noise), exact(gap.t_of_worst_window), exact(gap.worst_window_rms)});
+           exact(gap.noise), exact(gap.t_of_worst_window), exact(gap.worst_window_rms),
+           gap.band ? exact(gap.band->half_width) : "", gap.band ? exact(gap.band->inside) : ""});
     }
   }
   return table;
@@ -179,6 +204,7 @@ Document simulate_document(const SimulateResult& result) {
       {"used", says_path ? result.model_choice
                          : fmt::format("{}, from {}", result.model_choice, result.model_path)});
   add_table(document, gap_table(result));
+  add_table(document, band_table(result));
   add_table(document, cable_table(result));
   add_detail(document, part_table(result));
   document.tidy = tidy_gaps(result);

@@ -20,6 +20,11 @@ Json model_json(const SimulateResult& result) {
               {"rig", report_json::rig(result.rig_path)}};
 }
 
+Json band_json(const std::optional<SignalBand>& band) {
+  if (!band) return nullptr;
+  return Json{{"half_width", band->half_width}, {"inside", band->inside}};
+}
+
 Json gap_json(const SignalGap& gap) {
   return Json{{"signal", gap.signal},
               {"unit", gap.unit},
@@ -28,6 +33,7 @@ Json gap_json(const SignalGap& gap) {
               {"t_of_max", gap.t_of_max},
               {"relative", gap.relative},
               {"noise", gap.noise},
+              {"band95", band_json(gap.band)},
               {"worst_window", {{"t", gap.t_of_worst_window}, {"rms", gap.worst_window_rms}}}};
 }
 
