@@ -44,6 +44,15 @@ struct TensionRange {
   double least = 0, largest = 0;  ///< on the working range
 };
 
+/// sd of numbers of a DesignJoint, by the joint covariance of the model's parameters; NaN: not
+/// known.
+struct DesignSpread {
+  double closure_torque = kNotKnown;                             ///< N m
+  double stiffness_zero = kNotKnown;                             ///< N m/rad
+  double stiffness_low = kNotKnown, stiffness_high = kNotKnown;  ///< N m/rad
+  double efficiency_driving = kNotKnown;
+};
+
 struct DesignJoint {
   std::string name;
   double low = 0, high = 0;  ///< rad, working range: deflections at -torque and +torque
@@ -57,6 +66,7 @@ struct DesignJoint {
   std::vector<TensionRange> tensions;
   std::vector<ModelCost> models;           ///< linear, piecewise linear, ..., cables
   std::optional<DesignFriction> friction;  ///< nothing when the model has none
+  std::optional<DesignSpread> sd;          ///< nothing when the model knows no covariance
   const ModelCost& model(const std::string& which) const;
 };
 

@@ -10,6 +10,7 @@
 #include "cablefit/base/quote.hpp"
 #include "cablefit/base/root.hpp"
 #include "cablefit/design/design_figures.hpp"
+#include "cablefit/design/design_spread.hpp"
 #include "cablefit/design/equilibrium_preload.hpp"
 #include "cablefit/design/joint_curve.hpp"
 #include "cablefit/model/modes.hpp"
@@ -79,14 +80,18 @@ std::vector<double> chosen_preloads(const NeededPreload& needed) {
   return all;
 }
 
-DesignPoint describe_point(const Model& model, const Transmission& preloaded, double factor,
+DesignPoint describe_point(const Model& model, const std::vector<MovedModel>& copies,
+                           const Transmission& preloaded, double factor, bool is_own,
                            const DesignOptions& options) {
   DesignPoint point;
+  point.is_own = is_own;
   point.l_o = preloaded.cables.front().initial_elongation;
   point.radius_factor = factor;
   point.initial_elongations = elongations_of(preloaded);
   for (int joint = 0; joint < preloaded.n_joints; ++joint)
     point.joints.push_back(describe_joint(model, preloaded, joint, options));
+  for (std::size_t k = 0; !copies.empty() && k < point.joints.size(); ++k)
+    point.joints[k].sd = spread_of(point.joints[k], point, copies, static_cast<int>(k), options);
   return point;
 }
 
@@ -196,18 +201,18 @@ DesignResult sweep_design(const Model& model, const DesignOptions& given) {
     (void)balanced_tensions(base);  // or say at once that there are none
     result.needed.push_back(what_is_needed(base, factor, options.torque));
   }
+  const std::vector<MovedModel> copies = principal_copies(model);
   for (const NeededPreload& needed : result.needed) {
     const double factor = needed.radius_factor;
     const Transmission base = with_radii(model.transmission, factor);
     const std::vector<double> sweep = options.l_o.empty() ? chosen_preloads(needed) : options.l_o;
     if (is_preloaded(base)) {
-      result.points.push_back(describe_point(model, base, factor, options));
-      result.points.back().is_own = true;
+      result.points.push_back(describe_point(model, copies, base, factor, true, options));
       add_curves(model, base, result.points.back(), options, result);
     }
     for (const double l_o : sweep) {
       const Transmission preloaded = with_preload(base, l_o);
-      result.points.push_back(describe_point(model, preloaded, factor, options));
+      result.points.push_back(describe_point(model, copies, preloaded, factor, false, options));
       add_curves(model, preloaded, result.points.back(), options, result);
     }
   }

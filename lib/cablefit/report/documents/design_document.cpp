@@ -160,6 +160,31 @@ Table friction_table(const Words& words) {
   return table;
 }
 
+/// Nothing where the model knows no covariance.
+Table spread_table(const Words& words) {
+  Table table = table_of(words, "How sure these numbers are",
+                         {{"closure torque", "", words.torque},
+                          {"closure torque", "sd", words.torque},
+                          {"stiffness, no load", "", words.stiffness},
+                          {"stiffness, no load", "sd", words.stiffness},
+                          {"stiffness, +torque", "", words.stiffness},
+                          {"stiffness, +torque", "sd", words.stiffness},
+                          {"efficiency", "driving", "%"},
+                          {"efficiency", "sd", "%"}});
+  for_each_joint(words.result, [&](const DesignPoint& point, const DesignJoint& joint) {
+    if (!joint.sd) return;
+    const auto sd = [](double value) { return significant(value, 2); };
+    add_row(table, words.key(point, joint),
+            {few(joint.closure_torque), sd(joint.sd->closure_torque),
+             significant(joint.stiffness_zero, kDigits), sd(joint.sd->stiffness_zero),
+             significant(joint.stiffness_high, kDigits), sd(joint.sd->stiffness_high),
+             joint.friction ? few(100 * joint.friction->efficiency_driving) : kNoNumber,
+             sd(100 * joint.sd->efficiency_driving)});
+  });
+  table.notes = {"sd: by the joint covariance of the model's parameters, as their fit gave it"};
+  return table;
+}
+
 Table tension_table(const Words& words) {
   Table table = table_of(words, "Tension of each cable",
                          {{"", "cable", "", true},
@@ -307,6 +332,7 @@ void add_sweep(const DesignResult& result, Document& document) {
   add_table(document, preload_table(words));
   add_detail(document, cost_table(words));
   add_detail(document, friction_table(words));
+  add_detail(document, spread_table(words));
   add_detail(document, tension_table(words));
   add_figures(document, result.figures);
   add_tidy_rows(words, document);

@@ -41,6 +41,14 @@ Json friction_json(const std::optional<DesignFriction>& f) {
               {"efficiency_driven", f->efficiency_driven}};
 }
 
+Json spread_json(const std::optional<DesignSpread>& sd) {
+  if (!sd) return {};
+  return Json{{"closure_torque", sd->closure_torque},
+              {"stiffness_zero", sd->stiffness_zero},
+              {"stiffness_at_torque", {sd->stiffness_low, sd->stiffness_high}},
+              {"efficiency_driving", sd->efficiency_driving}};
+}
+
 Json tension_json(const TensionRange& t) {
   return Json{
       {"cable", t.cable}, {"preload", t.preload}, {"least", t.least}, {"largest", t.largest}};
@@ -60,6 +68,7 @@ Json joint_json(const DesignJoint& joint) {
                 {"range", {joint.stiffness_least, joint.stiffness_most}}}},
               {"tensions", list_of(joint.tensions, tension_json)},
               {"friction", friction_json(joint.friction)},
+              {"sd", spread_json(joint.sd)},
               {"models", list_of(joint.models, cost_json)}};
 }
 
