@@ -22,7 +22,7 @@ endfunction()
 foreach(folder design dynamic dynamic/checks dynamic/loops dynamic/output_error dynamic/rows
         elastic estimate/fit estimate/solve estimate/spread estimate/tests identify identify/elongations
         identify/equations identify/results refine refine/null refine/rows refine/search refine/steps
-        refine/verdict simulate)
+        refine/verdict predict simulate)
   cablefit_together(cablefit lib/cablefit/${folder})
 endforeach()
 cablefit_together(cablefit lib/cablefit/report/json FILES "*_json.cpp")

@@ -32,6 +32,7 @@ int run_elastic(const Arguments& arguments);
 int run_dynamic(const Arguments& arguments);
 int run_identify(const Arguments& arguments);
 int run_simulate(const Arguments& arguments);
+int run_predict(const Arguments& arguments);
 int run_refine(const Arguments& arguments);
 int run_design(const Arguments& arguments);
 int run_compare(const Arguments& arguments);

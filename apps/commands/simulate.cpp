@@ -1,9 +1,4 @@
 // cablefit simulate: a model on the input of logs.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <filesystem>
-
 #include "cablefit/base/digest.hpp"
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/problems.hpp"
@@ -14,6 +9,7 @@
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
+#include "commands/model_argument.hpp"
 #include "commands/progress.hpp"
 
 namespace cablefit::apps {
@@ -67,28 +63,12 @@ void add_replay_options(CLI::App& app, ReplayOptions& replay) {
   add_number(
       app, "--step", "S", {1e-9, 1}, [&replay](double seconds) { replay.step = seconds; },
       "longest step of the integration [25e-6]");
+  app.add_flag_callback(
+      "--no-band", [&replay] { replay.band = false; },
+      "no 95 % band of the parameters' covariance: faster, by one simulation per parameter");
   app.add_option("--trajectories", replay.trajectories,
-                 "CSV of every row, measured and simulated, with cable tensions")
+                 "CSV of every row, measured and simulated, with its band and cable tensions")
       ->type_name("FILE");
-}
-
-bool is_json(const std::string& path) { return std::filesystem::path(path).extension() == ".json"; }
-
-/// MODEL, taken off the front of the arguments.
-std::string take_model(CommonOptions& options) {
-  std::vector<std::string>& given = options.logs;
-  const std::string usual = (std::filesystem::path(options.out) / "dynamic.json").string();
-  if (given.empty())
-    throw usage_error("no model and no log given", "see 'cablefit simulate --help'");
-  if (is_json(given.front())) {
-    const std::string model = given.front();
-    given.erase(given.begin());
-    return model;
-  }
-  std::error_code ignored;
-  if (std::filesystem::exists(usual, ignored)) return usual;
-  throw usage_error(fmt::format("no model given and no {}", usual),
-                    "name a model file or a result of 'cablefit dynamic' before the logs");
 }
 
 std::vector<LogSurvey> read_logs_for(const Model& model, const CommonOptions& options) {
@@ -105,30 +85,10 @@ std::vector<LogSurvey> read_logs_for(const Model& model, const CommonOptions& op
   return logs;
 }
 
-/// Trajectories never replace what they are made from, nor another result of the same run.
-void check_trajectories(const SimulateCommand& command, const std::string& model) {
-  const std::string& path = command.replay.trajectories;
-  if (path.empty()) return;
-  if (path == "-") throw usage_error("--trajectories cannot be '-'", "give the name of a file");
-  const CommonOptions& options = command.common;
-  std::vector<std::string> others = options.logs;
-  others.insert(others.end(), options.reports.begin(), options.reports.end());
-  others.insert(others.end(), {model, options.rig, options.json,
-                               (std::filesystem::path(options.out) / kSimulationFile).string()});
-  const auto whole = [](const std::string& file) {
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(file));
-  };
-  for (const std::string& other : others) {
-    if (other.empty() || whole(other) != whole(path)) continue;
-    throw usage_error(fmt::format("the trajectories would take the place of {}", other),
-                      "choose another --trajectories");
-  }
-}
-
 SimulateResult run_simulation(SimulateCommand& command) {
-  const std::string path = take_model(command.common);
+  const std::string path = take_model_path(command.common, "simulate");
   command.common.more_inputs.push_back(path);
-  check_trajectories(command, path);
+  require_own_place(command.replay.trajectories, path, command.common, kSimulationFile);
   std::string choice;
   const Model model = read_model(path, command.common.preload, command.model, choice);
   const std::vector<LogSurvey> logs = read_logs_for(model, command.common);
@@ -157,6 +117,7 @@ int run_simulate(const Arguments& arguments) {
   CLI::App app("A model on the input of logs: positions, torques, gap against what was measured.",
                "simulate");
   SimulateCommand command;
+  command.replay.band = true;
   add_model_options(app, command);
   add_replay_options(app, command.replay);
   add_reading_options(app, command.common.reading);

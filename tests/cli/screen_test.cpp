@@ -50,8 +50,8 @@ TEST_CASE("what a terminal shows of the shipped examples fits on it") {
 }
 
 TEST_CASE("help fits on a terminal") {
-  for (const char* name : {"study", "check", "elastic", "dynamic", "identify", "simulate", "refine",
-                           "design", "compare", "batch", "init", "list"}) {
+  for (const char* name : {"study", "check", "elastic", "dynamic", "identify", "simulate",
+                           "predict", "refine", "design", "compare", "batch", "init", "list"}) {
     const Outcome outcome = run(std::string("cablefit ") + name + " --help");
     INFO(name);
     std::istringstream text(outcome.out);

@@ -71,6 +71,8 @@ ElasticResult curve_of(const Model& model) {
   fit.covariance = covariance_of(fit.parameters, model.covariance);
   add_others(model, fit.parameters);
   preload.selected = fit.model;
+  if (model.rig.n_joints() > 1)
+    for (const std::string& joint : model.rig.joints) preload.joints.emplace_back().name = joint;
   return {{}, {std::move(preload)}, {}};
 }
 

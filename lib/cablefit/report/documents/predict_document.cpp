@@ -1,0 +1,222 @@
+#include "cablefit/report/documents/predict_document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "cablefit/report/documents/document_parts.hpp"
+#include "cablefit/report/documents/numbers.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr int kDigits = 3;
+constexpr int kTimeDigits = 5;
+constexpr std::size_t kMostContacts = 5;  // of a joint, on the screen
+
+std::string count(std::size_t n) { return fmt::format("{}", n); }
+
+std::string cell_name(const PredictedPart& part) {
+  const std::string file = std::filesystem::path(part.log).filename().string();
+  return fmt::format("{} ({})", file, part.phase);
+}
+
+/// Small lengths and angles are printed in mm and mrad.
+struct Shown {
+  double factor;
+  std::string unit;
+};
+Shown shown(const std::string& unit) {
+  if (unit == "rad" || unit == "m") return {1e3, "m" + unit};
+  return {1, unit};
+}
+
+Table signal_table(const PredictResult& result) {
+  Table table;
+  table.title = "Elastic quantities by the model";
+  table.columns = {{"", "log", "", true},  {"", "quantity", "", true},
+                   {"", "unit", "", true}, {"", "least", ""},
+                   {"", "largest", ""},    {"95 % band", "half width", ""}};
+  for (const PredictedPart& part : result.parts)
+    for (const PredictedSignal& signal : part.signals) {
+      const auto [factor, unit] = shown(signal.unit);
+      const bool first = &signal == &part.signals.front();
+      table.rows.push_back({first ? cell_name(part) : "", signal.name, unit,
+                            significant(factor * signal.least, kDigits),
+                            significant(factor * signal.largest, kDigits),
+                            signal.half_width ? significant(factor * *signal.half_width, 2)
+                                              : std::string(kNoNumber)});
+    }
+  table.notes = {"95 % band: by the joint covariance of the elastic parameters, rms over the rows"};
+  return table;
+}
+
+Table torque_table(const PredictResult& result) {
+  Table table;
+  table.title = "Torque by the model against the sensor";
+  table.columns = {{"", "log", "", true},    {"", "torque", "", true}, {"", "unit", "", true},
+                   {"", "by", "", true},     {"", "rows", ""},         {"error", "rms", ""},
+                   {"error", "largest", ""}, {"error", "at", "s"},     {"", "relative", "%"}};
+  bool is_any_alone = false;
+  for (const PredictedPart& part : result.parts)
+    for (const SensedTorque& torque : part.torques) {
+      is_any_alone = is_any_alone || !torque.is_measured;
+      const bool first = &torque == &part.torques.front();
+      table.rows.push_back(
+          {first ? cell_name(part) : "", torque.signal + (torque.is_measured ? "" : " *"),
+           torque.unit, torque.method, count(torque.n_rows), significant(torque.rms, kDigits),
+           significant(torque.max_abs, kDigits), significant(torque.t_of_max, kTimeDigits),
+           significant(100 * torque.relative, kDigits)});
+    }
+  if (is_any_alone)
+    table.notes.emplace_back("*: not measured; the numbers are of the torque itself");
+  return table;
+}
+
+Table watch_table(const PredictResult& result) {
+  Table table;
+  table.title = "Contacts of the link";
+  table.columns = {{"", "log", "", true},
+                   {"", "joint", "", true},
+                   {"torque", "threshold", "N m"},
+                   {"torque", "detected", "N m"},
+                   {"windows", "watched", ""},
+                   {"windows", "alarms", ""},
+                   {"windows", "expected", ""},
+                   {"without contact", "windows", ""},
+                   {"without contact", "alarms", ""},
+                   {"", "not watched", "s"}};
+  if (result.linear_motion) table.columns[2].unit = table.columns[3].unit = "N";
+  for (const PredictedPart& part : result.parts)
+    for (const ContactWatch& watch : part.watches)
+      table.rows.push_back(
+          {cell_name(part), watch.joint, significant(watch.detector.threshold, kDigits),
+           significant(watch.detector.torque, kDigits), count(watch.n_windows),
+           count(watch.n_alarms), significant(watch.expected_alarms, 2),
+           watch.quiet_windows ? count(*watch.quiet_windows) : std::string(kNoNumber),
+           watch.false_alarms ? count(*watch.false_alarms) : std::string(kNoNumber),
+           significant(watch.seconds_not_watched, kDigits)});
+  table.notes = {
+      "detected: smallest contact torque that is found; expected: alarms without any contact; "
+      "not watched: the link stands still, and dry friction hides the torque"};
+  return table;
+}
+
+Table contact_table(const PredictResult& result) {
+  Table table;
+  table.title = "When something pushed the link";
+  table.columns = {{"", "log", "", true},
+                   {"", "joint", "", true},
+                   {"", "from", "s"},
+                   {"", "to", "s"},
+                   {"", "torque", result.linear_motion ? "N" : "N m"}};
+  for (const PredictedPart& part : result.parts)
+    for (const ContactWatch& watch : part.watches) {
+      const std::size_t n = std::min(watch.contacts.size(), kMostContacts);
+      for (std::size_t k = 0; k < n; ++k)
+        table.rows.push_back({cell_name(part), watch.joint,
+                              significant(watch.contacts[k].from, kTimeDigits),
+                              significant(watch.contacts[k].to, kTimeDigits),
+                              significant(watch.contacts[k].torque, kDigits)});
+      if (n < watch.contacts.size())
+        table.notes.push_back(fmt::format("{}, joint {}: {} more in the JSON result",
+                                          cell_name(part), watch.joint, watch.contacts.size() - n));
+    }
+  return table;
+}
+
+Table tidy_signals(const PredictResult& result) {
+  Table table;
+  for (const char* name : {"log", "preload", "phase", "run", "model", "quantity", "unit", "least",
+                           "largest", "band95_half_width"})
+    table.columns.push_back({"", name, ""});
+  for (const PredictedPart& part : result.parts)
+    for (const PredictedSignal& signal : part.signals)
+      table.rows.push_back({part.log, part.preload, part.phase, part.run, result.model_name,
+                            signal.name, signal.unit, exact(signal.least), exact(signal.largest),
+                            signal.half_width ? exact(*signal.half_width) : ""});
+  return table;
+}
+
+/// "1 in 240 windows of 0.05 s; 4.0 s at rest are not watched"; empty: none was watched.
+std::string contacts_text(const PredictResult& result) {
+  std::size_t n_contacts = 0, n_windows = 0;
+  double window = 0, at_rest = 0;
+  for (const PredictedPart& part : result.parts)
+    for (const ContactWatch& watch : part.watches) {
+      n_contacts += watch.contacts.size();
+      n_windows += watch.n_windows;
+      window = watch.window;
+      at_rest += watch.seconds_not_watched;
+    }
+  if (n_windows == 0) return "";
+  return fmt::format("{} in {} windows of {:g} s; {} s at rest are not watched",
+                     n_contacts == 0 ? "none" : count(n_contacts), n_windows, window,
+                     significant(at_rest, 2));
+}
+
+/// The elastic torque, the error beside a sensor, and contacts: the largest of all parts.
+Headline headline_of(const PredictResult& result) {
+  Headline headline;
+  double torque = 0, relative = 0;
+  std::size_t n_contacts = 0, n_watched = 0;
+  std::string unit;
+  for (const PredictedPart& part : result.parts) {
+    if (!part.signals.empty()) {
+      const PredictedSignal& link = part.signals.front();
+      torque = std::max({torque, std::abs(link.least), std::abs(link.largest)});
+      unit = link.unit;
+    }
+    for (const SensedTorque& t : part.torques)
+      if (t.is_measured && t.relative > relative) relative = t.relative;
+    for (const ContactWatch& watch : part.watches) {
+      n_contacts += watch.contacts.size();
+      n_watched += watch.n_windows;
+    }
+  }
+  headline.numbers.push_back(
+      {"largest elastic torque", fmt::format("{} {}", significant(torque, kDigits), unit)});
+  if (relative > 0)
+    headline.numbers.push_back(
+        {"largest error beside a sensor", significant(100 * relative, kDigits) + " %"});
+  if (n_watched > 0) headline.numbers.push_back({"contacts of the link", count(n_contacts)});
+  headline.verdict = n_watched == 0    ? "elastic torques predicted"
+                     : n_contacts == 0 ? "no contact of the link"
+                                       : fmt::format("{} contact{} of the link", n_contacts,
+                                                     n_contacts == 1 ? "" : "s");
+  return headline;
+}
+
+}  // namespace
+
+Document predict_document(const PredictResult& result) {
+  Document document;
+  document.title = "What the model says along the logs";
+  const bool says_path = result.model_choice.find(result.model_path) != std::string::npos;
+  document.summary.push_back(
+      {"used", says_path ? result.model_choice
+                         : fmt::format("{}, from {}", result.model_choice, result.model_path)});
+  if (const std::string text = contacts_text(result); !text.empty())
+    document.summary.push_back({"contacts", text});
+  add_table(document, torque_table(result));
+  add_table(document, contact_table(result));
+  add_table(document, signal_table(result));
+  add_detail(document, watch_table(result));
+  document.tidy = tidy_signals(result);
+  if (!result.trajectories.empty())
+    document.summary.push_back({"trajectories", result.trajectories});
+  if (!result.sensed.empty()) document.summary.push_back({"torques", result.sensed});
+  add_warnings(document, "", result.warnings);
+  for (const PredictedPart& part : result.parts) {
+    add_decisions(document, cell_name(part), part.decisions);
+    add_warnings(document, cell_name(part), part.warnings);
+    add_figures(document, part.figures);
+  }
+  finish_decisions(document, result.parts.size());
+  document.headline = headline_of(result);
+  lead_with(document, 1);
+  return document;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,12 @@
+// cablefit/predict/1: what a model says along logs as a file, see data/schema/predict.schema.json.
+#pragma once
+
+#include <string>
+
+#include "cablefit/predict/predict_result.hpp"
+
+namespace cablefit {
+
+std::string predict_json(const PredictResult& result);
+
+}  // namespace cablefit
