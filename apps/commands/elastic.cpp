@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/base/quote.hpp"
 #include "cablefit/identify/elastic_search.hpp"
 #include "cablefit/identify/elastic_stage.hpp"
 #include "cablefit/prove/prove.hpp"
@@ -14,10 +15,13 @@
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
 #include "commands/elongation_option.hpp"
+#include "commands/given_logs.hpp"
 #include "commands/progress.hpp"
 
 namespace cablefit::apps {
 namespace {
+
+constexpr Range kAnyNumber = {-kUnbounded, kUnbounded};
 
 constexpr const char* kElasticExample =
     "Example:\n"
@@ -48,6 +52,15 @@ void add_elastic_options(CLI::App& app, ElasticOptions& elastic, ElongationMode&
                                            : ZeroMode::automatic;
       },
       "what is unknown: the drive's offset, or the encoder's zero");
+  app.add_option_function<std::string>(
+         "--offset",
+         [&elastic](const std::string& text) {
+           elastic.offset.reset();
+           if (text == "free") return;
+           elastic.offset = text == "zero" ? 0 : parse_number("--offset", text, kAnyNumber);
+         },
+         "of the drive, N m: estimated, or given; the paper's (29) and (30) have none [free]")
+      ->type_name("free|zero|VALUE");
   add_elongation_option(app, elongations);
   app.add_flag("--unconstrained", elastic.unconstrained,
                "plain least squares: let cables push, with a warning");
@@ -57,8 +70,61 @@ void add_elastic_options(CLI::App& app, ElasticOptions& elastic, ElongationMode&
       "of the peak torque: a smaller difference between models does not matter [1]");
 }
 
+/// "-0.0138:0.0138".
+std::pair<double, double> parse_range(const std::string& option, const std::string& text) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos)
+    throw usage_error(fmt::format("{} cannot be {}", option, cablefit::quoted(text)),
+                      "give LOW:HIGH, two deflections in rad");
+  const std::pair<double, double> range = {
+      parse_number(option, text.substr(0, colon), kAnyNumber),
+      parse_number(option, text.substr(colon + 1), kAnyNumber)};
+  if (range.first < range.second) return range;
+  throw usage_error(fmt::format("{} cannot be {}", option, cablefit::quoted(text)),
+                    "the first deflection is the smaller one");
+}
+
+void add_line_options(CLI::App& app, ComparedLines& lines, std::vector<std::string>& test) {
+  begin_group(app, "Score the classical linear model");
+  app.add_option_function<std::vector<std::string>>(
+         "--linear",
+         [&lines](const std::vector<std::string>& given) {
+           for (const std::string& k : given)
+             lines.stiffnesses.push_back(parse_number("--linear", k, {0}));
+         },
+         "errors of K (theta - q) with this K over all samples")
+      ->type_name("N_M_RAD");
+  app.add_option_function<std::vector<std::string>>(
+         "--linear-range",
+         [&lines](const std::vector<std::string>& given) {
+           for (const std::string& range : given)
+             lines.ranges.push_back(parse_range("--linear-range", range));
+         },
+         "the same, K fitted to these deflections alone, rad")
+      ->type_name("LOW:HIGH");
+  app.add_option("--test", test, "blocked logs on which every model is scored, and none fitted")
+      ->type_name("LOG");
+}
+
+/// The test logs, read as the others are.
+std::vector<LogSurvey> read_test(CommonOptions& common, const std::vector<std::string>& test) {
+  if (test.empty()) return {};
+  const GivenLogs given[] = {{"the fit", common.logs}, {"--test", test}};
+  require_distinct(given);
+  CommonOptions options = common;
+  options.logs = test;
+  common.more_inputs.insert(common.more_inputs.end(), test.begin(), test.end());
+  return read_logs(options);
+}
+
 /// The search fits all preloads together, with one order and theta - q as it is.
 void require_searchable(const ElasticOptions& elastic, bool order_auto) {
+  if (elastic.offset)
+    throw usage_error("--offset and a search of l_o cannot be combined",
+                      "give l_o in the rig file, or leave the offset free");
+  if (!elastic.lines.empty())
+    throw usage_error("scores of straight lines and a search of l_o cannot be combined",
+                      "give l_o in the rig file, or choose --l-o known");
   if (elastic.zero == ZeroMode::theta_0)
     throw usage_error(
         "--zero theta_0 and a search of l_o cannot be combined",
@@ -98,6 +164,8 @@ int run_elastic(const Arguments& arguments) {
       [&n_prove](long n) { n_prove = static_cast<std::size_t>(n); },
       "rerun the fit on N simulated logs of its own model: do the intervals cover?");
   add_sd_option(app, options);
+  std::vector<std::string> test_paths;
+  add_line_options(app, elastic.lines, test_paths);
   add_sample_options(app, options);
   add_output_options(app, options);
   app.footer(kElasticExample);
@@ -107,7 +175,8 @@ int run_elastic(const Arguments& arguments) {
     throw usage_error("--l-o search and --still cannot be combined",
                       "a moving log belongs to 'cablefit identify'");
 
-  const std::vector<LogSurvey> logs = read_logs(options);
+  const std::vector<LogSurvey> logs = read_logs(options), test = read_test(options, test_paths);
+  elastic.lines.test = test;
   elastic.samples = options.samples;
   elastic.preload = options.preload;
   elastic.honest_sd = options.honest_sd;

@@ -100,7 +100,7 @@ void fields(Archive& a, ReferencePose& v) {
 template <class Archive>
 void fields(Archive& a, Transmission& v) {
   a("n_joints", v.n_joints), a("cables", v.cables), a("linear_stiffness", v.linear_stiffness);
-  a("theta_0", v.theta_0), a("reference", v.reference);
+  a("theta_0", v.theta_0), a("reference", v.reference), a("reduction", v.linear_reduction);
 }
 
 template <class Archive>
@@ -153,6 +153,7 @@ void fields(Archive& a, RigFact& v) {
   a("name", v.name), a("value", v.value);
 }
 
+/// Without scores, which campaigns do not make.
 template <class Archive>
 void fields(Archive& a, ElasticPreload& v) {
   a("name", v.name), a("unit", v.unit), a("low", v.deflection_low), a("high", v.deflection_high);

@@ -195,8 +195,10 @@ std::vector<BlockedRows> collect_joints(const ElasticJob& job, double theta_0,
   transmission.theta_0 = Eigen::VectorXd::Constant(job.basis.n_joints, theta_0);
   const Collected all = collect(job, transmission, pilot);
   std::vector<BlockedRows> joints;
-  for (int joint = 0; joint < transmission.n_joints; ++joint)
+  for (int joint = 0; joint < transmission.n_joints; ++joint) {
     joints.push_back(rows_of_joint(all, transmission, joint));
+    joints.back().offset = job.options.offset;
+  }
   return joints;
 }
 
@@ -209,6 +211,7 @@ BlockedRows stack(const std::vector<BlockedRows>& joints, const std::vector<doub
   all.transmission = joints.front().transmission;
   all.columns = joints.front().columns;
   all.windows = joints.front().windows;
+  all.offset = joints.front().offset;
   all.elongations.resize(all.transmission.cables.size());
   for (const Cable& cable : all.transmission.cables) all.modes.slack.push_back({cable.name, 0});
   std::vector<const RowStatistics*> rows;
@@ -225,6 +228,12 @@ BlockedRows stack(const std::vector<BlockedRows>& joints, const std::vector<doub
   }
   all.rows = RowStatistics::weighted(rows, weights);
   return all;
+}
+
+Eigen::VectorXd BlockedRows::torque_response() const {
+  Eigen::VectorXd response = Eigen::VectorXd::Unit(columns.count, columns.tau);
+  if (offset) response.segment(columns.offset, columns.n_joints).setConstant(-*offset);
+  return response;
 }
 
 bool has_both_branches(const BlockedRows& rows, int joint) {

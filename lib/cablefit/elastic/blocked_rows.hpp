@@ -45,11 +45,11 @@ struct BlockedRows {
   double deflection_low = kUnbounded, deflection_high = -kUnbounded;  ///< of the rows
   std::vector<ElongationRange> elongations;                           ///< per cable, of the rows
   ModeCounts modes;
-  bool plateaus = false;  ///< rows at rest were used, there are hardly others
+  bool plateaus = false;         ///< rows at rest were used, there are hardly others
+  std::optional<double> offset;  ///< N m, where the options give it
 
-  Eigen::VectorXd torque_response() const {
-    return Eigen::VectorXd::Unit(columns.count, columns.tau);
-  }
+  /// tau, less a given offset.
+  Eigen::VectorXd torque_response() const;
 };
 
 /// `pilot`: a first curve, whose slope gives the column of theta_0; may be null.

@@ -17,16 +17,16 @@ constexpr double kLeastZone = 1e-6;  // of the range; two cables that go slack t
 constexpr double kNoteRoom = 0.06;   // of the torque's range, from its ends
 
 double motor_torque(const Transmission& transmission, const Cable& cable, double phi) {
-  const double theta = transmission.reference_q()(0) + phi;
+  const double theta = transmission.reference_theta()(0) + phi;
   return cable.motor_map.front().radius(theta) *
          cable.force(elongation_at(transmission, cable, phi));
 }
 
 double motor_torque(const Transmission& transmission, double phi) {
-  const Eigen::VectorXd q = transmission.reference_q();
+  const Eigen::VectorXd theta = transmission.reference_theta() + transmission.encoder_zero() +
+                                Eigen::VectorXd::Constant(1, phi);
   Eigen::VectorXd link, motor;
-  transmission.torques(q, q + Eigen::VectorXd::Constant(1, phi) + transmission.encoder_zero(), link,
-                       motor);
+  transmission.torques(transmission.reference_q(), theta, link, motor);
   return motor(0);
 }
 

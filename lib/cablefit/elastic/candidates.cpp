@@ -13,8 +13,9 @@ namespace {
 
 constexpr double kTautShare = 0.02;  // of the largest elongation or slack
 
-void add_nuisance(ElasticCandidate& candidate, const BlockedColumns& c, const Nuisance& nuisance,
+void add_nuisance(ElasticCandidate& candidate, const BlockedRows& rows, const Nuisance& nuisance,
                   int joint) {
+  const BlockedColumns c = rows.columns.of_joint(joint);
   const auto add = [&](Eigen::Index column, const char* name, double lower) {
     candidate.regressors.push_back(column);
     candidate.names.push_back(joint_parameter_name(name, joint + 1, c.n_joints));
@@ -23,7 +24,7 @@ void add_nuisance(ElasticCandidate& candidate, const BlockedColumns& c, const Nu
   };
   if (nuisance.theta_0 && candidate.model != "linear") {
     add(c.zero, "theta_0", -kUnbounded);
-  } else {
+  } else if (nuisance.theta_0 || !rows.offset) {  // of a line, the constant is that of its zero
     add(c.offset, "offset", -kUnbounded);
   }
   if (nuisance.branches) add(c.direction, "f_sm", 0);
@@ -33,8 +34,7 @@ void add_nuisance(ElasticCandidate& candidate, const BlockedColumns& c, const Nu
 void add_nuisances(ElasticCandidate& candidate, const BlockedRows& rows,
                    std::span<const Nuisance> nuisance) {
   for (int joint = 0; joint < rows.columns.n_joints; ++joint)
-    add_nuisance(candidate, rows.columns.of_joint(joint), nuisance[static_cast<std::size_t>(joint)],
-                 joint);
+    add_nuisance(candidate, rows, nuisance[static_cast<std::size_t>(joint)], joint);
 }
 
 /// Stretched so little, against the way on either side of slack, that its coefficients would be
@@ -46,9 +46,7 @@ bool hardly_taut(const ElongationRange& range) { return range.high < kTautShare 
 ElasticCandidate linear_candidate(const BlockedRows& rows, std::span<const Nuisance> nuisance) {
   ElasticCandidate candidate;
   candidate.model = "linear";
-  candidate.transmission.n_joints = rows.transmission.n_joints;
-  candidate.transmission.linear_stiffness = Eigen::VectorXd::Zero(rows.transmission.n_joints);
-  candidate.transmission.theta_0 = rows.transmission.theta_0;
+  candidate.transmission = classical_spring(rows.transmission);
   const int n = rows.columns.n_joints;
   for (int joint = 0; joint < n; ++joint) {
     candidate.regressors.push_back(rows.columns.of_joint(joint).deflection);

@@ -13,11 +13,6 @@ double encoder_zero(const Transmission& transmission, std::size_t joint) {
                                          : 0.0;
 }
 
-Eigen::ArrayXd deflection(const Transmission& transmission, const JointSignals& s,
-                          std::size_t joint) {
-  return s.theta - encoder_zero(transmission, joint) - s.q;
-}
-
 // -1 or 1: the friction branch. In motion the velocity tells it at once; at rest, and where motion
 // does not stand out of the noise (rest_speed 0), the direction of the last motion does.
 Eigen::ArrayXd branch(const JointSignals& s, double rest_speed) {
@@ -160,7 +155,7 @@ Equation blocked_equation(const Transmission& transmission, const Transmission* 
     const JointSignals& s = signals.joints[own];
     clear_others(c, out);
     fill_elongations(transmission, c, signals.joints, out);
-    out.col(c.deflection) = deflection(transmission, s, own);
+    out.col(c.deflection) = transmission.deflections(joint, s.q, s.theta);
     elastic_basis(transmission, signals.joints, ElasticSide::motor, joint,
                   out.middleCols(c.basis, c.n_basis));
     out.col(c.offset).setOnes();

@@ -29,7 +29,7 @@ Eigen::Index n_elastic_columns(const Transmission& transmission);
 /// cable's coefficients are shared. The elongation of every cable follows tau.
 struct BlockedColumns {
   int n_joints = 1;
-  Eigen::Index deflection = 0;  ///< phi = theta - theta_0 - q
+  Eigen::Index deflection = 0;  ///< phi = theta - theta_0 - N q, Transmission::deflections
   Eigen::Index basis = 1;       ///< first of n_basis columns
   Eigen::Index n_basis = 0;
   Eigen::Index offset = 0, direction = 0, speed = 0, zero = 0, tau = 0;
@@ -41,7 +41,7 @@ struct BlockedColumns {
 };
 BlockedColumns blocked_columns(const Transmission& transmission);
 
-/// tau = tau_elas_m(theta - theta_0 - q) + offset + f_sm * direction + f_vm * thetad, with
+/// tau = tau_elas_m(theta - theta_0, q) + offset + f_sm * direction + f_vm * thetad, with
 /// direction -1 or 1 of the last motion. `pilot` (may be null): a first curve, whose -d tau/d
 /// theta_0 is column `zero`. `sliding`: rows in motion only, else rows at rest only (plateaus).
 /// `still_speed` > 0: only rows in which the link is slower than this (--still). `joint`: whose

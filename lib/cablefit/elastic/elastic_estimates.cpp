@@ -185,6 +185,7 @@ ElasticFit make_fit(const ElasticJob& job, const ElasticCandidate& candidate,
   fit.condition = s.condition_scaled;
   fit.effective_rows = s.effective_rows;
   fit.rms_error = s.rms();
+  fit.offset = rows.offset.value_or(0);
   fit.transmission = fitted_transmission(candidate, s.x);
   fit.covariance = (job.options.honest_sd ? s.covariance : s.covariance_white).topLeftCorner(n, n);
   fit.warnings = worth_saying(s.warnings, candidate);

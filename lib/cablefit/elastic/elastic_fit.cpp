@@ -9,6 +9,7 @@
 #include "cablefit/elastic/elastic_estimates.hpp"
 #include "cablefit/elastic/elastic_figures.hpp"
 #include "cablefit/elastic/joints_fit.hpp"
+#include "cablefit/elastic/line_scores.hpp"
 #include "cablefit/elastic/log_zeros.hpp"
 #include "cablefit/elastic/misfit.hpp"
 #include "cablefit/elastic/model_errors.hpp"
@@ -61,9 +62,8 @@ void find_zero(Stage1& stage, const LinearSolution& line) {
   const double stiffness = line.x(0);
   const double width = line.rms() / std::abs(stiffness);  // of the noise, in deflection
   double zero = stage.rows.transmission.theta_0(0) - line.x(1) / stiffness;
-  Transmission pilot;
-  pilot.n_joints = stage.job.basis.n_joints;
-  pilot.linear_stiffness = Eigen::VectorXd::Constant(pilot.n_joints, stiffness);
+  Transmission pilot = classical_spring(stage.job.basis);
+  pilot.linear_stiffness.setConstant(stiffness);
   for (int iteration = 0; iteration < kZeroIterations; ++iteration) {
     pilot.theta_0 = Eigen::VectorXd::Constant(pilot.n_joints, zero);
     stage.rows = collect_blocked(stage.job, zero, &pilot);
@@ -78,6 +78,9 @@ void find_zero(Stage1& stage, const LinearSolution& line) {
 }
 
 void choose_zero(Stage1& stage, ElasticPreload& preload) {
+  const ElasticOptions& options = stage.job.options;
+  if (options.offset && options.zero != ZeroMode::theta_0) return;  // begin_preload says so
+  stage.nuisance.theta_0 = options.zero == ZeroMode::theta_0;
   const LinearSolution line =
       solve_candidate(stage.rows, linear_candidate(stage.rows, stage.nuisances()));
   stage.nuisance.theta_0 = std::abs(line.x(0)) > 0 && zero_is_arbitrary(stage, line);
@@ -86,7 +89,7 @@ void choose_zero(Stage1& stage, ElasticPreload& preload) {
         {"zero", "offset", "the deflection's zero is known, the drive may have an offset"});
     return;
   }
-  const bool given = stage.job.options.zero != ZeroMode::automatic;
+  const bool given = options.zero != ZeroMode::automatic;
   preload.decisions.push_back(
       {"zero", "theta_0",
        given ? "given"
@@ -167,6 +170,7 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
   for (std::size_t k = 0; k < candidates.size(); ++k)
     if (preload.fits[k].model == preload.selected)
       preload.fits[k].misfit = find_misfit(stage.rows, candidates[k], solutions[k]);
+  preload.scores = score_curves(stage.job, stage.rows, stage.nuisances(), preload, solutions);
   const double left = note_log_zeros(stage.job, stage.rows, candidates, preload);
   note_loop(preload, left, stage.rows.plateaus);
   note_closure(stage.rows.elongations, preload);
@@ -184,6 +188,10 @@ ElasticResult fit_elastic(std::span<const LogSurvey> logs, const ElasticOptions&
     result.inputs.push_back({log.plan.path, log.sha256, log.n_rows});
     if (options.zero == ZeroMode::theta_0)
       require_one_joint(log.plan, "--zero theta_0 is made for one");
+    if (!options.lines.empty())
+      require_one_joint(log.plan, "scores of straight lines are made for one");
+    if (options.offset.value_or(0) != 0)
+      require_one_joint(log.plan, "a given offset that is not 0 is made for one");
     refuse_search(log.plan.rig);
     require_channel(log.plan, Channel::q, "the deflection theta - q");
     require_channel(log.plan, Channel::theta, "the deflection theta - q");

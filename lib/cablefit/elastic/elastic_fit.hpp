@@ -3,8 +3,10 @@
 // + offset +- f_sm.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cablefit/elastic/elastic_result.hpp"
@@ -16,6 +18,15 @@ namespace cablefit {
 /// tell apart.
 enum class ZeroMode { automatic, offset, theta_0 };
 
+/// Straight lines K (theta - N q) and logs to score the fits on, as Figs. 6b and 7b do.
+struct ComparedLines {
+  std::vector<double> stiffnesses;                ///< K, N m/rad, given
+  std::vector<std::pair<double, double>> ranges;  ///< K fitted to deflections from .. to, rad
+  std::span<const LogSurvey> test = {};           ///< blocked logs that nothing was fitted to
+
+  bool empty() const { return stiffnesses.empty() && ranges.empty() && test.empty(); }
+};
+
 struct ElasticOptions {
   SampleOptions samples;
   int order = 0;  ///< of the polynomial cables; 0: the lowest that held-out blocks support
@@ -24,9 +35,12 @@ struct ElasticOptions {
       0.01;            ///< of the peak torque: less difference on held-out blocks does not matter
   bool still = false;  ///< also use the parts of moving logs in which the link stands still
   ZeroMode zero = ZeroMode::automatic;
+  /// --offset: of the drive, N m, given instead of fitted (0 with several joints); none: fitted.
+  std::optional<double> offset = {};
   bool unconstrained = false;  ///< cables may push, as in the paper's plain fit; warned about
   bool honest_sd = true;       ///< --sd honest | white
   std::string preload;         ///< only this one; empty: all
+  ComparedLines lines = {};    ///< straight lines to score beside the fits
   bool figures = false;        ///< one more pass, for reports with plots
   /// Of all cables of one joint, one after the other: given, so that offset and friction alone are
   /// fitted beside them; none: fitted.

@@ -16,12 +16,11 @@ constexpr double kBeside = 2e-5;
 
 /// Torque per deflection at `phi`, of the motor.
 double slope_at(const Transmission& transmission, double phi) {
-  const double q = transmission.reference_q()(0);
-  const double centre = transmission.reference_theta()(0) - q;
+  const double theta = transmission.reference_theta()(0) + phi;
   double sum = 0;
   for (const Cable& cable : transmission.cables) {
-    const double r = cable.motor_map.front().radius(q + centre + phi);
-    sum += r * r * cable.stiffness(elongation_at(transmission, cable, centre + phi));
+    const double r = cable.motor_map.front().radius(theta);
+    sum += r * r * cable.stiffness(elongation_at(transmission, cable, phi));
   }
   return sum;
 }

@@ -77,6 +77,16 @@ struct ElasticJoint {
   RowCounts counts;
 };
 
+/// Errors of one model's torque on one set of rows, friction and offset as in its fit.
+struct ElasticScore {
+  std::string model;                 ///< "linear", "poly, order 2"
+  std::string fitted;                ///< what K is: "all samples", "-13.8 .. 13.8 mrad", "given"
+  double stiffness = 0;              ///< K, N m/rad; NaN for cables
+  bool is_test = false;              ///< on the logs of --test, else on those of the fit
+  double rms_error = 0;              ///< N m
+  double max_abs_error = 0, at = 0;  ///< N m; rad, the deflection there
+};
+
 /// With several joints ranges are over all of them, errors and peak torque the largest.
 struct ElasticPreload {
   std::string name;
@@ -92,6 +102,7 @@ struct ElasticPreload {
   std::vector<ElasticFit> fits;        ///< linear first
   std::string selected;                ///< "linear" or "poly"
   std::vector<std::string> selection;  ///< both criteria, in words
+  std::vector<ElasticScore> scores;    ///< where asked for
   std::vector<Decision> decisions;
   std::vector<std::string> warnings;
   /// Why the fitted curve is not that of the cables, and stage 2 must not rest on it; empty:

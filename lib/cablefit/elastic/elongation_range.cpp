@@ -52,19 +52,18 @@ std::vector<double> longest_of(std::span<const ElongationRange> ranges) {
 DeflectionRange reference_deflections(const Transmission& transmission,
                                       std::span<const ElongationRange> ranges) {
   assert(transmission.n_joints == 1 && ranges.size() == transmission.cables.size());
-  const double start = transmission.reference_theta()(0) - transmission.reference_q()(0);
   const auto inside = [&](double turn) {
     for (std::size_t c = 0; c < ranges.size(); ++c) {
       const Cable& cable = transmission.cables[c];
       const double rounding = kRounding * (ranges[c].high - ranges[c].low);
-      const double l = elongation_at(transmission, cable, start + turn);
+      const double l = elongation_at(transmission, cable, turn);
       if (l < std::min(ranges[c].low, cable.initial_elongation) - rounding ||
           l > std::max(ranges[c].high, cable.initial_elongation) + rounding)
         return false;
     }
     return true;
   };
-  return {start - largest_turn(inside, -1), start + largest_turn(inside, 1)};
+  return {-largest_turn(inside, -1), largest_turn(inside, 1)};
 }
 
 }  // namespace cablefit

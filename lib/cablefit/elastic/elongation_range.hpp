@@ -23,7 +23,7 @@ struct ElongationRange {
 /// The high end of each; <= 0: the cable is never taut.
 std::vector<double> longest_of(std::span<const ElongationRange> ranges);
 
-/// Deflections theta - theta_0 - q.
+/// Deflections phi, Transmission::deflections.
 struct DeflectionRange {
   double low = 0, high = 0;
 };

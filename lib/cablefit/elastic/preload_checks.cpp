@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+
+#include "cablefit/model/model.hpp"
 
 namespace cablefit {
 namespace {
 
 constexpr double kStillNoise = 4;  // counts or sd of noise that are no motion
 constexpr Eigen::Index kMinRows = 10;
+constexpr double kReductionRounding = 1e-9;
 
 /// Whether a channel varies by more than its noise in any wanted part.
 bool varies(const ElasticJob& job, Channel channel, int joint) {
@@ -34,6 +38,18 @@ std::string place_of(const ElasticJob& job, const std::string& preload, int join
   return place;
 }
 
+/// The classical spring has the reduction of the pulleys, where it has one.
+void note_reduction(const ElasticJob& job, ElasticPreload& preload) {
+  const Eigen::VectorXd reductions = job.basis.reductions();
+  for (int joint = 0; joint < job.basis.n_joints; ++joint)
+    if (std::abs(reductions(joint) - 1) > kReductionRounding)
+      preload.decisions.push_back(
+          {joint_parameter_name("reduction N", joint + 1, job.basis.n_joints),
+           fmt::format("{:.6g}", reductions(joint)),
+           "of the rig's pulleys, link radius over motor radius: the linear model is tau = K "
+           "(theta - N q) on the motor, N times that on the link"});
+}
+
 }  // namespace
 
 ElasticPreload begin_preload(const ElasticJob& job, const std::string& name) {
@@ -47,6 +63,10 @@ ElasticPreload begin_preload(const ElasticJob& job, const std::string& name) {
   preload.warnings = job.settings.warnings;
   if (job.options.unconstrained)
     preload.decisions.push_back({"stiffness", "unconstrained", "given; cables may push"});
+  if (job.options.offset)
+    preload.decisions.push_back(
+        {"offset", fmt::format("{:g}", *job.options.offset), "given, not fitted"});
+  note_reduction(job, preload);
   return preload;
 }
 

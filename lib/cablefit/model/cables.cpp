@@ -77,6 +77,15 @@ Eigen::MatrixXd columns_of(const Transmission& transmission, Column column) {
   return matrix;
 }
 
+/// phi of every joint.
+Eigen::VectorXd spring_deflections(const Transmission& spring, const Eigen::VectorXd& q,
+                                   const Eigen::VectorXd& theta) {
+  Eigen::VectorXd phi(spring.n_joints);
+  for (int joint = 0; joint < spring.n_joints; ++joint)
+    phi(joint) = spring.deflections(joint, q.segment<1>(joint), theta.segment<1>(joint))(0);
+  return phi;
+}
+
 Eigen::VectorXd or_zero(const Eigen::VectorXd& values, int n) {
   return values.size() > 0 ? values : Eigen::VectorXd::Zero(n);
 }
@@ -129,6 +138,22 @@ Eigen::VectorXd Transmission::reference_q() const { return or_zero(reference.q, 
 
 Eigen::VectorXd Transmission::reference_theta() const { return or_zero(reference.theta, n_joints); }
 
+Eigen::VectorXd Transmission::reductions() const {
+  if (cables.empty())
+    return linear_reduction.size() > 0 ? linear_reduction : Eigen::VectorXd::Ones(n_joints);
+  const Eigen::MatrixXd p = link_coupling(reference_q());
+  const Eigen::MatrixXd s = motor_coupling(reference_theta() + encoder_zero());
+  const Eigen::VectorXd squares = s.cwiseAbs2().rowwise().sum();
+  return (squares.array() > 0)
+      .select(s.cwiseProduct(p).rowwise().sum().array() / squares.array(), 1.0);
+}
+
+Eigen::ArrayXd Transmission::deflections(int joint, const Eigen::Ref<const Eigen::ArrayXd>& q,
+                                         const Eigen::Ref<const Eigen::ArrayXd>& theta) const {
+  return theta - (encoder_zero()(joint) + reference_theta()(joint)) -
+         reductions()(joint) * (q - reference_q()(joint));
+}
+
 Eigen::VectorXd Transmission::elongations(const Eigen::VectorXd& q,
                                           const Eigen::VectorXd& theta) const {
   const Eigen::VectorXd turned = theta - encoder_zero();
@@ -154,8 +179,8 @@ Eigen::MatrixXd Transmission::motor_coupling(const Eigen::VectorXd& theta) const
 void Transmission::torques(const Eigen::VectorXd& q, const Eigen::VectorXd& theta,
                            Eigen::VectorXd& link, Eigen::VectorXd& motor) const {
   if (cables.empty()) {
-    link = linear_stiffness.cwiseProduct(theta - encoder_zero() - q);
-    motor = link;
+    motor = linear_stiffness.cwiseProduct(spring_deflections(*this, q, theta));
+    link = reductions().cwiseProduct(motor);
     return;
   }
   const Eigen::VectorXd f = tensions(q, theta);
@@ -166,11 +191,19 @@ void Transmission::torques(const Eigen::VectorXd& q, const Eigen::VectorXd& thet
 double Transmission::energy(const Eigen::VectorXd& q, const Eigen::VectorXd& theta) const {
   const Eigen::VectorXd turned = theta - encoder_zero();
   if (cables.empty()) {
-    return 0.5 * linear_stiffness.dot((turned - q).cwiseAbs2());
+    return 0.5 * linear_stiffness.dot(spring_deflections(*this, q, theta).cwiseAbs2());
   }
   return per_cable(cables,
                    [&](const Cable& cable) { return cable.energy(cable.elongation(q, turned)); })
       .sum();
+}
+
+Transmission classical_spring(const Transmission& cables) {
+  Transmission spring = cables;
+  spring.cables.clear();
+  spring.linear_stiffness = Eigen::VectorXd::Zero(cables.n_joints);
+  spring.linear_reduction = cables.reductions();
+  return spring;
 }
 
 void set_reference(Transmission& transmission, const ReferencePose& pose) {

@@ -104,8 +104,10 @@ std::string_view elongation_unit(bool cable_space);
 struct Transmission {
   int n_joints = 1;
   std::vector<Cable> cables;
-  /// Linear model: stiffness per joint (N m/rad); used when `cables` is empty.
+  /// Linear model: stiffness per joint (N m/rad, on the motor); used when `cables` is empty.
   Eigen::VectorXd linear_stiffness;
+  /// Linear model: reduction N per joint, which classical_spring takes from the pulleys; empty: 1.
+  Eigen::VectorXd linear_reduction;
   /// Encoder zero of the deflection per joint: l uses theta - theta_0 (rad). Stage 1 estimates it.
   /// Empty: 0.
   Eigen::VectorXd theta_0;
@@ -118,6 +120,15 @@ struct Transmission {
   Eigen::VectorXd reference_q() const;
   Eigen::VectorXd reference_theta() const;
 
+  /// N per joint: the motor turns by N q when the link turns by q and no cable stretches. From the
+  /// radii in the reference pose, sum(r_m r_l) / sum(r_m^2) over the joint's cables (least squares
+  /// where they differ); 1 where motor and link have pulleys of one radius.
+  Eigen::VectorXd reductions() const;
+  /// phi = theta - theta_0 - N q of a joint (from 0), rad, sample by sample; theta and q count from
+  /// the reference pose.
+  Eigen::ArrayXd deflections(int joint, const Eigen::Ref<const Eigen::ArrayXd>& q,
+                             const Eigen::Ref<const Eigen::ArrayXd>& theta) const;
+
   /// Elongation of each cable, l = g - h + l_o (4c). Sizes: q, theta n_joints; result n_cables.
   Eigen::VectorXd elongations(const Eigen::VectorXd& q, const Eigen::VectorXd& theta) const;
   /// Tension of each cable (4), N, n_cables.
@@ -126,12 +137,17 @@ struct Transmission {
   /// alone and h on q alone, P depends on q and S on theta.
   Eigen::MatrixXd link_coupling(const Eigen::VectorXd& q) const;
   Eigen::MatrixXd motor_coupling(const Eigen::VectorXd& theta) const;
-  /// tau_elas_l = P f and tau_elas_m = S f (8a)-(8b), n_joints each, N m.
+  /// tau_elas_l = P f and tau_elas_m = S f (8a)-(8b), n_joints each, N m. Of the linear model
+  /// N K phi and K phi, (2b)-(2c) with the reduction.
   void torques(const Eigen::VectorXd& q, const Eigen::VectorXd& theta, Eigen::VectorXd& link,
                Eigen::VectorXd& motor) const;
   /// Elastic energy U(q, theta) (6), (9), J: dU/dq = -tau_elas_l, dU/dtheta = tau_elas_m.
   double energy(const Eigen::VectorXd& q, const Eigen::VectorXd& theta) const;
 };
+
+/// The classical spring (2), (29) that stands for these cables, its stiffness 0:
+/// tau_elas_m = K phi, tau_elas_l = N K phi with phi = theta - theta_0 - N q.
+Transmission classical_spring(const Transmission& cables);
 
 /// Makes the pose the one where every l = l_o.
 void set_reference(Transmission& transmission, const ReferencePose& pose);

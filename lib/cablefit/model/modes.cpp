@@ -15,10 +15,10 @@ constexpr int kScanSteps = 400;
 SlackPoint slack_point(Transmission transmission, std::size_t cable, double deflection,
                        bool slack_above) {
   for (double& coefficient : transmission.cables[cable].coefficients) coefficient = 0;
-  const Eigen::VectorXd q = transmission.reference_q();
-  const Eigen::VectorXd phi = Eigen::VectorXd::Constant(1, deflection);
+  const Eigen::VectorXd theta = transmission.reference_theta() + transmission.encoder_zero() +
+                                Eigen::VectorXd::Constant(1, deflection);
   Eigen::VectorXd link, motor;
-  transmission.torques(q, q + phi + transmission.encoder_zero(), link, motor);
+  transmission.torques(transmission.reference_q(), theta, link, motor);
   return {cable, deflection, link[0], motor[0], slack_above};
 }
 
@@ -46,8 +46,8 @@ std::vector<Mode> modes(const TautTable& taut) {
 
 double elongation_at(const Transmission& transmission, const Cable& cable, double phi) {
   assert(transmission.n_joints == 1);
-  const Eigen::VectorXd q = transmission.reference_q();
-  return cable.elongation(q, q + Eigen::VectorXd::Constant(1, phi));
+  return cable.elongation(transmission.reference_q(),
+                          transmission.reference_theta() + Eigen::VectorXd::Constant(1, phi));
 }
 
 bool is_preloaded(const Transmission& transmission) {

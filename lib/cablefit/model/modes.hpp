@@ -23,8 +23,8 @@ TautTable taut_cables(const Transmission& transmission, const Eigen::MatrixXd& q
 /// The mode of each row of such a table.
 std::vector<Mode> modes(const TautTable& taut);
 
-/// Elongation of a cable of a one-joint rig at the deflection phi = theta - theta_0 - q, with the
-/// link in its reference position q_o.
+/// Elongation of a cable of a one-joint rig at the deflection phi (Transmission::deflections), with
+/// the link in its reference position q_o.
 double elongation_at(const Transmission& transmission, const Cable& cable, double phi);
 
 /// Some cable has an initial elongation: l_o is known, and slack points say more than that cables
@@ -34,7 +34,7 @@ bool is_preloaded(const Transmission& transmission);
 /// Where a cable of a one-joint rig goes slack.
 struct SlackPoint {
   std::size_t cable = 0;       ///< index into Transmission::cables
-  double deflection = 0;       ///< theta - theta_0 - q
+  double deflection = 0;       ///< phi
   double link = 0, motor = 0;  ///< tau_elas_l, tau_elas_m there
   bool slack_above = false;    ///< slack at larger deflections, else at smaller ones
 };

@@ -98,7 +98,7 @@ void disturb(const Twin& twin, const ArModel& colour, Random& random,
 /// rows * this = residual of the fit.
 Eigen::VectorXd residual_combination(const BlockedRows& rows, const ElasticFit& fit) {
   const BlockedColumns& c = rows.columns;
-  Eigen::VectorXd combination = rows.torque_response();
+  Eigen::VectorXd combination = Eigen::VectorXd::Unit(c.count, c.tau);
   combination(c.offset) -= fit.offset;
   combination(c.direction) -= value_of(fit, "f_sm");
   if (fit.transmission.cables.empty())

@@ -99,7 +99,7 @@ void take_stage1(std::span<const LogSurvey> logs, int threads, std::vector<Model
 void take_spring(std::vector<Model>& models) {
   for (Model& model : models) {
     model.name = "linear";
-    model.transmission.cables.clear();
+    model.transmission = classical_spring(model.transmission);
     model.transmission.linear_stiffness = Eigen::VectorXd::Ones(1);
     model.transmission.theta_0 = Eigen::VectorXd::Zero(1);
   }

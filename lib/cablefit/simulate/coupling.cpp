@@ -40,6 +40,11 @@ Coupling::Coupling(const Transmission& transmission)
   if (!cables_.empty()) return;
   const Eigen::VectorXd& stiffness = transmission.linear_stiffness;
   stiffness_.assign(stiffness.begin(), stiffness.end());
+  const Eigen::VectorXd reduction = transmission.reductions();
+  reduction_.assign(reduction.begin(), reduction.end());
+  const Eigen::VectorXd rest =
+      theta_0 + transmission.reference_theta() - reduction.cwiseProduct(transmission.reference_q());
+  rest_.assign(rest.begin(), rest.end());
 }
 
 double Coupling::elongation(const Strand& strand, const double* q, const double* theta) const {
@@ -56,6 +61,7 @@ void Coupling::look(std::size_t joint, const double* q, const double* theta,
   const double turned = theta[joint] - theta_0_[joint];
   state.deflection = turned - q[joint];
   if (cables_.empty()) {
+    state.deflection = deflection(joint, q, theta);
     state.stiffness = stiffness_[joint];
     state.tension = std::abs(state.stiffness * state.deflection);
     return;

@@ -34,6 +34,8 @@ class Coupling {
     bool round;               ///< all its pulleys are round
   };
 
+  /// phi of the linear model, Transmission::deflections.
+  double deflection(std::size_t joint, const double* q, const double* theta) const;
   /// sum_j coefficient_j values_j at elongation l; 0 when slack.
   static double combine(const Strand& strand, LawFunction values_of, double l);
   double stretch(const Strand& strand, const double* q, const double* theta) const;
@@ -47,8 +49,13 @@ class Coupling {
   std::vector<Strand> cables_;
   std::vector<double> motor_radius_, link_radius_;     ///< [cable][joint], of round pulleys
   std::vector<DisplacementMap> motor_map_, link_map_;  ///< [cable][joint]
-  std::vector<double> stiffness_, theta_0_;            ///< linear model, per joint
+  std::vector<double> theta_0_;                        ///< per joint
+  std::vector<double> stiffness_, reduction_, rest_;   ///< linear model, per joint
 };
+
+inline double Coupling::deflection(std::size_t joint, const double* q, const double* theta) const {
+  return theta[joint] - rest_[joint] - reduction_[joint] * q[joint];
+}
 
 inline double Coupling::stretch(const Strand& strand, const double* q, const double* theta) const {
   if (!strand.round) return elongation(strand, q, theta);
@@ -79,7 +86,8 @@ inline double Coupling::tension(std::size_t cable, const double* q, const double
 inline void Coupling::torques(const double* q, const double* theta, double* link,
                               double* motor) const {
   for (std::size_t k = 0; k < stiffness_.size(); ++k) {
-    link[k] = motor[k] = stiffness_[k] * (theta[k] - theta_0_[k] - q[k]);
+    motor[k] = stiffness_[k] * deflection(k, q, theta);
+    link[k] = reduction_[k] * motor[k];
   }
   if (cables_.empty()) return;
   for (std::size_t k = 0; k < n_joints_; ++k) link[k] = motor[k] = 0.0;

@@ -26,7 +26,9 @@ void fill_basis(const ElasticFit& fit, const DynamicColumns& c, const Signals& s
   if (is_linear(fit)) {
     const JointSignals& s = signals.joints[static_cast<std::size_t>(c.place.joint)];
     if (out.cols() > 1) out.setZero();
-    out.col(c.place.joint) = s.theta - fit.transmission.theta_0(c.place.joint) - s.q;
+    out.col(c.place.joint) = fit.transmission.deflections(c.place.joint, s.q, s.theta);
+    if (c.side == Side::link)
+      out.col(c.place.joint) *= fit.transmission.reductions()(c.place.joint);
   } else {
     elastic_basis(fit.transmission, signals.joints,
                   c.side == Side::link ? ElasticSide::link : ElasticSide::motor, c.place.joint,
@@ -43,14 +45,22 @@ void fill_elastic(const ElasticFit& fit, const DynamicColumns& c, const Signals&
   out.noalias() = basis * coefficients;
 }
 
+/// theta - N q, with the encoder zero.
+Eigen::ArrayXd logged_deflection(const Transmission& transmission, int joint,
+                                 const JointSignals& s) {
+  return transmission.deflections(joint, s.q, s.theta) + transmission.encoder_zero()(joint);
+}
+
 /// Its loop goes with the direction in which the deflection changes.
-void fill_misfit(const ElasticFit& fit, const JointSignals& s, Eigen::Ref<Eigen::MatrixXd> out) {
-  const double zero = fit.transmission.encoder_zero()(0);
+void fill_misfit(const ElasticFit& fit, Side side, const JointSignals& s,
+                 Eigen::Ref<Eigen::MatrixXd> out) {
+  const Eigen::ArrayXd phi = fit.transmission.deflections(0, s.q, s.theta);
   for (Eigen::Index i = 0; i < out.rows(); ++i) {
-    const MisfitPoint point = fit.misfit.at(s.theta(i) - zero - s.q(i));
+    const MisfitPoint point = fit.misfit.at(phi(i));
     out(i, 0) = point.torque;
     out(i, 1) = s.thetad(i) < s.qd(i) ? -point.half_width : point.half_width;
   }
+  if (side == Side::link) out *= fit.transmission.reductions()(0);
 }
 
 bool is_coupled_link(const DynamicColumns& c) {
@@ -197,9 +207,10 @@ Equation dynamic_equation(const DynamicColumns& c, const std::vector<const Elast
     effect_columns(c, signals, own, out.leftCols(c.n_effects));
     for (std::size_t k = 0; k < fits.size(); ++k) {
       fill_elastic(*fits[k], c, signals, out.middleCols(c.elastic[k], c.n_elastic[k]));
-      if (c.misfit[k] >= 0) fill_misfit(*fits[k], s, out.middleCols(c.misfit[k], 2));
+      if (c.misfit[k] >= 0) fill_misfit(*fits[k], c.side, s, out.middleCols(c.misfit[k], 2));
     }
-    if (c.deflection >= 0) out.col(c.deflection) = s.theta - s.q;
+    if (c.deflection >= 0)
+      out.col(c.deflection) = logged_deflection(fits.front()->transmission, c.place.joint, s);
     out.col(c.position) = position(c.side, s);
     out.col(c.torque).setZero();
     if (c.side != Side::link) out.col(c.torque) = s.tau;

@@ -45,7 +45,7 @@ struct DynamicColumns {
   std::vector<Eigen::Index> n_elastic;
   /// Of each elastic fit the first of two columns: torque and loop of its misfit; -1: it has none.
   std::vector<Eigen::Index> misfit;
-  Eigen::Index deflection = -1;  ///< theta - q, for its range; -1 on a rigid drive
+  Eigen::Index deflection = -1;  ///< theta - N q, for its range; -1 on a rigid drive
   Eigen::Index position = 0;     ///< q or theta
   Eigen::Index torque = 0;       ///< tau (motor, rigid) or tau_load (link)
   Eigen::Index count = 0;

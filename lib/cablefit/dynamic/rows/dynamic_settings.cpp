@@ -27,7 +27,7 @@ double resonance(double stiffness, double j_link, double j_motor) {
 
 /// S df/dl S of one joint at the pose in which it alone is turned by phi.
 double stiffness_at(const Transmission& transmission, int joint, double phi) {
-  Eigen::VectorXd theta = transmission.encoder_zero();
+  Eigen::VectorXd theta = transmission.encoder_zero() + transmission.reference_theta();
   theta(joint) += phi;
   const Eigen::VectorXd q = transmission.reference_q();
   const Eigen::VectorXd l = transmission.elongations(q, theta);
@@ -43,13 +43,11 @@ double stiffness_at(const Transmission& transmission, int joint, double phi) {
 double typical_stiffness(const ElasticFit& fit, const ElasticPreload& preload) {
   if (fit.transmission.cables.empty()) return fit.transmission.linear_stiffness(0);
   double sum = 0;
-  const double q = fit.transmission.reference_q()(0);
-  const double centre = fit.transmission.reference_theta()(0) - q;
-  const double deflection =
-      0.5 * std::max(centre - preload.deflection_low, preload.deflection_high - centre);
+  const double rest = fit.transmission.reference_theta()(0);
+  const double deflection = 0.5 * std::max(-preload.deflection_low, preload.deflection_high);
   for (const Cable& cable : fit.transmission.cables) {
-    for (const double phi : {centre - deflection, centre + deflection}) {
-      const double r = cable.motor_map.front().radius(q + phi);
+    for (const double phi : {-deflection, deflection}) {
+      const double r = cable.motor_map.front().radius(rest + phi);
       sum += 0.5 * r * r * cable.stiffness(elongation_at(fit.transmission, cable, phi));
     }
   }

@@ -55,7 +55,7 @@ Equation widened(const JointEquation& equation, const std::vector<Transmission>&
                   const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
     base.fill(signals, out.leftCols(n_base));
     const JointSignals& s = signals.joints[0];
-    out.col(n_base) = s.theta - trials.front().encoder_zero()(0) - s.q;
+    out.col(n_base) = trials.front().deflections(0, s.q, s.theta);
     Eigen::Index first = n_base + 1;
     for (const Transmission& trial : trials) {
       fill_elastic(trial, s, motor_side, out.middleCols(first, n), out.middleCols(first + n, n));

@@ -9,6 +9,8 @@ void set_elastic(const Transmission& transmission, const Eigen::VectorXd& q,
   const Eigen::VectorXd turned = theta - transmission.encoder_zero();
   state.deflection = turned[joint] - q[joint];
   if (transmission.cables.empty()) {
+    state.deflection =
+        transmission.deflections(joint, q.segment<1>(joint), theta.segment<1>(joint))(0);
     state.stiffness = transmission.linear_stiffness[joint];
     state.tau_elas = state.stiffness * state.deflection;
     state.tension = std::abs(state.tau_elas);

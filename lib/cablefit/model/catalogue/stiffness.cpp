@@ -37,9 +37,15 @@ std::optional<Transmission> two_cables(const Transmission& transmission, const d
 Transmission linear_pairs(const Transmission& transmission) {
   Transmission pairs = antagonist_pairs(transmission.n_joints, 1);
   pairs.theta_0 = transmission.theta_0;
-  for (std::size_t i = 0; i < pairs.cables.size(); ++i)
-    pairs.cables[i].coefficients = {
-        transmission.linear_stiffness[static_cast<Eigen::Index>(i / 2)]};
+  const Eigen::VectorXd reduction = transmission.reductions();
+  for (std::size_t i = 0; i < pairs.cables.size(); ++i) {
+    const std::size_t joint = i / 2;
+    const auto k = static_cast<Eigen::Index>(joint);
+    Cable& cable = pairs.cables[i];
+    cable.coefficients = {transmission.linear_stiffness[k]};
+    cable.link_map[joint] = round_pulley(reduction[k] * cable.link_map[joint].radius(0));
+  }
+  set_reference(pairs, transmission.reference);
   return pairs;
 }
 

@@ -96,8 +96,7 @@ void take_cables(FitParameters* parameters, Model* model) {
 
 void take_linear_stiffness(FitParameters* parameters, Model* model) {
   const int n = model->rig.n_joints();
-  model->transmission.cables.clear();
-  model->transmission.linear_stiffness.resize(n);
+  model->transmission = classical_spring(model->transmission);
   for (int k = 0; k < n; ++k) {
     const std::string name = joint_parameter_name("K", k + 1, n);
     model->elastic.push_back(

@@ -112,7 +112,7 @@ void read_transmission(const JsonNode& node, Model* model) {
     throw node.error("both \"linear\" and \"cables\"", "keep one of them");
   }
   if (linear) {
-    model->transmission.cables.clear();
+    model->transmission = classical_spring(model->transmission);
     model->transmission.linear_stiffness =
         read_per_joint(*linear, "K", stiffness_unit(model->rig), model);
   } else {

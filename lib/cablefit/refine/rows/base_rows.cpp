@@ -21,7 +21,8 @@ void fill_elastic(const Model& model, const SmoothMotion& m, bool link,
   if (out.cols() == 0) return;
   const Transmission& transmission = model.transmission;
   if (transmission.cables.empty()) {
-    out.col(0) = (m.theta - transmission.encoder_zero()(0) - m.q).matrix();
+    out.col(0) = transmission.deflections(0, m.q, m.theta).matrix();
+    if (link) out.col(0) *= transmission.reductions()(0);
   } else {
     JointSignals signals;
     signals.q = m.q;

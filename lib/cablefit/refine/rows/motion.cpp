@@ -19,7 +19,7 @@ ElasticTorque elastic_torque(const Transmission& transmission, const Eigen::Arra
                              const Eigen::ArrayXd& theta) {
   if (transmission.cables.empty()) {
     const Eigen::ArrayXd tau =
-        transmission.linear_stiffness(0) * (theta - transmission.encoder_zero()(0) - q);
+        transmission.linear_stiffness(0) * transmission.deflections(0, q, theta);
     return {tau, tau.abs()};
   }
   JointSignals signals;

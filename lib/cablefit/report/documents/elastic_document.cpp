@@ -103,6 +103,26 @@ Table fits_table(const ElasticResult& result) {
   return table;
 }
 
+/// Lines and cables on the logs of the fit, and on test logs: Figs. 6b and 7b as numbers.
+Table scores_table(const ElasticResult& result) {
+  const bool linear_motion = !result.preloads.empty() && result.preloads.front().linear_motion;
+  const std::string torque = torque_unit(linear_motion);
+  Table table;
+  table.title = "Errors of the elastic torque (Figs. 6b, 7b)";
+  table.columns = {{"", "preload", "", true},   {"", "model", "", true},
+                   {"", "fitted to", "", true}, {"", "K", linear_motion ? "N/m" : "N m/rad"},
+                   {"", "on", "", true},        {"error", "rms", torque},
+                   {"error", "max", torque},    {"error", "at", linear_motion ? "mm" : "mrad"}};
+  for (const ElasticPreload& preload : result.preloads)
+    for (const ElasticScore& score : preload.scores)
+      table.rows.push_back(
+          {preload.name, score.model, score.fitted,
+           std::isfinite(score.stiffness) ? fmt::format("{:.1f}", score.stiffness) : kNoNumber,
+           score.is_test ? "test logs" : "these logs", error_text(score.rms_error),
+           error_text(score.max_abs_error), fmt::format("{:.1f}", 1e3 * score.at)});
+  return table;
+}
+
 /// "0.1", or of several joints "0.1, -0.2".
 std::string numbers_text(const Eigen::VectorXd& numbers) {
   std::string text;
@@ -283,6 +303,7 @@ Document elastic_document(const ElasticResult& result) {
   document.headline = headline_of(result);
   lead_with(document, 1);
   document.tables = stiffness_tables(result);
+  add_table(document, scores_table(result));
   add_detail(document, fits_table(result));
   add_detail(document, slack_table(result));
   for (const ElasticPreload& preload : result.preloads)

@@ -1,5 +1,6 @@
 #include "cablefit/report/json/elastic_json.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "cablefit/model/modes.hpp"
@@ -82,6 +83,17 @@ Json fit_json(const ElasticPreload& preload, const ElasticFit& fit) {
   return json;
 }
 
+Json score_json(const ElasticScore& score) {
+  Json json{{"model", score.model},
+            {"fitted", score.fitted},
+            {"on", score.is_test ? "test" : "fit"},
+            {"rms_error", score.rms_error},
+            {"max_abs_error", score.max_abs_error},
+            {"at", score.at}};
+  if (std::isfinite(score.stiffness)) json["K"] = score.stiffness;
+  return json;
+}
+
 Json modes_json(const ElasticPreload& preload) {
   Json slack = Json::array();
   for (const ModeCounts::Slack& own : preload.modes.slack)
@@ -112,6 +124,7 @@ Json preload_json(const ElasticPreload& preload) {
             {"warnings", preload.warnings}};
   for (const RigFact& fact : preload.rig_facts) json["rig_content"][fact.name] = fact.value;
   if (!preload.shape_doubt.empty()) json["shape_doubt"] = preload.shape_doubt;
+  if (!preload.scores.empty()) json["scores"] = list_of(preload.scores, score_json);
   if (!preload.joints.empty()) json["joints"] = list_of(preload.joints, joint_json);
   return json;
 }

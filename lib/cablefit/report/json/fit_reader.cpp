@@ -54,9 +54,8 @@ void take_cable(const ElasticFit& fit, const JsonNode& list, bool cable_space, C
 void take_transmission(const JsonNode& list, const Rig& rig, ElasticFit& fit) {
   fit.transmission = rig.transmission;
   if (fit.model == kLinear) {
-    fit.transmission.cables.clear();
+    fit.transmission = classical_spring(rig.transmission);
     const int n = rig.n_joints();
-    fit.transmission.linear_stiffness.resize(n);
     for (int joint = 0; joint < n; ++joint)
       fit.transmission.linear_stiffness(joint) =
           value_of(fit, joint_parameter_name("K", joint + 1, n), list);

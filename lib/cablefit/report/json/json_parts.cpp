@@ -117,7 +117,7 @@ Json offset(const ElasticFit& fit) {
   Json list = Json::array();
   for (int joint = 1; joint <= n; ++joint) {
     const Estimate* e = find_estimate(fit.parameters, joint_parameter_name("offset", joint, n));
-    list.push_back(e == nullptr ? Json() : Json(e->value));
+    list.push_back(e == nullptr ? Json(0.0) : Json(e->value));
   }
   return list;
 }

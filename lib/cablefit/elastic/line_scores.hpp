@@ -1,0 +1,21 @@
+// The classical linear model scored as the paper does (Fichera & Grossard 2017, Figs. 6b and 7b): a
+// given K, or the fit of a stated range of deflections, over all rows of these logs or of others.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cablefit/elastic/blocked_rows.hpp"
+#include "cablefit/elastic/candidates.hpp"
+
+namespace cablefit {
+
+/// Scores of the preload's fits and of the lines that the options name; none where they name none.
+/// `solutions`: one per fit. One joint. Throws Error(input) when a range holds no rows, or no test
+/// log is of this preload.
+std::vector<ElasticScore> score_curves(const ElasticJob& job, const BlockedRows& rows,
+                                       std::span<const Nuisance> nuisance,
+                                       const ElasticPreload& preload,
+                                       std::span<const LinearSolution> solutions);
+
+}  // namespace cablefit
