@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <sstream>
 #include <system_error>
 
 #include "cablefit/base/catalog.hpp"
@@ -79,6 +80,14 @@ long parse_whole(const std::string& option, const std::string& text, Range range
   const auto number = static_cast<double>(value);
   if (is_whole && number >= range.low && number <= range.high) return value;
   throw bad_value(option, text, wanted_text("a whole number", range));
+}
+
+std::vector<std::string> parts_of(const std::string& text, char at) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, at);) parts.push_back(part);
+  if (text.empty() || text.back() == at) parts.emplace_back();
+  return parts;
 }
 
 void require_known(const std::string& what, const std::string& text,

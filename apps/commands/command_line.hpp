@@ -33,6 +33,8 @@ void add_choice(CLI::App& app, const std::string& name, const std::string& what,
 /// What the converters above do with a value.
 double parse_number(const std::string& option, const std::string& text, Range range);
 long parse_whole(const std::string& option, const std::string& text, Range range);
+/// "a,b" at ',': all parts, empty ones too.
+std::vector<std::string> parts_of(const std::string& text, char at);
 void require_known(const std::string& what, const std::string& text,
                    const std::vector<std::string>& known);
 

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <sstream>
 
 #include "cablefit/base/digest.hpp"
 #include "cablefit/base/error.hpp"
@@ -38,25 +37,17 @@ struct DesignCommand {
   std::string excite;  ///< file; empty: none
 };
 
-std::vector<std::string> split(const std::string& text, char at) {
-  std::vector<std::string> parts;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, at);) parts.push_back(part);
-  if (text.empty() || text.back() == at) parts.emplace_back();
-  return parts;
-}
-
 /// "0,0.002,0.005" or "0:0.01:11", from, to and how many.
 std::vector<double> parse_list(const std::string& option, const std::string& text, Range range) {
   std::vector<double> values;
   if (text.find(':') == std::string::npos) {
-    for (const std::string& part : split(text, ','))
+    for (const std::string& part : parts_of(text, ','))
       values.push_back(parse_number(option, part, range));
     if (values.size() <= kMostValues) return values;
     throw usage_error(fmt::format("{} has {} values", option, values.size()),
                       fmt::format("give at most {}", kMostValues));
   }
-  const std::vector<std::string> parts = split(text, ':');
+  const std::vector<std::string> parts = parts_of(text, ':');
   if (parts.size() != 3)
     throw usage_error(fmt::format("{} cannot be {}", option, cablefit::quoted(text)),
                       "give FROM:TO:N, how many values from where to where, or a list A,B,C");
@@ -100,7 +91,7 @@ void add_sweep_options(CLI::App& app, DesignOptions& design) {
          "--order",
          [&design](const std::string& text) {
            design.orders.clear();
-           for (const std::string& part : split(text, ','))
+           for (const std::string& part : parts_of(text, ','))
              design.orders.push_back(
                  static_cast<int>(parse_whole("--order", part, {1, kMaxCableOrder})));
          },

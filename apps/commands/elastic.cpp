@@ -27,18 +27,25 @@ constexpr const char* kElasticExample =
     "Example:\n"
     "  cablefit elastic data/low/blocked.csv data/high/blocked.csv --report table1.md\n";
 
-void add_elastic_options(CLI::App& app, ElasticOptions& elastic, ElongationMode& elongations,
-                         bool& order_auto) {
-  const auto take_order = [&elastic, &order_auto](const std::string& text) {
-    elastic.order = 0;
-    order_auto = text == "auto";
-    if (order_auto) return;
-    elastic.order = static_cast<int>(parse_whole("--order", text, {1, kMaxCableOrder}));
-  };
+/// "2", "2,1" or "auto".
+void take_orders(const std::string& text, ElasticOptions& elastic) {
+  elastic.order = 0;
+  elastic.orders.clear();
+  elastic.choose_orders = text == "auto";
+  if (elastic.choose_orders) return;
+  for (const std::string& order : parts_of(text, ','))
+    elastic.orders.push_back(static_cast<int>(parse_whole("--order", order, {1, kMaxCableOrder})));
+  if (elastic.orders.size() > 1) return;
+  elastic.order = elastic.orders.front();
+  elastic.orders.clear();
+}
+
+void add_elastic_options(CLI::App& app, ElasticOptions& elastic, ElongationMode& elongations) {
   app.add_option_function<std::string>(
-         "--order", take_order,
-         "order of the cables' force; auto: the lowest that held-out blocks support")
-      ->type_name("N|auto");
+         "--order", [&elastic](const std::string& text) { take_orders(text, elastic); },
+         "order of the cables' force, of all or one per cable; auto: of each the lowest that "
+         "held-out blocks support")
+      ->type_name("N|N,N,..|auto");
   add_whole(
       app, "--max-order", "N", {1, kMaxCableOrder},
       [&elastic](long n) { elastic.max_order = static_cast<int>(n); },
@@ -118,7 +125,7 @@ std::vector<LogSurvey> read_test(CommonOptions& common, const std::vector<std::s
 }
 
 /// The search fits all preloads together, with one order and theta - q as it is.
-void require_searchable(const ElasticOptions& elastic, bool order_auto) {
+void require_searchable(const ElasticOptions& elastic) {
   if (elastic.offset)
     throw usage_error("--offset and a search of l_o cannot be combined",
                       "give l_o in the rig file, or leave the offset free");
@@ -129,9 +136,9 @@ void require_searchable(const ElasticOptions& elastic, bool order_auto) {
     throw usage_error(
         "--zero theta_0 and a search of l_o cannot be combined",
         "find theta_0 with l_o given, and put it in the rig file (\"shift\" of theta)");
-  if (order_auto)
-    throw usage_error("--order auto and a search of l_o cannot be combined",
-                      "give the order, or leave it at 2");
+  if (elastic.choose_orders || !elastic.orders.empty())
+    throw usage_error("--order auto or one per cable, and a search of l_o cannot be combined",
+                      "give one order, or put the orders into the rig file");
 }
 
 /// --prove: fills in what simulated logs say of the fits.
@@ -156,9 +163,8 @@ int run_elastic(const Arguments& arguments) {
   ElasticOptions elastic;
   add_log_options(app, options);
   ElongationMode elongations = ElongationMode::automatic;
-  bool order_auto = false;
   std::size_t n_prove = 0;
-  add_elastic_options(app, elastic, elongations, order_auto);
+  add_elastic_options(app, elastic, elongations);
   add_whole(
       app, "--prove", "N", {20, 100000},
       [&n_prove](long n) { n_prove = static_cast<std::size_t>(n); },
@@ -184,7 +190,7 @@ int run_elastic(const Arguments& arguments) {
   const std::vector<LogSurvey> blocked = elastic.still ? logs : logs_of(logs, Phase::blocked);
   const bool searches = !blocked.empty() && !elastic.still &&
                         elongations != ElongationMode::known && (search || wants_search(blocked));
-  if (searches) require_searchable(elastic, order_auto);
+  if (searches) require_searchable(elastic);
   if (searches && n_prove > 0)
     throw usage_error("--prove and a search of l_o cannot be combined",
                       "the intervals of l_o are profile likelihoods; prove a fit with l_o given");

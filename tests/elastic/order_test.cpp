@@ -60,4 +60,45 @@ TEST_CASE("an order that is there is added", "[elastic]") {
   CHECK(fit_elastic(bench.logs(), {}).preloads.at(0).find("poly")->order == 2);
 }
 
+/// Cable 1 stiffens (8 N m at 40 mrad), cable 2 does not.
+std::string one_stiffens() {
+  Normal normal(4800);
+  std::string text = "t,q,theta,tau\n";
+  for (int i = 0; i < 4000; ++i) {
+    const double phase = 2 * std::numbers::pi * 10 * i / 4000.0;
+    const double phi = 0.04 * std::sin(phase);
+    const double cables = phi > 0 ? 1500 * phi + 5000 * phi * phi : 1900 * phi;
+    const double tau = cables + 2 * sign(std::cos(phase)) + 0.3 * normal();
+    text += fmt::format("{:.3f},0,{:.9f},{:.6f}\n", 0.01 * i, phi, tau);
+  }
+  return text;
+}
+
+ElasticFit cables_of(const ElasticOptions& options) {
+  Bench bench;
+  bench.add_text(one_stiffens());
+  return *fit_elastic(bench.logs(), options).preloads.at(0).find("poly");
+}
+
+// 5000 of the rows' sd of a coefficient, a few hundred at most: 3 sd are far from 0.
+TEST_CASE("each cable has the order that it needs", "[elastic]") {
+  const ElasticFit poly = cables_of({});
+  CHECK(orders_of(poly.transmission) == std::vector<int>{2, 1});
+  CHECK(model_text(poly) == "poly, orders 2, 1");
+  check_recovered(poly.parameters, {{"K1_0", 1500}, {"K1_1", 5000}, {"K2_0", 1900}}, 4);
+  CHECK(find_estimate(poly.parameters, "K2_1") == nullptr);
+}
+
+TEST_CASE("one order per cable can be given", "[elastic]") {
+  ElasticOptions options;
+  options.orders = {1, 3};
+  const ElasticFit poly = cables_of(options);
+  CHECK(orders_of(poly.transmission) == options.orders);
+  CHECK(poly.order == 3);
+  options.orders = {1, 2, 2};
+  CHECK_THROWS_WITH(cables_of(options),
+                    "--order gives 3 orders, but there are 2 cables; give one order for all, or "
+                    "one per cable in the order of the rig file");
+}
+
 }  // namespace

@@ -1,8 +1,11 @@
 #include "cablefit/elastic/blocked_rows.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/base/error.hpp"
 #include "cablefit/model/model.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
 
@@ -28,12 +31,38 @@ void add_joint_rest(ChosenSettings& all, const ChosenSettings& own, int joint, i
 
 }  // namespace
 
-Transmission with_order(Transmission transmission, int order) {
-  for (Cable& cable : transmission.cables) cable.order = std::min(order, cable.law->max_order);
+Transmission with_orders(Transmission transmission, std::span<const int> orders) {
+  for (std::size_t c = 0; c < orders.size(); ++c) {
+    Cable& cable = transmission.cables[c];
+    cable.order = std::min(orders[c], cable.law->max_order);
+  }
   return transmission;
 }
 
+Transmission with_order(const Transmission& transmission, int order) {
+  return with_orders(transmission, std::vector<int>(transmission.cables.size(), order));
+}
+
+std::vector<int> orders_of(const Transmission& transmission) {
+  std::vector<int> orders;
+  for (const Cable& cable : transmission.cables) orders.push_back(cable.order);
+  return orders;
+}
+
 namespace {
+
+/// Empty: to be chosen.
+std::vector<int> given_orders(const Rig& rig, const ElasticOptions& options) {
+  const std::size_t n = rig.transmission.cables.size();
+  if (options.order > 0) return std::vector<int>(n, options.order);
+  if (options.orders.empty())
+    return rig.cables_given && !options.choose_orders ? orders_of(rig.transmission)
+                                                      : std::vector<int>{};
+  if (options.orders.size() == n) return options.orders;
+  throw usage_error(
+      fmt::format("--order gives {} orders, but there are {} cables", options.orders.size(), n),
+      "give one order for all, or one per cable in the order of the rig file");
+}
 
 /// Rest speeds of every joint; decisions and warnings of the others beside those of the first.
 void add_joint_speeds(ElasticJob& job) {
@@ -60,16 +89,15 @@ ElasticJob make_job(std::span<const LogSurvey> logs, const ElasticOptions& optio
                  options,
                  {},
                  {},
-                 false,
+                 {},
                  {},
                  {}};
   require_agreement(logs, job.wanted, name);
   job.settings = blocked_settings(logs, job.wanted, options.samples);
   const Rig& rig = job.rig();
-  job.orders_given = rig.cables_given && options.order == 0;
-  job.basis = rig.transmission;
-  if (!job.orders_given)
-    job.basis = with_order(job.basis, options.order > 0 ? options.order : options.max_order);
+  job.orders = given_orders(rig, options);
+  job.basis = job.orders.empty() ? with_order(rig.transmission, options.max_order)
+                                 : with_orders(rig.transmission, job.orders);
   add_joint_speeds(job);
   if (still) {
     job.settings.rows.signal.quasi_static = false;  // the motor need not be slow

@@ -20,8 +20,8 @@ struct ElasticJob {
   PartFilter wanted;
   const ElasticOptions& options;
   ChosenSettings settings;
-  Transmission basis;         ///< cables of the highest order in question, theta_0 = 0
-  bool orders_given = false;  ///< by the rig file, per cable
+  Transmission basis;       ///< cables of the highest order in question, theta_0 = 0
+  std::vector<int> orders;  ///< per cable, given by options or the rig file; empty: to be chosen
   /// Per joint, rad/s: motor in motion; link still (0: moving links count, too).
   std::vector<double> rest_speeds, still_speeds;
 
@@ -67,7 +67,10 @@ bool has_both_branches(const BlockedRows& rows, int joint = 0);
 /// Speeds vary enough to tell viscous from static friction of the motor.
 bool speed_tells_more(const BlockedRows& rows, int joint = 0);
 
-/// The same cables with the order (as far as their laws go).
-Transmission with_order(Transmission transmission, int order);
+/// The same cables with these orders, one per cable (as far as their laws go).
+Transmission with_orders(Transmission transmission, std::span<const int> orders);
+/// The same with one order of all.
+Transmission with_order(const Transmission& transmission, int order);
+std::vector<int> orders_of(const Transmission& transmission);
 
 }  // namespace cablefit

@@ -59,12 +59,11 @@ ElasticCandidate linear_candidate(const BlockedRows& rows, std::span<const Nuisa
   return candidate;
 }
 
-ElasticCandidate poly_candidate(const ElasticJob& job, const BlockedRows& rows, int order,
-                                std::span<const Nuisance> nuisance) {
+ElasticCandidate poly_candidate(const ElasticJob& job, const BlockedRows& rows,
+                                std::span<const int> orders, std::span<const Nuisance> nuisance) {
   ElasticCandidate candidate;
   candidate.model = "poly";
-  candidate.transmission =
-      job.orders_given ? rows.transmission : with_order(rows.transmission, order);
+  candidate.transmission = with_orders(rows.transmission, orders);
   Eigen::Index first = rows.columns.basis;
   std::vector<bool> fitted;
   for (std::size_t c = 0; c < rows.transmission.cables.size(); ++c) {

@@ -18,8 +18,8 @@ struct Nuisance {
 };
 
 struct ElasticCandidate {
-  std::string model;  ///< "linear", "poly"
-  int order = 1;
+  std::string model;          ///< "linear", "poly"
+  int order = 1;              ///< the highest
   Transmission transmission;  ///< without coefficients
   std::vector<Eigen::Index> regressors;
   std::vector<std::string> names;
@@ -31,8 +31,9 @@ struct ElasticCandidate {
 
 /// `nuisance`: one per joint.
 ElasticCandidate linear_candidate(const BlockedRows& rows, std::span<const Nuisance> nuisance);
-ElasticCandidate poly_candidate(const ElasticJob& job, const BlockedRows& rows, int order,
-                                std::span<const Nuisance> nuisance);
+/// `orders`: per cable.
+ElasticCandidate poly_candidate(const ElasticJob& job, const BlockedRows& rows,
+                                std::span<const int> orders, std::span<const Nuisance> nuisance);
 
 /// candidate.pull with a column per regressor.
 Eigen::MatrixXd constraint_rows(const ElasticCandidate& candidate);

@@ -52,11 +52,6 @@ Eigen::MatrixXd seen_combinations(const BlockedColumns& own,
   return all;
 }
 
-/// "linear", "poly, order 2".
-std::string model_name(const ElasticFit& fit) {
-  return fit.order > 1 ? fmt::format("{}, order {}", fit.model, fit.order) : fit.model;
-}
-
 /// Figs. 6a/7a and 6b/7b.
 class CurveScan {
  public:
@@ -124,7 +119,7 @@ class CurveScan {
 
  private:
   Trace model_trace(std::size_t k, TraceStyle style) const {
-    return {model_name(preload_.fits[k]), style, static_cast<int>(k) + 1, {}, {}, {}, {}, {}};
+    return {model_text(preload_.fits[k]), style, static_cast<int>(k) + 1, {}, {}, {}, {}, {}};
   }
 
   const ElasticPreload& preload_;
@@ -144,7 +139,7 @@ ScanPlan scan_plan(const ElasticPreload& preload, const std::string& section,
   plan.measured = "motor torque tau";
   plan.unit = preload.linear_motion ? "N" : "N m";
   for (std::size_t k = 0; k < preload.fits.size(); ++k)
-    plan.models.push_back({model_name(preload.fits[k]), static_cast<int>(k) + 1, kTau,
+    plan.models.push_back({model_text(preload.fits[k]), static_cast<int>(k) + 1, kTau,
                            residual_of(k), solutions[k].rms()});
   plan.variables = {{"velocity of theta", preload.unit + "/s", kSpeed},
                     {"position theta", preload.unit, kPosition},

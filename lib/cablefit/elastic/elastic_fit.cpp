@@ -32,8 +32,11 @@ struct Stage1 {
   std::span<const Nuisance> nuisances() const { return {&nuisance, 1}; }
 };
 
-int pilot_order(const Stage1& stage) {
-  return stage.job.options.order > 0 ? stage.job.options.order : 2;
+constexpr int kPilotOrder = 2;
+
+std::vector<int> pilot_orders(const Stage1& stage) {
+  const ElasticJob& job = stage.job;
+  return job.orders.empty() ? std::vector<int>(job.basis.cables.size(), kPilotOrder) : job.orders;
 }
 
 /// The torque at zero deflection, by the constant of the straight line, is an encoder's zero rather
@@ -52,7 +55,7 @@ bool zero_is_arbitrary(const Stage1& stage, const LinearSolution& line) {
   };
   if (!is_large(line.x(1))) return false;
   const ElasticCandidate curve =
-      poly_candidate(stage.job, stage.rows, pilot_order(stage), stage.nuisances());
+      poly_candidate(stage.job, stage.rows, pilot_orders(stage), stage.nuisances());
   return is_large(solve_plain(stage.rows, curve).x(static_cast<Eigen::Index>(curve.n_elastic)));
 }
 
@@ -68,7 +71,7 @@ void find_zero(Stage1& stage, const LinearSolution& line) {
     pilot.theta_0 = Eigen::VectorXd::Constant(pilot.n_joints, zero);
     stage.rows = collect_blocked(stage.job, zero, &pilot);
     const ElasticCandidate curve =
-        poly_candidate(stage.job, stage.rows, pilot_order(stage), stage.nuisances());
+        poly_candidate(stage.job, stage.rows, pilot_orders(stage), stage.nuisances());
     const LinearSolution s = solve_plain(stage.rows, curve);
     const double step = s.x(static_cast<Eigen::Index>(curve.n_elastic));
     pilot = fitted_transmission(curve, s.x);
@@ -122,8 +125,10 @@ void refuse_search(const Rig& rig) {
 std::vector<ComparedModel> simpler_models(const Stage1& stage, const ElasticPreload& preload) {
   std::vector<ComparedModel> models = {
       {"classical linear, K (theta - q)", preload.fits.front().transmission}};
-  if (stage.job.orders_given || preload.fits.back().order == 1) return models;
-  const ElasticCandidate first_order = poly_candidate(stage.job, stage.rows, 1, stage.nuisances());
+  if (preload.fits.back().order == 1) return models;
+  const std::vector<int> first(stage.job.basis.cables.size(), 1);
+  const ElasticCandidate first_order =
+      poly_candidate(stage.job, stage.rows, first, stage.nuisances());
   models.push_back({"cables of order 1",
                     fitted_transmission(first_order, solve_candidate(stage.rows, first_order).x)});
   return models;
@@ -138,12 +143,12 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
   look_at_branches(stage, preload);
   choose_zero(stage, preload);
 
-  int order = std::max(1, stage.job.options.order);
-  if (stage.job.options.order == 0 && !stage.job.orders_given)
-    order = choose_order(stage.job, stage.rows, stage.nuisances(), preload.selection);
+  std::vector<int> orders = stage.job.orders;
+  if (orders.empty())
+    orders = choose_orders(stage.job, stage.rows, stage.nuisances(), preload.selection);
   const std::vector<ElasticCandidate> candidates = {
       linear_candidate(stage.rows, stage.nuisances()),
-      poly_candidate(stage.job, stage.rows, order, stage.nuisances())};
+      poly_candidate(stage.job, stage.rows, orders, stage.nuisances())};
   std::vector<LinearSolution> solutions;
   for (const ElasticCandidate& candidate : candidates) {
     const std::vector<double>& given = stage.job.options.coefficients;

@@ -29,8 +29,12 @@ struct ComparedLines {
 
 struct ElasticOptions {
   SampleOptions samples;
-  int order = 0;  ///< of the polynomial cables; 0: the lowest that held-out blocks support
-  int max_order = 6;
+  int order = 0;                 ///< of all cables; 0: those of `orders`, the rig file's, or chosen
+  std::vector<int> orders = {};  ///< per cable, instead of `order`; empty: not given
+  /// Choose also where the rig file gives orders: per cable the lowest that held-out blocks
+  /// support.
+  bool choose_orders = false;
+  int max_order = 6;  ///< of a choice
   double materiality =
       0.01;            ///< of the peak torque: less difference on held-out blocks does not matter
   bool still = false;  ///< also use the parts of moving logs in which the link stands still

@@ -1,5 +1,7 @@
 #include "cablefit/elastic/elastic_result.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace cablefit {
@@ -21,6 +23,20 @@ const ElasticFit* ElasticPreload::find(const std::string& model) const {
   for (const ElasticFit& fit : fits)
     if (fit.model == model) return &fit;
   return nullptr;
+}
+
+std::string order_text(const ElasticFit& fit) {
+  std::string each;
+  bool alike = true;
+  for (const Cable& cable : fit.transmission.cables) {
+    each += fmt::format("{}{}", each.empty() ? "" : ", ", cable.order);
+    alike = alike && cable.order == fit.order;
+  }
+  return alike ? fmt::format("order {}", fit.order) : "orders " + each;
+}
+
+std::string model_text(const ElasticFit& fit) {
+  return fit.model == "linear" ? fit.model : fmt::format("{}, {}", fit.model, order_text(fit));
 }
 
 }  // namespace cablefit

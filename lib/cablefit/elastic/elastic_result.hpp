@@ -116,6 +116,11 @@ struct ElasticPreload {
   const ElasticFit* find(const std::string& model) const;
 };
 
+/// "order 2"; "orders 2, 1" where they differ between cables.
+std::string order_text(const ElasticFit& fit);
+/// "linear", "poly, order 2".
+std::string model_text(const ElasticFit& fit);
+
 struct ElasticResult {
   std::vector<InputFile> inputs;
   std::vector<ElasticPreload> preloads;

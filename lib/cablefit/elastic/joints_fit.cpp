@@ -46,10 +46,8 @@ void look_at_branches(Stage1& stage, int joint, ElasticPreload& preload) {
 
 /// Variance of what the cables leave of one joint's torque when fitted to that joint alone.
 double own_variance(const Stage1& stage, const BlockedRows& rows) {
-  const int order =
-      stage.job.options.order > 0 ? stage.job.options.order : stage.job.options.max_order;
-  const LinearSolution s =
-      solve_plain(rows, poly_candidate(stage.job, rows, order, stage.nuisance));
+  const LinearSolution s = solve_plain(
+      rows, poly_candidate(stage.job, rows, orders_of(stage.job.basis), stage.nuisance));
   const auto n = static_cast<double>(s.n_rows);
   const double least = kLeastVariance * rows.rows->r().col(rows.columns.tau).squaredNorm() / n;
   return std::max(s.rss / std::max(1.0, n - s.n_params), least);
@@ -147,12 +145,12 @@ ElasticPreload fit_joints(ElasticJob job, const std::string& name) {
   require_motion(job);
   Stage1 stage{std::move(job), {}, {}, {}};
   collect_rows(stage, preload);
-  int order = std::max(1, stage.job.options.order);
-  if (stage.job.options.order == 0 && !stage.job.orders_given)
-    order = choose_order(stage.job, stage.all, stage.nuisance, preload.selection);
+  std::vector<int> orders = stage.job.orders;
+  if (orders.empty())
+    orders = choose_orders(stage.job, stage.all, stage.nuisance, preload.selection);
   const std::vector<ElasticCandidate> candidates = {
       linear_candidate(stage.all, stage.nuisance),
-      poly_candidate(stage.job, stage.all, order, stage.nuisance)};
+      poly_candidate(stage.job, stage.all, orders, stage.nuisance)};
   std::vector<LinearSolution> solutions;
   const std::vector<double> longest = longest_of(stage.all.elongations);
   for (const ElasticCandidate& candidate : candidates) {

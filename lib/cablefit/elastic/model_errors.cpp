@@ -16,35 +16,76 @@ constexpr double kSignificant = 2;  // paired block test, standard errors
 constexpr double kWorthwhile =
     0.01;  // relative gain in mean squared error below which nobody cares
 
+/// What held-out blocks say of cables of some orders.
+struct OrderTrials {
+  const ElasticJob& job;
+  const BlockedRows& rows;
+  std::span<const Nuisance> nuisance;
+  HeldOut held_out;
+
+  /// Mean squared error of every block.
+  Eigen::VectorXd errors(std::span<const int> orders) const {
+    const ElasticCandidate candidate = poly_candidate(job, rows, orders, nuisance);
+    return held_out.block_errors(held_out.fits(candidate, rows.torque_response()));
+  }
+};
+
+/// The errors `high` of a higher order are significantly and materially below those of a lower one.
+bool beats(const Eigen::VectorXd& high, const Eigen::VectorXd& low) {
+  const Eigen::ArrayXd gain = (low - high).array();
+  const double n = static_cast<double>(gain.size());
+  const double mean = gain.mean();
+  const double spread = std::sqrt((gain - mean).square().sum() / std::max(1.0, n - 1) / n);
+  return n >= 4 && mean > kSignificant * spread && mean > kWorthwhile * low.mean();
+}
+
+/// The lowest order of all cables that no higher one beats.
+std::vector<int> common_order(const OrderTrials& trials, std::vector<std::string>& words) {
+  const std::size_t n_cables = trials.job.basis.cables.size();
+  const int most = trials.job.options.max_order;
+  std::vector<Eigen::VectorXd> errors;
+  for (int order = 1; order <= most; ++order)
+    errors.push_back(trials.errors(std::vector<int>(n_cables, order)));
+  const auto is_beaten = [&](std::size_t low) {
+    return std::any_of(errors.begin() + static_cast<std::ptrdiff_t>(low) + 1, errors.end(),
+                       [&](const Eigen::VectorXd& high) { return beats(high, errors[low]); });
+  };
+  std::size_t low = 0;
+  while (low + 1 < errors.size() && is_beaten(low)) ++low;
+  words.push_back(fmt::format(
+      "order {} is the lowest that no order up to {} beats on held-out blocks (rms "
+      "{:.3g} against {:.3g} N m of order {})",
+      low + 1, most, std::sqrt(errors[low].mean()), std::sqrt(errors.back().mean()), most));
+  return std::vector<int>(n_cables, static_cast<int>(low) + 1);
+}
+
+/// Cable after cable, the lowest order that the ones so far do not beat.
+std::vector<int> lowered(const OrderTrials& trials, std::vector<int> orders,
+                         std::vector<std::string>& words) {
+  Eigen::VectorXd errors = trials.errors(orders);
+  for (std::size_t c = 0; c < orders.size(); ++c)
+    for (int order = 1; order < orders[c]; ++order) {
+      std::vector<int> lower = orders;
+      lower[c] = order;
+      const Eigen::VectorXd own = trials.errors(lower);
+      if (beats(errors, own)) continue;
+      words.push_back(fmt::format("cable {}: order {} will do, order {} does not beat it",
+                                  trials.job.basis.cables[c].name, order, orders[c]));
+      orders = std::move(lower);
+      errors = own;
+      break;
+    }
+  return orders;
+}
+
 }  // namespace
 
-int choose_order(const ElasticJob& job, const BlockedRows& rows, std::span<const Nuisance> nuisance,
-                 std::vector<std::string>& words) {
-  const HeldOut held_out(*rows.rows);
-  std::vector<Eigen::VectorXd> errors;
-  for (int order = 1; order <= job.options.max_order; ++order) {
-    const ElasticCandidate candidate = poly_candidate(job, rows, order, nuisance);
-    errors.push_back(held_out.block_errors(held_out.fits(candidate, rows.torque_response())));
-  }
-  const auto beats = [&](std::size_t high, std::size_t low) {
-    const Eigen::ArrayXd gain = (errors[low] - errors[high]).array();
-    const double n = static_cast<double>(gain.size());
-    const double mean = gain.mean();
-    const double spread = std::sqrt((gain - mean).square().sum() / std::max(1.0, n - 1) / n);
-    return n >= 4 && mean > kSignificant * spread && mean > kWorthwhile * errors[low].mean();
-  };
-  for (std::size_t low = 0; low < errors.size(); ++low) {
-    bool beaten = false;
-    for (std::size_t high = low + 1; high < errors.size(); ++high) beaten |= beats(high, low);
-    if (beaten) continue;
-    words.push_back(
-        fmt::format("order {} is the lowest that no order up to {} beats on held-out blocks (rms "
-                    "{:.3g} against {:.3g} N m of order {})",
-                    low + 1, job.options.max_order, std::sqrt(errors[low].mean()),
-                    std::sqrt(errors.back().mean()), job.options.max_order));
-    return static_cast<int>(low) + 1;
-  }
-  return job.options.max_order;
+std::vector<int> choose_orders(const ElasticJob& job, const BlockedRows& rows,
+                               std::span<const Nuisance> nuisance,
+                               std::vector<std::string>& words) {
+  const OrderTrials trials{job, rows, nuisance, HeldOut(*rows.rows)};
+  const std::vector<int> common = common_order(trials, words);
+  return lowered(trials, common, words);
 }
 
 void measure_errors(const BlockedRows& rows, const std::vector<ElasticCandidate>& candidates,

@@ -8,10 +8,11 @@
 
 namespace cablefit {
 
-/// Lowest order that no higher one (up to options.max_order) beats significantly on held-out
-/// blocks, by a paired test over blocks; the reason goes to `words`.
-int choose_order(const ElasticJob& job, const BlockedRows& rows, std::span<const Nuisance> nuisance,
-                 std::vector<std::string>& words);
+/// Orders per cable: first the lowest of all cables that no higher one (up to options.max_order)
+/// beats significantly on held-out blocks, by a paired test over blocks; then, cable after cable,
+/// the lowest that this one does not beat. The reasons go to `words`.
+std::vector<int> choose_orders(const ElasticJob& job, const BlockedRows& rows,
+                               std::span<const Nuisance> nuisance, std::vector<std::string>& words);
 
 /// Looks at the rows again: largest errors of every fit, in sample and on held-out blocks,
 /// deflection range and peak torque. candidates[k], solutions[k] belong to preload.fits[k].

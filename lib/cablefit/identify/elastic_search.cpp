@@ -99,6 +99,7 @@ ElasticResult fit_elastic_with_search(std::span<const LogSurvey> logs,
   require_determined(joint);
 
   ElasticOptions each = options;
+  each.choose_orders = false;  // the joint fit has them
   if (each.order == 0 && !joint.cable_space) each.order = kDefaultOrder;
   each.zero = ZeroMode::offset;
   ElasticResult result;

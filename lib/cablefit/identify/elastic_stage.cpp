@@ -51,7 +51,9 @@ ElasticResult fit_elastic_stage(std::span<const LogSurvey> logs, const ElasticOp
   if (search_all || (mode == ElongationMode::automatic && wants_search(logs)))
     return fit_elastic_with_search(logs, options, search_all);
   ElasticResult result = fit_elastic(logs, options);
-  if (mode == ElongationMode::known || options.still || options.unconstrained) return result;
+  if (mode == ElongationMode::known || options.still || options.unconstrained ||
+      !options.orders.empty() || options.offset)
+    return result;
   for (ElasticPreload& preload : result.preloads)
     if (!preload.shape_doubt.empty() && !rig_of(logs, preload.name).cables_given)
       preload = with_search(logs, options, std::move(preload));

@@ -151,8 +151,8 @@ ElasticOptions options_of_runs(const ElasticOptions& options, const ElasticPrelo
   same.preload = preload.name;
   same.figures = false;
   same.samples.threads = 1;
-  if (!fit.transmission.cables.empty()) same.order = fit.order;
-  if (same.order == 0) same.order = preload.fits.back().order;
+  same.order = 0;
+  same.orders = orders_of(preload.fits.back().transmission);
   same.zero =
       find_estimate(fit.parameters, "theta_0") != nullptr ? ZeroMode::theta_0 : ZeroMode::offset;
   return same;

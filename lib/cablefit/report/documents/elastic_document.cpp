@@ -82,10 +82,9 @@ Table fits_table(const ElasticResult& result) {
       };
       if (!fit.passive) add("pushes");
       if (!fit.active_bounds.empty()) add("at bounds");
-      const std::string order = fit.model == "linear" ? "" : fmt::format(", order {}", fit.order);
       for (const FitRow& row : rows_of(fit)) {
         std::vector<std::string> cells = {preload.name,
-                                          fit.model + order,
+                                          model_text(fit),
                                           estimate_text(fit, row.name("offset"), 1, notes),
                                           estimate_text(fit, row.name("theta_0"), 1e3, notes),
                                           estimate_text(fit, row.name("f_sm"), 1, notes),
@@ -204,7 +203,7 @@ Table sd_table(const ElasticResult& result) {
 }
 
 void add_tidy_rows(Table& table, const ElasticPreload& preload, const ElasticFit& fit) {
-  const std::string method = fmt::format("order {}", fit.order);
+  const std::string method = order_text(fit);
   for (const Estimate& e : fit.parameters) add_tidy(table, preload.name, fit.model, method, e);
   for (const Estimate& e : fit.derived) add_tidy(table, preload.name, fit.model, method, e);
   const auto add = [&](const char* name, const std::string& unit, double value) {
@@ -222,17 +221,14 @@ void add_tidy_rows(Table& table, const ElasticPreload& preload, const ElasticFit
 /// What to take, and by how much it is better.
 SummaryLine answer_of(const ElasticPreload& preload) {
   const std::string torque = torque_unit(preload.linear_motion);
-  const auto named = [](const ElasticFit& fit) {
-    return fit.model == "linear" ? std::string("linear")
-                                 : fmt::format("{}, order {}", fit.model, fit.order);
-  };
   std::string text, others;
   for (const ElasticFit& fit : preload.fits) {
     const std::string error = fmt::format("{} {}", error_text(fit.held_out_max), torque);
     if (fit.model == preload.selected || preload.fits.size() == 1)
-      text = fmt::format("use {}: its largest error on held-out blocks is {}", named(fit), error);
+      text =
+          fmt::format("use {}: its largest error on held-out blocks is {}", model_text(fit), error);
     else
-      others += fmt::format("{}{} {}", others.empty() ? "" : ", ", named(fit), error);
+      others += fmt::format("{}{} {}", others.empty() ? "" : ", ", model_text(fit), error);
   }
   if (!others.empty()) text += fmt::format(" ({})", others);
   return {preload.name, text};
@@ -248,9 +244,8 @@ Headline headline_of(const ElasticResult& result) {
       headline.word = fit->passive ? "doubtful" : "not physical";
       headline.tone = Tone::bad;
     }
-    headline.verdict += fmt::format(
-        "{}{}: use {}", headline.verdict.empty() ? "" : "; ", preload.name,
-        fit->model == "linear" ? "linear" : fmt::format("{}, order {}", fit->model, fit->order));
+    headline.verdict += fmt::format("{}{}: use {}", headline.verdict.empty() ? "" : "; ",
+                                    preload.name, model_text(*fit));
     if (headline.numbers.size() < kMostNumbers)
       headline.numbers.push_back({fmt::format("largest error on held-out blocks, {}", preload.name),
                                   fmt::format("{} {}", error_text(fit->held_out_max),

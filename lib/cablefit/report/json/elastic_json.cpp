@@ -77,6 +77,7 @@ Json fit_json(const ElasticPreload& preload, const ElasticFit& fit) {
             {"effective_rows", fit.effective_rows},
             {"condition", fit.condition},
             {"warnings", fit.warnings}};
+  for (const Cable& cable : fit.transmission.cables) json["orders"].push_back(cable.order);
   if (!fit.misfit.empty()) json["misfit"] = list_of(fit.misfit.points, misfit_json);
   if (fit.proof) json["prove"] = proof_json(*fit.proof);
   if (!fit.joints.empty()) json["joints"] = list_of(fit.joints, joint_errors_json);
