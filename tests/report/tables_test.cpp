@@ -1,12 +1,15 @@
 // Table 1 and Table 2, laid out from results made by hand.
 #include <catch2/catch.hpp>
+#include <limits>
 
 #include "cablefit/report/documents/dynamic_document.hpp"
 #include "cablefit/report/documents/elastic_document.hpp"
+#include "cablefit/report/json/elastic_json.hpp"
 #include "cablefit/report/writers/text_table.hpp"
 #include "cablefit/report/writers/wrap.hpp"
 #include "cablefit/report/writers/writers.hpp"
 #include "tests/report/results.hpp"
+#include "tests/report/schema.hpp"
 
 namespace {
 
@@ -100,6 +103,23 @@ TEST_CASE("a linear axis has forces and masses") {
   result.preloads[0].unit = "m";
   const std::string text = write_text(elastic_document(result));
   CHECK_THAT(text, Contains("[mm]") && Contains("[N]") && !Contains("[mrad]"));
+}
+
+// Fig. 6b as numbers.
+TEST_CASE("scores of straight lines have a table and are valid JSON") {
+  ElasticResult result = test::elastic_result();
+  result.preloads[0].scores = {{"linear", "given", 1819.2, false, 24.9, 71.96, 0.05},
+                               {"poly, order 2", "all samples",
+                                std::numeric_limits<double>::quiet_NaN(), true, 0.05, 0.2, -0.01}};
+  CHECK(test::schema_errors("elastic", elastic_json(result)) == "");
+  const std::string text = write_text(elastic_document(result));
+  for (const char* line :
+       {"Errors of the elastic torque (Figs. 6b, 7b)",
+        "linear         given           1819.2  these logs    24.9   72.0    50.0",
+        "poly, order 2  all samples          -  test logs   0.0500  0.200   -10.0"}) {
+    INFO(text);
+    CHECK(text.find(line) != std::string::npos);
+  }
 }
 
 TEST_CASE("decisions that all preloads share stand once") {

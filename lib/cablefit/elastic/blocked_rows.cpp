@@ -261,7 +261,23 @@ BlockedRows stack(const std::vector<BlockedRows>& joints, const std::vector<doub
 Eigen::VectorXd BlockedRows::torque_response() const {
   Eigen::VectorXd response = Eigen::VectorXd::Unit(columns.count, columns.tau);
   if (offset) response.segment(columns.offset, columns.n_joints).setConstant(-*offset);
+  if (taken_off.size() > 0) response -= taken_off;
   return response;
+}
+
+BlockedRows rows_where(const BlockedRows& rows, const KeepRow& keep) {
+  BlockedRows some = rows;
+  some.rows = rows.rows->empty_copy();
+  rows.archive->for_each([&](const Eigen::MatrixXd& r, std::span<const Eigen::Index> numbers) {
+    std::vector<Eigen::Index> kept, kept_numbers;
+    for (Eigen::Index i = 0; i < r.rows(); ++i) {
+      if (!keep(r.row(i))) continue;
+      kept.push_back(i);
+      kept_numbers.push_back(numbers[static_cast<std::size_t>(i)]);
+    }
+    if (!kept.empty()) some.rows->add(r(kept, Eigen::all), kept_numbers);
+  });
+  return some;
 }
 
 bool has_both_branches(const BlockedRows& rows, int joint) {

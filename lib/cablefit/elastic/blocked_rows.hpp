@@ -1,6 +1,7 @@
 // Rows of one preload's blocked logs, collected once for all models fitted to them.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -47,8 +48,9 @@ struct BlockedRows {
   ModeCounts modes;
   bool plateaus = false;         ///< rows at rest were used, there are hardly others
   std::optional<double> offset;  ///< N m, where the options give it
+  Eigen::VectorXd taken_off;     ///< known torques beside it, as a combination of columns; or empty
 
-  /// tau, less a given offset.
+  /// tau, less a given offset and what else is known.
   Eigen::VectorXd torque_response() const;
 };
 
@@ -60,6 +62,10 @@ std::vector<BlockedRows> collect_joints(const ElasticJob& job, double theta_0,
 /// The rows of all joints under each other, each joint's with its weight. Neither equations nor an
 /// archive.
 BlockedRows stack(const std::vector<BlockedRows>& joints, const std::vector<double>& weights);
+
+/// The rows that `keep` wants, for a fit of their own; ranges and modes stay those of all.
+using KeepRow = std::function<bool(const Eigen::Ref<const Eigen::RowVectorXd>& row)>;
+BlockedRows rows_where(const BlockedRows& rows, const KeepRow& keep);
 
 /// Motion of the joint (from 0) in both directions: the direction column is not (nearly) a
 /// constant.

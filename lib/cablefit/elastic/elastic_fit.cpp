@@ -175,7 +175,8 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
   for (std::size_t k = 0; k < candidates.size(); ++k)
     if (preload.fits[k].model == preload.selected)
       preload.fits[k].misfit = find_misfit(stage.rows, candidates[k], solutions[k]);
-  preload.scores = score_curves(stage.job, stage.rows, stage.nuisances(), preload, solutions);
+  preload.scores =
+      score_curves(stage.job, stage.rows, preload, candidates.back(), solutions.back());
   const double left = note_log_zeros(stage.job, stage.rows, candidates, preload);
   note_loop(preload, left, stage.rows.plateaus);
   note_closure(stage.rows.elongations, preload);

@@ -77,7 +77,8 @@ struct ElasticJoint {
   RowCounts counts;
 };
 
-/// Errors of one model's torque on one set of rows, friction and offset as in its fit.
+/// Errors of one model's elastic torque on one set of rows: measured, less the friction of the
+/// cables' fit and the model's own offset.
 struct ElasticScore {
   std::string model;                 ///< "linear", "poly, order 2"
   std::string fitted;                ///< what K is: "all samples", "-13.8 .. 13.8 mrad", "given"

@@ -54,17 +54,9 @@ std::string range_text(const std::pair<double, double>& range, bool linear_motio
 /// The rows with deflections in the range.
 BlockedRows rows_within(const BlockedRows& rows, const std::pair<double, double>& range,
                         bool linear_motion) {
-  BlockedRows within = rows;
-  within.rows = rows.rows->empty_copy();
-  rows.archive->for_each([&](const Eigen::MatrixXd& r, std::span<const Eigen::Index> numbers) {
-    std::vector<Eigen::Index> kept, kept_numbers;
-    for (Eigen::Index i = 0; i < r.rows(); ++i) {
-      const double phi = r(i, rows.columns.deflection);
-      if (phi < range.first || phi > range.second) continue;
-      kept.push_back(i);
-      kept_numbers.push_back(numbers[static_cast<std::size_t>(i)]);
-    }
-    if (!kept.empty()) within.rows->add(r(kept, Eigen::all), kept_numbers);
+  const Eigen::Index phi = rows.columns.deflection;
+  BlockedRows within = rows_where(rows, [&](const Eigen::Ref<const Eigen::RowVectorXd>& row) {
+    return row(phi) >= range.first && row(phi) <= range.second;
   });
   if (within.rows->n_rows() < kMinRows)
     throw Error(
@@ -75,28 +67,57 @@ BlockedRows rows_within(const BlockedRows& rows, const std::pair<double, double>
   return within;
 }
 
+/// The rows less the motor's friction, as the cables' fit has it: a line that bends where the
+/// cables do not would take part of it.
+BlockedRows without_friction(const BlockedRows& rows, const ElasticCandidate& cables,
+                             const LinearSolution& solution) {
+  BlockedRows elastic = rows;
+  elastic.taken_off = Eigen::VectorXd::Zero(rows.columns.count);
+  for (std::size_t k = cables.n_elastic; k < cables.regressors.size(); ++k)
+    if (const Eigen::Index column = cables.regressors[k];
+        column == rows.columns.direction || column == rows.columns.speed)
+      elastic.taken_off(column) = solution.x(static_cast<Eigen::Index>(k));
+  return elastic;
+}
+
+/// Straight lines through the elastic torque, each with its own offset where that is free.
+class Lines {
+ public:
+  Lines(const BlockedRows& elastic, bool theta_0)
+      : elastic_(elastic), nuisance_({theta_0, false, false}) {}
+
+  double slope_of(const BlockedRows& within) const {
+    return solve_candidate(within, candidate(within)).x(0);
+  }
+  Scored with_slope(std::string fitted, double k) const {
+    const LinearSolution s = solve_given(elastic_, candidate(elastic_), std::span(&k, 1));
+    return {"linear", std::move(fitted), k, s.residual_combination};
+  }
+
+ private:
+  ElasticCandidate candidate(const BlockedRows& rows) const {
+    return linear_candidate(rows, std::span(&nuisance_, 1));
+  }
+
+  const BlockedRows& elastic_;
+  Nuisance nuisance_;
+};
+
 std::vector<Scored> curves_of(const ElasticJob& job, const BlockedRows& rows,
-                              std::span<const Nuisance> nuisance, const ElasticPreload& preload,
-                              std::span<const LinearSolution> solutions) {
-  std::vector<Scored> curves;
-  for (std::size_t k = 0; k < solutions.size(); ++k) {
-    const ElasticFit& fit = preload.fits[k];
-    const bool is_line = fit.model == "linear";
-    const double stiffness = is_line ? solutions[k].x(0) : std::numeric_limits<double>::quiet_NaN();
-    curves.push_back({is_line ? "linear" : fmt::format("poly, order {}", fit.order), "all samples",
-                      stiffness, solutions[k].residual_combination});
-  }
-  const auto add_line = [&](std::string fitted, const LinearSolution& s) {
-    curves.push_back({"linear", std::move(fitted), s.x(0), s.residual_combination});
-  };
+                              const ElasticPreload& preload, const ElasticCandidate& cables,
+                              const LinearSolution& solution) {
+  const BlockedRows elastic = without_friction(rows, cables, solution);
+  const Lines lines(elastic, find_estimate(preload.fits.back().parameters, "theta_0") != nullptr);
   const bool linear_motion = job.rig().linear_motion;
-  for (const std::pair<double, double>& range : job.options.lines.ranges) {
-    const BlockedRows within = rows_within(rows, range, linear_motion);
-    add_line(range_text(range, linear_motion),
-             solve_candidate(within, linear_candidate(within, nuisance)));
-  }
+  const double fitted = preload.fits.front().transmission.linear_stiffness(0);
+  std::vector<Scored> curves = {lines.with_slope("all samples", fitted)};
+  for (const std::pair<double, double>& range : job.options.lines.ranges)
+    curves.push_back(lines.with_slope(range_text(range, linear_motion),
+                                      lines.slope_of(rows_within(elastic, range, linear_motion))));
   for (const double k : job.options.lines.stiffnesses)
-    add_line("given", solve_given(rows, linear_candidate(rows, nuisance), std::span(&k, 1)));
+    curves.push_back(lines.with_slope("given", k));
+  curves.push_back({model_text(preload.fits.back()), "all samples",
+                    std::numeric_limits<double>::quiet_NaN(), solution.residual_combination});
   return curves;
 }
 
@@ -116,12 +137,12 @@ BlockedRows test_rows(const ElasticJob& job, const BlockedRows& rows, const std:
 }  // namespace
 
 std::vector<ElasticScore> score_curves(const ElasticJob& job, const BlockedRows& rows,
-                                       std::span<const Nuisance> nuisance,
                                        const ElasticPreload& preload,
-                                       std::span<const LinearSolution> solutions) {
+                                       const ElasticCandidate& cables,
+                                       const LinearSolution& solution) {
   std::vector<ElasticScore> scores;
   if (job.options.lines.empty()) return scores;
-  const std::vector<Scored> curves = curves_of(job, rows, nuisance, preload, solutions);
+  const std::vector<Scored> curves = curves_of(job, rows, preload, cables, solution);
   for (const Scored& curve : curves) scores.push_back(score_of(curve, rows, false));
   if (job.options.lines.test.empty()) return scores;
   const BlockedRows test = test_rows(job, rows, preload.name);

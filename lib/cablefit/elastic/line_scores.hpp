@@ -11,11 +11,11 @@
 namespace cablefit {
 
 /// Scores of the preload's fits and of the lines that the options name; none where they name none.
-/// `solutions`: one per fit. One joint. Throws Error(input) when a range holds no rows, or no test
-/// log is of this preload.
+/// The torque is elastic: less the friction of the cables' fit, `cables` and its `solution`. One
+/// joint. Throws Error(input) when a range holds no rows, or no test log is of this preload.
 std::vector<ElasticScore> score_curves(const ElasticJob& job, const BlockedRows& rows,
-                                       std::span<const Nuisance> nuisance,
                                        const ElasticPreload& preload,
-                                       std::span<const LinearSolution> solutions);
+                                       const ElasticCandidate& cables,
+                                       const LinearSolution& solution);
 
 }  // namespace cablefit
