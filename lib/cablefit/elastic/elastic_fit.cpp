@@ -14,6 +14,7 @@
 #include "cablefit/elastic/misfit.hpp"
 #include "cablefit/elastic/model_errors.hpp"
 #include "cablefit/elastic/preload_checks.hpp"
+#include "cablefit/elastic/standstill.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
 #include "cablefit/samples/rows/unused_rows.hpp"
 
@@ -179,6 +180,7 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
       score_curves(stage.job, stage.rows, preload, candidates.back(), solutions.back());
   const double left = note_log_zeros(stage.job, stage.rows, candidates, preload);
   note_loop(preload, left, stage.rows.plateaus);
+  note_standstill(stage.job, stage.rows, candidates.back(), preload);
   note_closure(stage.rows.elongations, preload);
   if (stage.job.options.figures)
     preload.figures = elastic_figures(stage.job, stage.rows, 0, candidates, solutions, preload,
