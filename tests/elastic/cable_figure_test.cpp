@@ -83,4 +83,29 @@ TEST_CASE("simpler models are drawn beside the cables", "[elastic]") {
     CHECK_THAT(drawn.y[k], Catch::WithinAbs(1200 * drawn.x[k], 1e-12));
 }
 
+// Of two linear cables: K1 + K2 while both are taut, else that of the one which holds.
+TEST_CASE("the stiffness steps where a cable goes slack", "[elastic]") {
+  Transmission pair = antagonist_pair(1), line;
+  pair.cables[0].coefficients = {1000};
+  pair.cables[1].coefficients = {1500};
+  pair.cables[0].initial_elongation = 0.006;
+  pair.cables[1].initial_elongation = 0.004;
+  line.linear_stiffness = Eigen::VectorXd::Constant(1, 1200);
+  const std::vector<ComparedModel> compared = {{"line", line}};
+  const Figure figure = stiffness_figure(pair, -0.02, 0.02, false, compared);
+  REQUIRE(figure.traces.size() == 3);
+  const Trace &box = figure.traces[0], &all = figure.traces[1], &drawn = figure.traces[2];
+  for (std::size_t i = 0; i < all.x.size(); ++i) {
+    const double phi = all.x[i];
+    CHECK(all.y[i] == (phi < -0.006 ? 1500 : phi > 0.004 ? 1000 : 2500));
+    CHECK(drawn.y[i] == 1200);
+  }
+  CHECK(box.style == TraceStyle::area);
+  CHECK_THAT(box.x[0], Catch::WithinAbs(-0.006, 1e-12));
+  CHECK_THAT(box.x[1], Catch::WithinAbs(0.004, 1e-12));
+  CHECK(box.y[2] > 2500);
+  CHECK(figure.notes.size() == 3);
+  CHECK(figure.marks.size() == 2);
+}
+
 }  // namespace

@@ -79,7 +79,8 @@ TEST_CASE("a design as text has the closed forms of linear cables", "[report]") 
   CHECK(text.find(" nan") == std::string::npos);
   CHECK(write_csv(document).find("closure_torque") != std::string::npos);
   CHECK(write_markdown(document).find("What the preload buys") != std::string::npos);
-  REQUIRE(document.figures.size() == 8);  // four curves, two along the sweep, cables of each point
+  // Four curves, two along the sweep, torque and stiffness of the cables of each point.
+  REQUIRE(document.figures.size() == 10);
   CHECK(document.figures.back().section == "Cables at l_o = 10 mrad");
 }
 

@@ -5,10 +5,11 @@
 #include <Eigen/QR>
 #include <array>
 #include <cmath>
-#include <memory>
+#include <utility>
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/root.hpp"
+#include "cablefit/model/stiffness.hpp"
 
 namespace cablefit {
 namespace {
@@ -147,25 +148,26 @@ CurveModel linear_spring(const JointCurve& curve, const WorkingRange& range) {
   CurveModel model;
   model.name = "linear";
   model.coefficients = {k};
-  model.torque = [k](double phi) { return k * phi; };
-  model.stiffness = [k](double /*phi*/) { return k; };
+  model.transmission = classical_spring(curve.transmission());
+  model.transmission.linear_stiffness(curve.joint()) = k;
+  model.joint = curve.joint();
   measure_errors(curve, range, model);
   return model;
 }
 
 CurveModel cables_of_order(const JointCurve& curve, const WorkingRange& range, int order) {
   const Quadrature nodes = quadrature(curve, range);
-  auto simpler = std::make_shared<Transmission>(of_order(curve.transmission(), order));
+  Transmission simpler = of_order(curve.transmission(), order);
   const auto n = static_cast<Eigen::Index>(nodes.at.size());
-  const auto n_cables = simpler->cables.size();
-  const Eigen::Index per_cable = simpler->cables.front().n_coefficients();
+  const auto n_cables = simpler.cables.size();
+  const Eigen::Index per_cable = simpler.cables.front().n_coefficients();
   Eigen::MatrixXd columns(n, per_cable * static_cast<Eigen::Index>(n_cables));
   Eigen::VectorXd response(n);
   for (std::size_t c = 0; c < n_cables; ++c)
     for (Eigen::Index j = 0; j < per_cable; ++j) {
-      double& coefficient = simpler->cables[c].coefficients[static_cast<std::size_t>(j)];
+      double& coefficient = simpler.cables[c].coefficients[static_cast<std::size_t>(j)];
       coefficient = 1;
-      const JointCurve alone(*simpler, curve.joint());
+      const JointCurve alone(simpler, curve.joint());
       const Eigen::Index column = static_cast<Eigen::Index>(c) * per_cable + j;
       for (Eigen::Index i = 0; i < n; ++i) {
         const auto k = static_cast<std::size_t>(i);
@@ -180,31 +182,37 @@ CurveModel cables_of_order(const JointCurve& curve, const WorkingRange& range, i
   const Eigen::VectorXd x = least_squares(columns, response);
   for (std::size_t c = 0; c < n_cables; ++c)
     for (Eigen::Index j = 0; j < per_cable; ++j)
-      simpler->cables[c].coefficients[static_cast<std::size_t>(j)] =
+      simpler.cables[c].coefficients[static_cast<std::size_t>(j)] =
           x(static_cast<Eigen::Index>(c) * per_cable + j);
   CurveModel model;
   model.name = order == 1 ? "piecewise linear" : fmt::format("order {}", order);
   model.coefficients.assign(x.begin(), x.end());
-  const int joint = curve.joint();
-  model.torque = [simpler, joint](double phi) { return JointCurve(*simpler, joint).torque(phi); };
-  model.stiffness = [simpler, joint](double phi) {
-    return JointCurve(*simpler, joint).stiffness(phi);
-  };
+  model.transmission = std::move(simpler);
+  model.joint = curve.joint();
   measure_errors(curve, range, model);
   return model;
 }
 
 CurveModel cables_themselves(const JointCurve& curve) {
-  const auto own = std::make_shared<Transmission>(curve.transmission());
-  const int joint = curve.joint();
   CurveModel model;
   model.name = "cables";
-  for (const Cable& cable : own->cables)
+  model.transmission = curve.transmission();
+  model.joint = curve.joint();
+  for (const Cable& cable : model.transmission.cables)
     model.coefficients.insert(model.coefficients.end(), cable.coefficients.begin(),
                               cable.coefficients.end());
-  model.torque = [own, joint](double phi) { return JointCurve(*own, joint).torque(phi); };
-  model.stiffness = [own, joint](double phi) { return JointCurve(*own, joint).stiffness(phi); };
   return model;
+}
+
+double CurveModel::torque(double phi) const { return JointCurve(transmission, joint).torque(phi); }
+
+double CurveModel::stiffness(double phi) const { return motor_stiffness(transmission, joint, phi); }
+
+std::vector<CurveModel> simpler_models(const JointCurve& curve, const WorkingRange& range,
+                                       std::span<const int> orders) {
+  std::vector<CurveModel> models = {linear_spring(curve, range)};
+  for (const int order : orders) models.push_back(cables_of_order(curve, range, order));
+  return models;
 }
 
 }  // namespace cablefit

@@ -73,7 +73,7 @@ std::vector<double> sample_points(const JointCurve& curve, const WorkingRange& r
 
 /// The curves of one joint, each in its figure.
 void add_joint_curves(const JointCurve& curve, const DesignJoint& joint, const std::string& name,
-                      const DesignOptions& options, DesignResult& result) {
+                      std::span<const CurveModel> models, DesignResult& result) {
   const FigureAxis deflection = {"deflection theta - q", angle_unit_of(result)};
   const FigureAxis torque = {"elastic torque", torque_unit_of(result)};
   const FigureAxis error = {"model minus cables", torque_unit_of(result)};
@@ -90,8 +90,6 @@ void add_joint_curves(const JointCurve& curve, const DesignJoint& joint, const s
             torque, {"stiffness", stiffness_unit_of(result)})
       .traces.push_back(
           sampled(name, series, phi, tau, [&](double x) { return curve.stiffness(x); }));
-  std::vector<CurveModel> models = {linear_spring(curve, range)};
-  for (const int order : options.orders) models.push_back(cables_of_order(curve, range, order));
   for (const CurveModel& simpler : models)
     figure_of(result, joint, "Error: " + simpler.name,
               "What the best model of this kind gets wrong; its coefficients are fitted to the "
@@ -101,19 +99,17 @@ void add_joint_curves(const JointCurve& curve, const DesignJoint& joint, const s
                                   [&](double x) { return simpler.torque(x) - curve.torque(x); }));
 }
 
-void add_cable_figure(const Model& model, const Transmission& preloaded, const DesignPoint& point,
-                      DesignResult& result) {
+/// Fig. 4 of the paper at this preload: torque and stiffness of the cables and of simpler models.
+void add_cable_figures(const Model& model, const Transmission& preloaded, const DesignPoint& point,
+                       std::span<const CurveModel> models, DesignResult& result) {
   const DesignJoint& joint = point.joints.front();
-  const JointCurve curve(preloaded, 0);
-  std::vector<ComparedModel> compared(1);
-  compared[0].name = "linear";
-  compared[0].transmission.theta_0 = preloaded.theta_0;
-  compared[0].transmission.reference = preloaded.reference;
-  compared[0].transmission.linear_stiffness =
-      Eigen::VectorXd::Constant(1, joint.model("linear").coefficients.front());
-  Figure figure = cable_figure(preloaded, joint.low, joint.high, model.rig.linear_motion, compared);
-  figure.section = "Cables at " + point_name(point, result);
-  result.figures.push_back(std::move(figure));
+  std::vector<ComparedModel> compared;
+  for (const CurveModel& simpler : models) compared.push_back({simpler.name, simpler.transmission});
+  for (const auto draw : {cable_figure, stiffness_figure}) {
+    Figure figure = draw(preloaded, joint.low, joint.high, model.rig.linear_motion, compared);
+    figure.section = "Cables at " + point_name(point, result);
+    result.figures.push_back(std::move(figure));
+  }
 }
 
 /// One line per radius factor, or per model: a number of every point of the sweep against l_o.
@@ -187,10 +183,14 @@ void add_curves(const Model& model, const Transmission& preloaded, const DesignP
                 const DesignOptions& options, DesignResult& result) {
   if (!options.figures) return;
   const std::string name = point_name(point, result);
-  for (const DesignJoint& joint : point.joints)
-    add_joint_curves(JointCurve(preloaded, static_cast<int>(&joint - point.joints.data())), joint,
-                     name, options, result);
-  if (point.joints.size() == 1) add_cable_figure(model, preloaded, point, result);
+  for (std::size_t k = 0; k < point.joints.size(); ++k) {
+    const DesignJoint& joint = point.joints[k];
+    const JointCurve curve(preloaded, static_cast<int>(k));
+    const std::vector<CurveModel> models =
+        simpler_models(curve, {joint.low, joint.high}, options.orders);
+    add_joint_curves(curve, joint, name, models, result);
+    if (point.joints.size() == 1) add_cable_figures(model, preloaded, point, models, result);
+  }
 }
 
 void finish_figures(const DesignOptions& options, DesignResult& result) {

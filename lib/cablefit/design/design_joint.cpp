@@ -125,8 +125,7 @@ DesignJoint describe_joint(const Model& model, const Transmission& preloaded, in
   add_stiffness(curve, range, out);
   add_tensions(curve, range, out);
   out.friction = design_friction(model, curve, options.torque, options.tension_friction);
-  std::vector<CurveModel> models = {linear_spring(curve, range)};
-  for (const int order : options.orders) models.push_back(cables_of_order(curve, range, order));
+  std::vector<CurveModel> models = simpler_models(curve, range, options.orders);
   models.push_back(cables_themselves(curve));
   const double per_inertia = mobility(model, joint);
   for (const CurveModel& simpler : models)

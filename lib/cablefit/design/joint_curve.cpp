@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "cablefit/base/root.hpp"
+#include "cablefit/model/stiffness.hpp"
 
 namespace cablefit {
 namespace {
@@ -55,17 +56,7 @@ double JointCurve::torque(double phi) const {
 }
 
 double JointCurve::stiffness(double phi) const {
-  if (transmission_->cables.empty()) return transmission_->linear_stiffness(joint_);
-  const double at = theta_(joint_) + phi;
-  const Eigen::VectorXd l = elongations(phi);
-  double sum = 0;
-  for (std::size_t i = 0; i < transmission_->cables.size(); ++i) {
-    const Cable& cable = transmission_->cables[i];
-    const DisplacementMap& map = cable.motor_map[static_cast<std::size_t>(joint_)];
-    const double r = map.radius(at), own = l(static_cast<Eigen::Index>(i));
-    sum += r * r * cable.stiffness(own) + map.radius_slope(at) * cable.force(own);
-  }
-  return sum;
+  return motor_stiffness(*transmission_, joint_, phi);
 }
 
 Eigen::VectorXd JointCurve::elongations(double phi) const {

@@ -1,20 +1,17 @@
 #include "cablefit/elastic/cable_figure.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <limits>
 #include <utility>
 
+#include "cablefit/elastic/cable_zones.hpp"
 #include "cablefit/model/modes.hpp"
 
 namespace cablefit {
 namespace {
 
 constexpr int kSteps = 200;
-constexpr double kMarkRoom = 0.1;    // of the range; names of marks closer than that share a place
-constexpr double kLeastZone = 1e-6;  // of the range; two cables that go slack together
-constexpr double kNoteRoom = 0.06;   // of the torque's range, from its ends
+constexpr double kNoteRoom = 0.06;  // of the torque's range, from its ends
+constexpr double kNoteWidth = 0.1;  // of the range, below which a zone has no room for a word
 
 double motor_torque(const Transmission& transmission, const Cable& cable, double phi) {
   const double theta = transmission.reference_theta()(0) + phi;
@@ -30,61 +27,12 @@ double motor_torque(const Transmission& transmission, double phi) {
   return motor(0);
 }
 
-/// By the names of the cables.
-std::vector<Mark> slack_marks(const Transmission& transmission, double low, double high) {
-  std::vector<Mark> marks;
-  for (const SlackPoint& point : slack_points(transmission, low, high))
-    marks.push_back({point.deflection, transmission.cables[point.cable].name});
-  std::sort(marks.begin(), marks.end(), [](const Mark& a, const Mark& b) { return a.x < b.x; });
-  for (std::size_t k = 1; k < marks.size(); ++k)
-    if (marks[k].x - marks[k - 1].x < kMarkRoom * (high - low))
-      marks[k].text = fmt::format("{}, {}", std::exchange(marks[k - 1].text, ""), marks[k].text);
-  return marks;
-}
-
-/// Deflections between two changes of a cable, and which cables are slack there.
-struct Zone {
-  double low, high;
-  std::string slack;  ///< "1, 2"; empty: force closure
-};
-
-std::vector<Zone> zones_of(const Transmission& transmission, double low, double high) {
-  std::vector<double> ends = {low, high};
-  for (const SlackPoint& point : slack_points(transmission, low, high))
-    ends.push_back(point.deflection);
-  std::sort(ends.begin(), ends.end());
-  std::vector<Zone> zones;
-  for (std::size_t k = 1; k < ends.size(); ++k) {
-    const double middle = (ends[k - 1] + ends[k]) / 2;
-    if (!(ends[k] - ends[k - 1] > kLeastZone * (high - low))) continue;
-    Zone zone{ends[k - 1], ends[k], ""};
-    for (const Cable& cable : transmission.cables)
-      if (!(elongation_at(transmission, cable, middle) > 0))
-        zone.slack += (zone.slack.empty() ? "" : ", ") + cable.name;
-    zones.push_back(std::move(zone));
-  }
-  return zones;
-}
-
-/// From corner to corner of a torque that grows: up to which deflection and which torque.
-void add_box(const Transmission& transmission, const Zone& zone, Trace& area) {
-  const double from = motor_torque(transmission, zone.low);
-  const double to = motor_torque(transmission, zone.high);
-  if (!area.x.empty()) {
-    area.x.push_back(std::numeric_limits<double>::quiet_NaN());
-    area.y.push_back(area.x.back());
-  }
-  area.x.insert(area.x.end(), {zone.low, zone.high, zone.high, zone.low, zone.low});
-  area.y.insert(area.y.end(), {from, from, to, to, from});
-}
-
 /// Above the curve or below it, where there is more room.
-Note zone_note(const Transmission& transmission, const Zone& zone, double least, double most) {
+Note zone_note(const Transmission& transmission, const CableZone& zone, double least, double most) {
   const double middle = (zone.low + zone.high) / 2;
   const double edge = kNoteRoom * (most - least);
   const bool below = motor_torque(transmission, middle) > (least + most) / 2;
-  return {middle, below ? least + edge : most - edge,
-          zone.slack.empty() ? "all taut" : "slack: " + zone.slack};
+  return {middle, below ? least + edge : most - edge, zone_text(zone)};
 }
 
 /// Which cables are slack where.
@@ -92,9 +40,11 @@ void add_zones(const Transmission& transmission, const Trace& all, Figure& figur
   const auto [least, most] = std::minmax_element(all.y.begin(), all.y.end());
   const double low = all.x.front(), high = all.x.back();
   Trace area{"all taut: force closure", TraceStyle::area, kReference, {}, {}, {}, {}, {}};
-  for (const Zone& zone : zones_of(transmission, low, high)) {
-    if (zone.slack.empty()) add_box(transmission, zone, area);
-    if (zone.high - zone.low > kMarkRoom * (high - low))
+  for (const CableZone& zone : zones_of(transmission, low, high)) {
+    if (zone.slack.empty())  // from corner to corner of a torque that grows
+      add_box(zone, motor_torque(transmission, zone.low), motor_torque(transmission, zone.high),
+              area);
+    if (zone.high - zone.low > kNoteWidth * (high - low))
       figure.notes.push_back(zone_note(transmission, zone, *least, *most));
   }
   if (!area.x.empty()) figure.traces.push_back(std::move(area));

@@ -23,4 +23,9 @@ struct ComparedModel {
 Figure cable_figure(const Transmission& transmission, double low, double high, bool linear_motion,
                     std::span<const ComparedModel> compared = {});
 
+/// The stiffness d tau_elas_m / d theta of the cables against the same deflections, with the
+/// others, the area and the marks of cable_figure().
+Figure stiffness_figure(const Transmission& transmission, double low, double high,
+                        bool linear_motion, std::span<const ComparedModel> compared = {});
+
 }  // namespace cablefit

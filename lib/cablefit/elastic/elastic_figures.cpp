@@ -188,8 +188,9 @@ std::vector<Figure> elastic_figures(const ElasticJob& job, const BlockedRows& ro
     figures.push_back(std::move(figure));
   };
   if (cables.n_joints == 1)
-    push_back(cable_figure(cables, preload.deflection_low, preload.deflection_high,
-                           preload.linear_motion, compared));
+    for (const auto draw : {cable_figure, stiffness_figure})
+      push_back(draw(cables, preload.deflection_low, preload.deflection_high, preload.linear_motion,
+                     compared));
   Figure map =
       mode_figure(cables, joint, seen_range(job.logs, job.wanted, Channel::q, joint),
                   seen_range(job.logs, job.wanted, Channel::theta, joint), preload.linear_motion);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "cablefit/model/modes.hpp"
+#include "cablefit/model/stiffness.hpp"
 
 namespace cablefit {
 namespace {
@@ -13,17 +14,6 @@ namespace {
 // rad or m to either side of the reference pose: beyond what an l_o of about 0 is known to, so that
 // a pair without preload has the mean of its cables' slopes, whichever side of 0 its l_o fell.
 constexpr double kBeside = 2e-5;
-
-/// Torque per deflection at `phi`, of the motor.
-double slope_at(const Transmission& transmission, double phi) {
-  const double theta = transmission.reference_theta()(0) + phi;
-  double sum = 0;
-  for (const Cable& cable : transmission.cables) {
-    const double r = cable.motor_map.front().radius(theta);
-    sum += r * r * cable.stiffness(elongation_at(transmission, cable, phi));
-  }
-  return sum;
-}
 
 /// Of all slack points the one of that cable on that side; NaN when the values have none there.
 double slack_value(const Transmission& transmission, const UsedDeflections& used,
@@ -40,7 +30,8 @@ double rest_stiffness(const Transmission& transmission) {
   if (transmission.cables.empty()) return transmission.linear_stiffness(0);
   // Each side's slope as it goes towards the pose, by the straight line through two of its points.
   const auto towards = [&](double side) {
-    return 2 * slope_at(transmission, side * kBeside) - slope_at(transmission, 2 * side * kBeside);
+    return 2 * motor_stiffness(transmission, 0, side * kBeside) -
+           motor_stiffness(transmission, 0, 2 * side * kBeside);
   };
   return 0.5 * (towards(-1) + towards(1));
 }

@@ -8,7 +8,7 @@
 #include "cablefit/dynamic/rows/dynamic_job.hpp"
 #include "cablefit/dynamic/rows/joint_settings.hpp"
 #include "cablefit/dynamic/rows/torque_delay.hpp"
-#include "cablefit/model/modes.hpp"
+#include "cablefit/model/stiffness.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
 
 namespace cablefit {
@@ -25,42 +25,13 @@ double resonance(double stiffness, double j_link, double j_motor) {
   return std::sqrt(stiffness * (1 / j_motor + 1 / j_link)) / (2 * kPi);
 }
 
-/// S df/dl S of one joint at the pose in which it alone is turned by phi.
-double stiffness_at(const Transmission& transmission, int joint, double phi) {
-  Eigen::VectorXd theta = transmission.encoder_zero() + transmission.reference_theta();
-  theta(joint) += phi;
-  const Eigen::VectorXd q = transmission.reference_q();
-  const Eigen::VectorXd l = transmission.elongations(q, theta);
-  const Eigen::MatrixXd s = transmission.motor_coupling(theta);
-  double sum = 0;
-  for (Eigen::Index c = 0; c < l.size(); ++c)
-    sum += s(joint, c) * s(joint, c) *
-           transmission.cables[static_cast<std::size_t>(c)].stiffness(l(c));
-  return sum;
-}
-
-/// The stiffness at the middle of the torque range used, for f0.
-double typical_stiffness(const ElasticFit& fit, const ElasticPreload& preload) {
-  if (fit.transmission.cables.empty()) return fit.transmission.linear_stiffness(0);
-  double sum = 0;
-  const double rest = fit.transmission.reference_theta()(0);
-  const double deflection = 0.5 * std::max(-preload.deflection_low, preload.deflection_high);
-  for (const Cable& cable : fit.transmission.cables) {
-    for (const double phi : {-deflection, deflection}) {
-      const double r = cable.motor_map.front().radius(rest + phi);
-      sum += 0.5 * r * r * cable.stiffness(elongation_at(fit.transmission, cable, phi));
-    }
-  }
-  return sum;
-}
-
-/// The same of one of several joints, the others at rest in the reference pose.
-double typical_stiffness(const ElasticFit& fit, const ElasticPreload& preload, int joint) {
-  if (fit.transmission.cables.empty()) return fit.transmission.linear_stiffness(joint);
-  const ElasticJoint& own = preload.joints[static_cast<std::size_t>(joint)];
-  const double deflection = 0.5 * std::max(-own.deflection_low, own.deflection_high);
-  return 0.5 * (stiffness_at(fit.transmission, joint, -deflection) +
-                stiffness_at(fit.transmission, joint, deflection));
+/// The stiffness at the middle of the torque range used, for f0: of one joint (from 0), the others
+/// at rest in the reference pose. `seen`: its deflections in stage 1.
+template <typename Deflected>
+double typical_stiffness(const ElasticFit& fit, const Deflected& seen, int joint) {
+  const double deflection = 0.5 * std::max(-seen.deflection_low, seen.deflection_high);
+  return 0.5 * (motor_stiffness(fit.transmission, joint, -deflection) +
+                motor_stiffness(fit.transmission, joint, deflection));
 }
 
 const ElasticPreload* stage1_of(const ElasticResult& elastic, const std::string& preload) {
@@ -92,8 +63,8 @@ std::vector<double> pilot_resonances(DynamicJob& job, const ElasticResult& elast
     const double j_motor = solve_equation(pilot[link + 1], job.elastic, last).x(0);
     const ElasticFit& fit = *job.elastic[last];
     const double stiffness = stage1 == nullptr ? 0
-                             : n == 1          ? typical_stiffness(fit, *stage1)
-                                               : typical_stiffness(fit, *stage1, joint);
+                             : n == 1          ? typical_stiffness(fit, *stage1, joint)
+                                      : typical_stiffness(fit, stage1->joints[link / 2], joint);
     const double f0 = resonance(stiffness, j_link, j_motor);
     resonances.push_back(f0 < rate / 2 ? f0 : 0);
   }
