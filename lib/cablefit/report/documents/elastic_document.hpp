@@ -8,11 +8,10 @@ namespace cablefit {
 
 Document elastic_document(const ElasticResult& result);
 
-/// Table 1 alone: linear stiffness with the deflection range it was fitted on (it depends on it),
-/// and the coefficients of every cable. Preloads are rows; where that grows too wide, coefficients
-/// are.
-Table stiffness_table(const ElasticResult& result);
-/// The same in as many tables as it takes to stay within the width of a page.
+/// Table 1: preloads as rows; linear stiffness with the deflection range it was fitted on (it
+/// depends on it), then two coefficients of every cable. Further coefficients have a table with a
+/// row each. Where the first table grows wider than a page, all coefficients have a row each, in as
+/// many tables as it takes.
 std::vector<Table> stiffness_tables(const ElasticResult& result);
 
 }  // namespace cablefit

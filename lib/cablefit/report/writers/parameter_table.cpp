@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "cablefit/report/documents/document_parts.hpp"
 #include "cablefit/report/documents/dynamic_document.hpp"
@@ -37,6 +39,31 @@ std::vector<Row> all_parameters(std::span<const DynamicPreload> preloads) {
       }
     }
   }
+  return rows;
+}
+
+/// Place of a row in the paper's Table 2; what it does not have comes below.
+std::size_t place_of(const Row& row) {
+  constexpr std::array kPaper = {"J_link", "J_motor", "f_v", "f_s", "f_vm", "f_sm", "offset"};
+  const std::string name = row.name.substr(0, row.name.find('['));
+  return static_cast<std::size_t>(std::find(kPaper.begin(), kPaper.end(), name) - kPaper.begin());
+}
+
+/// "1" of "J_link[1]"; empty: there is one joint, or the parameter is of none.
+std::string joint_of(const Row& row) {
+  const std::size_t at = row.name.find('[');
+  return at == std::string::npos ? "" : row.name.substr(at);
+}
+
+/// In the paper's order, joint by joint. The base parameters of an arm, which stand for J_link,
+/// stay before all else.
+std::vector<Row> in_order(std::vector<Row> rows) {
+  const bool has_link =
+      std::any_of(rows.begin(), rows.end(), [](const Row& row) { return place_of(row) == 0; });
+  if (has_link)
+    std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
+      return std::pair(joint_of(a), place_of(a)) < std::pair(joint_of(b), place_of(b));
+    });
   return rows;
 }
 
@@ -139,7 +166,7 @@ Table parameter_table(std::span<const DynamicPreload> preloads) {
   Footnotes notes;
   table.title = "Dynamics (Table 2)";
   table.columns = columns_of(preloads);
-  for (const Row& row : all_parameters(preloads)) {
+  for (const Row& row : in_order(all_parameters(preloads))) {
     table.rows.push_back(row_of(preloads, {label(row), row.unit, cad_text(preloads, row)},
                                 [&](const DynamicPreload&, const DynamicFit& fit) {
                                   return cells_of(find_row(fit, row), notes);

@@ -12,7 +12,8 @@
 namespace cablefit {
 namespace {
 
-constexpr int kMaxOrderSideBySide = 3;
+constexpr int kPrinted = 2;  // coefficients of a cable in the paper's table
+constexpr const char* kTitle = "Stiffness (Table 1)";
 constexpr const char* kLinear = "Linear";
 constexpr const char* kPolynomial = "Polynomial";
 
@@ -82,6 +83,12 @@ std::string range_unit(const ElasticResult& result) {
   return linear_motion ? "mm" : "mrad";
 }
 
+/// j of "K1_j" and "k[name]_j"; 0 of "K".
+int index_of(const Coefficient& c) {
+  const std::size_t bar = c.name.rfind('_');
+  return bar == std::string::npos ? 0 : std::stoi(c.name.substr(bar + 1));
+}
+
 /// The linear stiffness depends on the range it was fitted on, so the range stands beside it.
 Table preloads_as_rows(const ElasticResult& result, const std::vector<Coefficient>& coefficients) {
   Table table;
@@ -137,41 +144,50 @@ Table coefficients_as_rows(const ElasticResult& result,
   return table;
 }
 
-}  // namespace
-
-Table stiffness_table(const ElasticResult& result) {
-  const std::vector<Coefficient> coefficients = all_coefficients(result);
-  int order = 0;
-  for (const ElasticPreload& preload : result.preloads) {
-    for (const ElasticFit& fit : preload.fits) order = std::max(order, fit.order);
-  }
-  Table table = preloads_as_rows(result, coefficients);
-  if (order > kMaxOrderSideBySide || text_table_width(table) > kTextWidth) {
-    table = coefficients_as_rows(result, coefficients);
-  }
-  table.title = "Stiffness (Table 1)";
-  return table;
-}
-
-std::vector<Table> stiffness_tables(const ElasticResult& result) {
-  Table table = stiffness_table(result);
-  if (result.preloads.size() < 2 || text_table_width(table) <= kTextWidth) return {table};
+/// What `table_of` makes of all preloads, in as many tables as it takes to stay within a page.
+template <typename TableOf>
+std::vector<Table> cut(const ElasticResult& result, TableOf table_of) {
   std::vector<Table> tables;
   ElasticResult some;
   for (const ElasticPreload& preload : result.preloads) {
     ElasticResult more = some;
     more.preloads.push_back(preload);
     more.preloads.back().figures.clear();  // they are large
-    Table next = stiffness_table(more);
-    if (!some.preloads.empty() && text_table_width(next) > kTextWidth) {
-      tables.push_back(std::move(table));
+    if (some.preloads.empty() || text_table_width(table_of(more)) > kTextWidth) {
       more.preloads.erase(more.preloads.begin(), more.preloads.end() - 1);
-      next = stiffness_table(more);
+      tables.emplace_back();
     }
-    table = std::move(next);
+    tables.back() = table_of(more);
     some = std::move(more);
   }
-  tables.push_back(std::move(table));
+  return tables;
+}
+
+Table titled(const char* title, Table table) {
+  table.title = title;
+  return table;
+}
+
+/// A row per coefficient.
+std::vector<Table> rows_tables(const ElasticResult& result, const char* title,
+                               const std::vector<Coefficient>& coefficients) {
+  return cut(result, [&](const ElasticResult& some) {
+    return titled(title, coefficients_as_rows(some, coefficients));
+  });
+}
+
+}  // namespace
+
+std::vector<Table> stiffness_tables(const ElasticResult& result) {
+  const std::vector<Coefficient> all = all_coefficients(result);
+  std::vector<Coefficient> printed, further;
+  for (const Coefficient& c : all) (index_of(c) < kPrinted ? printed : further).push_back(c);
+  const Table paper = titled(kTitle, preloads_as_rows(result, printed));
+  if (text_table_width(paper) > kTextWidth) return rows_tables(result, kTitle, all);
+  std::vector<Table> tables = {paper};
+  if (further.empty()) return tables;
+  for (Table& table : rows_tables(result, "Stiffness: further coefficients", further))
+    tables.push_back(std::move(table));
   return tables;
 }
 
