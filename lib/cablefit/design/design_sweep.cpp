@@ -13,6 +13,7 @@
 #include "cablefit/design/design_spread.hpp"
 #include "cablefit/design/equilibrium_preload.hpp"
 #include "cablefit/design/joint_curve.hpp"
+#include "cablefit/model/equilibrium.hpp"
 #include "cablefit/model/modes.hpp"
 
 namespace cablefit {
@@ -186,6 +187,9 @@ DesignResult blank_design(const Model& model) {
   result.linear_motion = model.rig.linear_motion;
   result.cable_space = model.rig.cables_given;
   for (const Cable& cable : model.transmission.cables) result.cables.push_back(cable.name);
+  for (const Imbalance& imbalance : imbalances(model.transmission))
+    result.warnings.push_back(
+        imbalance_text(imbalance, model.rig.n_joints(), model.rig.linear_motion));
   return result;
 }
 

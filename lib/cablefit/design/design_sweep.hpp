@@ -35,7 +35,11 @@ struct DesignOptions {
 Model read_design_model(const std::string& path, const std::string& preload,
                         const std::string& model, std::string& choice);
 
-/// What every result says of the model, and nothing else.
+/// Throws Error(input) for a rigid drive and for a spring.
+void require_cables(const Model& model, const std::string& path);
+
+/// What every result says of the model: its names, and a warning where its own preload is not in
+/// equilibrium.
 DesignResult blank_design(const Model& model);
 
 /// Throws Error(input) when the cables cannot be preloaded or never give the torque.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/model/equilibrium.hpp"
 #include "cablefit/model/modes.hpp"
 
 namespace cablefit {
@@ -176,6 +177,16 @@ void note_closure(std::span<const ElongationRange> ranges, ElasticPreload& prelo
       "(preload)";
   preload.warnings.push_back(preload.shape_doubt +
                              ": with l_o = 0 the coefficients describe the curve, not the cables");
+}
+
+void note_imbalance(ElasticPreload& preload) {
+  const ElasticFit& cables = preload.fits.back();
+  if (!is_preloaded(cables.transmission)) return;
+  for (Eigen::Index k = 0; k < cables.covariance.rows(); ++k)
+    if (!cables.parameters[static_cast<std::size_t>(k)].not_identifiable.empty()) return;
+  for (const Imbalance& imbalance : imbalances(cables.transmission))
+    preload.warnings.push_back(
+        imbalance_text(imbalance, cables.transmission.n_joints, preload.linear_motion));
 }
 
 }  // namespace cablefit

@@ -42,4 +42,8 @@ bool looks_preloaded(const Transmission& transmission, std::span<const Elongatio
 /// Warns of it.
 void note_closure(std::span<const ElongationRange> ranges, ElasticPreload& preload);
 
+/// A preload that is not in equilibrium, (8c), by the cables that were fitted; nothing where a
+/// coefficient is not determined.
+void note_imbalance(ElasticPreload& preload);
+
 }  // namespace cablefit

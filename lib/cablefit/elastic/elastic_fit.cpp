@@ -182,6 +182,7 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
   note_loop(preload, left, stage.rows.plateaus);
   note_standstill(stage.job, stage.rows, candidates.back(), preload);
   note_closure(stage.rows.elongations, preload);
+  note_imbalance(preload);
   if (stage.job.options.figures)
     preload.figures = elastic_figures(stage.job, stage.rows, 0, candidates, solutions, preload,
                                       simpler_models(stage, preload));

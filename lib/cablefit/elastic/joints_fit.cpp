@@ -166,6 +166,7 @@ ElasticPreload fit_joints(ElasticJob job, const std::string& name) {
   measure_joint_errors(stage.joints, stage.all, candidates, solutions, preload);
   select_joint_model(preload, stage.job.options.materiality);
   note_joints(stage, preload);
+  note_imbalance(preload);
   if (stage.job.options.figures) draw(stage, candidates, solutions, preload);
   return preload;
 }
