@@ -143,9 +143,9 @@ Eigen::VectorXd Transmission::reductions() const {
     return linear_reduction.size() > 0 ? linear_reduction : Eigen::VectorXd::Ones(n_joints);
   const Eigen::MatrixXd p = link_coupling(reference_q());
   const Eigen::MatrixXd s = motor_coupling(reference_theta() + encoder_zero());
-  const Eigen::VectorXd squares = s.cwiseAbs2().rowwise().sum();
-  return (squares.array() > 0)
-      .select(s.cwiseProduct(p).rowwise().sum().array() / squares.array(), 1.0);
+  const Eigen::ArrayXd products = s.cwiseProduct(p).rowwise().sum();
+  const Eigen::ArrayXd squares = s.cwiseAbs2().rowwise().sum();
+  return (products != 0).select(products / squares, 1.0);
 }
 
 Eigen::ArrayXd Transmission::deflections(int joint, const Eigen::Ref<const Eigen::ArrayXd>& q,
