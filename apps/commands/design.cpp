@@ -10,6 +10,7 @@
 #include "cablefit/design/design_sweep.hpp"
 #include "cablefit/report/documents/design_document.hpp"
 #include "cablefit/report/json/design_json.hpp"
+#include "cablefit/report/json/elastic_models.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
@@ -28,11 +29,20 @@ constexpr const char* kDesignExample =
 constexpr const char* kResultFile = "design.json";
 constexpr std::size_t kMostValues = 200;
 
+/// Stiffness matrices and the nearest preload in equilibrium.
+struct AsTheyAre {
+  bool stiffness = false, balance = false;
+  std::string pose, along;  ///< "q,..:theta,.."; a log
+
+  bool any() const { return stiffness || balance || !pose.empty() || !along.empty(); }
+};
+
 struct DesignCommand {
   CommonOptions common;
   DesignOptions design;
   std::vector<std::string> models;
   std::string model;  ///< --model
+  AsTheyAre cables;
   ExcitationOptions excitation;
   std::string excite;  ///< file; empty: none
 };
@@ -72,7 +82,8 @@ void add_list(CLI::App& app, const std::string& name, const std::string& unit, R
 
 void add_model_options(CLI::App& app, DesignCommand& command) {
   app.add_option("MODEL", command.models,
-                 "model file, result of 'cablefit dynamic' or 'identify', or rig file whose cables "
+                 "model file, result of 'cablefit elastic', 'dynamic' or 'identify', or rig file "
+                 "whose cables "
                  "have coefficients")
       ->type_name("");
   add_choice_of_fit(app, command.model, command.common.preload, "the only one, else the first");
@@ -100,6 +111,16 @@ void add_sweep_options(CLI::App& app, DesignOptions& design) {
   add_number(
       app, "--tension-friction", "MU", {0}, [&design](double mu) { design.tension_friction = mu; },
       "dry friction per cable force at the motor's pulleys, N m per N m, beside the model's");
+}
+
+void add_cable_options(CLI::App& app, AsTheyAre& cables) {
+  app.add_flag("--stiffness", cables.stiffness,
+               "stiffness matrices of joints and cables at rest, eigenvalues, passivity");
+  app.add_option("--pose", cables.pose, "the same at a pose, rad, theta as logged")
+      ->type_name("Q,..:THETA,..");
+  app.add_option("--along", cables.along, "stiffness over the samples of a log")->type_name("LOG");
+  app.add_flag("--balance", cables.balance,
+               "the nearest preload in equilibrium, (8c), to the model's own");
 }
 
 void add_collision_options(CLI::App& app, DesignOptions& design) {
@@ -211,13 +232,63 @@ void check_excite(const DesignCommand& command, const std::string& model) {
           "choose another --excite");
 }
 
+Eigen::VectorXd parse_angles(const std::string& text, int n_joints) {
+  const std::vector<std::string> parts = parts_of(text, ',');
+  if (static_cast<int>(parts.size()) != n_joints)
+    throw usage_error(fmt::format("--pose has {} angles where the model has {} joint{}",
+                                  parts.size(), n_joints, n_joints == 1 ? "" : "s"),
+                      "give Q1,Q2,..:THETA1,THETA2,..");
+  Eigen::VectorXd angles(n_joints);
+  for (int k = 0; k < n_joints; ++k)
+    angles(k) =
+        parse_number("--pose", parts[static_cast<std::size_t>(k)], {-kUnbounded, kUnbounded});
+  return angles;
+}
+
+PoseStiffness at_pose(const Transmission& transmission, const std::string& text) {
+  const std::vector<std::string> sides = parts_of(text, ':');
+  if (sides.size() != 2)
+    throw usage_error(fmt::format("--pose cannot be {}", cablefit::quoted(text)),
+                      "give Q1,Q2,..:THETA1,THETA2,..");
+  return stiffness_at_pose(transmission, "at the pose",
+                           parse_angles(sides[0], transmission.n_joints),
+                           parse_angles(sides[1], transmission.n_joints));
+}
+
+StiffnessAlong along_log(DesignCommand& command, const Transmission& transmission) {
+  CommonOptions options = command.common;
+  options.logs = {command.cables.along};
+  command.common.more_inputs.push_back(command.cables.along);
+  return stiffness_along(transmission, read_logs(options).front(), options.samples.threads);
+}
+
+void describe_cables(DesignCommand& command, const Transmission& transmission,
+                     DesignResult& result) {
+  const AsTheyAre& asked = command.cables;
+  if (asked.stiffness) result.stiffness.push_back(stiffness_at_rest(transmission));
+  if (!asked.pose.empty()) result.stiffness.push_back(at_pose(transmission, asked.pose));
+  if (!asked.along.empty()) result.along = along_log(command, transmission);
+  if (asked.balance) result.balance = nearest_balance(transmission);
+}
+
+/// A result of stage 1 serves too: its cables, without inertias.
+Model take_cables(const std::string& path, const DesignCommand& command, std::string& choice) {
+  if (!is_elastic_result(path))
+    return read_design_model(path, command.common.preload, command.model, choice);
+  Model model = read_elastic_models(path, command.common.preload, command.model, choice).front();
+  model.joints.clear();
+  require_cables(model, path);
+  return model;
+}
+
 DesignResult run(DesignCommand& command) {
   const std::string path = take_model(command);
   command.common.more_inputs.push_back(path);
   const bool sweep = command.design.torque > 0, excite = !command.excite.empty();
-  if (!sweep && !excite)
+  if (!sweep && !excite && !command.cables.any())
     throw usage_error("neither --torque nor --excite given",
-                      "say which torque the joint has to carry, or which file the motion goes to");
+                      "say which torque the joint has to carry, or which file the motion goes to; "
+                      "--stiffness or --balance for the cables as they are");
   if (sweep) check_sweep(command.design);
   if (excite) {
     check_limits(command);
@@ -225,7 +296,7 @@ DesignResult run(DesignCommand& command) {
   }
   check_excite(command, path);
   std::string choice;
-  const Model model = read_design_model(path, command.common.preload, command.model, choice);
+  const Model model = take_cables(path, command, choice);
   const bool figures = wants_figures(command.common);
   DesignResult result = blank_design(model);
   if (sweep) {
@@ -233,6 +304,7 @@ DesignResult run(DesignCommand& command) {
     command.design.figures = figures;
     result = sweep_design(model, command.design);
   }
+  describe_cables(command, model.transmission, result);
   if (excite) {
     const Progress progress(command.common.quiet, "looking for a motion");
     command.excitation.limits.rate = command.design.rate;
@@ -255,6 +327,7 @@ int run_design(const Arguments& arguments) {
   DesignCommand command;
   add_model_options(app, command);
   add_sweep_options(app, command.design);
+  add_cable_options(app, command.cables);
   add_collision_options(app, command.design);
   add_excitation_options(app, command);
   add_output_options(app, command.common);

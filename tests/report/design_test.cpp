@@ -58,6 +58,12 @@ TEST_CASE("a design is valid JSON, with and without each of its parts", "[report
   result.excitation = plan();
   result.excitation_path = "reference.csv";
   CHECK(schema_errors("design", design_json(result)) == "");
+  const Transmission pair = antagonist_pair(1);
+  result.stiffness = {stiffness_at_rest(pair)};
+  result.balance = nearest_balance(pair);
+  result.along = StiffnessAlong{
+      "log.csv", 10, 5, 10, Eigen::VectorXd::Ones(1), Eigen::VectorXd::Ones(1), 1, 1};
+  CHECK(schema_errors("design", design_json(result)) == "");
   result.points.clear();
   const auto json = nlohmann::json::parse(design_json(result));
   CHECK(schema_errors("design", json.dump()) == "");
@@ -82,6 +88,44 @@ TEST_CASE("a design as text has the closed forms of linear cables", "[report]") 
   // Four curves, two along the sweep, torque and stiffness of the cables of each point.
   REQUIRE(document.figures.size() == 10);
   CHECK(document.figures.back().section == "Cables at l_o = 10 mrad");
+}
+
+// Fig. 4 of the paper, of a rig file alone: 1000 N m/rad a cable, l_o = 10 mrad.
+TEST_CASE("each preload has torque and stiffness of all models against deflection", "[report]") {
+  const Document document = design_document(sweep_of(std::nullopt));
+  std::vector<const Figure*> cables;
+  for (const Figure& figure : document.figures)
+    if (figure.section == "Cables at l_o = 10 mrad") cables.push_back(&figure);
+  REQUIRE(cables.size() == 2);
+  CHECK(cables[0]->title == "Elastic torque of each cable");
+  CHECK(cables[1]->title == "Stiffness against deflection");
+  for (const Figure* figure : cables) {
+    std::string names;
+    for (const Trace& trace : figure->traces) names += trace.name + ";";
+    CHECK(names.find("all taut: force closure;all cables;") == 0);
+    CHECK(names.find("linear;piecewise linear;") != std::string::npos);
+  }
+  for (const double stiffness : cables[1]->traces[1].y) CHECK(stiffness == Approx(2000));
+}
+
+TEST_CASE("stiffness and balance have tables", "[report]") {
+  Model model;
+  model.rig = default_rig();
+  model.transmission = antagonist_pair(1);
+  for (Cable& cable : model.transmission.cables) cable.coefficients = {1000};
+  model.transmission.cables[0].initial_elongation = 0.006;
+  model.transmission.cables[1].initial_elongation = 0.009;
+  DesignResult result = blank_design(model);
+  REQUIRE(result.warnings.size() == 1);
+  result.stiffness = {stiffness_at_rest(model.transmission)};
+  result.balance = nearest_balance(model.transmission);
+  const std::string text = write_text(design_document(result));
+  for (const char* line : {"Stiffness of the joints at rest [N m/rad]", "tau_l     -2000   2000",
+                           "tau_m     -2000   2000", "eigenvalues: 2000 with the links blocked",
+                           "passive", "Nearest preload in equilibrium (8c)", "7.500"}) {
+    INFO(text);
+    CHECK(text.find(line) != std::string::npos);
+  }
 }
 
 // With E = 0 the two tails share the alarms, with a floor they do not: more than twice the floor.

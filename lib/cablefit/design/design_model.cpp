@@ -45,14 +45,18 @@ Model read_design_model(const std::string& path, const std::string& preload,
     return model_of_rig(root, choice);
   }
   Model found = parse_model(root, preload, model, choice);
-  if (found.rigid)
+  require_cables(found, path);
+  return found;
+}
+
+void require_cables(const Model& model, const std::string& path) {
+  if (model.rigid)
     throw input_error({path}, "a rigid drive has no cables to design",
                       "give a model of the elastic drive (--model poly)");
-  if (found.transmission.cables.empty())
+  if (model.transmission.cables.empty())
     throw input_error(
-        {path}, fmt::format("model {} is one spring, without cables", cablefit::quoted(found.name)),
+        {path}, fmt::format("model {} is one spring, without cables", cablefit::quoted(model.name)),
         "choose one with cables, --model poly");
-  return found;
 }
 
 }  // namespace cablefit

@@ -9,6 +9,7 @@
 
 #include "cablefit/design/collision.hpp"
 #include "cablefit/design/excitation_plan.hpp"
+#include "cablefit/design/pose_stiffness.hpp"
 #include "cablefit/figure/figure.hpp"
 #include "cablefit/samples/plan/input_file.hpp"
 #include "cablefit/samples/rows/settings.hpp"
@@ -97,7 +98,10 @@ struct DesignResult {
   std::optional<CollisionDetector> detector;  ///< of the cables themselves
   double false_alarms_per_hour = 0;
   std::vector<DesignPoint> points;
-  std::vector<NeededPreload> needed;  ///< one per radius factor
+  std::vector<NeededPreload> needed;     ///< one per radius factor
+  std::vector<PoseStiffness> stiffness;  ///< where asked for
+  std::optional<StiffnessAlong> along;   ///< a log, where asked for
+  std::optional<Balance> balance;        ///< of the model's own preload, where asked for
   std::optional<ExcitationPlan> excitation;
   std::string excitation_path;  ///< of its reference
   std::vector<Decision> decisions;

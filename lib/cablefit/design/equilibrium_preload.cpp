@@ -4,11 +4,13 @@
 
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/base/root.hpp"
+#include "cablefit/estimate/solve/constrained_least_squares.hpp"
 #include "cablefit/model/modes.hpp"
 
 namespace cablefit {
@@ -27,12 +29,21 @@ Eigen::MatrixXd couplings(const Transmission& transmission) {
   return both;
 }
 
+/// Columns: orthonormal directions of tensions in equilibrium.
+Eigen::MatrixXd balanced_directions(const Eigen::MatrixXd& couplings) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(couplings, Eigen::ComputeFullV);
+  return svd.matrixV().rightCols(couplings.cols() - svd.rank());
+}
+
 /// The part of `f` that is in equilibrium.
 Eigen::VectorXd projected(const Eigen::MatrixXd& couplings, const Eigen::VectorXd& f) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(couplings, Eigen::ComputeFullV);
-  const Eigen::Index n_free = couplings.cols() - svd.rank();
-  const Eigen::MatrixXd basis = svd.matrixV().rightCols(n_free);
+  const Eigen::MatrixXd basis = balanced_directions(couplings);
   return basis * (basis.transpose() * f);
+}
+
+Eigen::VectorXd tensions_at_rest(const Transmission& transmission) {
+  return transmission.tensions(transmission.reference_q(),
+                               transmission.reference_theta() + transmission.encoder_zero());
 }
 
 bool all_pull(const Eigen::VectorXd& f) {
@@ -53,9 +64,7 @@ double elongation_with(const Cable& cable, double force) {
 
 Eigen::VectorXd balanced_tensions(const Transmission& transmission) {
   const Eigen::MatrixXd both = couplings(transmission);
-  const Eigen::VectorXd now = transmission.tensions(
-      transmission.reference_q(), transmission.reference_theta() + transmission.encoder_zero());
-  Eigen::VectorXd f = projected(both, now);
+  Eigen::VectorXd f = projected(both, tensions_at_rest(transmission));
   if (!all_pull(f)) f = projected(both, Eigen::VectorXd::Ones(both.cols()));
   if (!all_pull(f))
     throw Error(
@@ -81,6 +90,24 @@ Transmission with_preload(const Transmission& transmission, double l_o) {
             ? l_o
             : elongation_with(preloaded.cables[k], scale * direction(static_cast<Eigen::Index>(k)));
   return preloaded;
+}
+
+Transmission with_nearest_balance(const Transmission& transmission) {
+  const Eigen::VectorXd now = tensions_at_rest(transmission);
+  const Eigen::MatrixXd basis = balanced_directions(couplings(transmission));
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(now.size());
+  if (basis.cols() > 0) f = basis * constrained_least_squares(basis, now, basis).x;
+  Transmission balanced = transmission;
+  for (std::size_t k = 0; k < balanced.cables.size(); ++k) {
+    Cable& cable = balanced.cables[k];
+    const double force = f(static_cast<Eigen::Index>(k));
+    if (force > kNoForce * now.maxCoeff()) {
+      cable.initial_elongation = elongation_with(cable, force);
+    } else {
+      cable.initial_elongation = std::min(cable.initial_elongation, 0.0);
+    }
+  }
+  return balanced;
 }
 
 Transmission with_radii(const Transmission& transmission, double factor) {

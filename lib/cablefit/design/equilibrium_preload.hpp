@@ -16,6 +16,11 @@ Eigen::VectorXd balanced_tensions(const Transmission& transmission);
 /// of each l_o. Throws as above, and where a cable cannot reach its tension.
 Transmission with_preload(const Transmission& transmission, double l_o);
 
+/// The transmission with the nearest preload in equilibrium: tensions f >= 0 with P f = S f = 0 of
+/// least |f - f_o|, f_o its own. A slack cable that gets no tension keeps its l_o. Throws where a
+/// cable cannot reach its tension.
+Transmission with_nearest_balance(const Transmission& transmission);
+
 /// Every pulley's radius times `factor`, the cables and their l_o as they are.
 Transmission with_radii(const Transmission& transmission, double factor);
 

@@ -67,11 +67,35 @@ TransmissionOf transmission_of(const Transmission& transmission, bool cable_spac
   };
 }
 
+namespace {
+
+/// d tau_m/dtheta at rest of several joints, symmetric: "K_rest[1,2]". Without preload no cable is
+/// taut there, and there is none.
+std::vector<DerivedQuantity> rest_matrix(const Transmission& transmission, bool cable_space,
+                                         bool linear_motion, const JointEstimates& from) {
+  std::vector<DerivedQuantity> all;
+  if (!is_preloaded(transmission)) return all;
+  const TransmissionOf changed = transmission_of(transmission, cable_space, from);
+  const Eigen::VectorXd q = transmission.reference_q();
+  const Eigen::VectorXd theta = transmission.reference_theta() + transmission.encoder_zero();
+  for (Eigen::Index i = 0; i < transmission.n_joints; ++i)
+    for (Eigen::Index j = i; j < transmission.n_joints; ++j)
+      all.push_back({fmt::format("K_rest[{},{}]", i + 1, j + 1), "K_rest",
+                     linear_motion ? "N/m" : "N m/rad",
+                     [changed, q, theta, i, j](const Eigen::VectorXd& v) {
+                       return stiffness_matrices(changed(v), q, theta).motor_theta(i, j);
+                     }});
+  return all;
+}
+
+}  // namespace
+
 std::vector<DerivedQuantity> elastic_quantities(const Transmission& transmission, bool cable_space,
                                                 bool linear_motion, const UsedDeflections& used,
                                                 const JointEstimates& from) {
   std::vector<DerivedQuantity> all;
-  if (transmission.n_joints > 1 || transmission.cables.empty()) return all;
+  if (transmission.cables.empty()) return all;
+  if (transmission.n_joints > 1) return rest_matrix(transmission, cable_space, linear_motion, from);
   const TransmissionOf changed = transmission_of(transmission, cable_space, from);
   all.push_back({"K_rest", "K_rest", linear_motion ? "N/m" : "N m/rad",
                  [changed](const Eigen::VectorXd& v) { return rest_stiffness(changed(v)); }});

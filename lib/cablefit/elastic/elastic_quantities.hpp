@@ -25,7 +25,7 @@ TransmissionOf transmission_of(const Transmission& transmission, bool cable_spac
                                const JointEstimates& from);
 
 /// K_rest of fitted cables; of a preloaded pair also the deflection and the torque at which each
-/// cable goes slack ("phi_slack[1]", "tau_slack[1]"). Of one joint; nothing of several.
+/// cable goes slack ("phi_slack[1]", "tau_slack[1]"). Of several preloaded joints K_rest[i,j].
 std::vector<DerivedQuantity> elastic_quantities(const Transmission& transmission, bool cable_space,
                                                 bool linear_motion, const UsedDeflections& used,
                                                 const JointEstimates& from);

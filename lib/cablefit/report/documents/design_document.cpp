@@ -9,6 +9,7 @@
 
 #include "cablefit/report/documents/document_parts.hpp"
 #include "cablefit/report/documents/numbers.hpp"
+#include "cablefit/report/documents/stiffness_report.hpp"
 
 namespace cablefit {
 namespace {
@@ -380,12 +381,16 @@ Document design_document(const DesignResult& result) {
   Document document;
   document.tidy = tidy_table();
   const bool sweep = !result.points.empty();
-  document.title = !result.excitation ? "Design: what a preload buys, and what simpler models cost"
-                   : sweep            ? "Design: what a preload buys, and which motion to record"
-                                      : "Design: which motion to record";
+  const bool cables = !sweep && !result.excitation;
+  document.title = cables ? "Design: the cables as they are"
+                   : !result.excitation
+                       ? "Design: what a preload buys, and what simpler models cost"
+                   : sweep ? "Design: what a preload buys, and which motion to record"
+                           : "Design: which motion to record";
   document.summary.push_back({"model", result.model_choice});
   if (sweep) add_sweep(result, document);
   add_decisions(document, result.preload, result.decisions);
+  add_stiffness(result, document);
   if (result.excitation) add_excitation(result, document);
   finish_decisions(document, 1);
   document.headline = headline_of(result);

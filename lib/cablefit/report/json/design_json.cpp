@@ -145,6 +145,57 @@ Json detector_json(const DesignResult& result) {
               {"detection_rate", result.detector->detection_rate}};
 }
 
+Json rows_of(const Eigen::MatrixXd& matrix) {
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    rows.push_back(std::vector<double>(matrix.row(i).begin(), matrix.row(i).end()));
+  return rows;
+}
+
+std::vector<double> values_of(const Eigen::VectorXd& vector) {
+  return {vector.begin(), vector.end()};
+}
+
+Json pose_json(const PoseStiffness& pose) {
+  return Json{{"where", pose.where},
+              {"q", values_of(pose.q)},
+              {"theta", values_of(pose.theta)},
+              {"cables",
+               {{"elongation", values_of(pose.elongation)},
+                {"tension", values_of(pose.tension)},
+                {"stiffness", values_of(pose.stiffness)}}},
+              {"link_by_q", rows_of(pose.joints.link_q)},
+              {"link_by_theta", rows_of(pose.joints.link_theta)},
+              {"motor_by_q", rows_of(pose.joints.motor_q)},
+              {"motor_by_theta", rows_of(pose.joints.motor_theta)},
+              {"eigenvalues_links_blocked", values_of(pose.modes.motors_free)},
+              {"eigenvalues_motors_blocked", values_of(pose.modes.links_free)},
+              {"passive", pose.modes.passive}};
+}
+
+Json along_json(const StiffnessAlong& along) {
+  return Json{{"log", along.log},
+              {"samples", along.n_samples},
+              {"closure", along.n_closure},
+              {"passive", along.n_passive},
+              {"least", values_of(along.least)},
+              {"largest", values_of(along.largest)},
+              {"eigenvalues", {along.least_eigenvalue, along.largest_eigenvalue}}};
+}
+
+Json balance_json(const Balance& balance) {
+  Json cables = Json::array();
+  for (const BalancedCable& cable : balance.cables)
+    cables.push_back({{"name", cable.name},
+                      {"initial_elongation", cable.l_o},
+                      {"tension", cable.tension},
+                      {"balanced_initial_elongation", cable.balanced_l_o},
+                      {"balanced_tension", cable.balanced_tension}});
+  return Json{{"torque_link", values_of(balance.link)},
+              {"torque_motor", values_of(balance.motor)},
+              {"cables", cables}};
+}
+
 }  // namespace
 
 std::string design_json(const DesignResult& result) {
@@ -159,6 +210,9 @@ std::string design_json(const DesignResult& result) {
   json["detector"] = detector_json(result);
   json["needed_preload"] = list_of(result.needed, needed_json);
   json["points"] = list_of(result.points, point_json);
+  if (!result.stiffness.empty()) json["stiffness"] = list_of(result.stiffness, pose_json);
+  if (result.along) json["stiffness_along"] = along_json(*result.along);
+  if (result.balance) json["balance"] = balance_json(*result.balance);
   json["excitation"] = excitation_json(result);
   json["decisions"] = report_json::decisions(result.decisions);
   return report_json::text(json);
