@@ -105,11 +105,13 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
                 DynamicPreload& preload) {
   const Estimator& estimator = find_estimator(job.options.estimator);
   std::vector<std::vector<LinearSolution>> solutions;
+  std::vector<OtherCutoff> others;
+  if (estimator.by_filtered_rows) others = rows_at_other_cutoffs(job, equations);
   for (std::size_t m = 0; m < job.models.size(); ++m) {
     const EstimationTask task{job, equations, m};
     Estimation estimation = estimator.estimate(task);
     add_systematic(task, estimator.by_filtered_rows, estimation);
-    if (estimator.by_filtered_rows) refuse_moving_inertias(task, estimation);
+    if (estimator.by_filtered_rows) refuse_moving_inertias(task, others, estimation);
     DynamicFit& fit = estimation.fit;
     fit.model = job.models[m];
     if (fit.estimator.empty()) fit.estimator = estimator.name;

@@ -86,31 +86,44 @@ void refuse_noisy(const EstimationTask& task, Estimation& estimation) {
   }
 }
 
-void check_at(double factor, const EstimationTask& task, Estimation& estimation) {
+void check_at(const OtherCutoff& other, const EstimationTask& task, Estimation& estimation) {
   const double cutoff = task.job.settings.rows.signal.cutoff;
-  const DynamicJob other = with_cutoff_scaled(task.job, factor);
-  std::vector<EquationRows> equations = make_equations(other);
-  collect_rows(other, equations);
-  for (std::size_t k = 0; k < equations.size(); ++k) {
-    if (equations[k].rows->n_rows() < 4 * equations[k].columns.count) continue;
-    const LinearSolution solution = solve_equation(equations[k], other.elastic, task.model);
-    for (std::size_t p = 0; p < equations[k].columns.parameters.size(); ++p) {
-      Estimate* const e = inertia_of(equations[k], p, estimation.fit);
-      if (e != nullptr)
-        judge(*e, value_there(*e, solution, p), cutoff, factor, task.job.rigid, estimation.fit);
+  for (std::size_t k = 0; k < other.equations.size(); ++k) {
+    const EquationRows& e = other.equations[k];
+    if (e.rows->n_rows() < 4 * task.equations[k].columns.count) continue;
+    const LinearSolution solution = solve_equation(e, task.job.elastic, task.model);
+    for (std::size_t p = 0; p < e.columns.parameters.size(); ++p) {
+      Estimate* const found = inertia_of(e, p, estimation.fit);
+      if (found != nullptr)
+        judge(*found, value_there(*found, solution, p), cutoff, other.factor, task.job.rigid,
+              estimation.fit);
     }
   }
 }
 
 }  // namespace
 
-void refuse_moving_inertias(const EstimationTask& task, Estimation& estimation) {
+std::vector<OtherCutoff> rows_at_other_cutoffs(const DynamicJob& job,
+                                               const std::vector<EquationRows>& equations) {
+  std::vector<OtherCutoff> all;
+  const double cutoff = job.settings.rows.signal.cutoff;
+  if (!(cutoff > 0) || systems_of(equations).size() < equations.size()) return all;
+  const double rate = sample_rates(job.logs, job.wanted).lowest;
+  for (const double factor : kOtherCutoffs) {
+    if (factor * cutoff > kMostShareOfRate * rate) continue;
+    const DynamicJob other = with_cutoff_scaled(job, factor);
+    all.push_back({factor, make_equations(other, ElasticDetail::torque)});
+    collect_rows(other, all.back().equations);
+  }
+  return all;
+}
+
+void refuse_moving_inertias(const EstimationTask& task, const std::vector<OtherCutoff>& others,
+                            Estimation& estimation) {
   const double cutoff = task.job.settings.rows.signal.cutoff;
   if (!(cutoff > 0) || systems_of(task.equations).size() < task.equations.size()) return;
   refuse_noisy(task, estimation);
-  const double rate = sample_rates(task.job.logs, task.job.wanted).lowest;
-  for (const double factor : kOtherCutoffs)
-    if (factor * cutoff <= kMostShareOfRate * rate) check_at(factor, task, estimation);
+  for (const OtherCutoff& other : others) check_at(other, task, estimation);
 }
 
 }  // namespace cablefit

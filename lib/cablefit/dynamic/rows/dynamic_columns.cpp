@@ -147,7 +147,8 @@ DynamicColumns dynamic_columns(Side side, const std::vector<const ElasticFit*>& 
     c.elastic.push_back(c.count);
     c.n_elastic.push_back(detail == ElasticDetail::torque ? 1 : elastic_coefficients(*fit).size());
     c.count += c.n_elastic.back();
-    const bool carried = place.n_joints == 1 && !fit->misfit.empty();
+    const bool carried =
+        detail == ElasticDetail::coefficients && place.n_joints == 1 && !fit->misfit.empty();
     c.misfit.push_back(carried ? c.count : -1);
     if (carried) c.count += 2;
   }

@@ -17,8 +17,8 @@
 
 namespace cablefit {
 
-/// A column per coefficient of stage 1, which its error needs to be carried on; or one column with
-/// the elastic torque.
+/// A column per coefficient of stage 1 and those of its misfit, which its error needs to be carried
+/// on; or one column with the elastic torque.
 enum class ElasticDetail { coefficients, torque };
 
 /// Whose equation: of a joint (from 0) of an arm; no arm: the links do not move each other.

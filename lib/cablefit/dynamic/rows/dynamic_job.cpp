@@ -33,13 +33,11 @@ void widen(const Eigen::MatrixXd& rows, EquationRows& e) {
   e.deflection_high = std::max(e.deflection_high, rows.col(e.columns.deflection).maxCoeff());
 }
 
-EquationRows make_equation(const DynamicJob& job, Side side, int joint) {
+EquationRows make_equation(const DynamicJob& job, ElasticDetail detail, Side side, int joint) {
   const ChosenSettings& settings = job.settings_of(joint);
   EquationRows e;
   e.columns =
-      dynamic_columns(side, job.elastic,
-                      job.options.honest_sd ? ElasticDetail::coefficients : ElasticDetail::torque,
-                      {joint, job.n_joints(), job.arm}, {job.added, {}});
+      dynamic_columns(side, job.elastic, detail, {joint, job.n_joints(), job.arm}, {job.added, {}});
   const double rest = side == Side::link ? settings.rest_speed_q : settings.rest_speed_theta;
   e.equation = dynamic_equation(e.columns, job.elastic, job.settings.rows.signal.torque_held, rest);
   if (side == Side::link) {
@@ -53,11 +51,16 @@ EquationRows make_equation(const DynamicJob& job, Side side, int joint) {
 }  // namespace
 
 std::vector<EquationRows> make_equations(const DynamicJob& job) {
+  return make_equations(
+      job, job.options.honest_sd ? ElasticDetail::coefficients : ElasticDetail::torque);
+}
+
+std::vector<EquationRows> make_equations(const DynamicJob& job, ElasticDetail detail) {
   std::vector<EquationRows> equations;
   const std::vector<Side> sides =
       job.rigid ? std::vector<Side>{Side::rigid} : std::vector<Side>{Side::link, Side::motor};
   for (int joint = 0; joint < job.n_joints(); ++joint)
-    for (const Side side : sides) equations.push_back(make_equation(job, side, joint));
+    for (const Side side : sides) equations.push_back(make_equation(job, detail, side, joint));
   return equations;
 }
 
@@ -97,13 +100,17 @@ std::vector<EquationRows> pilot_equations(const DynamicJob& job, int n_windows) 
 
 namespace {
 
-/// Residual combinations of all models, one per column, as far as the first windows tell them.
-Eigen::MatrixXd guess(const EquationRows& pilot, const DynamicJob& job) {
-  Eigen::MatrixXd guesses(pilot.columns.count, static_cast<Eigen::Index>(job.models.size()));
-  for (std::size_t m = 0; m < job.models.size(); ++m)
-    guesses.col(static_cast<Eigen::Index>(m)) =
-        solve_equation(pilot, job.elastic, m).residual_combination;
-  return guesses;
+/// Per equation the residual combinations of all models, one per column, as far as the first
+/// windows tell them.
+std::vector<Eigen::MatrixXd> guess(const DynamicJob& job) {
+  std::vector<Eigen::MatrixXd> all;
+  for (const EquationRows& pilot : pilot_equations(job, kGuessWindows)) {
+    Eigen::MatrixXd& guesses = all.emplace_back(pilot.columns.count, job.models.size());
+    for (std::size_t m = 0; m < job.models.size(); ++m)
+      guesses.col(static_cast<Eigen::Index>(m)) =
+          solve_equation(pilot, job.elastic, m).residual_combination;
+  }
+  return all;
 }
 
 /// What one window adds to one equation.
@@ -140,8 +147,10 @@ void take(EquationRows& e, Share&& share) {
 
 }  // namespace
 
-WindowCounts collect_rows(const DynamicJob& job, std::vector<EquationRows>& equations) {
-  const std::vector<EquationRows> pilot = pilot_equations(job, kGuessWindows);
+WindowCounts collect_rows(const DynamicJob& job, std::vector<EquationRows>& equations,
+                          Peaks peaks) {
+  std::vector<Eigen::MatrixXd> guesses(equations.size());
+  if (peaks == Peaks::kept) guesses = guess(job);
   std::vector<Equation> plain;
   std::vector<RowStatistics> blank;
   const Eigen::Index expected = expected_rows(job.logs, job.wanted, job.settings.rows);
@@ -150,7 +159,7 @@ WindowCounts collect_rows(const DynamicJob& job, std::vector<EquationRows>& equa
     plain.push_back(e.equation);
     blank.emplace_back(e.columns.count, expected, job.options.honest_sd);
     e.rows = blank.back();
-    e.peaks.emplace(guess(pilot[k], job));
+    e.peaks.emplace(std::move(guesses[k]));
   }
   return stream_rows(
       job.logs, job.wanted, job.settings.rows, plain, job.options.samples.threads,

@@ -48,8 +48,10 @@ struct EquationRows {
   double acceleration = 0;  ///< largest magnitude, of one joint's equation
 };
 
-/// Per joint link and motor, or the one equation of a rigid drive; no rows yet.
+/// Per joint link and motor, or the one equation of a rigid drive; no rows yet. `detail`: by
+/// default the coefficients of stage 1, where robust sd carry their error on.
 std::vector<EquationRows> make_equations(const DynamicJob& job);
+std::vector<EquationRows> make_equations(const DynamicJob& job, ElasticDetail detail);
 
 /// Places of the equations that share parameters and are solved together: the links of an arm;
 /// else each alone.
@@ -58,8 +60,12 @@ std::vector<std::vector<std::size_t>> systems_of(const std::vector<EquationRows>
 /// The equations with the rows of the first `n_windows` windows of every log only.
 std::vector<EquationRows> pilot_equations(const DynamicJob& job, int n_windows);
 
+/// Whether the largest residuals of a fit to the rows will be wanted.
+enum class Peaks { unwanted, kept };
+
 /// Streams all wanted rows into the equations.
-WindowCounts collect_rows(const DynamicJob& job, std::vector<EquationRows>& equations);
+WindowCounts collect_rows(const DynamicJob& job, std::vector<EquationRows>& equations,
+                          Peaks peaks = Peaks::unwanted);
 
 /// How much the rows of an equation count beside those of the others.
 enum class Weighting { none, by_residual };

@@ -46,7 +46,7 @@ WindowCounts collect_settled(DynamicJob& job, std::vector<EquationRows>& equatio
                              std::string& warning) {
   for (int pass = 1;; ++pass) {
     equations = make_equations(job);
-    const WindowCounts windows = collect_rows(job, equations);
+    const WindowCounts windows = collect_rows(job, equations, Peaks::kept);
     if (!has_nonlinear(equations)) return windows;
     std::vector<EffectInstance> added = job.added;
     std::string moving;
