@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "cablefit/samples/weigh/channel_pass.hpp"
@@ -32,17 +33,14 @@ class Steps {
   Steps(std::size_t n_rows, double period)
       : stride_(n_rows / kKeptSteps + 1), longest_(kGap * period) {}
 
-  void begin() {
-    has_last_ = false;
-    recent_.fill({});
-  }
+  void begin() { last_t_ = -std::numeric_limits<double>::infinity(); }
   void add(double t, double x, std::size_t row) {
-    if (has_last_ && t - last_t_ <= longest_) {
-      take({std::abs(x - last_x_), 0, row});
+    if (t - last_t_ <= longest_) {
+      take(std::abs(x - last_x_), row);
     } else {
-      recent_.fill({});
+      recent_.fill(0);
     }
-    last_t_ = t, last_x_ = x, has_last_ = true;
+    last_t_ = t, last_x_ = x;
   }
   Jump result() {
     if (kept_.size() < kFewSteps) return {};
@@ -54,22 +52,22 @@ class Steps {
   }
 
  private:
-  void take(const Jump& step) {
-    if (n_++ % stride_ == 0) kept_.push_back(step.size);
+  void take(double step, std::size_t row) {
+    if (n_passed_++ == 0) kept_.push_back(step);
+    if (n_passed_ == stride_) n_passed_ = 0;
     std::shift_left(recent_.begin(), recent_.end(), 1);
     recent_.back() = step;
+    const double middle = recent_[2];
+    if (!(middle > largest_.size)) return;
     // The step after a wrong sample leads back.
-    const double before = std::max(recent_[0].size, recent_[1].size);
-    const double after = std::min(recent_[3].size, recent_[4].size);
-    const Jump& middle = recent_[2];
-    if (middle.size > largest_.size && middle.size > kAlone * std::max(before, after))
-      largest_ = middle;
+    const double before = std::max(recent_[0], recent_[1]);
+    const double after = std::min(recent_[3], recent_[4]);
+    if (middle > kAlone * std::max(before, after)) largest_ = {middle, 0, row - 2};
   }
 
-  std::size_t stride_, n_ = 0;
+  std::size_t stride_, n_passed_ = 0;
   double longest_, last_t_ = 0, last_x_ = 0;
-  bool has_last_ = false;
-  std::array<Jump, 5> recent_{};
+  std::array<double, 5> recent_{};  // one row after another; 0 before the first
   std::vector<double> kept_;
   Jump largest_;
 };
@@ -111,7 +109,7 @@ Findings jumps(const Logs& logs) {
     std::vector<std::vector<Steps>> steps;
     for (const PartSurvey& part : log.parts)
       steps.emplace_back(log.plan.slots.size(), Steps(part.n_rows, part.period));
-    over_channels(log, steps);
+    over_channels(log, is_position, steps);
     for (std::size_t p = 0; p < log.parts.size(); ++p)
       for (std::size_t k = 0; k < log.plan.slots.size(); ++k)
         if (is_position(log.plan.slots[k]))

@@ -18,6 +18,8 @@ struct Spike {
   std::size_t row = 0;  // in the log
 };
 
+bool is_measured(const Slot& slot) { return !slot.integrated; }
+
 /// The range that 98 % of the samples of one slot lie in, from every n-th of them.
 double usual_range(const LogSurvey& log, std::size_t part, Eigen::Index column) {
   const std::size_t stride = log.parts[part].n_rows / kQuantileSamples + 1;
@@ -80,11 +82,11 @@ Findings spikes(const Logs& logs) {
     const LogSurvey& log = logs.logs[l];
     std::vector<std::vector<LoneSamples>> lone(log.parts.size(),
                                                std::vector<LoneSamples>(log.plan.slots.size()));
-    over_channels(log, lone);
+    over_channels(log, is_measured, lone);
     for (std::size_t p = 0; p < log.parts.size(); ++p)
       for (std::size_t k = 0; k < log.plan.slots.size(); ++k) {
         const Slot& slot = log.plan.slots[k];
-        if (slot.integrated) continue;
+        if (!is_measured(slot)) continue;
         const Spike spike = lone[p][k].result(log, p, k);
         if (spike.ratio < kOdd) continue;
         findings.push_back(
