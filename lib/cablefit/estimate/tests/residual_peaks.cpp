@@ -7,7 +7,7 @@
 namespace cablefit {
 namespace {
 
-constexpr std::size_t kKept = 4;  // rows per batch: room for a guess that ranks them wrongly
+constexpr std::size_t kKept = 16;  // rows per batch: neighbours of a peak are nearly as large
 
 /// Places of the largest values, and the largest of the others.
 struct Top {
