@@ -29,4 +29,24 @@ TEST_CASE("what a careless decoder would take for a control character is no char
   CHECK(printable(std::string(100, 'x') + '\n') == std::string(100, 'x') + "\\x0a");
 }
 
+TEST_CASE("marks that turn the direction of text are escaped, letters stay") {
+  CHECK(printable("low\u202Egpj.csv") == "low\\xe2\\x80\\xaegpj.csv");  // right-to-left override
+  for (const char* mark : {"\u061C", "\u200E", "\u200F", "\u202A", "\u202D", "\u2066", "\u2069"}) {
+    INFO(mark);
+    CHECK(printable(std::string("a") + mark + "b").starts_with("a\\x"));
+  }
+  CHECK(printable("\u200D\u2010 \u2065") == "\u200D\u2010 \u2065");  // neighbours of those marks
+  CHECK(printable("\u05E9\u05DC") == "\u05E9\u05DC");
+  CHECK(shortened("a\u202Eb") == "a\\xe2\\x80\\xaeb");
+}
+
+TEST_CASE("letters from right to left stand alone") {
+  CHECK(isolated("low, 3.2 N m") == "low, 3.2 N m");
+  CHECK(isolated("\u05E9\u05DC: 3.2 N m") == "\u2068\u05E9\u05DC\u2069: 3.2 N m");
+  CHECK(isolated("cable \u0627") == "cable \u2068\u0627\u2069");
+  CHECK(isolated("\u0627 1 \u0627") == "\u2068\u0627\u2069 1 \u2068\u0627\u2069");
+  CHECK(isolated("\u03B8 \u2212 q \U0001F600") == "\u03B8 \u2212 q \U0001F600");
+  CHECK(isolated("").empty());
+}
+
 }  // namespace cablefit

@@ -81,6 +81,16 @@ TEST_CASE("nothing from a log becomes an element or an attribute of the page") {
   }
 }
 
+TEST_CASE("a name from a log does not turn the direction of the text beside it") {
+  const std::string name = "\u05E9\u05DC", alone = "\u2068" + name + "\u2069";
+  CHECK(html_text(name + ": 3.2 N m") == alone + ": 3.2 N m");
+  CHECK(html_text("low\u202E.csv") == "low\\xe2\\x80\\xae.csv");
+  const std::string body = page_body(hostile(name)), data = page_data(hostile(name));
+  CHECK(count(body, name) > 10);
+  CHECK(count(body, name) == count(body, alone));
+  CHECK(count(data, "\"name\":\"" + alone + "\"") == 3);
+}
+
 TEST_CASE("the page reads without a script: its texts and tables are HTML") {
   const std::string body = page_body(hostile("a & b"));
   // Title, command and date; headline; summary; the figures; tables; the rest.
@@ -171,6 +181,9 @@ TEST_CASE("a figure as SVG: every trace, round ticks, nothing that is no number"
   CHECK(svg.find("torque τ [N m]") != std::string::npos);
   CHECK(svg.find("nan") == std::string::npos);
   CHECK(svg.find("inf") == std::string::npos);
+  // A phone shows it about 340 px wide: texts are then 10 px high or more.
+  CHECK(svg.find("viewBox=\"0 0 400 300\"") != std::string::npos);
+  CHECK(svg.find("font:12px") != std::string::npos);
   figure.traces.clear();  // nothing to draw is no reason to fail
   CHECK(svg_figure(figure).find("nan") == std::string::npos);
 }

@@ -31,6 +31,34 @@ bool is_sound_second(unsigned char lead, unsigned char second) {
   return lead != 0xC2 || second >= 0xA0;
 }
 
+/// A character and its length in bytes; of valid UTF-8.
+struct Character {
+  char32_t code = 0;
+  std::size_t length = 1;
+};
+
+Character first_character(std::string_view text) {
+  const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const std::size_t length = announced_length(byte(0));
+  if (length == 0 || length > text.size()) return {byte(0), 1};
+  char32_t code = byte(0) & (0x7Fu >> length);
+  for (std::size_t i = 1; i < length; ++i) code = code << 6u | (byte(i) & 0x3Fu);
+  return {code, length};
+}
+
+/// Marks without a shape that turn the direction of the text after them (Unicode, annex 9).
+bool is_direction_mark(char32_t code) {
+  return code == 0x061C || code == 0x200E || code == 0x200F || (code >= 0x202A && code <= 0x202E) ||
+         (code >= 0x2066 && code <= 0x2069);
+}
+
+/// Hebrew, Arabic and the other scripts that are written from right to left.
+bool is_right_to_left(char32_t code) {
+  return (code >= 0x0590 && code <= 0x08FF) || (code >= 0xFB1D && code <= 0xFDFF) ||
+         (code >= 0xFE70 && code <= 0xFEFF) || (code >= 0x10800 && code <= 0x10FFF) ||
+         (code >= 0x1E800 && code <= 0x1EFFF);
+}
+
 // Length of the printable character at the start of `text`, 0 when that byte has to be escaped.
 std::size_t printable_length(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text[0]);
@@ -40,7 +68,8 @@ std::size_t printable_length(std::string_view text) {
   for (std::size_t i = 1; i < length; ++i) {
     if (!is_continuation(text[i])) return 0;
   }
-  return is_sound_second(lead, static_cast<unsigned char>(text[1])) ? length : 0;
+  const bool is_sound = is_sound_second(lead, static_cast<unsigned char>(text[1]));
+  return is_sound && !is_direction_mark(first_character(text).code) ? length : 0;
 }
 
 bool is_plain(char c) { return c >= 0x20 && c < 0x7F; }
@@ -82,5 +111,21 @@ std::string shortened(std::string_view text) {
 }
 
 std::string quoted(std::string_view text) { return fmt::format("'{}'", shortened(text)); }
+
+std::string isolated(std::string_view text) {
+  constexpr std::string_view kBegin = "\u2068", kEnd = "\u2069";
+  std::string result;
+  bool is_inside = false;
+  while (!text.empty()) {
+    const Character next = first_character(text);
+    if (is_right_to_left(next.code) != is_inside) {
+      result += is_inside ? kEnd : kBegin;
+      is_inside = !is_inside;
+    }
+    result += text.substr(0, next.length);
+    text.remove_prefix(next.length);
+  }
+  return is_inside ? result.append(kEnd) : result;
+}
 
 }  // namespace cablefit

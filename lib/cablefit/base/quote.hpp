@@ -6,7 +6,8 @@
 
 namespace cablefit {
 
-/// Control bytes and bytes that are not UTF-8 become \xNN: a file cannot steer the terminal.
+/// Control bytes, bytes that are not UTF-8 and marks that turn the direction of text become \xNN: a
+/// file cannot steer the terminal.
 std::string printable(std::string_view text);
 
 /// The same, and what does not fit in 60 bytes is replaced by "...".
@@ -14,5 +15,9 @@ std::string shortened(std::string_view text);
 
 /// shortened() in single quotes.
 std::string quoted(std::string_view text);
+
+/// Valid UTF-8 with each run of right-to-left letters between U+2068 and U+2069 (first strong
+/// isolate): the run cannot reorder the text beside it, in HTML and SVG as in their attributes.
+std::string isolated(std::string_view text);
 
 }  // namespace cablefit

@@ -58,7 +58,7 @@ std::string with_greek(std::string_view text) {
 
 std::string html_text(std::string_view text) {
   std::string escaped;
-  for (const char c : printable(text)) switch (c) {
+  for (const char c : isolated(printable(text))) switch (c) {
       case '<':
         escaped += "&lt;";
         break;

@@ -8,7 +8,7 @@
 namespace cablefit {
 
 /// Printable UTF-8 without < > & and quotes: for the content of an element and for an attribute in
-/// double quotes.
+/// double quotes. Names in a right-to-left script do not reorder the text beside them.
 std::string html_text(std::string_view text);
 
 /// "rad^2" as "rad²". Plain text, as all below: not yet escaped.

@@ -21,11 +21,11 @@ constexpr const char* kStyles[] = {"line",  "broad",    "dashed", "points",
                                    "steps", "interval", "area"};
 
 /// As it is shown: symbols as in print.
-std::string shown(const std::string& text) { return pretty_symbols(printable(text)); }
+std::string shown(const std::string& text) { return isolated(pretty_symbols(printable(text))); }
 
 Json texts(const std::vector<std::string>& all) {
   Json list = Json::array();
-  for (const std::string& text : all) list.push_back(printable(text));
+  for (const std::string& text : all) list.push_back(isolated(printable(text)));
   return list;
 }
 
@@ -83,9 +83,10 @@ Json figure_json(const Figure& figure) {
   for (std::size_t k = 0; k < figure.traces.size(); ++k)
     json["traces"].push_back(trace_json(figure, k));
   for (const Mark& mark : figure.marks)
-    json["marks"].push_back({{"x", mark.x}, {"text", printable(mark.text)}});
+    json["marks"].push_back({{"x", mark.x}, {"text", isolated(printable(mark.text))}});
   for (const Note& note : figure.notes)
-    json["notes"].push_back({{"x", note.x}, {"y", note.y}, {"text", printable(note.text)}});
+    json["notes"].push_back(
+        {{"x", note.x}, {"y", note.y}, {"text", isolated(printable(note.text))}});
   return json;
 }
 

@@ -16,11 +16,12 @@
 namespace cablefit {
 namespace {
 
-constexpr double kWidth = 560, kHeight = 300;
+// Little wider than the plot on a phone (about 350 px), so that texts keep their size there.
+constexpr double kWidth = 400, kHeight = 300;
 constexpr double kLeft = 64, kRight = 12, kBottom = 46;
 constexpr double kLegendRow = 18, kCharacter = 7.2;  // px, of 12 px text
 constexpr double kLowestLegend = 90;
-constexpr int kTicks = 6;
+constexpr int kTicksAcross = 5, kTicksUp = 6;
 
 /// A colour of page.css, and what it is where that is not there.
 std::string colour(const std::string& name) {
@@ -60,8 +61,8 @@ struct Extent {
 };
 
 /// Round numbers between the ends.
-std::vector<double> ticks_of(const Scale& scale) {
-  const double rough = (scale.high - scale.low) / kTicks;
+std::vector<double> ticks_of(const Scale& scale, int n) {
+  const double rough = (scale.high - scale.low) / n;
   const double power = std::pow(10, std::floor(std::log10(rough)));
   double step = 10 * power;
   for (const double nice : {1.0, 2.0, 5.0})
@@ -71,7 +72,7 @@ std::vector<double> ticks_of(const Scale& scale) {
     }
   const double first = std::ceil(scale.low / step);
   std::vector<double> ticks;
-  for (int k = 0; k <= 2 * kTicks && (first + k) * step <= scale.high; ++k)
+  for (int k = 0; k <= 2 * n && (first + k) * step <= scale.high; ++k)
     ticks.push_back((first + k) * step);
   return ticks;
 }
@@ -110,11 +111,10 @@ std::string symbol_at(std::string_view symbol, double x, double y) {
   return fmt::format("M{:.1f} {:.1f}{}", x, y, shape);
 }
 
-/// The first characters of a long name.
-std::string short_label(const std::string& label) {
-  constexpr std::size_t kLong = 14;
-  if (label.size() <= kLong) return label;
-  std::size_t end = kLong - 1;
+/// The first characters of a long name, `longest` (> 1) bytes or fewer.
+std::string short_label(const std::string& label, std::size_t longest) {
+  if (label.size() <= longest) return label;
+  std::size_t end = longest - 1;
   while (end > 0 && (static_cast<unsigned char>(label[end]) & 0xC0u) == 0x80u) --end;
   return label.substr(0, end) + "…";
 }
@@ -170,7 +170,7 @@ class Drawing {
     const auto step_of = [](const std::vector<double>& ticks) {
       return ticks.size() > 1 ? ticks[1] - ticks[0] : 1;
     };
-    const std::vector<double> across = ticks_of(x_), up = ticks_of(y_);
+    const std::vector<double> across = ticks_of(x_, kTicksAcross), up = ticks_of(y_, kTicksUp);
     for (const double tick : up) {
       lines += fmt::format("M{:.1f} {:.1f}H{:.1f}", kLeft, y_(tick), right);
       words += text_at(kLeft - 6, y_(tick) + 4, "end", tick_text(tick, step_of(up)));
@@ -180,9 +180,9 @@ class Drawing {
         lines += fmt::format("M{:.1f} {:.1f}V{:.1f}", x_(tick), top_, bottom);
         words += text_at(x_(tick), bottom + 16, "middle", tick_text(tick, step_of(across)));
       }
-    for (std::size_t k = 0; k < labels_.size(); ++k) {
+    for (std::size_t k = 0; k < labels_.size(); ++k) {  // in two rows
       words += text_at(x_(static_cast<double>(k)), bottom + 16 + (k % 2 == 0 ? 0.0 : 12.0),
-                       "middle", short_label(labels_[k]));
+                       "middle", short_label(labels_[k], longest_label()));
     }
     words += text_at((kLeft + right) / 2, kHeight - 6, "middle", axis_text(figure_.x));
     const double middle = (top_ + bottom) / 2;
@@ -192,6 +192,12 @@ class Drawing {
             fmt::format("<path style=\"stroke:{};fill:none\" d=\"M{:.1f} {:.1f}V{:.1f}H{:.1f}\"/>",
                         colour("reference"), kLeft, top_, bottom, right) +
             words;
+  }
+
+  /// So that neighbours in one of two rows do not touch.
+  std::size_t longest_label() const {
+    const double room = 2 * (kWidth - kRight - kLeft) / static_cast<double>(labels_.size());
+    return static_cast<std::size_t>(std::clamp(room / kCharacter - 1, 3.0, 14.0));
   }
 
   void draw_marks() {
