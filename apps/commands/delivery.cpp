@@ -81,6 +81,25 @@ void print_closing_lines(const CommonOptions& options, const Document& document,
   if (!text.empty()) write_whole("-", "\n" + wrapped("", printable(text), 0));
 }
 
+/// All files or none: a result without its report would look like a run that went well.
+void write_files(const CommonOptions& options, const Document& document,
+                 const std::vector<ResultFile>& results) {
+  Document reported = document;
+  reported.origin = origin();
+  WholeFiles files;
+  Problems problems;
+  const auto add = [&](const std::string& path, std::string content) {
+    problems.collect([&] { files.add(path, std::move(content)); });
+  };
+  for (const ResultFile& result : results)
+    if (!result.name.empty()) add(path_of(options, result), result.content);
+  if (!options.json.empty()) add(options.json, results.front().content);
+  for (const std::string& path : options.reports)
+    add(path, report_writer_for(path).write(reported));
+  problems.throw_if_any();
+  files.finish();
+}
+
 /// Every file this run reads, the rig files that it finds beside its logs among them.
 std::vector<std::string> inputs_of(const CommonOptions& options) {
   std::vector<std::string> inputs = options.logs;
@@ -125,18 +144,8 @@ void deliver(const CommonOptions& options, const Document& document,
              const std::vector<ResultFile>& results) {
   refuse_collisions(options, results);
   Problems problems;
-  const auto write = [&problems](const std::string& path, const std::string& content) {
-    problems.collect([&] { write_whole(path, content); });
-  };
   problems.collect([&] { print(options, document); });
-  for (const ResultFile& result : results) {
-    if (!result.name.empty()) write(path_of(options, result), result.content);
-  }
-  if (!options.json.empty()) write(options.json, results.front().content);
-  Document reported = document;
-  reported.origin = origin();
-  for (const std::string& path : options.reports)
-    write(path, report_writer_for(path).write(reported));
+  problems.collect([&] { write_files(options, document, results); });
   problems.throw_if_any();
   print_closing_lines(options, document, results);
 }

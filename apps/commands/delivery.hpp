@@ -37,8 +37,8 @@ auto or_why(std::span<const LogSurvey> logs, const Fit& fit) {
 }
 
 /// Prints the document (warnings to stderr under --quiet or --json -), then writes the result files
-/// below --out, --json (the first result) and every --report. Throws Error(output) listing all that
-/// could not be written.
+/// below --out, --json (the first result) and every --report: all of them or none. Throws
+/// Error(output) listing all that could not be written.
 void deliver(const CommonOptions& options, const Document& document,
              const std::vector<ResultFile>& results);
 

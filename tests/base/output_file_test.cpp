@@ -62,4 +62,28 @@ TEST_CASE("failing to write names the path and the reason, and leaves nothing") 
   }
 }
 
+TEST_CASE("files of one run appear together or not at all") {
+  const test::TempFolder folder;
+  folder.write("file", "no folder");
+  folder.write("old.json", "old");
+  {
+    WholeFiles files;
+    files.add(folder.file("old.json"), "new");
+    files.add(folder.file("page.html"), "page");
+    CHECK(message_of([&] { files.add(folder.file("file/report.md"), "report"); }) ==
+          "cannot write " + folder.file("file/report.md") + ": Not a directory");
+  }
+  CHECK(content_of(folder.file("old.json")) == "old");
+  CHECK(n_entries(folder.path()) == 2);
+  WholeFiles files;
+  files.add(folder.file("old.json"), "new");
+  files.add(folder.file("page.html"), "page");
+  files.add("/dev/null", "gone");
+  CHECK(content_of(folder.file("old.json")) == "old");
+  files.finish();
+  CHECK(content_of(folder.file("old.json")) == "new");
+  CHECK(content_of(folder.file("page.html")) == "page");
+  CHECK(fs::is_character_file("/dev/null"));
+}
+
 }  // namespace cablefit

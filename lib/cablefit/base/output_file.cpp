@@ -4,7 +4,9 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <optional>
 #include <system_error>
+#include <utility>
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/file_descriptor.hpp"
@@ -31,6 +33,16 @@ void write_by_rename(const std::string& path, std::string_view content) {
   temporary.rename_to_target();
 }
 
+/// Runs `write`; what the system refuses becomes an Error about `path`.
+template <typename Write>
+void guarded(const std::string& path, const Write& write) {
+  try {
+    write();
+  } catch (const std::system_error& failure) {  // also fs::filesystem_error
+    throw output_error(path, failure);
+  }
+}
+
 void write_to(const std::string& path, std::string_view content) {
   if (path == "-") return write_stdout(content);
   // A device or a pipe (/dev/null, /dev/stdout) must not be replaced by a file.
@@ -47,11 +59,39 @@ Error output_error(const std::string& path, const std::system_error& failure) {
 }
 
 void write_whole(const std::string& path, std::string_view content) {
-  try {
-    write_to(path, content);
-  } catch (const std::system_error& failure) {  // also fs::filesystem_error
-    throw output_error(path, failure);
-  }
+  guarded(path, [&] { write_to(path, content); });
+}
+
+struct WholeFiles::File {
+  std::string path, content;               // content: of what cannot be renamed
+  std::optional<TemporaryFile> temporary;  // of what can
+};
+
+WholeFiles::WholeFiles() = default;
+WholeFiles::~WholeFiles() = default;
+
+void WholeFiles::add(const std::string& path, std::string content) {
+  guarded(path, [&] {
+    auto file = std::make_unique<File>();
+    file->path = path;
+    if (path == "-" || is_special_file(path)) {
+      file->content = std::move(content);
+    } else {
+      file->temporary.emplace(path);
+      file->temporary->append(content);
+    }
+    files_.push_back(std::move(file));
+  });
+}
+
+void WholeFiles::finish() {
+  for (const auto& file : files_)
+    guarded(file->path, [&] {
+      if (file->temporary)
+        file->temporary->rename_to_target();
+      else
+        write_to(file->path, file->content);
+    });
 }
 
 }  // namespace cablefit
