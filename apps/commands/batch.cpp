@@ -25,10 +25,10 @@ namespace cablefit::apps {
 namespace {
 
 constexpr const char* kBatchExample =
-    "Example:\n"
-    "  cablefit batch data/campaign.json --report summary.md --junit gates.xml\n"
-    "Finished cells are kept in OUT/cells: a run that was interrupted goes on where it was.\n"
-    "Exit code 1: a limit of the campaign was passed; each failed gate is one line.\n";
+    "Example:\n  cablefit batch data/campaign.json --report summary.md --junit "
+    "gates.xml\nFinished cells are kept in OUT/cells: an interrupted run continues "
+    "from there.\nExit code 1: a value exceeds a limit of the campaign; each "
+    "failed gate is one line.\n";
 
 struct BatchCommand {
   CommonOptions common;
@@ -91,18 +91,19 @@ void add_batch_options(CLI::App& app, BatchCommand& command) {
       [&command](long n) { command.batch.jobs = static_cast<int>(n); },
       "cells at a time [as many as --threads]; the result does not depend on it");
   app.add_option("--cell", command.cell,
-                 "only this cell, and of it only the file in OUT/cells: for engines that run cells "
-                 "on many machines")
+                 "fit this cell alone and write only its file in OUT/cells: for clusters and "
+                 "workflow engines")
       ->type_name("NAME");
   app.add_flag("--list-cells", command.lists_cells, "print the names of the cells, fit nothing");
   app.add_option("--junit", command.junit, "cells and gates as JUnit XML, for CI servers")
       ->type_name("FILE");
   app.add_option("--accept", command.accept,
-                 "make this run the baseline: write its batch.json there, gates passed or not "
-                 "(exit 0); the first run needs no baseline yet")
+                 "make this run the baseline: write its batch.json there, whether gates passed "
+                 "or failed (exit 0); the first run needs no baseline")
       ->type_name("FILE");
   app.add_flag("--unconstrained", command.batch.elastic.unconstrained,
-               "stage 1 by plain least squares: let cables push, with a warning");
+               "stage 1 by plain least squares: allow a negative cable stiffness, with a "
+               "warning");
 }
 
 /// The first run cannot be held against the baseline that it is to make.
@@ -131,8 +132,9 @@ void require_acceptable(const BatchCommand& command, const Campaign& campaign) {
     for (const auto* paths : {&cell.blocked, &cell.moving, &cell.validation})
       is_input = is_input || std::any_of(paths->begin(), paths->end(), is_target);
   if (is_input)
-    throw usage_error(fmt::format("--accept {} is a file that is read", command.accept),
-                      "name the baseline");
+    throw usage_error(
+        fmt::format("--accept would overwrite {}, which this run reads", command.accept),
+        "give another file for the baseline");
 }
 
 /// A run with cells that could not be fitted is no baseline.
@@ -163,7 +165,7 @@ int fit_one_cell(const BatchCommand& command, const Campaign& campaign) {
   const CommonOptions& options = command.common;
   if (!options.json.empty() || !options.reports.empty() || !command.junit.empty())
     throw usage_error("--cell writes only the cell's own file",
-                      "leave out --json, --report and --junit; a run without --cell has them all");
+                      "leave out --json, --report and --junit; a run without --cell writes them");
   const BatchCell cell = [&] {
     const Progress progress(options.quiet, "fitting " + printable(command.cell));
     return run_cell(campaign, command.cell, command.batch);
@@ -194,7 +196,7 @@ std::vector<ResultFile> files_of(const BatchCommand& command, const BatchResult&
 void tell_kept(const BatchCommand& command, const BatchResult& result) {
   const CommonOptions& options = command.common;
   if (result.n_kept == 0 || options.quiet || options.json == "-") return;
-  write_whole("-", fmt::format("{} of {} cells were in {} already\n\n", result.n_kept,
+  write_whole("-", fmt::format("{} of {} cells taken from {}\n\n", result.n_kept,
                                result.cells.size(), printable(command.batch.folder)));
 }
 
@@ -207,7 +209,7 @@ void list_cells(const Campaign& campaign) {
 }  // namespace
 
 int run_batch(const Arguments& arguments) {
-  CLI::App app("Fit every preload of a campaign and judge its limits.", "batch");
+  CLI::App app("Fit every preload of a campaign and check its limits.", "batch");
   BatchCommand command;
   CommonOptions& options = command.common;
   add_batch_options(app, command);

@@ -48,7 +48,7 @@ Error unknown_option(const CLI::App& app, const std::string& argument) {
   std::error_code ignored;
   if (std::filesystem::exists(argument, ignored)) {
     return usage_error("unknown option " + cablefit::quoted(argument),
-                       "for the file of that name write ./" + argument);
+                       "for a file of that name write ./" + argument);
   }
   const std::string name = argument.substr(0, argument.find('='));
   const std::vector<std::string> names = option_names(app);

@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::array kCommands{
     Command{"study",
-            "all in one go, from logs to what the model lacks; the other commands go deeper",
+            "everything in one run, from logs to the missing effect; the others give more "
+            "detail",
             run_study},
     Command{"check", "what is in a log, is it usable, and what can be identified from it",
             run_check},
@@ -22,20 +23,24 @@ constexpr std::array kCommands{
             run_dynamic},
     Command{"identify", "one step: elastic and dynamic parameters together, l_o searched (26)-(28)",
             run_identify},
-    Command{"simulate", "a model on the input of logs: positions, torques, gap to the measured",
+    Command{"simulate",
+            "run a model on the input of logs: positions, torques, gap to the measurement",
             run_simulate},
     Command{"predict",
             "what a model says of logs: elastic torques, a sensor's torque, contacts, with bands",
             run_predict},
     Command{"refine",
-            "where model and logs disagree, which effect is missing, and does adding it help",
+            "where model and logs disagree, which effect is missing, whether adding it "
+            "helps",
             run_refine},
-    Command{"design", "what a preload buys, what simpler models cost, which motion to record",
+    Command{"design", "effect of the preload, error of simpler models, which motion to record",
             run_design},
-    Command{"compare", "whether two results differ by more than their uncertainty, and in what",
+    Command{"compare",
+            "whether two results differ by more than their uncertainty, and in which "
+            "parameters",
             run_compare},
-    Command{"batch", "all preloads of a campaign side by side, with gates for CI", run_batch},
-    Command{"init", "a campaign file and rig files to begin with, from the logs in a folder",
+    Command{"batch", "all preloads of a campaign in parallel, with gates for CI", run_batch},
+    Command{"init", "write a first campaign file and rig files from the logs in a folder",
             run_init},
     Command{"list", "effects, models, estimators and formats that cablefit knows", run_list},
 };

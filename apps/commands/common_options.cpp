@@ -43,23 +43,24 @@ int default_threads() {
 void add_reading_options(CLI::App& app, Reading& reading) {
   begin_group(app, "How logs are read");
   app.add_flag("--trust-units", reading.trust_units,
-               "go on where the units or signs of a log cannot be right");
+               "continue although the units or signs of a log cannot be right");
   add_choice(
       app, "--missing", "way with missing cells", {"drop", "hold"},
       [&reading](const std::string& way) {
         reading.mending.missing = way == "drop" ? Missing::drop : Missing::hold;
       },
-      "rows with a missing cell: leave them out, or hold the value before; both are counted");
+      "rows with a missing cell: drop them, or hold the value of the row before; "
+      "both are counted");
   add_choice(
       app, "--repeated", "way with repeated times", {"first"},
       [&reading](const std::string&) { reading.mending.first_of_repeated = true; },
-      "of rows with the same time keep the first; the others are counted");
+      "of rows with the same time keep the first; the dropped ones are counted");
   add_whole(
       app, "--skip", "N", {0, 1e6},
       [&reading](long n) { reading.skipped_lines = static_cast<std::size_t>(n); },
       "lines of a CSV log before its header");
   app.add_flag("--units-row", reading.units_row,
-               "the line behind the header of a CSV log holds units");
+               "the line after the header of a CSV log holds units");
   add_number(
       app, "--rate", "HZ", {1e-3, 1e9}, [&reading](double hz) { reading.rate = hz; },
       "rate of the rows of a log without time column");
@@ -87,7 +88,8 @@ void add_output_options(CLI::App& app, CommonOptions& options) {
   };
   app.add_option_function<std::vector<std::string>>(
          "--report", add_report,
-         "a report; the format goes by .html (with plots), .md, .csv or .txt; repeatable")
+         "a report; its extension sets the format: .html (with plots), .md, .csv or "
+         ".txt; repeatable")
       ->type_name("FILE")
       ->type_size(1)
       ->expected(1, 1000)
@@ -110,7 +112,7 @@ void add_sample_options(CLI::App& app, CommonOptions& options) {
   add_choice(
       app, "--torque-hold", "torque hold", {"auto", "zoh", "none"},
       [&samples](const std::string& name) { samples.torque_hold = torque_hold(name); },
-      "is tau held until the next row (zoh), or the mean around t (none)");
+      "whether tau is held until the next row (zoh) or is the mean around t (none)");
   add_number(
       app, "--cutoff", "HZ", {0}, [&samples](double hz) { samples.cutoff = hz; },
       "cut-off of the low-pass; 0: no filter");

@@ -48,7 +48,7 @@ void add_options(CLI::App& app, CompareCommand& command) {
                  "which model [stage 1's choice, else the richest that both have]")
       ->type_name("NAME");
   app.add_flag("--gate-different", command.gate_different,
-               "exit 1 when a parameter is different by what may be more than the margin");
+               "exit 1 when a parameter is different and the difference may exceed the margin");
   app.add_flag("--gate-equal", command.gate_equal,
                "exit 1 unless every parameter of both is shown to be within the margin");
 }
@@ -88,7 +88,7 @@ std::vector<std::string> failed_gates(const CompareCommand& command, const Compa
 }  // namespace
 
 int run_compare(const Arguments& arguments) {
-  CLI::App app("Say which parameters of two results differ by more than their uncertainty.",
+  CLI::App app("Find the parameters of two results that differ by more than their uncertainty.",
                "compare");
   CompareCommand command;
   add_options(app, command);

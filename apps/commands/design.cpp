@@ -5,7 +5,6 @@
 
 #include "cablefit/base/digest.hpp"
 #include "cablefit/base/error.hpp"
-#include "cablefit/base/output_file.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/design/design_sweep.hpp"
 #include "cablefit/report/documents/design_document.hpp"
@@ -94,8 +93,8 @@ void add_sweep_options(CLI::App& app, DesignOptions& design) {
       app, "--torque", "N_M", {1e-9}, [&design](double torque) { design.torque = torque; },
       "the joint works from -torque to torque");
   add_list(app, "--l-o", "L,L,..|FROM:TO:N", {0}, design.l_o,
-           "initial elongations of the first cable, m (rad in joint space); the others are kept in "
-           "equilibrium [none, and around what --torque needs]");
+           "initial elongations of the first cable, m (rad in joint space); the others "
+           "are kept in equilibrium [0, and values around what --torque needs]");
   add_list(app, "--radius", "X,X,..|FROM:TO:N", {1e-6}, design.radius_factors,
            "pulley radii, times the rig's [1]");
   app.add_option_function<std::string>(
@@ -126,33 +125,34 @@ void add_cable_options(CLI::App& app, AsTheyAre& cables) {
 void add_collision_options(CLI::App& app, DesignOptions& design) {
   add_number(
       app, "--noise", "N_M", {0}, [&design](double noise) { design.noise = noise; },
-      "sd of the torque from row to row, white, for collisions [the residual of the fit, else the "
-      "rig's sensor tau]");
+      "sd of the white torque noise, for collisions [the residual of the fit, else "
+      "the rig's sensor tau]");
   add_number(
       app, "--floor", "N_M", {0}, [&design](double floor) { design.floor = floor; },
-      "largest torque error of the cables' model, as stage 1 says; adds to every model's error, "
-      "for collisions [0]");
+      "largest torque error of the cable model, from stage 1; added to the error of "
+      "every model, for collisions [0]");
   add_number(
       app, "--window", "S", {1e-4, 60}, [&design](double seconds) { design.window = seconds; },
-      "over which a collision detector averages [0.05]");
+      "averaging time of the collision detector [0.05]");
   add_number(
       app, "--rate", "HZ", {1e-3}, [&design](double rate) { design.rate = rate; },
-      "rows a second, of collisions and of --excite [1000]");
+      "sample rate, for collisions and for --excite [1000]");
   add_number(
       app, "--false-alarms", "PER_HOUR", {1e-9, 3600},
-      [&design](double n) { design.false_alarms_per_hour = n; }, "of the collision detector [1]");
+      [&design](double n) { design.false_alarms_per_hour = n; },
+      "false alarms of the collision detector [1]");
   add_number(
       app, "--detection-rate", "P", {0.5, 0.999999},
       [&design](double p) { design.detection_rate = p; },
-      "probability that it sees the smallest collision [0.99]");
+      "probability that it detects the smallest collision [0.99]");
 }
 
 void add_excitation_options(CLI::App& app, DesignCommand& command) {
   ExcitationOptions& excitation = command.excitation;
   ExcitationLimits& limits = excitation.limits;
   app.add_option("--excite", command.excite,
-                 "write a reference trajectory (CSV) that shows the parameters of stage 2 best, "
-                 "within the limits below")
+                 "write the reference trajectory (CSV) that determines the parameters of stage "
+                 "2 best, within the limits below")
       ->type_name("FILE");
   std::vector<std::string> shapes;
   for (const MotionShape& shape : motion_shapes()) shapes.emplace_back(shape.name);
@@ -195,7 +195,7 @@ std::string take_model(const DesignCommand& command) {
 
 void check_sweep(const DesignOptions& design) {
   if (false_alarm_rate_of(design.false_alarms_per_hour, design.window) >= design.detection_rate)
-    throw usage_error("so many false alarms that every window is one",
+    throw usage_error("--false-alarms is so high that every window is a false alarm",
                       "lower --false-alarms or --window");
 }
 
@@ -227,9 +227,8 @@ void check_excite(const DesignCommand& command, const std::string& model) {
   };
   for (const std::string& other : others)
     if (!other.empty() && whole(other) == whole(command.excite))
-      throw usage_error(
-          fmt::format("the reference would take the place of {}", cablefit::quoted(other)),
-          "choose another --excite");
+      throw usage_error(fmt::format("the reference would overwrite {}", cablefit::quoted(other)),
+                        "choose another --excite");
 }
 
 Eigen::VectorXd parse_angles(const std::string& text, int n_joints) {
@@ -286,8 +285,8 @@ DesignResult run(DesignCommand& command) {
   command.common.more_inputs.push_back(path);
   const bool sweep = command.design.torque > 0, excite = !command.excite.empty();
   if (!sweep && !excite && !command.cables.any())
-    throw usage_error("neither --torque nor --excite given",
-                      "say which torque the joint has to carry, or which file the motion goes to; "
+    throw usage_error("neither --torque nor --excite is given",
+                      "give the torque that the joint has to carry, or a file for the motion; "
                       "--stiffness or --balance for the cables as they are");
   if (sweep) check_sweep(command.design);
   if (excite) {
@@ -306,7 +305,7 @@ DesignResult run(DesignCommand& command) {
   }
   describe_cables(command, model.transmission, result);
   if (excite) {
-    const Progress progress(command.common.quiet, "looking for a motion");
+    const Progress progress(command.common.quiet, "searching for a motion");
     command.excitation.limits.rate = command.design.rate;
     command.excitation.seed = command.common.seed;
     command.excitation.threads = command.common.samples.threads;
@@ -322,7 +321,7 @@ DesignResult run(DesignCommand& command) {
 }  // namespace
 
 int run_design(const Arguments& arguments) {
-  CLI::App app("What a preload buys, what simpler models cost, and which motion to record.",
+  CLI::App app("Effect of the preload, error of simpler models, and which motion to record.",
                "design");
   DesignCommand command;
   add_model_options(app, command);
@@ -334,8 +333,10 @@ int run_design(const Arguments& arguments) {
   app.footer(kDesignExample);
   if (!parse(app, arguments)) return 0;
   const DesignResult result = run(command);
-  if (result.excitation) write_whole(command.excite, reference_csv(result.excitation->motion));
-  deliver(command.common, design_document(result), {{kResultFile, design_json(result)}});
+  std::vector<ResultFile> files = {{kResultFile, design_json(result)}};
+  if (result.excitation)
+    files.push_back({command.excite, reference_csv(result.excitation->motion), true});
+  deliver(command.common, design_document(result), files);
   return 0;
 }
 

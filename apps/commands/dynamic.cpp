@@ -106,14 +106,15 @@ void add_dynamic_options(CLI::App& app, DynamicCommand& command) {
       [&command](const std::string& name) { command.fit.estimator = name; },
       "see 'cablefit list estimators' [auto]");
   app.add_flag("--sweep", command.fit.sweep,
-               "fit again with other cut-offs and rest speeds: is the estimate flat?");
+               "fit again with other cut-offs and rest speeds: do the estimates change?");
   app.add_option("--validate", command.validation,
-                 "logs that are not fitted: how well does the model do on them; give them last")
+                 "held-out logs: how well does the model predict them; give them last")
       ->type_name("LOG");
   add_whole(
       app, "--prove", "N", {20, 100000},
       [&command](long n) { command.prove = static_cast<std::size_t>(n); },
-      "rerun the fit on N simulated logs of its own model: do the intervals cover?");
+      "rerun the fit on N simulated logs of its own model: do the 95 % intervals "
+      "contain the true values?");
 }
 
 bool is_elastic(const DynamicCommand& command) {
@@ -177,7 +178,8 @@ std::optional<StartModel> start_model(DynamicCommand& command) {
   std::optional<StartModel> start =
       take_model(command.common, is_chosen ? command.fit.models.front() : "");
   if (start && !command.elastic_file.empty())
-    throw usage_error("a model and --elastic: both say what the cables do", "give one of them");
+    throw usage_error("a model and --elastic are given: both describe the cables",
+                      "give one of them");
   if (start) use_model(*start, command.fit);
   const std::vector<EffectInstance> named = named_effects(command.effects);
   command.fit.effects.insert(command.fit.effects.end(), named.begin(), named.end());
@@ -192,9 +194,10 @@ Stage1 stage1_from(const StartModel& start) {
   stage1.decision = {"cables", start.path, "of the model given: " + start.choice};
   const std::string without = start.model.rigid ? "" : missing_sd(start.model);
   if (!without.empty())
-    stage1.warnings.push_back(fmt::format(
-        "{}: the model has no sd of {}: the error of the cables is not in the sd of this fit",
-        start.path, without));
+    stage1.warnings.push_back(
+        fmt::format("{}: the model has no sd of {}; the sd of this fit do not include the error of "
+                    "the cables",
+                    start.path, without));
   return stage1;
 }
 
@@ -275,7 +278,7 @@ void require_unseen(const DynamicCommand& command) {
   for (const std::string& log : command.common.logs)
     for (const std::string& other : command.validation)
       if (is_same_file(log, other))
-        throw usage_error(fmt::format("log {} is fitted and validated on", log),
+        throw usage_error(fmt::format("log {} is given both to fit and to validate", log),
                           "validate on logs that were not fitted");
 }
 
@@ -316,7 +319,7 @@ std::vector<LogSurvey> campaign_logs(const CommonOptions& options) {
     if (!preloads.insert(cell.preload).second)
       throw usage_error(fmt::format("{} has several cells of preload {}", kCampaignHere,
                                     cablefit::quoted(cell.preload)),
-                        "name the logs of one, or fit each for itself by 'cablefit batch'");
+                        "give the logs of one cell, or fit every cell by 'cablefit batch'");
     for (const auto* paths : {&cell.blocked, &cell.moving})
       for (const std::string& path : *paths)
         if (seen.insert(path).second)
@@ -330,7 +333,7 @@ std::vector<LogSurvey> campaign_logs(const CommonOptions& options) {
   return logs;
 }
 
-/// --prove: fills in what simulated logs say of the fits.
+/// --prove: fills in the coverage on simulated logs.
 void prove(const DynamicCommand& command, const std::vector<LogSurvey>& moving,
            const std::vector<LogSurvey>& blocked, const Stage1& stage1, DynamicResult& result) {
   Progress display(command.common.quiet, "proving");
@@ -398,7 +401,8 @@ int run_dynamic(const Arguments& arguments) {
     stage1 = *std::move(earlier);
   } else if (takes_stage1) {
     stage1 = or_why(logs, [&] { return stage1_from_logs(command, logs); });
-    if (earlier) stage1.decision.reason = "logs given win over " + earlier->inputs.front().path;
+    if (earlier)
+      stage1.decision.reason = "the blocked logs given replace " + earlier->inputs.front().path;
   }
   for (const InputFile& input : stage1.inputs)
     if (!stage1.is_new) options.more_inputs.push_back(input.path);

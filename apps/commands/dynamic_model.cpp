@@ -56,7 +56,8 @@ std::optional<StartModel> take_model(CommonOptions& options, const std::string& 
                       "choose one with --preload NAME");
   start.model = std::move(models.front());
   if (options.logs.empty())
-    throw usage_error("a model, and no log to fit it to", "name one or more logs behind it");
+    throw usage_error("a model is given, but no log to fit it to",
+                      "give one or more logs after the model");
   return start;
 }
 
@@ -75,7 +76,7 @@ void use_model(const StartModel& start, DynamicOptions& fit) {
 
 void use_model(const StartModel& start, IdentifyOptions& fit) {
   if (start.model.rigid)
-    throw usage_error("one step is made for cables, and the model is a rigid drive",
+    throw usage_error("one step needs cables; the model is a rigid drive",
                       "use 'cablefit dynamic' with it");
   fit.effects = start.model.joints.front().added;
   if (fit.order > 0 || start.model.rig.cables_given) return;

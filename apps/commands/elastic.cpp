@@ -43,8 +43,8 @@ void take_orders(const std::string& text, ElasticOptions& elastic) {
 void add_elastic_options(CLI::App& app, ElasticOptions& elastic, ElongationMode& elongations) {
   app.add_option_function<std::string>(
          "--order", [&elastic](const std::string& text) { take_orders(text, elastic); },
-         "order of the cables' force, of all or one per cable; auto: of each the lowest that "
-         "held-out blocks support")
+         "order of the cable law, of all or one per cable; auto: of each the lowest that block "
+         "cross-validation supports")
       ->type_name("N|N,N,..|auto");
   add_whole(
       app, "--max-order", "N", {1, kMaxCableOrder},
@@ -58,7 +58,7 @@ void add_elastic_options(CLI::App& app, ElasticOptions& elastic, ElongationMode&
                        : name == "theta_0" ? ZeroMode::theta_0
                                            : ZeroMode::automatic;
       },
-      "what is unknown: the drive's offset, or the encoder's zero");
+      "which constant is estimated: the drive's offset, or the encoder's zero");
   app.add_option_function<std::string>(
          "--offset",
          [&elastic](const std::string& text) {
@@ -70,7 +70,7 @@ void add_elastic_options(CLI::App& app, ElasticOptions& elastic, ElongationMode&
       ->type_name("free|zero|VALUE");
   add_elongation_option(app, elongations);
   app.add_flag("--unconstrained", elastic.unconstrained,
-               "plain least squares: let cables push, with a warning");
+               "plain least squares: allow a negative cable stiffness, with a warning");
   add_number(
       app, "--materiality", "PERCENT", {0, 100},
       [&elastic](double percent) { elastic.materiality = percent / 100; },
@@ -141,7 +141,7 @@ void require_searchable(const ElasticOptions& elastic) {
                       "give one order, or put the orders into the rig file");
 }
 
-/// --prove: fills in what simulated logs say of the fits.
+/// --prove: fills in the coverage on simulated logs.
 void prove(const CommonOptions& common, const std::vector<LogSurvey>& logs,
            const ElasticOptions& elastic, std::size_t n_runs, ElasticResult& result) {
   Progress display(common.quiet, "proving");
@@ -168,7 +168,8 @@ int run_elastic(const Arguments& arguments) {
   add_whole(
       app, "--prove", "N", {20, 100000},
       [&n_prove](long n) { n_prove = static_cast<std::size_t>(n); },
-      "rerun the fit on N simulated logs of its own model: do the intervals cover?");
+      "rerun the fit on N simulated logs of its own model: do the 95 % intervals "
+      "contain the true values?");
   add_sd_option(app, options);
   std::vector<std::string> test_paths;
   add_line_options(app, elastic.lines, test_paths);
@@ -179,7 +180,7 @@ int run_elastic(const Arguments& arguments) {
   const bool search = elongations == ElongationMode::search;
   if (search && elastic.still)
     throw usage_error("--l-o search and --still cannot be combined",
-                      "a moving log belongs to 'cablefit identify'");
+                      "give moving logs to 'cablefit identify'");
 
   const std::vector<LogSurvey> logs = read_logs(options), test = read_test(options, test_paths);
   elastic.lines.test = test;

@@ -12,10 +12,9 @@ void add_elongation_option(CLI::App& app, ElongationMode& mode) {
                : name == "known" ? ElongationMode::known
                                  : ElongationMode::automatic;
       },
-      "initial elongations: search them, or take those of the rig file (else 0) [auto: search "
-      "where the rig file says so; without cables in it those of several preloads, and of one "
-      "whose "
-      "stiffness falls on both sides of zero]");
+      "initial elongations: search them, or take those of the rig file (else 0) "
+      "[auto: search where the rig file says so; if it has no cables, search for "
+      "several preloads, or when the stiffness falls on both sides of zero]");
 }
 
 }  // namespace cablefit::apps

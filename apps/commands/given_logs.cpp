@@ -21,10 +21,10 @@ void require_distinct(std::span<const GivenLogs> given) {
       if (is_new) continue;
       if (same->second == logs.option)
         throw usage_error(fmt::format("log {} is given twice", path),
-                          "its rows would count double");
+                          "give it once: duplicate data make every sd too small");
       throw usage_error(
           fmt::format("log {} is given to {} and {}", path, same->second, logs.option),
-          "a log is for one of them");
+          "give it to one of them");
     }
 }
 

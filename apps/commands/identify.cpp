@@ -23,12 +23,12 @@ void add_identify_options(CLI::App& app, IdentifyOptions& identify) {
   add_whole(
       app, "--order", "N", {1, kMaxCableOrder},
       [&identify](long n) { identify.order = static_cast<int>(n); },
-      "order of the cables' force [the rig file's, else 2]");
+      "order of the cable law [the rig file's, else 2]");
   add_elongation_option(app, identify.elongations);
   app.add_flag("--recursive", identify.recursive,
                "recursive least squares (R-LSA) too: its trace in OUT/identify_trace.csv");
   app.add_flag("--unconstrained", identify.unconstrained,
-               "plain least squares: let cables push, with a warning");
+               "plain least squares: allow a negative cable stiffness, with a warning");
 }
 
 }  // namespace

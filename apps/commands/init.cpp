@@ -22,11 +22,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kInitExample =
-    "Example:\n"
-    "  cablefit init data --dry-run\n"
-    "Writes FOLDER/campaign.json, and a rig.json into every folder of logs that has none. A "
-    "rig.json\n"
-    "that is there is never touched, a campaign.json only with --force.\n";
+    "Example:\n  cablefit init data --dry-run\nWrites FOLDER/campaign.json, and a "
+    "rig.json into every folder of logs that has none. An\nexisting rig.json is "
+    "never changed, an existing campaign.json only with --force.\n";
 
 struct InitCommand {
   std::string folder = ".";
@@ -42,8 +40,8 @@ void refuse_to_overwrite(const InitCommand& command, const std::string& campaign
   if (!fs::is_directory(command.folder, ignored))
     throw input_error({command.folder, 0, 0}, "no such folder", "name a folder with logs");
   if (fs::exists(campaign, ignored) && !command.force && !command.dry_run)
-    throw usage_error(fmt::format("{} is there already", cablefit::quoted(campaign)),
-                      "move it away, or let --force replace it");
+    throw usage_error(fmt::format("{} already exists", cablefit::quoted(campaign)),
+                      "move it, or replace it with --force");
 }
 
 std::string campaign_name(const InitCommand& command) {
@@ -96,12 +94,11 @@ void add_new_rigs(const FoundLogs& found, std::vector<FoundCell>& cells) {
 }  // namespace
 
 int run_init(const Arguments& arguments) {
-  CLI::App app("Write a campaign file and rig files to begin with, from the logs in a folder.",
-               "init");
+  CLI::App app("Write a first campaign file and rig files from the logs in a folder.", "init");
   InitCommand command;
-  app.add_option("FOLDER", command.folder, "where the logs are, also in folders below [.]")
+  app.add_option("FOLDER", command.folder, "folder of the logs; its subfolders are read too [.]")
       ->type_name("");
-  app.add_flag("--force", command.force, "replace a campaign.json that is there");
+  app.add_flag("--force", command.force, "replace an existing campaign.json");
   app.add_flag("--dry-run", command.dry_run, "print the campaign file, write nothing");
   app.add_flag("--quiet", command.quiet, "print problems only");
   app.footer(kInitExample);
@@ -110,19 +107,20 @@ int run_init(const Arguments& arguments) {
   const std::string campaign = below(command, "campaign.json");
   refuse_to_overwrite(command, campaign);
   FoundLogs found = [&] {
-    const Progress progress(command.quiet, "looking at logs");
+    const Progress progress(command.quiet, "reading logs");
     return find_logs(command.folder, default_threads());
   }();
   if (found.cells.empty() && found.unread.empty())
-    throw input_error({command.folder, 0, 0}, "no logs here, nor up to three folders below",
+    throw input_error({command.folder, 0, 0},
+                      "no logs in this folder or its subfolders (three levels)",
                       "a log is .csv, .tsv, .txt or .json, also .gz or .zst");
   if (!command.dry_run) write_rigs(command, found);
   add_new_rigs(found, found.cells);
   if (std::none_of(found.cells.begin(), found.cells.end(), is_complete))
-    throw input_error({command.folder, 0, 0}, "no campaign yet: no log with the link blocked",
-                      found.unread.empty()
-                          ? "record one: the link held, the motor swept slowly up and down"
-                          : "map the columns in the rig files, then run this again");
+    throw input_error(
+        {command.folder, 0, 0}, "no campaign file written: no log has the link blocked",
+        found.unread.empty() ? "record one: the link held, the motor swept slowly up and down"
+                             : "map the columns in the rig files, then run this again");
   const std::string text = campaign_template(campaign_name(command), found);
   write_whole(command.dry_run ? "-" : campaign, text);
   if (command.dry_run) return 0;

@@ -60,7 +60,7 @@ Table effect_table(const std::string& title, std::span<const Effect> effects) {
 }
 
 std::vector<Table> effect_tables() {
-  Table differences = text_table_of("What separates effects that look alike",
+  Table differences = text_table_of("What separates similar effects",
                                     {"name", "side", "never from", "signature", "experiment"});
   differences.detail = true;
   for (const Effect& row : candidate_effects())
@@ -148,13 +148,12 @@ std::vector<std::string> section_names() {
 }  // namespace
 
 int run_list(const Arguments& arguments) {
-  CLI::App app("What cablefit knows.", "list");
+  CLI::App app("List the effects, models, estimators and formats of cablefit.", "list");
   CommonOptions options;
   std::string wanted;
   app.add_option("WHAT", wanted, "effects, models, estimators or formats [all]")->type_name("");
   app.add_option("--json", options.json, "as JSON; - for standard output")->type_name("FILE");
-  app.add_flag("--verbose", options.verbose,
-               "print what separates effects that look alike as well");
+  app.add_flag("--verbose", options.verbose, "also print what separates similar effects");
   app.footer(kListExample);
   if (!parse(app, arguments)) return 0;
   if (!wanted.empty()) require_known("list", wanted, section_names());

@@ -44,7 +44,7 @@ void require_own_place(const std::string& path, const std::string& model,
   };
   for (const std::string& other : others) {
     if (other.empty() || whole(other) != whole(path)) continue;
-    throw usage_error(fmt::format("the trajectories would take the place of {}", other),
+    throw usage_error(fmt::format("the trajectories would overwrite {}", other),
                       "choose another --trajectories");
   }
 }

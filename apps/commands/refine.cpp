@@ -59,10 +59,10 @@ struct RefineInput {
 
 void add_file_options(CLI::App& app, RefineCommand& command) {
   app.add_option("MODEL LOG", command.files,
-                 "logs, moving or blocked, and a model to begin with: a model file, or a result of "
-                 "'cablefit dynamic' or 'identify'; several for several preloads; none: one fitted "
-                 "to the logs. A result of 'cablefit elastic': blocked logs alone. Without a log "
-                 "those that the result was made from")
+                 "logs, moving or blocked, and the model to start from: a model file, or a "
+                 "result of 'cablefit dynamic' or 'identify', one for each preload. Without a "
+                 "model, one is fitted to the logs. A result of 'cablefit elastic' takes "
+                 "blocked logs only. Without logs, those of the result are taken")
       ->type_name("");
   const auto add_logs = [&app](const char* name, std::vector<std::string>& logs, const char* help) {
     // A script may have no log of a kind.
@@ -78,8 +78,8 @@ void add_file_options(CLI::App& app, RefineCommand& command) {
   };
   add_logs("--train", command.train, "logs to search and fit, moving or blocked");
   add_logs("--test", command.test,
-           "test logs, read once in the end: does the gap shrink? [the last third of every moving "
-           "log of --train]");
+           "test logs, read once at the end: does the gap shrink? [the last third of "
+           "every moving log of --train]");
   add_logs("--blocked", command.blocked, "further logs with the link blocked");
   add_choice_of_fit(app, command.model, command.common.preload, "all");
   app.add_option("--rig", command.common.rig,
@@ -92,31 +92,32 @@ void add_search_options(CLI::App& app, RefineOptions& refine) {
   add_number(
       app, "--materiality", "PERCENT", {0, 100},
       [&refine](double percent) { refine.materiality = percent / 100; },
-      "least share of the squared residual that an effect removes [1]");
+      "smallest share of the squared residual that an effect must remove [1]");
   add_number(
       app, "--material", "N_M", {0}, [&refine](double torque) { refine.material = torque; },
-      "residual torque below which nothing matters [1 % of the rms torque of the equation, or "
-      "20 % of the noise]");
+      "smallest residual torque that matters [1 % of the rms torque of the equation, "
+      "or 20 % of the noise]");
   add_number(
       app, "--significance", "P", {0, 1}, [&refine](double p) { refine.significance = p; },
       "largest p-value of an identified effect [0.01]");
   add_whole(
       app, "--effects", "N", {1, kMostEffects},
       [&refine](long n) { refine.most_effects = static_cast<std::size_t>(n); },
-      "most effects to add [3]");
+      "largest number of effects to add [3]");
 }
 
 void add_excite_option(CLI::App& app, RefineCommand& command) {
   app.add_option("--excite", command.excite,
-                 "write the reference of the run to make next: t, theta_ref, tau_load")
+                 "write the reference of the next run: t, theta_ref, tau_load")
       ->type_name("FILE");
 }
 
 void add_gate_options(CLI::App& app, RefineCommand& command) {
   add_number(
       app, "--gate-gap", "X", {0}, [&command](double gap) { command.most_gap = gap; },
-      "exit 1 when the torque gap on the test logs is larger in the end (N m; N on a linear axis)");
-  app.add_flag("--gate-new-effect", command.gate_new_effect, "exit 1 when an effect was named");
+      "exit 1 when the final torque gap on the test logs is larger (N m; N on a "
+      "linear axis)");
+  app.add_flag("--gate-new-effect", command.gate_new_effect, "exit 1 when an effect is identified");
 }
 
 /// What is asked for has to be within reach of the draws.
@@ -124,9 +125,10 @@ void require_enough_draws(const RefineOptions& refine) {
   const double least = least_tail(refine.n_draws);
   if (refine.significance < least)
     throw usage_error(
-        fmt::format("--significance {:g} is less than {} simulated data sets can tell ({:.2g})",
-                    refine.significance, refine.n_draws, least),
-        "ask for more of them with --draws");
+        fmt::format(
+            "--significance {:g} is below the resolution of {} simulated data sets ({:.2g})",
+            refine.significance, refine.n_draws, least),
+        "increase --draws");
 }
 
 Error no_log() {
@@ -212,7 +214,7 @@ void add_gone(const Stage1Logs& logs, RefineInput& input) {
   }
 }
 
-/// Blocked logs of stage 1 say what the cables do: they are used again unless others are given.
+/// Blocked logs of stage 1 determine the cables: they are used again unless others are given.
 void add_stage1_logs(RefineCommand& command, RefineInput& input) {
   if (has_blocked(input.logs.train) || has_blocked(input.logs.blocked)) return;
   for (const std::string& model : command.models) {
@@ -236,9 +238,10 @@ void add_stage1_logs(RefineCommand& command, RefineInput& input) {
 /// Throws Error(input): the result's own logs are not there to be fitted again.
 [[noreturn]] void refuse_without_logs(const std::string& result, const std::string& which,
                                       const std::vector<std::string>& gone) {
-  throw input_error({result, 0, 0},
-                    fmt::format("no {} left of this result: {}", which, fmt::join(gone, ", ")),
-                    "put back the logs, or name others");
+  throw input_error(
+      {result, 0, 0},
+      fmt::format("no {} of this result can be read: {}", which, fmt::join(gone, ", ")),
+      "restore the logs, or give others");
 }
 
 /// The logs that a result was fitted to, where they are still the same.
@@ -328,7 +331,7 @@ std::vector<std::string> failed_gates(const RefineCommand& command, const Refine
     failed.push_back(fmt::format("gate gap failed: {:.4g} {} on the test logs, limit {:g} {}",
                                  result.torque.test_after, unit, command.most_gap, unit));
   if (command.gate_new_effect && !result.effects.empty())
-    failed.push_back(fmt::format("gate new-effect failed: '{}' was named",
+    failed.push_back(fmt::format("gate new-effect failed: '{}' was identified",
                                  result.effects.front().instance.effect->name));
   return failed;
 }
@@ -358,9 +361,11 @@ int run_refine(const Arguments& arguments) {
   if (!command.excite.empty() && result.next_run)
     files.push_back(
         {std::filesystem::absolute(command.excite).string(), excite_csv(*result.next_run)});
-  deliver(command.common, refine_document(result, model_names), files);
+  deliver(command.common, refine_document(result, paths_below(command.common.out, model_names)),
+          files);
   if (!command.excite.empty() && !result.next_run)
-    complain(fmt::format("{} was not written: no motion would separate more\n", command.excite));
+    complain(
+        fmt::format("{} was not written: no motion would separate more effects\n", command.excite));
   const std::vector<std::string> failed = failed_gates(command, result);
   for (const std::string& gate : failed) complain(gate + "\n");
   return failed.empty() ? 0 : kGateFailed;

@@ -1,5 +1,7 @@
 #include "commands/result_files.hpp"
 
+#include <filesystem>
+
 #include "cablefit/report/json/identify_json.hpp"
 #include "cablefit/report/json/refine_json.hpp"
 #include "commands/file_names.hpp"
@@ -29,6 +31,14 @@ std::vector<std::string> model_file_names(const RefineResult& result) {
   std::vector<std::string> preloads;
   for (const Model& model : result.models) preloads.push_back(model.preload);
   return names_by_preload("refined", preloads);
+}
+
+std::vector<std::string> paths_below(const std::string& folder,
+                                     const std::vector<std::string>& names) {
+  std::vector<std::string> paths;
+  for (const std::string& name : names)
+    paths.push_back((std::filesystem::path(folder) / name).string());
+  return paths;
 }
 
 std::vector<ResultFile> files_of(const RefineResult& result, const std::string& name,

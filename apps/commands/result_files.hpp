@@ -16,6 +16,9 @@ std::vector<std::string> names_by_preload(const std::string& stem,
                                           const std::vector<std::string>& preloads);
 /// "refined.json", or "refined_PRELOAD.json" of each of several models.
 std::vector<std::string> model_file_names(const RefineResult& result);
+/// Where files of these names are, as a reader types them.
+std::vector<std::string> paths_below(const std::string& folder,
+                                     const std::vector<std::string>& names);
 /// The result as `name`, and its models.
 std::vector<ResultFile> files_of(const RefineResult& result, const std::string& name,
                                  const std::vector<std::string>& model_names);

@@ -51,7 +51,8 @@ void add_replay_options(CLI::App& app, ReplayOptions& replay) {
       "reference is in the log]");
   add_number(
       app, "--window", "S", {0}, [&replay](double seconds) { replay.window = seconds; },
-      "start anew from the measured state this often; 0: never [torque: 1, closed loop: 0]");
+      "restart from the measured state at this interval; 0: never [torque: 1, closed "
+      "loop: 0]");
   add_choice(
       app, "--torque-hold", "torque hold", {"auto", "zoh", "none"},
       [&replay](const std::string& name) {
@@ -59,7 +60,8 @@ void add_replay_options(CLI::App& app, ReplayOptions& replay) {
                              : name == "none" ? TorqueHold::none
                                               : TorqueHold::automatic;
       },
-      "is a replayed tau held until the next row (zoh), or linear between rows (none)");
+      "whether a replayed tau is held until the next row (zoh) or is linear between "
+      "rows (none)");
   add_number(
       app, "--step", "S", {1e-9, 1}, [&replay](double seconds) { replay.step = seconds; },
       "longest step of the integration [25e-6]");
@@ -114,7 +116,7 @@ void throw_if_diverged(const SimulateResult& result) {
 }  // namespace
 
 int run_simulate(const Arguments& arguments) {
-  CLI::App app("A model on the input of logs: positions, torques, gap against what was measured.",
+  CLI::App app("Run a model on the input of logs: positions, torques, gap to the measurement.",
                "simulate");
   SimulateCommand command;
   command.replay.band = true;

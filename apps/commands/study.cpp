@@ -89,15 +89,15 @@ std::vector<ResultFile> files_of(const Study& study, const RefineFiles& refine,
 
 int run_study(const Arguments& arguments) {
   CLI::App app(
-      "All in one go: are the logs right, how stiff, how heavy and how rough is the drive, what "
-      "does its model lack, and what to record next.",
+      "Everything in one run: check of the logs, stiffness, inertia, friction, the "
+      "missing effect, and what to record next.",
       "study");
   StudyCommand command;
   CommonOptions& options = command.common;
   add_log_options(app, options);
   app.add_option("--test", command.test,
-                 "test logs, read once in the end: does the gap shrink? give them last [the last "
-                 "third of every moving log]")
+                 "test logs, read once at the end: does the gap shrink? give them last [the "
+                 "last third of every moving log]")
       ->type_name("LOG");
   add_draws_option(app, command.refine);
   add_sd_option(app, options);
@@ -117,7 +117,7 @@ int run_study(const Arguments& arguments) {
   const Document document = study_document(result, refine.models);
   deliver(options, document, files_of(result, refine, document));
   if (!result.elastic && !result.dynamic && !result.identify && result.refine.empty())
-    throw Error(ErrorKind::not_identifiable, "no stage has a result; the reasons stand above");
+    throw Error(ErrorKind::not_identifiable, "no stage has a result; see the reasons above");
   return 0;
 }
 

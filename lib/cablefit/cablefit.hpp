@@ -1,15 +1,15 @@
-// The front door: everything that a program needs to fit logs with this library. What these headers
-// do not reach is not installed.
+// Includes everything that a program needs to fit logs with this library. Headers that this file
+// does not reach are not installed.
 //
-//   logs      read_logs() from files, survey_memory() from arrays; a Rig says what they are of
+//   logs      read_logs() from files, survey_memory() from arrays; a Rig describes their bench
 //   stages    stiffness() -> dynamics(); identify() for both in one step
 //   answers   missing_effects(): where model and logs disagree, and which effect is missing
 //   all       study(): every stage that the logs allow
 //   model     read_model(), model_json(); add_effect() for an effect of your own
 //   simulate  simulate()
 //
-// All quantities are SI on the joint side. What is wrong with the input is thrown as Error
-// (base/error.hpp); what a fit cannot determine is a result with its reason, not an exception.
+// All quantities are SI on the joint side. Wrong input is thrown as Error
+// (base/error.hpp). A parameter that a fit cannot determine is a result with its reason.
 // Results are the same to the last bit for any number of threads.
 #pragma once
 

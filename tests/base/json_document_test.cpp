@@ -61,8 +61,8 @@ TEST_CASE("syntax errors are told in our words, at the token") {
   CHECK(parse_message("[1 2]") ==
         "rig.json:1:4: unexpected number literal; put ',' between values and ']' after the last");
   CHECK(parse_message("{\"a\": 1,}") ==
-        "rig.json:1:9: unexpected '}'; a key in double quotes belongs here");
-  CHECK(parse_message("[1, ]") == "rig.json:1:5: unexpected ']'; a value belongs here");
+        "rig.json:1:9: unexpected '}'; expected a key in double quotes");
+  CHECK(parse_message("[1, ]") == "rig.json:1:5: unexpected ']'; expected a value");
   CHECK(parse_message("[] []") ==
         "rig.json:1:4: unexpected '['; nothing may follow the closing bracket");
   CHECK(parse_message("[1,\n 2") ==

@@ -116,8 +116,8 @@ TEST_CASE("a unit that breaks the grammar is shown") {
   const std::string hint = "; write it as N m, rad/s or m/s^2";
   CHECK(unit_message("m/") == "unit 'm/' lacks a unit at its end" + hint);
   CHECK(unit_message("m//s") == "unit 'm//s' lacks a unit at '/s'" + hint);
-  CHECK(unit_message("m^") == "unit 'm^' has no integer behind '^'" + hint);
-  CHECK(unit_message("m^x") == "unit 'm^x' has no integer behind '^'" + hint);
+  CHECK(unit_message("m^") == "unit 'm^' has no integer after '^'" + hint);
+  CHECK(unit_message("m^x") == "unit 'm^x' has no integer after '^'" + hint);
   CHECK(unit_message("m^10") == "unit 'm^10' has an exponent beyond 9" + hint);
   CHECK(unit_message("m^99999999999") == "unit 'm^99999999999' has an exponent beyond 9" + hint);
   CHECK(unit_message("m⁻") == "unit 'm⁻' has a sign without an exponent" + hint);

@@ -62,14 +62,15 @@ TEST_CASE("a bad campaign is refused with its place") {
        ":1:46: unknown model 'cubic'; known: linear, poly"},
       {R"({"schema": "cablefit/campaign/1",
  "cells": [{"preload": "p", "blocked": ["b.csv"]}, {"preload": "p", "blocked": ["b.csv"]}]})",
-       ":2:52: a second cell called 'p'; tell them apart by \"date\", \"robot\" or \"name\", or "
-       "merge the two"},
+       ":2:52: a second cell called 'p'; give them a different \"date\", \"robot\" or "
+       "\"name\", or merge them"},
       {R"({"schema": "cablefit/campaign/1", "estimator": "wsl",
  "cells": [{"preload": "p", "blocked": ["b.csv"]}]})",
        ":1:48: unknown estimator 'wsl'; did you mean 'wls'?"},
       {R"({"schema": "cablefit/campaign/1",
  "cells": [{"preload": "p", "blocked": ["b.csv"], "validation": ["*.csv"]}]})",
-       ":2:66: 'FOLDER/b.csv' is a log of 'blocked' already; name each log of a cell once"},
+       ":2:66: 'FOLDER/b.csv' is already a log of 'blocked'; name each log of "
+       "a cell once"},
       {R"({"schema": "cablefit/campaign/1",
  "cells": [{"preload": "p", "blocked": ["b.csv"], "refine": true}]})",
        ":2:61: 'refine' has no model to start from; give the cell 'moving' logs: stage 2 makes the "
@@ -111,7 +112,7 @@ TEST_CASE("dates are those of the calendar") {
         "2026-04-31", "2026-01-00", "2026-01-01T24:00", "2026-01-01 10:00", ""})
     CHECK(message_of([&] { read(date); }) ==
           folder.file("campaign.json") + ":2:59: 'date' is '" + date +
-              "', no date; write \"2026-03-14\" or \"2026-03-14T09:30\"");
+              "', not a date; write \"2026-03-14\" or \"2026-03-14T09:30\"");
 }
 
 TEST_CASE("cells are called by their preload, and by what else tells them apart") {

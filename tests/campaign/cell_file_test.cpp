@@ -224,7 +224,8 @@ TEST_CASE("a log that changes after its cell was begun is told") {
   const CellKey key = key_of(campaign, cell, {});
   std::ofstream(cell.blocked.front(), std::ios::app) << "40.0,0,0,0\n";
   CHECK(message_of([&] { fit_cell(campaign, cell, key, {}); }) ==
-        cell.blocked.front() + ": changed while it was read; run again when nothing writes to it");
+        cell.blocked.front() +
+            ": changed while it was read; run again when no program writes to it");
 }
 
 }  // namespace

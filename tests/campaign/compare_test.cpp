@@ -118,9 +118,9 @@ TEST_CASE("logs fitted in both results are named", "[compare]") {
   b.inputs = {{"copy/both.csv", "both", 10}};
   CHECK(compare(a, b, {}).warnings ==
         std::vector<std::string>{
-            "both results were fitted to both.csv (1 of 2 logs of a.json, the only log of b.json): "
-            "their errors are correlated, and the test, which takes them for independent, finds "
-            "fewer differences"});
+            "both results were fitted to both.csv (1 of 2 logs of a.json, the only log of "
+            "b.json): their errors are correlated; the test assumes independent errors and "
+            "finds fewer differences"});
 }
 
 TEST_CASE("a stage 1 of both results is no log", "[compare]") {
@@ -129,8 +129,8 @@ TEST_CASE("a stage 1 of both results is no log", "[compare]") {
   for (RecordedResult* r : {&a, &b}) r->inputs.push_back({"out/elastic.json", "stage 1", 0});
   CHECK(compare(a, b, {}).warnings ==
         std::vector<std::string>{
-            "both results use out/elastic.json: their errors are correlated, and the test, which "
-            "takes them for independent, finds fewer differences"});
+            "both results use out/elastic.json: their errors are correlated; the test "
+            "assumes independent errors and finds fewer differences"});
 }
 
 TEST_CASE("two preloads of one result are not the same logs", "[compare]") {
@@ -208,7 +208,7 @@ TEST_CASE("asked for by name, orders still have to be the same", "[compare]") {
   const CompareResult r = compare(a, b, {});
   CHECK(r.parameters.size() == 1);
   CHECK(r.not_compared.front().reason ==
-        "of order 2 here, 3 there: coefficients do not mean the same");
+        "of order 2 in A, 3 in B: the coefficients are not comparable");
 }
 
 TEST_CASE("a preload that is not there", "[compare]") {

@@ -108,9 +108,9 @@ TEST_CASE("a new effect fails its gate only where the campaign forbids it") {
   const auto gates = judge(campaign, cells);
   REQUIRE(gates.size() == 3);
   CHECK(gates[0].text ==
-        "FAILED: low: new_effect: refine names stribeck (motor side, p = 0.0012), verdict "
-        "'ambiguous'");
-  CHECK(gates[1].text == "passed: low: new_effect: refine names none, verdict 'none'");
+        "FAILED: low: new_effect: refine identified stribeck (motor side, p = 0.0012), "
+        "verdict 'ambiguous'");
+  CHECK(gates[1].text == "passed: low: new_effect: refine identified none, verdict 'none'");
   CHECK(gates[2].text == "FAILED: low: new_effect: refine has no verdict: too short");
   CHECK((!gates[0].passed && gates[1].passed && !gates[2].passed));
 }

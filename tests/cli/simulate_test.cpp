@@ -71,7 +71,7 @@ TEST_CASE("no file of a simulation takes the place of another") {
   for (const std::string other : {"blocked.csv", "model.json", "all.json"}) {
     check_refused(
         "cablefit simulate model.json blocked.csv --json all.json --trajectories ./" + other, 2,
-        "the trajectories would take the place of " + other + "; choose another --trajectories");
+        "the trajectories would overwrite " + other + "; choose another --trajectories");
   }
   check_refused("cablefit simulate model.json blocked.csv --json model.json", 2,
                 "'model.json' would be overwritten by the result made from it; choose another "
@@ -80,14 +80,15 @@ TEST_CASE("no file of a simulation takes the place of another") {
                 "--trajectories cannot be '-'; give the name of a file");
 }
 
-TEST_CASE("a result of stage 1 alone is no model") {
+TEST_CASE("a result of stage 1 alone is not a model") {
   const Outcome outcome =
       run("cablefit elastic blocked.csv --quiet --order 2 && "
           "cablefit simulate cablefit-out/elastic.json moving_load30.csv");
   CHECK(outcome.exit_code == 3);
   CHECK(outcome.err ==
-        "cablefit-out/elastic.json:2:13: schema 'cablefit/elastic/1' is no model; expected "
-        "'cablefit/model/1', or 'cablefit/dynamic/1' as `cablefit dynamic` writes it\n");
+        "cablefit-out/elastic.json:2:13: schema 'cablefit/elastic/1' is not a model; "
+        "expected 'cablefit/model/1', or 'cablefit/dynamic/1' as `cablefit dynamic` "
+        "writes it\n");
 }
 
 TEST_CASE("exit code 4 when a simulation diverges, its result is written all the same") {

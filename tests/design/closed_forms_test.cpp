@@ -157,13 +157,13 @@ TEST_CASE("friction and efficiency follow the tensions", "[design]") {
 TEST_CASE("what cannot be preloaded is told", "[design]") {
   Transmission pair = linear_cables(1500, 2400);
   pair.cables[1].motor_map = pair.cables[1].link_map = {round_pulley(1)};
-  CHECK(
-      test::message_of([&] { (void)with_preload(pair, 0.01); }) ==
-      "no tensions of these cables hold each other, (8c): they cannot be preloaded; route them so "
-      "that each joint is pulled in both directions (n joints need n + 1 cables or more), or "
-      "check the signs of the radii");
+  CHECK(test::message_of([&] { (void)with_preload(pair, 0.01); }) ==
+        "no tensions of these cables are in equilibrium, (8c): they cannot be "
+        "preloaded; route them so that each joint is pulled in both directions (n "
+        "joints need n + 1 cables or more), or check the signs of the radii");
   CHECK(test::message_of([&] { (void)with_preload(linear_cables(1500, 0), 0.01); }) ==
-        "cable '2' never pulls with 15 N; give it coefficients that grow with its elongation");
+        "cable '2' does not reach a force of 15 N; give it coefficients that grow with "
+        "its elongation");
 }
 
 // Cables with K1 > 0 > K2 pull most, K1^2/(-4 K2), at l = K1/(-2 K2). A pair of them, alike and

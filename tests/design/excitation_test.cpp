@@ -186,27 +186,28 @@ TEST_CASE("what cannot be planned is told", "[design]") {
   Model rig;
   rig.rig = default_rig();
   CHECK(message_of([&] { (void)plan_excitation(rig, options_with("multisine"), false); }) ==
-        "a rig has no inertias to move: an excitation needs a model file or a result of 'cablefit "
-        "dynamic', or CAD values in a model file");
+        "a rig file has no inertias: an excitation needs a model file or a result of "
+        "'cablefit dynamic', or CAD values in a model file");
   Model deaf = low_rig();
   deaf.rig.sensors.erase("theta");
   CHECK(message_of([&] { (void)plan_excitation(deaf, options_with("multisine"), false); }) ==
-        "nothing says how noisy sensor theta is; add \"sensors\": {\"theta\": {\"quantum\": ...}} "
-        "to the rig; an expected sd rests on it");
+        "the noise of sensor theta is unknown; add \"sensors\": {\"theta\": {\"quantum\": "
+        "...}} to the rig; the expected sd need it");
   ExcitationOptions weak = options_with("multisine");
   weak.limits.max_torque = 3;  // dry friction alone takes 6
   weak.n_random = 4;
   CHECK(message_of([&] { (void)plan_excitation(low_rig(), weak, false); }) ==
-        "no multisine of 10 s within 0.5 rad, 3 rad/s and 3 N m shows every parameter; raise a "
-        "limit (holding the load and friction alone may need the torque), or take longer");
+        "no multisine of 10 s within 0.5 rad, 3 rad/s and 3 N m determines every "
+        "parameter; raise a limit (load and friction alone may need all of the "
+        "torque), or raise --duration");
   CHECK(message_of([&] { (void)plan_excitation(low_rig(), options_with("sine"), false); }) ==
         "unknown shape 'sine'; known: multisine, trapezoid");
   ExcitationOptions hurried = options_with("multisine");
   hurried.limits.duration = 0.1;
-  CHECK(
-      message_of([&] { (void)plan_excitation(low_rig(), hurried, false); }) ==
-      "0.1 s are too short for a motion of this drive; it can be moved at up to 18 Hz (a third of "
-      "its free resonance at rest, a fortieth of the rows): give --duration of at least 0.22");
+  CHECK(message_of([&] { (void)plan_excitation(low_rig(), hurried, false); }) ==
+        "0.1 s are too short for a motion of this drive; it can be moved at up to 18 "
+        "Hz (a third of its free resonance at rest, a fortieth of the sample rate): "
+        "give --duration of at least 0.22");
 }
 
 }  // namespace

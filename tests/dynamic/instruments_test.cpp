@@ -110,7 +110,7 @@ TEST_CASE("auto takes what its test says, equation by equation", "[dynamic]") {
   bool any = false;
   for (const std::string equation : {"link", "motor"}) {
     const std::string& verdict = f.verdicts.at(equation + " equation");
-    const bool stands = verdict.find("wls stands") != std::string::npos;
+    const bool stands = verdict.find("wls is kept") != std::string::npos;
     INFO(verdict);
     CHECK(stands == (verdict.find(": the iv estimates are used") == std::string::npos));
     any |= !stands;
@@ -160,8 +160,8 @@ TEST_CASE("a controller that did not make the torque is no instrument", "[dynami
   for (LogSurvey& log : logs) log.plan.rig.controller->kd = -50;
   const DynamicPreload preload = fit(logs, "auto");
   CHECK(warns(preload.fits.at(0).warnings,
-              "the rig's controller does not make the log's torque (kp 800 N m/rad, kd -50 N m "
-              "s/rad; its torque is "));
+              "the rig's controller does not reproduce the log's torque (kp 800 N m/rad, kd "
+              "-50 N m s/rad; its torque is "));
   CHECK(decision(preload, "controller").value == "found from the logs");
   check_recovered(preload.fits.at(0).parameters, dynamic_truth(truth::Rig::low()), 3);
 }

@@ -124,7 +124,7 @@ DynamicFit fit_low(const ElasticCase& c) {
   return fit_dynamic(c.logs, c.stage1, options).preloads.at(0).fits.at(0);
 }
 
-TEST_CASE("what stage 1 knows exactly output error leaves alone", "[dynamic]") {
+TEST_CASE("output error leaves alone what stage 1 knows exactly", "[dynamic]") {
   const ElasticCase c = low_case(0);
   const DynamicFit fit = fit_low(c);
   REQUIRE(fit.estimator == "output-error");

@@ -52,7 +52,7 @@ TEST_CASE("ratios of a free oscillation with viscous damping", "[dynamic]") {
   CHECK(estimate(found.parameters, "f_s/J_link").ci_low <= 0);
   for (const char* name : {"J_link", "J_motor", "f_v", "f_s", "f_vm", "f_sm", "offset"}) {
     const Estimate& e = estimate(found.parameters, name);
-    CHECK(e.not_identifiable == "no torque is measured: only ratios to J_link show");
+    CHECK(e.not_identifiable == "no torque is measured: only ratios to J_link can be identified");
     CHECK(std::isnan(e.value));
   }
 }

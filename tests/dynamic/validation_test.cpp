@@ -187,9 +187,10 @@ TEST_CASE("what cannot be judged is refused by name", "[dynamic]") {
   };
   LogSurvey other = log;
   other.parts.at(0).preload = "high";
-  CHECK(refusal(other) == log.plan.path +
-                              ": no moving rows of a preload that is fitted (default); name the "
-                              "preloads alike, or fit a log of this one");
+  CHECK(refusal(other) ==
+        log.plan.path +
+            ": no moving rows of a fitted preload (default); use the same preload names, "
+            "or fit a log of this preload");
   Bench slow;
   std::string text = "t,theta,tau\n";
   for (int i = 0; i < 2000; ++i)

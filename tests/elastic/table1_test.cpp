@@ -149,10 +149,10 @@ TEST_CASE("the high polynomial row of Table 1 is refused, with the reason", "[el
   CHECK(poly.active_bounds == std::vector<std::string>{"cable 1: k(l) >= 0 at l = 0 mrad",
                                                        "cable 1: k(l) >= 0 at l = 13.8 mrad"});
   CHECK(warns(poly.warnings,
-              "refused: K1_0 = -3894.7 N m/rad, K1_1 = 3891.6 N m/rad^2, with which cable 1 pushes "
-              "over elongations of 0 .. 13.8 mrad, its k(l) = f(l)/l goes down to -3895 N m/rad at "
-              "0 mrad; a cable only pulls, (5) and (16) of the paper, so k(l) >= 0 is imposed: rms "
-              "error "));
+              "not used: K1_0 = -3894.7 N m/rad, K1_1 = 3891.6 N m/rad^2, as cable 1 has a "
+              "negative stiffness over elongations of 0 .. 13.8 mrad: k(l) = f(l)/l goes "
+              "down to -3895 N m/rad at 0 mrad; a cable only pulls, (5) and (16) of the "
+              "paper, so k(l) >= 0 is imposed: rms error "));
   CHECK(
       warns(poly.warnings,
             " instead of 0.00108 N m, sd given the active bounds; --unconstrained gives the plain "
@@ -187,9 +187,9 @@ TEST_CASE("the high polynomial row comes back unconstrained, with a warning", "[
   check_row(poly, kHighPoly);
   REQUIRE(poly.warnings.size() == 1);
   CHECK(poly.warnings[0] ==
-        "cable 1 pushes over elongations of 0 .. 13.8 mrad, its k(l) = f(l)/l goes down to -3895 N "
-        "m/rad at 0 mrad, which breaks (5) and (16) of the paper: do not use this fit; without "
-        "--unconstrained cables only pull");
+        "cable 1 has a negative stiffness over elongations of 0 .. 13.8 mrad: k(l) = "
+        "f(l)/l goes down to -3895 N m/rad at 0 mrad, not physical by (5) and (16) of "
+        "the paper: do not use this fit; fit again without --unconstrained");
   const auto& decisions = result.preloads.at(0).decisions;
   CHECK(std::any_of(decisions.begin(), decisions.end(), [](const Decision& d) {
     return d.name == "stiffness" && d.value == "unconstrained";
@@ -212,7 +212,8 @@ TEST_CASE("a cable that would push when it is long is bounded there", "[elastic]
   // Tied to each other, they have the sd of one number.
   CHECK(k10.active_bound.empty());
   CHECK_THAT(k10.sd, Catch::WithinRel(k11.sd * longest, 1e-6));
-  CHECK(warns(poly.warnings, "with which cable 1 pushes over elongations of 8 .. 13.8 mrad"));
+  CHECK(warns(poly.warnings,
+              "as cable 1 has a negative stiffness over elongations of 8 .. 13.8 mrad"));
 }
 
 // k(l) = 4000 (l/L - 7/16)^2 - 100 with L = 13.8 mrad dips below 0 from 3.86 to 8.22 mrad.
@@ -225,7 +226,9 @@ TEST_CASE("a cable that would push in the middle is bounded there, hardly above 
   const ElasticFit poly = poly_of(result);
   print_all("warning", poly.warnings);
   print_all("bound", poly.active_bounds);
-  CHECK(warns(poly.warnings, "with which cable 1 pushes over elongations of 3.86 .. 8.22 mrad"));
+  CHECK(warns(poly.warnings,
+              "as cable 1 has a negative stiffness over elongations of 3.86 .. 8.22 "
+              "mrad"));
   REQUIRE_FALSE(poly.active_bounds.empty());
   const Cable& cable = poly.transmission.cables[0];
   double least = kUnbounded;
@@ -295,8 +298,8 @@ TEST_CASE("where a cable pushes is found", "[elastic]") {
   CHECK_THAT(near->to, Catch::WithinRel(0.005, 1e-5));
   CHECK(near->lowest_at == 0);
   CHECK(push_text(cable, *near, {true, false}) ==
-        "cable 1 pushes over elongations of 0 .. 5 mm, its k(l) = f(l)/l goes down to -500 N/m at "
-        "0 mm");
+        "cable 1 has a negative stiffness over elongations of 0 .. 5 mm: k(l) = f(l)/l "
+        "goes down to -500 N/m at 0 mm");
 }
 
 TEST_CASE("what is at its bound survives the result file", "[elastic]") {

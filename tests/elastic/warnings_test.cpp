@@ -114,7 +114,7 @@ TEST_CASE("logs with zeros of their own are told from a loop", "[elastic]") {
     INFO("shift " << shift);
     print_all("  warning", found.warnings);
     CHECK(warns(found.warnings, own_zeros) == (shift > 0));
-    CHECK_FALSE(warns(found.warnings, "no static law"));
+    CHECK_FALSE(warns(found.warnings, "no static friction"));
     if (shift == 0) continue;
     const auto warning = std::find_if(
         found.warnings.begin(), found.warnings.end(),

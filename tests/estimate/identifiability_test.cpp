@@ -83,7 +83,7 @@ TEST_CASE("what is never excited is said to be so", "[estimate]") {
   Eigen::MatrixXd w = rigid_rows(6404);
   w.col(0).setZero();
   CHECK(texts(identifiability(w, kRows, kRigid)) ==
-        Texts{"J does not show: these logs never excite it; change the speed"});
+        Texts{"J is not determined: these logs do not excite it; change the speed"});
 }
 
 // The two null directions come out of the singular values as any mixture of both.

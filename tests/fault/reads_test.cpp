@@ -44,8 +44,8 @@ TEST_CASE("a log that changes while it is read is refused") {
       const Ended ended = bench.run(kElastic, {{"FAULT_OPEN", std::to_string(k) + ":" + how}});
       REQUIRE(ended.exit_code == 3);
       REQUIRE(ended.err ==
-              "log.csv: changed while it was being read; run again once nothing writes to it any "
-              "more\n");
+              "log.csv: changed while it was being read; run again when no program writes to "
+              "it\n");
       REQUIRE(bench.files().empty());
     }
   }

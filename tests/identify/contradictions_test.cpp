@@ -23,8 +23,8 @@ TEST_CASE("a preload taken for none does not pass", "[identify]") {
   IdentifyOptions known;
   known.elongations = ElongationMode::known;
   const std::vector<std::string> warnings = all_warnings(identify(logs, known));
-  CHECK(warns(warnings, "the blocked equation leaves "));  // 9 of 145 N m
-  CHECK(warns(warnings, "of its largest torque: sd do not include an error of the model"));
+  CHECK(warns(warnings, "the residual of the blocked equation is "));  // 9 of 145 N m
+  CHECK(warns(warnings, "of its largest torque: the sd do not include this error of the model"));
   CHECK(warns(warnings, "try --l-o search"));
   CHECK(warns(warnings, "blocked and moving logs do not agree on them"));
   const std::vector<LogSurvey> right = {shipped("low/blocked.csv"),
@@ -75,10 +75,10 @@ TEST_CASE("pulleys on which no tensions balance are refused", "[identify]") {
   bench.rig = read_rig(bench.folder().write("rig.json", rig_text(rig, "")));
   bench.add_text(blocked_log(rig, {0}, 30, 75));
   CHECK(message_of([&] { identify(bench.logs(), {}); }, bench.folder().path().string()) ==
-        "rig.json: preload 'default': the initial elongations cannot balance, whatever the cables "
-        "that are taut in the reference pose pull with: motor and link would move; give every "
-        "cable its elongation, or \"search\"; check the signs of the radii, and that motor_radius "
-        "/ link_radius is the same for cables that pull against each other");
+        "rig.json: preload 'default': no cable forces balance these initial "
+        "elongations in the reference pose: motor and link would move; give every "
+        "cable its elongation, or \"search\"; check the signs of the radii, and that "
+        "motor_radius / link_radius is the same for cables that pull against each other");
 }
 
 TEST_CASE("logs of one preload with different rigs are refused in any order", "[identify]") {

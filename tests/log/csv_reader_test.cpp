@@ -266,13 +266,13 @@ TEST_CASE("dates are seconds from the first one's midnight") {
 
 TEST_CASE("a preamble and a row of units are told with the option that reads them") {
   CHECK(open_message("Bench 3\n\nt,q\n0,1\n") ==
-        "log.csv:1: this line is no header; line 3 names the columns; leave out what stands before "
-        "it by --skip 2");
+        "log.csv:1: this line is not the header; line 3 names the columns; skip the "
+        "lines before it with --skip 2");
   CHECK(open_message("rig,no 3\nt,q\ns,rad\n0,1\n") ==
-        "log.csv:1: this line is no header; line 2 names the columns; leave out what stands before "
-        "it by --skip 1");
+        "log.csv:1: this line is not the header; line 2 names the columns; skip the "
+        "lines before it with --skip 1");
   CHECK(open_message("t,q\n[s],deg\n0,1\n") ==
-        "log.csv:2: this line holds units, not numbers; read it as the columns' units by "
+        "log.csv:2: this line holds units, not numbers; read it as units with "
         "--units-row");
   // What is refused for another reason keeps that reason.
   CHECK(open_message("t,q\na,b\nc,d\n") == "no error");
@@ -306,8 +306,8 @@ TEST_CASE("ragged rows are errors, whatever is selected") {
 
 TEST_CASE("header lines that name nothing are refused") {
   CHECK(open_message("0,1,2\n3,4,5\n") ==
-        "log.csv:1: no header line; the first line holds numbers only; name the columns, as "
-        "t,q,theta,tau (a line behind # is a comment)");
+        "log.csv:1: no header line; the first line holds numbers only; name the "
+        "columns, as t,q,theta,tau (a line that starts with # is a comment)");
   CHECK(open_message("# only\n\n") ==
         "log.csv: no header line; name the columns, as t,q,theta,tau");
   CHECK(open_message(",,\n1,2,3\n") ==
@@ -319,7 +319,7 @@ TEST_CASE("header lines that name nothing are refused") {
 TEST_CASE("a header without rows is an error of the first next()") {
   CHECK(open_message("t,q\n") == "no error");
   CHECK(read_message("t,q\n# end\n", {"t"}) ==
-        "log.csv: no rows behind the header; a log needs samples");
+        "log.csv: no rows after the header; a log needs samples");
 }
 
 TEST_CASE("lines, columns and words are bounded") {

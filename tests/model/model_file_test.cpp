@@ -267,8 +267,8 @@ const BadModel kBadModels[] = {
     {"\"law\": \"polynomial\"", "\"law\": \"linear\"",
      "model.json:16:63: 2 coefficients of a linear cable; it has 1 at most"},
     {"cablefit/model/1", "cablefit/modell/1",
-     "model.json:3:13: schema 'cablefit/modell/1' is no model; expected 'cablefit/model/1', or "
-     "'cablefit/dynamic/1' as `cablefit dynamic` writes it"},
+     "model.json:3:13: schema 'cablefit/modell/1' is not a model; expected "
+     "'cablefit/model/1', or 'cablefit/dynamic/1' as `cablefit dynamic` writes it"},
     {"\"theta_0\": 0.002", "\"theta_0\": [0.002, 0]",
      "model.json:17:16: 2 value(s), expected 1; give one per joint"},
     {"\"theta_0\": 0.002", "\"linear\": 3",

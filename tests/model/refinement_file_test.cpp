@@ -132,11 +132,11 @@ TEST_CASE("a refinement that cannot be") {
             .find("'event'") != std::string::npos);
   CHECK(complaint(R"([{"name": "slip", "side": "transmission", "parameters": {"slip": 0.001},
                        "event": {"log": 0, "time": 1}}])")
-            .find("no number of a log; expected 1, 2, ...: in the order given") !=
+            .find("not the number of a log; expected 1, 2, ...: in the order given") !=
         std::string::npos);
   CHECK(complaint(R"([{"name": "cable_damping", "side": "transmission",
                        "parameters": {"damping": 1}, "event": {"time": 1}}])")
-            .find("'cable_damping' has no date; drop it") != std::string::npos);
+            .find("'cable_damping' is not an event; drop it") != std::string::npos);
   CHECK(complaint(R"([{"name": "cable_damping", "side": "transmission",
                        "parameters": {"damping": 1}}])",
                   R"("rigid": {"inertia": {"J": 1}})")

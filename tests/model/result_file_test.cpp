@@ -138,11 +138,11 @@ const BadResult kBadResults[] = {
      "dynamic.json:1:95: no rig file 'gone.json'; paths are relative to this file, or to the "
      "current folder"},
     {"", "", "cablefit/dynamic/1", "cablefit/elastic/1",
-     "dynamic.json:1:12: schema 'cablefit/elastic/1' is no model; expected 'cablefit/model/1', or "
-     "'cablefit/dynamic/1' as `cablefit dynamic` writes it"},
+     "dynamic.json:1:12: schema 'cablefit/elastic/1' is not a model; expected "
+     "'cablefit/model/1', or 'cablefit/dynamic/1' as `cablefit dynamic` writes it"},
 };
 
-TEST_CASE("a result that is no model says why") {
+TEST_CASE("a result that is not a model says why") {
   for (const BadResult& bad : kBadResults) {
     std::string text = result(preload("low", kPolyFit));
     const auto at = text.find(bad.replace);

@@ -24,7 +24,7 @@ const BadRig kBadRigs[] = {
     {"{\"columns\": {\n  \"q\": \"link\",\n  \"q2\": \"elbow\"}}",
      "rig.json:3:9: channel 'q2' is not of this rig; its joints are numbered 1 to 1"},
     {R"({"columns": {"tau": {"column": "i_q", "scale": 0}}})",
-     "rig.json:1:48: scale is 0; leave it out for 1, -1 turns the sign"},
+     "rig.json:1:48: scale is 0; leave it out for 1; -1 reverses the sign"},
     {R"({"columns": {"run": {"column": "r", "scale": 2}}})",
      "rig.json:1:21: channel 'run' holds text; give its column only, without scale, shift or unit"},
     {R"({"columns": {"theta": {"scale": 2}}})",
@@ -74,7 +74,8 @@ const BadRig kBadRigs[] = {
     {R"({"cables": [{"name": "a", "motor_radius": [0.1, 0.2], "link_radius": 0.1}]})",
      "rig.json:1:43: 2 number(s), expected 1; give one per joint"},
     {R"({"cables": [{"name": "a", "motor_radius": 0, "link_radius": 0.1}]})",
-     "rig.json:1:43: radius is 0; give the signed radius in m, - where the motion slackens it"},
+     "rig.json:1:43: radius is 0; give the signed radius in m, negative where a "
+     "positive motion slackens the cable"},
     {R"({"cables": [{"name": "a", "motor_radius": 1, "link_radius": 1, "law": "liner"}]})",
      "rig.json:1:71: unknown cable law 'liner'; did you mean 'linear'?"},
     {R"({"cables": [{"name": "a", "motor_radius": 1, "link_radius": 1, "order": 1.5}]})",

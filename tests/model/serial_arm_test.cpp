@@ -242,7 +242,8 @@ TEST_CASE("a serial arm's mistakes are told at their place") {
         "r:1:148: joint 2 of the rig is missing; name each joint of the rig once, from the base to "
         "the tip");
   CHECK(refused(R"("origins": [[0, 0, 0], [1e200, 0, 0]], "axes": [[0, 0, 1], [0, 0, 1]])") ==
-        "r:1:51: the arm's lengths or its gravity are too large to count with; give m and m/s^2");
+        "r:1:51: the arm's lengths or its gravity are too large to compute with; give "
+        "m and m/s^2");
 }
 
 TEST_CASE("an axis may have any length") {

@@ -120,10 +120,11 @@ TEST_CASE("a URDF that does not fit the rig is refused") {
   CHECK(skew.refused(2, R"(, "tip": "hnad")") ==
         "rig.json:2:53: unknown link 'hnad'; did you mean 'hand'?");
   CHECK(skew.refused(2, R"(, "base": "hand")") ==
-        "rig.json:2:34: arm.urdf: no joint moves behind link 'hand'; name another \"base\"");
+        "rig.json:2:34: arm.urdf: no joint moves after link 'hand'; name another "
+        "\"base\"");
   CHECK(skew.refused(2, R"(, "base": "fore", "tip": "upper")") ==
-        "rig.json:2:69: arm.urdf: link 'upper' does not hang on link 'fore'; the base comes before "
-        "the tip");
+        "rig.json:2:69: arm.urdf: link 'upper' does not descend from link 'fore'; the "
+        "base comes before the tip");
   CHECK(skew.refused(2, R"(, "joints": ["elbow", "sholder"])") ==
         "rig.json:2:66: unknown joint 'sholder'; did you mean 'shoulder'?");
   CHECK(skew.refused(2, R"(, "joints": ["elbow", "elbow"])") ==
@@ -199,15 +200,15 @@ TEST_CASE("a file that is no URDF is refused at its line") {
   CHECK(skew_with("xyz=\"0.1 0 0.05\"", "xyz=\"0.1 0 nan\"") ==
         "arm.urdf:13: xyz='0.1 0 nan' is not 3 numbers");
   CHECK(skew_with("xyz=\"0 0.6 0.8\"", "xyz=\"0 0 0\"") == "arm.urdf:13: an axis of length 0");
-  CHECK(
-      skew_with("<child link=\"camera\"/>", "<child link=\"fore\"/>") ==
-      "arm.urdf:40: link 'fore' hangs on two joints; a URDF is a tree: every link has one parent");
-  CHECK(
-      skew_with("<parent link=\"upper\"/>", "<parent link=\"middle\"/>") ==
-      "arm.urdf: some joints go round in a circle; a URDF is a tree: every link hangs on the root "
-      "in the end");
+  CHECK(skew_with("<child link=\"camera\"/>", "<child link=\"fore\"/>") ==
+        "arm.urdf:40: link 'fore' has two parent joints; a URDF is a tree: every link "
+        "has one parent");
+  CHECK(skew_with("<parent link=\"upper\"/>", "<parent link=\"middle\"/>") ==
+        "arm.urdf: some joints form a loop; a URDF is a tree: every link descends from "
+        "the root");
   CHECK(skew_with("</robot>", "<link name=\"spare\"/></robot>") ==
-        "arm.urdf: 2 links hang on no joint; a URDF is a tree: one link, the root, has no parent");
+        "arm.urdf: 2 links have no parent joint; a URDF is a tree: one link, the root, "
+        "has no parent");
   CHECK(skew_with("name=\"elbow\" type=\"revolute\"", "name=\"elbow\" type=\"planar\"") ==
         "arm.urdf:40: joint 'elbow' is of type 'planar'; revolute, continuous, prismatic and fixed "
         "joints can be fitted");

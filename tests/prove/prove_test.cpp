@@ -196,7 +196,7 @@ TEST_CASE("stage 1 of several joints is not proved, and says so") {
   const ElasticFit& fit = result.preloads.at(0).fits.back();
   CHECK(!fit.proof);
   CHECK(std::find(fit.warnings.begin(), fit.warnings.end(),
-                  "not proved: --prove of stage 1 is made for one joint") != fit.warnings.end());
+                  "not proved: --prove of stage 1 supports one joint") != fit.warnings.end());
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ TEST_CASE("the MIS tool gives no inertia", "[reference]") {
   }
 }
 
-TEST_CASE("no static law explains the MIS tool", "[reference]") {
+TEST_CASE("no static friction explains the MIS tool", "[reference]") {
   std::vector<LogSurvey> logs;
   for (const std::string& name : names()) {
     const std::string path = shared_file(name);
@@ -60,7 +60,7 @@ TEST_CASE("no static law explains the MIS tool", "[reference]") {
   }
   const ElasticPreload preload = fit_elastic(logs, still()).preloads.at(0);
   print_all("  pooled", preload.warnings);
-  CHECK(warns(preload.warnings, "no static law explains this loop"));
+  CHECK(warns(preload.warnings, "no static friction explains this loop"));
   const DynamicResult stage2 = fit_dynamic(logs, fit_elastic(logs, still()), {});
   for (const char* inertia : {"J_link", "J_motor"})
     CHECK_FALSE(

@@ -1,6 +1,6 @@
 // Blocked series-elastic actuator (ITregear/SeriesElasticActuation-FYP). Their own straight-line
 // fits: spring 2 between 2610 and 2638 N m/rad; spring 5 2524 (A1), 2050 (A3), 1692 (A5), 1297
-// (A9): a loop whose slope falls with amplitude, which no static law explains.
+// (A9): a loop whose slope falls with amplitude, which no static friction explains.
 #include <fmt/format.h>
 
 #include "cablefit/refine/refine.hpp"
@@ -11,7 +11,7 @@ namespace {
 using namespace cablefit;
 using namespace cablefit::test;
 
-constexpr const char* kNoStaticLaw = "no static law explains this loop";
+constexpr const char* kNoStaticLaw = "no static friction explains this loop";
 
 /// Empty `fits` when the data are not there.
 ElasticPreload fit(const std::string& name) {
@@ -79,7 +79,7 @@ TEST_CASE("SEA spring 2: the encoder zero moved before one log", "[reference]") 
     CHECK(cable.coefficients.at(0) == Approx(2620).epsilon(0.03));
 }
 
-TEST_CASE("SEA spring 5: a loop that no static law explains", "[reference]") {
+TEST_CASE("SEA spring 5: a loop that no static friction explains", "[reference]") {
   for (const char* name : {"spring5_amp5_id58", "spring5_amp9_id70"}) {
     const ElasticPreload preload = fit(name);
     if (preload.fits.empty()) return;

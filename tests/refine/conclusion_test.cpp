@@ -36,10 +36,9 @@ TEST_CASE("beside a remainder a gain on held-out data has to be clear", "[refine
   CHECK(why_not_added({row, 7, 6.9, true, 3}).empty());
   CHECK(why_not_added({row, 7, 6.9, false, 0.8}).empty());
   CHECK(why_not_added({row, 7, 3, true, 0.8}).empty());
-  CHECK(
-      why_not_added({row, 7, 6.9, true, 0.8, false, 1, 1e-4}) ==
-      "beside what stays unexplained the equations of held-out blocks are not clearly better with "
-      "it (0.8 sd)");
+  CHECK(why_not_added({row, 7, 6.9, true, 0.8, false, 1, 1e-4}) ==
+        "with the unexplained remainder, the equations of held-out blocks are not "
+        "significantly better with it (0.8 sd)");
   // The sum over all rows is that of the equation that wanders; rows weighted by what they leave.
   CHECK(why_not_added({row, 7, 7.01, true, 1.2}).empty());
   CHECK_FALSE(why_not_added({row, 7, 7.01, true, -1.2}).empty());
@@ -58,8 +57,8 @@ TEST_CASE("beside a remainder a size has to be beyond chance", "[refine]") {
   CHECK(why(false, 3, 4e-4).empty());
   CHECK(why(true, 3, 4e-4, 0.9).empty());  // it is most of the gap
   CHECK(why(true, 3, 4e-4) ==
-        "beside what stays unexplained a size like its own is not beyond chance (p = 0.0004 of one "
-        "effect)");
+        "with the unexplained remainder, its size is not significant (p = 0.0004 of "
+        "one effect)");
   // What the training rows leave no doubt of has to be better on held-out rows, clearly or not.
   CHECK(why(true, 0.3, 1e-7).empty());
   CHECK_FALSE(why(true, 0.3, 1e-5).empty());
@@ -70,10 +69,9 @@ TEST_CASE("beside a remainder a size has to be beyond chance", "[refine]") {
 TEST_CASE("two at once have to leave nothing", "[refine]") {
   const Effect& row = find_candidate("stribeck", Site::link);
   CHECK(why_not_both({row, 56, 1.1}).empty());
-  CHECK(
-      why_not_both({row, 56, 1.7}) ==
-      "two effects at once should leave nothing in the equations of held-out blocks (56 times the "
-      "squared floor before, 1.7 after)");
+  CHECK(why_not_both({row, 56, 1.7}) ==
+        "two effects at once must leave no residual in the equations of held-out "
+        "blocks (56 times the squared floor before, 1.7 after)");
   CHECK_FALSE(why_not_both({row, 1.5, 1.6}).empty());
   const Effect& event = find_candidate("contact", Site::link);
   CHECK_FALSE(why_not_both({event, 56, 1.1}).empty());
@@ -91,12 +89,12 @@ TEST_CASE("an event closes its part of the gap, and that of logs after it", "[re
         "before, 5.1 after)");
   CHECK(reason(4, true, true, 0.3).empty());
   CHECK(reason(4.9, true, true, 0.03) ==
-        "a date explains 3 % of the gap only, and the rest stays unexplained");
+        "an event explains only 3 % of the gap, and the rest stays unexplained");
   CHECK(reason(3.9, true, true, 0.03).empty());  // logs after it show more of it
   CHECK(reason(4.2, true, true, 0.03) ==
-        "a date explains 20 % of the gap only, and the rest stays unexplained");
+        "an event explains only 20 % of the gap, and the rest stays unexplained");
   CHECK(reason(3.9, true, false, 0.03) ==
-        "a date explains 3 % of the gap only, and the rest stays unexplained");
+        "an event explains only 3 % of the gap, and the rest stays unexplained");
   CHECK(reason(4.9, false, true, 0.03).empty());
 }
 

@@ -77,7 +77,7 @@ TEST_CASE("a refined model keeps a given inertia, and every value in its own pla
   }
 }
 
-TEST_CASE("a scale of torques needs something known in their unit", "[refine]") {
+TEST_CASE("a torque scale needs a known torque or inertia", "[refine]") {
   const Effect& gain = find_candidate("torque_gain", Site::drive);
   const Effect& scale = find_candidate("load_scale", Site::link);
   const Effect& drag = find_candidate("quadratic_drag", Site::link);

@@ -142,9 +142,8 @@ TEST_CASE("a kept effect that the logs contradict is taken out", "[refine][kept]
   INFO(kept.base.fit.x.transpose());
   REQUIRE(kept.warnings.size() == 1);
   CHECK(kept.warnings[0] ==
-        "'quadratic_drag' (link) of the model is beyond its physical bound in these logs and was "
-        "taken "
-        "out of it");
+        "'quadratic_drag' (link) of the model is beyond its physical bound in these "
+        "logs and was removed");
   CHECK(kept.base.design.added.empty());
 }
 
@@ -157,10 +156,10 @@ TEST_CASE("a kept effect that the logs do not tell from the base is refused", "[
     FAIL("it was taken");
   } catch (const Error& error) {
     CHECK(error.kind() == ErrorKind::not_identifiable);
-    CHECK(
-        std::string(error.what()) ==
-        "the logs do not separate 'payload_change' (link) of the model from its other parameters; "
-        "give the logs that it was named from too, or a model without it");
+    CHECK(std::string(error.what()) ==
+          "the logs do not separate 'payload_change' (link) of the model from its other "
+          "parameters; also give the logs from which it was identified, or give a model "
+          "without it");
   }
 }
 

@@ -92,10 +92,10 @@ TEST_CASE("what stage 2 cannot fit of a model is refused by name", "[refine]") {
       refitted(logs, {instance("encoder_delay", Site::sensor, {1e-3})}, "wls"),
       "'encoder_delay' (sensor) is not fitted here: it is an error of a sensor or of the drive; "
       "correct the log by its rig file, or drop it from the model; 'cablefit refine' fits it");
-  CHECK_THROWS_WITH(
-      refitted(logs, {instance("creep", Site::transmission, {1e-5, 3, 0})}, "wls"),
-      "'creep' (transmission) is not fitted here: it remembers longer than the pieces in which "
-      "logs are read; drop it from the model; 'cablefit refine' fits it");
+  CHECK_THROWS_WITH(refitted(logs, {instance("creep", Site::transmission, {1e-5, 3, 0})}, "wls"),
+                    "'creep' (transmission) is not fitted here: its memory is longer than the "
+                    "blocks in which logs are read; drop it from the model; 'cablefit refine' fits "
+                    "it");
 }
 
 TEST_CASE("what acts between the sides is held at the model's values", "[refine]") {

@@ -25,8 +25,8 @@ TEST_CASE("output error refuses a model whose sensors are wrong", "[refine][refu
   } catch (const Error& error) {
     CHECK(error.kind() == ErrorKind::usage);
     CHECK(std::string(error.what()) ==
-          "output error cannot fit a model with 'encoder_delay' (sensor) in it; it fits torques of "
-          "the motion; `cablefit refine` fits this effect");
+          "output error cannot fit a model with 'encoder_delay' (sensor) in it; use "
+          "`cablefit refine`, which fits this effect");
   }
 }
 
@@ -36,5 +36,5 @@ TEST_CASE("refine refuses several joints", "[refine][refused]") {
   model.joints.push_back(model.joints.front());
   const Model models[] = {model};
   CHECK_THROWS_WITH(stage_of(models, hidden.logs),
-                    Catch::Contains("the rig has 2 joints, and refine is made for one"));
+                    Catch::Contains("the rig has 2 joints, and refine supports one joint"));
 }

@@ -166,7 +166,8 @@ TEST_CASE("test logs at rest do not judge", "[refine][slow]") {
   CHECK(result.held_out_blocks);
   REQUIRE_FALSE(result.warnings.empty());
   CHECK(result.warnings.front() ==
-        "the test logs do not move enough to judge by; the last third of the others is held out");
+        "the test logs move too little to be judged; the last third of the others is "
+        "held out");
   REQUIRE_FALSE(result.effects.empty());
   CHECK(result.effects.front().instance.effect->name == "stribeck");
 }

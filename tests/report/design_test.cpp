@@ -42,7 +42,7 @@ ExcitationPlan plan() {
   plan.plain.hz = 0.95;
   plan.plain.worst = 0.0333;
   plan.plain.fit.parameters = {{"link", "J_link", "kg m^2", 0.3, 0.01, 0, 0.01, 0.0333}};
-  plan.plain.fit.refused = "J_link would rest on the elastic stage alone";
+  plan.plain.fit.refused = "J_link would depend on stage 1 alone";
   plan.best.worst = kUnbounded;
   plan.motion.position_share = 0.5;
   plan.motion.speed_share = 1;
@@ -84,7 +84,7 @@ TEST_CASE("a design as text has the closed forms of linear cables", "[report]") 
   CHECK(text.find(" inf") == std::string::npos);
   CHECK(text.find(" nan") == std::string::npos);
   CHECK(write_csv(document).find("closure_torque") != std::string::npos);
-  CHECK(write_markdown(document).find("What the preload buys") != std::string::npos);
+  CHECK(write_markdown(document).find("Effect of the preload") != std::string::npos);
   // Four curves, two along the sweep, torque and stiffness of the cables of each point.
   REQUIRE(document.figures.size() == 10);
   CHECK(document.figures.back().section == "Cables at l_o = 10 mrad");
@@ -148,7 +148,7 @@ TEST_CASE("what even the cables get wrong adds to every collision torque", "[rep
     };
     CHECK(torque(floor) - torque(exact) == Approx(2).margin(0.05));
   }
-  CHECK(write_text(design_document(floor)).find("within its largest and 1 N m") !=
+  CHECK(write_text(design_document(floor)).find("up to the largest and 1 N m") !=
         std::string::npos);
 }
 

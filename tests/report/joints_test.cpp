@@ -120,22 +120,23 @@ TEST_CASE("given link inertias are taken, not estimated") {
   check_recovered(fit.parameters, {{"f_s[1]", 0.1}, {"f_s[2]", 0.06}, {"J_motor[2]", 0.004}}, 3);
 }
 
-TEST_CASE("what is made for one joint says so") {
+TEST_CASE("what supports one joint says so") {
   const TwoJoints two;
   const std::string folder = two.bench.folder().path();
   const auto refused = [&](auto action) { return message_of(action, folder); };
   ElasticOptions zero;
   zero.zero = ZeroMode::theta_0;
   CHECK(refused([&] { fit_elastic(two.bench.logs(), zero); }) ==
-        "rig.json: the rig has 2 joints, and --zero theta_0 is made for one; write one rig file "
-        "per joint, with its own columns");
+        "rig.json: the rig has 2 joints, and --zero theta_0 supports one joint; write "
+        "one rig file per joint, with its own columns");
   for (const char* model : {"rigid", "ratios"}) {
     DynamicOptions options;
     options.models = {model};
-    CHECK(refused([&] { fit_dynamic(two.bench.logs(), {}, options); }) ==
-          fmt::format("rig.json: the rig has 2 joints, and --model {} is made for one; write one "
-                      "rig file per joint, with its own columns",
-                      model));
+    CHECK(
+        refused([&] { fit_dynamic(two.bench.logs(), {}, options); }) ==
+        fmt::format("rig.json: the rig has 2 joints, and --model {} supports one joint; write one "
+                    "rig file per joint, with its own columns",
+                    model));
   }
 }
 
@@ -148,8 +149,8 @@ TEST_CASE("the links of a planar arm are not simulated") {
   const std::string message =
       message_of([&] { parse_model(parse_json(text, "dynamic.json"), "", "", choice); });
   INFO(message);
-  CHECK(message.find("the links of a planar_two_joint arm cannot be simulated; only joints whose "
-                     "links do not move each other can so far") != std::string::npos);
+  CHECK(message.find("the links of a planar_two_joint arm cannot be simulated; only independent "
+                     "joints can be simulated so far") != std::string::npos);
 }
 
 TEST_CASE("logs that lack a joint, or in which one rests, are told by name") {

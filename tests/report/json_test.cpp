@@ -95,19 +95,19 @@ struct BadResult {
 
 TEST_CASE("a result that does not fit together is refused with its place") {
   const BadResult cases[] = {
-      {"/schema", "\"cablefit/dynamic/1\"", "schema 'cablefit/dynamic/1' is no stage-1 result"},
+      {"/schema", "\"cablefit/dynamic/1\"", "schema 'cablefit/dynamic/1' is not a stage-1 result"},
       {"/preloads", "[]", "no preloads; run `cablefit elastic` again"},
-      {"/preloads/0/fits/0/covariance", "[[1, 2]]", "no 1 x 1 matrix"},
+      {"/preloads/0/fits/0/covariance", "[[1, 2]]", "not a 1 x 1 matrix"},
       {"/preloads/0/fits/0/parameters/0/name", "\"k\"", "parameter 'K' is missing"},
       {"/preloads/0/fits/0/parameters/0/value", "\"stiff\"",
        "'preloads[0].fits[0].parameters[0].value'"},
       {"/preloads/0/fits/0/theta_0", "[0, 0]", "2 value(s), expected 1"},
-      {"/preloads/0/fits/0/order", "1.5", "1.5 is no order"},
+      {"/preloads/0/fits/0/order", "1.5", "1.5 is not an order"},
       {"/preloads/0/selected", "\"cubic\"", "no fit of model 'cubic'"},
-      {"/preloads/0/deflection_range", "[1]", "no range"},
+      {"/preloads/0/deflection_range", "[1]", "not a range"},
       {"/preloads/0/rig", "\"gone.json\"", "no rig file 'gone.json'"},
       {"/preloads/0/fits", "", "missing key 'fits'"},
-      {"/preloads/0/counts/rows_read", "-1", "-1 is no count"},
+      {"/preloads/0/counts/rows_read", "-1", "-1 is not a count"},
   };
   for (const BadResult& bad : cases) {
     json result = json::parse(elastic_json(test::elastic_result()));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cablefit/base/json/json_document.hpp"
+#include "cablefit/refine/figures/shown_rows.hpp"
 
 namespace {
 
@@ -19,6 +20,15 @@ Model rigid_model() {
   std::string choice;
   return parse_model(parse_json(R"({"schema": "cablefit/model/1", "joints": [{"rigid":
       {"inertia": {"J": 0.02}, "viscous": {"f_v": 0.5}, "coulomb": {"f_s": 2}}}]})",
+                                "model.json"),
+                     "", "", choice);
+}
+
+Model elastic_model() {
+  std::string choice;
+  return parse_model(parse_json(R"({"schema": "cablefit/model/1", "joints": [{
+      "link": {"inertia": {"J_link": 0.3}}, "motor": {"inertia": {"J_motor": 0.02}}}],
+      "transmission": {"linear": [2000]}})",
                                 "model.json"),
                      "", "", choice);
 }
@@ -81,12 +91,13 @@ RefineResult result_of() {
   return result;
 }
 
-std::vector<Figure> figures_of(const Fitted& before, const Fitted& after) {
+std::vector<Figure> figures_of(const Fitted& before, const Fitted& after,
+                               const RefineResult& result = result_of()) {
   LogSurvey log;
   log.plan.path = "logs/swing.csv";
   const std::vector<LogSurvey> logs = {log};
   const BeforeAfter rows{logs, before.design, before.x, after.design, after.x, {1, 0.01, 1}};
-  return refine_figures(result_of(), rows, rows);
+  return refine_figures(result, rows, rows);
 }
 
 const Figure& titled(const std::vector<Figure>& figures, const std::string& title) {
@@ -152,13 +163,46 @@ TEST_CASE("candidates and shifts: only what is one") {
   CHECK(shifts.y.front() == Approx(-2));
 }
 
-TEST_CASE("without an effect there is no after") {
+TEST_CASE("without an effect there is no before and after") {
   const Fitted before = base();
   for (const Figure& figure : figures_of(before, before))
     for (const Trace& trace : figure.traces) {
       INFO(figure.title);
       CHECK(trace.name.find("after") == std::string::npos);
+      CHECK(trace.name.find("before") == std::string::npos);
     }
+}
+
+TEST_CASE("candidates that remove nothing have no bar") {
+  const Fitted before = base();
+  RefineResult result = result_of();
+  Rival nothing = result.league.front();
+  nothing.gain = 0.004;
+  result.league.insert(result.league.begin() + 1, nothing);
+  CHECK(titled(figures_of(before, before, result), "Candidates for the first effect")
+            .traces.front()
+            .y.size() == 1);
+  result.league.erase(result.league.begin());
+  for (const Figure& figure : figures_of(before, before, result))
+    CHECK(figure.title != "Candidates for the first effect");
+}
+
+TEST_CASE("a log without rows of the equation takes no time") {
+  Stretch blocked = swing(), moving = swing();
+  blocked.blocked = true;
+  moving.log = 1;
+  const Design design =
+      make_design(std::vector<Model>{elastic_model()}, {blocked, moving}, smoothing_for(kPeriod));
+  LogSurvey first, second;
+  first.plan.path = "blocked.csv";
+  second.plan.path = "moving.csv";
+  const std::vector<LogSurvey> logs = {first, second};
+  const Timeline motor = timeline_of(design, logs, RowKind::motor);
+  CHECK(motor.begins == std::vector<double>{0, 0});
+  CHECK(motor.end == Approx(12));
+  CHECK(motor.marks.empty());
+  const Timeline held = timeline_of(design, logs, RowKind::blocked);
+  CHECK(held.end == Approx(12));
 }
 
 TEST_CASE("fitted logs are shown in full, held-out ones over time") {

@@ -248,10 +248,10 @@ TEST_CASE("look-alikes and the run that separates them, in the story") {
   for (const SummaryLine& line : document.summary) story += line.label + ": " + line.text + "\n";
   CHECK(
       story ==
-      R"(verdict: ambiguous: stribeck (motor) or a look-alike; 93 % of the squared gap above the noise floor closed
+      R"(verdict: ambiguous: stribeck (motor) or a similar effect; 93 % of the squared gap above the noise floor closed
 effect: stribeck: a exp(-|thetad / v_s|^s) sgn(thetad); amplitude = 0.1821 +- 0.0077 N m, v_s = 0.1358 +- 0.0068 rad/s, exponent = 1.88 +- 0.21; carries 0.0930 N m rms
 evidence: removes 24 % of the squared gap above the noise floor on held-out data; p < 0.0004 (tail fitted to 24 simulated data sets); the best in 100 % of resamples
-rivals: quadratic_drag (motor) removes 85 %, 1.3 sd behind; asymmetric_coulomb (motor) is the same in any log of the usual kind
+rivals: quadratic_drag (motor) removes 85 %, 1.3 sd less; asymmetric_coulomb (motor) is the same in any log of the usual kind
 gap: torque, N m rms: train 0.0977 -> 0.0864, test 0.106 -> 0.102, noise floor 0.0854; test: the last third of every moving log
 simulation: of the test logs, mrad rms: 0.910 -> 0.120 (0.110 .. 0.130), noise floor 0.100
 remainder: link 0.00370 N m, motor 0.0150 N m rms above the noise floor
@@ -271,7 +271,7 @@ std::string story_of(const RefineResult& result) {
 
 TEST_CASE("an event has its date, and a gain on held-out data where these can show it") {
   const auto judged_there =
-      Catch::Matchers::Contains("dated, so judged on the log that it is in; p");
+      Catch::Matchers::Contains("an event, judged on the log in which it happens; p");
   RefineResult r = named();
   EffectInstance& slip = r.effects.front().instance;
   slip.effect = &find_candidate("slip", Site::transmission);

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "cablefit/report/documents/batch_document.hpp"
 #include "cablefit/report/documents/dynamic_document.hpp"
 #include "cablefit/report/documents/elastic_document.hpp"
 #include "cablefit/report/json/elastic_json.hpp"
@@ -100,6 +101,29 @@ TEST_CASE("a load's own inertia is part of J_link, and told") {
   const Table table = parameter_tables(result).front();
   CHECK(Row(table.rows[1].begin(), table.rows[1].begin() + 5) ==
         Row{"  without the load", "kg m^2", "-", "0.039", "37"});
+}
+
+TEST_CASE("a headline names the preloads whose inertia is not determined") {
+  DynamicResult result = test::dynamic_result();
+  result.preloads = {test::dynamic_preload("low"), test::dynamic_preload("high")};
+  const auto inertia = [&result] {
+    for (const SummaryLine& number : dynamic_document(result).headline.numbers)
+      if (number.label == "J_link") return number.text;
+    return std::string();
+  };
+  CHECK(inertia().ends_with(" kg m^2"));
+  for (DynamicFit& fit : result.preloads.back().fits)
+    for (Estimate& e : fit.parameters)
+      if (e.name == "J_link") e.not_identifiable = "too slow";
+  CHECK(inertia().ends_with(" kg m^2, not determined: high"));
+}
+
+TEST_CASE("a campaign of one cell is told in the singular") {
+  BatchResult result;
+  result.cells.resize(1);
+  CHECK(batch_document(result).headline.verdict == "1 cell fitted");
+  result.cells.resize(2);
+  CHECK(batch_document(result).headline.verdict == "all 2 cells fitted");
 }
 
 TEST_CASE("a linear axis has forces and masses") {

@@ -123,11 +123,11 @@ TEST_CASE("a rate that is given and a clock must agree", "[samples]") {
   Reading half;
   half.rate = 500;
   CHECK(logs.message(clocked("t,theta", 1e-3), default_rig(), half) ==
-        "log.csv:1:1: column 't' has 1000 Hz, the rate given is 500 Hz; leave --rate out, or take "
-        "the right one");
+        "log.csv:1:1: column 't' has 1000 Hz, the rate given is 500 Hz; leave --rate "
+        "out, or correct it");
   CHECK(logs.message(clocked("t [ms],theta", 1), default_rig(), half) ==
-        "log.csv:1:1: column 't' has 1000 Hz, the rate given is 500 Hz; leave --rate out, or take "
-        "the right one");
+        "log.csv:1:1: column 't' has 1000 Hz, the rate given is 500 Hz; leave --rate "
+        "out, or correct it");
   // The same rate, a count of rows, and what is no number at all.
   CHECK(logs.message(clocked("t,theta", 2e-3), default_rig(), half) == "no error");
   CHECK(logs.message(clocked("t,theta", 1), default_rig(), half) == "no error");
@@ -143,8 +143,8 @@ TEST_CASE("a rate that is given and a clock must agree", "[samples]") {
   Rig rig = default_rig();
   rig.sample_rate = 500;
   CHECK(logs.message(clocked("t,theta", 1e-3), rig) ==
-        "log.csv:1:1: column 't' has 1000 Hz, \"sample_rate\" in the rig file is 500 Hz; leave it "
-        "out, or take the right one");
+        "log.csv:1:1: column 't' has 1000 Hz, \"sample_rate\" in the rig file is 500 "
+        "Hz; leave it out, or correct it");
 }
 
 TEST_CASE("a clock with few digits agrees with its rate, one with a gap does not", "[samples]") {
@@ -158,10 +158,9 @@ TEST_CASE("a clock with few digits agrees with its rate, one with a gap does not
   }
   CHECK(logs.message(coarse, default_rig(), given) == "no error");
   // Rows at an even rate would join what the gap keeps apart.
-  CHECK(
-      logs.message(gap, default_rig(), given) ==
-      "log.csv:1:1: column 't' has gaps or drifts, which rows at 1000 Hz would hide; leave --rate "
-      "out, or take the right one");
+  CHECK(logs.message(gap, default_rig(), given) ==
+        "log.csv:1:1: column 't' has gaps or drifts; rows at 1000 Hz would hide them; "
+        "leave --rate out, or correct it");
 }
 
 TEST_CASE("a JSON log's sample rate and its times must agree", "[samples]") {

@@ -75,8 +75,8 @@ TEST_CASE("recorded time must not run back") {
   truth::Log log = short_log();
   log.t[7] = log.t[5];
   CHECK(message_of([&] { survey_of(log, default_rig()); }) ==
-        "simulated:8: time runs back to t = 0.005 s; sort the rows, or tell runs apart with a "
-        "'run' column");
+        "simulated:8: time goes back to t = 0.005 s; sort the rows, or mark each run "
+        "in a 'run' column");
 }
 
 }  // namespace

@@ -167,13 +167,14 @@ TEST_CASE("time must run forward, and a part be long enough to move", "[samples]
     return message_of([&] { bench.add_text(text); }, folder);
   };
   CHECK(message("t,theta\n0,1\n1,2\n1,3\n") ==
-        "log0.csv:4: time stands still at t = 1 s; remove the duplicate row, or keep the first by "
-        "--repeated first");
+        "log0.csv:4: time does not advance at t = 1 s; remove the duplicate row, or "
+        "keep the first by --repeated first");
   CHECK(message("t,theta\n0,1\n1,2\n0.5,3\n") ==
-        "log0.csv:4: time runs back to t = 0.5 s; sort the rows, or tell runs apart with a 'run' "
-        "column");
+        "log0.csv:4: time goes back to t = 0.5 s; sort the rows, or mark each run in a "
+        "'run' column");
   CHECK(message("t,theta\n0,1\n1,2\n2,3\n") ==
-        "log0.csv: 3 rows of preload 'default'; at least 8 rows are needed to see any motion");
+        "log0.csv: 3 rows of preload 'default'; at least 8 rows are needed to detect "
+        "motion");
 }
 
 TEST_CASE("a blocked log needs no column of the load or the reference", "[samples]") {
@@ -232,7 +233,8 @@ TEST_CASE("few rows may lack a cell", "[samples]") {
   // Of three cells a row; the first row has nothing before it.
   std::string text = holed(1000, 5);
   text.replace(text.find(",0,,"), 4, ",0,1,");
-  CHECK(hold.warning(text) == "log.csv: 199 missing cells (7 %) filled with the value before");
+  CHECK(hold.warning(text) ==
+        "log.csv: 199 missing cells (7 %) filled with the value of the row before");
   const char* const empty =
       "log.csv: no cell of 'tau' has a number; choose other columns, or "
       "record again";
@@ -269,9 +271,9 @@ TEST_CASE("a contradiction that is trusted is the first warning", "[samples]") {
   const LogSurvey log =
       survey_log(plan_log(folder.write("log.csv", text), default_rig(), reading), "");
   REQUIRE(log.warnings.size() == 1);
-  CHECK(
-      log.warnings[0].ends_with("log.csv:1:1: column 't' has 1000 Hz, the rate given is 500 Hz; "
-                                "leave --rate out, or take the right one"));
+  CHECK(log.warnings[0].ends_with(
+      "log.csv:1:1: column 't' has 1000 Hz, the rate given is 500 Hz; leave --rate "
+      "out, or correct it"));
   CHECK(log.has_trusted_finding);
   CHECK_THAT(log.parts.at(0).period, Catch::WithinRel(2e-3, 1e-12));
 }

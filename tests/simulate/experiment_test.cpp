@@ -88,7 +88,7 @@ TEST_CASE("else the torque is replayed, in windows", "[simulate]") {
   const Experiment experiment = no_reference.plan(true_model("low"));
   CHECK(decision(experiment, "mode") == "torque replay (no reference 'goal' in the log)");
   CHECK(decision(experiment, "torque hold") ==
-        "zoh (nothing says; --torque-hold none for a measured current)");
+        "zoh (default; use --torque-hold none for a measured current)");
   CHECK(no_reference.message(true_model("low"), in_mode(ReplayMode::closed_loop)) ==
         "log.csv: no reference 'goal' in the log; a closed loop needs both; or replay the torque");
 }

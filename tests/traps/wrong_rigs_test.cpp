@@ -40,7 +40,7 @@ WrongRig wrong_sign(Dice& dice) {
   constexpr std::array channels = {"q", "theta", "tau", "tau_load"};
   const std::string channel = channels[dice.below(4)];
   return {column(channel, channel, R"(, "scale": -1)"),
-          {channel + " is turned round"},
+          {channel + " is reversed"},
           channel == "tau_load"};
 }
 
@@ -71,7 +71,7 @@ WrongRig wrong_scale(Dice& dice) {
   }
   const double scale = dice.between(1.9, 20);
   return {column("tau", "tau", fmt::format(R"(, "scale": {})", down ? 1 / scale : scale)),
-          {"tau is ", "times what balances the known load"}};
+          {"tau is ", "times the torque that balances the known load"}};
 }
 
 WrongRig wrong_column(Dice& dice) {

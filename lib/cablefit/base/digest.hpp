@@ -1,4 +1,4 @@
-// SHA-256 of input files, so that a result says exactly which bytes it came from.
+// SHA-256 of input files, so that a result identifies the bytes it was made from.
 #pragma once
 
 #include <memory>

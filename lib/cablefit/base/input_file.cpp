@@ -56,8 +56,8 @@ FileReader::FileReader(std::string path)
     errno = EISDIR;
     throw_cannot_read(path_);
   }
-  throw input_error({}, "cannot read " + path_ + ": it is no regular file",
-                    "save it to a file first, since it is read more than once");
+  throw input_error({}, "cannot read " + path_ + ": it is not a regular file",
+                    "save the data to a file first: a log is read more than once");
 }
 
 FileReader::~FileReader() { ::close(descriptor_); }

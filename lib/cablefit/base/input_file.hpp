@@ -7,7 +7,7 @@
 
 namespace cablefit {
 
-/// What tells whether a file is still the one that was read before.
+/// Shows whether a file is still the one that was read before.
 struct FileStamp {
   std::uint64_t device = 0, number = 0, size = 0;
   std::int64_t seconds = 0, nanoseconds = 0;  ///< when it was last written to

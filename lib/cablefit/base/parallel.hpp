@@ -46,7 +46,7 @@ void ordered_pipeline(int threads, Produce produce, Map map, Reduce reduce) {
       return true;
     });
   } catch (...) {
-    // What was produced before comes first, and may have a complaint of its own.
+    // Items produced before come first, and may have an error of their own.
     while (!in_reduce && !running.empty()) reduce_first();
     throw;
   }

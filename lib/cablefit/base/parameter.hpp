@@ -30,14 +30,14 @@ struct Estimate {
   std::string symbol;
   std::string unit;
   double value = std::numeric_limits<double>::quiet_NaN();
-  double sd = std::numeric_limits<double>::quiet_NaN();        ///< the one cablefit stands behind
+  double sd = std::numeric_limits<double>::quiet_NaN();        ///< robust, see docs/explanation
   double sd_white = std::numeric_limits<double>::quiet_NaN();  ///< the paper's (25)
   double ci_low = std::numeric_limits<double>::quiet_NaN();    ///< 95 % interval
   double ci_high = std::numeric_limits<double>::quiet_NaN();
   double cad = std::numeric_limits<double>::quiet_NaN();  ///< information, never fitted to
   std::string not_identifiable;  ///< why there is no sd; empty when there is one
-  std::string active_bound;      ///< "f_sm >= 0" when the fit stands on it
-  /// The interval is that of the profile likelihood, which need not lie evenly about the value;
+  std::string active_bound;      ///< "f_sm >= 0" when the fit is at it
+  /// The interval is that of the profile likelihood, which need not be symmetric about the value;
   /// else it is value -+ t sd.
   bool profiled = false;
 

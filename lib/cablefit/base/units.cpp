@@ -77,7 +77,7 @@ class UnitParser {
     std::string digits = take_superscripts();
     if (digits.empty()) digits = take_integer();
     if (digits == "-") throw malformed("has a sign without an exponent");
-    if (digits.empty() && is_marked) throw malformed("has no integer behind '^'");
+    if (digits.empty() && is_marked) throw malformed("has no integer after '^'");
     if (digits.empty()) return 1;
     const int exponent = digits.size() > 3 ? kMaxExponent + 1 : std::atoi(digits.c_str());
     if (std::abs(exponent) > kMaxExponent) throw malformed("has an exponent beyond 9");

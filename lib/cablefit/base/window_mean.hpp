@@ -1,5 +1,5 @@
-// How far the mean of a residual over a window of time is from zero: what a detector that averages
-// has to live with, whatever the noise's colour.
+// How far the mean of a residual over a window of time is from zero: the noise of a detector that
+// averages, for noise of any colour.
 #pragma once
 
 #include <span>

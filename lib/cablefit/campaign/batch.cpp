@@ -124,8 +124,8 @@ std::vector<std::string> campaign_warnings(const Campaign& campaign) {
                   [](const CampaignCell& cell) { return cell.refine.has_value(); });
   if (campaign.limits.new_effect || refines) return {};
   return {
-      "limits.new_effect is false, but no cell is refined: nothing looks for new effects; give "
-      "cells \"refine\": true"};
+      "limits.new_effect is false, but no cell is refined, so no new effect can be "
+      "found; give cells \"refine\": true"};
 }
 
 }  // namespace

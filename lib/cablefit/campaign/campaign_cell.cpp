@@ -31,7 +31,7 @@ class NamedLogs {
       return;
     }
     throw item.error(
-        fmt::format("{} is a log of '{}' already", cablefit::quoted(path), same->second),
+        fmt::format("{} is already a log of '{}'", cablefit::quoted(path), same->second),
         "name each log of a cell once");
   }
 
@@ -45,7 +45,8 @@ std::vector<std::string> logs(const JsonNode& owner, std::string_view key,
   const JsonNode* list = owner.find(key);
   if (list == nullptr) return paths;
   if (!list->is_array())
-    throw list->error(fmt::format("'{}' is no list", list->path), "write [\"low/blocked*.csv\"]");
+    throw list->error(fmt::format("'{}' is not a list", list->path),
+                      "write [\"low/blocked*.csv\"]");
   for (const JsonNode& item : list->items)
     for (std::string& path : matches(item, find_files)) {
       named.add(item, path, std::string(key));
@@ -71,7 +72,7 @@ bool is_date(const std::string& text) {
 
 std::string read_date(const JsonNode& node) {
   if (is_date(node.text())) return node.text();
-  throw node.error(fmt::format("'date' is {}, no date", cablefit::quoted(node.text())),
+  throw node.error(fmt::format("'date' is {}, not a date", cablefit::quoted(node.text())),
                    "write \"2026-03-14\" or \"2026-03-14T09:30\"");
 }
 
@@ -148,7 +149,7 @@ std::vector<std::string> matches(const JsonNode& node, const FindFiles& find_fil
   const std::string& named = node.text();
   // glob() calls itself for every folder of the pattern, and ends at a NUL.
   if (named.size() > kMaxPathBytes || named.find('\0') != std::string::npos)
-    throw node.error(fmt::format("{} is no path", cablefit::quoted(named)),
+    throw node.error(fmt::format("{} is not a path", cablefit::quoted(named)),
                      "name a file, or a pattern as in \"low/moving*.csv\"");
   std::vector<std::string> paths = find_files(beside(node.place.file, named));
   if (!paths.empty()) return paths;
@@ -168,7 +169,7 @@ std::vector<CampaignCell> read_cells(const JsonNode& node, const FindFiles& find
     if (!seen.insert(cells[k].name).second)
       throw node.items[k].error(
           fmt::format("a second cell called {}", cablefit::quoted(cells[k].name)),
-          "tell them apart by \"date\", \"robot\" or \"name\", or merge the two");
+          "give them a different \"date\", \"robot\" or \"name\", or merge them");
   return cells;
 }
 

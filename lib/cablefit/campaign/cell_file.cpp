@@ -31,7 +31,7 @@ std::string head_of(std::string_view results, const CellKey& key) {
 
 Error not_this_cell() {
   return input_error({"results of a cell", 0, 0}, "not the results of this cell",
-                     "delete the file, it is made anew");
+                     "delete the file; it will be made again");
 }
 
 std::string content_of(const std::string& path) {

@@ -24,7 +24,7 @@ void require_unchanged(const std::vector<LogSurvey>& logs, const CellKey& key) {
   for (const LogSurvey& log : logs)
     if (key.sha256.at(log.plan.path) != log.sha256)
       throw input_error({log.plan.path, 0, 0}, "changed while it was read",
-                        "run again when nothing writes to it");
+                        "run again when no program writes to it");
 }
 
 ElasticOptions stage1_options(const CampaignCell& cell, const BatchOptions& options, bool figures) {

@@ -42,12 +42,12 @@ std::string why_not(const EstimatePair& pair) {
   const bool is_coefficient = first.name.find('_') != std::string::npos &&
                               (first.name.starts_with('K') || first.name.starts_with("k["));
   if (is_coefficient && pair.first_set->order != pair.second_set->order)
-    return fmt::format("of order {} here, {} there: coefficients do not mean the same",
+    return fmt::format("of order {} in A, {} in B: the coefficients are not comparable",
                        pair.first_set->order, pair.second_set->order);
   for (const Estimate* e : {&first, &second})
     if (!e->not_identifiable.empty()) return "not identifiable: " + e->not_identifiable;
   if (first.unit != second.unit)
-    return fmt::format("in {} here, in {} there", first.unit, second.unit);
+    return fmt::format("in {} in A, in {} in B", first.unit, second.unit);
   for (const Estimate* e : {&first, &second})
     if (!std::isfinite(e->value) || !std::isfinite(e->sd)) return "without a standard deviation";
   return {};
@@ -148,7 +148,7 @@ std::string shared_warning(const RecordedResult& first, const RecordedResult& se
                           fmt::join(stage1, ", "));
   if (shared.empty()) return {};
   return shared +
-         ": their errors are correlated, and the test, which takes them for independent, finds "
+         ": their errors are correlated; the test assumes independent errors and finds "
          "fewer differences";
 }
 
@@ -232,10 +232,10 @@ CompareResult compare(RecordedResult first, RecordedResult second, const Compare
   const bool same_preloads = are_same_preloads(pairs);
   const bool same_logs = same_preloads && !first.inputs.empty() && hashes(first) == hashes(second);
   if (same_logs)
-    result.warnings.push_back(fmt::format(
-        "both results are of the same logs ({}): what differs is how they were made, and is judged "
-        "by the margin alone",
-        fmt::join(fitted_in_both(first, second, true), ", ")));
+    result.warnings.push_back(
+        fmt::format("both results are fitted to the same logs ({}): they differ by the method "
+                    "only, and the margin alone decides",
+                    fmt::join(fitted_in_both(first, second, true), ", ")));
   else if (std::string shared = shared_warning(first, second); same_preloads && !shared.empty())
     result.warnings.push_back(std::move(shared));
   for (const EstimatePair& pair : pairs) {

@@ -159,11 +159,12 @@ Gate refine_gate(const BatchCell& cell, const CellRefine& refine) {
         fmt::format("FAILED: {}: new_effect: refine has no verdict: {}", cell.name, refine.error);
   } else if (!refine.effects.empty()) {
     const CellEffect& first = refine.effects.front();
-    g.text =
-        fmt::format("FAILED: {}: new_effect: refine names {} ({} side, p = {:.2g}), verdict '{}'",
-                    cell.name, first.name, first.side, first.p_value, refine.verdict);
+    g.text = fmt::format(
+        "FAILED: {}: new_effect: refine identified {} ({} side, p = {:.2g}), verdict "
+        "'{}'",
+        cell.name, first.name, first.side, first.p_value, refine.verdict);
   } else {
-    g.text = fmt::format("passed: {}: new_effect: refine names none, verdict '{}'", cell.name,
+    g.text = fmt::format("passed: {}: new_effect: refine identified none, verdict '{}'", cell.name,
                          refine.verdict);
   }
   return g;
@@ -193,8 +194,8 @@ void check_baseline(const Campaign& campaign) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored))
     throw input_error(
-        {campaign.path}, fmt::format("the baseline {} is not there", path),
-        fmt::format("make it by 'cablefit batch {} --accept {}'", campaign.path, path));
+        {campaign.path}, fmt::format("the baseline {} does not exist", path),
+        fmt::format("make it with 'cablefit batch {} --accept {}'", campaign.path, path));
   read_baseline(path);
 }
 

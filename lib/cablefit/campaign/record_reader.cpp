@@ -10,7 +10,7 @@
 namespace cablefit {
 namespace {
 
-constexpr const char* kHint = "delete the file, it is made anew";
+constexpr const char* kHint = "delete the file; it will be made again";
 
 double number_at(std::string_view bytes) {
   std::uint64_t bits = 0;
@@ -21,7 +21,7 @@ double number_at(std::string_view bytes) {
 }  // namespace
 
 void RecordReader::require_list(const JsonNode& node) {
-  if (!node.is_array()) throw node.error("no list", kHint);
+  if (!node.is_array()) throw node.error("not a list", kHint);
 }
 
 void RecordReader::read(const JsonNode& node, std::string& value) const {
@@ -37,7 +37,7 @@ void RecordReader::read(const JsonNode& node, double& value) const {
   else if (node.string_value == "inf" || node.string_value == "-inf")
     value = node.string_value == "inf" ? kInfinity : -kInfinity;
   else
-    throw node.error("no number", kHint);
+    throw node.error("not a number", kHint);
 }
 
 void RecordReader::read(const JsonNode& node, Eigen::VectorXd& values) const {
@@ -62,7 +62,7 @@ void RecordReader::packed(std::string_view name, std::vector<double>& values) {
   values.clear();
   for (const JsonNode& item : node.items) {
     const auto bytes = from_base64(item.text());
-    if (!bytes || bytes->size() % 8 != 0) throw item.error("no packed numbers", kHint);
+    if (!bytes || bytes->size() % 8 != 0) throw item.error("not packed numbers", kHint);
     for (std::size_t k = 0; k < bytes->size(); k += 8)
       values.push_back(number_at(std::string_view(*bytes).substr(k, 8)));
   }

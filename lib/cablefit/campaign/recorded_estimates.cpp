@@ -131,8 +131,9 @@ const ResultKind& kind_of(const JsonNode& root) {
     return row.schema == schema.text();
   });
   if (kind == kKinds.end())
-    throw schema.error(fmt::format("schema {} is no result with estimates", quoted(schema.text())),
-                       "give what 'cablefit elastic', 'dynamic', 'identify' or 'batch' wrote");
+    throw schema.error(
+        fmt::format("schema {} is not a result with estimates", quoted(schema.text())),
+        "give what 'cablefit elastic', 'dynamic', 'identify' or 'batch' wrote");
   return *kind;
 }
 

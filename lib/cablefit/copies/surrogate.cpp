@@ -127,7 +127,7 @@ std::string choose(const Model& model, const LogSurvey& log, const TwinDrive& dr
   if (plan.rig.open_loop) {
     take_inputs(plan, Channel::tau, stretch, stretch.input.tau);
     stretch.hold_torque = drive.torque_held;
-    return "none: the measured torque, which the rig file says is a command";
+    return "none: the measured torque is a command, by the rig file";
   }
   if (drive.follows || !has_reference(plan)) {
     follow_measured(model, plan, drive, stretch);

@@ -132,7 +132,7 @@ WorkingRange working_range(const JointCurve& curve, double torque) {
   if (low && high && *low < *high) return {*low, *high};
   throw Error(
       ErrorKind::input,
-      fmt::format("the cables never give a torque of {:g} in both directions; ask for less, "
+      fmt::format("the cables do not reach a torque of {:g} in both directions; lower --torque, "
                   "or check their coefficients",
                   torque));
 }

@@ -13,7 +13,7 @@ namespace cablefit {
 namespace {
 
 constexpr int kSteps = 60;  // of a curve, between two changes of a cable
-constexpr const char* kSection = "The preload's sweep";
+constexpr const char* kSection = "Sweep of the preload";
 
 std::string torque_unit_of(const DesignResult& result) {
   return result.linear_motion ? "N" : "N m";
@@ -86,13 +86,14 @@ void add_joint_curves(const JointCurve& curve, const DesignJoint& joint, const s
             deflection, torque)
       .traces.push_back(sampled(name, series, phi, phi, [&](double x) { return curve.torque(x); }));
   figure_of(result, joint, "Stiffness",
-            "It jumps where a cable goes slack. A linear spring has one value for all of it.",
+            "It jumps where a cable goes slack. A linear spring has one stiffness "
+            "throughout.",
             torque, {"stiffness", stiffness_unit_of(result)})
       .traces.push_back(
           sampled(name, series, phi, tau, [&](double x) { return curve.stiffness(x); }));
   for (const CurveModel& simpler : models)
     figure_of(result, joint, "Error: " + simpler.name,
-              "What the best model of this kind gets wrong; its coefficients are fitted to the "
+              "Error of the best model of each kind; its coefficients are fitted to the "
               "whole range.",
               torque, error)
         .traces.push_back(sampled(name, series, phi, tau,
@@ -133,10 +134,11 @@ std::string with_factor(const std::string& name, double factor, const DesignResu
 }
 
 void add_closure_figure(DesignResult& result, std::size_t joint, const FigureAxis& l_o) {
-  Figure& figure = figure_of(
-      result, result.points.front().joints[joint], "Closure torque",
-      "All cables are taut up to this torque in both directions. Dashed: the torque asked for.",
-      l_o, {"closure torque", torque_unit_of(result)});
+  Figure& figure =
+      figure_of(result, result.points.front().joints[joint], "Closure torque",
+                "All cables are taut up to this torque in both directions. Dashed: the "
+                "required torque.",
+                l_o, {"closure torque", torque_unit_of(result)});
   int series = 0;
   double most = 0;
   for (const NeededPreload& needed : result.needed) {
@@ -145,7 +147,7 @@ void add_closure_figure(DesignResult& result, std::size_t joint, const FigureAxi
                     needed.radius_factor, [](const DesignJoint& j) { return j.closure_torque; }));
     for (const double x : figure.traces.back().x) most = std::max(most, x);
   }
-  Trace asked = trace_named("asked for", kReference);
+  Trace asked = trace_named("required", kReference);
   asked.style = TraceStyle::dashed;
   asked.x = {0, most};
   asked.y = {result.torque, result.torque};
@@ -200,13 +202,13 @@ void finish_figures(const DesignOptions& options, DesignResult& result) {
   for (std::size_t joint = 0; joint < result.points.front().joints.size(); ++joint) {
     add_closure_figure(result, joint, l_o);
     add_cost_figure(result, joint, "Largest error of simpler models",
-                    "On the working range, of the best model of each kind.", l_o,
+                    "Best model of each kind, on the working range.", l_o,
                     {"largest error", torque_unit_of(result)}, false,
                     [](const ModelCost& cost) { return cost.max_error; });
     if (result.detector)
       add_cost_figure(result, joint, "Smallest collision torque",
-                      "That the model's residual shows at the rates of the table.", l_o,
-                      {"collision torque", torque_unit_of(result)}, true,
+                      "Smallest link torque that the residual detects, at the rates in the table.",
+                      l_o, {"collision torque", torque_unit_of(result)}, true,
                       [](const ModelCost& cost) {
                         return cost.collision ? cost.collision->torque : kNotKnown;
                       });

@@ -20,7 +20,7 @@ Model model_of_rig(const JsonNode& root, std::string& choice) {
   model.preload = model.rig.preload;
   model.transmission = model.rig.transmission;
   if (!model.rig.cables_given)
-    throw input_error(root.place, "a rig file without cables says nothing of a preload",
+    throw input_error(root.place, "a rig file without cables has no preload to design",
                       "give \"cables\" with \"coefficients\", or a model file or a result");
   for (std::size_t k = 0; k < model.transmission.cables.size(); ++k)
     if (model.transmission.cables[k].coefficients.empty())
@@ -39,9 +39,9 @@ Model read_design_model(const std::string& path, const std::string& preload,
   const JsonNode root = read_json_file(path);
   if (is_rig(root)) {
     if (!preload.empty() || !model.empty())
-      throw usage_error(fmt::format("a rig file has nothing to choose from with --{}",
-                                    preload.empty() ? "model" : "preload"),
-                        "leave it away, or name a result with several");
+      throw usage_error(
+          fmt::format("--{} does not apply to a rig file", preload.empty() ? "model" : "preload"),
+          "leave it out, or give a result instead");
     return model_of_rig(root, choice);
   }
   Model found = parse_model(root, preload, model, choice);

@@ -114,9 +114,10 @@ bool take_noise(const Model& model, const DesignOptions& options, CollisionDetec
   }
   const auto found = model.rig.sensors.find("tau");
   if (found == model.rig.sensors.end() || !found->second.noise) {
-    decisions.push_back({"noise", "none",
-                         "neither a residual of a fit, nor a sensor \"tau\" with \"noise\" in the "
-                         "rig, nor --noise: no collision torques"});
+    decisions.push_back(
+        {"noise", "none",
+         "no collision torques: the torque noise is unknown; give --noise, a fitted "
+         "model, or the rig a sensor \"tau\" with \"noise\""});
     return false;
   }
   detector.noise = *found->second.noise;
@@ -146,8 +147,8 @@ void warn_of_soft_cables(const Model& model, double torque, DesignResult& result
   for (const Cable& cable : model.transmission.cables)
     if (cable.stiffness(0.2 * std::abs(*high)) < kSoftens * cable.stiffness(1e-6 * *high))
       result.warnings.push_back(fmt::format(
-          "cable {} gives way as it is stretched, with l_o = 0: a fit to cables that were "
-          "preloaded describes their curve, not them; design from a fit without preload, or one "
+          "the force of cable {} falls as it is stretched, with l_o = 0: probably the "
+          "cables were preloaded in the logs; design from a fit without preload, or one "
           "of `identify`, which finds l_o",
           quoted(cable.name)));
 }
@@ -160,7 +161,7 @@ void tell_needed(const DesignResult& result, std::vector<std::string>& warnings)
           "times "
           "{:g}",
           1e3 * needed.searched_to, result.cable_space || result.linear_motion ? "mm" : "mrad",
-          needed.searched_to < kLargestPreload ? ", from where on a cable gives way," : "",
+          needed.searched_to < kLargestPreload ? ", beyond which the force of a cable falls," : "",
           result.torque, result.linear_motion ? "N" : "N m", needed.radius_factor));
 }
 

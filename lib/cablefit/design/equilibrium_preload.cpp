@@ -54,10 +54,11 @@ double elongation_with(const Cable& cable, double force) {
   if (!(force > 0)) return 0;
   const auto l = root_outward([&](double at) { return cable.force(at) - force; }, 1e-9, kLongest);
   if (l) return *l;
-  throw Error(ErrorKind::input,
-              fmt::format("cable {} never pulls with {:.3g} N; give it coefficients that grow with "
-                          "its elongation",
-                          quoted(cable.name), force));
+  throw Error(
+      ErrorKind::input,
+      fmt::format("cable {} does not reach a force of {:.3g} N; give it coefficients that grow "
+                  "with its elongation",
+                  quoted(cable.name), force));
 }
 
 }  // namespace
@@ -67,11 +68,10 @@ Eigen::VectorXd balanced_tensions(const Transmission& transmission) {
   Eigen::VectorXd f = projected(both, tensions_at_rest(transmission));
   if (!all_pull(f)) f = projected(both, Eigen::VectorXd::Ones(both.cols()));
   if (!all_pull(f))
-    throw Error(
-        ErrorKind::input,
-        "no tensions of these cables hold each other, (8c): they cannot be preloaded; route "
-        "them so that each joint is pulled in both directions (n joints need n + 1 cables "
-        "or more), or check the signs of the radii");
+    throw Error(ErrorKind::input,
+                "no tensions of these cables are in equilibrium, (8c): they cannot be "
+                "preloaded; route them so that each joint is pulled in both directions (n "
+                "joints need n + 1 cables or more), or check the signs of the radii");
   return f / f.maxCoeff();
 }
 

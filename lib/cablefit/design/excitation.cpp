@@ -48,7 +48,7 @@ ShapeFrame frame_of(const Model& model, const ExcitationLimits& limits) {
     throw usage_error(
         fmt::format("{:g} s are too short for a motion of this drive", frame.duration),
         fmt::format("it can be moved at up to {:.3g} Hz (a third of its free resonance at rest, a "
-                    "fortieth of the rows): give --duration of at least {:.2g}",
+                    "fortieth of the sample rate): give --duration of at least {:.2g}",
                     frame.highest_frequency, kPeriods / frame.highest_frequency));
   return frame;
 }
@@ -137,11 +137,12 @@ const Candidate& best_of(const std::vector<Candidate>& candidates) {
 
 Error no_motion(const ExcitationOptions& options) {
   const ExcitationLimits& l = options.limits;
-  return Error(ErrorKind::not_identifiable,
-               fmt::format("no {} of {:g} s within {:g} rad, {:g} rad/s and {:g} N m shows every "
-                           "parameter; raise a limit (holding the load and friction alone may need "
-                           "the torque), or take longer",
-                           options.shape, l.duration, l.max_position, l.max_speed, l.max_torque));
+  return Error(
+      ErrorKind::not_identifiable,
+      fmt::format("no {} of {:g} s within {:g} rad, {:g} rad/s and {:g} N m determines every "
+                  "parameter; raise a limit (load and friction alone may need all of the "
+                  "torque), or raise --duration",
+                  options.shape, l.duration, l.max_position, l.max_speed, l.max_torque));
 }
 
 Excitation finished(const Judge& judge, const Candidate& best, const ExcitationOptions& options,

@@ -102,9 +102,9 @@ void require_load(const Model& model, const ExcitationLimits& limits) {
         load.law->torque(load.parameters, limits.middle + way * limits.max_position) != 0)
       return;
   throw Error(ErrorKind::input,
-              "no known load acts on the link: its inertia would rest on the elastic stage alone, "
-              "and 'cablefit dynamic' would refuse it; hang a load on it and give --load, or the "
-              "rig a \"load\"");
+              "no known load acts on the link: its inertia would depend on stage 1 alone, "
+              "and 'cablefit dynamic' would not report it; hang a load on it and give "
+              "--load, or the rig a \"load\"");
 }
 
 }  // namespace
@@ -139,15 +139,16 @@ ExcitationPlan plan_excitation(const Model& model, const ExcitationOptions& opti
   const FitPlanner planner(moved, plan.motion, kFinalDraws, options.threads);
   plan.fit = planner.fit(plan.motion);
   if (!plan.fit.refused.empty())
-    throw Error(ErrorKind::not_identifiable,
-                fmt::format("no motion found that shows every inertia: {}; raise a limit, or take "
-                            "longer",
-                            plan.fit.refused));
+    throw Error(
+        ErrorKind::not_identifiable,
+        fmt::format("no motion found that determines every inertia: {}; raise a limit, or raise "
+                    "--duration",
+                    plan.fit.refused));
   plan.plain = compared(moved, options.threads, [&] { return plain_sine(moved, options, error); });
   plan.best = compared(moved, options.threads, [&] { return best_sine(moved, options, error); });
   plan.decisions = {{"controller", controller, "simulated in closed loop"},
                     {"cut-off", fmt::format("{:g} Hz", planner.cutoff()),
-                     "what `cablefit dynamic` would choose for this motion"},
+                     "the choice of `cablefit dynamic` for this motion"},
                     {"seed", fmt::format("{}", options.seed), "of the search"}};
   if (figures) add_figures(plan);
   return plan;

@@ -83,21 +83,20 @@ double reference_scale(const ExcitationLimits& limits, const Eigen::ArrayXXd& sh
 Model excitable(const Model& model, double rate, std::string& words) {
   if (model.joints.empty())
     throw Error(ErrorKind::input,
-                "a rig has no inertias to move: an excitation needs a model file or a result of "
+                "a rig file has no inertias: an excitation needs a model file or a result of "
                 "'cablefit dynamic', or CAD values in a model file");
   if (model.rig.arm.is_coupled())
     throw Error(ErrorKind::input,
-                "links that move each other are not simulated yet: design the excitation of one "
-                "joint at a time, the others held");
+                "coupled joints are not simulated yet: design the excitation of one joint at a "
+                "time, with the others held");
   Model moved = model;
   if (moved.rig.controller) {
     words = "the rig's controller";
     return moved;
   }
   moved.rig.controller = surrogate(model, 1 / rate);
-  words =
-      fmt::format("a surrogate controller (kp {:.3g}, kd {:.3g}), as the rig names no controller",
-                  moved.rig.controller->kp, moved.rig.controller->kd);
+  words = fmt::format("a surrogate controller (kp {:.3g}, kd {:.3g}), as the rig has no controller",
+                      moved.rig.controller->kp, moved.rig.controller->kd);
   return moved;
 }
 

@@ -134,7 +134,7 @@ constexpr std::array kShapes{
     MotionShape{"multisine", "five sines of any frequency, amplitude and phase at once",
                 "Swevers et al. 1997", kPerSine* kSines + 1, multi_sine, multi_sine_share,
                 pairs_of_sines},
-    MotionShape{"trapezoid", "ten moves with trapezoids of speed, again and again",
+    MotionShape{"trapezoid", "ten moves with trapezoidal speed, repeated",
                 "Khalil & Dombre 2004, ch. 13", kPerMove* kMoves, trapezoids, whole},
 };
 

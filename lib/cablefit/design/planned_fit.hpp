@@ -16,7 +16,7 @@ struct PlannedParameter {
   double value = 0;     ///< of the model
   double sd = 0;        ///< of the estimate's scatter to expect; infinite when not shown
   double floor = 0;     ///< what the method adds without any noise (filters, kinks), of either sign
-  double sd_white = 0;  ///< what (25) will say, which takes all noise for white
+  double sd_white = 0;  ///< by (25), which takes all noise for white
   /// sd and floor, root of the sum of squares: the error to expect.
   double error() const;
   /// error() over the size: the value; of a friction what makes a hundredth of the joint's torque

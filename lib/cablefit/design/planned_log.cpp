@@ -39,10 +39,12 @@ void spell_out_sensors(const std::vector<Channel>& channels, Rig& rig) {
         rig.sensors[name] = shared->second;
       const auto found = rig.sensors.find(name);
       if (found != rig.sensors.end() && (found->second.noise || found->second.quantum)) continue;
-      throw input_error({rig.path}, fmt::format("nothing says how noisy sensor {} is", name),
-                        fmt::format("add \"sensors\": {{\"{}\": {{\"{}\": ...}}}} to the rig; an "
-                                    "expected sd rests on it",
-                                    name, channel == Channel::tau ? "noise" : "quantum"));
+      throw input_error(
+          {rig.path}, fmt::format("the noise of sensor {} is unknown", name),
+          fmt::format(
+              "add \"sensors\": {{\"{}\": {{\"{}\": ...}}}} to the rig; the expected sd need "
+              "it",
+              name, channel == Channel::tau ? "noise" : "quantum"));
     }
   }
 }

@@ -28,7 +28,7 @@ std::string refusal_of(const Eigen::MatrixXd& rows, const DynamicColumns& c, Eig
     for (Eigen::Index j = 0; j < c.n_elastic[m]; ++j) allowed.push_back(c.elastic[m] + j);
   const Eigen::MatrixXd w = rows(Eigen::all, others);
   const ScaledSolver solver(w, kLeastRowsPlanned);
-  if (!solver.determined()) return name + " is not shown";
+  if (!solver.determined()) return name + " is not determined";
   const Eigen::VectorXd column = rows.col(own);
   const double left = (column - w * solver.solve(column)).squaredNorm();
   if (1 - left / column.squaredNorm() > kPositionAlias)
@@ -39,7 +39,7 @@ std::string refusal_of(const Eigen::MatrixXd& rows, const DynamicColumns& c, Eig
   std::erase_if(allowed, [&](Eigen::Index j) { return rows.col(j).norm() == 0; });
   const Eigen::MatrixXd all = rows(Eigen::all, allowed);
   const ScaledSolver free(all, kLeastRowsPlanned);
-  const std::string rests = name + " would rest on the elastic stage alone";
+  const std::string rests = name + " would depend on stage 1 alone";
   if (!free.determined()) return rests;
   const double alternative = free.solve(rows * response)(own);
   if (kShiftSd * noise * free.unit_sd()(own) > kShiftRefused * value) return rests;

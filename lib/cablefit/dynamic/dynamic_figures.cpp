@@ -93,8 +93,8 @@ SeenEquation see_equation(const DynamicJob& job, const EquationRows& rows, std::
   seen.plan.measured = measured_text(side);
   if (side == Side::link)
     seen.plan.about =
-        "Measured: the torque that the cables (by this model of stage 1) and the load put on the "
-        "link. Predicted: what inertia and friction need.";
+        "Measured: torque of the cables (this model of stage 1) and of the load on the "
+        "link. Predicted: torque of inertia and friction.";
   if (side == Side::motor)
     seen.plan.about =
         "Explained: share of the squared torque of inertia and friction. The torque of the cables "

@@ -204,7 +204,7 @@ bool any_torque(std::span<const LogSurvey> logs, const PartFilter& wanted) {
 void check_effects(std::span<const LogSurvey> logs, const DynamicOptions& options) {
   if (options.effects.empty()) return;
   for (const LogSurvey& log : logs)
-    require_one_joint(log.plan, "a model with effects beyond the paper's is made for one");
+    require_one_joint(log.plan, "a model with effects beyond the paper's supports one joint");
   if (options.models.size() != 1 || options.models.front() == "ratios")
     throw usage_error("effects beyond the paper's are fitted with one model at a time",
                       "give --model poly, --model linear or --model rigid");
@@ -243,10 +243,10 @@ DynamicResult fit_dynamic(std::span<const LogSurvey> logs, const ElasticResult& 
   if (rigid || ratios)
     for (const LogSurvey& log : logs)
       require_one_joint(log.plan,
-                        fmt::format("--model {} is made for one", options.models.front()));
+                        fmt::format("--model {} supports one joint", options.models.front()));
   if (!options.validation.empty()) {
     if (ratios)
-      throw usage_error("--validate judges torques, and --model ratios has none",
+      throw usage_error("--validate compares torques, and --model ratios has none",
                         "validate a fit of another model");
     require_judgeable(options.validation, names, logs.front(), rigid);
     for (const LogSurvey& log : options.validation)

@@ -40,8 +40,8 @@ std::string extrapolation(const ElasticPreload& stage1, const Range& known, cons
   const double slack = kRangeSlack * (known.high - known.low);
   if (seen.low >= known.low - slack && seen.high <= known.high + slack) return {};
   return fmt::format(
-      "{}deflections of {:.3g} to {:.3g} {} leave the range of stage 1 ({:.3g} to {:.3g}): the "
-      "elastic torque is extrapolated there",
+      "{}deflections of {:.3g} to {:.3g} {} are outside the range of stage 1 ({:.3g} "
+      "to {:.3g}): the elastic torque is extrapolated there",
       stage1.joints.empty() ? "" : fmt::format("joint {}: ", joint + 1), seen.low, seen.high,
       stage1.unit, known.low, known.high);
 }
@@ -135,11 +135,11 @@ void note_free_fall(const Load& load, const std::vector<EquationRows>& equations
   const EquationRows& link = equations.front();  // or the one of a rigid drive
   const double most = load.law->free_fall(load.parameters);
   if (link.acceleration > most)
-    preload.warnings.push_back(fmt::format(
-        "the link accelerates by up to {:.3g} rad/s^2, beyond the {:.3g} rad/s^2 (g/r) at which a "
-        "'{}' load lets its rope go slack: there tau_load is not what the rig file says; move more "
-        "gently or hang the mass on a smaller radius",
-        link.acceleration, most, load.law->name));
+    preload.warnings.push_back(
+        fmt::format("the link accelerates with up to {:.3g} rad/s^2, more than {:.3g} rad/s^2 "
+                    "(g/r): there the rope of a '{}' load goes slack and tau_load is wrong; "
+                    "accelerate less, or hang the mass on a smaller radius",
+                    link.acceleration, most, load.law->name));
 }
 
 }  // namespace cablefit

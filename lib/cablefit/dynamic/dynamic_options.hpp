@@ -32,9 +32,9 @@ struct DynamicOptions {
   /// What the joint has beyond the paper's (31), with values to start from; one model then.
   std::vector<EffectInstance> effects = {};
   bool figures = false;        ///< one more pass, for reports with plots
-  bool residual_tests = true;  ///< a look at up to 40 windows of every log
+  bool residual_tests = true;  ///< tests of up to 40 windows of every log
   bool sweep = false;          ///< fit again with other cut-offs and rest speeds
-  /// The method's floor where it is known already, by parameter; none: it is measured.
+  /// The method's floor where it is already known, by parameter; none: it is measured.
   std::optional<std::map<std::string, double>> method_floor = {};
   std::vector<LogSurvey> validation = {};  ///< logs to judge the fit on, none of them fitted
 };

@@ -20,13 +20,13 @@ struct TorqueError {
   double relative = 0;          ///< |residual| / |response|, both as root of the sum of squares
 };
 
-/// A stretch of time that a robust fit did not believe.
+/// A stretch of time to which a robust fit gave little weight.
 struct SuspectSpan {
   std::string equation;
   std::string log, run;
   double from = 0, to = 0;  ///< s, of the log
   double largest = 0;       ///< residual, N m, signed
-  std::size_t n_rows = 0;   ///< after decimation, that stick out
+  std::size_t n_rows = 0;   ///< after decimation, that exceed the noise
 };
 
 /// How a parameter changes with a setting that should not matter.
@@ -67,10 +67,10 @@ struct DynamicFit {
   std::vector<SuspectSpan> suspects = {};             ///< of a robust fit
   std::optional<RecursiveTrace> trace = {};           ///< of a recursive one
   std::optional<Sweep> sweep = {};                    ///< when asked for
-  /// By parameter, sd in its unit: what the method itself is off by on a simulated copy of the
-  /// motion (method_floor.hpp), the difference to instrumental variables where neither is proved,
-  /// and what the curve that stage 1 leaves does (ElasticFit::misfit). Part of every sd and
-  /// interval.
+  /// By parameter, sd in its unit: error of the method itself on a simulated copy of the
+  /// motion (method_floor.hpp), the difference to instrumental variables where neither is
+  /// confirmed, and the effect of stage 1's residual curve (ElasticFit::misfit). Part of every sd
+  /// and interval.
   std::map<std::string, double> method_floor = {}, estimator_difference = {}, stage1_misfit = {};
   /// What the model has beyond the paper's (31); its parameters are among `parameters` as well.
   std::vector<EffectInstance> effects = {};
@@ -79,7 +79,7 @@ struct DynamicFit {
   std::vector<Estimate> derived = {};  ///< stiffness, resonance, damping: of several parameters
 };
 
-/// How long the measured torque is before its effect, and what was made of it.
+/// Delay from the measured torque to its effect, and the hold that was chosen from it.
 struct TorqueDelay {
   double seconds = 0, sd = 0;
   bool estimated = false;

@@ -1,5 +1,5 @@
-// What moving logs will tell of the parameters of stage 2, from the motion and the sensors' noise,
-// before stage 1 and any fit: which can be told apart, and how small their sd can be.
+// Expected uncertainty of the parameters of stage 2, from the motion and the sensors' noise,
+// before stage 1 and any fit: which are separable, and how small their sd can be.
 #pragma once
 
 #include <span>
@@ -18,11 +18,11 @@ std::string_view to_string(Determined determined);
 
 struct PredictedParameter {
   std::string name, unit;
-  /// By a first look, a rough model fitted to these logs alone: one digit of it may be right. NaN
+  /// By a preliminary fit, a rough model of these logs alone: one digit of it may be right. NaN
   /// where it is not determined.
   double size = 0;
   double sd_best = 0;  ///< white, noise of the sensors only; infinite when not determined
-  /// Honest, with all that the rough model leaves, without the error of stage 1; NaN when not
+  /// Robust, with the residual of the rough model, without the error of stage 1; NaN when not
   /// determined.
   double sd_first_look = 0;
   std::string closest = {};  ///< the parameter it correlates with most; empty: it is alone
@@ -39,9 +39,9 @@ struct PredictedEquation {
   std::size_t rows = 0;
   double condition_scaled = 0;
   double noise = 0;  ///< rms that the sensors' noise makes in the equation, at most `left`, N m
-  double left = 0;   ///< rms that the rough model leaves, N m
+  double left = 0;   ///< rms of the rough model's residual, N m
   std::vector<PredictedParameter> parameters;
-  /// What cannot or can hardly be told, and the motion that would tell it.
+  /// Parameters that are not or weakly determined, and the motion that would determine them.
   std::vector<std::string> sentences;
 };
 

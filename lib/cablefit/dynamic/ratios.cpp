@@ -83,8 +83,9 @@ void refuse_absolute(bool has_torque, DynamicFit& fit) {
   for (const char* absolute : {"J_link", "J_motor", "f_v", "f_s", "f_vm", "f_sm", "offset"}) {
     Estimate e;
     e.name = e.symbol = absolute;
-    e.not_identifiable = has_torque ? "model ratios does not use the torque: fit model poly"
-                                    : "no torque is measured: only ratios to J_link show";
+    e.not_identifiable = has_torque
+                             ? "model ratios does not use the torque: fit model poly"
+                             : "no torque is measured: only ratios to J_link can be identified";
     fit.verdicts[absolute] = "not identifiable";
     fit.parameters.push_back(e);
   }

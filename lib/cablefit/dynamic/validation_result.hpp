@@ -1,4 +1,4 @@
-// How a fitted model does on logs, as plain data for reports.
+// How well a fitted model predicts logs, as plain data for reports.
 #pragma once
 
 #include <cmath>
@@ -18,17 +18,17 @@ struct ConditionError {
   std::size_t n_rows = 0;
   double rms = 0, mean = 0, max_abs = 0;
   double relative = 0;        ///< rms of the error over rms of the torque to be explained
-  double zero = 0;            ///< rms of a model that says 0: of the torque to be explained
+  double zero = 0;            ///< rms of a model that predicts 0: of the torque to be explained
   double linear = kNotThere;  ///< rms of the linear model; NaN: this is it, or there is none
   double fitted = 0;  ///< rms on the rows that were fitted, of the same condition if they have it
-  double floor = kNotThere;  ///< rms that no model can get below; NaN: measured by log only
+  double floor = kNotThere;  ///< rms of the best possible model; NaN: measured by log only
   bool fails = false;        ///< significantly and materially worse than `fitted`
   std::string verdict;       ///< "fails, 3.2 times": of `fitted`
 
   double ratio() const { return fitted > 0 ? rms / fitted : 0; }
 };
 
-/// What a test of residuals found; `material`: seen, and large enough to matter.
+/// Result of a test of residuals; `material`: significant, and large enough to matter.
 enum class Finding { nothing, immaterial, material, untestable };
 std::string_view to_string(Finding finding);
 
@@ -45,7 +45,7 @@ struct ResidualTest {
 /// One model and equation.
 struct JudgedEquation {
   std::string model, equation;
-  double noise_floor = 0;                  ///< rms that no model can get below, N m
+  double noise_floor = 0;                  ///< rms of the best possible model, N m
   std::string floor_source;                ///< "repeats", "sensor noise"
   std::vector<ConditionError> conditions;  ///< empty for the logs that were fitted
   std::vector<ResidualTest> tests;

@@ -107,7 +107,7 @@ ElasticJob make_job(std::span<const LogSurvey> logs, const ElasticOptions& optio
       for (Decision& decision : job.settings.decisions)
         if (decision.name == "decimation")
           decision = {"decimation", std::to_string(job.settings.rows.decimate),
-                      "the link rests only for moments"};
+                      "the link stands still only for short times"};
     }
   }
   return job;

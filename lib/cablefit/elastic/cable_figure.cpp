@@ -65,9 +65,9 @@ Figure cable_figure(const Transmission& transmission, double low, double high, b
   Figure figure;
   figure.title = "Elastic torque of each cable";
   figure.caption =
-      "The fitted cables without friction and offset. A dotted line is where the cable of that "
-      "name goes slack: force closure while all are taut, at the deflections and torques of the "
-      "grey box, force disclosure beyond.";
+      "The fitted cables without friction and offset. Dotted line: there the cable "
+      "of that name goes slack. Grey box: all cables are taut (force closure); "
+      "outside it one is slack (force disclosure).";
   figure.wide = true;
   figure.x = {"deflection theta - q", linear_motion ? "m" : "rad"};
   figure.y = {"elastic torque on the motor", linear_motion ? "N" : "N m"};

@@ -22,7 +22,7 @@ void check_passive(ElasticFit& fit, std::span<const double> all_longest,
     fit.passive = fit.transmission.linear_stiffness.minCoeff() >= 0;
     if (!fit.passive)
       fit.warnings.emplace_back(
-          "the stiffness is negative: the sign of tau or of theta is turned round");
+          "the stiffness is negative: the sign of tau or of theta is reversed");
     return;
   }
   for (std::size_t c = 0; c < fit.transmission.cables.size(); ++c) {
@@ -35,10 +35,10 @@ void check_passive(ElasticFit& fit, std::span<const double> all_longest,
     const std::optional<Push> push = find_push(cable, longest);
     if (!push) continue;
     fit.passive = false;
-    fit.warnings.push_back(fmt::format(
-        "{}, which breaks (5) and (16) of the paper: do not use this fit; without --unconstrained "
-        "cables only pull",
-        push_text(cable, *push, unit)));
+    fit.warnings.push_back(
+        fmt::format("{}, not physical by (5) and (16) of the paper: do not use this fit; fit again "
+                    "without --unconstrained",
+                    push_text(cable, *push, unit)));
   }
 }
 
@@ -51,9 +51,9 @@ void select_model(ElasticPreload& preload, double materiality) {
   const bool linear_will_do = linear.held_out_max <= best + allowed;
   preload.selected = linear_will_do ? "linear" : "poly";
   preload.selection.push_back(
-      fmt::format("materiality: largest error on held-out blocks {:.3g} {} linear, {:.3g} {} poly; "
-                  "{:.3g} {} ({:g} % of the "
-                  "peak torque) may separate them: {}",
+      fmt::format("materiality: largest error on held-out blocks {:.3g} {} linear, {:.3g} {} "
+                  "poly; a difference below {:.3g} {} ({:g} % of the peak torque) does not "
+                  "matter: {}",
                   linear.held_out_max, unit, poly.held_out_max, unit, allowed, unit,
                   100 * materiality, preload.selected));
   preload.selection.push_back(
@@ -72,12 +72,13 @@ void select_joint_model(ElasticPreload& preload, double materiality) {
     const double best = std::min(linear.joints[k].held_out_max, poly.joints[k].held_out_max);
     const bool will_do = linear.joints[k].held_out_max <= best + allowed;
     linear_will_do = linear_will_do && will_do;
-    preload.selection.push_back(fmt::format(
-        "joint {}: largest error on held-out blocks {:.3g} {} linear, {:.3g} {} poly; {:.3g} {} "
-        "({:g} % of its peak torque) may separate them: {}; rms {:.3g} linear, {:.3g} poly",
-        k + 1, linear.joints[k].held_out_max, unit, poly.joints[k].held_out_max, unit, allowed,
-        unit, 100 * materiality, will_do ? "linear" : "poly", linear.joints[k].held_out_rms,
-        poly.joints[k].held_out_rms));
+    preload.selection.push_back(
+        fmt::format("joint {}: largest error on held-out blocks {:.3g} {} linear, {:.3g} {} poly; "
+                    "a difference below {:.3g} {} ({:g} % of its peak torque) does not matter: {}; "
+                    "rms {:.3g} linear, {:.3g} poly",
+                    k + 1, linear.joints[k].held_out_max, unit, poly.joints[k].held_out_max, unit,
+                    allowed, unit, 100 * materiality, will_do ? "linear" : "poly",
+                    linear.joints[k].held_out_rms, poly.joints[k].held_out_rms));
   }
   preload.selected = linear_will_do ? "linear" : "poly";
 }
@@ -93,13 +94,12 @@ std::vector<std::string> loop_warnings(const LoopSeen& loop, bool linear_motion)
   const char* unit = linear_motion ? "N" : "N m";
   std::vector<std::string> warnings;
   if (depends_on_path(loop))
-    warnings.push_back(fmt::format(
-        "no static law explains this loop: it is {:.3g} {} wide ({:.0f} % of the peak torque of "
-        "{:.3g} {}) and {:.3g} "
-        "{} rms remain beyond a constant friction band; suspect hysteresis or friction that grows "
-        "with load",
-        2 * loop.half_width, unit, 200 * loop.half_width / loop.peak, loop.peak, unit, loop.rms,
-        unit));
+    warnings.push_back(
+        fmt::format("no static friction explains this loop: it is {:.3g} {} wide ({:.0f} % of the "
+                    "peak torque of {:.3g} {}) and {:.3g} {} rms remain beyond a constant friction "
+                    "band; suspect hysteresis or friction that grows with load",
+                    2 * loop.half_width, unit, 200 * loop.half_width / loop.peak, loop.peak, unit,
+                    loop.rms, unit));
   if (loop.plateaus)
     warnings.emplace_back(
         "the motor hardly moves between plateaus: torques at rest lie within the friction band, so "

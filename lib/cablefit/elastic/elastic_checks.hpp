@@ -1,4 +1,4 @@
-// What an expert would say about a stage-1 fit: pushing cables, loops, preload, which model will
+// Checks of a stage-1 fit: negative cable stiffness, loops, preload, which model will
 // do.
 #pragma once
 

@@ -63,7 +63,7 @@ Estimate zero_of_line(const LinearSolution& s, Eigen::Index constant, double zer
   return e;
 }
 
-/// Coefficients of one cable always lean on each other; said once rather than pair by pair.
+/// Coefficients of one cable are always strongly correlated: one warning, not one per pair.
 std::vector<std::string> worth_saying(const std::vector<std::string>& warnings,
                                       const ElasticCandidate& candidate) {
   std::vector<std::string> kept;
@@ -81,7 +81,7 @@ std::vector<std::string> worth_saying(const std::vector<std::string>& warnings,
   }
   if (between_coefficients > 0 && candidate.order > 2)
     kept.push_back(
-        fmt::format("coefficients of order {} are strongly correlated: trust the curve, not single "
+        fmt::format("coefficients of order {} are strongly correlated: use the curve, not single "
                     "coefficients",
                     candidate.order));
   return kept;
@@ -123,12 +123,12 @@ void note_active_bounds(const ElasticJob& job, const ElasticCandidate& candidate
     const Cable& cable = pushing.cables[range.cable];
     const std::optional<Push> push = find_push(cable, range.longest);
     if (!push) continue;
-    fit.warnings.push_back(fmt::format(
-        "refused: {}, with which {}; a cable only pulls, (5) and (16) of the paper, so k(l) >= 0 "
-        "is imposed: rms error {:.3g} instead of {:.3g} {}, sd given the active bounds; "
-        "--unconstrained gives the plain fit",
-        coefficients_text(fit, cable, rig.cables_given), push_text(cable, *push, unit), s.rms(),
-        plain.rms(), rig.linear_motion ? "N" : "N m"));
+    fit.warnings.push_back(
+        fmt::format("not used: {}, as {}; a cable only pulls, (5) and (16) of the paper, so k(l) "
+                    ">= 0 is imposed: rms error {:.3g} instead of {:.3g} {}, sd given the active "
+                    "bounds; --unconstrained gives the plain fit",
+                    coefficients_text(fit, cable, rig.cables_given), push_text(cable, *push, unit),
+                    s.rms(), plain.rms(), rig.linear_motion ? "N" : "N m"));
   }
 }
 

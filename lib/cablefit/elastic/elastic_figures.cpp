@@ -81,10 +81,9 @@ class CurveScan {
     figure.title = "Torque against deflection";
     figure.rank = FigureRank::main;
     figure.caption =
-        "The motor's torque on the way up and on the way down lies apart by twice its static "
-        "friction; the curves are the models without friction, with the offset. Explained: share "
-        "of the "
-        "squared torque, friction included.";
+        "The torques for rising and falling theta differ by twice the static friction "
+        "of the motor. The curves are the models without friction, with the offset. "
+        "Explained: share of the squared torque, friction included.";
     const std::array<const char*, 2> names = {"measured, theta falling", "measured, theta rising"};
     for (std::size_t k = 0; k < branches_.size(); ++k) {
       Trace trace{names[k], TraceStyle::points, kMeasured, {}, {}, {}, {}, {}};

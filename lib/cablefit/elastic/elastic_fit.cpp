@@ -107,9 +107,9 @@ void look_at_branches(Stage1& stage, ElasticPreload& preload) {
   stage.nuisance.speed = preload.both_branches && speed_tells_more(stage.rows);
   if (!preload.both_branches)
     preload.warnings.emplace_back(
-        "theta moves in one direction only: the motor's static friction is not separable from the "
-        "elastic torque; stiffness and offset may be off by it, f_sm is not estimated; sweep up "
-        "and down");
+        "theta moves in one direction only: the motor's static friction is not "
+        "separable from the elastic torque; stiffness and offset may be wrong by that "
+        "torque, f_sm is not estimated; sweep up and down");
 }
 
 /// Refused rather than silently taken as 0.
@@ -117,7 +117,7 @@ void refuse_search(const Rig& rig) {
   for (std::size_t c = 0; c < rig.search_elongation.size(); ++c)
     if (rig.search_elongation[c])
       throw input_error({rig.path, 0, 0},
-                        fmt::format("the initial elongation of cable '{}' is to be searched first",
+                        fmt::format("the initial elongation of cable '{}' has to be searched first",
                                     rig.transmission.cables[c].name),
                         "run 'cablefit elastic' or 'cablefit identify', or give a number");
 }
@@ -196,11 +196,11 @@ ElasticResult fit_elastic(std::span<const LogSurvey> logs, const ElasticOptions&
   for (const LogSurvey& log : logs) {
     result.inputs.push_back({log.plan.path, log.sha256, log.n_rows});
     if (options.zero == ZeroMode::theta_0)
-      require_one_joint(log.plan, "--zero theta_0 is made for one");
+      require_one_joint(log.plan, "--zero theta_0 supports one joint");
     if (!options.lines.empty())
-      require_one_joint(log.plan, "scores of straight lines are made for one");
+      require_one_joint(log.plan, "scores of straight lines support one joint");
     if (options.offset.value_or(0) != 0)
-      require_one_joint(log.plan, "a given offset that is not 0 is made for one");
+      require_one_joint(log.plan, "a given offset that is not 0 supports one joint");
     refuse_search(log.plan.rig);
     require_channel(log.plan, Channel::q, "the deflection theta - q");
     require_channel(log.plan, Channel::theta, "the deflection theta - q");

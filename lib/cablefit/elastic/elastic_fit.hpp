@@ -14,8 +14,8 @@
 namespace cablefit {
 
 /// Where tau_elas is zero. The paper's deflection zero is known and the drive may have an offset; a
-/// log whose encoder zero is arbitrary has an unknown theta_0 instead. Both at once only a kink can
-/// tell apart.
+/// log whose encoder zero is arbitrary has an unknown theta_0 instead. Only a kink separates both
+/// at once.
 enum class ZeroMode { automatic, offset, theta_0 };
 
 /// Straight lines K (theta - N q) and logs to score the fits on, as Figs. 6b and 7b do.
@@ -29,10 +29,9 @@ struct ComparedLines {
 
 struct ElasticOptions {
   SampleOptions samples;
-  int order = 0;                 ///< of all cables; 0: those of `orders`, the rig file's, or chosen
+  int order = 0;  ///< of all cables; 0: those of `orders`, the rig file's, or chosen
   std::vector<int> orders = {};  ///< per cable, instead of `order`; empty: not given
-  /// Choose also where the rig file gives orders: per cable the lowest that held-out blocks
-  /// support.
+  /// Choose also where the rig file gives orders: per cable the lowest by block cross-validation.
   bool choose_orders = false;
   int max_order = 6;  ///< of a choice
   double materiality =
@@ -41,11 +40,12 @@ struct ElasticOptions {
   ZeroMode zero = ZeroMode::automatic;
   /// --offset: of the drive, N m, given instead of fitted (0 with several joints); none: fitted.
   std::optional<double> offset = {};
-  bool unconstrained = false;  ///< cables may push, as in the paper's plain fit; warned about
-  bool honest_sd = true;       ///< --sd honest | white
-  std::string preload;         ///< only this one; empty: all
-  ComparedLines lines = {};    ///< straight lines to score beside the fits
-  bool figures = false;        ///< one more pass, for reports with plots
+  /// Allows a negative cable stiffness, as the paper's plain fit; warned about.
+  bool unconstrained = false;
+  bool honest_sd = true;     ///< --sd honest | white
+  std::string preload;       ///< only this one; empty: all
+  ComparedLines lines = {};  ///< straight lines to score beside the fits
+  bool figures = false;      ///< one more pass, for reports with plots
   /// Of all cables of one joint, one after the other: given, so that offset and friction alone are
   /// fitted beside them; none: fitted.
   std::vector<double> coefficients = {};

@@ -22,7 +22,7 @@ struct ElasticJointErrors {
   double rms_error = 0, max_abs_error = 0, held_out_rms = 0, held_out_max = 0;
 };
 
-/// Torque that a fit leaves at one deflection: sum of `torque` and, with the sign of the motion,
+/// Residual of a fit at one deflection: sum of `torque` and, with the sign of the motion,
 /// `half_width`, N m.
 struct MisfitPoint {
   double deflection = 0, torque = 0, half_width = 0;
@@ -41,13 +41,13 @@ struct ElasticFit {
   std::vector<Estimate> parameters;  ///< K, or K1_0 ...; then offset or theta_0, f_sm
   Transmission transmission;         ///< the fitted curve, coefficients and theta_0 filled in
   double offset = 0;                 ///< N m, drive offset that went with it
-  /// Honest covariance of the elastic coefficients alone, in the order of the first parameters.
+  /// Robust covariance of the elastic coefficients alone, in the order of the first parameters.
   Eigen::MatrixXd covariance;
   double rms_error = 0, max_abs_error = 0;    ///< N m, over all rows used
-  double held_out_rms = 0, held_out_max = 0;  ///< N m, over blocks the fit had not seen
+  double held_out_rms = 0, held_out_max = 0;  ///< N m, over held-out blocks
   std::vector<ElasticJointErrors> joints;     ///< of several joints, each for itself; else empty
   bool passive = true;  ///< every cable only pulls over the range it was used in
-  /// Where a cable would push but for a bound: "cable 1: k(l) >= 0 at l = 0 mrad".
+  /// Where a bound prevents a negative stiffness: "cable 1: k(l) >= 0 at l = 0 mrad".
   std::vector<std::string> active_bounds;
   double condition = 0;  ///< scaled condition number
   double effective_rows = 0;
@@ -106,8 +106,8 @@ struct ElasticPreload {
   std::vector<ElasticScore> scores;    ///< where asked for
   std::vector<Decision> decisions;
   std::vector<std::string> warnings;
-  /// Why the fitted curve is not that of the cables, and stage 2 must not rest on it; empty:
-  /// nothing speaks against it.
+  /// Why the fitted curve is not that of the cables, and stage 2 must not use it; empty:
+  /// no doubt.
   std::string shape_doubt;
   bool linear_motion = false;
   std::string rig_path;  ///< empty: the default rig

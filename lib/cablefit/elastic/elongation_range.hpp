@@ -1,5 +1,5 @@
 // How far cables were stretched in the rows of a fit: measured cable by cable, since theta - q
-// tells it only where motor and link have pulleys of one radius.
+// gives it only where motor and link have pulleys of one radius.
 #pragma once
 
 #include <span>

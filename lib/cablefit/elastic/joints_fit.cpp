@@ -37,11 +37,11 @@ void look_at_branches(Stage1& stage, int joint, ElasticPreload& preload) {
   preload.joints[k].both_branches = nuisance.branches;
   preload.both_branches = preload.both_branches && nuisance.branches;
   if (!nuisance.branches)
-    preload.warnings.push_back(fmt::format(
-        "theta{0} moves in one direction only: the static friction of motor {0} is not separable "
-        "from the elastic torque; stiffness and offset[{0}] may be off by it, f_sm[{0}] is not "
-        "estimated; sweep up and down",
-        joint + 1));
+    preload.warnings.push_back(
+        fmt::format("theta{0} moves in one direction only: the static friction of motor {0} is not "
+                    "separable from the elastic torque; stiffness and offset[{0}] may be wrong by "
+                    "that torque, f_sm[{0}] is not estimated; sweep up and down",
+                    joint + 1));
 }
 
 /// Variance of what the cables leave of one joint's torque when fitted to that joint alone.
@@ -105,11 +105,11 @@ void note_zero(const Stage1& stage, int joint, ElasticPreload& preload) {
   const double spread = (r.col(c.tau) - offset * r.col(c.offset)).norm() /
                         std::sqrt(static_cast<double>(rows.rows->n_rows()));
   if (std::abs(offset) > kArbitraryZero * std::sqrt(2.0) * spread)
-    preload.warnings.push_back(fmt::format(
-        "joint {}: the torque is {:.3g} {} at zero deflection; if that is an encoder's arbitrary "
-        "zero and no offset of the drive, set it right in the rig file (\"shift\" of theta{}): "
-        "with several joints theta_0 is not estimated",
-        joint + 1, offset, preload.linear_motion ? "N" : "N m", joint + 1));
+    preload.warnings.push_back(
+        fmt::format("joint {}: the torque is {:.3g} {} at zero deflection; if an encoder's "
+                    "arbitrary zero causes it, not an offset of the drive, correct it in the rig "
+                    "file (\"shift\" of theta{}): with several joints theta_0 is not estimated",
+                    joint + 1, offset, preload.linear_motion ? "N" : "N m", joint + 1));
 }
 
 void note_joints(const Stage1& stage, ElasticPreload& preload) {

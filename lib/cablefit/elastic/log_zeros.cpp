@@ -104,12 +104,11 @@ double note_log_zeros(const ElasticJob& job, const BlockedRows& rows,
   for (const LogZeros::Zero& zero : found->zeros)
     zeros += fmt::format("{}{:.4g} {} in {}", zeros.empty() ? "" : ", ", 1e3 * zero.theta_0,
                          linear ? "mm" : "mrad", zero.log);
-  preload.warnings.push_back(fmt::format(
-      "the encoder zero differs between logs: with one each the residual is {:.3g} of {:.3g} {} "
-      "rms ({}); was "
-      "an axis homed between them? `cablefit refine` of these logs names it a slip and fits all "
-      "with it",
-      found->rms, left, linear ? "N" : "N m", zeros));
+  preload.warnings.push_back(
+      fmt::format("the encoder zero differs between logs: with one each the residual is {:.3g} "
+                  "of {:.3g} {} rms ({}); was an axis homed between them? `cablefit refine` of "
+                  "these logs identifies it as a slip and fits all logs with it",
+                  found->rms, left, linear ? "N" : "N m", zeros));
   return found->rms;
 }
 

@@ -106,7 +106,8 @@ std::string ElongationUnit::stiffness() const {
 
 std::string push_text(const Cable& cable, const Push& push, const ElongationUnit& unit) {
   return fmt::format(
-      "cable {} pushes over elongations of {}, its k(l) = f(l)/l goes down to {:.4g} {} at {}",
+      "cable {} has a negative stiffness over elongations of {}: k(l) = f(l)/l goes "
+      "down to {:.4g} {} at {}",
       cable.name, unit.text(push.from, push.to), push.lowest, unit.stiffness(),
       unit.text(push.lowest_at));
 }

@@ -62,7 +62,8 @@ ElasticPreload begin_preload(const ElasticJob& job, const std::string& name) {
   preload.decisions = job.settings.decisions;
   preload.warnings = job.settings.warnings;
   if (job.options.unconstrained)
-    preload.decisions.push_back({"stiffness", "unconstrained", "given; cables may push"});
+    preload.decisions.push_back(
+        {"stiffness", "unconstrained", "given; a negative cable stiffness is allowed"});
   if (job.options.offset)
     preload.decisions.push_back(
         {"offset", fmt::format("{:g}", *job.options.offset), "given, not fitted"});
@@ -81,7 +82,7 @@ void require_motion(const ElasticJob& job) {
                                     theta));
     if (!varies(job, Channel::tau, joint))
       throw input_error(place, channel_of(job, "tau", joint) + " never changes",
-                        "check which column the torque is");
+                        "check which column holds the torque");
   }
 }
 

@@ -1,5 +1,5 @@
 // A plot as plain data: what is shown, not how it looks. Fits make figures when they are asked to,
-// report/ renders them; whatever else draws (another library, a paper) can start from the same.
+// report/ renders them; other programs can draw the same data.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct FigureAxis {
 
 enum class TraceStyle {
   line,      ///< points joined in order; a NaN breaks the line
-  broad,     ///< the same, for what was measured: others that lie on it leave its edges
+  broad,     ///< the same, wide, for measured data: its edges stay visible under other lines
   dashed,    ///< the same, for what is a reference
   points,    ///< a cloud
   steps,     ///< a histogram's outline, x at the middle of the bins
@@ -35,15 +35,15 @@ struct Trace {
   std::vector<std::string> labels;  ///< instead of x: names along the axis
 };
 
-/// A dotted line across the plot with a word, such as where a log begins.
+/// A dotted line across the plot with a label, such as where a log begins.
 struct Mark {
   double x = 0;
   std::string text;
 };
 
-/// A word within the plot, such as what a region is.
+/// A label within the plot, such as the name of a region.
 struct Note {
-  double x = 0, y = 0;  ///< the middle of the word
+  double x = 0, y = 0;  ///< the middle of the label
   std::string text;
 };
 

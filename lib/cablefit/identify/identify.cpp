@@ -27,7 +27,7 @@ void require_channels(std::span<const LogSurvey> logs) {
     if (log.plan.rig.n_joints() > 1)
       throw input_error(
           {log.plan.rig.path, 0, 0},
-          fmt::format("the rig has {} joints; one step, and the search of l_o, are made for one",
+          fmt::format("the rig has {} joints; one step, and the search of l_o, support one joint",
                       log.plan.rig.n_joints()),
           "use 'cablefit elastic' and 'cablefit dynamic', and give every \"initial_elongation\" as "
           "a "
@@ -106,8 +106,8 @@ JointPoint settled_fit(std::span<const LogSurvey> logs, const IdentifyOptions& o
     if (any && pass < kMostPasses) continue;
     if (any)
       own.front().warnings.push_back(
-          "the nonlinear parameters of the effects did not converge: the logs hardly determine "
-          "them");
+          "the nonlinear parameters of the effects did not converge: the logs do not "
+          "determine them well");
     facts = std::move(own);
     return point;
   }
@@ -147,8 +147,8 @@ IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& 
   for (PreloadFacts& f : facts)
     if (!f.added.empty() && f.has_blocked)
       f.warnings.emplace_back(
-          "the effects of the model are fitted in the moving logs only: a blocked sweep has a "
-          "friction of its own");
+          "the effects of the model are fitted in the moving logs only: friction differs "
+          "in a blocked sweep");
   const std::vector<PreloadJob> jobs = begin_jobs(logs, options, facts, result);
   std::vector<JointRecord> blocked(facts.size());
   for (std::size_t j = 0; j < facts.size(); ++j)

@@ -14,7 +14,7 @@
 
 namespace cablefit {
 
-/// Throws Error(input) for missing channels, rigs that do not go together and known l_o that cannot
+/// Throws Error(input) for missing channels, rigs that do not match and known l_o that cannot
 /// balance; Error(not_identifiable) when there are too few rows, or rows that these
 /// cables do not explain.
 IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& options);

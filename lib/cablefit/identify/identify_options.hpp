@@ -9,7 +9,7 @@
 
 namespace cablefit {
 
-/// Which initial elongations are looked for. `automatic`: those for which the rig file says
+/// Which initial elongations are searched. `automatic`: those for which the rig file says
 /// "search"; and without cables in the rig files, all of several preloads (one alone is taken as
 /// 0).
 enum class ElongationMode { automatic, search, known };
@@ -19,7 +19,7 @@ struct IdentifyOptions {
   int order = 0;  ///< of the cables' force; 0: the rig file's, else 2
   ElongationMode elongations = ElongationMode::automatic;
   std::string search_reason = "given";  ///< why all are searched, when they are
-  bool unconstrained = false;           ///< cables may push
+  bool unconstrained = false;           ///< a negative cable stiffness is allowed
   bool honest_sd = true;                ///< --sd honest | white
   std::string preload;                  ///< only this one; empty: all
   bool recursive = false;               ///< R-LSA beside the direct fit: its trace

@@ -20,7 +20,7 @@ struct IdentifyEquation {
   RowCounts counts;
   double rms = 0;             ///< N m, of its residual
   double weight = 0;          ///< (N m)^-2
-  double effective_rows = 0;  ///< independent rows that say as much
+  double effective_rows = 0;  ///< independent rows with the same information
 };
 
 /// The slope of a straight line through the blocked rows: the linear model's K over their range.

@@ -37,8 +37,9 @@ void check_cells(const std::vector<Cell>& cells, const Place& place) {
     throw input_error(place, "more than 10000 columns", "is this a log with one row per sample?");
   }
   if (std::all_of(cells.begin(), cells.end(), is_number)) {
-    throw input_error(place, "no header line; the first line holds numbers only",
-                      "name the columns, as t,q,theta,tau (a line behind # is a comment)");
+    throw input_error(
+        place, "no header line; the first line holds numbers only",
+        "name the columns, as t,q,theta,tau (a line that starts with # is a comment)");
   }
 }
 

@@ -85,14 +85,14 @@ std::optional<Error> header_complaint(const NumberedLine& header,
   if (std::all_of(first.begin(), first.end(), is_blank)) return std::nullopt;
   if (n_names == first.size() && std::all_of(first.begin(), first.end(), is_unit))
     return input_error({path, lines.front().number}, "this line holds units, not numbers",
-                       "read it as the columns' units by --units-row");
+                       "read it as units with --units-row");
   const std::size_t n_looked_at = std::min(kLongestPreamble, lines.size());
   for (std::size_t k = 0; k < n_looked_at; ++k)
     if (names_columns(lines, k))
       return input_error(
           {path, header.number},
-          fmt::format("this line is no header; line {} names the columns", lines[k].number),
-          fmt::format("leave out what stands before it by --skip {}", lines[k].number - 1));
+          fmt::format("this line is not the header; line {} names the columns", lines[k].number),
+          fmt::format("skip the lines before it with --skip {}", lines[k].number - 1));
   return std::nullopt;
 }
 

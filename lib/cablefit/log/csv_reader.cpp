@@ -203,7 +203,7 @@ class CsvReader final : public LogReader {
     n_rows_ += chunk.n_rows;
     n_lines_ += piece.n_lines();
     if (piece.lines.empty() && n_rows_ == 0) {
-      throw input_error({header_.path}, "no rows behind the header", "a log needs samples");
+      throw input_error({header_.path}, "no rows after the header", "a log needs samples");
     }
   }
 

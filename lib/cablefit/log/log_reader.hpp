@@ -1,4 +1,4 @@
-// A log as it stands on disk: named columns with the units as written, delivered in chunks so that
+// A log as it is on disk: named columns with the units as written, delivered in chunks so that
 // memory does not grow with the log. Nothing is converted, dropped or repaired here.
 #pragma once
 
@@ -34,7 +34,7 @@ struct LogHeader {
 /// How the text of a log is laid out, where the log itself does not show it.
 struct LogText {
   std::size_t skipped_lines = 0;  ///< of a CSV log, before its header
-  bool units_row = false;         ///< of a CSV log: the line behind the header holds units
+  bool units_row = false;         ///< of a CSV log: the line after the header holds units
   bool may_miss = false;          ///< an empty cell, "nan" or null is NaN; else an error
 };
 

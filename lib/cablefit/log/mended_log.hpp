@@ -1,5 +1,5 @@
-// A log whose missing cells and repeated times are dealt with as the user asked for, every change
-// counted. Without such a wish it delivers what the log's reader does.
+// A log whose missing cells and repeated times are handled as the user asked for, every change
+// counted. Without such options it delivers what the log's reader does.
 #pragma once
 
 #include <memory>

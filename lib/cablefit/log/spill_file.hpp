@@ -1,4 +1,4 @@
-// Numbers parked outside memory: an unlinked temporary file, so that it is gone whatever happens to
+// Numbers stored outside memory: an unlinked temporary file, so that it is gone whatever happens to
 // the process.
 #pragma once
 

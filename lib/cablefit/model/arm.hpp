@@ -1,4 +1,4 @@
-// Arms: how the links of several joints move each other. Without one every joint turns an inertia
+// Arms: how the links of several joints are coupled. Without one every joint turns an inertia
 // of its own. To add an arm: one file in arm/, one line in arm.cpp.
 #pragma once
 
@@ -69,7 +69,7 @@ struct Arm {
   const ArmKind* kind = nullptr;  ///< nullptr: not given; every joint for itself
   ArmParameters parameters;
 
-  /// The links move each other.
+  /// The links are coupled.
   bool is_coupled() const { return kind != nullptr && kind->regressor != nullptr; }
   std::vector<ParameterInfo> base_parameters() const;
   /// Their values by the description, in the same order, or none.

@@ -12,14 +12,14 @@
 
 namespace cablefit {
 
-/// Largest order of any law: a bound for small fixed arrays, far above what data can tell apart.
+/// Largest order of any law: a bound for small fixed arrays, far above what data can determine.
 inline constexpr int kMaxCableOrder = 9;
 
 /// Linear conditions under which a cable only pulls up to some elongation: rows * coefficients >= 0
 /// imply k(l) = f(l)/l >= 0 there, (5) and (16).
 struct PullConditions {
   Eigen::MatrixXd rows;  ///< conditions x coefficients
-  Eigen::VectorXd at;    ///< elongation that each one speaks of, or is closest to
+  Eigen::VectorXd at;    ///< elongation that each one is about, or is closest to
 };
 
 /// What a law needs to know besides the elongation, and what is never fitted linearly.
@@ -84,7 +84,7 @@ struct Cable {
   double force(double l) const;
   /// df/dl; 0 when slack.
   double stiffness(double l) const;
-  /// The paper's k(l) = f(l)/l, what (5) and (16) want non-negative.
+  /// The paper's k(l) = f(l)/l, non-negative by (5) and (16).
   double secant(double l) const;
   /// Elastic energy (6), J; 0 when slack.
   double energy(double l) const;

@@ -1,7 +1,7 @@
 // The catalogue of effects: what can be simulated can be fitted, and what can be fitted can be
-// named. One row is a column of the regressor, a torque (or sensor, or cable) of the simulation
-// and, beyond the paper's model (14) with (31), a candidate of `refine`. To add one: one file with
-// its functions in catalogue/, one line in effects.cpp.
+// identified. One row is a column of the regressor, a torque (or sensor, or cable) of the
+// simulation and, beyond the paper's model (14) with (31), a candidate of `refine`. To add one: one
+// file with its functions in catalogue/, one line in effects.cpp.
 #pragma once
 
 #include <Eigen/Core>
@@ -52,7 +52,7 @@ struct JointState {
   double tension = 0;
 };
 
-/// Fills in what the transmission says at these positions (rad, n_joints each): deflection,
+/// Fills in what follows from the transmission at these positions (rad, n_joints each): deflection,
 /// tau_elas, stiffness and tension of joint `joint` (from 0).
 void set_elastic(const Transmission& transmission, const Eigen::VectorXd& q,
                  const Eigen::VectorXd& theta, int joint, JointState& state);
@@ -63,7 +63,7 @@ struct Recording {
   Eigen::ArrayXd q, theta, tau, tau_load;
 };
 
-/// How large the motion of the logs is, which some grids are counted in.
+/// How large the motion of the logs is: the unit of some grids.
 struct LogScale {
   double peak = 0;    ///< N m, largest |tau|
   double usual = 0;   ///< N m, three quarters of |tau| are below
@@ -88,7 +88,7 @@ struct ShapeGrid {
   bool is_whole = false;  ///< values are whole numbers, and nothing lies between them
   bool is_rare = false;   ///< of torques: no value is below LogScale::usual
   double canonical = 0;   ///< the value of the textbooks, an exponent of 2; 0: none is special
-  /// Beyond the highest value the logs show another effect: refine names none that stands there.
+  /// Beyond the highest value the logs show another effect: refine identifies none that is there.
   bool is_open_above = false;
 
   /// Value i = 0 .. n_values-1, in SI.
@@ -114,12 +114,12 @@ enum class Yardstick {
 struct Effect {
   std::string_view name;  ///< "stribeck"; docs/reference/effects.md
   Site site = Site::link;
-  /// Names in one class cannot be told apart by any log of the usual kind: "constant", "scale",
+  /// Names in one class are not separable by any log of the usual kind: "constant", "scale",
   /// "l_o"; empty: none.
   std::string_view alias_class = {};
   std::string_view equation = {};    ///< "a sgn(qd) exp(-(qd / v_s)^2)"
-  std::string_view signature = {};   ///< what it looks like, and what looks like it
-  std::string_view experiment = {};  ///< the cheapest run that separates it from its look-alikes
+  std::string_view signature = {};   ///< its pattern in the residual, and similar effects
+  std::string_view experiment = {};  ///< the cheapest run that separates it from similar effects
   std::string_view source = {};      ///< author, year
   /// Linear ones first, then one per entry of `shape`.
   std::span<const ParameterInfo> parameters = {};
@@ -129,9 +129,9 @@ struct Effect {
   MotionPart follows = MotionPart::several;
   /// The linear parameters are pairs (sine, cosine) of this many harmonics; 0: they are not.
   int n_harmonics = 0;
-  /// Dated: since_event counts from a time that is looked for.
+  /// An event: since_event counts from a time that is searched.
   bool is_event = false;
-  /// Blocked logs alone can show it, and tell it from the others that they can show.
+  /// Blocked logs alone can show it, and separate it from the others that they can show.
   bool is_static = false;
 
   /// A scale of torques is determined only beside a torque or an inertia that is known.
@@ -146,11 +146,12 @@ struct Effect {
   void (*torque)(const JointState& state, const double* shape, const double* z, double* link,
                  double* motor) = nullptr;
   /// Per unit of each linear parameter: level of dry friction on the row's own axis, to be
-  /// multiplied with sgn(v) (set-valued at rest). `direction`: -1 or 1, of motion, or of the push.
+  /// multiplied with sgn(v) (set-valued at rest). `direction`: -1 or 1, of motion, or of the
+  /// torque.
   void (*level)(const JointState& state, double direction, const double* shape, const double* z,
                 double* level) = nullptr;
 
-  /// A sensor or drive that is not as it should be: makes of a recording what it ought to have
+  /// A sensor or drive that is not as it should be: corrects a recording to what it should have
   /// been, given all parameters. Rows with a linear parameter are linear for small ones.
   void (*correct)(const double* parameters, Recording& recording) = nullptr;
   /// Size of the linear parameter for a difference quotient; `correct` only.
@@ -178,7 +179,7 @@ struct Effect {
   /// Of the paper's model, which every fit has.
   bool is_base() const { return follows != MotionPart::several; }
   bool is_inertia() const { return follows == MotionPart::acceleration; }
-  /// An event after which the joint is another one, and not one that passes.
+  /// An event that changes the joint for good, not one that passes.
   bool lasts() const { return is_event && shape.empty(); }
   /// An event that is over after a while: the first of its shapes, s.
   bool passes() const { return is_event && !lasts(); }
@@ -190,13 +191,13 @@ std::span<const Effect> effects();
 /// What the paper's model (14), (31) is made of; of one side.
 std::span<const Effect> base_effects();
 std::span<const Effect> base_effects(Side side);
-/// Beyond it: what `refine` may name, in the order of docs/reference/effects.md; those of
+/// Beyond it: what `refine` may identify, in the order of docs/reference/effects.md; those of
 /// add_effect() last.
 std::span<const Effect> candidate_effects();
-/// A row of your own: from now on refine looks for it, model files may hold it, and it is simulated
-/// and fitted as all others. Call it before anything else of the library runs; at most 64. Throws
-/// Error(usage) for a name and site that is there already, for functions of several kinds or none,
-/// and for what only the base model has (`follows`, Site::rigid).
+/// A row of your own: from now on refine searches for it, model files may hold it, and it is
+/// simulated and fitted as all others. Call it before anything else of the library runs; at
+/// most 64. Throws Error(usage) for a name and site that is there already, for functions of several
+/// kinds or none, and for what only the base model has (`follows`, Site::rigid).
 void add_effect(const Effect& row);
 /// The row of that name; throws Error(input) with a suggestion.
 const Effect& find_base_effect(std::string_view name, Side side);

@@ -63,7 +63,7 @@ Model parse_model(const JsonNode& root, const std::string& preload, const std::s
   for (const auto& [name, reader] : kReaders) {
     if (schema.text() == name) return reader(root, {preload, model, completeness}, &choice);
   }
-  throw schema.error(fmt::format("schema {} is no model", cablefit::quoted(schema.text())),
+  throw schema.error(fmt::format("schema {} is not a model", cablefit::quoted(schema.text())),
                      fmt::format("expected '{}', or '{}' as `cablefit dynamic` writes it",
                                  model_file::kModelSchema, model_file::kResultSchema));
 }

@@ -21,7 +21,7 @@ std::string joint_parameter_name(std::string_view name, int joint, int n_joints)
 /// A base effect's parameter of joint `joint` (from 1) without a value: name, symbol and unit.
 Estimate blank_estimate(const ParameterInfo& parameter, int joint, const Rig& rig);
 
-/// What is known of a parameter by its blank estimate; nothing: the model does not have it.
+/// The estimate of a parameter, found by its blank estimate; nothing: the model does not have it.
 using FindEstimate = std::function<std::optional<Estimate>(const Estimate& blank)>;
 /// The base effects of one side of a joint (from 1) of which `find` has the parameter.
 std::vector<EffectInstance> base_instances(Side side, int joint, const Rig& rig,
@@ -30,7 +30,7 @@ std::vector<EffectInstance> base_instances(Side side, int joint, const Rig& rig,
 struct JointModel {
   std::vector<EffectInstance> link;   ///< empty on a rigid drive
   std::vector<EffectInstance> motor;  ///< for a rigid drive the effects of Side::rigid
-  /// Beyond (31). The cables of the model are those with its `change` rows already.
+  /// Beyond (31). The cables of the model already have its `change` rows.
   std::vector<EffectInstance> added = {};
 };
 
@@ -44,13 +44,13 @@ struct Model {
   /// l_o and theta_0 if estimated, then what else stage 1 found (offset, f_sm).
   std::vector<Estimate> elastic;
   bool rigid = false;
-  /// Of the parameters of its effects and cables; empty: no fit has told.
+  /// Of the parameters of its effects and cables; empty: not known.
   ParameterCovariance covariance = {};
-  /// Means of what the link's equation left in the fit (window_mean.hpp), N m; empty: not known.
+  /// Means of the link equation's residual in the fit (window_mean.hpp), N m; empty: not known.
   std::vector<WindowMean> link_residual = {};
 };
 
-/// The model's name when no fit has told: "rigid", "linear" or "poly".
+/// The model's name when no fit has given one: "rigid", "linear" or "poly".
 std::string_view default_model_name(const Model& model);
 
 /// A model file, or a result file (cablefit/dynamic/1) plus the preload and model wanted; empty:

@@ -142,6 +142,14 @@ bool is_inertia(const Model& model, const ModelParameter& p) {
   return (p.on_link ? joint.link : joint.motor)[p.effect].effect->is_inertia();
 }
 
+std::optional<std::size_t> shape_of(const Model& model, const ModelParameter& p) {
+  if (p.kind != ParameterKind::added) return {};
+  const JointModel& joint = model.joints[static_cast<std::size_t>(p.joint)];
+  const std::size_t n_linear = joint.added[p.effect].effect->n_linear();
+  if (p.index < n_linear) return {};
+  return p.index - n_linear;
+}
+
 double parameter_value(const Model& model, const ModelParameter& parameter) {
   if (parameter.kind == ParameterKind::encoder_zero && model.transmission.theta_0.size() == 0)
     return 0;

@@ -2,6 +2,7 @@
 // to them, stiffness or cable coefficients, initial elongations and encoder zeros.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,9 @@ std::vector<ModelParameter> model_parameters(const Model& model);
 
 /// Of an effect that adds to an axis' inertia.
 bool is_inertia(const Model& model, const ModelParameter& parameter);
+
+/// Which of the shapes of an added effect it is; nothing: no shape.
+std::optional<std::size_t> shape_of(const Model& model, const ModelParameter& parameter);
 
 double parameter_value(const Model& model, const ModelParameter& parameter);
 void set_parameter_value(Model& model, const ModelParameter& parameter, double value);

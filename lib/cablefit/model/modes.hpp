@@ -27,8 +27,8 @@ std::vector<Mode> modes(const TautTable& taut);
 /// the link in its reference position q_o.
 double elongation_at(const Transmission& transmission, const Cable& cable, double phi);
 
-/// Some cable has an initial elongation: l_o is known, and slack points say more than that cables
-/// end where they begin.
+/// Some cable has an initial elongation: l_o is known, and slack points mean more than that cables
+/// end at zero deflection.
 bool is_preloaded(const Transmission& transmission);
 
 /// Where a cable of a one-joint rig goes slack.

@@ -1,5 +1,5 @@
-// What of the motion a torque follows. Two torques are told apart by motion in which the parts they
-// follow go different ways.
+// The part of the motion that a torque follows. Two torques are separable in a motion in which the
+// parts they follow differ.
 #pragma once
 
 #include <string_view>

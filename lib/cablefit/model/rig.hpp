@@ -1,4 +1,4 @@
-// The rig file (cablefit/rig/1): what a log's columns mean and what the bench is made of.
+// The rig file (cablefit/rig/1): meaning of a log's columns, and the parts of the bench.
 #pragma once
 
 #include <map>
@@ -60,7 +60,7 @@ struct Rig {
   Load load;
   Arm arm;  ///< of several joints
   std::optional<Controller> controller;
-  bool open_loop = false;  ///< tau is a command of its own: nothing measured comes back into it
+  bool open_loop = false;  ///< tau is a command without feedback of measured signals
   std::map<std::string, SensorInfo> sensors;  ///< by channel
   std::map<std::string, double> cad;          ///< by parameter name
   std::vector<std::string> joints = {"1"};

@@ -19,7 +19,7 @@ using RigFacts = std::vector<RigFact>;
 RigFacts elastic_facts(const Rig& rig);
 
 /// "with tau scale 0.51, the rig now says 0.255" of the first fact that differs; empty: none does.
-/// Facts that only one of the two has are not compared.
+/// Facts that only one of the two has are left out.
 std::string changed_fact(const RigFacts& before, const RigFacts& now);
 
 }  // namespace cablefit

@@ -20,11 +20,11 @@ std::string verdict_of(const FitProof& proof) {
     if (p.verdict.find("biased") != std::string::npos) biased.push_back(p.name);
   }
   std::string text = narrow.empty()
-                         ? "the 95 % intervals cover"
+                         ? "the 95 % intervals contain the true values"
                          : fmt::format("the intervals of {} are too narrow and were widened",
                                        fmt::join(narrow, ", "));
   if (!biased.empty())
-    text += fmt::format("; {} off by more than half an sd on average", fmt::join(biased, ", "));
+    text += fmt::format("; {} wrong by more than half an sd on average", fmt::join(biased, ", "));
   return text;
 }
 

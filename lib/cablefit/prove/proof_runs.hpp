@@ -1,4 +1,4 @@
-// The runs of a proof and what they say together. Internal to prove/.
+// The runs of a proof and their common result. Internal to prove/.
 #pragma once
 
 #include <cstdint>

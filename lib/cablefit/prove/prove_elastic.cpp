@@ -179,8 +179,8 @@ Plan make_plan(std::span<const LogSurvey> logs, const ElasticOptions& options,
     }
   }
   plan.twin.notes.emplace_back(
-      "the motion of the logs, the torque of the fit; f_sm is not proved: simulated logs do not "
-      "stick as the log does");
+      "the motion of the logs, the torque of the fit; f_sm is not tested: the "
+      "simulated logs have no stiction");
   const Colour measured = colour_of(logs, plan.options, preload.name, fit);
   const Friction friction{fit.offset, value_of(fit, "f_sm"), measured.f_vm};
   plan.motions = follow(plan.twin, fit, friction, kFollowedBand * job.settings.rows.signal.cutoff,
@@ -231,7 +231,7 @@ void prove_elastic(std::span<const LogSurvey> logs, const ElasticOptions& option
   for (ElasticPreload& preload : result.preloads)
     for (ElasticFit& fit : preload.fits) {
       if (fit.transmission.n_joints > 1) {
-        fit.warnings.emplace_back("not proved: --prove of stage 1 is made for one joint");
+        fit.warnings.emplace_back("not proved: --prove of stage 1 supports one joint");
         continue;
       }
       const Plan plan = make_plan(logs, options, prove, preload, fit);

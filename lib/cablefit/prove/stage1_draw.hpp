@@ -7,7 +7,7 @@
 namespace cablefit {
 
 /// The result with the fit of that preload and model drawn from a normal distribution about `truth`
-/// with its honest covariance.
+/// with its robust covariance.
 ElasticResult draw_stage1(const ElasticResult& result, const std::string& preload,
                           const ElasticFit& truth, Random& random);
 

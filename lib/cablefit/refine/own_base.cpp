@@ -160,7 +160,7 @@ OwnBase own_base(const RefineLogs& given, int threads) {
     if (rig.n_joints() > 1)
       throw input_error(
           {rig.path, 0, 0},
-          fmt::format("the rig has {} joints; refine is made for one", rig.n_joints()),
+          fmt::format("the rig has {} joints; refine supports one joint", rig.n_joints()),
           "give logs and a rig file of one of them");
     base.models.push_back(blank_model(name, rig, rigid));
     all_blocked = all_blocked && any_part(logs, name, Phase::blocked);

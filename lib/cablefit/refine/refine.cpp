@@ -167,7 +167,7 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
                         find_bands(first.design, first.x, bench.noise.design, bench.noise.fit.x),
                         first.design, first.x, bench.floor);
   const std::vector<TrialRun> runs = trial_runs(first.design);
-  tell(options, "what can be told apart", 0);
+  tell(options, "which effects are separable", 0);
   result.not_separable = find_not_separable(first.design, first.x, bench.floor, runs);
 
   Chain chain{first};

@@ -12,11 +12,11 @@
 namespace cablefit {
 
 struct RefineOptions {
-  std::size_t n_draws = 24;        ///< simulated data sets
-  unsigned long seed = 1;          ///< of the first; counted up from there
-  double materiality = 0.01;       ///< least share of the squared residual that is worth a name
+  std::size_t n_draws = 24;   ///< simulated data sets
+  unsigned long seed = 1;     ///< of the first; counted up from there
+  double materiality = 0.01;  ///< smallest share of the squared residual of an identified effect
   std::optional<double> material;  ///< N m that matter; nothing: see material_torque()
-  double significance = 0.01;      ///< largest p value of a name
+  double significance = 0.01;      ///< largest p-value of an identified effect
   std::size_t most_effects = 3;
   std::string preload;  ///< of models that are fitted to the logs, only this one; empty: all
   int threads = 1;

@@ -18,7 +18,7 @@ namespace cablefit {
 enum class Verdict { named, none, ambiguous, unexplained };
 std::string_view to_string(Verdict verdict);
 
-/// A stretch of a variable in which the model misses more than elsewhere.
+/// A range of a variable in which the residual is larger than elsewhere.
 struct Regime {
   std::string equation;             ///< "link", "motor", "blocked"
   std::string regime, variable;     ///< "speed", "thetad"
@@ -28,15 +28,15 @@ struct Regime {
   double rms = 0, noise = 0;  ///< N m, there, and the floor
 };
 
-/// A look-alike, or a row of the league table.
+/// A similar effect, or a row of the table of candidates.
 struct Rival {
   std::string name, side;
   double gain = 0;         ///< share of the squared gap above the floor that it removes
   double difference = 0;   ///< to the best, in sd of the paired blocks' difference
   double inclusion = 0;    ///< share of block resamples in which it is the best
   std::string refused;     ///< why it was no candidate; empty: it was one
-  bool by_rule = false;    ///< an alias: no log of the usual kind tells them apart
-  std::string experiment;  ///< what would
+  bool by_rule = false;    ///< an alias: no log of the usual kind separates them
+  std::string experiment;  ///< that would separate them
 };
 
 struct RefineEvidence {
@@ -52,7 +52,7 @@ struct NamedEffect {
   EffectInstance instance;
   std::vector<Estimate> derived;  ///< amplitude of a pair of sine and cosine
   RefineEvidence evidence;
-  double torque_rms = 0;  ///< N m, what it carries where it acts
+  double torque_rms = 0;  ///< N m, its torque where it acts
   std::vector<Rival> rivals;
 };
 
@@ -85,24 +85,24 @@ struct ParameterShift {
   double before = 0, after = 0, sd = 0;
 };
 
-/// What is left in the end, described where nothing of the catalogue explains it.
+/// The remainder, described where nothing of the catalogue explains it.
 struct Unexplained {
-  std::string kind;      ///< "mode": something swings along; "hum": a line; "wandering"
+  std::string kind;      ///< "mode": an attached mass swings; "hum": a tone; "wandering": slow
   std::string equation;  ///< "link", "motor", "blocked"
   double frequency = 0, damping = 0;  ///< Hz, ratio; of a mode; of a hum the frequency
-  double inertia = 0;                 ///< kg m^2, of what swings
+  double inertia = 0;                 ///< kg m^2, of the attached mass
   double correlation_time = 0;        ///< s, of wandering
   double share_of_squared_gap = 0;    ///< of the equation's, that it describes
   double rms = 0;                     ///< N m, of the equation above its floor
 };
 
-/// Effects that the logs cannot tell from each other, or one that they cannot tell from the model's
-/// own parameters: said before the residual is looked at.
+/// Effects that the logs do not separate from each other, or one not separable from the model's
+/// own parameters: found from the equations, without the residual.
 struct NotSeparable {
   std::vector<std::string> effects;  ///< "stribeck (motor)"
   bool from_base = false;
   bool is_alias = false;  ///< no log of the usual kind would
-  std::string next_run;   ///< the cheapest that would, in words; empty: none of those tried
+  std::string next_run;   ///< the cheapest that separates them; empty: none of those tried
   int run = -1;           ///< its number among those tried
   std::vector<std::string> still_together;  ///< of the effects, after that run
 };
@@ -115,13 +115,13 @@ struct NextRun {
   Eigen::ArrayXd theta_ref;  ///< rad
 };
 
-/// What one equation leaves beyond the sensors' noise, N m rms.
+/// Residual of one equation beyond the sensors' noise, N m rms.
 struct EquationRemainder {
   std::string equation;  ///< "link", "motor", "blocked"
   double above = 0;
   double at_least = 0;  ///< lower end of its 95 % interval, blocks of time independent
   double noise = 0;     ///< floor
-  double material = 0;  ///< what would matter
+  double material = 0;  ///< that would separate them matter
 };
 
 struct RefineResult {

@@ -160,7 +160,8 @@ std::string why_nothing(const LogPlan& plan) {
            "joint with its columns gives ratios to J_link, stiffness and friction need tau";
   if (!tau)
     return fmt::format(
-        "{} without tau: how it moves, not what moves it; log the drive's torque or current",
+        "{} without tau: the torque is missing, so inertia and friction are not "
+        "identifiable; log the drive's torque or current",
         q && theta             ? "q and theta"
         : q                    ? "q"
         : plan.has(Channel::w) ? "w"
@@ -176,7 +177,8 @@ void note_motion(const LogPlan& plan, bool trusted, CheckedPart& part) {
   const CheckedExcitation& e = part.excitation;
   if (part.identifies.empty()) warn(why_nothing(plan));
   if (plan.q_is_theta) warn("q is the only position: it is read as theta, that of a rigid drive");
-  if (part.survey.uneven) warn("the clock is uneven: rows will be made anew on an even grid");
+  if (part.survey.uneven)
+    warn("the sample times are uneven: rows will be resampled on an even grid");
   if (part.survey.phase == Phase::blocked || e.channel.empty()) return;
   if (e.share_at_rest > kMostlyAtRest && !trusted) {
     warn(fmt::format("the drive rests in {:.0f} % of the rows", 100 * e.share_at_rest));

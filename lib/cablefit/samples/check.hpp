@@ -1,4 +1,4 @@
-// What is in a log, and what can be made of it: everything a person wants to know before a fit.
+// What is in a log and what can be identified from it, before any fit.
 #pragma once
 
 #include <span>
@@ -19,7 +19,7 @@ struct CheckedChannel {
 
 /// How the drive (theta or w, else q) was moved, first joint.
 struct CheckedExcitation {
-  std::string channel;       ///< empty: no channel tells
+  std::string channel;       ///< empty: no channel shows it
   double rest_speed = 0;     ///< rad/s, below this it counts as at rest
   double share_at_rest = 0;  ///< of the rows
   double fastest = 0;        ///< rad/s
@@ -49,10 +49,10 @@ struct CheckedLog {
   bool linear_motion = false;
   std::vector<std::string> unused_columns;
   std::vector<CheckedPart> parts;
-  std::vector<Decision> decisions = {};  ///< what is read otherwise than it stands there
-  std::vector<Figure> figures = {};      ///< check_figures(), when somebody asked for them
+  std::vector<Decision> decisions = {};  ///< where reading differs from the text of the log
+  std::vector<Figure> figures = {};      ///< check_figures(), when asked for
 
-  /// Whether any part is good for anything.
+  /// Whether anything can be identified from any part.
   bool usable() const;
 };
 

@@ -17,7 +17,8 @@ void require_distinct(const std::vector<std::string>& logs) {
     std::error_code ignored;
     const auto path = std::filesystem::weakly_canonical(log, ignored).string();
     if (seen.insert(path).second) continue;
-    throw usage_error(fmt::format("log {} is given twice", log), "its rows would count double");
+    throw usage_error(fmt::format("log {} is given twice", log),
+                      "give it once: duplicate data make every sd too small");
   }
 }
 

@@ -1,4 +1,4 @@
-// Log files as every command reads them: each with its rig, then weighed together.
+// Log files as every command reads them: each with its rig, then checked together.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// From logs to answers, a stage at a time: each takes the logs it needs from all that are given.
+// From logs to results, stage by stage: each takes the logs it needs from all that are given.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ namespace cablefit {
 std::vector<LogSurvey> logs_of(std::span<const LogSurvey> logs, Phase phase);
 
 /// Stage 1 from the logs with the link blocked: K, or K1_0, K1_1, ... of each preload (N m/rad, N
-/// m/rad^2, ...; with cables in the rig file N/m, N/m^2, ...). An initial elongation is looked for
+/// m/rad^2, ...; with cables in the rig file N/m, N/m^2, ...). An initial elongation is searched
 /// where the rig file or the curve asks for it. Throws as fit_elastic().
 ElasticResult stiffness(std::span<const LogSurvey> logs, const ElasticOptions& options = {});
 
@@ -28,7 +28,7 @@ DynamicResult dynamics(std::span<const LogSurvey> logs, const ElasticResult& sta
 /// Where models disagree with the logs, and which effect is missing. `models`: one per preload, and
 /// what they lack gets start values; none: fitted to the logs, moving and blocked ones. Without
 /// test logs the last third of every moving one is held out. Throws as own_base() and refine(), and
-/// Error(usage) for models that do not go together.
+/// Error(usage) for models that do not match.
 RefineResult missing_effects(const RefineLogs& logs, std::vector<Model> models,
                              const RefineOptions& options);
 RefineResult missing_effects(const RefineLogs& logs, const RefineOptions& options = {});

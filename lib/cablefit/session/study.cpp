@@ -116,9 +116,10 @@ void add_refine(std::span<const LogSurvey> logs, std::span<const LogSurvey> test
     const std::string name =
         groups.size() > 1 ? fmt::format("refine of {}", fmt::join(preloads, ", ")) : "refine";
     if (preloads.size() > 1) {
-      stages.skip(name, fmt::format("{} holds several preloads, and refine looks at one at a time; "
-                                    "split the log",
-                                    shared_log(logs, preloads.front()).plan.path));
+      stages.skip(
+          name,
+          fmt::format("{} holds several preloads; refine needs logs of one preload; split the log",
+                      shared_log(logs, preloads.front()).plan.path));
       continue;
     }
     stages.run(name, [&] {

@@ -1,5 +1,5 @@
-// All stages in one go: what logs hold, how stiff, how heavy and how rough the drive is, and what
-// its model lacks.
+// All stages in one run: content of the logs, stiffness, inertia and friction of the drive, and
+// what its model lacks.
 #pragma once
 
 #include <functional>
@@ -30,7 +30,7 @@ struct Study {
   struct NotDone {
     std::string stage, reason;
   };
-  /// What refine answers of one preload: each has its friction.
+  /// The answer of refine for one preload: each has its own friction.
   struct Missing {
     std::string preload;
     RefineResult result;

@@ -48,7 +48,7 @@ void choose_hold(const Rig& rig, const ReplayOptions& options, Experiment& exper
   experiment.decisions.push_back({"torque hold", hold == TorqueHold::none ? "none" : "zoh",
                                   given ? "given"
                                   : hold == TorqueHold::automatic
-                                      ? "nothing says; --torque-hold none for a measured current"
+                                      ? "default; use --torque-hold none for a measured current"
                                       : "by the rig file, or by the fit of the model"});
 }
 
@@ -60,8 +60,8 @@ void choose_window(const ReplayOptions& options, Experiment& experiment) {
       {"window", restarts ? fmt::format("{:g} s", experiment.window_seconds) : "whole stretches",
        options.window ? "given"
        : closed_loop  ? "the controller keeps the drive on its reference"
-                      : "started anew from the measured state: the noise of a replayed torque "
-                        "makes positions drift"});
+                      : "restarted from the measured state: the noise of a replayed torque makes "
+                        "positions drift"});
 }
 
 void tell_refinements(const Model& model, Experiment& experiment) {

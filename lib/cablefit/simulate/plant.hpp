@@ -28,7 +28,8 @@ class Plant {
   double inertia(std::size_t axis) const;
   double dry_level(std::size_t axis) const;
 
-  /// Inner states of refinements as `before` has them, a plant of the same model.
+  /// Inner states of refinements, and last accelerations, as `before` has them, a plant of the same
+  /// model.
   void take_history(const Plant& before);
 
   std::size_t n_joints() const { return theta_.size(); }

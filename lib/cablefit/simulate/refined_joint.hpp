@@ -26,7 +26,7 @@ class RefinedJoint {
   /// The next step begins with other velocities than the last one ended with, and goes on with its
   /// accelerations.
   void jump() { has_jumped_ = true; }
-  /// Inner states as `before` has them, of the same refinements.
+  /// Inner states and last accelerations as `before` has them, of the same refinements.
   void take_history(const RefinedJoint& before);
 
  private:

@@ -13,7 +13,7 @@
 // for h < 2/omega of the stiffest mode (paper's rig: 350 to 630 rad/s, h omega < 0.016 at 25 us).
 //
 // Refinements of the model act as torques at the midpoint, with velocities extrapolated to it, and
-// as more (or less) dry friction of their axis. Those that correct a recording say what acts of a
+// as more (or less) dry friction of their axis. Those that correct a recording give what acts of a
 // controller's commands; a replayed torque has to be corrected before (part_replay.hpp).
 #pragma once
 
@@ -73,8 +73,8 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
-  /// For one that starts anew where `before` ended, of the same model: what cables and friction
-  /// remember (creep, hysteresis, presliding) goes on instead of starting from 0.
+  /// For one that restarts where `before` ended, of the same model: what cables and friction
+  /// keep as state (creep, hysteresis, presliding) continues instead of starting from 0.
   void take_history(const Simulation& before);
 
   /// Rows [0, n_rows) of `block`, whose row 0 comes right after the last row of the call before;

@@ -36,11 +36,11 @@ constexpr std::array kRewordings{
     Rewording{"unexpected end of input", "text ends too early",
               "close all brackets, or copy the file again"},
     Rewording{"; expected end of input", "", "nothing may follow the closing bracket"},
-    Rewording{"; expected string literal", "", "a key in double quotes belongs here"},
+    Rewording{"; expected string literal", "", "expected a key in double quotes"},
     Rewording{"; expected ':'", "", "put ':' between key and value"},
     Rewording{"; expected '}'", "", "put ',' between members and '}' after the last"},
     Rewording{"; expected ']'", "", "put ',' between values and ']' after the last"},
-    Rewording{"", "", "a value belongs here"},
+    Rewording{"", "", "expected a value"},
 };
 
 bool mentions(std::string_view text, std::string_view part) {

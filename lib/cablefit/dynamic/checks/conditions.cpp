@@ -157,7 +157,7 @@ ConditionError error_of(const BinErrors& bin, double fitted, bool has_linear) {
   if (has_linear) e.linear = bin.root(bin.linear);
   e.fitted = fitted;
   if (e.n_rows < kFewRows) {
-    e.verdict = "too few rows to tell";
+    e.verdict = "too few rows";
     return e;
   }
   const bool is_larger = e.ratio() > kMaterialRatio;

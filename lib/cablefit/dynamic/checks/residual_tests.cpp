@@ -32,7 +32,7 @@ ResidualTest whiteness(const TestedRows& tested, const WhitenessTest& test) {
   out.name = "whiteness";
   if (!test.is_possible()) {
     out.finding = Finding::untestable;
-    out.verdict = "too few rows in a row to tell";
+    out.verdict = "too few consecutive rows";
     return out;
   }
   out.statistic = fmt::format("Ljung-Box, {} lags", test.lags);
@@ -49,7 +49,7 @@ ResidualTest whiteness(const TestedRows& tested, const WhitenessTest& test) {
   }
   out.finding = test.effective_rows < kManyRows * n_rows ? Finding::material : Finding::immaterial;
   if (test.effective_rows > kAllRows * n_rows) {
-    out.verdict = fmt::format("not quite white, but as good as all rows count as independent ({})",
+    out.verdict = fmt::format("not white, but nearly all rows count as independent ({})",
                               p_text(test.p_value));
     return out;
   }
@@ -66,8 +66,8 @@ ResidualTest dependence(const TestedRows& tested, const JudgedVariable& variable
   out.name = variable.name;
   if (!test.is_possible) {
     out.finding = Finding::untestable;
-    out.verdict = test.dof_1 > 0 ? "too few independent rows"
-                                 : "the fit explains it: nothing is left to test";
+    out.verdict =
+        test.dof_1 > 0 ? "too few independent rows" : "the fit explains it; no residual to test";
     return out;
   }
   out.statistic = fmt::format("F({:.0f}, {:.0f})", test.dof_1, test.dof_2);
@@ -78,8 +78,9 @@ ResidualTest dependence(const TestedRows& tested, const JudgedVariable& variable
     out.verdict = fmt::format("none seen ({})", p_text(test.p_value));
     if (test.detectable > kShown * tested.torque_rms) {
       out.finding = Finding::untestable;
-      out.verdict = fmt::format("too few independent rows: less than {:.2g} {} rms would not show",
-                                test.detectable, tested.torque_unit);
+      out.verdict =
+          fmt::format("too few independent rows: an effect below {:.2g} {} rms would not be seen",
+                      test.detectable, tested.torque_unit);
     }
     return out;
   }

@@ -64,11 +64,10 @@ SweepVerdict judged(const Sweep& sweep, const std::string& setting, const std::s
                          sweep.parameters[k], range, share_text(range * sweep.relative_sd[k]));
     verdict.is_flat = false;
   }
-  verdict.text = fmt::format(
-      "{} between {} and {} {}",
-      moved.empty() ? fmt::format("flat: no parameter moves by more than {:.1f} sd", largest)
-                    : moved,
-      value_text(*points.front()), value_text(*points.back()), unit);
+  verdict.text =
+      fmt::format("{} between {} and {} {}",
+                  moved.empty() ? fmt::format("flat: all changes below {:.1f} sd", largest) : moved,
+                  value_text(*points.front()), value_text(*points.back()), unit);
   return verdict;
 }
 

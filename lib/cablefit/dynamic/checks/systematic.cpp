@@ -18,7 +18,7 @@ double value_of(const std::map<std::string, double>& sd, const std::string& name
 }
 
 std::string in_words(const std::string& noted) {
-  return noted.empty() ? "small beside every sd" : noted;
+  return noted.empty() ? "small compared with every sd" : noted;
 }
 
 void widen_joint(const std::string& name, double factor, Estimation& estimation) {
@@ -76,7 +76,7 @@ void add_systematic(const EstimationTask& task, bool by_filtered_rows, Estimatio
         {"method's floor", measured ? in_words(noted) : "not in the sd", note});
   if (!fit.stage1_misfit.empty())
     estimation.decisions.push_back(
-        {"stage 1's misfit", in_words(carried), "its residual curve is carried into every sd"});
+        {"stage 1's misfit", in_words(carried), "its residual curve is included in every sd"});
 }
 
 }  // namespace cablefit

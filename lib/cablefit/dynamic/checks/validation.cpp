@@ -205,7 +205,7 @@ void require_judgeable(std::span<const LogSurvey> unseen, const std::vector<std:
     const Place place{log.plan.path, 0, 0};
     if (log.plan.rig.n_joints() != fitted.plan.rig.n_joints() ||
         log.plan.rig.linear_motion != fitted.plan.rig.linear_motion)
-      throw input_error(place, "another kind of rig than the logs that are fitted",
+      throw input_error(place, "another kind of rig than the fitted logs",
                         "validate on logs of the same drive");
     require_channels(log.plan, rigid);
     const bool has_any = std::any_of(log.parts.begin(), log.parts.end(), [&](const auto& part) {
@@ -214,9 +214,8 @@ void require_judgeable(std::span<const LogSurvey> unseen, const std::vector<std:
     });
     if (!has_any)
       throw input_error(
-          place,
-          fmt::format("no moving rows of a preload that is fitted ({})", fmt::join(preloads, ", ")),
-          "name the preloads alike, or fit a log of this one");
+          place, fmt::format("no moving rows of a fitted preload ({})", fmt::join(preloads, ", ")),
+          "use the same preload names, or fit a log of this preload");
   }
 }
 

@@ -82,8 +82,9 @@ std::map<std::string, double> misfit_sd(const RowStatistics& rows, const Dynamic
 std::string drowned_text(double torque, double left, double relative_sd, const MotionColumn& column,
                          double acceleration) {
   return fmt::format(
-      "an inertial torque of {:.2g} rms is too small beside the residual ({:.2g} rms); {}", torque,
-      left, stronger_motion(column, acceleration, std::min(1.0, relative_sd)));
+      "its inertial torque of {:.2g} rms is too small compared with the residual "
+      "({:.2g} rms); {}",
+      torque, left, stronger_motion(column, acceleration, std::min(1.0, relative_sd)));
 }
 
 /// An inertia has to be positive: an interval that reaches zero has determined nothing.

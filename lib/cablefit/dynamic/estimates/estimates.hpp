@@ -12,7 +12,7 @@ namespace cablefit {
 /// Appends the parameters and warnings of an equation, or of several with shared parameters, to
 /// `fit`. The covariance of stage
 /// 1 is carried through (Murphy & Topel 1985): x depends on the elastic coefficients by (W'W)^-1
-/// W'Z, so their honest covariance adds to that of x. `which`: the elastic fit's place among the
+/// W'Z, so their robust covariance adds to that of x. `which`: the elastic fit's place among the
 /// columns.
 void add_estimates(const RowStatistics& rows, const DynamicColumns& columns,
                    const LinearSolution& solution, const ElasticFit* stage1, std::size_t which,

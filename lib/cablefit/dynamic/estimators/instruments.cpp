@@ -83,7 +83,7 @@ void note_instruments(const EstimationTask& task, const LoopPlan& plan, const Iv
                    rows_of(task, fit))});
   if (!fit.converged())
     out.fit.doubts.push_back(
-        fmt::format("the instruments have not settled after {} simulations: the last one moved an "
+        fmt::format("the instruments did not converge in {} simulations: the last one changed an "
                     "estimate by {:.2g} sd",
                     fit.n_simulations, fit.last_change));
 }
@@ -118,7 +118,7 @@ bool is_rejected(const ExogeneityTest& test) {
   return test.possible && test.p_value < kSignificant;
 }
 
-/// What the test and the two fits of one equation say together.
+/// The common result of the test and the two fits of one equation.
 struct Judgement {
   ExogeneityTest test;
   EstimateDifference difference;
@@ -194,7 +194,7 @@ Estimation estimate_iv(const EstimationTask& task) {
     add_equation(task, k, fit.rows[k].rows, fit.solutions[k], influences, out);
     const Judgement j = judge(task.equations[k], plain[k], fit.solutions[k], fit.tests[k]);
     out.fit.verdicts[verdict_key(task.equations[k])] =
-        verdict(j, "wls would do", "the iv estimates are used");
+        verdict(j, "wls would be sufficient", "the iv estimates are used");
   }
   if (job.n_joints() == 1) out.joint = join_estimates(out.fit, influences, task.stage1());
   note_controller(task, plan, out);
@@ -226,7 +226,7 @@ struct InstrumentProof {
 
   bool holds() const { return agrees && better; }
   std::string text() const {
-    return fmt::format("{} moves by {:.2g} sd between cut-offs; {} than wls on held-out blocks",
+    return fmt::format("{} changes by {:.2g} sd between cut-offs; {} than wls on held-out blocks",
                        parameter, moved, better ? "better" : "not better");
   }
 };
@@ -285,7 +285,8 @@ Estimation estimate_automatically(const EstimationTask& task) {
   if (!fit.failure.empty()) return stay_with_least_squares(task, fit.failure);
   for (const LinearSolution& solution : fit.solutions)
     if (has_weak_instruments(solution))
-      return stay_with_least_squares(task, "the simulated loop does not move as the robot did");
+      return stay_with_least_squares(task,
+                                     "the simulated loop does not reproduce the measured motion");
   std::vector<Judgement> judgements = judge_all(task, plain, fit);
   if (any_wants(judgements) && !test.stretches.empty()) {
     // Settled on the stretches; the same once more with all rows, whose differences count.
@@ -315,15 +316,15 @@ Estimation estimate_automatically(const EstimationTask& task) {
   std::vector<EquationInfluence> influences;
   for (std::size_t k = 0; k < task.equations.size(); ++k) {
     const EquationRows& e = task.equations[k];
-    std::string text = verdict(judgements[k], "wls stands", "the iv estimates are used");
+    std::string text = verdict(judgements[k], "wls is kept", "the iv estimates are used");
     if (uses_instruments(k)) {
       add_equation(task, k, fit.rows[k].rows, fit.solutions[k], influences, out);
     } else {
       add_equation(task, k, *e.rows, plain[k], influences, out);
       if (judgements[k].wants_instruments()) {
         keep_difference(e, plain[k], fit.solutions[k], out.fit);
-        text = verdict(judgements[k], "", "wls stands, with the difference in its sd") +
-               " (instruments not proved: " + proofs[k].text() + ")";
+        text = verdict(judgements[k], "", "wls is kept, with the difference in its sd") +
+               " (instruments not confirmed: " + proofs[k].text() + ")";
       }
     }
     out.fit.verdicts[verdict_key(e)] = text;
@@ -344,8 +345,8 @@ Estimator iv() {
 
 Estimator automatic() {
   return {"auto",
-          "wls, and iv for each equation that fails the Durbin-Wu-Hausman test, if instruments are "
-          "proved",
+          "wls, and iv for each equation that fails the Durbin-Wu-Hausman test, if "
+          "instruments are confirmed",
           "Janot et al. 2016", estimate_automatically};
 }
 

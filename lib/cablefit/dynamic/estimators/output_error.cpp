@@ -45,8 +45,7 @@ bool has_load(const DynamicJob& job) {
 /// Why these logs cannot be fitted by output error; empty when they can.
 std::string obstacle(const EstimationTask& task, const Model& start) {
   const DynamicJob& job = task.job;
-  if (job.arm != nullptr && job.arm->is_coupled())
-    return "links that move each other are not simulated yet";
+  if (job.arm != nullptr && job.arm->is_coupled()) return "coupled joints are not simulated yet";
   if (job.rigid && !job.added.empty() && has_load(job))
     return "an added effect of a rigid drive may depend on its load, and output error adds the "
            "logged load to the torque";
@@ -147,7 +146,7 @@ std::string doubt(const EstimationTask& task, const EquationRows& e, Eigen::Inde
   const DynamicParameter& parameter = e.columns.parameters[static_cast<std::size_t>(k)];
   const bool is_inertia = parameter.is_inertia;
   if (parameter.is_nonlinear && !found.active_bound.empty())
-    return fmt::format("it stands on the end of its range, {}: the logs do not determine it",
+    return fmt::format("it is at the end of its range, {}: the logs do not determine it",
                        found.active_bound);
   if (is_inertia) {
     const std::string alias = inertia_alias(*e.rows, e.columns, k, task.job.rig().linear_motion);
@@ -226,11 +225,11 @@ void note_fit(const EstimationTask& task, const FittedRows& rows, const LoopPlan
   out.decisions.push_back(
       {label(task, "output error"),
        fmt::format("{} rounds, {} simulations", oe.n_rounds, oe.n_passes),
-       fmt::format(
-           "from the wls fit on; torque noise {} {} by maximum likelihood, encoder noise {} "
-           "{}; whitened residual {:.3g}{}",
-           per_axis(task, oe.noise.force), linear ? "N" : "N m", per_axis(task, oe.noise.position),
-           linear ? "m" : "rad", oe.residual_rms, rows.note)});
+       fmt::format("started from the wls fit; torque noise {} {} by maximum likelihood, encoder "
+                   "noise {} {}; whitened residual {:.3g}{}",
+                   per_axis(task, oe.noise.force), linear ? "N" : "N m",
+                   per_axis(task, oe.noise.position), linear ? "m" : "rad", oe.residual_rms,
+                   rows.note)});
   if (!oe.instruments.empty())
     out.decisions.push_back({label(task, "instruments"),
                              oe.instrumented ? source_of_instruments(loop) : "none",
@@ -242,15 +241,14 @@ void note_fit(const EstimationTask& task, const FittedRows& rows, const LoopPlan
         "--estimator iv");
   if (oe.residual_rms > kWrongNoise || oe.residual_rms < 1 / kWrongNoise)
     out.fit.warnings.push_back(
-        fmt::format("output error leaves {:.2g} times the noise that it supposes: the model or the "
-                    "rig's sensors "
-                    "are wrong",
+        fmt::format("the residual of output error is {:.2g} times the assumed noise: the model or "
+                    "the rig's sensors are wrong",
                     oe.residual_rms));
   if (std::abs(oe.correlation) > kWrongModel)
     out.fit.warnings.push_back(
         fmt::format("the residual of output error is correlated from row to row ({:.2f}): the "
-                    "model is wrong, or "
-                    "the torque noise far from white, and the estimates make up for it",
+                    "model is wrong, or the torque noise is far from white, and the estimates are "
+                    "biased by it",
                     oe.correlation));
 }
 
@@ -264,15 +262,14 @@ void note_stage1(const EstimationTask& task, const OutputErrorOptions& options,
   }
   out.decisions.push_back(
       {label(task, "elastic coefficients"), "fitted",
-       fmt::format(
-           "with stage 1 and its robust covariance as prior; l_o and theta_0 held; {} moves "
-           "furthest, by {:+.2f} sd of stage 1",
-           shift.name, shift.in_sd)});
+       fmt::format("with stage 1 and its robust covariance as prior; l_o and theta_0 held; {} "
+                   "changes most, by {:+.2f} sd of stage 1",
+                   shift.name, shift.in_sd)});
   if (std::abs(shift.in_sd) > kFarFromStage1)
-    out.fit.warnings.push_back(fmt::format(
-        "the moving logs disagree with stage 1: they pull {} from {:.5g} to {:.5g}, {:.2g} "
-        "sd of stage 1",
-        shift.name, shift.from, shift.to, std::abs(shift.in_sd)));
+    out.fit.warnings.push_back(
+        fmt::format("the moving logs disagree with stage 1: they change {} from {:.5g} to {:.5g}, "
+                    "{:.2g} sd of stage 1",
+                    shift.name, shift.from, shift.to, std::abs(shift.in_sd)));
 }
 
 /// Everything but decisions and notes.

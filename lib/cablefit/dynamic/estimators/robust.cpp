@@ -168,8 +168,8 @@ std::vector<SuspectSpan> suspect_spans(const EstimationTask& task, const Iterati
 void keep_largest(std::vector<SuspectSpan>& spans, std::vector<std::string>& warnings) {
   if (spans.empty()) return;
   warnings.push_back(
-      fmt::format("{} stretch{} of time stick{} out of what noise explains and "
-                  "count{} little: see the suspect spans",
+      fmt::format("{} stretch{} of time exceed{} the noise and get{} little weight: see the "
+                  "suspect spans",
                   spans.size(), spans.size() == 1 ? "" : "es", spans.size() == 1 ? "s" : "",
                   spans.size() == 1 ? "s" : ""));
   if (spans.size() <= kMostSpans) return;
@@ -202,7 +202,9 @@ Estimation estimate(const EstimationTask& task) {
 }  // namespace
 
 Estimator robust() {
-  return {"robust", "Huber's M-estimate: outliers count less, suspect stretches of time are listed",
+  return {"robust",
+          "Huber's M-estimate: outliers get less weight, suspect stretches of time are "
+          "listed",
           "Huber 1981, ch. 7 (c = 1.345, scale by the median)", estimate};
 }
 

@@ -43,7 +43,7 @@ IvFit fit_by_instruments(const DynamicJob& job, std::span<const LogSurvey> logs,
   while (fit.n_simulations < most_simulations) {
     simulate_and_fit(job, logs, equations, before, which, plan, fit);
     if (!fit.failure.empty()) return fit;
-    // What weak instruments say of the model is not worth a simulation.
+    // A model from weak instruments is not worth a simulation.
     if (fit.converged() ||
         std::any_of(fit.solutions.begin(), fit.solutions.end(), has_weak_instruments))
       break;

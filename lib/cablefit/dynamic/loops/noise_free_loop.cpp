@@ -194,8 +194,8 @@ std::string source_of_instruments(const LoopPlan& plan) {
       return "the log's torque replayed without noise, as the rig file says that it is a command";
     case LoopKind::surrogate:
       return fmt::format(
-          "{}: a surrogate controller follows theta smoothed at {:.3g} Hz; encoder noise is kept "
-          "out, disturbances that moved the robot are not",
+          "{}: a surrogate controller follows theta smoothed at {:.3g} Hz; without "
+          "encoder noise, but with the disturbances that moved the robot",
           plan.reason, plan.bandwidth);
     case LoopKind::none:
       break;
@@ -226,7 +226,7 @@ void look_at_controller(const DynamicJob& job, std::span<const LogSurvey> logs, 
     const std::optional<ControllerFit> given = check_controller(looked_at, job.wanted);
     if (!given || given->fits()) return;
     plan.kind = LoopKind::surrogate;
-    plan.reason = fmt::format("the rig's controller does not make the log's torque ({})",
+    plan.reason = fmt::format("the rig's controller does not reproduce the log's torque ({})",
                               given->text(linear));
     plan.warnings.push_back(plan.reason + ": it is not used; check its gains, units and reference");
   }
@@ -241,7 +241,7 @@ void look_at_controller(const DynamicJob& job, std::span<const LogSurvey> logs, 
 LoopPlan plan_loop(const DynamicJob& job, std::span<const LogSurvey> logs) {
   LoopPlan plan;
   if (job.arm != nullptr && job.arm->is_coupled())
-    return {LoopKind::none, "links that move each other are not simulated yet", 0};
+    return {LoopKind::none, "coupled joints are not simulated yet", 0};
   std::size_t n_logs = 0, n_commanded = 0;
   plan.kind = LoopKind::known;
   for (const LogSurvey& log : logs) {

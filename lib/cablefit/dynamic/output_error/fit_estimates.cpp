@@ -13,7 +13,7 @@
 namespace cablefit {
 namespace {
 
-/// With r whitened, J'J is the information; the honest covariance puts the long-run covariance of
+/// With r whitened, J'J is the information; the robust covariance puts the long-run covariance of
 /// the scores, cell by cell, in its middle (see least_squares.hpp).
 void fill_covariance(const FinalRows& last, OutputErrorFit& fit) {
   const RowStatistics& statistics = last.pass.statistics;
@@ -89,7 +89,7 @@ Estimate estimate_of(const FinalRows& last, std::size_t k, const OutputErrorFit&
   if (!e.not_identifiable.empty()) return e;
   e.value = solution.x[i];
   if (solution.at_bound[k] && is_inertia(fit.model, p)) {
-    e.not_identifiable = fmt::format("the fit drives it towards 0: it stopped at {:.3g}", e.value);
+    e.not_identifiable = fmt::format("its estimate tends to 0: the fit stopped at {:.3g}", e.value);
     e.value = std::numeric_limits<double>::quiet_NaN();
     return e;
   }

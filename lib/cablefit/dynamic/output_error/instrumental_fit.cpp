@@ -66,7 +66,7 @@ bool is_weak(const Step& step, double effective_rows) {
   return false;
 }
 
-/// Honest and white, as in fit_estimates.cpp.
+/// Robust and white, as in fit_estimates.cpp.
 void fill_covariance(const Step& step, const InstrumentedSums& sums, Eigen::Index p,
                      InstrumentalFit& fit) {
   const auto n = static_cast<Eigen::Index>(step.free.size());
@@ -121,7 +121,7 @@ InstrumentalFit solve_instrumental(
   std::vector<Eigen::Index> free;
   for (std::size_t k = 0; k < moves.size(); ++k)
     if (moves[k]) free.push_back(static_cast<Eigen::Index>(k));
-  fit.failure = "its steps did not become short";
+  fit.failure = "it did not converge";
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMostSteps && !free.empty(); ++i) {
     const InstrumentedSums at = sums(fit.x);
@@ -134,7 +134,7 @@ InstrumentalFit solve_instrumental(
     const Eigen::VectorXd change = -step.influence * (step.z.transpose() * step.r);
     fill_covariance(step, at, start.size(), fit);
     if (!change.allFinite() || is_weak(step, fit.effective_rows)) {
-      fit.failure = "the simulated loop does not move as the robot did";
+      fit.failure = "the simulated loop does not reproduce the measured motion";
       return fit;
     }
     fit.x(free) += change;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/dynamic/output_error/fit_estimates.hpp"
@@ -34,9 +35,10 @@ constexpr double kLeastInertiaShare = 0.05;  // of where it starts; J > 0
 
 /// Whole numbers have no slopes.
 bool is_whole(const Model& model, const ModelParameter& p) {
-  if (p.kind != ParameterKind::added) return false;
-  const Effect& row = *model.joints[static_cast<std::size_t>(p.joint)].added[p.effect].effect;
-  return p.index >= row.n_linear() && !is_continuous(row, p.index - row.n_linear());
+  const std::optional<std::size_t> shape = shape_of(model, p);
+  if (!shape) return false;
+  return !is_continuous(*model.joints[static_cast<std::size_t>(p.joint)].added[p.effect].effect,
+                        *shape);
 }
 
 /// l_o and theta_0 stay as stage 1 has them.
@@ -342,7 +344,7 @@ void Fit::take(const InstrumentalFit& found, OutputErrorFit& fit) {
   set_parameters(x_);
   fit.model = model_;
   fit.instrumented = true;
-  fit.instruments = fmt::format("{} moves furthest, by {:+.2f} sd", furthest, most);
+  fit.instruments = fmt::format("{} changes most, by {:+.2f} sd", furthest, most);
 }
 
 void Fit::fill(OutputErrorFit& fit, const NonlinearSolution& solution) {
@@ -363,7 +365,7 @@ void require_torques(const Model& model) {
       if (instance.effect->correct != nullptr || instance.effect->is_event)
         throw usage_error(fmt::format("output error cannot fit a model with '{}' ({}) in it",
                                       instance.effect->name, to_string(instance.effect->site)),
-                          "it fits torques of the motion; `cablefit refine` fits this effect");
+                          "use `cablefit refine`, which fits this effect");
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace cablefit {
 struct GaussianPrior {
   std::vector<std::string> names;
   Eigen::VectorXd mean;
-  Eigen::MatrixXd covariance;  ///< honest
+  Eigen::MatrixXd covariance;  ///< robust
 };
 
 /// The logs once more, and the same rows with the positions that a noise-free loop makes in place

@@ -9,7 +9,7 @@
 
 namespace cablefit {
 
-/// Stage 1's coefficients with their honest covariance (Bayes' rule for two experiments: the rows
+/// Stage 1's coefficients with their robust covariance (Bayes' rule for two experiments: the rows
 /// of stage 1 enter as their sufficient statistics). Those that stage 1 holds exactly or could not
 /// determine are in `held`. Of a fit without covariance all are held.
 struct Stage1Prior {

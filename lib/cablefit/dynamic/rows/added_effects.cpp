@@ -152,17 +152,17 @@ void require_fittable(const EffectInstance& effect, bool rigid) {
     refuse("it is an error of a sensor or of the drive",
            "correct the log by its rig file, or drop it from the model; 'cablefit refine' fits it");
   if (!acts_as_torque(row))
-    refuse("it changes the cables", "give the model its cables, or let 'cablefit refine' fit it");
+    refuse("it changes the cables", "give the model its cables, or fit it with 'cablefit refine'");
   if (row.yardstick != Yardstick::none)
-    refuse("a scale of torques needs something known in their unit",
-           "'cablefit refine' fits it where the logs or the rig file have that");
+    refuse("a torque scale needs a known torque or inertia",
+           "'cablefit refine' fits it where the logs or the rig file have one");
   if (row.is_event && !(row.lasts() && effect.event_log == 0 && effect.event_time == 0))
-    refuse("it has a date", "give a model of the state after it, or let 'cablefit refine' fit it");
+    refuse("it is an event", "give a model of the time after it, or fit it with 'cablefit refine'");
   if (remembers_time(effect))
-    refuse("it remembers longer than the pieces in which logs are read",
+    refuse("its memory is longer than the blocks in which logs are read",
            "drop it from the model; 'cablefit refine' fits it");
   if (rigid && !is_in_equation(row, Side::rigid))
-    refuse("a rigid drive does not have it", "its one axis counts as the motor");
+    refuse("a rigid drive does not have it", "its one axis is the motor");
   if (is_of_both_sides(row) && !has_values)
     refuse("it acts on both sides, and is held at the value of a model",
            "'cablefit refine' fits it");

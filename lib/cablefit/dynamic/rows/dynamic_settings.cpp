@@ -80,9 +80,9 @@ bool is_noise_limited(const DynamicJob& job) {
   return false;
 }
 
-/// Chooses the settings by the free resonances. The wide band of the first look lets encoder noise
-/// in, which makes inertias too small and resonances too high: where the chosen cut-off shows that,
-/// a second look goes by it.
+/// Chooses the settings by the free resonances. The wide band of the preliminary fit lets encoder
+/// noise in, which makes inertias too small and resonances too high: where the chosen cut-off shows
+/// that, a second look goes by it.
 std::vector<double> choose_by_resonances(DynamicJob& job, const ElasticResult& elastic) {
   const double rate = sample_rates(job.logs, job.wanted).lowest;
   choose_joint_settings(job, wide_band(job, rate),

@@ -123,11 +123,11 @@ bool torque_changes(const DynamicJob& job, int joint) {
 
 void require_restoring(const ElasticFit& fit, const std::string& preload) {
   if (fit.transmission.cables.empty() && !(fit.transmission.linear_stiffness.minCoeff() > 0))
-    throw Error(ErrorKind::not_identifiable,
-                fmt::format("stage 1 of preload '{:.40}' has a negative stiffness: the sign of "
-                            "tau, theta or q is turned "
-                            "round; set it in the rig file and run 'cablefit elastic' again",
-                            preload));
+    throw Error(
+        ErrorKind::not_identifiable,
+        fmt::format("stage 1 of preload '{:.40}' has a negative stiffness: the sign of tau, theta "
+                    "or q is reversed; correct it in the rig file and run 'cablefit elastic' again",
+                    preload));
 }
 
 const ElasticFit& find_stage1(const ElasticResult& elastic, const std::string& preload,
@@ -143,8 +143,9 @@ const ElasticFit& find_stage1(const ElasticResult& elastic, const std::string& p
   for (const ElasticPreload& p : elastic.preloads) names += (names.empty() ? "" : ", ") + p.name;
   throw Error(
       ErrorKind::input,
-      fmt::format("stage 1 has no preload '{:.40}', which the moving logs are of; it has {}; run "
-                  "'cablefit elastic' on a blocked log of it, or name the preloads alike",
+      fmt::format("stage 1 has no preload '{:.40}' for the moving logs; it has {}; run "
+                  "'cablefit elastic' on a blocked log of that preload, or use the same preload "
+                  "names",
                   preload, names.empty() ? "none" : names));
 }
 
@@ -167,7 +168,7 @@ void require_torque(const DynamicJob& job) {
     if (!torque_changes(job, joint))
       throw input_error({job.first_log().plan.path, 0, 0},
                         fmt::format("tau{} never changes", n > 1 ? std::to_string(joint + 1) : ""),
-                        "check which column the torque is");
+                        "check which column holds the torque");
 }
 
 std::string too_few_rows(const DynamicJob& job, const EquationRows& e, std::size_t n_rows,

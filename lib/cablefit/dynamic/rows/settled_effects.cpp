@@ -57,8 +57,9 @@ WindowCounts collect_settled(DynamicJob& job, std::vector<EquationRows>& equatio
         moving = moved;
     if (moving.empty()) return windows;
     if (pass == kMostPasses) {
-      warning = fmt::format("{} did not converge in {} iterations: the logs hardly determine it",
-                            moving, kMostPasses);
+      warning =
+          fmt::format("{} did not converge in {} iterations: the logs do not determine it well",
+                      moving, kMostPasses);
       return windows;
     }
     job.added = std::move(added);

@@ -66,9 +66,8 @@ void judge_delay(double hold, TorqueDelay& delay) {
     delay.undecided = true;
     delay.reason = found + ": the motion does not show whether it is held";
     delay.warning =
-        "whether the torque is held over a sample does not show in these logs, none is assumed; "
-        "say "
-        "which in the rig file (\"torque_hold\")";
+        "these logs do not show whether the torque is held over a sample; no hold is "
+        "assumed; set \"torque_hold\" in the rig file";
     return;
   }
   delay.held = std::abs(delay.seconds - hold / 2) < std::abs(delay.seconds);
@@ -78,8 +77,8 @@ void judge_delay(double hold, TorqueDelay& delay) {
   const double left = std::abs(delay.seconds - (delay.held ? hold / 2 : 0));
   if (left > std::max(3 * delay.sd, kDelayMisfit * hold))
     delay.warning = fmt::format(
-        "{}; neither a hold of {:.3g} ms nor none explains that: look for a delay in the drive or "
-        "the log, inertia and friction may be off",
+        "{}; neither a hold of {:.3g} ms nor none explains that: look for a delay in "
+        "the drive or the log; inertia and friction may be biased",
         found, ms * hold);
 }
 

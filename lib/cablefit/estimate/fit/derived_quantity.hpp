@@ -16,7 +16,7 @@ namespace cablefit {
 struct JointEstimates {
   std::vector<std::string> names;
   Eigen::VectorXd value;
-  Eigen::MatrixXd covariance;     ///< honest; 0 of what is given
+  Eigen::MatrixXd covariance;     ///< robust; 0 of what is given
   double degrees_of_freedom = 1;  ///< for t quantiles
 
   /// Place of a name; -1 when it is not among them.

@@ -34,7 +34,7 @@ struct JointProblem {
 struct JointSolution {
   Eigen::VectorXd x;                 ///< of least norm where it is not unique
   std::vector<Eigen::Index> active;  ///< inequalities that hold x, as equalities
-  Eigen::MatrixXd solve_operator;    ///< Z (Z'W'W Z)^-1 Z', Z spans what (in)equalities leave
+  Eigen::MatrixXd solve_operator;    ///< Z (Z'W'W Z)^-1 Z', Z: null space of the (in)equalities
   /// n_params x directions, of unit norm once scaled by column_norm: what no row determines.
   Eigen::MatrixXd null_directions;
   Eigen::VectorXd column_norm;                ///< of the stacked, weighted columns
@@ -59,15 +59,15 @@ void reweigh(JointProblem& problem, const JointSolution& solution);
 
 /// How much larger the covariance of the scores W'rho of one block is than for white residuals of
 /// the same size, on average over the directions that the block determines; at least 1. A block
-/// of n correlated rows weighs as much as n / inflation independent ones.
+/// of n correlated rows gets the weight of n / inflation independent ones.
 double residual_inflation(const JointBlock& block, const Eigen::VectorXd& combination);
 
 /// 95 % intervals per parameter by the profile of the weighted rss under all equalities and
-/// inequalities, with the honest scale (profile_interval.hpp); NaN where nothing is determined.
+/// inequalities, with the robust scale (profile_interval.hpp); NaN where nothing is determined.
 std::vector<ProfileInterval> joint_profiles(const JointProblem& problem);
 
 struct JointCovariance {
-  /// Honest: HAC over the cells of each record, summed over records; never below the white one.
+  /// Robust: HAC over the cells of each record, summed over records; never below the white one.
   Eigen::MatrixXd covariance;
   Eigen::MatrixXd white;  ///< for white residuals with the variance of each block's own
   Eigen::VectorXd degrees_of_freedom;  ///< per parameter, Welch-Satterthwaite over the records

@@ -158,8 +158,8 @@ void note_first_stage(const RowStatistics& rows, const LinearProblem& problem,
     if (f >= kStrongFirstStage || !out.not_identifiable[static_cast<std::size_t>(k)].empty())
       continue;
     out.warnings.push_back(
-        fmt::format("weak instruments: the simulated motion hardly determines {} (first-stage F = "
-                    "{:.2g}, below {:g})",
+        fmt::format("weak instruments: the simulated motion does not determine {} well "
+                    "(first-stage F = {:.2g}, below {:g})",
                     problem.names[static_cast<std::size_t>(k)], f, kStrongFirstStage));
   }
 }
@@ -212,7 +212,7 @@ LinearSolution solve(const RowStatistics& rows, const LinearProblem& problem) {
   out.unbounded_x = Eigen::VectorXd::Zero(p);
   for (std::size_t k = 0; k < unbounded.free.size(); ++k)
     out.unbounded_x(unbounded.free[k]) = unbounded.solve.x(static_cast<Eigen::Index>(k));
-  // Same noise level and the same ratio of honest to white sd as the bounded fit.
+  // Same noise level and the same ratio of robust to white sd as the bounded fit.
   const double honesty = std::sqrt(static_cast<double>(out.n_rows) / out.effective_rows);
   out.unbounded_sd = honesty * (out.rss / dof * expand(unbounded, p).diagonal()).cwiseSqrt();
   if (out.active_constraints.empty()) widen_beside_bounds(out);

@@ -1,5 +1,5 @@
-// Linear least squares on RowStatistics: scaled columns, QR, physical bounds, rank told in words,
-// white and honest covariance; two-stage least squares when there are instruments.
+// Linear least squares on RowStatistics: scaled columns, QR, physical bounds, rank in words,
+// white and robust covariance; two-stage least squares when there are instruments.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,7 +26,7 @@ struct LinearProblem {
   Eigen::MatrixXd constraints = {};
   /// Per regressor what it follows, for advice in messages; none is given for those beyond its end.
   std::vector<MotionColumn> motion = {};
-  /// Share of the largest singular value (scaled columns) below which columns cannot be told apart;
+  /// Share of the largest singular value (scaled columns) below which columns are not separable;
   /// smaller for data that are exact by definition.
   double rank_tolerance = kMeasuredRankTolerance;
   /// Columns Z, at least one per regressor that is estimated, for instrumental variables: then
@@ -45,7 +45,7 @@ struct ProfileInterval {
 struct LinearSolution {
   Eigen::VectorXd x;                 ///< estimates; 0 where not determined
   Eigen::MatrixXd covariance_white;  ///< the paper's (25), sigma^2 (W'W)^-1
-  /// Honest: HAC sandwich over the cells, never below the white one; the white one without cells.
+  /// Robust: HAC sandwich over the cells, never below the white one; the white one without cells.
   Eigen::MatrixXd covariance;
   Eigen::MatrixXd solve_operator;  ///< (W'W)^-1, p x p; 0 rows for fixed or undetermined
   /// n_columns x p: rows * this = What, the regressors, or what the instruments explain of them
@@ -60,9 +60,9 @@ struct LinearSolution {
   /// Rows of problem.constraints that hold the solution. Then covariances are conditional on them:
   /// as if constraints * x = 0 were known for these rows, with n_tied directions fewer.
   std::vector<Eigen::Index> active_constraints;
-  Eigen::VectorXd unbounded_x, unbounded_sd;  ///< of the fit without bounds; honest
+  Eigen::VectorXd unbounded_x, unbounded_sd;  ///< of the fit without bounds; robust
   /// Where bounds or constraints hold the solution: 95 % intervals per parameter from the profile
-  /// of |residual|^2 under them, with the honest scale (profile_interval.hpp). Else empty.
+  /// of |residual|^2 under them, with the robust scale (profile_interval.hpp). Else empty.
   std::vector<ProfileInterval> profile;
   Eigen::VectorXd residual_combination;  ///< n_columns: rows * this = residual
   double rss = 0;                        ///< sum of squared residuals
@@ -79,11 +79,11 @@ struct LinearSolution {
   double rms() const;
 };
 
-/// Throws nothing for rank deficiency or too few rows: that is a result, told in not_identifiable.
+/// Throws nothing for rank deficiency or too few rows: that is a result, see not_identifiable.
 LinearSolution solve(const RowStatistics& rows, const LinearProblem& problem);
 
 /// Largest change of a parameter from one solution to another of the same problem, in sd of `to`:
-/// the measure by which an iteration stands still. 0 where no parameter has an sd.
+/// the measure of convergence of an iteration. 0 where no parameter has an sd.
 double largest_change_in_sd(const LinearSolution& from, const LinearSolution& to);
 
 }  // namespace cablefit

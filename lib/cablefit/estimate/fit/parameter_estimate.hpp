@@ -9,7 +9,7 @@ namespace cablefit {
 /// Which sd to report, and what else is uncertain.
 struct SdChoice {
   bool honest = true;         ///< else the white one, the paper's (25)
-  double extra_variance = 0;  ///< from an earlier stage, added to the honest one
+  double extra_variance = 0;  ///< from an earlier stage, added to the robust one
 };
 
 /// ci_low, ci_high: value -+ t sd with Student's t of so many degrees of freedom, never below

@@ -21,7 +21,7 @@ ProfileInterval profile_interval(const Eigen::MatrixXd& a, const Eigen::VectorXd
                                  double threshold);
 
 /// 95 % intervals of the parameters of a solution that bounds or constraints hold, for
-/// LinearSolution::profile; empty where none does. The threshold is t^2 times the honest variance
+/// LinearSolution::profile; empty where none does. The threshold is t^2 times the robust variance
 /// (the white one unless `honest`) that the parameter has without them, in units of its (W'W)^-1.
 /// NaN: not determined.
 std::vector<ProfileInterval> profile_intervals(const RowStatistics& rows,

@@ -67,8 +67,9 @@ std::vector<Figure> trace_figures(const RecursiveTrace& trace) {
     figure.title = trace.names[k];
     figure.rank = FigureRank::detail;
     figure.caption =
-        "The estimate after so many rows, with +-2 sd; it ends at that of the direct fit.";
-    figure.x = {"rows taken in", ""};
+        "Estimate after each row, with +-2 sd. The last value is that of the direct "
+        "fit.";
+    figure.x = {"rows read", ""};
     figure.y = {trace.names[k], trace.units[k]};
     Trace value{"estimate", TraceStyle::line, 1, {}, {}, {}, {}, {}};
     Trace low{"- 2 sd", TraceStyle::dashed, kReference, {}, {}, {}, {}, {}};

@@ -1,6 +1,6 @@
 // Recursive least squares (R-LSA, [43] of Fichera & Grossard 2017) in square-root information form
-// (Bierman 1977, ch. V): rows are taken in one after the other by QR, and what has been seen so far
-// is solved with the equalities of the direct fit (D-LSA), whose answer is reached at the end.
+// (Bierman 1977, ch. V): rows are added one after the other by QR, and the rows read so far
+// are solved with the equalities of the direct fit (D-LSA), whose estimate is reached at the end.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,7 +26,7 @@ struct RecursiveTrace {
   std::vector<TracePoint> points;
 };
 
-/// What has been seen so far: the triangular factor of [W y], weighted.
+/// The rows read so far: the triangular factor of [W y], weighted.
 class RecursiveInformation {
  public:
   /// `equalities`: rows * x = 0, as in the direct fit; no rows: none.

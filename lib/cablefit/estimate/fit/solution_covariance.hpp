@@ -1,4 +1,4 @@
-// The honest covariance of a solution. Internal to estimate/; others read LinearSolution.
+// The robust covariance of a solution. Internal to estimate/; others read LinearSolution.
 #pragma once
 
 #include "cablefit/estimate/fit/least_squares.hpp"

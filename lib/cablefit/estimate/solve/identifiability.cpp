@@ -60,7 +60,7 @@ Confusion exact_confusion(const Columns& c, const Eigen::VectorXd& direction) {
   Confusion found{members_of(direction), true, kInfinite, kNone, ""};
   if (found.members.size() == 1) {
     const NamedColumn& alone = c.names[found.members.front()];
-    found.text = with_advice(alone.name + " does not show: these logs never excite it",
+    found.text = with_advice(alone.name + " is not determined: these logs do not excite it",
                              std::string(exciting_motion(alone.motion.part)));
     return found;
   }

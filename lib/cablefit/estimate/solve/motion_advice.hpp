@@ -1,4 +1,4 @@
-// Which motion would tell two columns of an equation apart, in words. What a column follows decides
+// Which motion would separate two columns of an equation, in words. What a column follows decides
 // (model/motion_part.hpp), never its name. After Swevers et al. 1997 (exciting trajectories) and
 // Khalil & Dombre 2004, 12.4.
 #pragma once
@@ -20,10 +20,11 @@ struct MotionColumn {
 std::string separating_motion(const MotionColumn& a, double rms_a, const MotionColumn& b,
                               double rms_b);
 
-/// What makes a column stand out at all, when it is 0: "accelerate". Empty: nothing to say.
+/// The motion that excites a column that is 0: "accelerate". Empty: no advice.
 std::string_view exciting_motion(MotionPart part);
 
-/// What would bring an sd that is now `relative_sd` of its parameter (1: as large as it) below 10
+/// The motion that brings an sd that is now `relative_sd` of its parameter (1: as large as it)
+/// below 10
 /// %: "accelerate with 40 rad/s^2 rms or more (now 3.1)", as an sd falls with the size of its
 /// column; or "record 4 times as long" where there is nothing to enlarge. Only for relative_sd >
 /// 0.1.

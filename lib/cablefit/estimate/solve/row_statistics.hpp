@@ -1,7 +1,7 @@
 // Everything the estimators need of millions of rows, in constant memory: the triangular factor of
 // a streamed QR (for the estimates: it does not square the condition number) and the
-// Gram matrix of each of at most kMaxCells stretches of rows (for honest standard deviations and
-// for held-out blocks, where its precision is plenty).
+// Gram matrix of each of at most kMaxCells stretches of rows (for robust standard deviations and
+// for held-out blocks, where its precision is sufficient).
 #pragma once
 
 #include <Eigen/Core>
@@ -21,7 +21,7 @@ class StreamingQr {
  public:
   explicit StreamingQr(Eigen::Index n_columns);
   void add(const Rows& rows);
-  /// `scale`: times the rows that the other saw.
+  /// `scale`: factor of the other's rows.
   void add(const StreamingQr& other, double scale = 1);
   const Eigen::MatrixXd& r() const { return r_; }
 
@@ -56,7 +56,7 @@ class RowStatistics {
   /// Rows with their numbers on the time grid (ascending, gaps where rows were dropped), so that a
   /// cell is a stretch of time.
   void add(const Rows& rows, std::span<const Eigen::Index> numbers);
-  /// What another accumulator saw; its rows come after those of this one.
+  /// Adds the rows of another accumulator, after those of this one.
   void add(const RowStatistics& later);
 
   /// Rows of several equations with the same columns and time grid as one: each row times the root

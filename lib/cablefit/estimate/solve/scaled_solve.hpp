@@ -14,7 +14,7 @@ struct ScaledSolve {
   double condition = 0;             ///< of the columns as they are
 };
 
-/// Columns whose scaled singular value is below this share of the largest cannot be told apart: of
+/// Columns whose scaled singular value is below this share of the largest are not separable: of
 /// measured data, which carry at best nine digits ("%.9g").
 inline constexpr double kMeasuredRankTolerance = 1e-9;
 

@@ -1,4 +1,5 @@
-// Long-run covariance of a serially correlated series: the heart of an honest standard deviation.
+// Long-run covariance of a serially correlated series: the main part of a robust standard
+// deviation.
 #pragma once
 
 #include <Eigen/Core>

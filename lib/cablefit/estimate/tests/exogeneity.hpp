@@ -21,7 +21,7 @@ struct ExogeneityTest {
 /// Revised Durbin-Wu-Hausman test (Janot, Vandanjon & Gautier 2016; Wu 1973; Hausman 1978) in the
 /// form of an augmented regression: y on [W Z]. Given instruments uncorrelated with the residual,
 /// Z adds nothing to W exactly when W is uncorrelated with it too. What Z adds is tested with the
-/// honest covariance, so that coloured residuals do not make it too eager. `problem`: with
+/// robust covariance, so that coloured residuals do not make it too eager. `problem`: with
 /// instruments; its bounds are left out.
 ExogeneityTest test_exogeneity(const RowStatistics& rows, const LinearProblem& problem);
 

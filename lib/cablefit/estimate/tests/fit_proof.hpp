@@ -1,4 +1,4 @@
-// Do the intervals of a fit hold what they promise? What many fits to logs of known parameters say.
+// Do the 95 % intervals of a fit contain the truth? Tested by fits to logs of known parameters.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ struct ProvedParameter {
   double bias = 0;            ///< mean of the estimates minus the truth
   double standard_error = 0;  ///< of the bias: scatter / sqrt(n_runs)
   double scatter = 0;         ///< sd of the estimates
-  double mean_sd = 0;         ///< of the sd that the runs claimed
+  double mean_sd = 0;         ///< of the sd of the runs
   std::size_t n_runs = 0;     ///< that determined it
   std::size_t n_covered = 0;  ///< whose 95 % interval holds the truth
   ShareBand coverage_band;    ///< 95 % band of the coverage
@@ -43,10 +43,10 @@ struct ProvedParameter {
 /// prediction, Vovk et al. 2005: the ceil(0.95 (n + 1))-th smallest).
 ProvedParameter judge_runs(const Estimate& truth, std::span<const Estimate> estimates);
 
-/// What a fit's own simulation says of it.
+/// Result of refits to simulated logs of the fitted model.
 struct FitProof {
   std::size_t n_runs = 0;    ///< asked for
-  std::size_t n_failed = 0;  ///< that ended with a complaint instead of numbers
+  std::size_t n_failed = 0;  ///< that ended with an error instead of numbers
   std::string first_failure;
   unsigned long seed = 0;  ///< of the first run; counted up from there
   std::vector<ProvedParameter> parameters;

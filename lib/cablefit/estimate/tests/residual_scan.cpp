@@ -151,8 +151,8 @@ Figure ResidualScan::distribution() const {
 Figure ResidualScan::memory() const {
   Figure figure = blank("Autocorrelation of the " + plan_.error);
   figure.caption = fmt::format(
-      "One row every {:.3g} ms. White noise stays within the dashed lines at 95 % of the lags; "
-      "what leaves them is structure, or the filter's.",
+      "One row every {:.3g} ms. White noise stays within the dashed lines at 95 % of "
+      "the lags; values beyond them are structure, or an effect of the filter.",
       1e3 * time_.spacing());
   figure.x = {"lag", "rows"};
   figure.y = {"autocorrelation", ""};

@@ -87,8 +87,9 @@ JointPoint share_inertias(JointFit& fit, JointPoint point, IdentifyResult& resul
   const std::string differences = different_inertias(fit, judged);
   if (!differences.empty()) {
     result.decisions.push_back({"inertias", "per preload", differences});
-    result.warnings.push_back("inertias differ between preloads, which one drive's should not: " +
-                              differences + "; they are not shared");
+    result.warnings.push_back(
+        "inertias differ between preloads, although one drive has one inertia: " + differences +
+        "; they are not shared");
     return point;
   }
   result.decisions.push_back(
@@ -105,8 +106,8 @@ Profiled judge_with_profiles(JointFit& fit, JointPoint point) {
     point = settle(fit, std::move(*found.better));
   }
   throw Error(ErrorKind::not_identifiable,
-              "the initial elongations: every profile likelihood leads to another best place; give "
-              "them in the rig file, or sweep until every cable goes slack");
+              "the initial elongations did not converge: each profile likelihood has another "
+              "optimum; give them in the rig file, or sweep until every cable goes slack");
 }
 
 }  // namespace cablefit

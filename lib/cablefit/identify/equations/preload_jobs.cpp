@@ -60,8 +60,7 @@ std::vector<bool> searched_cables(const Rig& rig, const IdentifyOptions& options
     return searched;
   }
   if (rig.cables_given) return searched;
-  reason =
-      several ? "several preloads, and no cables in the rig file to tell" : "one preload alone";
+  reason = several ? "several preloads, and no cables in the rig file" : "one preload alone";
   return std::vector<bool>(n, several);
 }
 
@@ -82,8 +81,8 @@ void decide_elongations(PreloadJob& job, bool several, const IdentifyOptions& op
   if (!any && !can_balance(job.transmission, elongations_of(job.transmission)))
     throw input_error(
         {facts.rig.path, 0, 0},
-        fmt::format("preload '{:.40}': the initial elongations cannot balance, whatever the cables "
-                    "that are taut in the reference pose pull with: motor and link would move",
+        fmt::format("preload '{:.40}': no cable forces balance these initial elongations in the "
+                    "reference pose: motor and link would move",
                     job.name),
         "give every cable its elongation, or \"search\"; check the signs of the radii, and that "
         "motor_radius / link_radius is the same for cables that pull against each other");

@@ -92,8 +92,8 @@ std::vector<std::string> misfit_warnings(const JointFit& fit, const JudgedPoint&
   for (const Misfit& m : misfits_of(fit, judged, job))
     if (m.share() > (m.blocked() ? kBlockedShare : kMovingShare))
       warnings.push_back(
-          fmt::format("the {} equation leaves {:.3g} {} rms, {:.2g} % of its largest torque: sd do "
-                      "not include an error of the model; {}",
+          fmt::format("the residual of the {} equation is {:.3g} {} rms, {:.2g} % of its largest "
+                      "torque: the sd do not include this error of the model; {}",
                       m.equation, m.rms, unit_of(fit), 100 * m.share(), what_to_try(fit, job)));
   const std::optional<LineStiffness>& line = preload.line;
   if (line && std::abs(line->model - line->measured) > kLineSd * line->sd)

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kCorrelationWarning = 0.95;  // estimation-rules: warn above
 
-/// The elastic coefficients of one cable always lean on each other, and on its l_o.
+/// The elastic coefficients of one cable and its l_o are always strongly correlated.
 std::vector<std::string> correlation_warnings(const JointFit& fit, const JudgedPoint& judged) {
   std::vector<std::string> warnings;
   const Eigen::MatrixXd& c = judged.linearised.solve_operator;
@@ -105,11 +105,11 @@ void note_active_bounds(const JointFit& fit, const JointPoint& point, IdentifyRe
     if (bounds.parameters[k] < 0) pushing += (pushing.empty() ? "" : ", ") + bounds.texts[k];
   }
   if (pushing.empty()) return;
-  result.warnings.push_back(fmt::format(
-      "refused: plain least squares lets a cable push; a cable only pulls, (5) and (16) of the "
-      "paper, so {} is imposed and the sd are given the active bounds; --unconstrained gives the "
-      "plain fit",
-      pushing));
+  result.warnings.push_back(
+      fmt::format("not used: plain least squares gives a negative cable stiffness; a cable only "
+                  "pulls, (5) and (16) of the paper, so {} is imposed and the sd are given the "
+                  "active bounds; --unconstrained gives the plain fit",
+                  pushing));
 }
 
 /// What the preload's linear and shared parameters are known together as.

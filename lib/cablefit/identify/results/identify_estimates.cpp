@@ -72,7 +72,7 @@ Estimate estimate_at(const JointFit& fit, const JudgedPoint& judged,
   e.unit = p.unit;
   e.not_identifiable = why_undetermined(fit, judged, k);
   if (profile != nullptr && std::isinf(profile->low) && std::isinf(profile->high))
-    e.not_identifiable = "its profile likelihood stays flat over all elongations looked at";
+    e.not_identifiable = "its profile likelihood is flat over all elongations of the search";
   if (!e.not_identifiable.empty()) return e;
   const double degrees_of_freedom = judged.covariance.degrees_of_freedom(k);
   e.active_bound = bound_of(fit, judged, k);

@@ -18,9 +18,9 @@ Figure profile_figure(const ElongationProfile& profile, double scale, const std:
   figure.group = "initial elongations";
   figure.title = "Profile likelihood of " + profile.name;
   figure.caption =
-      "How much worse the best fit becomes when this l_o stands still and everything else follows. "
-      "The 95 % interval lies below the dashed line; a curve that stays below it on one side says "
-      "that the logs do not bound l_o there.";
+      "The best fit for each fixed l_o, all other parameters fitted again. The 95 % "
+      "interval lies below the dashed line. If the curve stays below it on one side, "
+      "the logs do not bound l_o there.";
   figure.x = {profile.name, unit};
   figure.y = {"-2 log likelihood ratio", ""};
   Trace line{"profile", TraceStyle::line, 1, {}, {}, {}, {}, {}};

@@ -1,4 +1,4 @@
-// The one-step identification as plots: what the data say of each l_o.
+// The one-step identification as plots: the likelihood of each l_o.
 #pragma once
 
 #include <span>

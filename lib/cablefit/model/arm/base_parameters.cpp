@@ -208,7 +208,8 @@ std::vector<BaseParameter> base_parameters_of(const SerialChain& chain) {
   const VectorXd sizes = sizes_of(scaled);
   if (!sizes.allFinite())
     throw Error(ErrorKind::input,
-                "the arm's lengths or its gravity are too large to count with; give m and m/s^2");
+                "the arm's lengths or its gravity are too large to compute with; give m and "
+                "m/s^2");
   for (Index k = 0; k < sizes.size(); ++k) scaled.col(k) *= sizes(k) > 0 ? 1 / sizes(k) : 0;
   const std::vector<Index> kept = kept_columns(scaled, order_of_keeping(chain), rank_of(scaled));
   const MatrixXd factors = factors_of(scaled, sizes, kept);

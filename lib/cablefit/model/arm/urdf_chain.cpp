@@ -92,7 +92,7 @@ std::size_t only_tip(const UrdfTree& tree, std::size_t base) {
   if (tips.empty())
     throw input_error(
         {tree.path},
-        fmt::format("no joint moves behind link {}", cablefit::quoted(tree.links[base].name)),
+        fmt::format("no joint moves after link {}", cablefit::quoted(tree.links[base].name)),
         "name another \"base\"");
   if (tips.size() == 1) return tips.front();
   std::string names;
@@ -107,11 +107,11 @@ UrdfWay way_between(const UrdfTree& tree, std::size_t base, std::size_t tip) {
   for (std::size_t link = tip; link != base;) {
     const std::ptrdiff_t joint = tree.links[link].joint;
     if (joint < 0)
-      throw input_error(
-          {tree.path},
-          fmt::format("link {} does not hang on link {}", cablefit::quoted(tree.links[tip].name),
-                      cablefit::quoted(tree.links[base].name)),
-          "the base comes before the tip");
+      throw input_error({tree.path},
+                        fmt::format("link {} does not descend from link {}",
+                                    cablefit::quoted(tree.links[tip].name),
+                                    cablefit::quoted(tree.links[base].name)),
+                        "the base comes before the tip");
     way.joints.push_back(static_cast<std::size_t>(joint));
     link = tree.joints[way.joints.back()].parent;
     require_simple(tree, tree.joints[way.joints.back()]);

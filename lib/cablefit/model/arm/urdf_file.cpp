@@ -212,7 +212,7 @@ class Reader {
     UrdfLink& link = tree_.links[joint.child];
     if (link.joint >= 0)
       throw input_error(at(e),
-                        fmt::format("link {} hangs on two joints", cablefit::quoted(link.name)),
+                        fmt::format("link {} has two parent joints", cablefit::quoted(link.name)),
                         "a URDF is a tree: every link has one parent");
     link.joint = static_cast<std::ptrdiff_t>(tree_.joints.size());
     tree_.links[joint.parent].children.push_back(tree_.joints.size());
@@ -223,7 +223,7 @@ class Reader {
     const auto is_root = [](const UrdfLink& link) { return link.joint < 0; };
     const auto n = std::count_if(tree_.links.begin(), tree_.links.end(), is_root);
     if (n != 1)
-      throw input_error({tree_.path}, fmt::format("{} links hang on no joint", n),
+      throw input_error({tree_.path}, fmt::format("{} links have no parent joint", n),
                         "a URDF is a tree: one link, the root, has no parent");
     const auto root = std::find_if(tree_.links.begin(), tree_.links.end(), is_root);
     tree_.root = static_cast<std::size_t>(root - tree_.links.begin());
@@ -232,8 +232,8 @@ class Reader {
       for (const std::size_t joint : tree_.links[reached[k]].children)
         reached.push_back(tree_.joints[joint].child);
     if (reached.size() < tree_.links.size())
-      throw input_error({tree_.path}, "some joints go round in a circle",
-                        "a URDF is a tree: every link hangs on the root in the end");
+      throw input_error({tree_.path}, "some joints form a loop",
+                        "a URDF is a tree: every link descends from the root");
   }
 
   UrdfTree tree_;

@@ -51,7 +51,7 @@ void energy(const LawShape& shape, double l, double* values) {
 }
 
 // Every group of wires pulls: sufficient, and stiffer than k >= 0 asks. A fit that pulls as a whole
-// stands as it is, though groups that lean on each other share out their K_j with either sign.
+// stands as it is, though strongly correlated groups share out their K_j with either sign.
 PullConditions pull_conditions(const LawShape& shape, double /*longest*/) {
   PullConditions conditions{Eigen::MatrixXd::Identity(shape.order, shape.order),
                             Eigen::VectorXd(shape.order)};

@@ -7,11 +7,12 @@ namespace {
 constexpr ParameterInfo kDamping[] = {{"damping", "d", "N m s/rad", "of the cables", 0}};
 constexpr ParameterInfo kHysteresis[] = {
     {"amplitude", "a", "N m", "torque of the friction between wires", 0},
-    {"yield", "y", "rad", "deflection after which 63 % of it is there", 1e-7}};
+    {"yield", "y", "rad", "deflection at which 63 % of it has built up", 1e-7}};
 constexpr ParameterInfo kCreep[] = {
-    {"compliance", "a", "rad/(N m)", "that comes with time; times the stiffness: a fraction", 0},
-    {"T", "T", "s", "time after which 63 % of it is there", 1e-3},
-    {"settled", "s", "", "share of its load under which a log begins settled, 0: unloaded", 0, 1}};
+    {"compliance", "a", "rad/(N m)", "creep compliance; times the stiffness: a fraction", 0},
+    {"T", "T", "s", "time constant (63 %)", 1e-3},
+    {"settled", "s", "", "share of the first load at which the log begins settled; 0: unloaded", 0,
+     1}};
 
 constexpr ShapeGrid kYield[] = {
     {.low = 0.006, .high = 0.2, .n_values = 9, .unit = GridUnit::deflection}};
@@ -56,9 +57,10 @@ Effect cable_damping() {
           .site = Site::transmission,
           .equation = "d phid on the motor, -d phid on the link",
           .signature =
-              "opposite on the two sides, with the rate of the deflection; like a delay "
-              "of the link's encoder, which goes with the speed of the link",
-          .experiment = "a dither near the resonance at rest, and on a fast motion",
+              "opposite on the two sides, proportional to the rate of the deflection; "
+              "similar to a delay of the link's encoder, which is proportional to the speed "
+              "of the link",
+          .experiment = "a dither near the resonance, at rest and during a fast motion",
           .source = "Fichera & Grossard 2017, Assumption 1, which leaves it out",
           .parameters = kDamping,
           .torque = damp};
@@ -69,8 +71,8 @@ Effect cable_hysteresis() {
           .site = Site::transmission,
           .equation = "a z on the motor, -a z on the link, dz/dphi = (1 - z sgn(phid)) / y",
           .signature =
-              "a loop of torque over deflection, blocked too, the same at any rate; damping "
-              "depends on the rate, presliding on the axis' own way",
+              "a loop of torque over deflection, also with the link blocked, the same at any "
+              "rate; damping depends on the rate, presliding on the motion of one axis",
           .experiment = "blocked link, slow loops of two sizes at two rates",
           .source = "Bouc 1967; Wen 1976; Do, Tjahjowidodo et al. 2015",
           .parameters = kHysteresis,

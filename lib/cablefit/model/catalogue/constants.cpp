@@ -21,11 +21,11 @@ Effect constant_torque() {
           .alias_class = "constant",
           .equation = "c",
           .signature =
-              "the same on every link row, none on the motor rows; like asymmetric "
-              "Coulomb friction, a wrong load zero, or a wrong elastic stage",
+              "a constant in the link equation, none in the motor equation; similar to "
+              "asymmetric Coulomb friction, a wrong load zero, or a wrong stage 1",
           .experiment =
-              "none separates it from asymmetric Coulomb friction; two loads and both cable sides "
-              "separate it from the rest",
+              "no log separates it from asymmetric Coulomb friction; two loads, and loads on "
+              "both cables, separate it from the others",
           .source = "Fichera & Grossard 2017, Table 2 (the motor's offset)",
           .parameters = kTorque,
           .torque = one<Site::link>};

@@ -45,9 +45,10 @@ Effect encoder_delay() {
           .site = Site::sensor,
           .equation = "logged q(t) = true q(t - d)",
           .signature =
-              "k d qd, opposite on the two sides; like cable damping, which goes with the "
-              "rate of the deflection, and viscous friction of the link",
-          .experiment = "a dither near the resonance at rest, and on a fast motion",
+              "k d qd, opposite on the two sides; similar to cable damping, which is "
+              "proportional to the rate of the deflection, and to viscous friction of the "
+              "link",
+          .experiment = "a dither near the resonance, at rest and during a fast motion",
           .source = "sampling and transmission of the link's encoder",
           .parameters = kEncoder,
           .correct = advance_q,
@@ -59,8 +60,8 @@ Effect torque_delay() {
           .site = Site::sensor,
           .equation = "true tau(t) = logged tau(t - d)",
           .signature =
-              "goes with dtau/dt, on the motor rows alone: no gap on the link rows; like "
-              "a wrong J_motor, or cable damping",
+              "proportional to dtau/dt, in the motor equation only; similar to a wrong "
+              "J_motor or cable damping",
           .experiment = "a dither or steps of torque",
           .source = "a held command, the current controller",
           .parameters = kTorque,

@@ -5,11 +5,11 @@ namespace cablefit::rows {
 namespace {
 
 constexpr ParameterInfo kFriction[] = {
-    {"damping", "a_v", "N m s/rad", "viscous friction that comes; negative: goes"},
-    {"amplitude", "a_s", "N m", "dry friction that comes; negative: goes"},
-    {"T", "T", "s", "time after which 63 % has come", 1e-3}};
-constexpr ParameterInfo kOffset[] = {{"amplitude", "a", "N m", "torque that comes"},
-                                     {"T", "T", "s", "time after which 63 % has come", 1e-3}};
+    {"damping", "a_v", "N m s/rad", "change of viscous friction; negative: it falls"},
+    {"amplitude", "a_s", "N m", "change of dry friction; negative: it falls"},
+    {"T", "T", "s", "time constant (63 %)", 1e-3}};
+constexpr ParameterInfo kOffset[] = {{"amplitude", "a", "N m", "change of torque"},
+                                     {"T", "T", "s", "time constant (63 %)", 1e-3}};
 
 constexpr ShapeGrid kTime[] = {{.low = 2, .high = 30, .n_values = 6}};
 
@@ -53,8 +53,10 @@ Effect offset_drift() {
   return {.name = "offset_drift",
           .site = Site::sensor,
           .equation = "a (1 - exp(-t / T)) on the motor",
-          .signature = "a slow constant on the motor rows alone, whatever the motion",
-          .experiment = "rests at the beginning and at the end of a log",
+          .signature =
+              "a slowly changing constant in the motor equation only, independent of the "
+              "motion",
+          .experiment = "standstill at the beginning and at the end of a log",
           .source = "zero drift of current sensors and amplifiers",
           .parameters = kOffset,
           .shape = kTime,

@@ -7,7 +7,7 @@ namespace cablefit::rows {
 namespace {
 
 constexpr ParameterInfo kLimit[] = {{"limit", "T", "N m", "largest torque that acts", 0}};
-constexpr ParameterInfo kBand[] = {{"band", "b", "N m", "largest command that does nothing", 0}};
+constexpr ParameterInfo kBand[] = {{"band", "b", "N m", "largest command without effect", 0}};
 
 // Nearer to the peak a limit shows in a few rows only, further down it is no limit any more: what
 // clips most rows makes them a constant, which any model explains.
@@ -36,8 +36,8 @@ Effect saturation() {
           .site = Site::drive,
           .equation = "true tau = logged tau, clipped at +-T",
           .signature =
-              "a gap on the motor rows beyond a torque, none below; a low limit is like a "
-              "torque gain",
+              "a residual in the motor equation above a certain torque, none below; a low "
+              "limit is similar to a torque gain",
           .experiment = "the same motion with a lighter load, so that the command stays low",
           .source = "a limit of the drive, where the log holds the command",
           .parameters = kLimit,
@@ -50,7 +50,7 @@ Effect drive_dead_band() {
           .site = Site::drive,
           .equation = "true tau = logged tau less b towards 0, 0 below",
           .signature =
-              "a constant that changes sign with the torque, on the motor rows alone; dry "
+              "a constant that changes sign with the torque, in the motor equation only; dry "
               "friction changes sign with speed",
           .experiment = "loads of both signs, each in both directions",
           .source = "a dead band of the drive, where the log holds the command",

@@ -120,9 +120,9 @@ Effect preload() {
           .alias_class = "l_o",
           .equation = "l_o > 0 in cable 1, in the other so that S f = 0 in the reference pose",
           .signature =
-              "both cables bear near zero torque, with twice the slope and a kink where "
+              "both cables are taut near zero torque, with twice the slope and a kink where "
               "one goes slack; a dead zone is flat there instead",
-          .experiment = "blocked link, a slow ramp through zero torque on to where a cable slacks",
+          .experiment = "blocked link, a slow ramp through zero torque until a cable goes slack",
           .source = "Fichera & Grossard 2017, (8c), (19e)",
           .parameters = kElongation,
           .shape = kStretch,

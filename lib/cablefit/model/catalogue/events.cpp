@@ -8,7 +8,7 @@ namespace cablefit::rows {
 namespace {
 
 constexpr ParameterInfo kSlip[] = {{"slip", "a", "rad", "deflection is logged + a after it"}};
-constexpr ParameterInfo kContact[] = {{"torque", "a", "N m", "largest push on the link"},
+constexpr ParameterInfo kContact[] = {{"torque", "a", "N m", "largest contact torque on the link"},
                                       {"width", "w", "s", "how long it lasts", 1e-3}};
 constexpr ParameterInfo kPayload[] = {{"inertia", "dJ", "kg m^2", "more inertia of the link"},
                                       {"a_cos", "a_cos", "N m", "more gravity, with cos(q)"},
@@ -42,7 +42,7 @@ Effect slip() {
           .equation = "tau_elas(phi + a) - tau_elas(phi) = k a from t_0 on",
           .signature =
               "a lasting step of the deflection, opposite on the two sides; an encoder "
-              "offset was always there, creep goes back with the load",
+              "offset is there from the start, creep reverses with the load",
           .experiment = "the same pose before and after it",
           .source = "Fichera & Grossard 2017, Assumption 1",
           .parameters = kSlip,
@@ -57,9 +57,9 @@ Effect contact() {
           .site = Site::link,
           .equation = "-a (1 - cos(2 pi (t - t_0) / w)) / 2 for w seconds",
           .signature =
-              "a short torque on the link rows alone; a low-frequency disturbance looks like some "
-              "contacts",
-          .experiment = "the same motion again, out of reach",
+              "a short torque in the link equation only; a low-frequency disturbance looks "
+              "like some contacts",
+          .experiment = "the same motion again, without contact",
           .source = "De Luca & Mattone 2005",
           .parameters = kContact,
           .shape = kWidth,
@@ -72,8 +72,8 @@ Effect payload_change() {
           .site = Site::link,
           .equation = "dJ qdd + a_cos cos(q) + a_sin sin(q) from t_0 on",
           .signature =
-              "more inertia and gravity on the link rows from a time on; a slip is on the "
-              "motor rows as well",
+              "more inertia and gravity in the link equation from a time on; a slip is in "
+              "the motor equation as well",
           .experiment = "the same motion before and after it",
           .source = "Khalil & Dombre 2002",
           .parameters = kPayload,

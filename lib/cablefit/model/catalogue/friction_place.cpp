@@ -11,8 +11,9 @@ constexpr ParameterInfo kPosition[] = {
     {"a_cos", "a_cos", "N m", "with the cosine"},
     {"order", "n", "1/rad", "periods per turn of the joint, any number", 0}};
 constexpr ParameterInfo kPresliding[] = {
-    {"amplitude", "a", "N m", "dry friction that is there only after presliding, at most all", 0},
-    {"distance", "d", "rad", "way after which 63 % of it is there", 1e-6}};
+    {"amplitude", "a", "N m",
+     "part of the dry friction that builds up by presliding, at most all of it", 0},
+    {"distance", "d", "rad", "distance after which 63 % of it has built up", 1e-6}};
 
 // Two to eight periods over the range: with fewer any smooth function of position passes for them,
 // as friction that grows with a load that depends on position.

@@ -72,8 +72,8 @@ Effect stribeck(Site side) {
           .site = side,
           .equation = kEquation.at(side),
           .signature =
-              "excess friction at low speed, in both directions; presliding depends on "
-              "the way since the last reversal instead, drag appears at high speed",
+              "excess friction at low speed, in both directions; presliding depends on the "
+              "distance since the last reversal instead, drag appears at high speed",
           .experiment = "slow sweeps at several constant speeds from 0.02 rad/s on",
           .source = "Armstrong-Helouvry, Dupont & Canudas de Wit 1994",
           .parameters = kStribeck,
@@ -88,8 +88,8 @@ Effect quadratic_drag(Site side) {
           .site = side,
           .equation = kEquation.at(side),
           .signature =
-              "grows with the square of speed; over a small range of speed like viscous "
-              "friction, or Stribeck friction with less of it",
+              "grows with the square of speed; over a small range of speed it is similar to "
+              "viscous friction, or to Stribeck friction with less viscous friction",
           .experiment = "constant speeds over a range of five times or more",
           .source = "Armstrong-Helouvry, Dupont & Canudas de Wit 1994",
           .parameters = kDrag,

@@ -49,8 +49,8 @@ Effect gravity_imbalance() {
           .site = Site::link,
           .equation = "a_sin sin(q) + a_cos cos(q) + b_sin sin(2 q) + b_cos cos(2 q)",
           .signature =
-              "a function of q on the link rows alone, whatever the speed and direction; "
-              "like a wrong load law, or eccentric pulleys under one load",
+              "a function of q in the link equation only, independent of speed and "
+              "direction; similar to a wrong load law, or eccentric pulleys under one load",
           .experiment = "a slow sweep over more than 0.5 rad without load, both directions",
           .source = "Khalil & Dombre 2002",
           .parameters = kImbalance,
@@ -83,8 +83,8 @@ Effect pulley_eccentricity() {
               "tau_elas(phi + f) - tau_elas(phi) = k f, f = a_sin sin(q) + a_cos cos(q) + "
               "b_sin sin(2 q) + b_cos cos(2 q)",
           .signature =
-              "a function of q that grows with the stiffness, opposite on the link and "
-              "motor rows; gravity is on the link rows alone",
+              "a function of q that grows with the stiffness, opposite in the link and motor "
+              "equations; gravity is in the link equation only",
           .experiment = "the same slow sweep over q under two loads",
           .source = "Fichera & Grossard 2017, (3)-(4), with a radius that varies",
           .parameters = kEccentricity,

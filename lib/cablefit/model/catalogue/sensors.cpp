@@ -42,8 +42,8 @@ Effect encoder_scale() {
               "tau_elas(phi + a theta) - tau_elas(phi) = k a theta, true theta = (1 + a) "
               "logged",
           .signature =
-              "opposite on the two sides, in proportion to position; on a short range "
-              "like pulley eccentricity, on the link rows alone like gravity",
+              "opposite on the two sides, proportional to position; over a short range "
+              "similar to pulley eccentricity, in the link equation alone similar to gravity",
           .experiment = "one sweep over the whole range of q",
           .source = "a wrong resolution or reduction ratio",
           .parameters = kScale,
@@ -55,8 +55,8 @@ Effect encoder_offset() {
           .site = Site::sensor,
           .equation = "tau_elas(phi + a) - tau_elas(phi) = k a, true theta - q = logged + a",
           .signature =
-              "opposite on the two sides, in proportion to the stiffness; slip comes at "
-              "a time, creep with the load",
+              "opposite on the two sides, proportional to the stiffness; slip starts at a "
+              "time, creep follows the load",
           .experiment = "both cables loaded in turn",
           .source = "a reference run that ended elsewhere",
           .parameters = kOffset,
@@ -70,10 +70,10 @@ Effect torque_gain() {
           .alias_class = "scale",
           .equation = "-a tau_elas on the motor, true tau = (1 + a) logged",
           .signature =
-              "tau_elas of the motor rows and of the link rows differ by a factor; like a "
-              "wrong load",
+              "tau_elas of the motor equation and of the link equation differ by a factor; "
+              "similar to a wrong load",
           .experiment = "a second load that is known, or the inertia from CAD",
-          .source = "a torque constant that is off: Gautier & Briot 2014",
+          .source = "a wrong torque constant: Gautier & Briot 2014",
           .parameters = kGain,
           .yardstick = Yardstick::load_or_inertia,
           .torque = motor_share};
@@ -85,10 +85,10 @@ Effect load_scale() {
           .alias_class = "scale",
           .equation = "a tau_elas on the link, true tau_load = (1 + a) logged",
           .signature =
-              "tau_elas of the link rows and of the motor rows differ by a factor; like a "
-              "wrong torque constant",
+              "tau_elas of the link equation and of the motor equation differ by a factor; "
+              "similar to a wrong torque constant",
           .experiment = "a second load that is known, or the inertia from CAD",
-          .source = "a load mass or radius that is off: Gautier & Briot 2014",
+          .source = "a wrong load mass or radius: Gautier & Briot 2014",
           .parameters = kLoad,
           .yardstick = Yardstick::load,
           .torque = link_share};

@@ -68,13 +68,13 @@ void read_event(const JsonNode& node, EffectInstance& instance) {
   const JsonNode* event = node.find("event");
   if (!instance.effect->is_event) {
     if (!event) return;
-    throw event->error(fmt::format("'{}' has no date", instance.effect->name), "drop it");
+    throw event->error(fmt::format("'{}' is not an event", instance.effect->name), "drop it");
   }
   const JsonNode& date = node.at("event");
   date.allow_only({"log", "time"});
   const double log = number_or(date, "log", 1);
   if (!(log >= 1) || log != std::floor(log) || log > 1e6)
-    throw date.at("log").error("no number of a log", "expected 1, 2, ...: in the order given");
+    throw date.at("log").error("not the number of a log", "expected 1, 2, ...: in the order given");
   instance.event_log = static_cast<std::size_t>(log) - 1;
   instance.event_time = date.at("time").number();
 }

@@ -105,7 +105,7 @@ Rig read_rig_reference(const JsonNode* node) {
 void require_own_inertias(const Rig& rig, const JsonNode& node) {
   if (!rig.arm.is_coupled()) return;
   throw node.error(fmt::format("the links of a {} arm cannot be simulated", rig.arm.kind->name),
-                   "only joints whose links do not move each other can so far");
+                   "only independent joints can be simulated so far");
 }
 
 void require_inertia(const Model& model, const JsonNode& node) {

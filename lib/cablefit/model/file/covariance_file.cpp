@@ -17,7 +17,7 @@ constexpr double kRounding = 1e-9;
 /// A covariance is symmetric, and no entry is larger than the sd of its two parameters allow.
 void require_covariance(const JsonNode& node, const ParameterCovariance& c) {
   const auto fail = [&](Eigen::Index i, Eigen::Index j) {
-    return node.error(fmt::format("no covariance: entry {} of '{}' and '{}'", c.matrix(i, j),
+    return node.error(fmt::format("not a covariance: entry {} of '{}' and '{}'", c.matrix(i, j),
                                   c.parameters[static_cast<std::size_t>(i)],
                                   c.parameters[static_cast<std::size_t>(j)]),
                       "it is symmetric, with variances >= 0 and correlations within -1 and 1");
@@ -36,7 +36,7 @@ std::vector<std::string> read_names(const JsonNode& node) {
   std::vector<std::string> names;
   for (const JsonNode& name : some_items(node)) {
     if (std::find(names.begin(), names.end(), name.text()) != names.end())
-      throw name.error(fmt::format("'{}' stands twice", name.text()), "one row per parameter");
+      throw name.error(fmt::format("'{}' appears twice", name.text()), "one row per parameter");
     if (names.size() == kMostParameters)
       throw node.error(fmt::format("more than {} parameters", kMostParameters), "drop some");
     names.push_back(name.text());

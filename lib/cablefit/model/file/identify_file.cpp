@@ -35,7 +35,7 @@ Model read_identify_file(const JsonNode& root, const Wanted& wanted, std::string
   const std::string& name = preload.at("name").text();
   const JsonNode* node = preload.find("model");
   if (node == nullptr)
-    throw preload.error(fmt::format("preload {} carries no model", cablefit::quoted(name)),
+    throw preload.error(fmt::format("preload {} has no model", cablefit::quoted(name)),
                         fmt::format("run `cablefit identify` again, or take the model_{}.json "
                                     "that it wrote beside this file",
                                     name));

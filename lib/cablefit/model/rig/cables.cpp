@@ -47,7 +47,9 @@ std::vector<DisplacementMap> read_maps(const JsonNode& node, int n_joints) {
                      "give one per joint");
   }
   if (std::all_of(maps.begin(), maps.end(), std::mem_fn(&DisplacementMap::is_zero))) {
-    throw node.error("radius is 0", "give the signed radius in m, - where the motion slackens it");
+    throw node.error("radius is 0",
+                     "give the signed radius in m, negative where a positive motion slackens the "
+                     "cable");
   }
   return maps;
 }

@@ -57,7 +57,7 @@ ColumnMapping read_mapping(const JsonNode& node, const ChannelName& channel) {
   }
   mapping.scale = number_or(node, "scale", 1.0);
   if (mapping.scale == 0) {
-    throw node.at("scale").error("scale is 0", "leave it out for 1, -1 turns the sign");
+    throw node.at("scale").error("scale is 0", "leave it out for 1; -1 reverses the sign");
   }
   mapping.shift = number_or(node, "shift", 0.0);
   if (const JsonNode* unit = node.find("unit")) {

@@ -16,18 +16,20 @@ std::string effect_name(const Rival& rival) {
 
 Figure league_figure(const RefineResult& result) {
   constexpr std::size_t kMostBars = 10;
+  constexpr double kVisible = 0.005;  // of the gap: less is printed as 0 %
   Figure figure;
   figure.section = "Outcome";
   figure.title = "Candidates for the first effect";
   figure.caption =
-      "Share of the squared gap above the noise floor that each would remove on held-out blocks, "
-      "with everything else fitted anew.";
+      "Share of the squared gap above the noise floor that each would remove on "
+      "held-out blocks, with all other parameters fitted again.";
   figure.x = {"effect", ""};
   figure.y = {"removed", "%"};
   figure.wide = true;
   Trace bars = new_trace("candidates", TraceStyle::interval, kBefore);
   for (const Rival& row : result.league) {
     if (!row.refused.empty() || bars.y.size() == kMostBars) break;
+    if (row.gain < kVisible) continue;
     bars.labels.push_back(effect_name(row));
     bars.y.push_back(100 * row.gain);
     bars.low.push_back(0);
@@ -42,7 +44,8 @@ Figure shift_figure(const RefineResult& result) {
   figure.section = "Outcome";
   figure.title = "How far the parameters moved";
   figure.caption =
-      "After minus before, in sd; bars: 95 %. What a missing effect had bent comes back.";
+      "After minus before, in sd; bars: 95 %. A missing effect biases other "
+      "parameters; adding it removes this bias.";
   figure.x = {"parameter", ""};
   figure.y = {"shift", "sd"};
   constexpr double k95 = 1.96;

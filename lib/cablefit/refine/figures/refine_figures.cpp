@@ -32,7 +32,11 @@ struct Pair {
   std::array<const ShownRows*, 2> both() const { return {&before, &after}; }
 };
 
-std::string name_of(std::size_t k) { return k == 0 ? "before" : "after"; }
+/// Without anything added there is no before and after.
+std::string name_of(const Pair& pair, std::size_t k) {
+  if (!pair.changed) return "residual";
+  return k == 0 ? "before" : "after";
+}
 int series_of(std::size_t k) { return k == 0 ? kBefore : kAfter; }
 
 Figure blank(const Pair& pair, std::string title) {
@@ -50,8 +54,8 @@ std::size_t n_states(const Pair& pair) { return pair.changed ? 2 : 1; }
 
 Figure over_time(const Pair& pair, const Timeline& time) {
   Figure figure = blank(pair, "Residual over time");
-  figure.caption = fmt::format("Measured minus what the model says; noise floor {:.3g} {} rms.",
-                               pair.floor, pair.unit);
+  figure.caption =
+      fmt::format("Measured minus predicted; noise floor {:.3g} {} rms.", pair.floor, pair.unit);
   figure.x = {"time, logs one after the other", "s"};
   figure.marks = time.marks;
   figure.wide = true;
@@ -59,9 +63,9 @@ Figure over_time(const Pair& pair, const Timeline& time) {
   for (std::size_t k = 0; k < n_states(pair); ++k) {
     ThinnedLine line(0, time.end, time.spacing);
     for (const ShownRow& row : pair.both()[k]->rows) line.add(row.t, row.residual);
-    figure.traces.push_back(
-        new_trace(fmt::format("{}, {:.3g} {} rms", name_of(k), pair.both()[k]->rms, pair.unit),
-                  TraceStyle::line, series_of(k)));
+    figure.traces.push_back(new_trace(
+        fmt::format("{}, {:.3g} {} rms", name_of(pair, k), pair.both()[k]->rms, pair.unit),
+        TraceStyle::line, series_of(k)));
     line.draw(figure.traces.back());
   }
   return figure;
@@ -139,14 +143,14 @@ FigureAxis axis_of(const RegimeVariable& variable, bool link, bool linear_motion
 Figure mean_against(const Pair& pair, std::size_t variable) {
   const RegimeVariable& v = regime_variables()[variable];
   Figure figure = blank(pair, fmt::format("Mean residual against {}", v.regime));
-  figure.caption = "Rows that move forward; dashed: backward.";
+  figure.caption = "Solid: forward motion; dashed: backward.";
   figure.x = axis_of(v, pair.link, pair.linear_motion);
   figure.y = {"mean residual", pair.unit};
   const std::size_t speed = place_of("speed");
   for (std::size_t k = 0; k < n_states(pair); ++k)
     for (const std::size_t direction : {kForward, kBackward}) {
       Trace mean =
-          new_trace(name_of(k) + (direction == kForward ? "" : ", backward"),
+          new_trace(name_of(pair, k) + (direction == kForward ? "" : ", backward"),
                     direction == kForward ? TraceStyle::line : TraceStyle::dashed, series_of(k));
       mean_of(*pair.both()[k], variable, direction, speed).draw(mean, kFewRows, true);
       if (!mean.x.empty()) figure.traces.push_back(std::move(mean));
@@ -164,7 +168,7 @@ Figure rms_against(const Pair& pair, std::size_t variable) {
     BinnedMean mean(n_bins(pair.before));
     for (const ShownRow& row : pair.both()[k]->rows)
       mean.add(row.variables[variable], row.residual * row.residual);
-    Trace trace = new_trace(name_of(k), TraceStyle::line, series_of(k));
+    Trace trace = new_trace(name_of(pair, k), TraceStyle::line, series_of(k));
     mean.draw(trace, kFewRows, true);
     for (double& y : trace.y) y = std::sqrt(y);
     if (!trace.x.empty()) figure.traces.push_back(std::move(trace));
@@ -180,7 +184,8 @@ Figure rms_against(const Pair& pair, std::size_t variable) {
 Figure memory(const Pair& pair) {
   Figure figure = blank(pair, "Autocorrelation of the residual");
   figure.caption = fmt::format(
-      "One row every {:.3g} ms. What stays away from 0 beyond the first lags is structure.",
+      "One row every {:.3g} ms. Values away from 0 beyond the first lags are "
+      "structure.",
       1e3 * pair.before.row_period);
   figure.x = {"lag", "rows"};
   figure.y = {"autocorrelation", ""};
@@ -191,7 +196,7 @@ Figure memory(const Pair& pair) {
       values(i) = kind.rows[static_cast<std::size_t>(i)].residual;
     Autocorrelation correlation;
     correlation.add(kind.numbers, values);
-    figure.traces.push_back(new_trace(name_of(k), TraceStyle::line, series_of(k)));
+    figure.traces.push_back(new_trace(name_of(pair, k), TraceStyle::line, series_of(k)));
     correlation.draw(figure.traces.back());
   }
   return figure;
@@ -212,8 +217,8 @@ bool shows_gap(const RefineResult& result, RowKind kind) {
 
 void add_residuals(const BeforeAfter& rows, const std::string& section, Detail detail,
                    const RefineResult& result, std::vector<Figure>& figures) {
-  const Timeline time = timeline_of(rows.before, rows.logs);
   for (const RowKind kind : {RowKind::motor, RowKind::link, RowKind::blocked}) {
+    const Timeline time = timeline_of(rows.before, rows.logs, kind);
     const Pair pair{section,
                     fmt::format("{} equation", to_string(kind)),
                     result.linear_motion ? "N" : "N m",

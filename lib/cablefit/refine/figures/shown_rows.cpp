@@ -20,14 +20,25 @@ std::vector<double> variables_at(const Design& design, std::size_t stretch, Eige
   return values;
 }
 
+template <typename Rows>
+bool has_rows(const Rows& rows, RowKind wanted) {
+  return std::any_of(rows.kinds.begin(), rows.kinds.end(), [wanted](const KindRows& kind) {
+    return kind.kind == wanted && !kind.at.empty();
+  });
+}
+
 }  // namespace
 
-Timeline timeline_of(const Design& design, std::span<const LogSurvey> logs) {
+Timeline timeline_of(const Design& design, std::span<const LogSurvey> logs, RowKind wanted) {
   Timeline time;
   double next = 0;
   std::size_t log = std::numeric_limits<std::size_t>::max();
   for (std::size_t s = 0; s < design.stretches.size(); ++s) {
     const Stretch& stretch = design.stretches[s];
+    if (!has_rows(design.rows[s], wanted)) {
+      time.begins.push_back(next);
+      continue;
+    }
     if (stretch.log != log) {
       log = stretch.log;
       const std::filesystem::path path = logs[log].plan.path;

@@ -33,8 +33,9 @@ struct Timeline {
   std::vector<Mark> marks;
 };
 
-/// `logs`: by Stretch::log.
-Timeline timeline_of(const Design& design, std::span<const LogSurvey> logs);
+/// Of the stretches that have rows of the equation `wanted`; others take no time. `logs`: by
+/// Stretch::log.
+Timeline timeline_of(const Design& design, std::span<const LogSurvey> logs, RowKind wanted);
 
 /// `x`: values of all columns.
 ShownRows shown_rows(const Design& design, const Eigen::VectorXd& x, RowKind wanted,

@@ -89,24 +89,26 @@ Figure simulated_figure(const TestLogs& test, const std::vector<Model>& before,
   const std::string log = std::filesystem::path(part.log->plan.path).filename().string();
   figure.section = "Held-out logs";
   figure.title = fmt::format("Measured and simulated {}", first.rigid ? "theta" : "theta - q");
-  figure.caption = fmt::format("{}{}, which no fit has read. Explained: share of the variance.",
+  figure.caption = fmt::format("{}{}, held out of every fit. Explained: share of the variance.",
                                test.compared < 1 ? "The last part of " : "", log);
   figure.x = {"time", "s"};
   figure.y = {first.rigid ? "motor position theta" : "deflection theta - q",
               first.rig.linear_motion ? "mm" : "mrad"};
   figure.wide = true;
   figure.rank = FigureRank::main;
-  const auto name = [](const char* when, const Lines& lines) {
-    return fmt::format("simulated {}, {} explained", when, lines.explained.about_mean());
+  const auto name = [&after](const char* when, const Lines& lines) {
+    return fmt::format("simulated{}, {} explained", after.empty() ? "" : when,
+                       lines.explained.about_mean());
   };
   try {
     const Lines given = replayed(part, first, test.compared);
     add_trace(figure, given.measured, new_trace("measured", TraceStyle::broad, kMeasured));
-    add_trace(figure, given.simulated, new_trace(name("before", given), TraceStyle::line, kBefore));
+    add_trace(figure, given.simulated,
+              new_trace(name(" before", given), TraceStyle::line, kBefore));
     if (!after.empty()) {
       const Lines refined = replayed(part, after[part.model], test.compared);
       add_trace(figure, refined.simulated,
-                new_trace(name("after", refined), TraceStyle::line, kAfter));
+                new_trace(name(" after", refined), TraceStyle::line, kAfter));
     }
   } catch (const Error&) {  // the gap of the simulation says why there is none
     figure.traces.clear();

@@ -65,8 +65,8 @@ void require_own_columns(const Design& bare, const std::vector<Variant>& kept,
       continue;
     throw Error(
         ErrorKind::not_identifiable,
-        fmt::format("the logs do not separate {} of the model from its other parameters; give "
-                    "the logs that it was named from too, or a model without it",
+        fmt::format("the logs do not separate {} of the model from its other parameters; also give "
+                    "the logs from which it was identified, or give a model without it",
                     name_of(*variant.effect)));
   }
 }
@@ -168,9 +168,8 @@ Design design_of(std::span<const Model> models, std::vector<Stretch> stretches,
 }
 
 std::string taken_out(const Effect& row) {
-  return fmt::format(
-      "{} of the model is beyond its physical bound in these logs and was taken out of it",
-      name_of(row));
+  return fmt::format("{} of the model is beyond its physical bound in these logs and was removed",
+                     name_of(row));
 }
 
 KeptBase fit_kept_base(std::span<const Model> models, std::vector<Stretch> stretches,

@@ -1,8 +1,8 @@
 // What the whole search finds where there is nothing to find: logs simulated from the fitted base
 // model, with the same reference, controller, clock, rounding and noise, go through the same
 // pipeline (parametric bootstrap; Efron & Tibshirani 1993). Noise models of the residual alone
-// under-state it: what a search finds by chance is made by filters at reversals and by rounding.
-// Internal to refine/.
+// under-state it: the gains of a search under the null are made by filters at reversals and by
+// rounding. Internal to refine/.
 #pragma once
 
 #include <map>
@@ -44,7 +44,7 @@ class NullBench {
   void disturb(const TwinDisturbance& disturbance);
 
   /// Of every draw from now on this share (0..1) is kept from the search, as it is of the logs:
-  /// what is found by chance grows as rows are fewer.
+  /// gains under the null grow as rows are fewer.
   void hold_back(double share);
 
   /// Torques are logged without noise from now on, which leaves what is not chance.

@@ -1,5 +1,5 @@
 // What even the best candidate leaves beyond the floor, as disturbance torques of the same colour:
-// a search has to be judged against what it finds by chance in such a wandering. Internal to
+// a search has to be judged against its gains under the null with such a disturbance. Internal to
 // refine/.
 #pragma once
 

@@ -239,7 +239,7 @@ Design with_variant(const Design& design, const Variant& variant, const Eigen::V
     out.rows = replaced_rows(design, variant);
     if (out.rows.empty())
       throw Error(ErrorKind::not_identifiable,
-                  fmt::format("no cables have {} beside what the model has already", row.name));
+                  fmt::format("no cable has {} in addition to the model", row.name));
     if (row.change != nullptr)
       for (Model& model : out.models)
         model.transmission = *row.change(model.transmission, variant.shape.data());

@@ -27,7 +27,7 @@ std::size_t model_of(std::span<const Model> models, const LogPlan& plan, const P
 }
 
 void require_channels(const LogPlan& plan, const Model& model, bool blocked) {
-  require_one_joint(plan, "refine is made for one");
+  require_one_joint(plan, "refine supports one joint");
   require_channel(plan, Channel::theta, kWhy);
   require_channel(plan, Channel::tau, kWhy);
   if (!model.rigid && !blocked) require_channel(plan, Channel::q, kWhy);

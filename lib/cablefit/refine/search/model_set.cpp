@@ -51,8 +51,8 @@ void require_no_event(const Model& model) {
         throw usage_error(
             fmt::format("the model of preload '{}' has '{}' ({}), an event of an earlier refine",
                         model.preload, has.effect->name, to_string(has.effect->site)),
-            "what it changed is in all rows of later logs: fit the model anew "
-            "('cablefit identify') to logs from after it");
+            "its change is in all rows of later logs: fit the model again ('cablefit "
+            "identify') to logs from after it");
 }
 
 }  // namespace

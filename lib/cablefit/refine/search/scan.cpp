@@ -226,7 +226,7 @@ std::optional<Candidate> best_fitting(const Scanner& scanner,
 }
 
 /// What a limit takes away stands out from what the rows that it leaves alone show without it: the
-/// peaks of a torque that wanders by itself are cut by a limit as well.
+/// peaks of a low-frequency disturbance torque are cut by a limit as well.
 bool stands_out(const VariantColumns& change, const VariantColumns& residuals) {
   constexpr double kShareOfMost = 0.1, kTimes = 2;
   double most = 0;
@@ -280,7 +280,7 @@ std::optional<Candidate> best_replacing(const Scanner& scanner,
   // The grid may have missed the limit by half a step.
   auto moved = try_variant(scanner, moved_shape(scanner, best->variant, Evaluation::coarse));
   if (moved && moved->refused.empty() && acts_in_full(scanner, moved->variant)) return moved;
-  best->refused = "what it takes away is not what the rows lack";
+  best->refused = "removing it at full size does not remove the residual";
   return best;
 }
 

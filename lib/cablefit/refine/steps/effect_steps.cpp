@@ -110,7 +110,7 @@ std::string why_not(const RefineBench& bench, const Effect& row, const RefineSta
         "the squared residual without it is {:.3g} times the noise floor; an event "
         "needs {:g}",
         before.rho, kVisibleGap);
-  if (carries_nothing(bench, after)) return "it carries nothing once all is fitted with it";
+  if (carries_nothing(bench, after)) return "it has no torque when everything is fitted with it";
   if (std::string reason = why_not_plausible(after.design, after.x); !reason.empty()) return reason;
   return why_not_added(change_of(bench, row, before, after));
 }
@@ -135,8 +135,8 @@ bool add_one(RefineBench& bench, Trials& trials, std::optional<Trial> trial, Cha
       chain.push_back(std::move(trial->after));
       return true;
     }
-    // A small effect has many look-alikes, and one of them passes under the null. A date that is
-    // none says nothing of what is always there.
+    // Many effects are similar to a small one, and one of them passes under the null. A date that
+    // is none says nothing of what is always there.
     if (trial->after.rho > kRemainder && !row.is_event) break;
   }
   return false;

@@ -134,7 +134,7 @@ void require_one_joint(std::span<const Model> models) {
     if (model.joints.size() > 1)
       throw input_error(
           {model.rig.path},
-          fmt::format("the rig has {} joints, and refine is made for one", model.joints.size()),
+          fmt::format("the rig has {} joints, and refine supports one joint", model.joints.size()),
           "write one rig file per joint, with its own columns");
 }
 
@@ -169,7 +169,8 @@ RefineStage stage_of(std::span<const Model> models, const RefineLogs& logs) {
                       "logs give a result of 'cablefit dynamic' or 'identify'");
   if (any_moves)
     stage.warnings.emplace_back(
-        "moving parts of the logs were not used: the model is of stage 1 and knows no inertia");
+        "moving parts of the logs were not used: the model is of stage 1 and has no "
+        "inertia");
   require_static(models);
   stage.wanted = [own = of_preload(models)](const PartSurvey& part) {
     return is_blocked(part) && own(part);

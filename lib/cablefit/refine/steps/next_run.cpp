@@ -185,8 +185,8 @@ void choose_next_run(const NextRunInput& input, RefineResult& result) {
   if (result.elastic_only && result.next_experiment.empty() &&
       std::any_of(result.effects.begin(), result.effects.end(), is_loop))
     result.next_experiment =
-        "a moving log: a blocked link does not tell what the cables lose from what the motor's "
-        "friction does (presliding)";
+        "a moving log: a blocked link does not separate losses of the cables from "
+        "presliding friction of the motor";
   if (!result.effects.empty()) tell_rivals_apart(input, result);
   if (!result.next_run) tell_groups_apart(input, result);
 }

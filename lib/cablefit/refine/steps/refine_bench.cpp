@@ -160,7 +160,7 @@ void check_blocks(const BaseFit& base, double block_seconds, RefineResult& resul
                             block_seconds));
   result.warnings.push_back(
       fmt::format("{} of {} blocks of {:g} s alone determine a parameter of the model: they are "
-                  "fitted, but do not judge",
+                  "fitted, but not used in the evidence",
                   alone, alone + judging, block_seconds));
 }
 
@@ -229,7 +229,8 @@ RefineState prepare(RefineBench& bench, std::span<const Model> models, const Ref
   const Smoothing wanted = smoothing_of(bench, models, train, test);
   if (!logs.test.empty() && !tell_enough(models, train, test, wanted)) {
     result.warnings.emplace_back(
-        "the test logs do not move enough to judge by; the last third of the others is held out");
+        "the test logs move too little to be judged; the last third of the others is "
+        "held out");
     test.clear();
   }
   result.held_out_blocks = test.empty();
@@ -256,9 +257,9 @@ RefineState prepare(RefineBench& bench, std::span<const Model> models, const Ref
   bench.null.emplace(base.design, base.fit.x, bench.logs, bench.wanted, bench.options.threads);
   if (bench.null->logs().follows())
     result.warnings.emplace_back(
-        "the rig's controller with the reference of the logs does not move the model as the robot "
-        "moved (is a torque added that the rig file does not know, or a delay?); chance is judged "
-        "by simulations that follow the measured motion");
+        "the rig's controller with the reference of the logs does not reproduce the "
+        "measured motion (is a feed-forward torque or a delay missing in the rig "
+        "file?); p-values use simulations that follow the measured motion");
   bench.held_back = result.held_out_blocks ? kHeldOutShare : 0;
   bench.null->logs().hold_back(bench.held_back);
   bench.floor = fitted_floor(bench, base.design, base.fit.x);

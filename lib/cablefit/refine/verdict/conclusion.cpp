@@ -37,7 +37,7 @@ double closed_by(const HeldOutChange& change) {
   return std::max(change.closed, gone / (change.rho_before - 1));
 }
 
-/// Some date always fits a little of what wanders or hums, and on logs after it less than that.
+/// Some date always fits a little of a low-frequency disturbance or a tone, and less on later logs.
 bool is_stray_event(const HeldOutChange& change) {
   return change.row.is_event && change.leaves_remainder && closed_by(change) < kLittle;
 }
@@ -52,7 +52,7 @@ bool is_small_gain(const HeldOutChange& change) {
 }
 
 /// Beside a remainder the sum over all rows is that of the equation that has it; rows weighted by
-/// what they leave have the say then.
+/// their residual decide then.
 bool fits_better(const HeldOutChange& change) {
   if (is_better(change.rho_before, change.rho_after, kVisibleGap, kAsGoodRows)) return true;
   const bool as_good = change.rho_after < kAsGoodRows * change.rho_before;
@@ -71,7 +71,7 @@ std::string why_not_added(const HeldOutChange& change) {
     return fmt::format("the equations of {} do not fit better with it ({})", change.data,
                        in_words(change.rho_before, change.rho_after));
   if (is_stray_event(change))
-    return fmt::format("a date explains {:.2g} % of the gap only, and the rest stays unexplained",
+    return fmt::format("an event explains only {:.2g} % of the gap, and the rest stays unexplained",
                        100 * std::max(0.0, closed_by(change)));
   if (change.row.is_event) return "";
   if (change.chance_of_size > kChanceOfNothing)
@@ -81,14 +81,14 @@ std::string why_not_added(const HeldOutChange& change) {
                        change.gone);
   if (is_small_gain(change))
     return fmt::format(
-        "beside what stays unexplained the equations of {} are not clearly better with it ({:.2g} "
-        "sd)",
+        "with the unexplained remainder, the equations of {} are not significantly "
+        "better with it ({:.2g} sd)",
         change.data, change.sd_better);
   const bool is_most = change.closed >= kLeastClosed;  // then it is no stray of the remainder
   if (change.leaves_remainder && !is_most && change.chance_of_size > kChanceOfSize)
     return fmt::format(
-        "beside what stays unexplained a size like its own is not beyond chance (p = {:.1g} of one "
-        "effect)",
+        "with the unexplained remainder, its size is not significant (p = {:.1g} of "
+        "one effect)",
         change.chance_of_size);
   return "";
 }
@@ -106,11 +106,11 @@ std::string why_not_simulated(const SimulatedGap& before, const SimulatedGap& af
 }
 
 std::string why_not_both(const HeldOutChange& change) {
-  if (change.row.is_event) return "one of two effects at once may not be an event";
+  if (change.row.is_event) return "of two effects at once none may be an event";
   std::string reason = why_not_added(change);
   if (!reason.empty()) return reason;
   if (change.rho_after > kRemainder)
-    return fmt::format("two effects at once should leave nothing in the equations of {} ({})",
+    return fmt::format("two effects at once must leave no residual in the equations of {} ({})",
                        change.data, in_words(change.rho_before, change.rho_after));
   return "";
 }

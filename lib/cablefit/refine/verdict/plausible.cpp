@@ -18,9 +18,8 @@ std::string at_open_end(const Variant& variant, const LogScale& scale) {
     const ShapeGrid& grid = row.shape[k];
     if (!grid.is_open_above || variant.shape[k] < kAtEnd * grid.highest(scale)) continue;
     const ParameterInfo& info = row.parameters[row.n_linear() + k];
-    return fmt::format(
-        "{} = {:.3g} {} stands at the end of its range: the logs show a slower process", info.name,
-        variant.shape[k], info.unit);
+    return fmt::format("{} = {:.3g} {} is at the end of its range: the logs show a slower process",
+                       info.name, variant.shape[k], info.unit);
   }
   return "";
 }

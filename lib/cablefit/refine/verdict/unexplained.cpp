@@ -233,7 +233,7 @@ std::optional<Unexplained> describe_remainder(const Design& searched, const Eige
   const Design design = with_dense_rows(searched, x);
   const EquationGap gap = largest_gap(design, x, floor);
   if (!(gap.n_rows > 0)) return {};
-  constexpr double kLowest = 0.5;  // Hz: what is slower wanders
+  constexpr double kLowest = 0.5;  // Hz: slower ones are low-frequency disturbances
   const Line line = strongest_line(pieces_of(design, x, gap.kind), kLowest, 0.4 / gap.row_period);
   const Mode mode = strongest_mode(design, x, gap, floor, block_seconds);
   Unexplained found;

@@ -1,5 +1,5 @@
 // What a remainder looks like that no row of the catalogue explains: an unmodelled mode that the
-// motion shakes, a hum at a fixed frequency, or slow wandering. Internal to refine/.
+// motion excites, a tone of fixed frequency, or a low-frequency disturbance. Internal to refine/.
 #pragma once
 
 #include <optional>

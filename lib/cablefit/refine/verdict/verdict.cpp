@@ -13,14 +13,15 @@
 namespace cablefit {
 namespace {
 
-constexpr double kNextShare = 0.3;         // of the gap that is left
-constexpr double kNextMateriality = 0.02;  // of what is left: imperfect first terms leave crumbs
-constexpr double kLookAlikeSd = 2;         // paired blocks' difference
-constexpr double kLookAlikeShare = 0.25;   // of the gap: more than that apart is not alike
-constexpr double kTieShare = 0.02;         // of the gap: closer than that is alike at any sd
-constexpr double kEqualShare = 0.005;      // the same, where the blocks agree on which is better
-constexpr double kSureSd = 3;              // that they do
-constexpr double kSafety = 1.3;            // times the largest chance gain seen
+constexpr double kNextShare = 0.3;  // of the gap that is left
+constexpr double kNextMateriality =
+    0.02;                           // of what is left: imperfect first terms leave a small residual
+constexpr double kLookAlikeSd = 2;  // paired blocks' difference
+constexpr double kLookAlikeShare = 0.25;  // of the gap: more than that apart is not alike
+constexpr double kTieShare = 0.02;        // of the gap: closer than that is alike at any sd
+constexpr double kEqualShare = 0.005;     // the same, where the blocks agree on which is better
+constexpr double kSureSd = 3;             // that they do
+constexpr double kSafety = 1.3;           // times the largest chance gain seen
 // What passes against its gain at half of all other dates. By chance the largest of 40 blocks'
 // largest gains is 2 to 3 times their median (exponential tails; Fisher & Tippett 1928).
 constexpr double kStandsOut = 4;
@@ -162,7 +163,7 @@ bool is_simpler(const Candidate& a, const Candidate& b) {
 
 /// Whether the other one is the better name: it gains more beyond chance, or as much and is the
 /// simpler one. What is always there is not held against what its row gains by chance where both
-/// are: of two that are nearly the same the one with the luckier row would lose.
+/// are: of two that are nearly the same, the one with the larger gain under the null would lose.
 bool is_better_name(const Candidate& other, const Candidate& best, const Significance& significance,
                     const SquaredGap& gap) {
   if (is_tie(other, best, gap) && is_simpler(other, best)) return true;

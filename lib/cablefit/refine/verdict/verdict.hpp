@@ -1,5 +1,5 @@
 // The decision rule on what a search found: what may be named, by which evidence, beside which
-// look-alikes. Whether a name stays is conclusion.hpp. Internal to refine/.
+// similar effects. Whether an effect stays is decided in conclusion.hpp. Internal to refine/.
 #pragma once
 
 #include "cablefit/refine/null/chance_tail.hpp"
@@ -17,7 +17,7 @@ struct Judgement {
   ChanceTail search;                ///< of the largest gain of what is always there, named or not
   bool is_settled = true;  ///< more draws would hardly change whether something is named, and what
   bool is_named = false;
-  std::vector<Rival> rivals;  ///< look-alikes of the best, likeliest first
+  std::vector<Rival> rivals;  ///< effects similar to the best, likeliest first
   std::vector<Rival> league;  ///< all rows, by gain
   double inclusion = 0;
 };

@@ -23,6 +23,11 @@ std::size_t n_with(const Items& items, Is is) {
   return static_cast<std::size_t>(std::count_if(items.begin(), items.end(), is));
 }
 
+/// "all 3 cells fitted", "1 cell fitted".
+std::string all_of(std::size_t n, const char* what, const char* how) {
+  return n == 1 ? fmt::format("1 {} {}", what, how) : fmt::format("all {} {}s {}", n, what, how);
+}
+
 /// What a reader in a hurry wants: how much was done, and everything that failed.
 std::vector<SummaryLine> summary_of(const BatchResult& result) {
   const std::size_t n_failed =
@@ -108,8 +113,8 @@ Headline headline_of(const BatchResult& result, const Headline& dynamic) {
   };
   if (failed > 0) add(fmt::format("{} of {} cells failed", failed, n_cells));
   if (closed > 0) add(fmt::format("{} of {} gates failed", closed, n_gates));
-  if (!is_bad) add(fmt::format("all {} cells fitted", n_cells));
-  if (!is_bad && n_gates > 0) add(fmt::format("all {} gates passed", n_gates));
+  if (!is_bad) add(all_of(n_cells, "cell", "fitted"));
+  if (!is_bad && n_gates > 0) add(all_of(n_gates, "gate", "passed"));
   headline.numbers = {{"cells fitted", fmt::format("{} of {}", n_cells - failed, n_cells)}};
   if (n_gates > 0)
     headline.numbers.push_back(

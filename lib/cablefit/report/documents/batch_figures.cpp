@@ -36,7 +36,7 @@ constexpr View kByPreload = {
 
 constexpr View kByDate = {
     "Parameters against date", kDateAxis,
-    "Bars: 95 % intervals. What drifts, wears or was changed shows as a step or a slope.",
+    "Bars: 95 % intervals. A change shows as a step, drift and wear as a slope.",
     [](const Found& found) { return found.cell->date; },
     [](const Found& found) {
       return with(with(found.model, found.cell->preload), found.cell->robot);

@@ -286,7 +286,7 @@ constexpr const char* kHowPredicted =
 
 Document check_document(const CheckResult& result, const std::vector<Prediction>& predictions) {
   Document document;
-  document.title = "What the logs hold";
+  document.title = "Content of the logs";
   document.tidy = tidy_check_table();
   add_table(document, logs_table(result));
   document.warnings = result.warnings;

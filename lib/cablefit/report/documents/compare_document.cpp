@@ -65,11 +65,11 @@ std::string verdict_text(const ComparedParameter& p) {
 
 std::vector<std::string> notes_of(const CompareResult& result) {
   const std::string margin = margin_text(result);
-  std::vector<std::string> notes = {fmt::format(
-      "different: with all {} in mind, p < {} (t test of every difference, Sidak); equal: within "
-      "{} by two one-sided tests; undecided: neither, and how many times the data would show "
-      "that they are equal, if they are",
-      result.parameters.size(), result.options.significance, margin)};
+  std::vector<std::string> notes = {
+      fmt::format("different: p < {1} among all {0} (t test of every difference, Sidak); equal: "
+                  "within {2} by two one-sided tests; undecided: neither; with N times the data, "
+                  "equal parameters would show as equal",
+                  result.parameters.size(), result.options.significance, margin)};
   if (std::any_of(result.parameters.begin(), result.parameters.end(),
                   [](const ComparedParameter& p) { return !p.is_relative; }))
     notes.push_back(fmt::format(
@@ -149,8 +149,8 @@ Figure difference_figure(const CompareResult& result) {
   Figure figure;
   figure.title = "Difference B - A, in per cent of A";
   figure.caption =
-      "Bars: intervals that hold for all parameters together. One that leaves zero out is a "
-      "difference.";
+      "Bars: intervals that hold for all parameters together. An interval without "
+      "zero is a difference.";
   figure.x = {"parameter", ""};
   figure.y = {"difference", "%"};
   figure.wide = true;

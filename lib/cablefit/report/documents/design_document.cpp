@@ -76,7 +76,7 @@ void for_each_joint(const DesignResult& result, Add add) {
 }
 
 Table preload_table(const Words& words) {
-  Table table = table_of(words, "What the preload buys",
+  Table table = table_of(words, "Effect of the preload",
                          {{"all cables taut", "up to", words.torque},
                           {"all cables taut", "from", words.angle},
                           {"all cables taut", "to", words.angle},
@@ -103,7 +103,7 @@ Table preload_table(const Words& words) {
 }
 
 Table cost_table(const Words& words) {
-  Table table = table_of(words, "What a simpler model costs",
+  Table table = table_of(words, "Error of simpler models",
                          {{"", "model", "", true},
                           {"largest error", "torque", words.torque},
                           {"largest error", "of torque", "%"},
@@ -127,10 +127,9 @@ Table cost_table(const Words& words) {
   if (words.result.detector) {
     const CollisionDetector& d = *words.result.detector;
     table.notes.push_back(fmt::format(
-        "smallest collision: link torque that the residual's mean over {:g} s at {:g} "
-        "Hz shows with "
-        "a probability of {:g} within two windows, at {:g} false alarm{} an hour, "
-        "{}, whatever the model's error within its largest{}",
+        "smallest collision: link torque that a mean of the residual over {:g} s at "
+        "{:g} Hz detects with a probability of {:g} within two windows, at {:g} false "
+        "alarm{} an hour, {}, for any model error up to the largest{}",
         d.window, d.rate, d.detection_rate, words.result.false_alarms_per_hour,
         words.result.false_alarms_per_hour == 1 ? "" : "s",
         d.mean_noise ? fmt::format("sd of such a mean {:.3g} {}", *d.mean_noise, words.torque)
@@ -261,7 +260,7 @@ void add_tidy_rows(const Words& words, Document& document) {
 
 Table excitation_table(const ExcitationPlan& plan) {
   Table table;
-  table.title = "What the motion will tell";
+  table.title = "Expected uncertainty from this motion";
   table.columns = {{"", "equation", "", true}, {"", "parameter", "", true},
                    {"", "unit", "", true},     {"", "value", ""},
                    {"to expect", "error", ""}, {"to expect", "", "%"},
@@ -277,9 +276,9 @@ Table excitation_table(const ExcitationPlan& plan) {
                                               : std::string(kNoNumber)});
   }
   table.notes.push_back(
-      "error: root of sd^2 + floor^2; sd: scatter that the noise of the sensors makes; floor: what "
-      "filters and the kinks of slack cables add without any noise; errors of stage 1 and what the "
-      "model lacks come on top");
+      "error: root of sd^2 + floor^2; sd: scatter from sensor noise; floor: error of "
+      "filters and of kinks where cables go slack, without noise; errors of stage 1 "
+      "and effects missing in the model are not included");
   table.notes.push_back(fmt::format(
       "plain sine: {} Hz, all of the range at full speed{}", significant(plan.plain.hz, kFewDigits),
       plan.plain.fit.refused.empty()
@@ -384,8 +383,8 @@ Document design_document(const DesignResult& result) {
   const bool cables = !sweep && !result.excitation;
   document.title = cables ? "Design: the cables as they are"
                    : !result.excitation
-                       ? "Design: what a preload buys, and what simpler models cost"
-                   : sweep ? "Design: what a preload buys, and which motion to record"
+                       ? "Design: effect of the preload, and error of simpler models"
+                   : sweep ? "Design: effect of the preload, and which motion to record"
                            : "Design: which motion to record";
   document.summary.push_back({"model", result.model_choice});
   if (sweep) add_sweep(result, document);

@@ -1,10 +1,12 @@
 #include "cablefit/report/documents/dynamic_document.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "cablefit/figure/explained.hpp"
 #include "cablefit/report/documents/document_parts.hpp"
@@ -97,7 +99,7 @@ Table sd_table(const DynamicResult& result) {
 
 Table suspect_table(const DynamicResult& result) {
   Table table;
-  table.title = "Suspect spans: where the residual sticks out of what noise explains";
+  table.title = "Suspect spans: where the residual exceeds the noise";
   const bool linear = !result.preloads.empty() && result.preloads.front().linear_motion;
   table.columns = {{"", "preload", "", true},
                    {"", "model", "", true},
@@ -119,7 +121,7 @@ Table suspect_table(const DynamicResult& result) {
 /// One line per setting that was varied.
 Table sweep_summary(const DynamicResult& result) {
   Table table;
-  table.title = "Sweep: are the estimates flat against settings that should not matter?";
+  table.title = "Sweep: do the estimates depend on settings that should not matter?";
   table.columns = {{"", "preload", "", true},
                    {"", "model", "", true},
                    {"", "setting", "", true},
@@ -295,17 +297,23 @@ void add_explained(const DynamicResult& result, const char* equation, Headline& 
 
 void add_inertia(const DynamicResult& result, Headline& headline) {
   for (const char* name : {"J_link", "J"}) {
-    std::vector<std::string> values;
+    std::vector<std::string> values, missing;
     std::string unit;
     for (const DynamicPreload& preload : result.preloads) {
       const DynamicFit* best = better_fit(preload);
       const Estimate* e = best == nullptr ? nullptr : find_estimate(best->parameters, name);
-      if (e == nullptr || !e->not_identifiable.empty()) continue;
+      if (e == nullptr) continue;
+      if (!e->not_identifiable.empty()) {
+        missing.push_back(preload.name);
+        continue;
+      }
       values.push_back(headline_value(*e));
       unit = e->unit;
     }
     if (values.empty()) continue;
-    headline.numbers.push_back({name, joined_numbers(values) + " " + unit});
+    std::string text = joined_numbers(values) + " " + unit;
+    if (!missing.empty()) text += fmt::format(", not determined: {}", fmt::join(missing, ", "));
+    headline.numbers.push_back({name, std::move(text)});
     return;
   }
 }

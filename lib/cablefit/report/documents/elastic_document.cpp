@@ -133,9 +133,8 @@ std::string numbers_text(const Eigen::VectorXd& numbers) {
 std::string balance_text(const ElasticPreload& preload, const ElasticFit& fit) {
   const PreloadTorques alone = preload_torques(fit.transmission);
   return fmt::format(
-      "{}, {}: in the reference pose the preload alone makes {} {} on the link and {} on the "
-      "motor; "
-      "0 in equilibrium (8c)",
+      "{}, {}: in the reference pose the preload alone gives {} {} on the link and "
+      "{} on the motor; 0 in equilibrium (8c)",
       preload.name, fit.model, numbers_text(alone.link), torque_unit(preload.linear_motion),
       numbers_text(alone.motor));
 }

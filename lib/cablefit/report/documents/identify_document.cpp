@@ -116,11 +116,11 @@ Table elongation_table(const IdentifyResult& result) {
   double most = 0;
   for (const IdentifyPreload& preload : result.preloads) most = std::max(most, preload.equilibrium);
   // Rounding differs between machines; what is met need not be told to the digit.
-  table.notes.push_back(fmt::format(
-      "in the reference pose the preload alone makes {} {} on link and motor: equilibrium (8c), "
-      "imposed",
-      most < kEquilibriumMet ? "less than 1e-9" : significant(most, 2),
-      torque_unit(result.linear_motion)));
+  table.notes.push_back(
+      fmt::format("in the reference pose the preload alone gives {} {} on link and motor: "
+                  "equilibrium (8c), imposed",
+                  most < kEquilibriumMet ? "less than 1e-9" : significant(most, 2),
+                  torque_unit(result.linear_motion)));
   return table;
 }
 

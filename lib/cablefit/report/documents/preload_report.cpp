@@ -31,7 +31,7 @@ Table advice_table(const std::vector<PreloadAdvice>& advice, const AdviceDetecto
                    bool linear_motion) {
   const std::string torque = torque_unit(linear_motion), way = linear_motion ? "mm" : "mrad";
   Table table;
-  table.title = "What each preload buys and costs";
+  table.title = "Model error and friction of each preload";
   table.columns = {{"", "cell", "", true},
                    {"", "deflection", way},
                    {"largest error", "linear", torque},
@@ -51,9 +51,9 @@ Table advice_table(const std::vector<PreloadAdvice>& advice, const AdviceDetecto
   table.notes = {
       "largest error: on the blocked samples, of the linear spring and of stage 1's choice; "
       "friction: f_s + f_sm; all taut: needs l_o in the rig file ('cablefit identify' finds it)",
-      fmt::format("smallest collision: link torque that stands out of the model's largest error "
-                  "and the link equation's residual with a probability of {:.4g}; one look every "
-                  "{:.4g} s, false alarms an hour: {:.4g}",
+      fmt::format("smallest collision: link torque that is detected above the model's largest "
+                  "error and the residual of the link equation with a probability of {:.4g}; one "
+                  "test every {:.4g} s, false alarms an hour: {:.4g}",
                   detector.detection_rate, detector.window, detector.false_alarms_per_hour)};
   return table;
 }
@@ -61,7 +61,7 @@ Table advice_table(const std::vector<PreloadAdvice>& advice, const AdviceDetecto
 Figure advice_figure(const std::vector<PreloadAdvice>& advice, bool linear_motion) {
   Figure figure;
   figure.section = "Preload trade-off";
-  figure.title = "What a preload buys (smaller errors) and costs (friction)";
+  figure.title = "Model error and friction against preload";
   figure.caption =
       "Bars on the friction: 95 % intervals. A collision smaller than its mark is not separable "
       "from the model's own error.";

@@ -1,4 +1,5 @@
-// What the simulated logs of a fit say (--prove), for tables and JSON. Internal to report/.
+// Coverage of a fit's intervals on simulated logs (--prove), for tables and JSON. Internal to
+// report/.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -34,7 +34,8 @@ Table where_table(const RefineResult& result) {
                           percent(r.share_of_squared_gap), percent(r.share_of_rows), number(r.rms),
                           number(r.noise)});
   table.notes = {
-      "before anything was added; a share may pass 100 % where other rows lie below the floor"};
+      "before any effect was added; a share exceeds 100 % where other rows lie below "
+      "the floor"};
   return table;
 }
 
@@ -70,13 +71,14 @@ Table separability_table(const RefineResult& result) {
   Table table;
   table.title = "What these logs cannot separate";
   table.detail = true;
-  table.columns = {{"", "effects", "", true}, {"", "from", "", true}, {"", "what would", "", true}};
+  table.columns = {
+      {"", "effects", "", true}, {"", "from", "", true}, {"", "what separates them", "", true}};
   for (const NotSeparable& group : result.not_separable)
     table.rows.push_back({fmt::format("{}", fmt::join(group.effects, ", ")),
                           group.from_base ? "the model's own parameters" : "each other",
                           next_run_text(group)});
   table.notes = {
-      "from the equations alone, whatever the residual: of a size that matters, one "
+      "from the equations alone, without the residual: at a size that matters, one "
       "explains the other to within the noise"};
   return table;
 }

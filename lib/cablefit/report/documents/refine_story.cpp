@@ -68,7 +68,7 @@ SummaryLine verdict_line(const RefineResult& result) {
     names += (names.empty() ? "" : ", ") + effect_text(row.name, to_string(row.site));
   }
   std::string text(to_string(result.verdict));
-  if (result.verdict == Verdict::ambiguous) names += " or a look-alike";
+  if (result.verdict == Verdict::ambiguous) names += " or a similar effect";
   if (!names.empty()) text += ": " + names;
   return {"verdict", text + (names.empty() ? ": " : "; ") + result.reason};
 }
@@ -125,7 +125,7 @@ SummaryLine evidence_line(const NamedEffect& effect, bool held_out_blocks) {
   const RefineEvidence& evidence = effect.evidence;
   const std::string gain =
       is_over(effect, held_out_blocks)
-          ? "dated, so judged on the log that it is in"
+          ? "an event, judged on the log in which it happens"
           : fmt::format("removes {} of the squared gap above the noise floor on held-out data",
                         percent(evidence.gain));
   return {"evidence", fmt::format("{}; {}; the best in {} of resamples", gain,
@@ -135,7 +135,7 @@ SummaryLine evidence_line(const NamedEffect& effect, bool held_out_blocks) {
 std::string rival_text(const Rival& rival) {
   const std::string name = effect_text(rival.name, rival.side);
   if (rival.by_rule) return name + " is the same in any log of the usual kind";
-  return fmt::format("{} removes {}, {} sd behind", name, percent(rival.gain),
+  return fmt::format("{} removes {}, {} sd less", name, percent(rival.gain),
                      significant(std::max(0.0, rival.difference), 2));
 }
 
@@ -171,7 +171,7 @@ void add_effect_lines(const RefineResult& result, std::vector<SummaryLine>& line
                           torque_unit(result.linear_motion));
     lines.push_back({"effect", text});
     lines.push_back(evidence_line(effect, result.held_out_blocks));
-    // Further ones were chosen from another league.
+    // Further ones were chosen from another list of candidates.
     const bool is_first = &effect == &result.effects.front();
     if (is_first || !effect.rivals.empty())
       lines.push_back(rivals_line(effect, is_first ? result.league : std::vector<Rival>{}));
@@ -229,13 +229,14 @@ std::string unexplained_text(const Unexplained& found, bool linear_motion) {
   const std::string share = percent(found.share_of_squared_gap);
   if (found.kind == "mode")
     return fmt::format(
-        "{} equation, {}: like a mode of {} Hz and damping ratio {}, {} {} that "
-        "the motion shakes ({} of it)",
+        "{} equation, {}: like a mode of {} Hz and damping ratio {}, {} {}, excited by "
+        "the motion ({} of it)",
         found.equation, size, number(found.frequency), significant(found.damping, 2),
         significant(found.inertia, 2), linear_motion ? "kg" : "kg m^2", share);
   if (found.kind == "hum")
-    return fmt::format("{} equation, {}: like a hum of {} Hz, whatever the motion ({} of it)",
-                       found.equation, size, number(found.frequency), share);
+    return fmt::format(
+        "{} equation, {}: like a tone of {} Hz, independent of the motion ({} of it)",
+        found.equation, size, number(found.frequency), share);
   return fmt::format(
       "{} equation, {}: low-frequency disturbance (correlation time {} s), no line, no mode",
       found.equation, size, significant(found.correlation_time, 2));
@@ -322,7 +323,7 @@ std::vector<SummaryLine> refine_story(const RefineResult& result,
   if (result.simulation.known || result.elastic_only) lines.push_back(simulation_line(result));
   lines.push_back(remainder_line(result));
   if (result.unexplained)
-    lines.push_back({"left over", unexplained_text(*result.unexplained, result.linear_motion)});
+    lines.push_back({"remainder", unexplained_text(*result.unexplained, result.linear_motion)});
   if (result.verdict != Verdict::none)
     for (SummaryLine& line : where_lines(result)) lines.push_back(std::move(line));
   if (!result.effects.empty()) lines.push_back(shifts_line(result));

@@ -122,7 +122,7 @@ class Appendix {
 
 Document study_document(const Study& study, const std::vector<std::string>& model_files) {
   Document document;
-  document.title = "Study of the logs: how stiff, how heavy, how rough, and what is missing";
+  document.title = "Study of the logs: stiffness, inertia, friction, and what is missing";
   Appendix appendix(document, study.dynamic ? "stage 2" : study.elastic ? "stage 1" : "check");
   if (study.check) {
     document.summary.push_back({"logs", logs_text(*study.check)});

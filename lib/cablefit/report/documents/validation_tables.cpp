@@ -37,9 +37,10 @@ Table condition_table(const std::string& unit, const std::string& linear) {
                    {"rms of", "noise floor", unit},
                    {"", "verdict", "", true}};
   table.notes.push_back(
-      "fitted rows: of the logs that were fitted, under the same condition where they have it, and "
-      "what the verdict goes by; zero model: says 0, so its error is the torque to be explained; "
-      "noise floor: what no model can explain, of all logs together and of each");
+      "fitted rows: of the logs that were fitted, under the same condition where "
+      "they have it; the verdict compares with it; zero model: predicts 0, so its "
+      "error is the torque to be explained; noise floor: error of the best possible "
+      "model, of all logs together and of each");
   if (!linear.empty()) table.notes.back() += "; linear: " + linear;
   return table;
 }

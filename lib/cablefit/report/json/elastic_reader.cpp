@@ -17,7 +17,7 @@ constexpr std::string_view kSchema = "cablefit/elastic/1";
 void require_schema(const JsonNode& root) {
   const JsonNode& schema = root.at("schema");
   if (schema.text() == kSchema) return;
-  throw schema.error(fmt::format("schema '{:.60}' is no stage-1 result", schema.text()),
+  throw schema.error(fmt::format("schema '{:.60}' is not a stage-1 result", schema.text()),
                      fmt::format("expected '{}', as `cablefit elastic` writes it", kSchema));
 }
 
@@ -26,7 +26,7 @@ std::size_t count(const JsonNode& object, std::string_view key) {
   if (node == nullptr) return 0;
   const double value = node->number();
   if (value >= 0 && value == std::floor(value)) return static_cast<std::size_t>(value);
-  throw node->error(fmt::format("{} is no count", value), "write a whole number of rows");
+  throw node->error(fmt::format("{} is not a count", value), "write a whole number of rows");
 }
 
 std::vector<std::string> texts(const JsonNode& object, std::string_view key) {
@@ -86,7 +86,7 @@ void read_range(const JsonNode& node, Deflected& preload) {
   const JsonNode& range = node.at("deflection_range");
   const std::vector<double> ends = range.numbers();
   if (ends.size() != 2 || ends[0] > ends[1]) {
-    throw range.error("no range", "write it as [lowest, highest]");
+    throw range.error("not a range", "write it as [lowest, highest]");
   }
   preload.deflection_low = ends[0];
   preload.deflection_high = ends[1];

@@ -15,7 +15,8 @@ constexpr std::string_view kLinear = "linear";
 
 std::vector<Estimate> read_parameters(const JsonNode& list) {
   std::vector<Estimate> parameters;
-  if (!list.is_array()) throw list.error("no list of parameters", "write it as [{\"name\": ...}]");
+  if (!list.is_array())
+    throw list.error("not a list of parameters", "write it as [{\"name\": ...}]");
   for (const JsonNode& item : list.items) {
     const std::string name = item.at("name").text();
     const std::string unit = item.at("unit").text();
@@ -88,7 +89,7 @@ Eigen::Index n_coefficients(const Transmission& transmission) {
 Eigen::MatrixXd read_covariance(const JsonNode& node, Eigen::Index n) {
   Eigen::MatrixXd covariance(n, n);
   const auto fail = [&] {
-    return node.error(fmt::format("no {} x {} matrix", n, n),
+    return node.error(fmt::format("not a {} x {} matrix", n, n),
                       "one row and column per coefficient; run `cablefit elastic` again");
   };
   if (!node.is_array() || static_cast<Eigen::Index>(node.items.size()) != n) throw fail();
@@ -107,7 +108,7 @@ int read_order(const JsonNode& node) {
   if (value == static_cast<int>(std::min(value, 1.0 * kMaxCableOrder))) {
     return static_cast<int>(value);
   }
-  throw order->error(fmt::format("{} is no order", value),
+  throw order->error(fmt::format("{} is not an order", value),
                      fmt::format("write a whole number of 1 to {}", kMaxCableOrder));
 }
 

@@ -211,7 +211,7 @@ std::unique_ptr<MendedLog> open_planned(const LogPlan& plan, Sha256* digest) {
 void require_unchanged(const LogPlan& plan) {
   if (stamp_of(plan.path) == plan.stamp) return;
   throw input_error({plan.path}, "changed while it was being read",
-                    "run again once nothing writes to it any more");
+                    "run again when no program writes to it");
 }
 
 void require_channel(const LogPlan& plan, Channel channel, std::string_view why,

@@ -50,8 +50,8 @@ struct LogPlan {
   /// The rig file maps tau_load or theta_ref to a column that is not there. A blocked log needs
   /// neither, and which logs are blocked shows in the survey only.
   std::optional<Error> absent;
-  std::vector<std::string> trusted;  ///< contradictions that --trust-units goes on with
-  std::vector<Decision> decisions;   ///< what is read otherwise than it stands there
+  std::vector<std::string> trusted;  ///< contradictions accepted by --trust-units
+  std::vector<Decision> decisions;   ///< where reading differs from the text of the log
 
   /// What is taken off all of the time column, in its unit, when this is its first value: all of a
   /// clock that counts from an epoch, so that tables and plots begin near 0; else nothing.
@@ -81,10 +81,10 @@ LogPlan plan_columns(LogHeader header, const Rig& rig, const Reading& reading = 
 std::unique_ptr<MendedLog> open_planned(const LogPlan& plan, Sha256* digest = nullptr);
 
 /// A log is read several times. Throws Error(input) when its file was written to or replaced since
-/// it was planned: later passes rest on what earlier ones found.
+/// it was planned: later passes use the results of earlier ones.
 void require_unchanged(const LogPlan& plan);
 
-/// What `pass` over the log returns. A log that changed meanwhile is told as that, whatever the
+/// What `pass` over the log returns. A log that changed meanwhile is reported as that, whatever the
 /// pass ran into.
 template <typename Pass>
 auto undisturbed(const LogPlan& plan, Pass pass) {
@@ -104,12 +104,12 @@ auto undisturbed(const LogPlan& plan, Pass pass) {
 void require_channel(const LogPlan& plan, Channel channel, std::string_view why,
                      std::string_view hint = "add it, or map it in a rig file");
 
-/// The same for what an integral, whose zero is unknown, cannot serve.
+/// The same where an integral does not suffice, because its zero is unknown.
 void require_measured(const LogPlan& plan, Channel channel, std::string_view why,
                       std::string_view hint = "add it, or map it in a rig file");
 
-/// For what handles one joint only. Throws Error(input) for a rig with more; `what` may say what
-/// does not: "'--zero theta_0' is made for one".
-void require_one_joint(const LogPlan& plan, std::string_view what = "fits are made for one");
+/// For code that handles one joint only. Throws Error(input) for a rig with more; `what` names what
+/// does not: "'--zero theta_0' supports one joint".
+void require_one_joint(const LogPlan& plan, std::string_view what = "fits support one joint");
 
 }  // namespace cablefit

@@ -1,4 +1,4 @@
-// A log as a result remembers it.
+// A log as a result records it.
 #pragma once
 
 #include <string>

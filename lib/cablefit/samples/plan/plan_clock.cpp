@@ -26,11 +26,10 @@ struct GivenRate {
 };
 GivenRate given_rate(const LogPlan& plan) {
   if (plan.reading.rate > 0)
-    return {plan.reading.rate, "the rate given is", "leave --rate out, or take the right one",
-            true};
+    return {plan.reading.rate, "the rate given is", "leave --rate out, or correct it", true};
   if (plan.rig.sample_rate > 0)
     return {plan.rig.sample_rate, "\"sample_rate\" in the rig file is",
-            "leave it out, or take the right one", false};
+            "leave it out, or correct it", false};
   return {plan.header.sample_rate.value_or(0), "\"sample_rate\" of the log is",
           "correct the one that is wrong", false};
 }
@@ -98,7 +97,7 @@ void require_one_rate(LogPlan& plan, std::size_t column, double factor, const Gi
   const bool agrees = std::abs(rate / given.rate - 1) <= kRateAgrees;
   if (agrees && !given.replaces_clock) return;  // gaps, which the clock that is read shows
   const std::string what =
-      agrees ? fmt::format("column {} has gaps or drifts, which rows at {:.4g} Hz would hide",
+      agrees ? fmt::format("column {} has gaps or drifts; rows at {:.4g} Hz would hide them",
                            cablefit::quoted(cell.name), given.rate)
              : fmt::format("column {} has {:.4g} Hz, {} {:.4g} Hz", cablefit::quoted(cell.name),
                            rate, given.who, given.rate);

@@ -6,7 +6,7 @@
 namespace cablefit {
 
 struct Reading {
-  bool trust_units = false;  ///< goes on where units or signs cannot be right, with a warning
+  bool trust_units = false;  ///< continues where units or signs cannot be right, with a warning
   std::size_t skipped_lines = 0;
   bool units_row = false;
   MendingRules mending;

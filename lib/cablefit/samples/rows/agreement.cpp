@@ -19,7 +19,7 @@ void require_same_rig(const LogSurvey& first, const LogSurvey& log, const std::s
   throw input_error(
       {log.plan.path, 0, 0},
       fmt::format("preload '{:.40}' has logs of two rigs, {} and {}", preload, name(a), name(b)),
-      "fit them apart, or name their preloads differently in the rig files");
+      "fit them separately, or give their preloads different names in the rig files");
 }
 
 /// "q2, theta2, tau2" of a log that is read as one of one joint.
@@ -43,7 +43,7 @@ std::vector<std::string> unread_joints(std::span<const LogSurvey> logs) {
   for (const LogSurvey& log : logs)
     if (const std::string names = second_joint(log.plan); !names.empty())
       warnings.push_back(
-          fmt::format("{}: columns {} are not used, the log is read as one of one joint: name the "
+          fmt::format("{}: columns {} are not used: the log is read as that of one joint; name the "
                       "joints in a rig file",
                       log.plan.path, names));
   return warnings;

@@ -53,10 +53,10 @@ void warn_of_haste(std::span<const LogSurvey> logs, const PartFilter& wanted, in
   if (!(range > 0) || cutoff <= 0) return;
   const double frequency = sweep / (2 * range);  // up and down once: twice the range
   if (frequency > 0.1 * cutoff)
-    chosen.warnings.push_back(fmt::format(
-        "the motor sweeps about {:.2g} times a second: too fast for stage 1, inertia and the "
-        "filter falsify stiffness and friction; sweep slower",
-        frequency));
+    chosen.warnings.push_back(
+        fmt::format("the motor sweeps about {:.2g} times a second: too fast for stage 1: inertia "
+                    "and the filter bias stiffness and friction; sweep slower",
+                    frequency));
 }
 
 /// `sweep`: its speed; `unseen`: speed that noise may be taken for, rad/s.
@@ -69,10 +69,11 @@ void choose_rest_speed(ChosenSettings& chosen, const SampleOptions& options, dou
     // Too slow for the encoder to tell motion from rest row by row: the direction of the last
     // motion is all there is, and it is enough for the branch.
     chosen.rest_speed_theta = 0;
-    decide(chosen, "rest speed", "0",
-           fmt::format("a sweep of {:.2g} rad/s does not stand out of the speed's noise; rows go "
-                       "by the direction of the last motion",
-                       sweep));
+    decide(
+        chosen, "rest speed", "0",
+        fmt::format("a sweep of {:.2g} rad/s is within the noise of the speed; each row takes the "
+                    "direction of the last motion",
+                    sweep));
   } else {
     chosen.rest_speed_theta = std::max(unseen, kRestShare * sweep);
     decide(

@@ -43,7 +43,8 @@ void choose_rest_speed(ChosenSettings& chosen, std::span<const LogSurvey> logs,
     chosen.rest_speed_q = rest_speed(logs, wanted, link, motion, Channel::q, rate);
     decide(chosen, "rest speed",
            fmt::format("motor {:.3g}, link {:.3g}", chosen.rest_speed_theta, chosen.rest_speed_q),
-           "speed gained within the filter's blur, at least 4 sd of the speed's noise");
+           "speed gained within the filter's response time, at least 4 sd of the speed's "
+           "noise");
   }
   if (chosen.rest_speed_theta > 0) choose_rest_margin(chosen, rate);
 }

@@ -40,7 +40,7 @@ struct Equation {
   std::string name;  ///< "link", "motor", "blocked"
   std::vector<std::string> columns;
   std::vector<bool> averaged;  ///< per column: averaged over the triangle (not: a held torque)
-  /// Changes signals of the full rate to what `fill` wants; empty: they are right as they are.
+  /// Changes signals of the full rate to what `fill` needs; empty: no change.
   std::function<void(Signals&)> prepare;
   /// Writes rows x columns.
   std::function<void(const Signals&, Eigen::Ref<Eigen::MatrixXd>)> fill;
@@ -80,7 +80,7 @@ using WindowFilter = std::function<bool(const WindowPlace&)>;
 RowBatch make_rows(const Window& window, const LogSurvey& log, Eigen::Index number_offset,
                    const RowSettings& settings, std::span<const Equation> equations);
 
-/// Rows of a window that other rows' values depend on.
+/// Rows beside a window on which values of its rows depend.
 Eigen::Index row_halo(const RowSettings& settings, double rate);
 
 /// About how many rows will come out, per equation.

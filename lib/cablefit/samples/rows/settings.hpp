@@ -1,5 +1,5 @@
 // Which filter, decimation, edges and rest threshold: chosen from the log unless the user says, and
-// always told with the reason.
+// always reported with the reason.
 #pragma once
 
 #include <optional>

@@ -85,9 +85,10 @@ ChosenSettings begin_settings(std::span<const LogSurvey> logs, const PartFilter&
                               const SampleOptions& options, const RateRange& rates) {
   ChosenSettings chosen;
   if (!are_one(rates))
-    chosen.warnings.push_back(fmt::format(
-        "the logs have rates of {:.4g} to {:.4g} Hz: the slowest bounds the filter for all",
-        rates.lowest, rates.highest));
+    chosen.warnings.push_back(
+        fmt::format("the logs have rates of {:.4g} to {:.4g} Hz: the lowest limits the filter of "
+                    "all",
+                    rates.lowest, rates.highest));
   check_options(logs, wanted, options, rates.lowest);
   tell_reading(logs, wanted, chosen);
   choose_filter_order(chosen, options);
@@ -116,7 +117,8 @@ void choose_rest_margin(ChosenSettings& chosen, double rate) {
   rows.rest_margin = static_cast<Eigen::Index>(std::ceil(kSmear * rate / cutoff));
   decide(chosen, "rest margin",
          fmt::format("{:.3g} s", static_cast<double>(rows.rest_margin) / rate),
-         "the filter smears a step of friction over one period of the cut-off on either side");
+         "the filter spreads a step of friction over one period of the cut-off on "
+         "either side");
 }
 
 void choose_edges(ChosenSettings& chosen, const SampleOptions& options, const RateRange& rates) {
@@ -134,7 +136,7 @@ void choose_edges(ChosenSettings& chosen, const SampleOptions& options, const Ra
                                           static_cast<Eigen::Index>(std::ceil(2 * rate / cutoff)))
                  : kDifferenceEdge;
   decide(chosen, "edge rows", std::to_string(rows.drop_edge),
-         cutoff > 0 ? "two periods of the cut-off" : "what differences cannot reach");
+         cutoff > 0 ? "two periods of the cut-off" : "rows that differences do not reach");
 }
 
 }  // namespace cablefit::settings_parts

@@ -1,4 +1,4 @@
-// A running look at one channel: range, quantum, noise, saturation.
+// Running statistics of one channel: range, quantum, noise, saturation.
 #pragma once
 
 #include <Eigen/Core>

@@ -17,10 +17,10 @@ constexpr double kUnevenShare = 0.01;  // of the steps off by that much; fewer a
 
 Error clock_error(double t, double step, const Place& place) {
   if (step == 0)
-    return input_error(place, fmt::format("time stands still at t = {:g} s", t),
+    return input_error(place, fmt::format("time does not advance at t = {:g} s", t),
                        "remove the duplicate row, or keep the first by --repeated first");
-  return input_error(place, fmt::format("time runs back to t = {:g} s", t),
-                     "sort the rows, or tell runs apart with a 'run' column");
+  return input_error(place, fmt::format("time goes back to t = {:g} s", t),
+                     "sort the rows, or mark each run in a 'run' column");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A running look at the clock of one part: period, jitter, gaps.
+// Running statistics of the clock of one part: period, jitter, gaps.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ class ClockScan {
  public:
   /// Whether the time has jumped since the row before: differences must not reach across.
   /// `continues`: the row before belongs to the same part. Throws Error(input) at the line for time
-  /// that stands still or runs back.
+  /// that does not advance.
   bool add(double t, bool continues, const std::string& path, std::uint64_t line);
   /// add() for as many of the times as follow on the row before without a jump, an error or an
   /// uncalibrated step: all of an ordinary log but its first rows. Returns how many.

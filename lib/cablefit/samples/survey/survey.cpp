@@ -27,7 +27,7 @@ constexpr double kStillShare = 0.02;
 
 Error absurd_value(const LogPlan& plan, const Slot& slot, double value, std::uint64_t line) {
   return input_error({plan.path, line, 0},
-                     fmt::format("{:g} in column {} is no physical value", value,
+                     fmt::format("{:g} in column {} is not a physical value", value,
                                  cablefit::quoted(plan.header.columns[slot.column].name)),
                      "correct it, or leave the row out");
 }
@@ -39,10 +39,9 @@ Phase phase_of(const PartTracker::Key& key, const PartSurvey& part, const LogPla
 }
 
 Error too_many_parts(const LogPlan& plan, std::uint64_t line) {
-  return input_error(
-      {plan.path, line, 0},
-      fmt::format("more than {} parts, told apart by preload, phase and run", kMaxParts),
-      "use labels that change from recording to recording only, or split the log");
+  return input_error({plan.path, line, 0},
+                     fmt::format("more than {} parts by preload, phase and run", kMaxParts),
+                     "use labels that only change between recordings, or split the log");
 }
 
 struct PartScan {
@@ -71,10 +70,10 @@ void require_usable(const PartSurvey& part, const LogPlan& plan) {
     throw input_error(
         {plan.path, 0, 0},
         fmt::format("{} row{} of {}", part.n_rows, part.n_rows == 1 ? "" : "s", name_of(part)),
-        fmt::format("at least {} rows are needed to see any motion", kMinRows));
+        fmt::format("at least {} rows are needed to detect motion", kMinRows));
   if (!(part.period > 0) || !std::isfinite(1 / part.period))
     throw input_error({plan.path, 0, 0},
-                      fmt::format("no two rows in a row belong to {}", name_of(part)),
+                      fmt::format("no two consecutive rows belong to {}", name_of(part)),
                       "the preload, phase and run columns should change seldom");
 }
 
@@ -170,7 +169,7 @@ class LogScan {
       if (share < kMostBack || end - begin < kFewSteps || !plan_.time_column) throw;
       throw input_error(
           {plan_.path, chunk.lines[i], 0},
-          fmt::format("column {} is no clock: it runs back in {:.0f} % of its steps",
+          fmt::format("column {} is not a clock: it goes back in {:.0f} % of its steps",
                       cablefit::quoted(plan_.header.columns[*plan_.time_column].name), 100 * share),
           "name the time column in the rig file's columns, as \"t\": \"stamp\"");
     }
@@ -303,7 +302,7 @@ std::vector<std::string> mending_warnings(const LogPlan& plan, const MendedCount
                                    counted_of(counts.rows_missing, n_rows, "row")));
   if (counts.cells_held > 0)
     warnings.push_back(fmt::format(
-        "{}: {} filled with the value before", plan.path,
+        "{}: {} filled with the value of the row before", plan.path,
         counted_of(counts.cells_held, n_rows * counts.cells_missing.size(), "missing cell")));
   if (counts.rows_repeated > 0)
     warnings.push_back(fmt::format("{}: {} with the time of the row before left out", plan.path,

@@ -1,6 +1,6 @@
-// First look at a log: its parts (preload, phase, run), their clock, and per channel the range,
+// Survey of a log: its parts (preload, phase, run), their clock, and per channel the range,
 // quantum and noise. One pass in constant memory, which also keeps the samples in SI for all later
-// passes; everything they decide rests on it.
+// passes.
 #pragma once
 
 #include <functional>
@@ -36,12 +36,12 @@ struct LogSurvey {
   std::shared_ptr<const SampleStore> samples;  ///< what all later passes read
   /// Of LogPlan::trusted, of rows left out or filled and of weigh_logs(); reported before others.
   std::vector<std::string> warnings = {};
-  /// Units, signs or samples cannot be right and are trusted all the same: they explain the rest.
+  /// Units, signs or samples that cannot be right but are trusted: they explain later warnings.
   bool has_trusted_finding = false;
 };
 
 /// Reads the whole log, its text for the only time, on up to `threads` threads. Throws Error(input)
-/// at file:line:column for time that stands still or runs back, an unknown phase, a part with fewer
+/// at file:line:column for time that does not advance, an unknown phase, a part with fewer
 /// than 8 rows, and more than half of the rows left out for missing cells or a fifth for repeated
 /// times; of a moving log for LogPlan::absent.
 /// `preload`: name for parts without a preload column (the rig's, or an option); empty: "default".

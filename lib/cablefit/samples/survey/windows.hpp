@@ -1,4 +1,4 @@
-// A log cut into windows on a fixed grid: each carries a halo of neighbours on both sides, so that
+// A log cut into windows on a fixed grid: each has a halo of neighbours on both sides, so that
 // a window can be filtered and differenced on its own, on any thread, with the same bits as any
 // other way.
 #pragma once
@@ -27,7 +27,7 @@ struct WindowPlace {
 struct Window : WindowPlace {
   Eigen::MatrixXd data;  ///< rows [first, first + data.rows()) x LogPlan::slots, SI
   /// rows x joints: the direction (-1, 1; 0 before any motion) in which theta last moved by more
-  /// than its noise. At rest this tells from which side the place was approached.
+  /// than its noise. At rest this gives the side from which the position was approached.
   Eigen::MatrixXd approach;
 };
 

@@ -45,7 +45,7 @@ Findings blocked_slope(const Logs& logs) {
            {},
            true,
            fmt::format("q stands still while theta moves {:.3g}, and tau does not follow theta "
-                       "(correlation {:.2f}): is q dead, or another column?",
+                       "(correlation {:.2f}): is the sensor of q dead, or q another column?",
                        coarse_range(joint.theta), line.correlation),
            "read q from the column of the link's encoder; of a link that is blocked, give a column "
            "'phase' with 'blocked'"});
@@ -53,13 +53,15 @@ Findings blocked_slope(const Logs& logs) {
     const bool is_still = coarse_range(joint.theta) <= kRounding * middle;
     if (is_still || std::abs(line.correlation) < kClearSlope) continue;
     if (line.slope < 0) {
-      findings.push_back({part.log,
-                          {},
-                          true,
-                          fmt::format("tau falls as theta grows while the link is blocked (slope "
-                                      "{:.3g} {}): tau or theta is turned round",
-                                      line.slope, plan.rig.linear_motion ? "N/m" : "N m/rad"),
-                          mending_line(plan, Channel::tau, 0, -1) + ", or the same of theta"});
+      findings.push_back(
+          {part.log,
+           {},
+           true,
+           fmt::format(
+               "tau falls as theta grows while the link is blocked (slope {:.3g} {}): tau or "
+               "theta is reversed",
+               line.slope, plan.rig.linear_motion ? "N/m" : "N m/rad"),
+           mending_line(plan, Channel::tau, 0, -1) + ", or the same of theta"});
       continue;
     }
     const std::string key = plan.rig.path + '\n' + logs.survey(part).preload;

@@ -1,4 +1,4 @@
-// What a log's own numbers say against the units, signs and columns it is read with.
+// Contradictions between a log's numbers and the units, signs and columns it is read with.
 #pragma once
 
 #include <cstdint>

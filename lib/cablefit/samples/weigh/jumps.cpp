@@ -90,11 +90,11 @@ std::optional<Finding> jump_finding(const LogSurvey& log, std::size_t part, std:
   finding.row = jump.row;
   finding.wrong = is_fast && jump.size > kWrong * usual;
   finding.what = fmt::format(
-      "{} jumps by {:.3g} {} in one sample, {:.2g} times what others do: a single wrong sample, a "
-      "wrapped encoder, lost counts, or two logs in one",
+      "{} jumps by {:.3g} {} in one sample, {:.2g} times the jumps elsewhere: a "
+      "single wrong sample, a wrapped encoder, lost counts, or two logs in one",
       weighed_name(log.plan, at.channel, at.joint), jump.size, unit_on(log.plan.rig, "rad"),
       jump.size / usual);
-  finding.remedy = "mend the log, or tell runs apart with a 'run' column";
+  finding.remedy = "correct the log, or mark each run in a 'run' column";
   return finding;
 }
 

@@ -139,10 +139,11 @@ Finding balance_finding(const LogPlan& plan, std::size_t log, double ratio) {
     return {log,
             {},
             true,
-            "tau_load is turned round: tau acts in the same direction as the load",
+            "tau_load is reversed: tau acts in the same direction as the load",
             plan.find(Channel::tau_load) >= 0 ? mending_line(plan, Channel::tau_load, 0, -1)
                                               : "change the sign of the load in the rig file"};
-  const std::string what = fmt::format("tau is {:.3g} times what balances the known load", ratio);
+  const std::string what =
+      fmt::format("tau is {:.3g} times the torque that balances the known load", ratio);
   if (is_milli(ratio)) {
     const Channel channel = ratio > 1 ? Channel::tau : Channel::tau_load;
     return {log,

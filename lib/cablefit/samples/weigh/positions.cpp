@@ -145,13 +145,13 @@ std::optional<Finding> swapped_columns(const LogPlan& plan, const CoarsePart& pa
 Finding turned_position(const LogPlan& plan, const CoarsePart& part, int j, double slope) {
   const CoarsePart::Joint& joint = part.joints[static_cast<std::size_t>(j)];
   const Channel turned = drive_turns_back(part, joint) ? Channel::theta : Channel::q;
-  return {part.log,
-          {},
-          true,
-          fmt::format("{} is turned round: the slope of {} on {} is {:.2f}",
-                      weighed_name(plan, turned, j), weighed_name(plan, Channel::theta, j),
-                      weighed_name(plan, Channel::q, j), slope),
-          mending_line(plan, turned, j, -1)};
+  return {
+      part.log,
+      {},
+      true,
+      fmt::format("{} is reversed: the slope of {} on {} is {:.2f}", weighed_name(plan, turned, j),
+                  weighed_name(plan, Channel::theta, j), weighed_name(plan, Channel::q, j), slope),
+      mending_line(plan, turned, j, -1)};
 }
 
 /// Of a single sine near a resonance q and theta differ in size and sign for a good reason.
@@ -227,7 +227,7 @@ void weigh_range(const Logs& logs, const CoarsePart& part, Findings& findings) {
     if (blocked && range > kTurn && joint.tau.size() > 0 &&
         coarse_range(joint.tau) < kSmallTorque) {
       findings.push_back(swapped(plan, part, j,
-                                 fmt::format("{} moves {:.3g} rad against a blocked link",
+                                 fmt::format("{} moves {:.3g} rad while the link is blocked",
                                              weighed_name(plan, channel, j), range),
                                  Channel::theta, Channel::tau));
       continue;
@@ -238,7 +238,7 @@ void weigh_range(const Logs& logs, const CoarsePart& part, Findings& findings) {
          range > (blocked ? kTurn : kMostTurns * kTurn),
          fmt::format("{} moves {:.3g} rad{}: degrees, or another column?",
                      weighed_name(plan, channel, j), range,
-                     blocked ? " against a blocked link" : ""),
+                     blocked ? " while the link is blocked" : ""),
          fmt::format("write \"unit\": \"deg\" of {} and {} in the rig file's columns",
                      weighed_name(plan, Channel::q, j), weighed_name(plan, Channel::theta, j))});
   }

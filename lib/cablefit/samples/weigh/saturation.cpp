@@ -21,11 +21,11 @@ Findings saturation(const Logs& logs) {
             {l,
              {},
              false,
-             fmt::format("{} stands at its limits in {:.1f} % of the samples: saturation?",
+             fmt::format("{} is at its limits in {:.1f} % of the samples: saturation?",
                          weighed_name(log.plan, slot.channel, slot.joint),
                          100 * part.channels[k].at_limits),
-             "clipped torque biases every parameter: record with less torque, or log what the "
-             "drive gave"});
+             "clipped torque biases every parameter: record with less torque, or log the "
+             "actual torque of the drive"});
       }
   }
   return findings;

@@ -89,7 +89,7 @@ Findings work(const Logs& logs) {
          {},
          true,
          fmt::format("{0} brakes: over a closed motion it does {1:.3g} J of work, of {2:.3g} J "
-                     "exchanged; {0} is turned round against the positions",
+                     "exchanged; the sign of {0} is reversed against the positions",
                      tau, work.drive, work.exchanged),
          mending_line(plan, Channel::tau, joint, -1)});
   }

@@ -16,17 +16,11 @@ constexpr double kLeastAcceleration = 1e-6, kLeast = 1e-8;  // else: per unit of
 
 std::size_t axes_of(const Model& model) { return model.joints.size() * (model.rigid ? 1 : 2); }
 
-bool is_shape(const Model& model, const ModelParameter& p) {
-  if (p.kind != ParameterKind::added) return false;
-  const auto& added = model.joints[static_cast<std::size_t>(p.joint)].added;
-  return p.index >= added[p.effect].effect->n_linear();
-}
-
 /// For a parameter that is 0. `inertia`: the smallest of the model.
 double least_move(const Model& model, const ModelParameter& p, double inertia) {
   const bool is_length =
       p.kind == ParameterKind::elongation || p.kind == ParameterKind::encoder_zero;
-  return is_length || is_shape(model, p) ? kLeast : kLeastAcceleration * inertia;
+  return is_length || shape_of(model, p) ? kLeast : kLeastAcceleration * inertia;
 }
 
 double larger_for(double unit, double value) { return unit * std::max(1.0, std::abs(value)); }
