@@ -33,6 +33,7 @@ const kCommands = {
   identify: () => ["identify", "--recursive", "--out", "identify-out",
                    ...at("low/blocked.csv", "low/moving_load30.csv", "high/blocked.csv", "high/moving_load30.csv")],
   simulate: () => ["simulate", "cablefit-out/dynamic.json", ...at("low/moving_load30.csv", "low/blocked.csv")],
+  predict: () => ["predict", "cablefit-out/dynamic.json", ...at("low/moving_load30.csv")],
   refine: () => ["refine", ...at("low/blocked.csv", "low/moving_load30.csv", "low/moving_load-40.csv"),
                  "--draws", "8", "--out", "refine-out"],
   design: () => ["design", "cablefit-out/dynamic.json", "--preload", "high", "--torque", "20", "--out", "design-out"],
@@ -62,7 +63,7 @@ const kWanted = {
   elastic: {"Torque against deflection": 2, "Elastic torque of each cable": 2, "Force closure and disclosure over q and θ": 2, "Elastic error against deflection": 2, "Measured and predicted": 2,
             "Torque error against velocity of θ, linear": 2, "Torque error against position θ, linear": 2,
             "Torque error against deflection θ − q, linear": 2, ...counted(kResidualTitles, 2)},
-  preloaded: {"Elastic torque of each cable": 1, "Force closure and disclosure over q and θ": 1},
+  preloaded: {"Elastic torque of each cable": 1, "Stiffness against deflection": 1, "Force closure and disclosure over q and θ": 1},
   dynamic: {"Measured and predicted": 2, "Measured and predicted, close-up": 2,
             "Measured and predicted, poly": 2, "Measured and predicted, poly, close-up": 2, ...counted(kResidualTitles, 4),
             "Torque error against velocity of q, poly": 2, "Torque error against position θ, poly": 2,
@@ -70,6 +71,7 @@ const kWanted = {
   rigid: {"Measured and predicted": 1, ...counted(kResidualTitles, 1)},
   identify: {"Elastic torque of each cable": 2, "Force closure and disclosure over q and θ": 2, "Profile likelihood of l_o[1]": 2, "Profile likelihood of l_o[2]": 2, K1_0: 1, J_link: 2},
   simulate: {"Measured and simulated q": 2, "Measured and simulated q, close-up": 2, "Measured and simulated θ": 2, "Gap of q": 2, "Gap of θ": 2},
+  predict: {"Elastic torques by the model": 1, "Contact torque on the link of joint 1": 1},
   refine: {"Mean residual against speed": 1, "Measured and simulated θ − q": 1},
   design: {"Elastic torque": 1, Stiffness: 1},
   compare: {"Difference B − A, in per cent of A": 1},
@@ -390,7 +392,7 @@ test("a map names its regions, readable in light and dark", async () => {
       ink: getComputedStyle([...place.querySelectorAll(".annotation-text")].at(-1)).fill,
       filled: getComputedStyle(place.querySelector(".js-fill")).fill,
     }))`);
-    assert.equal(maps.length, 2);
+    assert.equal(maps.length, 3);
     for (const {words, ink, filled} of maps) {
       for (const word of ["all taut", "slack: agonist", "slack: antagonist"]) assert.ok(words.includes(word), word);
       const lightness = (text) => colour(text).reduce((sum, part) => sum + part, 0) / 3;

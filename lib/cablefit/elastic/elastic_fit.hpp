@@ -29,7 +29,7 @@ struct ComparedLines {
 
 struct ElasticOptions {
   SampleOptions samples;
-  int order = 0;  ///< of all cables; 0: those of `orders`, the rig file's, or chosen
+  int order = 0;                 ///< of all cables; 0: those of `orders`, the rig file's, or chosen
   std::vector<int> orders = {};  ///< per cable, instead of `order`; empty: not given
   /// Choose also where the rig file gives orders: per cable the lowest by block cross-validation.
   bool choose_orders = false;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/predict/contacts.hpp"
@@ -54,11 +55,17 @@ Figure watch_figure(const PredictedPart& part, const ContactWatch& watch,
   figure.group = part.preload + ", " + part.phase;
   figure.title = "Contact torque on the link of joint " + watch.joint;
   figure.caption = fmt::format("Means over {:g} s; dashed: the threshold.", windows.seconds());
-  figure.x = {"t", "s"};
-  figure.y = {"torque that the model does not explain", unit};
+  figure.x = {"time", "s"};
+  figure.y = {"contact torque", unit};
   figure.wide = true;
   figure.traces.push_back({"mean", TraceStyle::line, 1, {}, {}, {}, {}, {}});
+  double last = -kUnbounded;
   for (const WindowSeries::Mean& mean : windows.means()) {
+    if (mean.from - last > 1.5 * windows.seconds()) {  // a hole in the line
+      figure.traces.back().x.push_back(mean.from);
+      figure.traces.back().y.push_back(std::numeric_limits<double>::quiet_NaN());
+    }
+    last = mean.from;
     figure.traces.back().x.push_back(mean.from + windows.seconds() / 2);
     figure.traces.back().y.push_back(-mean.value);
   }

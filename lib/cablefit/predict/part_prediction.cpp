@@ -113,7 +113,7 @@ std::vector<Figure> PartPrediction::figures() const {
   figure.rank = FigureRank::main;
   for (std::size_t k = 0; k < lines_.size(); ++k) {
     figure.traces.push_back({prediction_.signals()[k].name,
-                             TraceStyle::line,
+                             k < lines_.size() / 2 ? TraceStyle::broad : TraceStyle::line,
                              static_cast<int>(k) + 1,
                              {},
                              {},

@@ -80,7 +80,7 @@ Table preload_table(const Words& words) {
                          {{"all cables taut", "up to", words.torque},
                           {"all cables taut", "from", words.angle},
                           {"all cables taut", "to", words.angle},
-                          {"", "slack first", "", true},
+                          {"slack", "first", "", true},
                           {"stiffness", "no load", words.stiffness},
                           {"stiffness", "at -torque", words.stiffness},
                           {"stiffness", "at +torque", words.stiffness},
