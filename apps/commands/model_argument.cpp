@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <vector>
 
 #include "cablefit/base/error.hpp"
 
@@ -16,7 +15,7 @@ bool is_json(const std::string& path) { return std::filesystem::path(path).exten
 
 std::string take_model_path(CommonOptions& options, const std::string& command) {
   std::vector<std::string>& given = options.logs;
-  const std::string usual = (std::filesystem::path(options.out) / "dynamic.json").string();
+  const std::string usual = below_out(options, "dynamic.json");
   if (given.empty())
     throw usage_error("no model and no log given",
                       fmt::format("see 'cablefit {} --help'", command));
@@ -31,21 +30,25 @@ std::string take_model_path(CommonOptions& options, const std::string& command) 
                     "name a model file or a result of 'cablefit dynamic' before the logs");
 }
 
-void require_own_place(const std::string& path, const std::string& model,
-                       const CommonOptions& options, const std::string& result_file) {
-  if (path.empty()) return;
-  if (path == "-") throw usage_error("--trajectories cannot be '-'", "give the name of a file");
-  std::vector<std::string> others = options.logs;
+std::string below_out(const CommonOptions& options, const std::string& file) {
+  return (std::filesystem::path(options.out) / file).string();
+}
+
+void require_own_place(const RowFile& file, const CommonOptions& options,
+                       std::vector<std::string> others) {
+  if (file.path.empty()) return;
+  if (file.path == "-")
+    throw usage_error(fmt::format("{} cannot be '-'", file.option), "give the name of a file");
+  others.insert(others.end(), options.logs.begin(), options.logs.end());
   others.insert(others.end(), options.reports.begin(), options.reports.end());
-  others.insert(others.end(), {model, options.rig, options.json,
-                               (std::filesystem::path(options.out) / result_file).string()});
-  const auto whole = [](const std::string& file) {
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(file));
+  others.insert(others.end(), {options.rig, options.json});
+  const auto whole = [](const std::string& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
   };
   for (const std::string& other : others) {
-    if (other.empty() || whole(other) != whole(path)) continue;
-    throw usage_error(fmt::format("the trajectories would overwrite {}", other),
-                      "choose another --trajectories");
+    if (other.empty() || whole(other) != whole(file.path)) continue;
+    throw usage_error(fmt::format("the {} would overwrite {}", file.rows, other),
+                      fmt::format("choose another {}", file.option));
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "commands/common_options.hpp"
 
@@ -11,9 +12,19 @@ namespace cablefit::apps {
 /// when there is neither; `command` is named in the remedy.
 std::string take_model_path(CommonOptions& options, const std::string& command);
 
-/// A file of rows never takes the place of what it is made from, nor of another result of the same
-/// run: throws Error(usage). `path` empty: none is written.
-void require_own_place(const std::string& path, const std::string& model,
-                       const CommonOptions& options, const std::string& result_file);
+/// The path of a result file below --out.
+std::string below_out(const CommonOptions& options, const std::string& file);
+
+/// A file of rows that an option asks for.
+struct RowFile {
+  std::string option;  ///< "--trajectories"
+  std::string rows;    ///< "trajectories"
+  std::string path;    ///< empty: none is written
+};
+
+/// It never takes the place of what it is made from, nor of another result of the same run: throws
+/// Error(usage). `others`: more files of the run.
+void require_own_place(const RowFile& file, const CommonOptions& options,
+                       std::vector<std::string> others);
 
 }  // namespace cablefit::apps

@@ -98,8 +98,12 @@ PredictResult run_prediction(PredictCommand& command) {
   options.more_inputs.push_back(path);
   options.more_inputs.insert(options.more_inputs.end(), command.fitted.begin(),
                              command.fitted.end());
-  for (const std::string& file : {command.predict.trajectories, command.predict.sensed})
-    require_own_place(file, path, options, kPredictionFile);
+  const std::string result_file = below_out(options, kPredictionFile);
+  const PredictOptions& predict = command.predict;
+  require_own_place({"--trajectories", "trajectories", predict.trajectories}, options,
+                    {path, result_file});
+  require_own_place({"--sensed", "torques", predict.sensed}, options,
+                    {path, result_file, predict.trajectories});
   std::string choice;
   const Model model = read_any_model(path, options.preload, command.model, choice);
   if (options.logs.empty()) throw usage_error("no log given", "name one or more logs after MODEL");

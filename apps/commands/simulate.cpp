@@ -90,7 +90,8 @@ std::vector<LogSurvey> read_logs_for(const Model& model, const CommonOptions& op
 SimulateResult run_simulation(SimulateCommand& command) {
   const std::string path = take_model_path(command.common, "simulate");
   command.common.more_inputs.push_back(path);
-  require_own_place(command.replay.trajectories, path, command.common, kSimulationFile);
+  require_own_place({"--trajectories", "trajectories", command.replay.trajectories}, command.common,
+                    {path, below_out(command.common, kSimulationFile)});
   std::string choice;
   const Model model = read_model(path, command.common.preload, command.model, choice);
   const std::vector<LogSurvey> logs = read_logs_for(model, command.common);

@@ -32,6 +32,7 @@ TEST_CASE("logs and files made to do harm") { check_file("hostile.txt"); }
 TEST_CASE("what works") { check_file("works.txt"); }
 TEST_CASE("refine") { check_file("refine.txt"); }
 TEST_CASE("campaigns") { check_file("batch.txt"); }
+TEST_CASE("a prediction") { check_file("predict.txt"); }
 TEST_CASE("a campaign to begin with") { check_file("init.txt"); }
 
 TEST_CASE("every case file is run") {
@@ -41,7 +42,8 @@ TEST_CASE("every case file is run") {
     names.insert(entry.path().filename().string());
   }
   CHECK(names == std::set<std::string>{"bad_files.txt", "bad_logs.txt", "batch.txt", "hostile.txt",
-                                       "init.txt", "refine.txt", "usage.txt", "works.txt"});
+                                       "init.txt", "predict.txt", "refine.txt", "usage.txt",
+                                       "works.txt"});
 }
 
 }  // namespace
