@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/identify/elastic_stage.hpp"
@@ -69,8 +70,19 @@ void take_cables(const ElasticFit& fit, Model& model) {
   model.elastic = fit.parameters;
 }
 
-/// Coefficients are shared between preloads: of different orders the higher one for all. At most
-/// the second order of the paper: a higher one is an effect to be found (stiffness_order).
+/// Lowest and highest order of the cables. Stage 1 may choose one per cable; those of a rig file
+/// stand.
+std::pair<int, int> orders_of(const ElasticFit& fit, bool from_rig) {
+  if (from_rig) return {fit.order, fit.order};
+  const auto [least, most] =
+      std::minmax_element(fit.transmission.cables.begin(), fit.transmission.cables.end(),
+                          [](const Cable& a, const Cable& b) { return a.order < b.order; });
+  return {least->order, most->order};
+}
+
+/// Coefficients are shared between preloads, and a cable of a lower order than its neighbour would
+/// be an effect to be found (stiffness_order): of different orders the highest for all. At most the
+/// second order of the paper: a higher one is such an effect.
 ElasticResult shared_stage1(std::span<const LogSurvey> logs, int threads) {
   ElasticOptions options;
   options.samples.threads = threads;
@@ -78,8 +90,10 @@ ElasticResult shared_stage1(std::span<const LogSurvey> logs, int threads) {
   ElasticResult result = fit_elastic_stage(logs, options, ElongationMode::automatic);
   int lowest = kMaxCableOrder, highest = 0;
   for (const ElasticPreload& preload : result.preloads) {
-    lowest = std::min(lowest, preload.find(kCables)->order);
-    highest = std::max(highest, preload.find(kCables)->order);
+    const auto [least, most] =
+        orders_of(*preload.find(kCables), logs.front().plan.rig.cables_given);
+    lowest = std::min(lowest, least);
+    highest = std::max(highest, most);
   }
   if (lowest == highest && highest <= kPlainOrder) return result;
   options.order = std::min(highest, kPlainOrder);
