@@ -27,7 +27,7 @@ constexpr std::array kCommands{
             "run a model on the input of logs: positions, torques, gap to the measurement",
             run_simulate},
     Command{"predict",
-            "what a model says of logs: elastic torques, a sensor's torque, contacts, with bands",
+            "predicted along logs: elastic torques, sensor torque and contacts, with 95 % bands",
             run_predict},
     Command{"refine",
             "where model and logs disagree, which effect is missing, whether adding it "

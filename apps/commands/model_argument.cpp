@@ -5,6 +5,9 @@
 #include <filesystem>
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/base/problems.hpp"
+#include "cablefit/samples/weigh/weigh.hpp"
+#include "cablefit/simulate/experiment.hpp"
 
 namespace cablefit::apps {
 namespace {
@@ -28,6 +31,31 @@ std::string take_model_path(CommonOptions& options, const std::string& command) 
   if (std::filesystem::exists(usual, ignored)) return usual;
   throw usage_error(fmt::format("no model given and no {}", usual),
                     "name a model file or a result of 'cablefit dynamic' before the logs");
+}
+
+void add_model_options(CLI::App& app, CommonOptions& options, std::string& model,
+                       const std::string& results) {
+  app.add_option(
+         "MODEL LOG", options.logs,
+         fmt::format("model file or result of {}, then logs: CSV or JSON, also .gz and .zst",
+                     results))
+      ->type_name("");
+  add_choice_of_fit(app, model, options.preload, "the only one, else the first");
+  app.add_option("--rig", options.rig,
+                 "rig file; default: rig.json beside each log, else the model's")
+      ->type_name("FILE");
+}
+
+std::vector<LogSurvey> survey_for_model(const Model& model, const std::vector<std::string>& paths,
+                                        const CommonOptions& options) {
+  std::vector<LogSurvey> logs;
+  Problems problems;
+  for (const std::string& path : paths)
+    problems.collect(
+        [&] { logs.push_back(survey_for_simulation(path, options.rig, model, options.reading)); });
+  problems.throw_if_any();
+  weigh_logs(logs);
+  return logs;
 }
 
 std::string below_out(const CommonOptions& options, const std::string& file) {

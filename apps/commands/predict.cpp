@@ -1,16 +1,10 @@
-// cablefit predict: what a model says of logs without being run.
-#include <algorithm>
-#include <filesystem>
-
+// cablefit predict: elastic torques, sensor torques and contacts along logs, without a simulation.
+#include "cablefit/predict/predict.hpp"
 #include "cablefit/base/digest.hpp"
 #include "cablefit/base/error.hpp"
-#include "cablefit/base/problems.hpp"
-#include "cablefit/predict/predict.hpp"
 #include "cablefit/report/documents/predict_document.hpp"
 #include "cablefit/report/json/elastic_models.hpp"
 #include "cablefit/report/json/predict_json.hpp"
-#include "cablefit/samples/weigh/weigh.hpp"
-#include "cablefit/simulate/experiment.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
 #include "commands/delivery.hpp"
@@ -35,17 +29,6 @@ struct PredictCommand {
   std::vector<std::string> fitted;  ///< --fitted
 };
 
-void add_model_options(CLI::App& app, PredictCommand& command) {
-  app.add_option("MODEL LOG", command.common.logs,
-                 "model file or result of 'cablefit elastic' or 'dynamic', then logs: CSV or JSON, "
-                 "also .gz and .zst")
-      ->type_name("");
-  add_choice_of_fit(app, command.model, command.common.preload, "the only one, else the first");
-  app.add_option("--rig", command.common.rig,
-                 "rig file; default: rig.json beside each log, else the model's")
-      ->type_name("FILE");
-}
-
 void add_predict_options(CLI::App& app, PredictCommand& command) {
   PredictOptions& predict = command.predict;
   app.add_option(
@@ -69,18 +52,6 @@ void add_predict_options(CLI::App& app, PredictCommand& command) {
       app, "--false-alarms", "N", {1e-9, 1e9},
       [&predict](double alarms) { predict.false_alarms_per_hour = alarms; },
       "false alarms an hour [1]");
-}
-
-std::vector<LogSurvey> survey(const std::vector<std::string>& paths, const Model& model,
-                              const CommonOptions& options) {
-  std::vector<LogSurvey> logs;
-  Problems problems;
-  for (const std::string& path : paths)
-    problems.collect(
-        [&] { logs.push_back(survey_for_simulation(path, options.rig, model, options.reading)); });
-  problems.throw_if_any();
-  weigh_logs(logs);
-  return logs;
 }
 
 Model read_any_model(const std::string& path, const std::string& preload, const std::string& name,
@@ -108,8 +79,8 @@ PredictResult run_prediction(PredictCommand& command) {
   const Model model = read_any_model(path, options.preload, command.model, choice);
   if (options.logs.empty()) throw usage_error("no log given", "name one or more logs after MODEL");
   const Progress progress(options.quiet, "reading logs");
-  const std::vector<LogSurvey> logs = survey(options.logs, model, options);
-  const std::vector<LogSurvey> fitted = survey(command.fitted, model, options);
+  const std::vector<LogSurvey> logs = survey_for_model(model, options.logs, options);
+  const std::vector<LogSurvey> fitted = survey_for_model(model, command.fitted, options);
   command.predict.quiet = fitted;
   command.predict.samples = options.samples;
   command.predict.figures = wants_figures(options);
@@ -124,11 +95,10 @@ PredictResult run_prediction(PredictCommand& command) {
 
 int run_predict(const Arguments& arguments) {
   CLI::App app(
-      "What a model says of logs: elastic torques, elongations, energy, a sensor's torque, "
-      "contacts.",
+      "Predicts along logs: elastic torques, elongations, energy, torque of a sensor, contacts.",
       "predict");
   PredictCommand command;
-  add_model_options(app, command);
+  add_model_options(app, command.common, command.model, "'cablefit elastic' or 'dynamic'");
   add_predict_options(app, command);
   add_reading_options(app, command.common.reading);
   add_sample_options(app, command.common);

@@ -4,7 +4,6 @@
 #include "cablefit/base/problems.hpp"
 #include "cablefit/report/documents/simulate_document.hpp"
 #include "cablefit/report/json/simulate_json.hpp"
-#include "cablefit/samples/weigh/weigh.hpp"
 #include "cablefit/simulate/replay.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
@@ -27,17 +26,6 @@ struct SimulateCommand {
   ReplayOptions replay;
   std::string model;  ///< --model
 };
-
-void add_model_options(CLI::App& app, SimulateCommand& command) {
-  app.add_option("MODEL LOG", command.common.logs,
-                 "model file or result of 'cablefit dynamic', then logs: CSV or JSON, also .gz "
-                 "and .zst")
-      ->type_name("");
-  add_choice_of_fit(app, command.model, command.common.preload, "the only one, else the first");
-  app.add_option("--rig", command.common.rig,
-                 "rig file; default: rig.json beside each log, else the model's")
-      ->type_name("FILE");
-}
 
 void add_replay_options(CLI::App& app, ReplayOptions& replay) {
   add_choice(
@@ -73,20 +61,6 @@ void add_replay_options(CLI::App& app, ReplayOptions& replay) {
       ->type_name("FILE");
 }
 
-std::vector<LogSurvey> read_logs_for(const Model& model, const CommonOptions& options) {
-  if (options.logs.empty()) throw usage_error("no log given", "name one or more logs after MODEL");
-  const Progress progress(options.quiet, "reading logs");
-  std::vector<LogSurvey> logs;
-  Problems problems;
-  for (const std::string& path : options.logs) {
-    problems.collect(
-        [&] { logs.push_back(survey_for_simulation(path, options.rig, model, options.reading)); });
-  }
-  problems.throw_if_any();
-  weigh_logs(logs);
-  return logs;
-}
-
 SimulateResult run_simulation(SimulateCommand& command) {
   const std::string path = take_model_path(command.common, "simulate");
   command.common.more_inputs.push_back(path);
@@ -94,7 +68,12 @@ SimulateResult run_simulation(SimulateCommand& command) {
                     {path, below_out(command.common, kSimulationFile)});
   std::string choice;
   const Model model = read_model(path, command.common.preload, command.model, choice);
-  const std::vector<LogSurvey> logs = read_logs_for(model, command.common);
+  const std::vector<std::string>& paths = command.common.logs;
+  if (paths.empty()) throw usage_error("no log given", "name one or more logs after MODEL");
+  const std::vector<LogSurvey> logs = [&] {
+    const Progress progress(command.common.quiet, "reading logs");
+    return survey_for_model(model, paths, command.common);
+  }();
   const Progress progress(command.common.quiet, "simulating");
   command.replay.figures = wants_figures(command.common);
   command.replay.threads = command.common.samples.threads;
@@ -121,7 +100,7 @@ int run_simulate(const Arguments& arguments) {
                "simulate");
   SimulateCommand command;
   command.replay.band = true;
-  add_model_options(app, command);
+  add_model_options(app, command.common, command.model, "'cablefit dynamic'");
   add_replay_options(app, command.replay);
   add_reading_options(app, command.common.reading);
   add_output_options(app, command.common);

@@ -26,7 +26,7 @@ Transmission cables_with(const std::vector<double>& sign, const std::vector<doub
   return t;
 }
 
-// P = S = [1, -1]: 6 - 9 = -3 N m, of 15 that the cables pull with; nearest: 7.5 on both.
+// P = S = [1, -1]: 6 - 9 = -3 N m, of a sum of 15; nearest: 7.5 on both.
 TEST_CASE("an unbalanced pair meets in the middle", "[design]") {
   const Transmission pair = cables_with({1, -1}, {6, 9});
   const std::vector<Imbalance> found = imbalances(pair);
@@ -34,10 +34,11 @@ TEST_CASE("an unbalanced pair meets in the middle", "[design]") {
   CHECK_THAT(found[0].link, WithinAbs(-3, 1e-12));
   CHECK_THAT(found[0].motor, WithinAbs(-3, 1e-12));
   CHECK_THAT(found[0].share, WithinAbs(0.2, 1e-12));
-  CHECK(imbalance_text(found[0], 1, false) ==
-        "the preload is not in equilibrium, (8c): alone it makes -3 N m on the link and -3 N m on "
-        "the motor, 20 % of what the cables pull with; `cablefit design --balance` gives the "
-        "nearest preload that is");
+  CHECK(
+      imbalance_text(found[0], 1, false) ==
+      "the preload is not in equilibrium, (8c): it makes -3 N m on the link and -3 N m on the "
+      "motor, 20 % of the sum of the cable torques; `cablefit design --balance` gives the nearest "
+      "preload in equilibrium");
   const Balance balance = nearest_balance(pair);
   CHECK_THAT(balance.link(0), WithinAbs(-3, 1e-12));
   for (const BalancedCable& cable : balance.cables) {

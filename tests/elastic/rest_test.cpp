@@ -56,8 +56,8 @@ TEST_CASE("a preload out of equilibrium is warned about with its torque", "[elas
                 {"b", {round_map(-0.03)}, {round_map(-0.03)}, {2e5}, 2e-3}};
   const ElasticPreload unbalanced = fitted(rig, {0});
   print_all("warning", unbalanced.warnings);
-  CHECK(warns(unbalanced.warnings, "the preload is not in equilibrium, (8c): alone it makes -6"));
-  CHECK(warns(unbalanced.warnings, "33 % of what the cables pull with"));
+  CHECK(warns(unbalanced.warnings, "the preload is not in equilibrium, (8c): it makes -6"));
+  CHECK(warns(unbalanced.warnings, "33 % of the sum of the cable torques"));
   rig.cables[0].l_o = 2e-3;
   CHECK_FALSE(warns(fitted(rig, {0}).warnings, "equilibrium"));
 }

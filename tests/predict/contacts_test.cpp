@@ -100,6 +100,16 @@ TEST_CASE("a window that lacks a row does not count", "[predict]") {
   CHECK(series.means()[1].from == Approx(0.05));  // the first window after the gap
 }
 
+/// The trap: rows of a decimated log lie half way between the places of a grid from 0.
+TEST_CASE("rows half way between places make whole windows", "[predict]") {
+  constexpr double kRow = 0.004;
+  WindowSeries series(4 * kRow, kRow);
+  std::vector<double> t;
+  for (int i = 0; i < 4000; ++i) t.push_back(0.022 + kRow * i);
+  series.add(t, Eigen::VectorXd::Ones(4000));
+  CHECK(series.means().size() == 1000);
+}
+
 /// The true model of the low preload under a controller; `push`: torque on the link (N m) from 8 to
 /// 8.4 s. Sensors as in the shipped logs.
 std::string pushed_log(const TempFolder& folder, const std::string& name, double push) {

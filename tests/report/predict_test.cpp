@@ -1,4 +1,4 @@
-// What a model says along logs, as text and as JSON.
+// Predictions along logs, as text and as JSON.
 #include <catch2/catch.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -76,36 +76,36 @@ TEST_CASE("a prediction as JSON") {
 
 TEST_CASE("a prediction as text") {
   const std::string text = write_text(on_screen(predict_document(predict_result())));
-  CHECK(text == R"(What the model says along the logs
+  CHECK(text == R"(Prediction of the model along the logs
 
 used      model 'poly' of model.json
-contacts  1 in 240 windows of 0.05 s; 4.0 s at rest are not watched
+contacts  1 in 240 windows of 0.05 s; 4.0 s at rest are not monitored
 
-Torque by the model against the sensor
+Predicted and measured torque
 
-                                                                            error
-log                  torque      unit  by                     rows    rms  largest      at  relative
-                                                                                       [s]       [%]
-----------------------------------------------------------------------------------------------------
-moving.csv (moving)  tau_load *  N m   equation of the link   2000   14.9     15.2  8.2500         -
-                     tau         N m   equation of the motor   800  0.130    0.430  11.400     0.360
+                                                                   error
+log         torque      unit  by                     rows    rms  largest      at  relative
+                                                                              [s]       [%]
+-------------------------------------------------------------------------------------------
+moving.csv  tau_load *  N m   equation of the link   2000   14.9     15.2  8.2500         -
+            tau         N m   equation of the motor   800  0.130    0.430  11.400     0.360
 *: not measured; the numbers are of the torque itself
 
-When something pushed the link
+Contacts, by time
 
-log                  joint    from      to  torque
-                               [s]     [s]   [N m]
---------------------------------------------------
-moving.csv (moving)  1      8.0000  8.4000   -15.1
+log         joint    from      to  torque
+                      [s]     [s]   [N m]
+-----------------------------------------
+moving.csv  1      8.0000  8.4000   -15.1
 
-Elastic quantities by the model
+Elastic quantities
 
-                                                          95 % band
-log                  quantity       unit  least  largest  half width
---------------------------------------------------------------------
-moving.csv (moving)  tau_elas_l     N m   -81.7     7.20       0.018
-                     elongation[1]  mrad  -30.0     10.0           -
-95 % band: by the joint covariance of the elastic parameters, rms over the rows
+                                                 95 % band
+log         quantity       unit  least  largest  half width
+-----------------------------------------------------------
+moving.csv  tau_elas_l     N m   -81.7     7.20       0.018
+            elongation[1]  mrad  -30.0     10.0           -
+95 % band: from the joint covariance of the elastic parameters, rms over the rows
 )");
 }
 

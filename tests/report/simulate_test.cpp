@@ -98,7 +98,7 @@ TEST_CASE("the band of a simulation has a table of its own") {
   CHECK(json["simulations"][0]["gaps"][0]["band95"]["half_width"] == 2e-5);
   CHECK(json["simulations"][0]["gaps"][1]["band95"].is_null());
   const std::string text = write_text(on_screen(simulate_document(with_band(simulate_result()))));
-  CHECK_THAT(text, Catch::Matchers::Contains("\n\nWhat the parameters leave open\n\n"));
+  CHECK_THAT(text, Catch::Matchers::Contains("\n\nUncertainty from the parameters\n\n"));
   CHECK_THAT(text, Catch::Matchers::Contains("moving.csv  theta   mrad       0.020    97.0\n"));
 }
 

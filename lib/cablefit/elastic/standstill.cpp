@@ -8,7 +8,7 @@
 namespace cablefit {
 namespace {
 
-constexpr double kLeastShare = 0.01;  // of the samples, below which nobody notices
+constexpr double kLeastShare = 0.01;  // of the samples; fewer change f_sm by less than its sd
 
 /// rad/s; the rest speed that would have been chosen.
 double chosen_rest_speed(const ElasticJob& job) {

@@ -28,10 +28,10 @@ std::vector<Imbalance> imbalances(const Transmission& transmission) {
 std::string imbalance_text(const Imbalance& imbalance, int n_joints, bool linear_motion) {
   const char* unit = linear_motion ? "N" : "N m";
   return fmt::format(
-      "the preload is not in equilibrium, (8c): alone it makes {:.3g} {} on the link and {:.3g} {} "
-      "on the motor{}, {:.0f} % of what the cables pull with; `cablefit design --balance` gives "
+      "the preload is not in equilibrium, (8c): it makes {:.3g} {} on the link and {:.3g} {} on "
       "the "
-      "nearest preload that is",
+      "motor{}, {:.0f} % of the sum of the cable torques; `cablefit design --balance` gives the "
+      "nearest preload in equilibrium",
       imbalance.link, unit, imbalance.motor, unit,
       n_joints > 1 ? fmt::format(" of joint {}", imbalance.joint + 1) : "", 100 * imbalance.share);
 }

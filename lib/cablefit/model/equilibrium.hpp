@@ -13,13 +13,13 @@ namespace cablefit {
 struct Imbalance {
   int joint = 0;
   double link = 0, motor = 0;  ///< P f_o and S f_o
-  double share = 0;            ///< of what its cables pull with, the larger of both sides
+  double share = 0;            ///< of the sum of its cables' torques, the larger of both sides
 };
 
-/// Below this share of what the cables pull with, coefficients and l_o are not known any better.
+/// Below this share of the sum of the cables' torques, coefficients and l_o are no better known.
 inline constexpr double kBalanced = 0.02;
 
-/// Joints on which the preload makes more than kBalanced of what its cables pull with.
+/// Joints on which the preload makes more than kBalanced of the sum of its cables' torques.
 std::vector<Imbalance> imbalances(const Transmission& transmission);
 /// One sentence: what, how large, and what to do.
 std::string imbalance_text(const Imbalance& imbalance, int n_joints, bool linear_motion);

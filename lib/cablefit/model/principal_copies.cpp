@@ -10,7 +10,7 @@
 namespace cablefit {
 namespace {
 
-constexpr double kLeastShare = 1e-12;  // of a variance of 1: rounding
+constexpr double kRounding = 1e-12;  // of a correlation matrix' eigenvalues
 // Up, down, and ever less: a parameter that is less sure than large leaves its bounds soon.
 constexpr std::array<double, 6> kSteps = {1, -1, 0.3, -0.3, 0.1, -0.1};
 
@@ -41,8 +41,10 @@ Eigen::MatrixXd principal_axes(const Eigen::MatrixXd& covariance) {
   const Eigen::MatrixXd correlation =
       sd.cwiseInverse().asDiagonal() * covariance * sd.cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation);
-  const Eigen::VectorXd spread = eigen.eigenvalues().cwiseMax(0).cwiseSqrt();
-  return sd.asDiagonal() * eigen.eigenvectors() * spread.asDiagonal();
+  const Eigen::Index n_rounding = (eigen.eigenvalues().array() <= kRounding).count();
+  const Eigen::Index n = sd.size() - n_rounding;  // eigenvalues ascend
+  const Eigen::VectorXd spread = eigen.eigenvalues().tail(n).cwiseSqrt();
+  return sd.asDiagonal() * eigen.eigenvectors().rightCols(n) * spread.asDiagonal();
 }
 
 /// The model with its parameters moved by `step`; nothing when one leaves its bounds.
@@ -70,12 +72,12 @@ std::vector<MovedModel> principal_copies(const Model& model) {
   if (known.places.empty()) return copies;
   const Eigen::MatrixXd axes = principal_axes(model.covariance.matrix(known.places, known.places));
   for (const auto& axis : axes.colwise()) {
-    if (axis.squaredNorm() <= kLeastShare * axes.squaredNorm() * kLeastShare) continue;
-    for (const double by : kSteps)
-      if (auto copy = moved(model, known.parameters, by * axis)) {
-        copies.push_back({std::move(*copy), by});
-        break;
-      }
+    for (const double by : kSteps) {
+      auto copy = moved(model, known.parameters, by * axis);
+      if (!copy) continue;
+      copies.push_back({std::move(*copy), by});
+      break;
+    }
   }
   return copies;
 }

@@ -1,5 +1,5 @@
-// The equations of motion of a model with numbers, along moving logs: what the model leaves of a
-// torque is the error of a sensor, or a contact. Internal to predict/.
+// Residuals of the equations of motion of a fitted model, along moving logs: the residual of a
+// torque is the error of the prediction, or a contact. Internal to predict/.
 #pragma once
 
 #include <functional>

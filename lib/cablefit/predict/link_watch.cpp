@@ -8,6 +8,7 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/predict/contacts.hpp"
 #include "cablefit/predict/torque_scan.hpp"
+#include "cablefit/simulate/experiment.hpp"
 
 namespace cablefit {
 namespace {
@@ -92,7 +93,10 @@ LinkWatch::LinkWatch(const Model& model, const PredictOptions& options)
   if (!options.sensed.empty()) file_.emplace(options.sensed);
   for (const LogSurvey& log : options.quiet) {
     const EquationResiduals residuals(
-        model, {&log, 1}, [](const PartSurvey& part) { return part.phase == Phase::moving; },
+        model, {&log, 1},
+        [&](const PartSurvey& part) {
+          return part.phase == Phase::moving && is_of_model(model, part);
+        },
         options.samples);
     std::vector<WindowSeries> windows(residuals.equations().size(),
                                       {options.window, residuals.row_seconds()});

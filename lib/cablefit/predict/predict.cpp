@@ -14,13 +14,10 @@
 #include "cablefit/predict/part_prediction.hpp"
 #include "cablefit/predict/prediction_files.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
+#include "cablefit/simulate/experiment.hpp"
 
 namespace cablefit {
 namespace {
-
-bool is_of_model(const Model& model, const PartSurvey& part) {
-  return model.preload.empty() || part.preload == model.preload;
-}
 
 /// The parts that are predicted; what is left out is said.
 std::vector<bool> wanted_parts(const Model& model, const LogSurvey& log, PredictResult& result) {

@@ -1,6 +1,6 @@
-// `cablefit predict`: what a model says of logs without being run: elastic torques, elongations,
-// tensions and energy of every row, (4) to (10) of Fichera & Grossard 2017; the torque that a
-// sensor at the link would have shown; and when something pushed the link.
+// `cablefit predict`: a model evaluated along logs, without a simulation: elastic torques,
+// elongations, tensions and energy of every row, (4) to (10) of Fichera & Grossard 2017; the torque
+// that a sensor at the link would have shown; and when something pushed the link.
 #pragma once
 
 #include <span>
@@ -21,8 +21,8 @@ struct PredictOptions {
   double window = 0.05;      ///< s, of the contact detector
   double false_alarms_per_hour = 1;
   double detection_rate = 0.99;
-  /// Moving logs without a contact, such as those of the fit: their residual is the detector's
-  /// noise, and their alarms are false.
+  /// Moving logs of the model's preload without a contact, such as those of the fit: their residual
+  /// is the detector's noise, and their alarms are false.
   std::span<const LogSurvey> quiet = {};
 };
 

@@ -1,5 +1,5 @@
-// What a model says along logs, as plain data for reports. SI; on a linear axis read N for N m and
-// m for rad.
+// Predictions of a model along logs, as plain data for reports. SI; on a linear axis read N for N m
+// and m for rad.
 #pragma once
 
 #include <optional>

@@ -12,9 +12,11 @@ WindowSeries::WindowSeries(double seconds, double row_seconds)
 
 void WindowSeries::add(const std::vector<double>& t, const Eigen::VectorXd& values) {
   for (std::size_t i = 0; i < t.size(); ++i) {
-    const auto number = static_cast<Eigen::Index>(std::llround(t[i] / row_seconds_));
-    const bool goes_on = number == last_ + 1 && n_seen_ > 0 && n_seen_ < n_rows_;
-    last_ = number;
+    // By time: rows that lie half way between the places of a grid round to either.
+    const double step = t[i] - last_;
+    const bool is_next = step > 0 && step < 1.5 * row_seconds_;
+    const bool goes_on = is_next && n_seen_ > 0 && n_seen_ < n_rows_;
+    last_ = t[i];
     if (!goes_on) {
       from_ = t[i];
       n_seen_ = 0;

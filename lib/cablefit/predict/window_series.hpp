@@ -25,7 +25,7 @@ class WindowSeries {
  private:
   double row_seconds_;
   Eigen::Index n_rows_;      ///< of a window
-  Eigen::Index last_ = 0;    ///< place of the last row on the time grid
+  double last_ = 0;          ///< s, time of the last row
   Eigen::Index n_seen_ = 0;  ///< rows of the window so far
   double from_ = 0, sum_ = 0;
   std::vector<Mean> means_;

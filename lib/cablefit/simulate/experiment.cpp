@@ -98,6 +98,10 @@ void require_channels(const Model& model, const LogPlan& plan, const PartSurvey&
 
 }  // namespace
 
+bool is_of_model(const Model& model, const PartSurvey& part) {
+  return model.preload.empty() || part.preload == model.preload;
+}
+
 Rig rig_for_simulation(const std::string& log_path, const std::string& rig_option,
                        const Model& model) {
   Rig rig = rig_for_log(log_path, rig_option);

@@ -30,7 +30,7 @@ struct ReplayOptions {
   double step = SimulationOptions{}.step;  ///< s
   std::string trajectories;                ///< CSV file of every row; empty: none
   bool figures = false;                    ///< for reports with plots
-  bool band = false;                       ///< simulates what the parameters leave open, too
+  bool band = false;                       ///< also the 95 % band of the parameters' covariance
   int threads = 1;
 };
 
@@ -44,6 +44,9 @@ Rig rig_for_simulation(const std::string& log_path, const std::string& rig_optio
 /// model's.
 LogSurvey survey_for_simulation(const std::string& log_path, const std::string& rig_option,
                                 const Model& model, const Reading& reading = {});
+
+/// Of the model's preload; of any, where the model names none.
+bool is_of_model(const Model& model, const PartSurvey& part);
 
 struct Experiment {
   Model model;  ///< with the log's rig

@@ -25,10 +25,6 @@ constexpr Eigen::Index kMinRows = 8;  // of a stretch, as of a part
 /// Rows of the log of that number, from 1.
 using TrajectorySink = std::function<void(std::size_t, const ReplayedRows&)>;
 
-bool is_of_model(const Model& model, const PartSurvey& part) {
-  return model.preload.empty() || part.preload == model.preload;
-}
-
 bool has_part_of_model(const Model& model, const LogSurvey& log) {
   return std::any_of(log.parts.begin(), log.parts.end(),
                      [&](const PartSurvey& part) { return is_of_model(model, part); });

@@ -129,7 +129,7 @@ std::vector<Figure> ReplayFigures::figures() const {
     gap.y.title = "gap of " + signal.name;
     draw(gap, signal.gap_line, "simulated - measured", 2);
     if (has_band_) {
-      gap.caption += " The band is what the parameters leave open, 95 %, without sensor noise.";
+      gap.caption += " Band: 95 %, from the covariance of the parameters, without sensor noise.";
       draw(gap, signal.band_above, "band of the parameters, above", kReference, TraceStyle::dashed);
       draw(gap, signal.band_below, "below", kReference, TraceStyle::dashed);
     }

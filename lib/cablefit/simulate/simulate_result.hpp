@@ -13,10 +13,10 @@ namespace cablefit {
 
 inline constexpr double kNormal975 = 1.959964;  ///< quantile, for 95 % bands
 
-/// What the joint covariance of the parameters leaves open of a simulated signal.
+/// Uncertainty of a simulated signal from the joint covariance of the parameters.
 struct SignalBand {
   double half_width = 0;  ///< of the 95 % band, rms over the rows, without sensor noise
-  double inside = 0;      ///< share of the rows (0..1) whose gap band and noise together allow
+  double inside = 0;      ///< share of the rows (0..1) with a gap inside band and noise together
 };
 
 /// Simulated minus measured over all simulated rows of a part. SI.

@@ -29,7 +29,7 @@ class ChanceGains {
   /// Whether it is more than `times` the largest of all draws, in one of these ways.
   bool is_beyond(const Effect& row, double share, double times) const;
 
-  /// What is gained by chance, about: by the row itself, by the event with the largest gain that
+  /// Usual gain under the null: of the row itself, of the event with the largest gain that
   /// lasts, or that passes. 0 without draws.
   double usual(const Effect& row) const;
 

@@ -162,7 +162,7 @@ Table friction_table(const Words& words) {
 
 /// Nothing where the model knows no covariance.
 Table spread_table(const Words& words) {
-  Table table = table_of(words, "How sure these numbers are",
+  Table table = table_of(words, "Standard deviations of the design",
                          {{"closure torque", "", words.torque},
                           {"closure torque", "sd", words.torque},
                           {"stiffness, no load", "", words.stiffness},
@@ -181,7 +181,7 @@ Table spread_table(const Words& words) {
              joint.friction ? few(100 * joint.friction->efficiency_driving) : kNoNumber,
              sd(100 * joint.sd->efficiency_driving)});
   });
-  table.notes = {"sd: by the joint covariance of the model's parameters, as their fit gave it"};
+  table.notes = {"sd: from the joint covariance of the model's parameters"};
   return table;
 }
 

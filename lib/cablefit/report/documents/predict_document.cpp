@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "cablefit/report/documents/document_parts.hpp"
 #include "cablefit/report/documents/numbers.hpp"
+#include "cablefit/report/documents/part_names.hpp"
 
 namespace cablefit {
 namespace {
@@ -17,44 +17,30 @@ constexpr std::size_t kMostContacts = 5;  // of a joint, on the screen
 
 std::string count(std::size_t n) { return fmt::format("{}", n); }
 
-std::string cell_name(const PredictedPart& part) {
-  const std::string file = std::filesystem::path(part.log).filename().string();
-  return fmt::format("{} ({})", file, part.phase);
-}
-
-/// Small lengths and angles are printed in mm and mrad.
-struct Shown {
-  double factor;
-  std::string unit;
-};
-Shown shown(const std::string& unit) {
-  if (unit == "rad" || unit == "m") return {1e3, "m" + unit};
-  return {1, unit};
-}
-
 Table signal_table(const PredictResult& result) {
   Table table;
-  table.title = "Elastic quantities by the model";
+  table.title = "Elastic quantities";
   table.columns = {{"", "log", "", true},  {"", "quantity", "", true},
                    {"", "unit", "", true}, {"", "least", ""},
                    {"", "largest", ""},    {"95 % band", "half width", ""}};
   for (const PredictedPart& part : result.parts)
     for (const PredictedSignal& signal : part.signals) {
-      const auto [factor, unit] = shown(signal.unit);
+      const auto [factor, unit] = shown_unit(signal.unit);
       const bool first = &signal == &part.signals.front();
-      table.rows.push_back({first ? cell_name(part) : "", signal.name, unit,
+      table.rows.push_back({first ? cell_name(result.parts, part) : "", signal.name, unit,
                             significant(factor * signal.least, kDigits),
                             significant(factor * signal.largest, kDigits),
                             signal.half_width ? significant(factor * *signal.half_width, 2)
                                               : std::string(kNoNumber)});
     }
-  table.notes = {"95 % band: by the joint covariance of the elastic parameters, rms over the rows"};
+  table.notes = {
+      "95 % band: from the joint covariance of the elastic parameters, rms over the rows"};
   return table;
 }
 
 Table torque_table(const PredictResult& result) {
   Table table;
-  table.title = "Torque by the model against the sensor";
+  table.title = "Predicted and measured torque";
   table.columns = {{"", "log", "", true},    {"", "torque", "", true}, {"", "unit", "", true},
                    {"", "by", "", true},     {"", "rows", ""},         {"error", "rms", ""},
                    {"error", "largest", ""}, {"error", "at", "s"},     {"", "relative", "%"}};
@@ -63,11 +49,12 @@ Table torque_table(const PredictResult& result) {
     for (const SensedTorque& torque : part.torques) {
       is_any_alone = is_any_alone || !torque.is_measured;
       const bool first = &torque == &part.torques.front();
-      table.rows.push_back(
-          {first ? cell_name(part) : "", torque.signal + (torque.is_measured ? "" : " *"),
-           torque.unit, torque.method, count(torque.n_rows), significant(torque.rms, kDigits),
-           significant(torque.max_abs, kDigits), significant(torque.t_of_max, kTimeDigits),
-           significant(100 * torque.relative, kDigits)});
+      table.rows.push_back({first ? cell_name(result.parts, part) : "",
+                            torque.signal + (torque.is_measured ? "" : " *"), torque.unit,
+                            torque.method, count(torque.n_rows), significant(torque.rms, kDigits),
+                            significant(torque.max_abs, kDigits),
+                            significant(torque.t_of_max, kTimeDigits),
+                            significant(100 * torque.relative, kDigits)});
     }
   if (is_any_alone)
     table.notes.emplace_back("*: not measured; the numbers are of the torque itself");
@@ -76,22 +63,23 @@ Table torque_table(const PredictResult& result) {
 
 Table watch_table(const PredictResult& result) {
   Table table;
-  table.title = "Contacts of the link";
+  table.title = "Contact detection";
   table.columns = {{"", "log", "", true},
                    {"", "joint", "", true},
                    {"torque", "threshold", "N m"},
                    {"torque", "detected", "N m"},
-                   {"windows", "watched", ""},
+                   {"windows", "monitored", ""},
                    {"windows", "alarms", ""},
                    {"windows", "expected", ""},
                    {"without contact", "windows", ""},
                    {"without contact", "alarms", ""},
-                   {"", "not watched", "s"}};
+                   {"", "not monitored", "s"}};
   if (result.linear_motion) table.columns[2].unit = table.columns[3].unit = "N";
   for (const PredictedPart& part : result.parts)
     for (const ContactWatch& watch : part.watches)
       table.rows.push_back(
-          {cell_name(part), watch.joint, significant(watch.detector.threshold, kDigits),
+          {cell_name(result.parts, part), watch.joint,
+           significant(watch.detector.threshold, kDigits),
            significant(watch.detector.torque, kDigits), count(watch.n_windows),
            count(watch.n_alarms), significant(watch.expected_alarms, 2),
            watch.quiet_windows ? count(*watch.quiet_windows) : std::string(kNoNumber),
@@ -99,13 +87,13 @@ Table watch_table(const PredictResult& result) {
            significant(watch.seconds_not_watched, kDigits)});
   table.notes = {
       "detected: smallest contact torque that is found; expected: alarms without any contact; "
-      "not watched: the link stands still, and dry friction hides the torque"};
+      "not monitored: the link stands still, and dry friction hides the torque"};
   return table;
 }
 
 Table contact_table(const PredictResult& result) {
   Table table;
-  table.title = "When something pushed the link";
+  table.title = "Contacts, by time";
   table.columns = {{"", "log", "", true},
                    {"", "joint", "", true},
                    {"", "from", "s"},
@@ -115,13 +103,14 @@ Table contact_table(const PredictResult& result) {
     for (const ContactWatch& watch : part.watches) {
       const std::size_t n = std::min(watch.contacts.size(), kMostContacts);
       for (std::size_t k = 0; k < n; ++k)
-        table.rows.push_back({cell_name(part), watch.joint,
+        table.rows.push_back({cell_name(result.parts, part), watch.joint,
                               significant(watch.contacts[k].from, kTimeDigits),
                               significant(watch.contacts[k].to, kTimeDigits),
                               significant(watch.contacts[k].torque, kDigits)});
       if (n < watch.contacts.size())
         table.notes.push_back(fmt::format("{}, joint {}: {} more in the JSON result",
-                                          cell_name(part), watch.joint, watch.contacts.size() - n));
+                                          cell_name(result.parts, part), watch.joint,
+                                          watch.contacts.size() - n));
     }
   return table;
 }
@@ -139,7 +128,7 @@ Table tidy_signals(const PredictResult& result) {
   return table;
 }
 
-/// "1 in 240 windows of 0.05 s; 4.0 s at rest are not watched"; empty: none was watched.
+/// "1 in 240 windows of 0.05 s; 4.0 s at rest are not monitored"; empty: none was watched.
 std::string contacts_text(const PredictResult& result) {
   std::size_t n_contacts = 0, n_windows = 0;
   double window = 0, at_rest = 0;
@@ -151,7 +140,7 @@ std::string contacts_text(const PredictResult& result) {
       at_rest += watch.seconds_not_watched;
     }
   if (n_windows == 0) return "";
-  return fmt::format("{} in {} windows of {:g} s; {} s at rest are not watched",
+  return fmt::format("{} in {} windows of {:g} s; {} s at rest are not monitored",
                      n_contacts == 0 ? "none" : count(n_contacts), n_windows, window,
                      significant(at_rest, 2));
 }
@@ -179,7 +168,7 @@ Headline headline_of(const PredictResult& result) {
       {"largest elastic torque", fmt::format("{} {}", significant(torque, kDigits), unit)});
   if (relative > 0)
     headline.numbers.push_back(
-        {"largest error beside a sensor", significant(100 * relative, kDigits) + " %"});
+        {"largest error against a sensor", significant(100 * relative, kDigits) + " %"});
   if (n_watched > 0) headline.numbers.push_back({"contacts of the link", count(n_contacts)});
   headline.verdict = n_watched == 0    ? "elastic torques predicted"
                      : n_contacts == 0 ? "no contact of the link"
@@ -192,7 +181,7 @@ Headline headline_of(const PredictResult& result) {
 
 Document predict_document(const PredictResult& result) {
   Document document;
-  document.title = "What the model says along the logs";
+  document.title = "Prediction of the model along the logs";
   const bool says_path = result.model_choice.find(result.model_path) != std::string::npos;
   document.summary.push_back(
       {"used", says_path ? result.model_choice
@@ -209,8 +198,8 @@ Document predict_document(const PredictResult& result) {
   if (!result.sensed.empty()) document.summary.push_back({"torques", result.sensed});
   add_warnings(document, "", result.warnings);
   for (const PredictedPart& part : result.parts) {
-    add_decisions(document, cell_name(part), part.decisions);
-    add_warnings(document, cell_name(part), part.warnings);
+    add_decisions(document, cell_name(result.parts, part), part.decisions);
+    add_warnings(document, cell_name(result.parts, part), part.warnings);
     add_figures(document, part.figures);
   }
   finish_decisions(document, result.parts.size());

@@ -1,4 +1,4 @@
-// What a model says along logs as a report: elastic quantities, torques beside the sensors',
+// Predictions of a model along logs as a report: elastic quantities, torques beside the sensors',
 // contacts.
 #pragma once
 

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "cablefit/report/documents/document_parts.hpp"
 #include "cablefit/report/documents/numbers.hpp"
+#include "cablefit/report/documents/part_names.hpp"
 
 namespace cablefit {
 namespace {
@@ -17,49 +17,9 @@ constexpr int kTimeDigits = 5;
 
 std::string count(std::size_t n) { return fmt::format("{}", n); }
 
-/// The file's name alone where that tells the logs apart.
-std::string log_name(const SimulateResult& result, const std::string& path) {
-  const auto name_of = [](const std::string& p) {
-    return std::filesystem::path(p).filename().string();
-  };
-  const bool is_unique = std::none_of(
-      result.parts.begin(), result.parts.end(),
-      [&](const SimulatedPart& p) { return p.log != path && name_of(p.log) == name_of(path); });
-  return is_unique ? name_of(path) : path;
-}
-
-/// The log, and what of it when it has several parts.
-std::string part_name(const SimulateResult& result, const SimulatedPart& part,
-                      const std::string& log) {
-  const auto n_parts = std::count_if(result.parts.begin(), result.parts.end(),
-                                     [&](const SimulatedPart& p) { return p.log == part.log; });
-  if (n_parts == 1) return log;
-  return fmt::format("{} ({}{}{}{})", log, part.preload, part.preload.empty() ? "" : ", ",
-                     part.phase, part.run.empty() ? "" : ", " + part.run);
-}
-
-/// In warnings and choices, and in the first column of a table.
-std::string part_name(const SimulateResult& result, const SimulatedPart& part) {
-  return part_name(result, part, part.log);
-}
-std::string cell_name(const SimulateResult& result, const SimulatedPart& part) {
-  return part_name(result, part, log_name(result, part.log));
-}
-
-/// Gaps of positions are small: printed in mrad, or mm on a linear axis.
-struct Shown {
-  double factor;
-  std::string unit;
-};
-
-Shown shown(const std::string& unit) {
-  if (unit == "rad" || unit == "m") return {1e3, "m" + unit};
-  return {1, unit};
-}
-
 Table band_table(const SimulateResult& result) {
   Table table;
-  table.title = "What the parameters leave open";
+  table.title = "Uncertainty from the parameters";
   table.columns = {{"", "log", "", true},
                    {"", "signal", "", true},
                    {"", "unit", "", true},
@@ -68,15 +28,16 @@ Table band_table(const SimulateResult& result) {
   for (const SimulatedPart& part : result.parts)
     for (const SignalGap& gap : part.gaps) {
       if (!gap.band) continue;
-      const auto [factor, unit] = shown(gap.unit);
+      const auto [factor, unit] = shown_unit(gap.unit);
       const bool first = &gap == &part.gaps.front();
-      table.rows.push_back({first ? cell_name(result, part) : "", gap.signal, unit,
+      table.rows.push_back({first ? cell_name(result.parts, part) : "", gap.signal, unit,
                             significant(factor * gap.band->half_width, 2),
                             significant(100 * gap.band->inside, kShareDigits)});
     }
   table.notes = {
-      "band: by the joint covariance of the parameters, rms over the rows; within: rows whose gap "
-      "the band and the sensor noise together allow"};
+      "95 % band: from the joint covariance of the parameters, rms over the rows; within: rows "
+      "with "
+      "a gap inside band and sensor noise together"};
   return table;
 }
 
@@ -91,10 +52,10 @@ Table gap_table(const SimulateResult& result) {
     replayed = replayed || !part.closed_loop;
     for (const SignalGap& gap : part.gaps) {
       const bool first = &gap == &part.gaps.front();
-      const auto [factor, unit] = shown(gap.unit);
+      const auto [factor, unit] = shown_unit(gap.unit);
       table.rows.push_back(
-          {first ? cell_name(result, part) : "", first ? std::string(part.mode()) : "", gap.signal,
-           unit, significant(factor * gap.rms, kGapDigits),
+          {first ? cell_name(result.parts, part) : "", first ? std::string(part.mode()) : "",
+           gap.signal, unit, significant(factor * gap.rms, kGapDigits),
            significant(factor * gap.max_abs, kGapDigits), significant(gap.t_of_max, kTimeDigits),
            significant(100 * gap.relative, kGapDigits), significant(factor * gap.noise, 2)});
     }
@@ -118,7 +79,7 @@ Table part_table(const SimulateResult& result) {
                    {"rows", "resampled", ""}, {"rows", "too short", ""}, {"", "all taut", "%"}};
   for (const SimulatedPart& part : result.parts) {
     table.rows.push_back(
-        {cell_name(result, part), part.preload, part.phase,
+        {cell_name(result.parts, part), part.preload, part.phase,
          part.window_seconds > 0 ? significant(part.window_seconds, kGapDigits) : kNoNumber,
          count(part.n_windows), count(part.n_rows), count(part.counts.rows_resampled),
          count(part.counts.rows_too_short),
@@ -135,7 +96,7 @@ Table cable_table(const SimulateResult& result) {
   table.detail = true;
   for (const SimulatedPart& part : result.parts) {
     for (const CableTension& cable : part.cables) {
-      table.rows.push_back({cell_name(result, part), cable.cable, cable.unit,
+      table.rows.push_back({cell_name(result.parts, part), cable.cable, cable.unit,
                             significant(cable.min, kGapDigits), significant(cable.max, kGapDigits),
                             significant(100 * cable.slack_share, kShareDigits)});
     }
@@ -183,7 +144,7 @@ Headline headline_of(const SimulateResult& result) {
   }
   if (worst.size() > kMostNumbers) worst.resize(kMostNumbers);
   for (const SignalGap& gap : worst) {
-    const auto [factor, unit] = shown(gap.unit);
+    const auto [factor, unit] = shown_unit(gap.unit);
     headline.numbers.push_back(
         {fmt::format("gap of {}{}, rms", gap.signal, result.parts.size() > 1 ? ", largest" : ""),
          fmt::format("{} {}", significant(factor * gap.rms, kGapDigits), unit)});
@@ -212,8 +173,8 @@ Document simulate_document(const SimulateResult& result) {
     document.summary.push_back({"trajectories", result.trajectories});
   add_warnings(document, "", result.warnings);
   for (const SimulatedPart& part : result.parts) {
-    add_decisions(document, part_name(result, part), part.decisions);
-    add_warnings(document, part_name(result, part), part.warnings);
+    add_decisions(document, part_name(result.parts, part), part.decisions);
+    add_warnings(document, part_name(result.parts, part), part.warnings);
     add_figures(document, part.figures);
   }
   finish_decisions(document, result.parts.size());

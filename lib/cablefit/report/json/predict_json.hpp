@@ -1,4 +1,4 @@
-// cablefit/predict/1: what a model says along logs as a file, see data/schema/predict.schema.json.
+// cablefit/predict/1: predictions along logs as a file, see data/schema/predict.schema.json.
 #pragma once
 
 #include <string>
