@@ -21,19 +21,28 @@ namespace {
 constexpr const char* kDesignExample =
     "Example, after 'cablefit elastic' and 'cablefit dynamic':\n"
     "  cablefit design cablefit-out/dynamic.json --preload low --torque 40 --l-o 0,0.00512\n"
-    "A rig file does as well, when its cables have \"coefficients\". Which motion to record:\n"
+    "A rig file does as well, when its cables have \"coefficients\". Friction against the "
+    "preload,\n"
+    "from the fits of several preloads:\n"
+    "  cablefit design cablefit-out/identify.json --torque 40 --report design.html\n"
+    "Which motion to record:\n"
     "  cablefit design cablefit-out/dynamic.json --preload low --excite reference.csv \\\n"
     "    --max-position 0.5 --max-speed 3 --max-torque 100 --load 30\n";
 
 constexpr const char* kResultFile = "design.json";
 constexpr std::size_t kMostValues = 200;
 
-/// Stiffness matrices and the nearest preload in equilibrium.
+/// Stiffness matrices, the nearest preload in equilibrium, constant loads.
 struct AsTheyAre {
   bool stiffness = false, balance = false;
   std::string pose, along;  ///< "q,..:theta,.."; a log
+  std::string hold;         ///< "T,T" or "T1:T2,T1:T2"
+  double max_tension = 0;   ///< N; 0: not asked for
 
-  bool any() const { return stiffness || balance || !pose.empty() || !along.empty(); }
+  bool any() const {
+    return stiffness || balance || !pose.empty() || !along.empty() || !hold.empty() ||
+           max_tension > 0;
+  }
 };
 
 struct DesignCommand {
@@ -41,6 +50,7 @@ struct DesignCommand {
   DesignOptions design;
   std::vector<std::string> models;
   std::string model;  ///< --model
+  std::vector<std::string> fitted;
   AsTheyAre cables;
   ExcitationOptions excitation;
   std::string excite;  ///< file; empty: none
@@ -86,6 +96,11 @@ void add_model_options(CLI::App& app, DesignCommand& command) {
                  "have coefficients")
       ->type_name("");
   add_choice_of_fit(app, command.model, command.common.preload, "the only one, else the first");
+  app.add_option("--fitted", command.fitted,
+                 "results of 'cablefit dynamic' or 'identify', whose preloads say how friction "
+                 "depends on the preload [those of MODEL]")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
 }
 
 void add_sweep_options(CLI::App& app, DesignOptions& design) {
@@ -120,6 +135,14 @@ void add_cable_options(CLI::App& app, AsTheyAre& cables) {
   app.add_option("--along", cables.along, "stiffness over the samples of a log")->type_name("LOG");
   app.add_flag("--balance", cables.balance,
                "the nearest preload in equilibrium, (8c), to the model's own");
+  add_number(
+      app, "--max-tension", "N", {1e-9}, [&cables](double f) { cables.max_tension = f; },
+      "torques of the links that cables up to this tension make, at rest and at --pose: vertices, "
+      "force closure, and which cable goes slack first (N m in joint space)");
+  app.add_option("--hold", cables.hold,
+                 "constant loads on the link, N m, motors held: deflection, and elongation of each "
+                 "cable; several joints: T1:T2:..,..")
+      ->type_name("T,T,..");
 }
 
 void add_collision_options(CLI::App& app, DesignOptions& design) {
@@ -261,6 +284,42 @@ StiffnessAlong along_log(DesignCommand& command, const Transmission& transmissio
   return stiffness_along(transmission, read_logs(options).front(), options.samples.threads);
 }
 
+/// One torque per joint: "10" or "0.5:0.2".
+Eigen::VectorXd parse_load(const std::string& option, const std::string& text, int n_joints) {
+  const std::vector<std::string> parts = parts_of(text, ':');
+  if (static_cast<int>(parts.size()) != n_joints)
+    throw usage_error(
+        fmt::format("{} has {} torque{} where the model has {} joint{}", option, parts.size(),
+                    parts.size() == 1 ? "" : "s", n_joints, n_joints == 1 ? "" : "s"),
+        "give one torque per joint, T1:T2:.., several loads with commas");
+  Eigen::VectorXd load(n_joints);
+  for (int k = 0; k < n_joints; ++k)
+    load(k) = parse_number(option, parts[static_cast<std::size_t>(k)], {-kUnbounded, kUnbounded});
+  return load;
+}
+
+void describe_loads(DesignCommand& command, const Model& model, bool figures,
+                    DesignResult& result) {
+  if (command.cables.hold.empty()) return;
+  command.design.figures = figures;
+  for (const std::string& load : parts_of(command.cables.hold, ','))
+    command.design.held_loads.push_back(parse_load("--hold", load, model.transmission.n_joints));
+  hold_loads(model, command.design, result);
+}
+
+void describe_torques(const DesignCommand& command, const Transmission& transmission,
+                      DesignResult& result) {
+  const double tension = command.cables.max_tension;
+  if (!(tension > 0)) return;
+  result.largest_tension = tension;
+  result.polytopes = {
+      torque_polytope(transmission, "at rest", transmission.reference_q(), tension)};
+  if (!command.cables.pose.empty())
+    result.polytopes.push_back(torque_polytope(
+        transmission, "at the pose", at_pose(transmission, command.cables.pose).q, tension));
+  result.slack_orders = slack_orders(transmission, result.polytopes.front());
+}
+
 void describe_cables(DesignCommand& command, const Transmission& transmission,
                      DesignResult& result) {
   const AsTheyAre& asked = command.cables;
@@ -280,6 +339,30 @@ Model take_cables(const std::string& path, const DesignCommand& command, std::st
   return model;
 }
 
+/// Fits of several preloads, for friction against the preload.
+std::vector<Model> take_fitted(const std::string& path, DesignCommand& command) {
+  if (command.fitted.empty()) return other_preloads(path, command.model);
+  const std::vector<std::string>& files = command.fitted;
+  command.common.more_inputs.insert(command.common.more_inputs.end(), files.begin(), files.end());
+  return read_fitted_models(files, command.model);
+}
+
+void add_inputs(const std::string& path, const DesignCommand& command, DesignResult& result) {
+  result.inputs = {{path, sha256_of_file(path), 0}};
+  for (const std::string& file : command.fitted)
+    if (file != path) result.inputs.push_back({file, sha256_of_file(file), 0});
+}
+
+void check_fitted(const DesignCommand& command) {
+  if (command.fitted.empty()) return;
+  if (command.design.tension_friction)
+    throw usage_error(
+        "--fitted and --tension-friction both say how friction depends on the preload",
+        "give one of them");
+  if (command.design.torque == 0)
+    throw usage_error("--fitted needs --torque", "give the torque that the joint has to carry");
+}
+
 DesignResult run(DesignCommand& command) {
   const std::string path = take_model(command);
   command.common.more_inputs.push_back(path);
@@ -287,8 +370,9 @@ DesignResult run(DesignCommand& command) {
   if (!sweep && !excite && !command.cables.any())
     throw usage_error("neither --torque nor --excite is given",
                       "give the torque that the joint has to carry, or a file for the motion; "
-                      "--stiffness or --balance for the cables as they are");
+                      "--stiffness, --balance or --hold for the cables as they are");
   if (sweep) check_sweep(command.design);
+  check_fitted(command);
   if (excite) {
     check_limits(command);
     check_rows(command);
@@ -301,9 +385,12 @@ DesignResult run(DesignCommand& command) {
   if (sweep) {
     const Progress progress(command.common.quiet, "sweeping the preload");
     command.design.figures = figures;
+    command.design.fitted = take_fitted(path, command);
     result = sweep_design(model, command.design);
   }
   describe_cables(command, model.transmission, result);
+  describe_loads(command, model, figures, result);
+  describe_torques(command, model.transmission, result);
   if (excite) {
     const Progress progress(command.common.quiet, "searching for a motion");
     command.excitation.limits.rate = command.design.rate;
@@ -314,7 +401,7 @@ DesignResult run(DesignCommand& command) {
   }
   result.model_path = path;
   result.model_choice = choice;
-  result.inputs = {{path, sha256_of_file(path), 0}};
+  add_inputs(path, command, result);
   return result;
 }
 

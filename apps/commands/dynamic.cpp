@@ -14,6 +14,7 @@
 #include "cablefit/campaign/campaign.hpp"
 #include "cablefit/dynamic/estimators/estimators.hpp"
 #include "cablefit/identify/elastic_stage.hpp"
+#include "cablefit/model/effect_names.hpp"
 #include "cablefit/prove/prove.hpp"
 #include "cablefit/report/documents/dynamic_document.hpp"
 #include "cablefit/report/json/dynamic_json.hpp"
@@ -105,6 +106,11 @@ void add_dynamic_options(CLI::App& app, DynamicCommand& command) {
       app, "--estimator", "estimator", estimator_names(),
       [&command](const std::string& name) { command.fit.estimator = name; },
       "see 'cablefit list estimators' [auto]");
+  add_number(
+      app, "--memory", "SECONDS", {1e-6, 1e9},
+      [&command](double seconds) { command.fit.memory = seconds; },
+      "of --estimator recursive (forgetting factor 1 - sample time/memory) and gradient (its step) "
+      "[recursive: all; gradient: a tenth of the logs]");
   app.add_flag("--sweep", command.fit.sweep,
                "fit again with other cut-offs and rest speeds: do the estimates change?");
   app.add_option("--validate", command.validation,
@@ -181,7 +187,7 @@ std::optional<StartModel> start_model(DynamicCommand& command) {
     throw usage_error("a model and --elastic are given: both describe the cables",
                       "give one of them");
   if (start) use_model(*start, command.fit);
-  const std::vector<EffectInstance> named = named_effects(command.effects);
+  const std::vector<EffectInstance> named = blank_effects(command.effects);
   command.fit.effects.insert(command.fit.effects.end(), named.begin(), named.end());
   if (!named.empty() && !start && !is_chosen) command.fit.models = {"poly"};
   return start;
@@ -282,6 +288,12 @@ void require_unseen(const DynamicCommand& command) {
                           "validate on logs that were not fitted");
 }
 
+void require_updating(const DynamicOptions& fit) {
+  if (fit.memory > 0 && fit.estimator != "recursive" && fit.estimator != "gradient")
+    throw usage_error(fmt::format("--memory has no use with the estimator {}", fit.estimator),
+                      "choose --estimator recursive or gradient");
+}
+
 /// The logs to validate on, read as the others are.
 std::vector<LogSurvey> read_unseen(DynamicCommand& command) {
   if (command.validation.empty()) return {};
@@ -292,15 +304,19 @@ std::vector<LogSurvey> read_unseen(DynamicCommand& command) {
   return read_logs(unseen);
 }
 
-/// "dynamic_trace.csv", with preload and model in the name when there are several.
+/// "dynamic_trace.csv", of a gradient "dynamic_trace_gradient.csv", with preload and model in the
+/// name when there are several.
 std::vector<ResultFile> trace_files(const DynamicResult& result) {
   std::vector<ResultFile> files;
   for (const DynamicPreload& preload : result.preloads)
     for (const DynamicFit& fit : preload.fits) {
-      if (!fit.trace) continue;
       const bool only = result.preloads.size() == 1 && preload.fits.size() == 1;
       const std::string name = only ? "" : '_' + preload.name + '_' + fit.model;
-      files.push_back({safe_file_name("dynamic_trace" + name + ".csv"), trace_csv(*fit.trace)});
+      for (const RecursiveTrace& trace : fit.traces) {
+        const std::string method = trace.rule.method == "recursive" ? "" : '_' + trace.rule.method;
+        files.push_back(
+            {safe_file_name("dynamic_trace" + method + name + ".csv"), trace_csv(trace)});
+      }
     }
   return files;
 }
@@ -369,6 +385,7 @@ int run_dynamic(const Arguments& arguments) {
   app.footer(kDynamicExample);
   if (!parse(app, arguments)) return 0;
   require_unseen(command);
+  require_updating(command.fit);
   const std::optional<StartModel> start = start_model(command);
   std::optional<Stage1> earlier = start ? std::nullopt : earlier_stage1(command);
   const std::optional<OwnLogs> own_logs = start ? std::nullopt : take_stage1_logs(command);

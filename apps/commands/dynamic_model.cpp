@@ -5,10 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "cablefit/base/catalog.hpp"
 #include "cablefit/base/error.hpp"
-#include "cablefit/base/quote.hpp"
-#include "cablefit/dynamic/rows/first_shapes.hpp"
 #include "cablefit/elastic/curve_of_model.hpp"
 #include "cablefit/model/read_models.hpp"
 #include "cablefit/session/read_logs.hpp"
@@ -17,31 +14,6 @@
 #include "commands/stage1_logs.hpp"
 
 namespace cablefit::apps {
-
-namespace {
-
-/// "stribeck[motor]", or "cogging" of what acts on one side only.
-const Effect& effect_named(const std::string& text) {
-  const bool has_side = text.find('[') != std::string::npos;
-  std::vector<std::string> names;
-  std::vector<const Effect*> found;
-  for (const Effect& row : candidate_effects()) {
-    std::string name(row.name);
-    if (has_side) name += fmt::format("[{}]", to_string(row.site));
-    if (text == name) found.push_back(&row);
-    if (names.empty() || names.back() != name) names.push_back(std::move(name));
-  }
-  if (found.empty())
-    throw usage_error(fmt::format("unknown effect {}", cablefit::quoted(text)),
-                      suggestion(text, std::vector<std::string_view>(names.begin(), names.end())));
-  if (found.size() > 1)
-    throw usage_error(fmt::format("effect {} acts on several sides", cablefit::quoted(text)),
-                      fmt::format("write {0}[{1}] or {0}[{2}]", text, to_string(found[0]->site),
-                                  to_string(found[1]->site)));
-  return *found.front();
-}
-
-}  // namespace
 
 std::optional<StartModel> take_model(CommonOptions& options, const std::string& fit_name) {
   if (options.logs.empty() || !is_model(options.logs.front())) return std::nullopt;
@@ -82,12 +54,6 @@ void use_model(const StartModel& start, IdentifyOptions& fit) {
   if (fit.order > 0 || start.model.rig.cables_given) return;
   for (const Cable& cable : start.model.transmission.cables)
     fit.order = std::max(fit.order, cable.order);
-}
-
-std::vector<EffectInstance> named_effects(const std::vector<std::string>& names) {
-  std::vector<EffectInstance> effects;
-  for (const std::string& name : names) effects.push_back(blank_effect(effect_named(name)));
-  return effects;
 }
 
 std::string missing_sd(const Model& model) {

@@ -30,10 +30,6 @@ void use_model(const StartModel& start, DynamicOptions& fit);
 /// Its effects, and the order of its cables where the rig does not give them.
 void use_model(const StartModel& start, IdentifyOptions& fit);
 
-/// Effects by their names, "stribeck[motor]"; the side may be left out where there is one only.
-/// Throws Error(usage) with what there is.
-std::vector<EffectInstance> named_effects(const std::vector<std::string>& names);
-
 /// "K1_0, K1_1": coefficients of its cables without sd, whose error no sd of the fit has.
 std::string missing_sd(const Model& model);
 

@@ -10,6 +10,7 @@
 #include "cablefit/prove/prove.hpp"
 #include "cablefit/report/documents/elastic_document.hpp"
 #include "cablefit/report/json/elastic_json.hpp"
+#include "cablefit/report/writers/bases_csv.hpp"
 #include "cablefit/session/stages.hpp"
 #include "commands/command.hpp"
 #include "commands/command_line.hpp"
@@ -91,6 +92,14 @@ std::pair<double, double> parse_range(const std::string& option, const std::stri
                     "the first deflection is the smaller one");
 }
 
+/// Fitted with l_o as it is given: the search is one of polynomial cables.
+void add_bases_option(CLI::App& app, ElasticOptions& elastic) {
+  begin_group(app, "Compare bases of the cable force");
+  app.add_flag("--bases", elastic.bases,
+               "polynomial, B-splines, wavelets and monotone splines: terms, error on held-out "
+               "blocks, and whether k(l) >= 0; with l_o as given, e.g. --l-o known");
+}
+
 void add_line_options(CLI::App& app, ComparedLines& lines, std::vector<std::string>& test) {
   begin_group(app, "Score the classical linear model");
   app.add_option_function<std::vector<std::string>>(
@@ -131,6 +140,9 @@ void require_searchable(const ElasticOptions& elastic) {
                       "give l_o in the rig file, or leave the offset free");
   if (!elastic.lines.empty())
     throw usage_error("scores of straight lines and a search of l_o cannot be combined",
+                      "give l_o in the rig file, or choose --l-o known");
+  if (elastic.bases)
+    throw usage_error("--bases and a search of l_o cannot be combined",
                       "give l_o in the rig file, or choose --l-o known");
   if (elastic.zero == ZeroMode::theta_0)
     throw usage_error(
@@ -173,6 +185,7 @@ int run_elastic(const Arguments& arguments) {
   add_sd_option(app, options);
   std::vector<std::string> test_paths;
   add_line_options(app, elastic.lines, test_paths);
+  add_bases_option(app, elastic);
   add_sample_options(app, options);
   add_output_options(app, options);
   app.footer(kElasticExample);
@@ -201,7 +214,9 @@ int run_elastic(const Arguments& arguments) {
     return fit_elastic_stage(blocked.empty() ? logs : blocked, elastic, elongations);
   });
   if (n_prove > 0) prove(options, blocked, elastic, n_prove, result);
-  deliver(options, elastic_document(result), {{"elastic.json", elastic_json(result)}});
+  std::vector<ResultFile> files = {{"elastic.json", elastic_json(result)}};
+  if (elastic.bases) files.push_back({"elastic_bases.csv", bases_csv(result)});
+  deliver(options, elastic_document(result), files);
   return 0;
 }
 

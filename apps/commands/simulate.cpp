@@ -52,7 +52,7 @@ void add_replay_options(CLI::App& app, ReplayOptions& replay) {
       "rows (none)");
   add_number(
       app, "--step", "S", {1e-9, 1}, [&replay](double seconds) { replay.step = seconds; },
-      "longest step of the integration [25e-6]");
+      "longest step of the integration [25e-6; links that move each other: 25e-6 to 50e-6]");
   app.add_flag_callback(
       "--no-band", [&replay] { replay.band = false; },
       "no 95 % band of the parameters' covariance: faster, by one simulation per parameter");

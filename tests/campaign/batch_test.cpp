@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "cablefit/base/error.hpp"
@@ -96,12 +97,16 @@ TEST_CASE("refine that has no verdict costs no fit") {
   Campaign campaign = read_campaign(CABLEFIT_DATA "/campaign.json");
   campaign.cells.resize(1);
   CampaignCell& cell = campaign.cells.front();
-  const std::string finger = CABLEFIT_DATA "/two_joints/finger/";  // refine knows one joint
-  cell.rig = finger + "rig.json";
-  cell.preload = "";
-  cell.blocked = {finger + "blocked.csv"};
-  cell.moving = {finger + "moving.csv"};
-  cell.refine.emplace();
+  const TempFolder folder;
+  std::ifstream log(CABLEFIT_DATA "/low/moving_load30.csv");
+  std::string text;  // t,q,theta: no torque
+  for (std::string line; std::getline(log, line);) {
+    std::size_t end = 0;
+    for (int comma = 0; comma < 3; ++comma) end = line.find(',', end) + 1;
+    text += line.substr(0, end - 1) + '\n';
+  }
+  cell.rig = CABLEFIT_DATA "/low/rig.json";
+  cell.refine.emplace().train = {folder.write("no_torque.csv", text)};
   const BatchResult result = run_batch(campaign, {});
   REQUIRE(result.cells.front().refine);
   CHECK(result.cells.front().error == "");

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cablefit/base/json/json_document.hpp"
+#include "cablefit/model/arm/arm_dynamics.hpp"
 #include "cablefit/model/arm/urdf_file.hpp"
 #include "cablefit/model/rig.hpp"
 
@@ -151,6 +152,36 @@ TEST_CASE("gravity of coupled arms has a potential", "[conformance]") {
     // Truncation h^2 times torques of order 10.
     CHECK(std::abs(g1_by_q2 - g2_by_q1) < 1e-8);
     CHECK(std::abs(g1_by_q2) > 0.1);
+  }
+}
+
+// What the simulator takes is what the fit takes: M qdd + C + g by recursions of another kind, with
+// values that no real links have.
+TEST_CASE("the dynamics of coupled arms are those of their regressors", "[conformance]") {
+  for (const ArmKind& kind : arm_kinds()) {
+    INFO(kind.name);
+    CHECK((kind.chain == nullptr) == (kind.regressor == nullptr));
+    if (kind.chain == nullptr || !readable(kind)) continue;
+    for (const bool weightless : {false, true}) {
+      const Arm arm{&kind, kind.read(example(kind, weightless), kTwo)};
+      std::mt19937 engine(6);
+      std::uniform_real_distribution<double> any(-1, 1);
+      const auto random = [&](Eigen::Index n, double size) {
+        return VectorXd(VectorXd::NullaryExpr(n, [&] { return size * any(engine); }));
+      };
+      const VectorXd base = random(static_cast<Eigen::Index>(arm.base_parameters().size()), 1);
+      ArmDynamics dynamics =
+          arm_dynamics(arm, {base.data(), static_cast<std::size_t>(base.size())});
+      for (int trial = 0; trial < 20; ++trial) {
+        const State at{random(2, M_PI), random(2, 3), random(2, 5)};
+        dynamics.evaluate(at.q.data(), at.qd.data());
+        const Eigen::Map<const Eigen::Matrix2d> mass(dynamics.mass());
+        const Eigen::Map<const Eigen::Vector2d> bias(dynamics.bias());
+        CHECK(mass(0, 1) == mass(1, 0));
+        // Rounding of torques of order 10 to 100.
+        CHECK((mass * at.qdd + bias - torques(arm, base, at)).cwiseAbs().maxCoeff() < 1e-12);
+      }
+    }
   }
 }
 

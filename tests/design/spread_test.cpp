@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "cablefit/design/design_sweep.hpp"
+#include "cablefit/design/equilibrium_preload.hpp"
 #include "tests/conformance/transmissions.hpp"
 #include "tests/simulate/benches.hpp"
 
@@ -65,6 +66,7 @@ TEST_CASE("an efficiency that friction alone makes is as sure as friction", "[de
   Model model = straight_cables();
   model.covariance.parameters = {"f_s"};
   model.covariance.matrix = Eigen::MatrixXd::Constant(1, 1, 0.01 * 0.01);
+  model.transmission = with_preload(model.transmission, kPreload);  // where f_s was fitted
   const DesignJoint joint = design_at(model, kPreload);
   REQUIRE(joint.sd);
   // tau / (tau + f), tau = 10, f = 5

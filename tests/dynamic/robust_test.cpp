@@ -117,21 +117,22 @@ TEST_CASE("the recursive fit ends at the weighted one, with a band that shrinks"
   const DynamicFit direct = fit_dynamic(logs, elastic, options).preloads.at(0).fits.at(0);
   options.estimator = "recursive";
   const DynamicFit fit = fit_dynamic(logs, elastic, options).preloads.at(0).fits.at(0);
-  REQUIRE(fit.trace.has_value());
-  const TracePoint& end = fit.trace->points.back();
-  REQUIRE(fit.trace->points.size() > 150);
-  for (std::size_t k = 0; k < fit.trace->names.size(); ++k) {
-    INFO(fit.trace->names[k]);
-    const Estimate& e = estimate(direct.parameters, fit.trace->names[k]);
+  REQUIRE(fit.traces.size() == 1);
+  const RecursiveTrace& trace = fit.traces.front();
+  const TracePoint& end = trace.points.back();
+  REQUIRE(trace.points.size() > 150);
+  for (std::size_t k = 0; k < trace.names.size(); ++k) {
+    INFO(trace.names[k]);
+    const Estimate& e = estimate(direct.parameters, trace.names[k]);
     // QR of the same rows in another order: the scaled columns' condition is below 100.
     CHECK_THAT(end.value[k], Catch::WithinRel(e.value, 1e-9));
     // The trace has no systematic part.
-    const double floor = direct.method_floor.at(fit.trace->names[k]);
+    const double floor = direct.method_floor.at(trace.names[k]);
     CHECK_THAT(end.sd[k], Catch::WithinRel(std::sqrt(e.sd * e.sd - floor * floor), 1e-9));
-    CHECK(fit.trace->points[fit.trace->points.size() / 2].sd[k] > end.sd[k]);
+    CHECK(trace.points[trace.points.size() / 2].sd[k] > end.sd[k]);
   }
   CHECK(end.record == "moving_load-40.csv");
-  CHECK(fit.trace->points.front().record == "moving_load30.csv");
+  CHECK(trace.points.front().record == "moving_load30.csv");
 }
 
 TEST_CASE("the sweep is flat on a right model, and a wrong cut-off shows", "[dynamic]") {

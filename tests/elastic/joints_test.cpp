@@ -63,6 +63,30 @@ TEST_CASE("joints without a common cable come out as if fitted alone", "[elastic
   }
 }
 
+// Zeros of 20 and -35 mrad, 0.6 and 0.7 mm of cable.
+TEST_CASE("encoder zeros of joints that share cables", "[elastic][recover]") {
+  PlainRig rig = three_coupled_cables();
+  for (PlainJoint& joint : rig.joints) joint.offset = 0;
+  Bench bench;
+  bench.rig = read_rig(bench.folder().write(
+      "rig.json", rig_text(rig, R"( "columns": {"theta1": {"column": "theta1", "shift": 0.02},
+                                               "theta2": {"column": "theta2", "shift": -0.035}},)")));
+  bench.add_text(blocked_log(rig, {0, 0}, 60, 94));
+  ElasticOptions options;
+  options.zero = ZeroMode::theta_0;
+  const ElasticPreload preload = fit_elastic(bench.logs(), options).preloads.at(0);
+  const ElasticFit& poly = *preload.find("poly");
+  NamedValues truth = {{"theta_0[1]", 0.02}, {"theta_0[2]", -0.035}};
+  for (const PlainCable& cable : rig.cables)
+    for (std::size_t j = 0; j < cable.k.size(); ++j)
+      truth.emplace_back(fmt::format("k[{}]_{}", cable.name, j), cable.k[j]);
+  check_recovered(poly.parameters, truth, 3);
+  CHECK(find_estimate(poly.parameters, "offset[1]") == nullptr);
+  CHECK(poly.transmission.theta_0(1) == estimate(poly.parameters, "theta_0[2]").value);
+  CHECK(poly.rms_error < 0.06);  // the noise has 0.05 N m
+  CHECK(find_estimate(preload.find("linear")->parameters, "theta_0[1]") != nullptr);
+}
+
 TEST_CASE("several joints without cables in the rig file are pairs in joint space", "[elastic]") {
   const PlainRig rig = own_cables();
   const ElasticPreload preload =

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <kdl/chainidsolver_recursive_newton_euler.hpp>
 
+#include "cablefit/model/arm/arm_dynamics.hpp"
 #include "cablefit/model/arm/serial_arm.hpp"
 #include "cablefit/model/rig.hpp"
 #include "tests/kdl/urdf_chain_of_kdl.hpp"
@@ -40,11 +41,20 @@ Rig rig_of(const std::string& urdf, int n_joints, const std::string& more) {
                               joints, more)));
 }
 
+/// As the simulator has them.
+Eigen::VectorXd simulated_torques(ArmDynamics& arm, const SerialState& at) {
+  arm.evaluate(at.q.data(), at.qd.data());
+  const Eigen::Index n = at.q.size();
+  return Eigen::Map<const Eigen::MatrixXd>(arm.mass(), n, n) * at.qdd +
+         Eigen::Map<const Eigen::VectorXd>(arm.bias(), n);
+}
+
 void compare(const KDL::Chain& chain, const Rig& rig) {
   const SerialArm& arm = *rig.arm.parameters.serial;
   const std::vector<double> described = rig.arm.described();
   const Eigen::VectorXd base = Eigen::Map<const Eigen::VectorXd>(
       described.data(), static_cast<Eigen::Index>(described.size()));
+  ArmDynamics dynamics = arm_dynamics(rig.arm, described);
   SerialStates states(rig.n_joints(), 21);
   for (int trial = 0; trial < 50; ++trial) {
     const SerialState at = states.next();
@@ -52,6 +62,7 @@ void compare(const KDL::Chain& chain, const Rig& rig) {
     const Eigen::VectorXd expected = kdl_torques(chain, arm.chain.gravity, at);
     // Rounding of torques up to 1e3 N m, through factors known to 1e-12.
     CHECK((torque - expected).cwiseAbs().maxCoeff() < 1e-9);
+    CHECK((simulated_torques(dynamics, at) - expected).cwiseAbs().maxCoeff() < 1e-9);
   }
 }
 
@@ -90,9 +101,13 @@ TEST_CASE("torques are KDL's: sliding joints") {
   std::vector<double> described = rig.arm.described();
   described[0] -= 0.15;
   const Eigen::VectorXd base = Eigen::Map<const Eigen::VectorXd>(described.data(), 2);
+  ArmDynamics dynamics = arm_dynamics(rig.arm, described);
   SerialStates states(2, 22);
   for (int trial = 0; trial < 20; ++trial) {
     const SerialState at = states.next();
+    CHECK((simulated_torques(dynamics, at) - kdl_torques(chain, arm.chain.gravity, at))
+              .cwiseAbs()
+              .maxCoeff() < 1e-9);
     CHECK(
         (serial_torques(arm, base, at.q, at.qd, at.qdd) - kdl_torques(chain, arm.chain.gravity, at))
             .cwiseAbs()

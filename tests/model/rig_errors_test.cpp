@@ -121,7 +121,8 @@ const BadRig kBadRigs[] = {
     {R"({"cables": [{"name": "a", "motor_radius": 1, "link_radius": 1, "law": "strand", "toe": 0}]})",
      "rig.json:1:88: 'cables[0].toe' is 0, not positive; give a number above 0"},
     {R"({"cables": [{"name": "a", "motor_radius": 1, "link_radius": 1, "toe": 0.01}]})",
-     "rig.json:1:71: a polynomial cable has no toe; use \"law\": \"strand\" or drop it"},
+     "rig.json:1:71: a polynomial cable has no toe; use \"law\": \"strand\" or \"spline\", or drop "
+     "it"},
     {R"({"cables": [{"name": "a", "motor_radius": 1, "link_radius": 1, "law": "strand", "toe": 1,
         "order": 5}]})",
      "rig.json:2:18: order 5 of a strand cable; the order of a strand cable is a whole number from "

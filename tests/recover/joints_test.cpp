@@ -4,6 +4,7 @@
 #include "tests/recover/joints_truth.hpp"
 #include "tests/support/plain_rigs.hpp"
 #include "tests/support/recover.hpp"
+#include "tests/truth/drive.hpp"
 
 namespace cablefit::test {
 namespace {
@@ -50,6 +51,42 @@ void check_both(const PlainRig& rig, const NamedValues& more_truth = {},
   NamedValues truth = more_truth;
   for (const auto& value : stage2_truth(rig)) truth.push_back(value);
   check_recovered(dynamic.fits.at(0).parameters, truth, kLimit);
+}
+
+/// Two drives side by side in one log.
+std::string two_drives(const truth::Drive& first, const truth::Drive& second) {
+  truth::DriveOptions options;
+  options.disturbance_sd = 0;
+  const truth::Log a = truth::simulate_drive(first, options);
+  options.seed = 2;
+  const truth::Log b = truth::simulate_drive(second, options);
+  std::string text = "t,theta1,theta2,tau1,tau2\n";
+  for (std::size_t i = 0; i < a.t.size(); ++i)
+    text += fmt::format("{:.4f},{:.9f},{:.9f},{:.6f},{:.6f}\n", a.t[i], a.theta[i], b.theta[i],
+                        a.tau[i], b.tau[i]);
+  return text;
+}
+
+TEST_CASE("two joints without elasticity", "[recover]") {
+  const truth::Drive first, second{0.1, 2.0, 1.5, -0.3};
+  Bench bench;
+  bench.rig = read_rig(bench.folder().write(
+      "rig.json",
+      R"({"schema": "cablefit/rig/1", "joints": [{"name": "1"}, {"name": "2"}], "torque_hold": "zoh"})"));
+  bench.add_text(two_drives(first, second));
+  DynamicOptions options;
+  options.models = {"rigid"};
+  const DynamicResult result = fit_dynamic(bench.logs(), {}, options);
+  check_recovered(result.preloads.at(0).fits.at(0).parameters,
+                  {{"J[1]", first.J},
+                   {"f_v[1]", first.f_v},
+                   {"f_s[1]", first.f_s},
+                   {"offset[1]", first.offset},
+                   {"J[2]", second.J},
+                   {"f_v[2]", second.f_v},
+                   {"f_s[2]", second.f_s},
+                   {"offset[2]", second.offset}},
+                  kLimit);
 }
 
 TEST_CASE("one joint, two cables, r1 != r2", "[recover]") {

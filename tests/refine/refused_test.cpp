@@ -29,12 +29,3 @@ TEST_CASE("output error refuses a model whose sensors are wrong", "[refine][refu
           "`cablefit refine`, which fits this effect");
   }
 }
-
-TEST_CASE("refine refuses several joints", "[refine][refused]") {
-  const HiddenLogs hidden = hidden_logs({});
-  Model model = hidden.models.front();
-  model.joints.push_back(model.joints.front());
-  const Model models[] = {model};
-  CHECK_THROWS_WITH(stage_of(models, hidden.logs),
-                    Catch::Contains("the rig has 2 joints, and refine supports one joint"));
-}

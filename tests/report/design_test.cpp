@@ -7,6 +7,7 @@
 #include "cablefit/report/json/design_json.hpp"
 #include "cablefit/report/writers/writers.hpp"
 #include "tests/report/schema.hpp"
+#include "tests/simulate/benches.hpp"
 
 namespace {
 
@@ -64,11 +65,70 @@ TEST_CASE("a design is valid JSON, with and without each of its parts", "[report
   result.along = StiffnessAlong{
       "log.csv", 10, 5, 10, Eigen::VectorXd::Ones(1), Eigen::VectorXd::Ones(1), 1, 1};
   CHECK(schema_errors("design", design_json(result)) == "");
+  Transmission stiff = pair;
+  for (Cable& cable : stiff.cables) {
+    cable.coefficients = {1000};
+    cable.initial_elongation = 0.005;
+  }
+  result.held = {hold_load(stiff, Eigen::VectorXd::Constant(1, 20))};
+  result.largest_tension = 50;
+  result.polytopes = {torque_polytope(stiff, "at rest", stiff.reference_q(), 50)};
+  result.slack_orders = slack_orders(stiff, result.polytopes.front());
+  CHECK(schema_errors("design", design_json(result)) == "");
+  // 15 of 20 mrad: 20 N m on 1000 N m/rad beyond 5 mrad; 10 if both acted. Slack at 2 k u = 10 N m.
+  const std::string text = write_text(design_document(result));
+  for (const char* line : {"20  -15.00        -10.00      33.3  1", "(1)         1 at 10.00",
+                           "1      -50.00        50.00  -50.00    50.00"}) {
+    INFO(text);
+    CHECK(text.find(line) != std::string::npos);
+  }
   result.points.clear();
   const auto json = nlohmann::json::parse(design_json(result));
   CHECK(schema_errors("design", json.dump()) == "");
   CHECK(json["excitation"]["parameters"][0]["error"].get<double>() == Approx(0.005));
   CHECK(json["excitation"]["best_sine"]["factor"].is_null());
+}
+
+/// A fit of such a pair at this preload, with friction that grows by 0.3 N m per N m of tension.
+Model fit_of(const std::string& preload, double l_o) {
+  Model model = test::spring_joint({0.3, 5, 3 + 0.3 * 2000 * l_o}, {0.01, 1, 2, 0}, 0);
+  model.preload = preload;
+  model.transmission = antagonist_pair(1);
+  for (Cable& cable : model.transmission.cables) {
+    cable.coefficients = {1000};
+    cable.initial_elongation = l_o;
+  }
+  model.covariance.parameters = {"f_s"};
+  model.covariance.matrix = Eigen::MatrixXd::Constant(1, 1, 0.01);
+  return model;
+}
+
+// At 6 mrad, halfway: 3 + 0.3 * 12 + 2 = 8.6 N m, sd 0.1 / sqrt(2); efficiency 20 / 28.6.
+TEST_CASE("two fitted preloads have friction between them in every form", "[report]") {
+  DesignOptions options;
+  options.torque = 20;
+  options.l_o = {0.006, 0.02};
+  options.fitted = {fit_of("low", 0.002), fit_of("high", 0.01)};
+  options.figures = true;
+  DesignResult result = sweep_design(options.fitted.front(), options);
+  result.inputs = {{"fit.json", std::string(64, 'a'), 0}};
+  const auto json = nlohmann::json::parse(design_json(result));
+  CHECK(schema_errors("design", json.dump()) == "");
+  CHECK(json["friction"].size() == 5);
+  CHECK(json["fitted_preloads"][1]["joints"][0]["friction"]["at_rest"].get<double>() == Approx(11));
+  const Document document = design_document(result);
+  const std::string text = write_text(document);
+  for (const char* line :
+       {"fitted at 2 preloads (low, high): known for l_o 2.00 to 10.0 mrad and a little beyond",
+        "6.000  f_dry       N m        8.600  0.071  8.461 .. 8.739",
+        "6.000  efficiency  %          69.93", "20.00        -        -       -"}) {
+    INFO(text);
+    CHECK(text.find(line) != std::string::npos);
+  }
+  CHECK(write_csv(document).find("efficiency_driving") != std::string::npos);
+  int n_fitted = 0;
+  for (const Figure& figure : document.figures) n_fitted += figure.section == "Fitted preloads";
+  CHECK(n_fitted == 5);
 }
 
 // K_linear of l_o = 0.01 under 20 N m: both taut up to 2 k u = 20 N m, so 2000 N m/rad, no error.

@@ -4,6 +4,7 @@
 
 #include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/model.hpp"
+#include "cablefit/model/read_models.hpp"
 #include "cablefit/report/documents/dynamic_document.hpp"
 #include "cablefit/report/documents/elastic_document.hpp"
 #include "cablefit/report/json/dynamic_json.hpp"
@@ -124,33 +125,29 @@ TEST_CASE("what supports one joint says so") {
   const TwoJoints two;
   const std::string folder = two.bench.folder().path();
   const auto refused = [&](auto action) { return message_of(action, folder); };
-  ElasticOptions zero;
-  zero.zero = ZeroMode::theta_0;
-  CHECK(refused([&] { fit_elastic(two.bench.logs(), zero); }) ==
-        "rig.json: the rig has 2 joints, and --zero theta_0 supports one joint; write "
-        "one rig file per joint, with its own columns");
-  for (const char* model : {"rigid", "ratios"}) {
-    DynamicOptions options;
-    options.models = {model};
-    CHECK(
-        refused([&] { fit_dynamic(two.bench.logs(), {}, options); }) ==
-        fmt::format("rig.json: the rig has 2 joints, and --model {} supports one joint; write one "
-                    "rig file per joint, with its own columns",
-                    model));
-  }
+  ElasticOptions offset;
+  offset.offset = 0.1;
+  CHECK(refused([&] { fit_elastic(two.bench.logs(), offset); }) ==
+        "rig.json: the rig has 2 joints, and a given offset that is not 0 supports one joint; "
+        "write one rig file per joint, with its own columns");
+  DynamicOptions ratios;
+  ratios.models = {"ratios"};
+  CHECK(refused([&] { fit_dynamic(two.bench.logs(), {}, ratios); }) ==
+        "rig.json: the rig has 2 joints, and --model ratios supports one joint; write one rig "
+        "file per joint, with its own columns");
 }
 
-TEST_CASE("the links of a planar arm are not simulated") {
+TEST_CASE("a result of a planar arm gives its model the base parameters") {
   const TwoJoints two(R"( "arm": {"type": "planar_two_joint", "length_1": 0.3},)");
   const ElasticResult elastic = fit_elastic(two.bench.logs(), {});
   const std::string text = dynamic_json(fit_dynamic(two.bench.logs(), elastic, {}));
   CHECK(schema_errors("dynamic", text) == "");
   std::string choice;
-  const std::string message =
-      message_of([&] { parse_model(parse_json(text, "dynamic.json"), "", "", choice); });
-  INFO(message);
-  CHECK(message.find("the links of a planar_two_joint arm cannot be simulated; only independent "
-                     "joints can be simulated so far") != std::string::npos);
+  const Model model =
+      parse_model(parse_json(text, "dynamic.json"), "", "poly", choice, Completeness::as_it_is);
+  REQUIRE(model.arm.size() == 4);
+  CHECK(model.arm[0].name == "ZZ1+M2*L1^2");
+  CHECK(model.joints[0].link.size() == 2);  // the frictions
 }
 
 TEST_CASE("logs that lack a joint, or in which one rests, are told by name") {

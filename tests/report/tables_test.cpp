@@ -1,11 +1,15 @@
 // Table 1 and Table 2, laid out from results made by hand.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 
 #include "cablefit/report/documents/batch_document.hpp"
 #include "cablefit/report/documents/dynamic_document.hpp"
 #include "cablefit/report/documents/elastic_document.hpp"
+#include "cablefit/report/json/dynamic_json.hpp"
 #include "cablefit/report/json/elastic_json.hpp"
+#include "cablefit/report/writers/bases_csv.hpp"
 #include "cablefit/report/writers/text_table.hpp"
 #include "cablefit/report/writers/wrap.hpp"
 #include "cablefit/report/writers/writers.hpp"
@@ -150,6 +154,71 @@ TEST_CASE("scores of straight lines have a table and are valid JSON") {
     INFO(text);
     CHECK(text.find(line) != std::string::npos);
   }
+}
+
+TEST_CASE("bases of the cable force have a table, valid JSON and a CSV file") {
+  ElasticResult result = test::elastic_result();
+  BasisScore polynomial, spline;
+  polynomial.basis = "polynomial";
+  polynomial.n_terms = 2;
+  polynomial.cable_terms = {1, 1};
+  polynomial.path = {9, 4.5, 2.25};
+  polynomial.held_out_rms = 4.5;
+  polynomial.rms_error = 4.4;
+  polynomial.lowest_secant = -12.3;
+  polynomial.pulls = false;
+  polynomial.terms = {{"1", "l", 1800}, {"2", "l", 1700}};
+  polynomial.curve = {{-0.01, 0.01}, {-17, 18}, {1700, 1800}};
+  spline = polynomial;
+  spline.basis = "I-spline";
+  spline.n_terms = 3;
+  spline.cable_terms = {2, 1};
+  spline.path = {8, 2, 0.5};
+  spline.held_out_rms = 0.5;
+  spline.lowest_secant = 1600;
+  spline.pulls = true;
+  result.preloads[0].bases = BasisComparison{{polynomial, spline}, 0.061, 20, 5};
+  CHECK(test::schema_errors("elastic", elastic_json(result)) == "");
+  const std::string text = write_text(elastic_document(result));
+  INFO(text);
+  for (const char* line : {"Bases of the cable force", "scatter about short lines 0.0610 N m rms"})
+    CHECK(text.find(line) != std::string::npos);
+  // Of three terms the polynomial has 2.25 N m, of two its own.
+  for (const char* row : {"polynomial  1 + 1", "I-spline    2 + 1"}) {
+    const std::size_t at = text.find(row);
+    REQUIRE(at != std::string::npos);
+    const std::string line = text.substr(at, text.find('\n', at) - at);
+    const bool is_spline = line.starts_with("I-spline");
+    CHECK_THAT(line, Contains(is_spline ? "2.25" : "4.50") && Contains(is_spline ? "yes" : "no"));
+  }
+  const std::string csv = bases_csv(result);
+  CHECK(
+      csv.starts_with("preload,deflection [rad],polynomial torque [N m],polynomial stiffness "
+                      "[N m/rad],I-spline torque [N m],I-spline stiffness [N m/rad]\n"));
+  CHECK(std::count(csv.begin(), csv.end(), '\n') == 3);
+  CHECK(std::isnan(result.preloads[0].bases->polynomial_rms(4)));
+}
+
+TEST_CASE("estimates updated row by row stand beside the direct answer") {
+  DynamicResult result = test::dynamic_result();
+  DynamicFit& fit = result.preloads[0].fits[0];
+  RecursiveTrace trace;
+  trace.rule = {"recursive", 0.995, 2, 0, 0};
+  TracePoint end{100, "a.csv", {}, {}, 2};
+  for (const Estimate& e : fit.parameters) {
+    trace.names.push_back(e.name);
+    trace.preloads.push_back("low");
+    trace.units.push_back(e.unit);
+    end.value.push_back(e.value * 1.5);
+    end.sd.push_back(e.value * 0.25);
+  }
+  trace.points = {end};
+  fit.traces = {trace};
+  CHECK(test::schema_errors("dynamic", dynamic_json(result)) == "");
+  const std::string text = write_text(dynamic_document(result));
+  INFO(text);
+  CHECK_THAT(text, Contains("Estimates updated row by row, at the end of the logs") &&
+                       Contains("recursive, memory 2.00") && Contains("2.0"));
 }
 
 TEST_CASE("decisions that all preloads share stand once") {

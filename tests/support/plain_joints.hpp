@@ -54,6 +54,7 @@ struct PlainJoint {
   double kp = 60, kd = 0.6;
   double load = 2;   ///< amplitude of a torque on the link, N m
   double noise = 1;  ///< of tau, times that of the rig
+  double gain = 1;   ///< of the torque as it is logged
 };
 
 /// Link accelerations from link torques; empty: torque / J_link.
@@ -61,11 +62,22 @@ using LinkDynamics =
     std::function<std::vector<double>(const std::vector<double>& q, const std::vector<double>& qd,
                                       const std::vector<double>& torque)>;
 
+/// Motion of all joints, n each.
+struct PlainMotion {
+  std::vector<double> q, qd, theta, thetad;
+};
+
+/// Adds torques, N m, to those that oppose the links and the motors.
+using HiddenTorque = std::function<void(const PlainMotion& motion, std::vector<double>& link,
+                                        std::vector<double>& motor)>;
+
 struct PlainRig {
   std::vector<PlainJoint> joints;
   std::vector<PlainCable> cables;
   LinkDynamics link_dynamics;
+  HiddenTorque hidden = {};
   double torque_noise = 0.05;  ///< sd, N m
+  double load_noise = 0;       ///< sd of the sensor of tau_load, N m
   double quantum = 1.2e-5;     ///< of encoders of 19 bit, rad
 
   std::size_t n() const { return joints.size(); }
@@ -110,9 +122,12 @@ class PlainLog {
     for (const double x : q) text_ += fmt::format(",{:.9f}", stepped(x));
     for (const double x : theta) text_ += fmt::format(",{:.9f}", stepped(x));
     for (std::size_t j = 0; j < tau.size(); ++j)
-      text_ += fmt::format(",{:.6f}",
-                           tau[j] + rig_.torque_noise * rig_.joints[j].noise * normal_(random_));
-    for (const double x : load) text_ += fmt::format(",{:.6f}", x);
+      text_ +=
+          fmt::format(",{:.6f}", rig_.joints[j].gain * tau[j] +
+                                     rig_.torque_noise * rig_.joints[j].noise * normal_(random_));
+    for (const double x : load)
+      text_ +=
+          fmt::format(",{:.6f}", rig_.load_noise > 0 ? x + rig_.load_noise * normal_(random_) : x);
     text_ += '\n';
   }
   const std::string& text() const { return text_; }
@@ -127,26 +142,38 @@ class PlainLog {
 };
 
 /// All motors sweep at once about q + `ahead`, at rates without a common period, links held at `q`.
+/// `hold`: s, how long the drive holds a torque; moving_log holds it 1 ms, until the next row.
 inline std::string blocked_log(const PlainRig& rig, const std::vector<double>& q, double seconds,
-                               unsigned seed, double rate = 200, double ahead = 0) {
+                               unsigned seed, double rate = 200, double ahead = 0,
+                               double hold = 0) {
   PlainLog log(rig, seed);
   for (int i = 0; i < static_cast<int>(seconds * rate); ++i) {
     const double t = i / rate;
-    std::vector<double> theta, speed;
+    const auto theta_at = [&](double when) {
+      std::vector<double> theta;
+      for (std::size_t j = 0; j < rig.n(); ++j) {
+        const double wt = 2 * M_PI * rig.joints[j].sweep_rate * when;
+        // Two tones: the speed varies, so that viscous and static friction differ.
+        theta.push_back(q[j] + ahead +
+                        rig.joints[j].sweep *
+                            (0.7 * std::sin(wt) + 0.3 * std::sin(2.7 * wt + 0.4)));
+      }
+      return theta;
+    };
+    const double acts = t + 0.5 * hold;
+    const std::vector<double> recorded = theta_at(t), theta = theta_at(acts);
+    std::vector<double> speed;
     for (std::size_t j = 0; j < rig.n(); ++j) {
       const double w = 2 * M_PI * rig.joints[j].sweep_rate;
-      // Two tones: the speed varies, so that viscous and static friction differ.
-      theta.push_back(q[j] + ahead +
-                      rig.joints[j].sweep *
-                          (0.7 * std::sin(w * t) + 0.3 * std::sin(2.7 * w * t + 0.4)));
       speed.push_back(rig.joints[j].sweep * w *
-                      (0.7 * std::cos(w * t) + 0.3 * 2.7 * std::cos(2.7 * w * t + 0.4)));
+                      (0.7 * std::cos(w * acts) + 0.3 * 2.7 * std::cos(2.7 * w * acts + 0.4)));
     }
-    std::vector<double> tau = motor_torques(rig, q, theta);
+    std::vector<double> tau = motor_torques(rig, q, theta), on_link(rig.n(), 0.0);
+    if (rig.hidden) rig.hidden({q, std::vector<double>(rig.n(), 0.0), theta, speed}, on_link, tau);
     for (std::size_t j = 0; j < rig.n(); ++j)
       tau[j] += rig.joints[j].offset + rig.joints[j].f_sm * sign_of(speed[j]) +
                 rig.joints[j].f_vm * speed[j];
-    log.add(t, q, theta, tau, std::vector<double>(rig.n(), 0.0));
+    log.add(t, q, recorded, tau, std::vector<double>(rig.n(), 0.0));
   }
   return log.text();
 }
@@ -172,6 +199,14 @@ inline PlainState slope_of(const PlainRig& rig, const PlainState& x, double t,
   const auto q = part(x, n, 0), qd = part(x, n, 1), theta = part(x, n, 2), thetad = part(x, n, 3);
   std::vector<double> link = link_torques(rig, q, theta), motor = motor_torques(rig, q, theta);
   PlainState slope(4 * n);
+  if (rig.hidden) {
+    std::vector<double> on_link(n, 0.0), on_motor(n, 0.0);
+    rig.hidden({q, qd, theta, thetad}, on_link, on_motor);
+    for (std::size_t j = 0; j < n; ++j) {
+      link[j] -= on_link[j];
+      motor[j] += on_motor[j];
+    }
+  }
   for (std::size_t j = 0; j < n; ++j) {
     const PlainJoint& joint = rig.joints[j];
     link[j] += load_at(rig, j, t) - joint.f_v * qd[j] - joint.f_s * sign_of(qd[j]);

@@ -11,8 +11,8 @@
 
 namespace cablefit::test {
 
-/// The rig file; `more`: further keys, each with a comma behind it.
-inline std::string rig_text(const PlainRig& rig, const std::string& more) {
+/// The rig file; `more`: further keys, each with a comma behind it. `search`: it does not know l_o.
+inline std::string rig_text(const PlainRig& rig, const std::string& more, bool search = false) {
   const auto numbers = [](const std::vector<PlainMap>& maps) {
     std::string list;
     for (const PlainMap& map : maps) {
@@ -31,7 +31,7 @@ inline std::string rig_text(const PlainRig& rig, const std::string& more) {
     cables += fmt::format(
         R"({}{{"name": "{}", "motor_radius": [{}], "link_radius": [{}], "order": {}, "initial_elongation": {}}})",
         cables.empty() ? "" : ",\n  ", cable.name, numbers(cable.motor), numbers(cable.link),
-        cable.k.size(), cable.l_o);
+        cable.k.size(), search ? R"("search")" : fmt::format("{}", cable.l_o));
   return fmt::format(R"({{"schema": "cablefit/rig/1", "joints": [{}],{} "cables": [{}]}})", joints,
                      more, cables);
 }
@@ -81,7 +81,44 @@ inline PlainRig tendon_finger() {
   return rig;
 }
 
-/// The same finger, its links the phalanges of plain_arm.hpp; no other torque acts on them.
+/// Two fingers of three joints and five tendons each: the long ones pass all joints of a finger, so
+/// that its links move together.
+inline PlainRig two_finger_hand() {
+  PlainRig rig;
+  rig.torque_noise = 4e-3;
+  const std::vector<PlainJoint> finger = {
+      {4e-3, 8e-4, 4e-3, 6e-3, 2e-3, 5e-3, 4e-3, 0.5, 0.05, 0.5, 6, 0.06, 0.1},
+      {2e-3, 6e-4, 3e-3, 4e-3, 1e-3, 4e-3, -3e-3, 0.5, 0.037, 0.5, 5, 0.05, 0.05},
+      {8e-4, 4e-4, 2e-3, 3e-3, 1e-3, 3e-3, 2e-3, 0.4, 0.043, 0.4, 10, 0.04, 0.03}};
+  struct Tendon {
+    const char* name;
+    std::size_t motor;
+    double radius;
+    std::vector<double> link;
+    std::vector<double> k;
+    double l_o;
+  };
+  const std::vector<Tendon> tendons = {
+      {"flexor", 0, 0.01, {0.01, 0.007, 0.005}, {1e5}, 2e-3},
+      {"extensor", 0, -0.01, {-0.01, -0.007, -0.008}, {7e4, 1.5e7}, 2e-3},
+      {"pip", 1, 0.008, {0, 0.007, 0.004}, {5e4}, 2e-3},
+      {"back", 1, -0.008, {0, -0.008, -0.004}, {5e4}, 2e-3},
+      {"dip", 2, 0.006, {0, 0, 0.006}, {5e4}, 2e-3}};
+  for (std::size_t f = 0; f < 2; ++f) {
+    rig.joints.insert(rig.joints.end(), finger.begin(), finger.end());
+    for (const Tendon& tendon : tendons) {
+      std::vector<PlainMap> motor(6, round_map(0)), link(6, round_map(0));
+      motor[3 * f + tendon.motor] = round_map(tendon.radius);
+      for (std::size_t j = 0; j < 3; ++j) link[3 * f + j] = round_map(tendon.link[j]);
+      rig.cables.push_back(
+          {fmt::format("{}{}", tendon.name, f + 1), motor, link, tendon.k, tendon.l_o});
+    }
+  }
+  return rig;
+}
+
+/// The finger of two joints, its links the phalanges of plain_arm.hpp; no other torque acts on
+/// them.
 inline PlainRig phalanges_rig() {
   PlainRig rig = tendon_finger();
   rig.link_dynamics = phalanges();

@@ -16,6 +16,7 @@
 #include "rig.hpp"
 #include "tests/support/plain_arm.hpp"
 #include "tests/support/plain_rigs.hpp"
+#include "tests/support/tendon_rigs.hpp"
 
 namespace {
 
@@ -148,14 +149,19 @@ void make_moving(const Cell& cell, const fs::path& folder, double load, std::uin
   print_row(cell.name + "/" + name, cell.rig, options, exact);
 }
 
+/// The drive of two joints holds a torque for 1 ms, whatever the rate of a log.
+constexpr double kHold = 1e-3;
+constexpr const char* kDrive = R"( "torque_hold": "zoh", "torque_period": 0.001,)";
+
 /// Two joints: short logs at low rates, for size.
 void make_finger(const fs::path& folder, std::uint64_t seed) {
   const cablefit::test::PlainRig rig = cablefit::test::tendon_finger();
   const auto next = static_cast<unsigned>(seed);
   fs::create_directories(folder);
-  write_text(folder / "blocked.csv", cablefit::test::blocked_log(rig, {0.1, 0.1}, 50, next, 100));
+  write_text(folder / "blocked.csv",
+             cablefit::test::blocked_log(rig, {0.1, 0.1}, 50, next, 100, 0, kHold));
   write_text(folder / "moving.csv", cablefit::test::moving_log(rig, 8, next + 1));
-  write_text(folder / "rig.json", cablefit::test::rig_text(rig, "") + '\n');
+  write_text(folder / "rig.json", cablefit::test::rig_text(rig, kDrive) + '\n');
 }
 
 /// The same finger with phalanges that move each other and weigh something, from a URDF.
@@ -165,11 +171,23 @@ void make_phalanges(const fs::path& folder, std::uint64_t seed) {
   fs::create_directories(folder);
   write_text(folder / "finger.urdf",
              cablefit::test::urdf_text(cablefit::test::phalanges(), "finger"));
-  write_text(folder / "blocked.csv", cablefit::test::blocked_log(rig, {0.1, 0.1}, 40, next, 50));
+  write_text(folder / "blocked.csv",
+             cablefit::test::blocked_log(rig, {0.1, 0.1}, 40, next, 50, 0, kHold));
   write_text(folder / "moving.csv", cablefit::test::moving_log(rig, 8, next + 1));
-  write_text(
-      folder / "rig.json",
-      cablefit::test::rig_text(rig, R"( "arm": {"type": "urdf", "file": "finger.urdf"},)") + '\n');
+  write_text(folder / "rig.json",
+             cablefit::test::rig_text(
+                 rig, std::string(kDrive) + R"( "arm": {"type": "urdf", "file": "finger.urdf"},)") +
+                 '\n');
+}
+
+/// Two joints with a pair of cables each, whose preload the rig file does not know.
+void make_pairs(const fs::path& folder, std::uint64_t seed) {
+  const cablefit::test::PlainRig rig = cablefit::test::four_cable_finger();
+  const auto next = static_cast<unsigned>(seed);
+  fs::create_directories(folder);
+  write_text(folder / "blocked.csv", cablefit::test::blocked_log(rig, {0, 0}, 50, next, 100));
+  write_text(folder / "moving.csv", cablefit::test::moving_log(rig, 8, next + 1));
+  write_text(folder / "rig.json", cablefit::test::rig_text(rig, "", true) + '\n');
 }
 
 void make_data(const fs::path& out, std::uint64_t seed) {
@@ -185,6 +203,7 @@ void make_data(const fs::path& out, std::uint64_t seed) {
   write_text(out / "campaign.json", campaign_json(cells));
   make_finger(out / "two_joints" / "finger", seed);
   make_phalanges(out / "two_joints" / "phalanges", seed + 2);
+  make_pairs(out / "two_joints" / "pairs", seed + 4);
 }
 
 std::uint64_t parse_seed(std::string_view text) {

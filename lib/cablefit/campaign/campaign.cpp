@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "cablefit/base/error.hpp"
 #include "cablefit/base/json/json_document.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/campaign/campaign_cell.hpp"
+#include "cablefit/model/effect_names.hpp"
 
 namespace cablefit {
 namespace {
@@ -38,10 +40,24 @@ void read_models(const JsonNode& node, Campaign& campaign) {
     throw node.error("'models' is empty", "write [\"linear\", \"poly\"]");
 }
 
+/// The equations of a straight spring leave more than any of them explains.
+void read_effects(const JsonNode& node, Campaign& campaign) {
+  for (const JsonNode& item : node.items) {
+    try {
+      (void)blank_effects({item.text()});
+    } catch (const Error& error) {
+      throw item.error(error.what(), "see 'cablefit list effects'");
+    }
+    campaign.effects.push_back(item.text());
+  }
+  if (!campaign.effects.empty() && campaign.models != std::vector<std::string>{"poly"})
+    throw node.error("'effects' are fitted in one model", "write \"models\": [\"poly\"]");
+}
+
 }  // namespace
 
 Campaign parse_campaign(const JsonNode& root, const FindFiles& find_files) {
-  root.allow_only({"schema", "name", "cells", "models", "estimator", "limits"});
+  root.allow_only({"schema", "name", "cells", "models", "estimator", "effects", "limits"});
   const JsonNode& schema = root.at("schema");
   if (schema.text() != kSchema)
     throw schema.error(
@@ -52,6 +68,7 @@ Campaign parse_campaign(const JsonNode& root, const FindFiles& find_files) {
   if (const JsonNode* name = root.find("name")) campaign.name = name->text();
   if (const JsonNode* models = root.find("models")) read_models(*models, campaign);
   if (const JsonNode* estimator = root.find("estimator")) campaign.estimator = estimator->text();
+  if (const JsonNode* effects = root.find("effects")) read_effects(*effects, campaign);
   if (const JsonNode* limits = root.find("limits")) campaign.limits = read_limits(*limits);
   campaign.cells = read_cells(root.at("cells"), find_files);
   return campaign;

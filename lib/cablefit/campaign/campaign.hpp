@@ -41,12 +41,14 @@ struct Campaign {
   std::vector<CampaignCell> cells;
   std::vector<std::string> models = {"linear", "poly"};
   std::string estimator = "auto";
+  /// Fitted in stage 2 beside the paper's, by name: "stribeck[motor]"; of model poly.
+  std::vector<std::string> effects = {};
   CampaignLimits limits;
 };
 
 /// Throws Error(input) at file:line:column: unknown keys, no cells, two cells of one name, a
-/// pattern without a match, a log twice in a cell. A cell without a name is called by its preload,
-/// where several have that preload "robot, preload, date".
+/// pattern without a match, an unknown effect, a log twice in a cell. A cell without a name is
+/// called by its preload, where several have that preload "robot, preload, date".
 Campaign read_campaign(const std::string& path);
 
 /// The files that match a pattern, sorted.

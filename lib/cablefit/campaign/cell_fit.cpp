@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/model/effect_names.hpp"
 #include "cablefit/prove/fitted_model.hpp"
 #include "cablefit/session/read_logs.hpp"
 #include "cablefit/session/stages.hpp"
@@ -42,6 +43,7 @@ DynamicOptions stage2_options(const Campaign& campaign, const CampaignCell& cell
   dynamic.samples = options.samples;
   dynamic.models = campaign.models;
   dynamic.estimator = campaign.estimator;
+  dynamic.effects = blank_effects(campaign.effects);
   dynamic.honest_sd = options.honest_sd;
   dynamic.preload = cell.preload;
   dynamic.figures = with_figures(campaign);

@@ -43,6 +43,8 @@ std::string options_text(const Campaign& campaign, const CampaignCell& cell,
       fmt::format("cablefit {} {}\npreload {}\nmodels {}\nestimator {}\nhonest {}\nplots {}\n",
                   kVersion, kFormat, cell.preload, fmt::join(campaign.models, " "),
                   campaign.estimator, options.honest_sd, with_figures(campaign));
+  if (!campaign.effects.empty())
+    text += fmt::format("effects {}\n", fmt::join(campaign.effects, " "));
   const ElasticOptions& elastic = options.elastic;
   text += fmt::format("order {} {}\nmateriality {}\nstill {}\nzero {}\nunconstrained {}\n",
                       elastic.order, elastic.max_order, elastic.materiality, elastic.still,

@@ -153,7 +153,7 @@ void fields(Archive& a, RigFact& v) {
   a("name", v.name), a("value", v.value);
 }
 
-/// Without scores, which campaigns do not make.
+/// Without scores and bases, which campaigns do not make.
 template <class Archive>
 void fields(Archive& a, ElasticPreload& v) {
   a("name", v.name), a("unit", v.unit), a("low", v.deflection_low), a("high", v.deflection_high);
@@ -186,11 +186,19 @@ void fields(Archive& a, SuspectSpan& v) {
 template <class Archive>
 void fields(Archive& a, TracePoint& v) {
   a("rows", v.n_rows), a("record", v.record), a("value", v.value), a("sd", v.sd);
+  a("t", v.t);
+}
+
+template <class Archive>
+void fields(Archive& a, OnlineRule& v) {
+  a("method", v.method), a("forgetting", v.forgetting), a("memory", v.memory);
+  a("step", v.step), a("slowest", v.slowest);
 }
 
 template <class Archive>
 void fields(Archive& a, RecursiveTrace& v) {
   a("names", v.names), a("preloads", v.preloads), a("units", v.units), a("points", v.points);
+  a("rule", v.rule);
 }
 
 template <class Archive>
@@ -205,7 +213,7 @@ void fields(Archive& a, DynamicFit& v) {
   a("torque_error", v.torque_error), a("weight", v.weight), a("condition", v.condition);
   a("effective_rows", v.effective_rows), a("elastic", v.elastic), a("verdicts", v.verdicts);
   a("warnings", v.warnings), a("sd_reason", v.sd_reason), a("suspects", v.suspects);
-  a("trace", v.trace), a("derived", v.derived), a("method_floor", v.method_floor);
+  a("traces", v.traces), a("derived", v.derived), a("method_floor", v.method_floor);
   a("covariance", v.covariance);
   a("estimator_difference", v.estimator_difference), a("stage1_misfit", v.stage1_misfit);
 }

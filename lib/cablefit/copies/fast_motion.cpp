@@ -28,16 +28,21 @@ Eigen::ArrayXd acceleration(const Eigen::ArrayXd& x, double period) {
   return out;
 }
 
-/// What the cables of one joint do on its motor where they were measured.
+/// What the cables do on the motor of a joint where they were measured.
 Eigen::VectorXd elastic_torque(const Model& model, const LogPlan& plan,
-                               const Eigen::MatrixXd& measured) {
+                               const Eigen::MatrixXd& measured, int joint) {
   Eigen::VectorXd torque = Eigen::VectorXd::Zero(measured.rows());
   if (model.rigid) return torque;
   const Coupling coupling(model.transmission);
-  const int q = plan.find(Channel::q, 0), theta = plan.find(Channel::theta, 0);
+  const std::size_t n = model.joints.size();
+  std::vector<double> q(n), theta(n), link(n), motor(n);
   for (Eigen::Index i = 0; i < torque.size(); ++i) {
-    double on_link = 0;
-    coupling.torques(&measured(i, q), &measured(i, theta), &on_link, &torque(i));
+    for (std::size_t k = 0; k < n; ++k) {
+      q[k] = measured(i, plan.find(Channel::q, static_cast<int>(k)));
+      theta[k] = measured(i, plan.find(Channel::theta, static_cast<int>(k)));
+    }
+    coupling.torques(q.data(), theta.data(), link.data(), motor.data());
+    torque(i) = motor[static_cast<std::size_t>(joint)];
   }
   return torque;
 }
@@ -74,18 +79,18 @@ Eigen::MatrixXd smooth(const Eigen::MatrixXd& columns, double period, double cut
 }
 
 FastMotion fast_motion(const Model& model, const LogPlan& plan, const TwinStretch& stretch,
-                       const FrequencyBand& band, bool torque_held) {
+                       int joint, const FrequencyBand& band, bool torque_held) {
   const double period = stretch.period;
   const Eigen::Index n = stretch.measured.rows();
   FastMotion out{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
   if (!(band.to > band.from)) return out;
-  const Eigen::VectorXd tau = stretch.measured.col(plan.find(Channel::tau, 0));
-  const Eigen::VectorXd theta = stretch.measured.col(plan.find(Channel::theta, 0));
+  const Eigen::VectorXd tau = stretch.measured.col(plan.find(Channel::tau, joint));
+  const Eigen::VectorXd theta = stretch.measured.col(plan.find(Channel::theta, joint));
   const Eigen::ArrayXd quiet = smooth(theta, period, band.to).array();
   Eigen::MatrixXd columns(n, 4);  // measured, torque around each row, torque that is asked for
   columns << theta, tau, around_rows(tau, torque_held),
-      motor_torque(model.joints.front().motor, quiet, period) +
-          elastic_torque(model, plan, stretch.measured);
+      motor_torque(model.joints[static_cast<std::size_t>(joint)].motor, quiet, period) +
+          elastic_torque(model, plan, stretch.measured, joint);
   const int parts = static_cast<int>(std::ceil(std::log(band.to / band.from) / std::log(kPart)));
   Eigen::MatrixXd below = smooth(columns, period, band.from);
   for (int part = 1; part <= parts; ++part) {

@@ -13,14 +13,15 @@ struct FrequencyBand {
   double from = 0, to = 0;  ///< Hz
 };
 
-/// Of a single joint, n rows each.
+/// Of one joint, n rows each.
 struct FastMotion {
   Eigen::VectorXd theta, tau;  ///< rad; N m
 };
 
 /// What a band of the measured torque did, as far as it acted: what moved the motor is what the
 /// model's motion asks for, what a torque sensor adds is not.
+/// `joint`: from 0.
 FastMotion fast_motion(const Model& model, const LogPlan& plan, const TwinStretch& stretch,
-                       const FrequencyBand& band, bool torque_held);
+                       int joint, const FrequencyBand& band, bool torque_held);
 
 }  // namespace cablefit

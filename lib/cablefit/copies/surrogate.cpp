@@ -88,9 +88,9 @@ void follow_measured(const Model& model, const LogPlan& plan, const TwinDrive& d
     both.col(0) = stretch.measured.col(plan.find(Channel::theta, joint));
     both.col(1) = stretch.measured.col(plan.find(Channel::tau, joint));
     both = smooth(both, stretch.period, drive.cutoff);
-    if (n_joints == 1 && drive.cutoff > 0) {
-      const FastMotion fast =
-          fast_motion(model, plan, stretch, {drive.cutoff, drive.dither_cutoff}, drive.torque_held);
+    if (drive.cutoff > 0) {
+      const FastMotion fast = fast_motion(model, plan, stretch, joint,
+                                          {drive.cutoff, drive.dither_cutoff}, drive.torque_held);
       both.col(0) += fast.theta;
       both.col(1) += fast.tau;
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "cablefit/design/design_result.hpp"
 #include "cablefit/design/joint_curve.hpp"
@@ -9,11 +10,17 @@
 
 namespace cablefit {
 
-/// Of slow motion: every dry level of the joint's effects and refinements on both sides (f_s, f_sm,
-/// friction that grows with tension, ...) at the deflections of no load and of `torque`, plus
-/// `tension_friction` times the tensions at the motor's pulleys. Nothing when there is none.
+/// Dry level of the joint (N m) at the deflection phi, moving slowly in this direction: that of
+/// every effect and refinement on both sides (f_s, f_sm, friction that grows with tension, ...),
+/// plus `tension_friction` times the tensions at the motor's pulleys.
+double friction_at(const Model& model, const JointCurve& curve, double phi, double direction,
+                   double tension_friction);
+
+/// Of slow motion, without load and at `torque`. With `tension_friction`, or when the model itself
+/// has friction that grows with the tension, that is how it depends on the preload; else `curves`
+/// say it, and the part that depends on the load is the model's. Nothing where it is not known.
 std::optional<DesignFriction> design_friction(const Model& model, const JointCurve& curve,
-                                              double torque,
-                                              std::optional<double> tension_friction);
+                                              double torque, std::optional<double> tension_friction,
+                                              std::span<const FrictionCurve> curves);
 
 }  // namespace cablefit

@@ -6,17 +6,19 @@
 #include "cablefit/design/design_friction.hpp"
 #include "cablefit/design/design_sweep.hpp"
 #include "cablefit/design/joint_curve.hpp"
+#include "cablefit/model/least_inertias.hpp"
 
 namespace cablefit {
 namespace {
 
 constexpr int kRangeSteps = 400;  // over the working range, for its extremes
 
-/// 1/J_motor + 1/J_link; NaN when the model has no inertias.
+/// 1/J_motor + 1/J_link, J_link of a coupled arm with the other links held at q = 0; NaN when the
+/// model has no inertias.
 double mobility(const Model& model, int joint) {
   if (model.joints.empty()) return kNotKnown;
-  const JointModel& axes = model.joints[static_cast<std::size_t>(joint)];
-  return 1 / inertia_of(axes.motor) + 1 / inertia_of(axes.link);
+  const auto k = static_cast<std::size_t>(joint);
+  return 1 / inertia_of(model.joints[k].motor) + 1 / link_inertias(model)[k];
 }
 
 /// `visit` at deflections over the range and at every change of a cable.
@@ -124,7 +126,8 @@ DesignJoint describe_joint(const Model& model, const Transmission& preloaded, in
   add_closure(curve, out);
   add_stiffness(curve, range, out);
   add_tensions(curve, range, out);
-  out.friction = design_friction(model, curve, options.torque, options.tension_friction);
+  out.friction =
+      design_friction(model, curve, options.torque, options.tension_friction, options.friction);
   std::vector<CurveModel> models = simpler_models(curve, range, options.orders);
   models.push_back(cables_themselves(curve));
   const double per_inertia = mobility(model, joint);

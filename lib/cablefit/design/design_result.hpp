@@ -9,7 +9,10 @@
 
 #include "cablefit/design/collision.hpp"
 #include "cablefit/design/excitation_plan.hpp"
+#include "cablefit/design/friction_curves.hpp"
+#include "cablefit/design/held_load.hpp"
 #include "cablefit/design/pose_stiffness.hpp"
+#include "cablefit/design/torque_polytope.hpp"
 #include "cablefit/figure/figure.hpp"
 #include "cablefit/samples/plan/input_file.hpp"
 #include "cablefit/samples/rows/settings.hpp"
@@ -37,6 +40,14 @@ struct DesignFriction {
   double driving = 0, driven = 0;  ///< N m, at the torque: lifting it, and giving way to it
   double efficiency_driving = 0;   ///< torque / (torque + friction)
   double efficiency_driven = 0;    ///< (torque - friction) / torque, 0: it locks
+  double sd = kNotKnown;           ///< N m, of all three levels, by the fitted preloads
+  double low = kNotKnown, high = kNotKnown;                        ///< 95 % interval of `at_rest`
+  double efficiency_low = kNotKnown, efficiency_high = kNotKnown;  ///< of `efficiency_driving`
+  struct Part {
+    std::string name, unit;
+    FrictionValue value;
+  };
+  std::vector<Part> parts;  ///< f_s, f_v, ... at this preload, by the fitted preloads
 };
 
 struct TensionRange {
@@ -66,7 +77,7 @@ struct DesignJoint {
   double stiffness_least = 0, stiffness_most = 0;  ///< on the range
   std::vector<TensionRange> tensions;
   std::vector<ModelCost> models;           ///< linear, piecewise linear, ..., cables
-  std::optional<DesignFriction> friction;  ///< nothing when the model has none
+  std::optional<DesignFriction> friction;  ///< nothing where it is not known
   std::optional<DesignSpread> sd;          ///< nothing when the model knows no covariance
   const ModelCost& model(const std::string& which) const;
 };
@@ -78,6 +89,7 @@ struct DesignPoint {
   std::vector<double> initial_elongations;  ///< per cable, balanced (8c)
   std::vector<DesignJoint> joints;
   bool is_own = false;  ///< the preload that the model has
+  std::string preload;  ///< name of a fitted preload with its own cables; empty: of the sweep
 };
 
 /// The smallest preload that keeps all cables taut up to the torque, in both directions.
@@ -98,10 +110,16 @@ struct DesignResult {
   std::optional<CollisionDetector> detector;  ///< of the cables themselves
   double false_alarms_per_hour = 0;
   std::vector<DesignPoint> points;
-  std::vector<NeededPreload> needed;     ///< one per radius factor
-  std::vector<PoseStiffness> stiffness;  ///< where asked for
-  std::optional<StiffnessAlong> along;   ///< a log, where asked for
-  std::optional<Balance> balance;        ///< of the model's own preload, where asked for
+  std::vector<DesignPoint> fitted;        ///< two or more fitted preloads, as they were fitted
+  std::vector<FrictionCurve> friction;    ///< by these; empty: none are known
+  std::vector<NeededPreload> needed;      ///< one per radius factor
+  std::vector<PoseStiffness> stiffness;   ///< where asked for
+  std::optional<StiffnessAlong> along;    ///< a log, where asked for
+  std::optional<Balance> balance;         ///< of the model's own preload, where asked for
+  std::vector<TorquePolytope> polytopes;  ///< of the links' torques, where asked for
+  double largest_tension = 0;             ///< N (joint space: N m), of these; 0: none
+  std::vector<SlackOrder> slack_orders;   ///< with these: both directions of each joint
+  std::vector<HeldLoad> held;             ///< where asked for: preload by preload, load by load
   std::optional<ExcitationPlan> excitation;
   std::string excitation_path;  ///< of its reference
   std::vector<Decision> decisions;

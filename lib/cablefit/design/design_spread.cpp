@@ -25,6 +25,7 @@ DesignOptions numbers_only(const DesignOptions& options) {
   DesignOptions only;
   only.torque = options.torque;
   only.tension_friction = options.tension_friction;
+  only.friction = options.friction;
   only.orders.clear();
   return only;
 }
@@ -54,6 +55,11 @@ DesignSpread spread_of(const DesignJoint& joint, const DesignPoint& point,
   DesignSpread spread;
   for (std::size_t k = 0; k < squares.size(); ++k)
     spread.*kMembers[k] = std::isfinite(squares[k]) ? std::sqrt(squares[k]) : kNotKnown;
+  // Between fitted preloads the interval is that of the curve: the copies do not move it.
+  if (joint.friction && std::isfinite(joint.friction->sd)) {
+    const double efficiency = joint.friction->efficiency_driving;
+    spread.efficiency_driving = efficiency * efficiency / options.torque * joint.friction->sd;
+  }
   return spread;
 }
 

@@ -13,6 +13,7 @@
 #include "cablefit/design/design_spread.hpp"
 #include "cablefit/design/equilibrium_preload.hpp"
 #include "cablefit/design/joint_curve.hpp"
+#include "cablefit/design/preload_figures.hpp"
 #include "cablefit/model/equilibrium.hpp"
 #include "cablefit/model/modes.hpp"
 
@@ -81,6 +82,15 @@ std::vector<double> chosen_preloads(const NeededPreload& needed) {
   return all;
 }
 
+/// Friction that was fitted with the rig's pulleys is known of others only by the tensions.
+void drop_other_pulleys(const DesignOptions& options, DesignPoint& point) {
+  for (std::size_t k = 0; k < point.joints.size(); ++k) {
+    const FrictionCurve* dry = find_curve(options.friction, static_cast<int>(k), kDryFriction);
+    if (!options.tension_friction && dry != nullptr && !(dry->line && dry->by_tension))
+      point.joints[k].friction.reset();
+  }
+}
+
 DesignPoint describe_point(const Model& model, const std::vector<MovedModel>& copies,
                            const Transmission& preloaded, double factor, bool is_own,
                            const DesignOptions& options) {
@@ -93,7 +103,32 @@ DesignPoint describe_point(const Model& model, const std::vector<MovedModel>& co
     point.joints.push_back(describe_joint(model, preloaded, joint, options));
   for (std::size_t k = 0; !copies.empty() && k < point.joints.size(); ++k)
     point.joints[k].sd = spread_of(point.joints[k], point, copies, static_cast<int>(k), options);
+  if (factor != 1) drop_other_pulleys(options, point);
   return point;
+}
+
+/// Each fitted preload with its own cables.
+void describe_fitted(const DesignOptions& options, DesignResult& result) {
+  if (options.fitted.size() < 2) return;
+  for (const Model& fit : options.fitted) {
+    const std::vector<MovedModel> copies = principal_copies(fit);
+    DesignOptions own = options;  // its friction as it was fitted, not as the lines have it
+    own.friction = friction_curves(std::span(&fit, 1));
+    result.fitted.push_back(describe_point(fit, copies, fit.transmission, 1, true, own));
+    result.fitted.back().preload = fit.preload;
+  }
+}
+
+/// sd of the link's mean residual over the window, the largest of the fits; nothing: not known.
+std::optional<double> largest_mean_noise(const Model& model, const DesignOptions& options) {
+  std::optional<double> largest;
+  const auto add = [&](const Model& one) {
+    if (one.link_residual.empty()) return;
+    largest = std::max(largest.value_or(0), sd_of_mean(one.link_residual, options.window));
+  };
+  add(model);
+  for (const Model& fit : options.fitted) add(fit);
+  return largest;
 }
 
 /// Fills the noise of the detector; false: none is known. The residual of a fit is not white: its
@@ -105,11 +140,12 @@ bool take_noise(const Model& model, const DesignOptions& options, CollisionDetec
     decisions.push_back({"noise", fmt::format("{:g}", *options.noise), "given, white"});
     return true;
   }
-  if (!model.link_residual.empty()) {
-    detector.mean_noise = sd_of_mean(model.link_residual, options.window);
-    decisions.push_back({"noise",
-                         fmt::format("{:.3g} over {:g} s", *detector.mean_noise, options.window),
-                         "means of the link's residual in the fit"});
+  if (const auto mean = largest_mean_noise(model, options)) {
+    detector.mean_noise = mean;
+    decisions.push_back({"noise", fmt::format("{:.3g} over {:g} s", *mean, options.window),
+                         options.fitted.size() > 1
+                             ? "means of the link's residual in the fits, of the largest"
+                             : "means of the link's residual in the fit"});
     return true;
   }
   const auto found = model.rig.sensors.find("tau");
@@ -151,6 +187,24 @@ void warn_of_soft_cables(const Model& model, double torque, DesignResult& result
           "cables were preloaded in the logs; design from a fit without preload, or one "
           "of `identify`, which finds l_o",
           quoted(cable.name)));
+}
+
+/// Of the model's rig: the same joints, and l_o in the same unit.
+void require_joints_of(const Model& model, const std::vector<Model>& fitted) {
+  const auto refuse = [](const Model& fit, const std::string& what) {
+    throw Error(
+        ErrorKind::input,
+        fmt::format("the fit of preload {} has {}; give --fitted a result of the model's rig",
+                    quoted(fit.preload), what));
+  };
+  const auto unit = [](const Model& one) { return one.rig.cables_given ? "m" : "rad"; };
+  for (const Model& fit : fitted) {
+    if (fit.transmission.n_joints != model.transmission.n_joints)
+      refuse(fit, fmt::format("{} joints, the model has {}", fit.transmission.n_joints,
+                              model.transmission.n_joints));
+    if (fit.rig.cables_given != model.rig.cables_given)
+      refuse(fit, fmt::format("l_o in {}, the model in {}", unit(fit), unit(model)));
+  }
 }
 
 void tell_needed(const DesignResult& result, std::vector<std::string>& warnings) {
@@ -199,7 +253,10 @@ DesignResult sweep_design(const Model& model, const DesignOptions& given) {
   result.torque = given.torque;
   result.false_alarms_per_hour = given.false_alarms_per_hour;
   DesignOptions options = given;
-  options.detector = result.detector = detector_of(model, given, result.decisions);
+  if (options.fitted.empty() && !model.joints.empty()) options.fitted = {model};
+  require_joints_of(model, options.fitted);
+  options.friction = result.friction = friction_curves(options.fitted);
+  options.detector = result.detector = detector_of(model, options, result.decisions);
   warn_of_soft_cables(model, options.torque, result);
   for (const double factor : options.radius_factors) {
     const Transmission base = with_radii(model.transmission, factor);
@@ -221,8 +278,10 @@ DesignResult sweep_design(const Model& model, const DesignOptions& given) {
       add_curves(model, preloaded, result.points.back(), options, result);
     }
   }
+  describe_fitted(options, result);
   tell_needed(result, result.warnings);
   if (options.figures) finish_figures(options, result);
+  add_preload_figures(model, copies, options, result);
   return result;
 }
 

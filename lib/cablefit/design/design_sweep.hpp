@@ -15,6 +15,7 @@ struct DesignOptions {
   double torque = 0;        ///< N m, above 0: the joint works from -torque to torque
   std::vector<double> l_o;  ///< of the first cable; empty: chosen around what is needed
   std::vector<double> radius_factors = {1};
+  std::vector<Eigen::VectorXd> held_loads;  ///< N m per joint, on the links, for hold_loads()
   std::vector<int> orders = {1};           ///< of the cables of simpler models; 1: piecewise linear
   std::optional<double> tension_friction;  ///< N m per N m, on the motor, beside the model's
   /// N m, of the torque, white; nothing: the link's residual of the fit, else the rig's sensor
@@ -25,7 +26,9 @@ struct DesignOptions {
   double rate = 1000;    ///< Hz, of the same
   double false_alarms_per_hour = 1;
   double detection_rate = 0.99;
+  std::vector<Model> fitted;                  ///< fits of several preloads; empty: the model alone
   std::optional<CollisionDetector> detector;  ///< made of these
+  std::vector<FrictionCurve> friction;        ///< of the fits
   bool figures = false;
 };
 
@@ -34,6 +37,13 @@ struct DesignOptions {
 /// Error(input) for anything without cables.
 Model read_design_model(const std::string& path, const std::string& preload,
                         const std::string& model, std::string& choice);
+
+/// Every preload of these results or model files, of the fit `model` (empty: "poly"); numbers that
+/// a fit did not determine are NaN. Throws Error(input) for anything without cables.
+std::vector<Model> read_fitted_models(const std::vector<std::string>& paths,
+                                      const std::string& model);
+/// The same of a result with preloads; none where one of them has no such fit, or of other files.
+std::vector<Model> other_preloads(const std::string& path, const std::string& model);
 
 /// Throws Error(input) for a rigid drive and for a spring.
 void require_cables(const Model& model, const std::string& path);
@@ -44,6 +54,11 @@ DesignResult blank_design(const Model& model);
 
 /// Throws Error(input) when the cables cannot be preloaded or never give the torque.
 DesignResult sweep_design(const Model& model, const DesignOptions& options);
+
+/// The links under each of options.held_loads at the model's own preload, at options.l_o or else at
+/// the preloads of the sweep, with the rig's radii; and its figures. Throws Error(input) when the
+/// cables do not hold a load.
+void hold_loads(const Model& model, const DesignOptions& options, DesignResult& result);
 
 /// Of the first cable, m (rad in joint space).
 struct PreloadSearch {

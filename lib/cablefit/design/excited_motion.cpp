@@ -86,9 +86,10 @@ Model excitable(const Model& model, double rate, std::string& words) {
                 "a rig file has no inertias: an excitation needs a model file or a result of "
                 "'cablefit dynamic', or CAD values in a model file");
   if (model.rig.arm.is_coupled())
-    throw Error(ErrorKind::input,
-                "coupled joints are not simulated yet: design the excitation of one joint at a "
-                "time, with the others held");
+    throw Error(
+        ErrorKind::input,
+        "links that move each other: no excitation is designed for them; design that of one "
+        "joint at a time, with the others held");
   Model moved = model;
   if (moved.rig.controller) {
     words = "the rig's controller";

@@ -137,12 +137,11 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
   if (!job.options.figures) return;
   preload.figures = dynamic_figures(job, equations, solutions, preload);
   for (const DynamicFit& fit : preload.fits)
-    if (fit.trace)
-      for (Figure& figure : trace_figures(*fit.trace)) {
-        figure.section = preload.name;
-        figure.group = "recursive least squares, " + fit.model;
-        preload.figures.push_back(std::move(figure));
-      }
+    for (Figure& figure : trace_figures(fit.traces, fit.parameters)) {
+      figure.section = preload.name;
+      figure.group = "estimates over time, " + fit.model;
+      preload.figures.push_back(std::move(figure));
+    }
 }
 
 /// A curve that is not that of the cables bends every estimate, by how much no residual says.
@@ -240,10 +239,9 @@ DynamicResult fit_dynamic(std::span<const LogSurvey> logs, const ElasticResult& 
                       "give a log in which the link moves, or a 'phase' column that says so");
   const bool rigid = options.models.size() == 1 && options.models.front() == "rigid";
   const bool ratios = options.models.size() == 1 && options.models.front() == "ratios";
-  if (rigid || ratios)
+  if (ratios)
     for (const LogSurvey& log : logs)
-      require_one_joint(log.plan,
-                        fmt::format("--model {} supports one joint", options.models.front()));
+      require_one_joint(log.plan, "--model ratios supports one joint");
   if (!options.validation.empty()) {
     if (ratios)
       throw usage_error("--validate compares torques, and --model ratios has none",

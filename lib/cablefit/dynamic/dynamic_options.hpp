@@ -36,6 +36,8 @@ struct DynamicOptions {
   bool sweep = false;          ///< fit again with other cut-offs and rest speeds
   /// The method's floor where it is already known, by parameter; none: it is measured.
   std::optional<std::map<std::string, double>> method_floor = {};
+  /// s, memory of the estimators `recursive` and `gradient`; 0: recursive forgets nothing.
+  double memory = 0;
   std::vector<LogSurvey> validation = {};  ///< logs to judge the fit on, none of them fitted
 };
 

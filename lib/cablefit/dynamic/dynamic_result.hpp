@@ -65,7 +65,7 @@ struct DynamicFit {
   std::optional<FitProof> proof;  ///< of a rerun on simulated logs, when it was asked for
   std::map<std::string, std::string> sd_reason = {};  ///< by equation: which sd, and why
   std::vector<SuspectSpan> suspects = {};             ///< of a robust fit
-  std::optional<RecursiveTrace> trace = {};           ///< of a recursive one
+  std::vector<RecursiveTrace> traces = {};            ///< of recursive and gradient ones
   std::optional<Sweep> sweep = {};                    ///< when asked for
   /// By parameter, sd in its unit: error of the method itself on a simulated copy of the
   /// motion (method_floor.hpp), the difference to instrumental variables where neither is

@@ -217,10 +217,10 @@ BlockedRows rows_of_joint(const Collected& all, const Transmission& transmission
 
 }  // namespace
 
-std::vector<BlockedRows> collect_joints(const ElasticJob& job, double theta_0,
+std::vector<BlockedRows> collect_joints(const ElasticJob& job, const Eigen::VectorXd& theta_0,
                                         const Transmission* pilot) {
   Transmission transmission = job.basis;
-  transmission.theta_0 = Eigen::VectorXd::Constant(job.basis.n_joints, theta_0);
+  transmission.theta_0 = theta_0;
   const Collected all = collect(job, transmission, pilot);
   std::vector<BlockedRows> joints;
   for (int joint = 0; joint < transmission.n_joints; ++joint) {
@@ -231,7 +231,8 @@ std::vector<BlockedRows> collect_joints(const ElasticJob& job, double theta_0,
 }
 
 BlockedRows collect_blocked(const ElasticJob& job, double theta_0, const Transmission* pilot) {
-  return collect_joints(job, theta_0, pilot).front();
+  const Eigen::VectorXd zeros = Eigen::VectorXd::Constant(job.basis.n_joints, theta_0);
+  return collect_joints(job, zeros, pilot).front();
 }
 
 BlockedRows stack(const std::vector<BlockedRows>& joints, const std::vector<double>& weights) {

@@ -56,8 +56,8 @@ struct BlockedRows {
 
 /// `pilot`: a first curve, whose slope gives the column of theta_0; may be null.
 BlockedRows collect_blocked(const ElasticJob& job, double theta_0, const Transmission* pilot);
-/// The same for every joint of the rig, in one pass.
-std::vector<BlockedRows> collect_joints(const ElasticJob& job, double theta_0,
+/// The same for every joint of the rig, in one pass. `theta_0`: n_joints.
+std::vector<BlockedRows> collect_joints(const ElasticJob& job, const Eigen::VectorXd& theta_0,
                                         const Transmission* pilot);
 /// The rows of all joints under each other, each joint's with its weight. Neither equations nor an
 /// archive.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "cablefit/model/stiffness.hpp"
+
 namespace cablefit {
 namespace {
 
@@ -35,7 +37,8 @@ double motor_stiffness(const Transmission& transmission, double q, double theta)
   return sum;
 }
 
-// Elongation of one cable, row by row.
+}  // namespace
+
 Eigen::ArrayXd elongation(const Transmission& transmission, const Cable& cable,
                           std::span<const JointSignals> joints) {
   std::optional<Eigen::ArrayXd> sum;
@@ -50,48 +53,61 @@ Eigen::ArrayXd elongation(const Transmission& transmission, const Cable& cable,
   return *sum + cable.shift();
 }
 
-}  // namespace
-
 Eigen::Index n_elastic_columns(const Transmission& transmission) {
   Eigen::Index n = 0;
   for (const Cable& cable : transmission.cables) n += cable.law->n_coefficients(cable.order);
   return n;
 }
 
-void elastic_basis(const Transmission& transmission, const JointSignals& s, ElasticSide side,
-                   Eigen::Ref<Eigen::MatrixXd> out) {
-  elastic_basis(transmission, std::span(&s, 1), side, 0, out);
+namespace {
+
+// Column of S or P times the basis of one cable, row by row, at these elongations.
+void fill_basis(const Cable& cable, const Eigen::ArrayXd& l, const Eigen::ArrayXd& gain,
+                Eigen::Ref<Eigen::MatrixXd> out) {
+  std::array<double, kMaxCableOrder> values{};
+  const LawShape shape = cable.shape();
+  for (Eigen::Index i = 0; i < out.rows(); ++i) {
+    if (l(i) > 0) {
+      cable.law->basis(shape, l(i), values.data());
+    } else {
+      values.fill(0);
+    }
+    for (Eigen::Index k = 0; k < out.cols(); ++k)
+      out(i, k) = gain(i) * values[static_cast<std::size_t>(k)];
+  }
+}
+
+void fill_all(const Transmission& transmission, std::span<const JointSignals> joints,
+              ElasticSide side, std::size_t own, const Eigen::ArrayXXd& others,
+              Eigen::Ref<Eigen::MatrixXd> out) {
+  const bool on_motor = side == ElasticSide::motor;
+  const Eigen::ArrayXd turned = joints[own].theta - encoder_zero(transmission, own);
+  Eigen::Index first = 0, number = 0;
+  for (const Cable& cable : transmission.cables) {
+    const Eigen::Index n = cable.n_coefficients();
+    const DisplacementMap& map = on_motor ? cable.motor_map[own] : cable.link_map[own];
+    if (map.is_zero()) {
+      out.middleCols(first, n).setZero();
+    } else {
+      Eigen::ArrayXd l = elongation(transmission, cable, joints);
+      if (others.cols() > 0) l += others.col(number);
+      fill_basis(cable, l, map.radii(on_motor ? turned : joints[own].q), out.middleCols(first, n));
+    }
+    first += n;
+    ++number;
+  }
+}
+
+}  // namespace
+
+void elastic_basis(const Transmission& transmission, const JointSignals& signals, ElasticSide side,
+                   Eigen::Ref<Eigen::MatrixXd> out, const Eigen::ArrayXXd& others) {
+  fill_all(transmission, std::span(&signals, 1), side, 0, others, out);
 }
 
 void elastic_basis(const Transmission& transmission, std::span<const JointSignals> joints,
                    ElasticSide side, int joint, Eigen::Ref<Eigen::MatrixXd> out) {
-  const auto own = static_cast<std::size_t>(joint);
-  const JointSignals& s = joints[own];
-  const Eigen::ArrayXd turned = s.theta - encoder_zero(transmission, own);
-  std::array<double, kMaxCableOrder> values{};
-  Eigen::Index first = 0;
-  for (const Cable& cable : transmission.cables) {
-    const int n = cable.n_coefficients();
-    const DisplacementMap& map =
-        side == ElasticSide::motor ? cable.motor_map[own] : cable.link_map[own];
-    if (map.is_zero()) {
-      out.middleCols(first, n).setZero();
-      first += n;
-      continue;
-    }
-    const LawShape shape = cable.shape();
-    const Eigen::ArrayXd l = elongation(transmission, cable, joints);
-    const Eigen::ArrayXd gain = map.radii(side == ElasticSide::motor ? turned : s.q);
-    for (Eigen::Index i = 0; i < out.rows(); ++i) {
-      if (l(i) > 0) {
-        cable.law->basis(shape, l(i), values.data());
-      } else {
-        values.fill(0);
-      }
-      for (int k = 0; k < n; ++k) out(i, first + k) = gain(i) * values[static_cast<std::size_t>(k)];
-    }
-    first += n;
-  }
+  fill_all(transmission, joints, side, static_cast<std::size_t>(joint), {}, out);
 }
 
 BlockedColumns blocked_columns(const Transmission& transmission) {
@@ -135,6 +151,29 @@ void fill_elongations(const Transmission& transmission, const BlockedColumns& c,
 
 }  // namespace
 
+namespace {
+
+// d tau_elas_m of a joint / d theta_0 of every joint: minus the stiffness of the motors.
+void fill_zeros(const Transmission& curve, std::span<const JointSignals> joints, int joint,
+                Eigen::Ref<Eigen::MatrixXd> out) {
+  if (joints.size() == 1) {
+    for (Eigen::Index i = 0; i < out.rows(); ++i)
+      out(i, 0) = -motor_stiffness(curve, joints[0].q(i), joints[0].theta(i));
+    return;
+  }
+  const auto n = static_cast<Eigen::Index>(joints.size());
+  Eigen::VectorXd q(n), theta(n);
+  for (Eigen::Index i = 0; i < out.rows(); ++i) {
+    for (Eigen::Index k = 0; k < n; ++k) {
+      q(k) = joints[static_cast<std::size_t>(k)].q(i);
+      theta(k) = joints[static_cast<std::size_t>(k)].theta(i);
+    }
+    out.row(i) = -stiffness_matrices(curve, q, theta).motor_theta.row(joint);
+  }
+}
+
+}  // namespace
+
 Equation blocked_equation(const Transmission& transmission, const Transmission* pilot, bool sliding,
                           double rest_speed, double still_speed, int joint) {
   const BlockedColumns c = blocked_columns(transmission).of_joint(joint);
@@ -161,12 +200,11 @@ Equation blocked_equation(const Transmission& transmission, const Transmission* 
     out.col(c.offset).setOnes();
     out.col(c.direction) = s.theta_direction;
     out.col(c.speed) = s.thetad;
-    if (!curve) {
-      out.col(c.zero).setZero();
-    } else {
-      for (Eigen::Index i = 0; i < out.rows(); ++i)
-        out(i, c.zero) = -motor_stiffness(*curve, s.q(i), s.theta(i));
-    }
+    const Eigen::Index first_zero = c.zero - joint;
+    if (curve)
+      fill_zeros(*curve, signals.joints, joint, out.middleCols(first_zero, c.n_joints));
+    else
+      out.middleCols(first_zero, c.n_joints).setZero();
     out.col(c.tau) = s.tau;
   };
   const auto slow = [rest_speed](const JointSignals& s) {

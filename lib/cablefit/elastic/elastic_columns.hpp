@@ -16,17 +16,23 @@ enum class ElasticSide { motor, link };
 /// Of joint `joint` (from 0) of several, whose motion all cables that pass it depend on.
 void elastic_basis(const Transmission& transmission, std::span<const JointSignals> joints,
                    ElasticSide side, int joint, Eigen::Ref<Eigen::MatrixXd> out);
-/// Of a rig of one joint.
+/// Of a rig of one joint. `others`: what else stretches each cable, rows x cables, m; no columns:
+/// nothing.
 void elastic_basis(const Transmission& transmission, const JointSignals& signals, ElasticSide side,
-                   Eigen::Ref<Eigen::MatrixXd> out);
+                   Eigen::Ref<Eigen::MatrixXd> out, const Eigen::ArrayXXd& others = {});
+
+/// Elongation of one cable (m, joint space rad), row by row; `joints`: of all joints of the rig.
+Eigen::ArrayXd elongation(const Transmission& transmission, const Cable& cable,
+                          std::span<const JointSignals> joints);
 
 /// Number of columns elastic_basis writes.
 Eigen::Index n_elastic_columns(const Transmission& transmission);
 
 /// Position of every column of the blocked equation. With n joints, the equations of all have the
 /// same columns, so that their rows can stand under each other: of deflection, offset, direction,
-/// speed and zero there is one per joint, side by side, and 0 in the rows of the other joints; each
-/// cable's coefficients are shared. The elongation of every cable follows tau.
+/// speed and zero there is one per joint, side by side, and 0 in the rows of the other joints, but
+/// for the zeros, which stretch the cables of other joints too; each cable's coefficients are
+/// shared. The elongation of every cable follows tau.
 struct BlockedColumns {
   int n_joints = 1;
   Eigen::Index deflection = 0;  ///< phi = theta - theta_0 - N q, Transmission::deflections
@@ -42,10 +48,10 @@ struct BlockedColumns {
 BlockedColumns blocked_columns(const Transmission& transmission);
 
 /// tau = tau_elas_m(theta - theta_0, q) + offset + f_sm * direction + f_vm * thetad, with
-/// direction -1 or 1 of the last motion. `pilot` (may be null): a first curve, whose -d tau/d
-/// theta_0 is column `zero`. `sliding`: rows in motion only, else rows at rest only (plateaus).
-/// `still_speed` > 0: only rows in which the link is slower than this (--still). `joint`: whose
-/// equation, from 0; the encoder zeros of several joints have no column (it stays 0).
+/// direction -1 or 1 of the last motion. `pilot` (may be null): a first curve, whose d tau/d
+/// theta_0 are the columns from `zero` on, of the motors of all joints. `sliding`: rows in motion
+/// only, else rows at rest only (plateaus). `still_speed` > 0: only rows in which the link is
+/// slower than this (--still). `joint`: whose equation, from 0.
 Equation blocked_equation(const Transmission& transmission, const Transmission* pilot, bool sliding,
                           double rest_speed, double still_speed, int joint = 0);
 

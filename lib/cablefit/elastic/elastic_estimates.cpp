@@ -41,17 +41,23 @@ std::string unit_of(const ElasticCandidate& candidate, std::size_t k, bool cable
   return name == "K" ? "N m/rad" : name == "theta_0" ? "rad" : name == "f_vm" ? "N m s/rad" : "N m";
 }
 
+/// Joint (from 0) of "f_sm[2]"; of a rig of one joint 0.
+int joint_of(const std::string& name) {
+  const auto at = name.find('[');
+  return at == std::string::npos ? 0 : std::stoi(name.substr(at + 1)) - 1;
+}
+
 /// Linear spring with an arbitrary encoder zero: K phi + c = K (phi - theta_0), theta_0 = -c/K, by
-/// the delta method.
-Estimate zero_of_line(const LinearSolution& s, Eigen::Index constant, double zero,
+/// the delta method. `k`, `constant`: places of K and c.
+Estimate zero_of_line(const LinearSolution& s, Eigen::Index k, Eigen::Index constant, double zero,
                       bool linear_motion, bool honest) {
-  const double stiffness = s.x(0);
+  const double stiffness = s.x(k);
   const double by_stiffness = s.x(constant) / (stiffness * stiffness);
   const double by_constant = -1 / stiffness;
   const auto sd = [&](const Eigen::MatrixXd& c) {
-    return std::sqrt(by_stiffness * by_stiffness * c(0, 0) +
+    return std::sqrt(by_stiffness * by_stiffness * c(k, k) +
                      by_constant * by_constant * c(constant, constant) +
-                     2 * by_stiffness * by_constant * c(0, constant));
+                     2 * by_stiffness * by_constant * c(k, constant));
   };
   Estimate e;
   e.name = e.symbol = "theta_0";
@@ -177,7 +183,6 @@ ElasticFit make_fit(const ElasticJob& job, const ElasticCandidate& candidate,
                     const LinearSolution& s, const BlockedRows& rows,
                     std::span<const Nuisance> nuisance) {
   const Rig& rig = job.rig();
-  const double zero = rows.transmission.theta_0(0);
   const auto n = static_cast<Eigen::Index>(candidate.n_elastic);
   ElasticFit fit;
   fit.model = candidate.model;
@@ -196,16 +201,23 @@ ElasticFit make_fit(const ElasticJob& job, const ElasticCandidate& candidate,
     const std::string unit = unit_of(candidate, k, rig.cables_given);
     Estimate e = estimate_of({name, name, unit, "", candidate.lower[k]}, rig.linear_motion, s,
                              index, {job.options.honest_sd});
-    if (name == "offset" && nuisance.front().theta_0) {
-      e = zero_of_line(s, index, zero, rig.linear_motion, job.options.honest_sd);
-    } else if (name == "theta_0") {
+    const bool is_nuisance = k >= candidate.n_elastic;
+    const int joint = is_nuisance ? joint_of(name) : 0;
+    const double zero = rows.transmission.theta_0(joint);
+    const bool is_zero = is_nuisance && without_index(name) == "theta_0";
+    if (is_nuisance && without_index(name) == "offset" &&
+        nuisance[static_cast<std::size_t>(joint)].theta_0) {
+      e = zero_of_line(s, joint, index, zero, rig.linear_motion, job.options.honest_sd);
+      e.name = e.symbol = joint_parameter_name("theta_0", joint + 1, job.basis.n_joints);
+    } else if (is_zero) {
       e.value += zero;
       e.ci_low += zero;
       e.ci_high += zero;
     }
     if (s.at_bound[k] && candidate.lower[k] == -kUnbounded)
       e.active_bound = hold_text(candidate, k);
-    if (e.name == "theta_0") fit.transmission.theta_0(0) = e.value;
+    if (is_nuisance && without_index(e.name) == "theta_0")
+      fit.transmission.theta_0(joint) = e.value;
     if (e.name == "offset") fit.offset = e.value;
     fit.parameters.push_back(std::move(e));
   }

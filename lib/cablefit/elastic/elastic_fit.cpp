@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/elastic/basis_figures.hpp"
+#include "cablefit/elastic/cable_bases.hpp"
 #include "cablefit/elastic/elastic_checks.hpp"
 #include "cablefit/elastic/elastic_estimates.hpp"
 #include "cablefit/elastic/elastic_figures.hpp"
@@ -178,6 +180,8 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
       preload.fits[k].misfit = find_misfit(stage.rows, candidates[k], solutions[k]);
   preload.scores =
       score_curves(stage.job, stage.rows, preload, candidates.back(), solutions.back());
+  if (stage.job.options.bases)
+    preload.bases = compare_bases(stage.job, stage.rows, candidates.back());
   const double left = note_log_zeros(stage.job, stage.rows, candidates, preload);
   note_loop(preload, left, stage.rows.plateaus);
   note_standstill(stage.job, stage.rows, candidates.back(), preload);
@@ -186,6 +190,8 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
   if (stage.job.options.figures)
     preload.figures = elastic_figures(stage.job, stage.rows, 0, candidates, solutions, preload,
                                       simpler_models(stage, preload));
+  if (stage.job.options.figures && preload.bases)
+    for (Figure& figure : basis_figures(preload)) preload.figures.push_back(std::move(figure));
   return preload;
 }
 
@@ -195,10 +201,9 @@ ElasticResult fit_elastic(std::span<const LogSurvey> logs, const ElasticOptions&
   ElasticResult result;
   for (const LogSurvey& log : logs) {
     result.inputs.push_back({log.plan.path, log.sha256, log.n_rows});
-    if (options.zero == ZeroMode::theta_0)
-      require_one_joint(log.plan, "--zero theta_0 supports one joint");
     if (!options.lines.empty())
       require_one_joint(log.plan, "scores of straight lines support one joint");
+    if (options.bases) require_one_joint(log.plan, "a comparison of bases supports one joint");
     if (options.offset.value_or(0) != 0)
       require_one_joint(log.plan, "a given offset that is not 0 supports one joint");
     refuse_search(log.plan.rig);

@@ -49,6 +49,7 @@ struct ElasticOptions {
   /// Of all cables of one joint, one after the other: given, so that offset and friction alone are
   /// fitted beside them; none: fitted.
   std::vector<double> coefficients = {};
+  bool bases = false;  ///< compare bases of the cables' force (cable_bases.hpp)
 };
 
 /// Fits every preload found in the blocked logs (with `still`: in all logs). Throws Error(input)

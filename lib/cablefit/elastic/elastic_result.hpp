@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cablefit/base/parameter.hpp"
+#include "cablefit/elastic/bases_result.hpp"
 #include "cablefit/estimate/tests/fit_proof.hpp"
 #include "cablefit/figure/figure.hpp"
 #include "cablefit/model/cables.hpp"
@@ -113,6 +114,7 @@ struct ElasticPreload {
   std::string rig_path;  ///< empty: the default rig
   RigFacts rig_facts;    ///< what the fit takes from it; empty: an old result did not keep it
   std::vector<Figure> figures;
+  std::optional<BasisComparison> bases = {};  ///< where asked for
 
   const ElasticFit* find(const std::string& model) const;
 };

@@ -10,6 +10,9 @@
 namespace cablefit {
 namespace {
 
+constexpr double kSignificant = 2;  // paired block test, standard errors
+constexpr double kWorthwhile =
+    0.01;                            // relative gain in mean squared error below which nobody cares
 constexpr double kRounding = 1e-14;  // of the largest eigenvalue of a Gram matrix
 
 // Least squares from a Gram matrix with scaled columns: scaled * y = b, x = scale * y. Its
@@ -112,6 +115,14 @@ Eigen::VectorXd HeldOut::block_errors(const std::vector<Eigen::VectorXd>& fits) 
                      static_cast<double>(block_rows_[k]));
   }
   return Eigen::Map<Eigen::VectorXd>(errors.data(), static_cast<Eigen::Index>(errors.size()));
+}
+
+bool beats(const Eigen::VectorXd& high, const Eigen::VectorXd& low) {
+  const Eigen::ArrayXd gain = (low - high).array();
+  const double n = static_cast<double>(gain.size());
+  const double mean = gain.mean();
+  const double spread = std::sqrt((gain - mean).square().sum() / std::max(1.0, n - 1) / n);
+  return n >= 4 && mean > kSignificant * spread && mean > kWorthwhile * low.mean();
 }
 
 }  // namespace cablefit

@@ -18,6 +18,9 @@ class HeldOut {
   explicit HeldOut(const RowStatistics& rows);
 
   Eigen::Index block_of(Eigen::Index cell_id) const;
+  Eigen::Index block_of_row(Eigen::Index row_number) const {
+    return block_of(row_number / cell_rows_);
+  }
   Eigen::Index fold_of_row(Eigen::Index row_number) const {
     return block_of(row_number / cell_rows_) % kHeldOutFolds;
   }
@@ -33,5 +36,9 @@ class HeldOut {
   std::vector<Eigen::MatrixXd> block_grams_;
   std::vector<Eigen::Index> block_rows_;
 };
+
+/// The errors `high` of a larger model are significantly and materially below those of a smaller
+/// one, by a paired test over blocks.
+bool beats(const Eigen::VectorXd& high, const Eigen::VectorXd& low);
 
 }  // namespace cablefit

@@ -18,6 +18,9 @@ namespace {
 constexpr double kArbitraryZero = 0.05;  // of the torque's spread: a larger offset is told
 constexpr double kLeastVariance =
     1e-12;  // of the torque's mean square: residuals that are rounding
+constexpr int kJointsPilotOrder = 2;
+constexpr int kJointsZeroIterations = 10;
+constexpr double kZeroFound = 1e-3;  // of the noise, in deflection
 
 /// One preload on the way to a result.
 struct Stage1 {
@@ -25,6 +28,7 @@ struct Stage1 {
   std::vector<BlockedRows> joints;
   BlockedRows all;  ///< of all joints, weighted
   std::vector<Nuisance> nuisance;
+  std::vector<double> weights;  ///< of the rows of each joint
 
   int n_joints() const { return job.basis.n_joints; }
 };
@@ -67,22 +71,84 @@ std::vector<double> weights_of(const Stage1& stage) {
   return weights;
 }
 
+/// Puts the rows of all joints together, by weights that know which frictions are fitted.
+void weigh(Stage1& stage) {
+  stage.weights = weights_of(stage);
+  stage.all = stack(stage.joints, stage.weights);
+}
+
 void collect_rows(Stage1& stage, ElasticPreload& preload) {
-  stage.joints = collect_joints(stage.job, 0, nullptr);
+  stage.joints = collect_joints(stage.job, Eigen::VectorXd::Zero(stage.n_joints()), nullptr);
   stage.nuisance.resize(stage.joints.size());
   for (int joint = 0; joint < stage.n_joints(); ++joint) {
     const BlockedRows& rows = stage.joints[static_cast<std::size_t>(joint)];
     require_rows(rows, stage.job, preload.name, joint);
     ElasticJoint& told = preload.joints.emplace_back();
     told.name = stage.job.rig().joints[static_cast<std::size_t>(joint)];
-    told.counts = rows.counts;
-    told.deflection_low = rows.deflection_low;
-    told.deflection_high = rows.deflection_high;
     look_at_branches(stage, joint, preload);
   }
-  const std::vector<double> weights = weights_of(stage);
-  stage.all = stack(stage.joints, weights);
-  for (std::size_t k = 0; k < weights.size(); ++k) preload.joints[k].weight = weights[k];
+  weigh(stage);
+}
+
+/// Places of the parameters of that name among those of the candidate, by joint.
+std::vector<Eigen::Index> places_of(const Stage1& stage, const ElasticCandidate& candidate,
+                                    const char* name) {
+  std::vector<Eigen::Index> places;
+  for (int joint = 0; joint < stage.n_joints(); ++joint) {
+    const auto at = std::find(candidate.names.begin(), candidate.names.end(),
+                              joint_parameter_name(name, joint + 1, stage.n_joints()));
+    places.push_back(at - candidate.names.begin());
+  }
+  return places;
+}
+
+std::vector<int> pilot_orders(const Stage1& stage) {
+  const ElasticJob& job = stage.job;
+  return job.orders.empty() ? std::vector<int>(job.basis.cables.size(), kJointsPilotOrder)
+                            : job.orders;
+}
+
+/// Gauss-Newton on the encoder zeros of all joints, as of one: from where the straight lines cross
+/// zero, every zero with its own column. Leaves `stage` with the rows about the last zeros.
+void find_zeros(Stage1& stage) {
+  const ElasticCandidate line = linear_candidate(stage.all, stage.nuisance);
+  const LinearSolution straight = solve_candidate(stage.all, line);
+  const Eigen::VectorXd stiffness = straight.x.head(stage.n_joints());
+  const Eigen::VectorXd constant = straight.x(places_of(stage, line, "offset"));
+  const Eigen::VectorXd width = straight.rms() * stiffness.cwiseAbs().cwiseInverse();
+  Eigen::VectorXd zeros = -constant.cwiseQuotient(stiffness);
+  Transmission pilot = classical_spring(stage.job.basis);
+  pilot.linear_stiffness = stiffness;
+  for (int iteration = 0; iteration < kJointsZeroIterations && zeros.allFinite(); ++iteration) {
+    pilot.theta_0 = zeros;
+    stage.joints = collect_joints(stage.job, zeros, &pilot);
+    weigh(stage);
+    const ElasticCandidate curve =
+        poly_candidate(stage.job, stage.all, pilot_orders(stage), stage.nuisance);
+    const LinearSolution s = solve_plain(stage.all, curve);
+    const Eigen::VectorXd step = s.x(places_of(stage, curve, "theta_0"));
+    pilot = fitted_transmission(curve, s.x);
+    if (!step.allFinite() || (step.cwiseAbs().array() < kZeroFound * width.array()).all()) return;
+    zeros += step.cwiseMin(5 * width).cwiseMax(-5 * width);
+  }
+}
+
+/// --zero theta_0: of every joint its encoder's zero instead of the drive's offset.
+void choose_zeros(Stage1& stage, ElasticPreload& preload) {
+  if (stage.job.options.zero != ZeroMode::theta_0) return;
+  preload.decisions.push_back({"zero", "theta_0", "given"});
+  for (Nuisance& nuisance : stage.nuisance) nuisance.theta_0 = true;
+  find_zeros(stage);
+}
+
+/// What the rows show that are fitted in the end.
+void describe_rows(const Stage1& stage, ElasticPreload& preload) {
+  for (std::size_t k = 0; k < stage.joints.size(); ++k) {
+    preload.joints[k].counts = stage.joints[k].counts;
+    preload.joints[k].deflection_low = stage.joints[k].deflection_low;
+    preload.joints[k].deflection_high = stage.joints[k].deflection_high;
+    preload.joints[k].weight = stage.weights[k];
+  }
   preload.counts = stage.all.counts;
   preload.modes = stage.all.modes;
   preload.windows = stage.all.windows;
@@ -96,7 +162,7 @@ double offset_of(const ElasticFit& fit, int joint, int n_joints) {
   return e != nullptr && e->not_identifiable.empty() ? e->value : 0;
 }
 
-/// An encoder's zero is not looked for here; what looks like one is told.
+/// An encoder's zero is looked for when asked; what looks like one is told.
 void note_zero(const Stage1& stage, int joint, ElasticPreload& preload) {
   const BlockedRows& rows = stage.joints[static_cast<std::size_t>(joint)];
   const BlockedColumns c = rows.columns.of_joint(joint);
@@ -107,9 +173,8 @@ void note_zero(const Stage1& stage, int joint, ElasticPreload& preload) {
   if (std::abs(offset) > kArbitraryZero * std::sqrt(2.0) * spread)
     preload.warnings.push_back(
         fmt::format("joint {}: the torque is {:.3g} {} at zero deflection; if an encoder's "
-                    "arbitrary zero causes it, not an offset of the drive, correct it in the rig "
-                    "file (\"shift\" of theta{}): with several joints theta_0 is not estimated",
-                    joint + 1, offset, preload.linear_motion ? "N" : "N m", joint + 1));
+                    "arbitrary zero causes it, not an offset of the drive, give --zero theta_0",
+                    joint + 1, offset, preload.linear_motion ? "N" : "N m"));
 }
 
 void note_joints(const Stage1& stage, ElasticPreload& preload) {
@@ -143,8 +208,10 @@ void draw(const Stage1& stage, const std::vector<ElasticCandidate>& candidates,
 ElasticPreload fit_joints(ElasticJob job, const std::string& name) {
   ElasticPreload preload = begin_preload(job, name);
   require_motion(job);
-  Stage1 stage{std::move(job), {}, {}, {}};
+  Stage1 stage{std::move(job), {}, {}, {}, {}};
   collect_rows(stage, preload);
+  choose_zeros(stage, preload);
+  describe_rows(stage, preload);
   std::vector<int> orders = stage.job.orders;
   if (orders.empty())
     orders = choose_orders(stage.job, stage.all, stage.nuisance, preload.selection);
@@ -154,8 +221,11 @@ ElasticPreload fit_joints(ElasticJob job, const std::string& name) {
   std::vector<LinearSolution> solutions;
   const std::vector<double> longest = longest_of(stage.all.elongations);
   for (const ElasticCandidate& candidate : candidates) {
-    solutions.push_back(solve_candidate(stage.all, candidate));
-    add_profiles(stage.all, candidate, stage.job.options.honest_sd, solutions.back());
+    const std::vector<double>& given = stage.job.options.coefficients;
+    const bool fitted = candidate.model == "linear" || given.empty();
+    solutions.push_back(fitted ? solve_candidate(stage.all, candidate)
+                               : solve_given(stage.all, candidate, given));
+    if (fitted) add_profiles(stage.all, candidate, stage.job.options.honest_sd, solutions.back());
     ElasticFit& fit = preload.fits.emplace_back(
         make_fit(stage.job, candidate, solutions.back(), stage.all, stage.nuisance));
     for (int joint = 0; joint < stage.n_joints(); ++joint)

@@ -13,7 +13,8 @@
 
 namespace cablefit {
 
-/// The fit of one preload of a rig with two joints or more. Encoder zeros are taken as known.
+/// The fit of one preload of a rig with two joints or more. Encoder zeros are taken as known, or
+/// with ZeroMode::theta_0 estimated instead of the offsets.
 ElasticPreload fit_joints(ElasticJob job, const std::string& name);
 
 }  // namespace cablefit

@@ -12,10 +12,6 @@
 namespace cablefit {
 namespace {
 
-constexpr double kSignificant = 2;  // paired block test, standard errors
-constexpr double kWorthwhile =
-    0.01;  // relative gain in mean squared error below which nobody cares
-
 /// What held-out blocks say of cables of some orders.
 struct OrderTrials {
   const ElasticJob& job;
@@ -29,15 +25,6 @@ struct OrderTrials {
     return held_out.block_errors(held_out.fits(candidate, rows.torque_response()));
   }
 };
-
-/// The errors `high` of a higher order are significantly and materially below those of a lower one.
-bool beats(const Eigen::VectorXd& high, const Eigen::VectorXd& low) {
-  const Eigen::ArrayXd gain = (low - high).array();
-  const double n = static_cast<double>(gain.size());
-  const double mean = gain.mean();
-  const double spread = std::sqrt((gain - mean).square().sum() / std::max(1.0, n - 1) / n);
-  return n >= 4 && mean > kSignificant * spread && mean > kWorthwhile * low.mean();
-}
 
 /// The lowest order of all cables that no higher one beats.
 std::vector<int> common_order(const OrderTrials& trials, std::vector<std::string>& words) {

@@ -31,7 +31,7 @@ Eigen::VectorXd fitted_with_half(std::span<const LogSurvey> logs, const Identify
     if (!is_aliased(facts[j])) continue;
     const MovingJob moving(logs, options, fit, judged, j, facts[j]);
     other.jobs[j].records.back() =
-        moving_record_with(with_cutoff_scaled(moving.job, kOtherCutoff).settings, facts[j]);
+        moving_record_with(with_cutoff_scaled(moving.job, kOtherCutoff), facts[j]);
   }
   return evaluate(other, {judged.point.l_o}).front().solution.x;
 }

@@ -22,16 +22,10 @@
 namespace cablefit {
 namespace {
 
-void require_channels(std::span<const LogSurvey> logs) {
+void require_channels(std::span<const LogSurvey> logs, bool has_effects) {
   for (const LogSurvey& log : logs) {
-    if (log.plan.rig.n_joints() > 1)
-      throw input_error(
-          {log.plan.rig.path, 0, 0},
-          fmt::format("the rig has {} joints; one step, and the search of l_o, support one joint",
-                      log.plan.rig.n_joints()),
-          "use 'cablefit elastic' and 'cablefit dynamic', and give every \"initial_elongation\" as "
-          "a "
-          "number");
+    if (has_effects)
+      require_one_joint(log.plan, "a model with effects beyond the paper's supports one joint");
     require_channel(log.plan, Channel::q, "the deflection theta - q");
     require_channel(log.plan, Channel::theta, "the deflection theta - q");
     require_channel(log.plan, Channel::tau, "the torque balance of the motor");
@@ -63,8 +57,7 @@ JointFit full_fit(std::span<const LogSurvey> logs, const IdentifyOptions& option
     ++moving;
     const Transmission cables = fitted_cables(first.jobs[j], start.l_o[j], start.solution.x);
     jobs[j].records.push_back(
-        moving_record(logs, options, cables,
-                      reference_deflections(cables, first.elongations(j, start.l_o[j])), facts[j]));
+        moving_record(logs, options, cables, deflections_of(first, j, start), facts[j]));
   }
   return make_joint_fit(logs, std::move(jobs), moving > 1, options.unconstrained,
                         options.samples.threads);
@@ -132,7 +125,7 @@ bool curve_wants_search(std::span<const LogSurvey> logs, const IdentifyOptions& 
 
 IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& given) {
   IdentifyResult result;
-  require_channels(logs);
+  require_channels(logs, !given.effects.empty());
   require_fittable(given.effects, false);
   IdentifyOptions options = given;
   if (options.elongations == ElongationMode::automatic && !options.unconstrained &&

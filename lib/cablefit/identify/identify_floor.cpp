@@ -14,6 +14,8 @@
 namespace cablefit {
 namespace {
 
+constexpr const char* kMotorInertia = "J_motor";
+
 /// The fitted values as solutions of the two equations of stage 2.
 std::vector<LinearSolution> as_solutions(const JointFit& fit, const JudgedPoint& judged,
                                          const std::vector<EquationRows>& equations,
@@ -70,6 +72,9 @@ Eigen::VectorXd shift_by(const JointFit& fit, const JudgedPoint& judged, std::si
 Decision add_shift(std::span<const LogSurvey> logs, const IdentifyOptions& options,
                    const JointFit& fit, const JudgedPoint& judged, std::size_t job,
                    const PreloadFacts& facts, Eigen::VectorXd& shift) {
+  if (facts.arm != nullptr && facts.arm->is_coupled())
+    return {"moving: method's floor", "not in the sd",
+            "not measured for links that move each other"};
   const MovingJob moving(logs, options, fit, judged, job, facts);
   const std::vector<EquationRows> equations = make_equations(moving.job);
   const Model model =
@@ -88,11 +93,14 @@ Decision add_shift(std::span<const LogSurvey> logs, const IdentifyOptions& optio
 }
 
 void note_low_cutoffs(const Estimate& j_motor, double error, std::vector<PreloadFacts>& facts) {
-  for (PreloadFacts& preload : facts) {
-    std::string warning =
-        low_cutoff_warning(preload.cutoff, preload.resonance, j_motor, error, true);
-    if (!warning.empty()) preload.warnings.push_back(std::move(warning));
-  }
+  for (PreloadFacts& preload : facts)
+    for (std::size_t k = 0; k < preload.cutoffs.size(); ++k) {
+      const int n = preload.rig.n_joints();
+      if (j_motor.name != joint_parameter_name(kMotorInertia, static_cast<int>(k) + 1, n)) continue;
+      std::string warning =
+          low_cutoff_warning(preload.cutoffs[k], preload.resonances[k], j_motor, error, true);
+      if (!warning.empty()) preload.warnings.push_back(std::move(warning));
+    }
 }
 
 }  // namespace
@@ -109,7 +117,7 @@ void add_method_floor(std::span<const LogSurvey> logs, const IdentifyOptions& op
     Estimate& e = estimates[k];
     const double error = shift(static_cast<Eigen::Index>(k));
     if (e.not_identifiable.empty() && e.sd > 0) widen_interval(e, std::hypot(1, error / e.sd));
-    if (e.name == "J_motor") note_low_cutoffs(e, error, facts);
+    note_low_cutoffs(e, error, facts);
   }
 }
 

@@ -16,15 +16,18 @@ namespace cablefit {
 
 /// One equation of one preload.
 struct IdentifyEquation {
-  std::string name;  ///< "blocked", "link", "motor"
+  std::string name;  ///< "blocked", "link", "motor"; of several joints "link[2]"
+  std::string side;  ///< "blocked", "link", "motor"
   RowCounts counts;
   double rms = 0;             ///< N m, of its residual
   double weight = 0;          ///< (N m)^-2
   double effective_rows = 0;  ///< independent rows with the same information
 };
 
-/// The slope of a straight line through the blocked rows: the linear model's K over their range.
+/// The slope of a straight line through the blocked rows of a joint: the linear model's K over
+/// their range.
 struct LineStiffness {
+  std::string name;          ///< "K"; of several joints "K[2]"
   double low = 0, high = 0;  ///< of the deflection
   double measured = 0, sd = 0;
   double model = 0;  ///< of the same line through the fitted elastic torque
@@ -46,14 +49,15 @@ struct IdentifyPreload {
   std::vector<Estimate> derived;             ///< stiffness, resonance, ...: of several parameters
   Transmission transmission;                 ///< fitted
   std::vector<ElongationRange> elongations;  ///< that each cable reached
-  /// Deflections that reach them with the link in its reference position.
+  /// Deflections that reach them with the link in its reference position; of several joints all
+  /// that their rows have.
   double deflection_low = 0, deflection_high = 0;
-  double equilibrium = 0;  ///< N m, largest |P f|, |S f| in the reference pose
-  std::optional<LineStiffness> line;
+  double equilibrium = 0;            ///< N m, largest |P f|, |S f| in the reference pose
+  std::vector<LineStiffness> lines;  ///< of every joint with blocked rows
   std::vector<SlackPoint> slack;
   std::vector<IdentifyEquation> equations;
   TorqueDelay delay;
-  double resonance = 0;     ///< f0, Hz; 0: no moving logs
+  double resonance = 0;     ///< f0, Hz, the highest of all joints; 0: no moving logs
   double load_inertia = 0;  ///< of the hanging or swinging mass, part of J_link
   std::vector<Decision> decisions;
   std::vector<std::string> warnings;

@@ -7,12 +7,12 @@
 
 namespace cablefit {
 
-/// The equation of the blocked link. `moving`: the motor equation is there too and tells the
-/// frictions.
+/// The equation of the blocked link of every joint. `moving`: the motor equations are there too and
+/// determine the frictions.
 JointRecord blocked_record(std::span<const LogSurvey> logs, const IdentifyOptions& options,
                            bool moving, PreloadFacts& facts);
 
-/// Link and motor equation with settings that need no elastic fit yet.
+/// Link and motor equations with settings that need no elastic fit yet.
 JointRecord first_moving_record(std::span<const LogSurvey> logs, const IdentifyOptions& options,
                                 const PreloadFacts& facts);
 
@@ -20,7 +20,7 @@ JointRecord first_moving_record(std::span<const LogSurvey> logs, const IdentifyO
 /// owns what its job refers to, and stays where it is.
 struct MovingJob {
   MovingJob(std::span<const LogSurvey> logs, const IdentifyOptions& options,
-            const Transmission& fitted, const DeflectionRange& deflections,
+            const Transmission& fitted, const std::vector<DeflectionRange>& deflections,
             const PreloadFacts& facts);
   /// With the cables that the fit found.
   MovingJob(std::span<const LogSurvey> logs, const IdentifyOptions& options, const JointFit& fit,
@@ -34,12 +34,12 @@ struct MovingJob {
   DynamicJob job;
 };
 
-/// Link and motor equation of the moving logs with these settings.
-JointRecord moving_record_with(const ChosenSettings& settings, const PreloadFacts& facts);
+/// Link and motor equations of the moving logs with the settings of the job.
+JointRecord moving_record_with(const DynamicJob& job, const PreloadFacts& facts);
 
 /// The same with settings chosen by the elastic fit: filter by the resonance, torque hold.
 JointRecord moving_record(std::span<const LogSurvey> logs, const IdentifyOptions& options,
-                          const Transmission& fitted, const DeflectionRange& deflections,
-                          PreloadFacts& facts);
+                          const Transmission& fitted,
+                          const std::vector<DeflectionRange>& deflections, PreloadFacts& facts);
 
 }  // namespace cablefit

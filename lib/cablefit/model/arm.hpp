@@ -16,6 +16,7 @@ namespace cablefit {
 
 class JsonNode;
 struct SerialArm;
+struct SerialChain;
 
 /// Parameters of any arm; each kind uses what it needs. SI.
 struct ArmParameters {
@@ -55,6 +56,10 @@ struct ArmKind {
   /// The base parameters by what the rig file says of masses; none: it does not. nullptr: it
   /// cannot.
   std::vector<double> (*described)(const ArmParameters& parameters) = nullptr;
+  /// The joints and links, with `base` (values of the base parameters) as the links' inertias: on
+  /// the standard parameter that each combination is named after, 0 elsewhere. Their torques are
+  /// those of the regressor (arm/arm_dynamics.hpp). nullptr without base parameters.
+  SerialChain (*chain)(const ArmParameters& parameters, std::span<const double> base) = nullptr;
   /// Makes sense on linear axes.
   bool may_slide = false;
   /// Name of the row that the arm belongs to once it is read; empty: this one.

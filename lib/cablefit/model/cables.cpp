@@ -12,7 +12,8 @@ namespace cablefit {
 namespace {
 
 const std::vector<CableLaw>& table() {
-  static const std::vector<CableLaw> kRows{laws::linear(), laws::polynomial(), laws::strand()};
+  static const std::vector<CableLaw> kRows{laws::linear(), laws::polynomial(), laws::strand(),
+                                           laws::spline()};
   return kRows;
 }
 

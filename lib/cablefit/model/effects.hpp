@@ -61,6 +61,13 @@ void set_elastic(const Transmission& transmission, const Eigen::VectorXd& q,
 struct Recording {
   double period = 0;  ///< s
   Eigen::ArrayXd q, theta, tau, tau_load;
+  /// What other joints add to the elongation of the joint's cables, samples x cables, m; no
+  /// columns: there are none.
+  Eigen::ArrayXXd others = {};
+  /// Of links that move each other: q of all joints, samples x joints, rad, and which is this one.
+  /// No columns: the link moves for itself.
+  Eigen::ArrayXXd links = {};
+  Eigen::Index joint = 0;
 };
 
 /// How large the motion of the logs is: the unit of some grids.

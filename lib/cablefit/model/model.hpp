@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,6 +49,16 @@ struct Model {
   ParameterCovariance covariance = {};
   /// Means of the link equation's residual in the fit (window_mean.hpp), N m; empty: not known.
   std::vector<WindowMean> link_residual = {};
+  /// Base parameters of a coupled arm, in its order (arm.hpp): its links have no J_link of their
+  /// own. Empty: every link turns its own inertia, or the drive is rigid.
+  std::vector<Estimate> arm = {};
+  /// Of one joint taken out of several (one_joint.hpp): the model it comes from, and which of its
+  /// joints it is, from 0. nullptr: the model is whole.
+  std::shared_ptr<const Model> whole = nullptr;
+  int joint = 0;
+
+  /// Links move each other.
+  bool is_coupled() const { return !arm.empty(); }
 };
 
 /// The model's name when no fit has given one: "rigid", "linear" or "poly".

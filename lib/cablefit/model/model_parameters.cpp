@@ -7,6 +7,21 @@
 namespace cablefit {
 namespace {
 
+void add_arm(const Model& model, std::vector<ModelParameter>& out) {
+  const std::vector<ParameterInfo> infos = model.rig.arm.base_parameters();
+  for (std::size_t k = 0; k < model.arm.size(); ++k) {
+    ModelParameter p;
+    p.kind = ParameterKind::arm;
+    p.name = infos[k].name;
+    p.symbol = infos[k].symbol;
+    p.unit = unit_on(model.rig, infos[k].unit);
+    p.lower = infos[k].lower;
+    p.upper = infos[k].upper;
+    p.index = k;
+    out.push_back(p);
+  }
+}
+
 void add_effects(const Model& model, int joint, bool on_link, std::vector<ModelParameter>& out) {
   const JointModel& axes = model.joints[static_cast<std::size_t>(joint)];
   const std::vector<EffectInstance>& instances = on_link ? axes.link : axes.motor;
@@ -41,7 +56,8 @@ void add_added(const Model& model, int joint, std::vector<ModelParameter>& out) 
       const std::size_t n_linear = added[e].effect->n_linear();
       ModelParameter p;
       p.kind = ParameterKind::added;
-      p.name = added_parameter_name(*added[e].effect, info);
+      p.name = joint_parameter_name(added_parameter_name(*added[e].effect, info), joint + 1,
+                                    static_cast<int>(model.joints.size()));
       p.symbol = info.symbol;
       p.unit = unit_on(model.rig, info.unit);
       p.lower = info.lower;
@@ -102,6 +118,8 @@ template <typename SomeModel>
 auto& number(SomeModel& model, const ModelParameter& p) {
   auto& transmission = model.transmission;
   switch (p.kind) {
+    case ParameterKind::arm:
+      return model.arm[p.index].value;
     case ParameterKind::effect: {
       auto& axes = model.joints[static_cast<std::size_t>(p.joint)];
       return (p.on_link ? axes.link : axes.motor)[p.effect].parameters[p.index].value;
@@ -127,6 +145,7 @@ auto& number(SomeModel& model, const ModelParameter& p) {
 
 std::vector<ModelParameter> model_parameters(const Model& model) {
   std::vector<ModelParameter> out;
+  add_arm(model, out);
   for (int joint = 0; joint < static_cast<int>(model.joints.size()); ++joint) {
     if (!model.rigid) add_effects(model, joint, true, out);
     add_effects(model, joint, false, out);

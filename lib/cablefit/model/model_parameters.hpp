@@ -11,8 +11,8 @@
 
 namespace cablefit {
 
-/// `added`: of an effect beyond (31).
-enum class ParameterKind { effect, added, stiffness, coefficient, elongation, encoder_zero };
+/// `arm`: a base parameter of a coupled arm; `added`: of an effect beyond (31).
+enum class ParameterKind { arm, effect, added, stiffness, coefficient, elongation, encoder_zero };
 
 /// Where a parameter stands in a model. Which members count depends on `kind`.
 struct ModelParameter {
@@ -24,8 +24,8 @@ struct ModelParameter {
   std::size_t effect = 0, cable = 0, index = 0;
 };
 
-/// In the order of the file: effects joint by joint (link, motor, added), K or the coefficients of
-/// every cable, l_o of every cable, theta_0 of every joint. A rigid drive has effects only.
+/// Base parameters of the arm, effects joint by joint (link, motor, added), K or the coefficients
+/// of every cable, l_o of every cable, theta_0 of every joint. A rigid drive has effects only.
 std::vector<ModelParameter> model_parameters(const Model& model);
 
 /// Of an effect that adds to an axis' inertia.

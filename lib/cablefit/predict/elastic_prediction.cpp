@@ -14,7 +14,8 @@ constexpr double kNormal975 = 1.959964;
 Model elastic_only(Model model) {
   std::vector<std::string> names;
   for (const ModelParameter& p : model_parameters(model)) {
-    const bool is_elastic = p.kind != ParameterKind::effect && p.kind != ParameterKind::added;
+    const bool is_elastic = p.kind != ParameterKind::arm && p.kind != ParameterKind::effect &&
+                            p.kind != ParameterKind::added;
     if (is_elastic && model.covariance.of({p.name})) names.push_back(p.name);
   }
   if (names.empty()) {

@@ -45,7 +45,7 @@ Model fitted_model(const DynamicFit& fit, const DynamicPreload& preload, const R
   }
   if (fit.elastic) model.transmission = fit.elastic->transmission;
   if (rig.arm.kind != nullptr && rig.arm.is_coupled())
-    why_not = "coupled joints are not simulated yet";
+    why_not = "--prove is not made for links that move each other";
   return model;
 }
 

@@ -7,9 +7,11 @@
 #include <utility>
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/dynamic/dynamic_fit.hpp"
 #include "cablefit/identify/elastic_stage.hpp"
 #include "cablefit/identify/identify.hpp"
 #include "cablefit/model/model_parameters.hpp"
+#include "cablefit/prove/fitted_model.hpp"
 #include "cablefit/refine/rows/base_rows.hpp"
 
 namespace cablefit {
@@ -20,8 +22,9 @@ constexpr const char* kCables = "poly";
 constexpr int kPlainOrder = 2;
 constexpr double kAnyInertia = 1;  // kg m^2; it stands until the rows have told
 
-std::vector<EffectInstance> blank_effects(Side side, const Rig& rig) {
-  return base_instances(side, 1, rig, [](const Estimate& blank) { return std::optional(blank); });
+std::vector<EffectInstance> blank_effects(Side side, int joint, const Rig& rig) {
+  return base_instances(side, joint, rig,
+                        [](const Estimate& blank) { return std::optional(blank); });
 }
 
 Model blank_model(const std::string& preload, const Rig& rig, bool rigid) {
@@ -29,9 +32,11 @@ Model blank_model(const std::string& preload, const Rig& rig, bool rigid) {
   model.preload = preload;
   model.rig = rig;
   model.rigid = rigid;
-  JointModel& axes = model.joints.emplace_back();
-  if (!rigid) axes.link = blank_effects(Side::link, rig);
-  axes.motor = blank_effects(rigid ? Side::rigid : Side::motor, rig);
+  for (int joint = 1; joint <= rig.n_joints(); ++joint) {
+    JointModel& axes = model.joints.emplace_back();
+    if (!rigid) axes.link = blank_effects(Side::link, joint, rig);
+    axes.motor = blank_effects(rigid ? Side::rigid : Side::motor, joint, rig);
+  }
   model.name = default_model_name(model);
   return model;
 }
@@ -70,10 +75,8 @@ void take_cables(const ElasticFit& fit, Model& model) {
   model.elastic = fit.parameters;
 }
 
-/// Lowest and highest order of the cables. Stage 1 may choose one per cable; those of a rig file
-/// stand.
-std::pair<int, int> orders_of(const ElasticFit& fit, bool from_rig) {
-  if (from_rig) return {fit.order, fit.order};
+/// Lowest and highest order of the cables: stage 1 may choose one per cable.
+std::pair<int, int> orders_of(const ElasticFit& fit) {
   const auto [least, most] =
       std::minmax_element(fit.transmission.cables.begin(), fit.transmission.cables.end(),
                           [](const Cable& a, const Cable& b) { return a.order < b.order; });
@@ -82,22 +85,57 @@ std::pair<int, int> orders_of(const ElasticFit& fit, bool from_rig) {
 
 /// Coefficients are shared between preloads, and a cable of a lower order than its neighbour would
 /// be an effect to be found (stiffness_order): of different orders the highest for all. At most the
-/// second order of the paper: a higher one is such an effect.
+/// second order of the paper: a higher one is such an effect. Those of a rig file stand.
 ElasticResult shared_stage1(std::span<const LogSurvey> logs, int threads) {
   ElasticOptions options;
   options.samples.threads = threads;
   options.honest_sd = false;
   ElasticResult result = fit_elastic_stage(logs, options, ElongationMode::automatic);
+  if (logs.front().plan.rig.cables_given) return result;
   int lowest = kMaxCableOrder, highest = 0;
   for (const ElasticPreload& preload : result.preloads) {
-    const auto [least, most] =
-        orders_of(*preload.find(kCables), logs.front().plan.rig.cables_given);
+    const auto [least, most] = orders_of(*preload.find(kCables));
     lowest = std::min(lowest, least);
     highest = std::max(highest, most);
   }
   if (lowest == highest && highest <= kPlainOrder) return result;
   options.order = std::min(highest, kPlainOrder);
   return fit_elastic_stage(logs, options, ElongationMode::automatic);
+}
+
+std::vector<Estimate> arm_of(const DynamicFit& fit, const Rig& rig) {
+  std::vector<Estimate> arm;
+  for (const ParameterInfo& info : rig.arm.base_parameters()) {
+    const Estimate* e = find_estimate(fit.parameters, info.name);
+    if (e == nullptr || !std::isfinite(e->value))
+      throw Error(ErrorKind::not_identifiable,
+                  fmt::format("the moving logs do not determine {} of the arm", info.name));
+    arm.push_back(*e);
+  }
+  return arm;
+}
+
+/// Links that move each other are started from stage 2: no single joint tells their masses.
+void take_arm(std::span<const LogSurvey> logs, const ElasticResult& stage1, int threads,
+              std::vector<Model>& models, std::vector<Decision>& decisions) {
+  std::vector<LogSurvey> moving;
+  for (const LogSurvey& log : logs)
+    if (std::any_of(log.parts.begin(), log.parts.end(),
+                    [](const PartSurvey& part) { return part.phase == Phase::moving; }))
+      moving.push_back(log);
+  DynamicOptions options;
+  options.samples.threads = threads;
+  options.estimator = "wls";
+  options.honest_sd = false;
+  for (const DynamicPreload& preload : fit_dynamic(moving, stage1, options).preloads)
+    for (Model& model : models) {
+      if (preload.name != model.preload) continue;
+      const DynamicFit& fit = preload.fits.front();
+      std::string not_asked;  // the arm is taken apart from it
+      model.joints = fitted_model(fit, preload, model.rig, not_asked).joints;
+      model.arm = arm_of(fit, model.rig);
+    }
+  decisions.push_back({"arm", "base parameters", "stage 2, from the moving logs"});
 }
 
 void take_stage1(std::span<const LogSurvey> logs, int threads, std::vector<Model>& models,
@@ -107,15 +145,17 @@ void take_stage1(std::span<const LogSurvey> logs, int threads, std::vector<Model
     for (const ElasticPreload& preload : stage1.preloads)
       if (preload.name == model.preload) take_cables(*preload.find(kCables), model);
   decisions.push_back({"cables", kCables, "stage 1, from the blocked logs"});
+  if (models.front().rig.arm.is_coupled()) take_arm(logs, stage1, threads, models, decisions);
 }
 
 /// One straight spring, whose stiffness the rows tell.
 void take_spring(std::vector<Model>& models) {
   for (Model& model : models) {
     model.name = "linear";
+    const auto n = static_cast<Eigen::Index>(model.joints.size());
     model.transmission = classical_spring(model.transmission);
-    model.transmission.linear_stiffness = Eigen::VectorXd::Ones(1);
-    model.transmission.theta_0 = Eigen::VectorXd::Zero(1);
+    model.transmission.linear_stiffness = Eigen::VectorXd::Ones(n);
+    model.transmission.theta_0 = Eigen::VectorXd::Zero(n);
   }
 }
 
@@ -136,10 +176,11 @@ void take_one_step(std::span<const LogSurvey> logs, int threads, std::vector<Mod
 
 /// An inertia that the rig file gives is not fitted.
 void take_given_inertia(Model& model) {
-  const std::optional<double> given = given_link_inertia(model);
-  if (!given) return;
-  for (EffectInstance& instance : model.joints.front().link)
-    if (instance.effect->is_inertia()) instance.parameters.front().value = *given;
+  const std::vector<double>& given = model.rig.arm.parameters.J_link;
+  if (model.rigid || given.empty()) return;
+  for (std::size_t k = 0; k < model.joints.size(); ++k)
+    for (EffectInstance& instance : model.joints[k].link)
+      if (instance.effect->is_inertia()) instance.parameters.front().value = given[k];
 }
 
 /// "J_link = 0.3 (cad)", or empty: there was a value.
@@ -171,11 +212,6 @@ OwnBase own_base(const RefineLogs& given, int threads) {
   for (const std::string& name : names) {
     const Rig& rig =
         first_log_with(logs, [&](const PartSurvey& part) { return part.preload == name; }).plan.rig;
-    if (rig.n_joints() > 1)
-      throw input_error(
-          {rig.path, 0, 0},
-          fmt::format("the rig has {} joints; refine supports one joint", rig.n_joints()),
-          "give logs and a rig file of one of them");
     base.models.push_back(blank_model(name, rig, rigid));
     all_blocked = all_blocked && any_part(logs, name, Phase::blocked);
   }

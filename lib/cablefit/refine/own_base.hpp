@@ -20,7 +20,7 @@ struct OwnBase {
 /// Else cables by stage 1 from the blocked logs, l_o searched where their curve asks for it (all
 /// preloads of one order, so that they share coefficients), or by one step from the moving logs
 /// where no link is blocked; where such cables do not explain these, one straight spring. The
-/// effects are those of stage 2. Throws Error(input) for several joints or missing channels, and
+/// effects are those of stage 2. Throws Error(input) for missing channels, and
 /// what the stages throw.
 OwnBase own_base(const RefineLogs& logs, int threads);
 

@@ -10,6 +10,7 @@
 #include "cablefit/refine/bounded_work.hpp"
 #include "cablefit/refine/figures/refine_figures.hpp"
 #include "cablefit/refine/gap_levels.hpp"
+#include "cablefit/refine/joints.hpp"
 #include "cablefit/refine/null/kept_effects.hpp"
 #include "cablefit/refine/rows/physical_values.hpp"
 #include "cablefit/refine/rows/refined_model.hpp"
@@ -227,13 +228,13 @@ const Effect* unphysical(const RefineResult& result) {
 
 }  // namespace
 
-RefineResult refine(std::span<const Model> models, const RefineLogs& logs,
-                    const RefineOptions& options) {
-  require_bounded_work(logs);
+namespace {
+
+/// With what the models have, as long as that is physical beside what was added.
+RefineResult refine_physically(std::span<const Model> models, const RefineLogs& logs,
+                               const RefineOptions& options) {
   std::vector<Model> bases(models.begin(), models.end());
   std::vector<std::string> warnings;
-  for (const auto* some : {&logs.train, &logs.test, &logs.blocked})
-    for (std::string& warning : input_warnings(*some)) warnings.push_back(std::move(warning));
   for (;;) {
     RefineResult result = refine_once(bases, logs, options);
     const Effect* gone = unphysical(result);
@@ -246,6 +247,21 @@ RefineResult refine(std::span<const Model> models, const RefineLogs& logs,
       std::erase_if(model.joints.front().added,
                     [gone](const EffectInstance& has) { return has.effect == gone; });
   }
+}
+
+}  // namespace
+
+RefineResult refine(std::span<const Model> models, const RefineLogs& logs,
+                    const RefineOptions& options) {
+  require_bounded_work(logs);
+  RefineResult result = models.front().joints.size() > 1
+                            ? refine_joints(models, logs, options, refine_physically)
+                            : refine_physically(models, logs, options);
+  std::vector<std::string> warnings;
+  for (const auto* some : {&logs.train, &logs.test, &logs.blocked})
+    for (std::string& warning : input_warnings(*some)) warnings.push_back(std::move(warning));
+  result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
+  return result;
 }
 
 }  // namespace cablefit

@@ -20,8 +20,9 @@ namespace cablefit {
 /// What the models have from an earlier refinement is part of the base and fitted anew with it
 /// (kept_effects.hpp).
 /// `models`: one per preload, of the same structure, fitted to these or similar logs; coefficients
-/// of cables are shared between preloads, l_o are not. Throws Error(input) for missing channels and
-/// several joints, Error(not_identifiable) where the base cannot be fitted or simulated.
+/// of cables are shared between preloads, l_o are not. Of several joints each is refined for itself
+/// (joints.hpp). Throws Error(input) for missing channels and coupled links,
+/// Error(not_identifiable) where the base cannot be fitted or simulated.
 RefineResult refine(std::span<const Model> models, const RefineLogs& logs,
                     const RefineOptions& options);
 

@@ -20,7 +20,7 @@ std::string_view to_string(Verdict verdict);
 
 /// A range of a variable in which the residual is larger than elsewhere.
 struct Regime {
-  std::string equation;             ///< "link", "motor", "blocked"
+  std::string equation;             ///< "link", "motor", "blocked"; of several joints "link[2]"
   std::string regime, variable;     ///< "speed", "thetad"
   double from = 0, to = 0;          ///< of the variable, SI
   double share_of_squared_gap = 0;  ///< of the equation's squared residual above its floor
@@ -37,6 +37,7 @@ struct Rival {
   std::string refused;     ///< why it was no candidate; empty: it was one
   bool by_rule = false;    ///< an alias: no log of the usual kind separates them
   std::string experiment;  ///< that would separate them
+  int joint = 1;           ///< from 1
 };
 
 struct RefineEvidence {
@@ -54,6 +55,7 @@ struct NamedEffect {
   RefineEvidence evidence;
   double torque_rms = 0;  ///< N m, its torque where it acts
   std::vector<Rival> rivals;
+  int joint = 1;  ///< from 1
 };
 
 /// An effect that the model has from an earlier refinement, fitted anew. No evidence: it was not
@@ -70,6 +72,7 @@ struct RefineStep {
   /// N m rms weighted as one equation, after it: training rows, the same held out block by block,
   /// test logs (not a number: not read).
   double gap_train = 0, gap_held_out = 0, gap_test = std::numeric_limits<double>::quiet_NaN();
+  int joint = 1;  ///< from 1
 };
 
 /// rms of a gap before and after, N m or rad; the floor is that of the test rows.
@@ -157,6 +160,12 @@ struct RefineResult {
   std::vector<Decision> decisions;
   std::vector<std::string> warnings;
   std::vector<Figure> figures;
+  /// Of several joints, each for itself; then the lists above are those of all of them, gaps the
+  /// root mean square, `search_p` the least times the number of joints.
+  std::vector<RefineResult> joints;
+  int joint = 1;            ///< from 1
+  std::string joint_name;   ///< of one of several, as the rig file has it
+  std::string not_refined;  ///< why there is nothing about this one of several joints
 };
 
 }  // namespace cablefit

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <numbers>
+
 #include "cablefit/base/error.hpp"
+#include "cablefit/simulate/arm_step.hpp"
 
 namespace cablefit {
 namespace {
@@ -10,6 +14,18 @@ namespace {
 std::string kind_of(const Rig& rig) {
   return fmt::format("{} {} joint{}", rig.n_joints(), rig.linear_motion ? "linear" : "rotary",
                      rig.n_joints() == 1 ? "" : "s");
+}
+
+/// A rig file that gives another arm than the model's is of another bench.
+void require_arm_of(const Model& model, const Rig& rig) {
+  if (!model.is_coupled() || rig.arm.kind == nullptr) return;
+  const std::vector<ParameterInfo> infos = rig.arm.base_parameters();
+  const bool is_same =
+      std::equal(infos.begin(), infos.end(), model.arm.begin(), model.arm.end(),
+                 [](const ParameterInfo& info, const Estimate& e) { return info.name == e.name; });
+  if (!is_same)
+    throw input_error({rig.path}, "the arm has other base parameters than the model's",
+                      "simulate logs of the arm that the model is of");
 }
 
 void require_in_every_joint(const LogPlan& plan, Channel channel, std::string_view why) {
@@ -64,6 +80,18 @@ void choose_window(const ReplayOptions& options, Experiment& experiment) {
                         "positions drift"});
 }
 
+/// Independent joints keep theirs: they are fast.
+void choose_step(const ReplayOptions& options, Experiment& experiment) {
+  if (options.step) experiment.simulation.step = *options.step;
+  if (options.step || !experiment.model.is_coupled()) return;
+  const double mode = stiffest_mode(experiment.model);
+  experiment.simulation.step = arm_step(mode);
+  experiment.decisions.push_back(
+      {"step", fmt::format("{:.3g} us", 1e6 * experiment.simulation.step),
+       fmt::format("of links that move each other: stiffest mode {:.3g} Hz; --step gives another",
+                   mode / (2 * std::numbers::pi))});
+}
+
 void tell_refinements(const Model& model, Experiment& experiment) {
   std::string names;
   for (std::size_t k = 0; k < model.joints.size(); ++k)
@@ -111,6 +139,8 @@ Rig rig_for_simulation(const std::string& log_path, const std::string& rig_optio
                       fmt::format("{}, the model has {}", kind_of(rig), kind_of(model.rig)),
                       "simulate logs of the bench that the model is of");
   }
+  require_arm_of(model, rig);
+  if (rig.arm.kind == nullptr) rig.arm = model.rig.arm;
   if (!rig.load.law) rig.load = model.rig.load;
   if (!rig.controller && !rig.open_loop) {
     rig.controller = model.rig.controller;
@@ -133,11 +163,12 @@ Experiment plan_experiment(const Model& model, const LogSurvey& log, const PartS
   Experiment experiment;
   experiment.model = model;
   experiment.model.rig = log.plan.rig;
-  experiment.simulation.step = options.step;
+  experiment.model.rig.arm = model.rig.arm;  // what the base parameters are of
   experiment.simulation.link_blocked = part.phase == Phase::blocked;
   choose_mode(log.plan, options, experiment);
   choose_hold(log.plan.rig, options, experiment);
   choose_window(options, experiment);
+  choose_step(options, experiment);
   if (options.compared < 1)
     experiment.compared_from = part.t_last - options.compared * (part.t_last - part.t_first);
   tell_refinements(model, experiment);

@@ -27,10 +27,11 @@ struct ReplayOptions {
   /// Share (0..1] of the time of every part, its end, that is compared; what comes before is only
   /// simulated.
   double compared = 1;
-  double step = SimulationOptions{}.step;  ///< s
-  std::string trajectories;                ///< CSV file of every row; empty: none
-  bool figures = false;                    ///< for reports with plots
-  bool band = false;                       ///< also the 95 % band of the parameters' covariance
+  /// s. Not given: that of SimulationOptions, of coupled links arm_step().
+  std::optional<double> step;
+  std::string trajectories;  ///< CSV file of every row; empty: none
+  bool figures = false;      ///< for reports with plots
+  bool band = false;         ///< also the 95 % band of the parameters' covariance
   int threads = 1;
 };
 

@@ -198,9 +198,13 @@ void PartReplay::simulate_rows(const Window& window, Eigen::Index begin, Eigen::
 void PartReplay::diverge(const ReplayedRows& rows, Eigen::Index row) {
   result_.diverged = fmt::format(
       "{}: the simulation diverged at t = {:.6g} s (row {} of {} '{}'), a position "
-      "or velocity is beyond 1e6 or not a number",
+      "or velocity is beyond 1e6 or not a number{}",
       result_.log, rows.t0 + static_cast<double>(row) * rows.period,
-      result_.n_rows + static_cast<std::size_t>(row) + 1, result_.phase, result_.preload);
+      result_.n_rows + static_cast<std::size_t>(row) + 1, result_.phase, result_.preload,
+      experiment_.model.is_coupled()
+          ? ", or the arm's M(q) is not positive definite there: its base parameters are not "
+            "physical"
+          : "");
 }
 
 void PartReplay::compare(const ReplayedRows& rows) {

@@ -52,6 +52,10 @@ Plant::Plant(const Model& model, const SimulationInput& input, bool link_blocked
   elastic_motor_.resize(n);
   extra_.resize(link_.size() + motor_.size());
   no_load_.resize(n);
+  if (model.is_coupled() && !is_rigid_) {
+    arm_.emplace(model.rig.arm, model.arm, link_);
+    arm_->start(q_.data(), qd_.data());
+  }
 }
 
 void Plant::start(const double* position, const double* velocity, double t) {
@@ -61,6 +65,7 @@ void Plant::start(const double* position, const double* velocity, double t) {
   std::copy_n(position + n_links, n, theta_.begin());
   std::copy_n(velocity + n_links, n, thetad_.begin());
   for (RefinedJoint& joint : refined_) joint.jump();
+  if (arm_) arm_->start(q_.data(), qd_.data());
   t0_ = t;
   n_steps_ = 0;
 }
@@ -74,7 +79,9 @@ void Plant::read(double* position, double* velocity) const {
 }
 
 double Plant::inertia(std::size_t number) const {
-  return axis(number).inertia() + extra_[number].inertia;
+  const bool is_coupled = arm_ && number < link_.size();
+  const double own = is_coupled ? arm_->inertia(number) : axis(number).inertia();
+  return own + extra_[number].inertia;
 }
 
 double Plant::dry_level(std::size_t number) const {
@@ -120,11 +127,19 @@ void Plant::advance_motors(const double* tau, double h) {
 }
 
 void Plant::advance_links(const double* tau_load, double h) {
+  if (arm_) return advance_arm(tau_load, h);
   for (std::size_t k = 0; k < q_.size(); ++k) {
     const double torque = elastic_link_[k] + tau_load[k] + load_at(q_[k]);
     qd_[k] = link_[k].advance(qd_[k], torque, h);
     q_[k] += 0.5 * h * qd_[k];
   }
+}
+
+void Plant::advance_arm(const double* tau_load, double h) {
+  for (std::size_t k = 0; k < q_.size(); ++k)
+    arm_->push(k, elastic_link_[k] + tau_load[k] + load_at(q_[k]), {});
+  arm_->advance(q_.data(), qd_.data(), h);
+  for (std::size_t k = 0; k < q_.size(); ++k) q_[k] += 0.5 * h * qd_[k];
 }
 
 JointState Plant::middle_of_step(std::size_t joint, double load, double h) const {
@@ -151,10 +166,15 @@ void Plant::advance_refined(const double* tau, const double* tau_load, double h)
                                    more.motor);
     if (link_blocked_) continue;
     const double torque = elastic_link_[k] + tau_load[k] + load_at(q_[k]) - more.link_torque;
-    qd_[k] = link_[k].advance(qd_[k], torque, h, more.link);
+    if (arm_) {
+      arm_->push(k, torque, more.link);
+    } else {
+      qd_[k] = link_[k].advance(qd_[k], torque, h, more.link);
+    }
     extra_[k] = more.link;
     extra_[theta_.size() + k] = more.motor;
   }
+  if (arm_ && !link_blocked_) arm_->advance(q_.data(), qd_.data(), h);
   for (std::size_t k = 0; k < theta_.size(); ++k) {
     theta_[k] += 0.5 * h * thetad_[k];
     if (!link_blocked_) q_[k] += 0.5 * h * qd_[k];
@@ -193,11 +213,12 @@ void Plant::step_rigid(const double* tau, const double* tau_load, double h) {
 
 void Plant::take_history(const Plant& before) {
   for (std::size_t k = 0; k < refined_.size(); ++k) refined_[k].take_history(before.refined_[k]);
+  if (arm_) arm_->take_history(*before.arm_);
 }
 
 bool Plant::is_sane() const {
   return all_bounded(q_) && all_bounded(qd_) && all_bounded(theta_) && all_bounded(thetad_) &&
-         all_have_inertia(link_) && all_have_inertia(motor_);
+         (arm_ ? arm_->is_sane() : all_have_inertia(link_)) && all_have_inertia(motor_);
 }
 
 void Plant::record(Eigen::Index row, SimulationResult* result) const {

@@ -1,9 +1,12 @@
-// The plant: all axes, the transmission between them and the load. Internal to the simulator.
+// The plant: all axes, the transmission between them and the load. Links of a coupled arm advance
+// together, all other axes each for itself. Internal to the simulator.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "cablefit/simulate/axis.hpp"
+#include "cablefit/simulate/coupled_links.hpp"
 #include "cablefit/simulate/coupling.hpp"
 #include "cablefit/simulate/refined_joint.hpp"
 #include "cablefit/simulate/simulator.hpp"
@@ -34,7 +37,7 @@ class Plant {
 
   std::size_t n_joints() const { return theta_.size(); }
   const std::vector<double>& theta() const { return theta_; }
-  /// Every state is finite and within +-1e6, every inertia positive.
+  /// Every state is finite and within +-1e6, every inertia positive; of a coupled arm M(q).
   bool is_sane() const;
   /// Writes positions, velocities and tensions into row `row` of the result.
   void record(Eigen::Index row, SimulationResult* result) const;
@@ -47,6 +50,7 @@ class Plant {
   void step_rigid(const double* tau, const double* tau_load, double h);
   void advance_motors(const double* tau, double h);
   void advance_links(const double* tau_load, double h);
+  void advance_arm(const double* tau_load, double h);
   /// The same with the refinements of the model.
   void advance_refined(const double* tau, const double* tau_load, double h);
   void advance_refined_rigid(const double* tau, const double* tau_load, double h);
@@ -59,6 +63,7 @@ class Plant {
   bool is_rigid_, link_blocked_;
   Load load_;
   std::vector<Axis> link_, motor_;
+  std::optional<CoupledLinks> arm_;
   Coupling coupling_;
   std::vector<double> q_, qd_, theta_, thetad_;
   std::vector<double> elastic_link_, elastic_motor_;  ///< N m, of the present step

@@ -12,6 +12,9 @@
 // h, through stops, reversals and cables that go slack too. Explicit in the elastic torque: stable
 // for h < 2/omega of the stiffest mode (paper's rig: 350 to 630 rad/s, h omega < 0.016 at 25 us).
 //
+// Links of a coupled arm advance together, M(q) (v' - v) in the place of J (v' - v), by the same
+// scheme and to the same order (coupled_links.hpp).
+//
 // Refinements of the model act as torques at the midpoint, with velocities extrapolated to it, and
 // as more (or less) dry friction of their axis. Those that correct a recording give what acts of a
 // controller's commands; a replayed torque has to be corrected before (part_replay.hpp).
@@ -56,9 +59,10 @@ struct SimulationResult {
 };
 
 /// Never throws for a model that diverges (see diverged_at); a model without a positive inertia on
-/// every axis has diverged at row 0. On a rigid drive q equals theta in the result and the load
-/// torque is added to tau. A controller whose period is no whole number of steps acts at the step
-/// nearest to its time. Throws Error(input) for a closed loop without rig.controller.
+/// every axis, or positive definite M(q), has diverged at row 0. On a rigid drive q equals theta in
+/// the result and the load torque is added to tau. A controller whose period is no whole number of
+/// steps acts at the step nearest to its time. Throws Error(input) for a closed loop without
+/// rig.controller.
 SimulationResult simulate(const Model& model, const SimulationInput& input,
                           const SimulationOptions& options);
 

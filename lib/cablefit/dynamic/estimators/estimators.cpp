@@ -10,9 +10,10 @@ namespace cablefit {
 namespace {
 
 const std::vector<Estimator>& table() {
-  static const std::vector<Estimator> rows = {
-      estimation::automatic(),    estimation::ols(),    estimation::wls(),      estimation::iv(),
-      estimation::output_error(), estimation::robust(), estimation::recursive()};
+  static const std::vector<Estimator> rows = {estimation::automatic(),    estimation::ols(),
+                                              estimation::wls(),          estimation::iv(),
+                                              estimation::output_error(), estimation::robust(),
+                                              estimation::recursive(),    estimation::gradient()};
   return rows;
 }
 

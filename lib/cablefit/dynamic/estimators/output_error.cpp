@@ -45,7 +45,7 @@ bool has_load(const DynamicJob& job) {
 /// Why these logs cannot be fitted by output error; empty when they can.
 std::string obstacle(const EstimationTask& task, const Model& start) {
   const DynamicJob& job = task.job;
-  if (job.arm != nullptr && job.arm->is_coupled()) return "coupled joints are not simulated yet";
+  if (job.arm != nullptr && job.arm->is_coupled()) return "not made for links that move each other";
   if (job.rigid && !job.added.empty() && has_load(job))
     return "an added effect of a rigid drive may depend on its load, and output error adds the "
            "logged load to the torque";

@@ -9,6 +9,7 @@ Estimator ols();
 Estimator wls();
 Estimator robust();
 Estimator recursive();
+Estimator gradient();
 Estimator iv();
 Estimator output_error();
 Estimator automatic();

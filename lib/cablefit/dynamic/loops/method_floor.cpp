@@ -112,7 +112,7 @@ MethodFloor method_floor(const DynamicJob& job, const std::vector<EquationRows>&
                          const std::vector<bool>& with_instruments, std::size_t which) {
   MethodFloor floor;
   if (job.arm != nullptr && job.arm->is_coupled()) {
-    floor.note = "not measured: coupled joints are not simulated yet";
+    floor.note = "not measured for links that move each other";
     return floor;
   }
   const auto any = [&](bool instruments) {

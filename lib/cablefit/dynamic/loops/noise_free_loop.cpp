@@ -241,7 +241,10 @@ void look_at_controller(const DynamicJob& job, std::span<const LogSurvey> logs, 
 LoopPlan plan_loop(const DynamicJob& job, std::span<const LogSurvey> logs) {
   LoopPlan plan;
   if (job.arm != nullptr && job.arm->is_coupled())
-    return {LoopKind::none, "coupled joints are not simulated yet", 0};
+    return {LoopKind::none,
+            "instruments are made equation by equation, and the equations of a coupled arm share "
+            "parameters",
+            0};
   std::size_t n_logs = 0, n_commanded = 0;
   plan.kind = LoopKind::known;
   for (const LogSurvey& log : logs) {

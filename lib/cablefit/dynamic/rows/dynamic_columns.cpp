@@ -63,8 +63,9 @@ void fill_misfit(const ElasticFit& fit, Side side, const JointSignals& s,
   if (side == Side::link) out *= fit.transmission.reductions()(0);
 }
 
-bool is_coupled_link(const DynamicColumns& c) {
-  return c.side == Side::link && c.place.arm != nullptr && c.place.arm->is_coupled();
+/// Its axis moves the links of an arm, or is one of them.
+bool is_of_arm(const DynamicColumns& c) {
+  return c.side != Side::motor && c.place.arm != nullptr && c.place.arm->is_coupled();
 }
 
 std::optional<double> given_inertia(const DynamicColumns& c, const Effect& effect, int joint) {
@@ -79,7 +80,7 @@ void add_effects(DynamicColumns& c, int joint) {
   if (joint == c.place.joint) c.first_effect = static_cast<Eigen::Index>(c.parameters.size());
   for (const Effect& effect : base_effects(c.side)) {
     const bool is_inertia = effect.is_inertia();
-    if (is_inertia && is_coupled_link(c)) continue;  // the arm's base parameters stand for it
+    if (is_inertia && is_of_arm(c)) continue;  // the arm's base parameters stand for it
     if (joint == c.place.joint) c.effects.push_back(&effect);
     const ParameterInfo& info = effect.parameters.front();
     c.parameters.push_back({info, joint_parameter_name(info.name, joint + 1, c.place.n_joints),
@@ -95,7 +96,7 @@ void add_added(DynamicColumns& c, std::span<const EffectInstance> added) {
 }
 
 void add_parameters(DynamicColumns& c, std::span<const EffectInstance> added) {
-  if (!is_coupled_link(c)) {
+  if (!is_of_arm(c)) {
     add_effects(c, c.place.joint);
     return add_added(c, added);
   }
@@ -113,7 +114,7 @@ Motion motion_of(Side side, const JointSignals& s) {
 /// The columns of an arm's links, those of other joints' effects 0.
 void fill_arm(const DynamicColumns& c, const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
   std::vector<Motion> links;
-  for (const JointSignals& s : signals.joints) links.push_back(motion_of(Side::link, s));
+  for (const JointSignals& s : signals.joints) links.push_back(motion_of(c.side, s));
   out.setZero();
   c.place.arm->kind->regressor(c.place.arm->parameters, links, c.place.joint,
                                out.leftCols(c.n_arm));

@@ -118,7 +118,7 @@ TorqueDelay find_delay(const DynamicJob& job) {
 }  // namespace
 
 void choose_settings(DynamicJob& job, DynamicPreload& preload, const ElasticResult& elastic) {
-  std::vector<double> resonances = {0};
+  std::vector<double> resonances(static_cast<std::size_t>(job.n_joints()), 0.0);
   if (job.rigid)
     choose_joint_settings(job, job.options.samples, resonances);
   else

@@ -98,17 +98,6 @@ double misfit(const DynamicJob& job) {
 
 }  // namespace
 
-EffectInstance blank_effect(const Effect& row) {
-  EffectInstance effect{&row, {}};
-  for (const ParameterInfo& info : row.parameters) {
-    Estimate& e = effect.parameters.emplace_back();
-    e.name = info.name;
-    e.symbol = info.symbol;
-    e.unit = info.unit;
-  }
-  return effect;
-}
-
 void find_first_shapes(DynamicJob& job) {
   if (std::none_of(job.added.begin(), job.added.end(), is_blank)) return;
   const LogScale scale = scale_of(job);

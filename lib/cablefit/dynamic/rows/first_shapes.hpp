@@ -5,9 +5,6 @@
 
 namespace cablefit {
 
-/// An effect by its name alone: all its values are NaN.
-EffectInstance blank_effect(const Effect& row);
-
 /// Gives the job's blank effects start values, one effect after the other: the point of the grid of
 /// nonlinear parameters with the smallest residual of least squares on the first windows of the
 /// logs.

@@ -204,21 +204,22 @@ std::vector<JointPoint> descend(JointFit& fit, const std::vector<ElongationStart
 
 JointPoint polish(JointFit& fit, const JointPoint& point) {
   std::vector<ElongationStart> starts = {{point.l_o}};
-  for (std::size_t j = 0; j < fit.jobs.size(); ++j) {
-    double nearest = kUnbounded, reach = 0;
-    for (std::size_t c = 0; c < fit.jobs[j].searched.size(); ++c) {
-      if (!fit.jobs[j].searched[c]) continue;
-      nearest = std::min(nearest, std::abs(point.l_o[j](static_cast<Eigen::Index>(c))));
-      reach = std::max(reach, search_reach(fit, j, c));
+  for (std::size_t j = 0; j < fit.jobs.size(); ++j)
+    for (const std::vector<std::size_t>& group : cable_groups(fit.jobs[j].transmission)) {
+      double nearest = kUnbounded, reach = 0;
+      for (const std::size_t c : group) {
+        if (!fit.jobs[j].searched[c]) continue;
+        nearest = std::min(nearest, std::abs(point.l_o[j](static_cast<Eigen::Index>(c))));
+        reach = std::max(reach, search_reach(fit, j, c));
+      }
+      if (!(nearest < kNearSlack * reach)) continue;
+      for (const double to : {0.0, -0.1 * kNearSlack}) {
+        starts.push_back({point.l_o});
+        for (const std::size_t c : group)
+          if (fit.jobs[j].searched[c])
+            starts.back().l_o[j](static_cast<Eigen::Index>(c)) = to * search_reach(fit, j, c);
+      }
     }
-    if (!(nearest < kNearSlack * reach)) continue;
-    for (const double to : {0.0, -0.1 * kNearSlack}) {
-      starts.push_back({point.l_o});
-      for (std::size_t c = 0; c < fit.jobs[j].searched.size(); ++c)
-        if (fit.jobs[j].searched[c])
-          starts.back().l_o[j](static_cast<Eigen::Index>(c)) = to * search_reach(fit, j, c);
-    }
-  }
   return best_of(descend(fit, starts));
 }
 

@@ -13,31 +13,35 @@ Eigen::Index n_coefficients(const Transmission& transmission) {
   return n;
 }
 
-/// Torque per unit coefficient, and its derivative with respect to l; rows x coefficients each.
-void fill_elastic(const Transmission& transmission, const JointSignals& s, bool motor_side,
-                  Eigen::Ref<Eigen::MatrixXd> basis, Eigen::Ref<Eigen::MatrixXd> slope) {
-  const Eigen::ArrayXd turned = s.theta - transmission.encoder_zero()(0);
+/// Torque of a joint (from 0) per unit coefficient, and its derivative with respect to l; rows x
+/// coefficients each. Cables that do not act on the joint leave zeros.
+void fill_elastic(const Transmission& transmission, std::span<const JointSignals> joints, int joint,
+                  bool motor_side, Eigen::Ref<Eigen::MatrixXd> basis,
+                  Eigen::Ref<Eigen::MatrixXd> slope) {
+  const auto own = static_cast<std::size_t>(joint);
+  const Eigen::ArrayXd at = motor_side ? joints[own].theta - transmission.encoder_zero()(joint)
+                                       : Eigen::ArrayXd(joints[own].q);
   std::array<double, kMaxCableOrder> value{}, rise{};
   Eigen::Index first = 0;
   for (const Cable& cable : transmission.cables) {
-    const Eigen::ArrayXd l = cable.motor_map.front().displacements(turned) -
-                             cable.link_map.front().displacements(s.q) + cable.shift();
-    const Eigen::ArrayXd gain =
-        motor_side ? cable.motor_map.front().radii(turned) : cable.link_map.front().radii(s.q);
+    const int n = cable.n_coefficients();
+    const DisplacementMap& map = motor_side ? cable.motor_map[own] : cable.link_map[own];
+    basis.middleCols(first, n).setZero();
+    slope.middleCols(first, n).setZero();
+    first += n;
+    if (map.is_zero()) continue;
+    const Eigen::ArrayXd l = elongation(transmission, cable, joints);
+    const Eigen::ArrayXd gain = map.radii(at);
     const LawShape shape = cable.shape();
     for (Eigen::Index i = 0; i < l.size(); ++i) {
-      value.fill(0);
-      rise.fill(0);
-      if (l(i) > 0) {
-        cable.law->basis(shape, l(i), value.data());
-        cable.law->slope(shape, l(i), rise.data());
-      }
-      for (int k = 0; k < cable.n_coefficients(); ++k) {
-        basis(i, first + k) = gain(i) * value[static_cast<std::size_t>(k)];
-        slope(i, first + k) = gain(i) * rise[static_cast<std::size_t>(k)];
+      if (!(l(i) > 0)) continue;
+      cable.law->basis(shape, l(i), value.data());
+      cable.law->slope(shape, l(i), rise.data());
+      for (int k = 0; k < n; ++k) {
+        basis(i, first - n + k) = gain(i) * value[static_cast<std::size_t>(k)];
+        slope(i, first - n + k) = gain(i) * rise[static_cast<std::size_t>(k)];
       }
     }
-    first += cable.n_coefficients();
   }
 }
 
@@ -51,14 +55,15 @@ Equation widened(const JointEquation& equation, const std::vector<Transmission>&
   const bool averaged = equation.base.averaged.empty() || equation.base.averaged.front();
   wide.columns.resize(wide.columns.size() + extra);
   wide.averaged.resize(wide.columns.size(), averaged);
-  wide.fill = [base = equation.base, n_base, n, trials, motor_side = equation.motor_side](
-                  const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
+  wide.fill = [base = equation.base, n_base, n, trials, motor_side = equation.motor_side,
+               joint = equation.joint](const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
     base.fill(signals, out.leftCols(n_base));
-    const JointSignals& s = signals.joints[0];
-    out.col(n_base) = trials.front().deflections(0, s.q, s.theta);
+    const JointSignals& s = signals.joints[static_cast<std::size_t>(joint)];
+    out.col(n_base) = trials.front().deflections(joint, s.q, s.theta);
     Eigen::Index first = n_base + 1;
     for (const Transmission& trial : trials) {
-      fill_elastic(trial, s, motor_side, out.middleCols(first, n), out.middleCols(first + n, n));
+      fill_elastic(trial, signals.joints, joint, motor_side, out.middleCols(first, n),
+                   out.middleCols(first + n, n));
       first += 2 * n;
     }
   };
@@ -66,19 +71,17 @@ Equation widened(const JointEquation& equation, const std::vector<Transmission>&
 }
 
 /// The same with l - l_o of every cable, last.
-Equation with_displacements(Equation equation, const Transmission& cables) {
+Equation with_displacements(Equation equation, Transmission cables) {
   const auto n = static_cast<Eigen::Index>(equation.columns.size());
   equation.columns.resize(equation.columns.size() + cables.cables.size());
   equation.averaged.resize(equation.columns.size(), equation.averaged.front());
-  equation.fill = [fill = std::move(equation.fill), n, cables](const Signals& signals,
-                                                               Eigen::Ref<Eigen::MatrixXd> out) {
+  for (Cable& cable : cables.cables) cable.initial_elongation = 0;
+  equation.fill = [fill = std::move(equation.fill), n, cables = std::move(cables)](
+                      const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
     fill(signals, out.leftCols(n));
-    const JointSignals& s = signals.joints[0];
-    const Eigen::ArrayXd turned = s.theta - cables.encoder_zero()(0);
     Eigen::Index column = n;
     for (const Cable& cable : cables.cables)
-      out.col(column++) = cable.motor_map.front().displacements(turned) -
-                          cable.link_map.front().displacements(s.q) - cable.reference_displacement;
+      out.col(column++) = elongation(cables, cable, signals.joints);
   };
   return equation;
 }

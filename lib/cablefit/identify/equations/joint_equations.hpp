@@ -1,5 +1,6 @@
 // The equations of the one-step identification as columns: blocked link, moving link and motor of
-// one preload, under many choices of the initial elongations in one pass over the logs.
+// every joint of one preload, under many choices of the initial elongations in one pass over the
+// logs.
 #pragma once
 
 #include <span>
@@ -33,6 +34,8 @@ struct JointEquation {
   std::vector<DynamicParameter> added = {};  ///< those of `own` beyond (31)
   Eigen::Index response = 0;                 ///< column of `base`: tau or tau_load
   bool motor_side = true;                    ///< S Phi with sign +1, else P Phi with sign -1
+  bool blocked = false;                      ///< of logs in which the links are held
+  int joint = 0;                             ///< whose torques balance, from 0
 
   Eigen::Index n_base() const { return static_cast<Eigen::Index>(base.columns.size()); }
   double sign() const { return motor_side ? 1.0 : -1.0; }
@@ -63,12 +66,15 @@ struct JointRecord {
 /// One preload on its way through the fit.
 struct PreloadJob {
   std::string name;
-  Transmission transmission;   ///< of one joint; l_o as known or as a first guess
+  Transmission transmission;   ///< l_o as known or as a first guess
   std::vector<bool> searched;  ///< per cable: l_o is not known
   bool cable_space = false;    ///< coefficients are those of cables, not of the joint
   bool linear_motion = false;
-  double load_inertia = 0;  ///< rides on the link, kg m^2; known, beside the J_link looked for
+  double load_inertia = 0;   ///< rides on the link, kg m^2; known, beside the J_link looked for
+  const Arm* arm = nullptr;  ///< of several joints; nullptr: the links do not move each other
   std::vector<JointRecord> records;
+
+  int n_joints() const { return transmission.n_joints; }
 };
 
 /// What the pass found for one equation, whatever l_o is.

@@ -147,6 +147,25 @@ JointSolution solve_bounded(const JointFit& fit, const JointPoint& point) {
   return solve(problem);
 }
 
+std::vector<DeflectionRange> deflections_of(const JointFit& fit, std::size_t job,
+                                            const JointPoint& point) {
+  const PreloadJob& of = fit.jobs[job];
+  if (of.n_joints() == 1)
+    return {reference_deflections(fitted_cables(of, point.l_o[job], point.solution.x),
+                                  fit.elongations(job, point.l_o[job]))};
+  std::vector<DeflectionRange> ranges(static_cast<std::size_t>(of.n_joints()),
+                                      {kUnbounded, -kUnbounded});
+  std::size_t e = 0;
+  for (const JointRecord& record : of.records)
+    for (const JointEquation& equation : record.equations) {
+      const EquationFacts& seen = fit.facts[job][e++];
+      DeflectionRange& range = ranges[static_cast<std::size_t>(equation.joint)];
+      range.low = std::min(range.low, seen.deflection_low);
+      range.high = std::max(range.high, seen.deflection_high);
+    }
+  return ranges;
+}
+
 std::vector<double> own_variances(const JointFit& fit, const JointPoint& point) {
   const std::vector<double> ones(fit.weights.size(), 1.0);
   JointProblem all = joint_problem(fit.jobs, fit.layout, point.input(), ones, {false, {}});

@@ -66,6 +66,11 @@ struct PhysicalBounds {
 };
 PhysicalBounds physical_bounds(const JointFit& fit, const Elongations& l_o);
 
+/// Deflections phi of every joint: of one, those that reach the elongations of the logs with the
+/// link in its reference position; of several, those of the rows of each joint's equations.
+std::vector<DeflectionRange> deflections_of(const JointFit& fit, std::size_t job,
+                                            const JointPoint& point);
+
 /// Per equation the variance of what its own least squares leaves, without equilibrium and without
 /// regard to the others.
 std::vector<double> own_variances(const JointFit& fit, const JointPoint& point);

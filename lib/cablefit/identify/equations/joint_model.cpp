@@ -4,6 +4,7 @@
 
 #include "cablefit/identify/equations/equilibrium.hpp"
 #include "cablefit/model/effects.hpp"
+#include "cablefit/model/model.hpp"
 
 namespace cablefit {
 namespace {
@@ -28,26 +29,44 @@ void add_coefficients(const Transmission& transmission, bool cable_space, JointL
   layout.n_coefficients = static_cast<Eigen::Index>(layout.parameters.size());
 }
 
-/// Parameters of the effects of one kind, inertias or others.
-void add_effects(const std::vector<PreloadJob>& jobs, bool inertias, bool apart,
-                 JointLayout& layout) {
-  const auto add = [&](int preload, const auto& is_used) {
+/// What a drive has besides its cables, by joint: the effects of (31); of an arm whose links move
+/// each other its base parameters first, which stand for the inertias of the links.
+struct DriveParameter {
+  std::string name;
+  ParameterInfo info;
+  bool inertia = false;  ///< of the drive, whatever the preload
+};
+std::vector<DriveParameter> drive_parameters(const PreloadJob& job) {
+  std::vector<DriveParameter> all;
+  if (job.arm != nullptr)
+    for (const ParameterInfo& info : job.arm->base_parameters())
+      all.push_back({std::string(info.name), info, true});
+  for (int joint = 1; joint <= job.n_joints(); ++joint)
     for (const Side side : {Side::link, Side::motor})
-      for (const Effect& effect : base_effects(side)) {
-        if (effect.is_inertia() != inertias) continue;
+      for (const Effect& effect : base_effects(side))
         for (const ParameterInfo& info : effect.parameters)
-          if (is_used(info.name))
-            layout.parameters.push_back({std::string(info.name), std::string(info.symbol),
-                                         std::string(info.unit), info.lower, preload, 0, inertias});
-      }
+          all.push_back(
+              {joint_parameter_name(info.name, joint, job.n_joints()), info, effect.is_inertia()});
+  return all;
+}
+
+/// Parameters of the drive of one kind, inertias or others.
+void add_drive(const std::vector<PreloadJob>& jobs, bool inertias, bool apart,
+               JointLayout& layout) {
+  const auto add = [&](const PreloadJob& job, int preload, const auto& is_used) {
+    for (const DriveParameter& p : drive_parameters(job))
+      if (p.inertia == inertias && is_used(p.name))
+        layout.parameters.push_back({p.name, std::string(p.info.symbol), std::string(p.info.unit),
+                                     p.info.lower, preload, 0, inertias});
   };
   if (!apart)
-    return add(kShared, [&](std::string_view name) {
+    return add(jobs.front(), kShared, [&](std::string_view name) {
       return std::any_of(jobs.begin(), jobs.end(),
                          [&](const PreloadJob& job) { return has_own(job, name); });
     });
   for (std::size_t j = 0; j < jobs.size(); ++j)
-    add(static_cast<int>(j), [&](std::string_view name) { return has_own(jobs[j], name); });
+    add(jobs[j], static_cast<int>(j),
+        [&](std::string_view name) { return has_own(jobs[j], name); });
 }
 
 /// Parameters beyond (31), of each preload its own.
@@ -64,13 +83,16 @@ void add_added(const std::vector<PreloadJob>& jobs, JointLayout& layout) {
 
 /// Frictions of blocked sweeps.
 void add_blocked(const std::vector<PreloadJob>& jobs, JointLayout& layout) {
-  for (std::size_t j = 0; j < jobs.size(); ++j) {
-    const int place = static_cast<int>(j);
-    if (has_own(jobs[j], kBlockedFriction))
-      layout.parameters.push_back({kBlockedFriction, kBlockedFriction, "N m", 0, place, 0});
-    if (has_own(jobs[j], kCreep))
-      layout.parameters.push_back({kCreep, kCreep, "N m s/rad", -kUnbounded, place, 0});
-  }
+  for (std::size_t j = 0; j < jobs.size(); ++j)
+    for (int joint = 1; joint <= jobs[j].n_joints(); ++joint) {
+      const auto add = [&](const char* symbol, const char* unit, double lower) {
+        const std::string name = joint_parameter_name(symbol, joint, jobs[j].n_joints());
+        if (has_own(jobs[j], name))
+          layout.parameters.push_back({name, name, unit, lower, static_cast<int>(j), 0});
+      };
+      add(kBlockedFriction, "N m", 0);
+      add(kCreep, "N m s/rad", -kUnbounded);
+    }
 }
 
 void add_elongations(const std::vector<PreloadJob>& jobs, JointLayout& layout) {
@@ -150,8 +172,8 @@ Eigen::Index JointLayout::find(std::string_view name, int preload) const {
 JointLayout joint_layout(const std::vector<PreloadJob>& jobs, bool inertias_apart) {
   JointLayout layout;
   add_coefficients(jobs.front().transmission, jobs.front().cable_space, layout);
-  add_effects(jobs, true, inertias_apart, layout);
-  add_effects(jobs, false, true, layout);
+  add_drive(jobs, true, inertias_apart, layout);
+  add_drive(jobs, false, true, layout);
   add_added(jobs, layout);
   add_blocked(jobs, layout);
   layout.n_linear = static_cast<Eigen::Index>(layout.parameters.size());

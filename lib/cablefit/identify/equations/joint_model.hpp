@@ -1,6 +1,6 @@
-// The parameters of the one-step identification and how they stand in the equations of all
-// preloads: cable coefficients shared, inertias shared or not, friction, offset and l_o of each
-// preload its own.
+// The parameters of the one-step identification and how they stand in the equations of all joints
+// and preloads: cable coefficients shared, inertias shared between preloads or not, friction,
+// offset and l_o of each preload its own.
 #pragma once
 
 #include <optional>
@@ -22,7 +22,7 @@ struct JointParameter {
   double lower = -kUnbounded;
   int preload = kShared;  ///< place among the jobs
   std::size_t cable = 0;  ///< of a coefficient or l_o
-  bool inertia = false;
+  bool inertia = false;   ///< or another base parameter of an arm
   /// Part of it that is known and belongs to it in results: a load's inertia, or where a nonlinear
   /// parameter was linearised.
   double known = 0;

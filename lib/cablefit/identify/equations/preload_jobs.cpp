@@ -17,8 +17,12 @@ PartFilter parts_of(const std::string& preload) {
   return [preload](const PartSurvey& part) { return part.preload == preload; };
 }
 
-bool same_map(const DisplacementMap& a, const DisplacementMap& b) {
-  return a.kind == b.kind && a.kind->entries(a.parameters) == b.kind->entries(b.parameters);
+bool same_maps(const std::vector<DisplacementMap>& a, const std::vector<DisplacementMap>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const DisplacementMap& x, const DisplacementMap& y) {
+                      return x.kind == y.kind &&
+                             x.kind->entries(x.parameters) == y.kind->entries(y.parameters);
+                    });
 }
 
 /// Cables of one rig are those of the other: only l_o may differ.
@@ -27,11 +31,14 @@ bool same_cables(const Transmission& a, const Transmission& b) {
   for (std::size_t c = 0; c < a.cables.size(); ++c) {
     const Cable &x = a.cables[c], &y = b.cables[c];
     if (x.name != y.name || x.law != y.law || x.order != y.order || x.toe != y.toe) return false;
-    if (!same_map(x.motor_map.front(), y.motor_map.front()) ||
-        !same_map(x.link_map.front(), y.link_map.front()))
-      return false;
+    if (!same_maps(x.motor_map, y.motor_map) || !same_maps(x.link_map, y.link_map)) return false;
   }
   return true;
+}
+
+bool same_arm(const Arm* a, const Arm* b) {
+  if (a == nullptr || b == nullptr) return a == b;
+  return a->kind == b->kind && a->kind->entries(a->parameters) == b->kind->entries(b->parameters);
 }
 
 Transmission cables_of(const Rig& rig, int order) {
@@ -89,11 +96,11 @@ void decide_elongations(PreloadJob& job, bool several, const IdentifyOptions& op
 }
 
 /// Without any torque.
-std::shared_ptr<const Transmission> unknown_cables() {
+std::shared_ptr<const Transmission> unknown_cables(int n_joints) {
   Transmission none;
-  none.n_joints = 1;
-  none.linear_stiffness = Eigen::VectorXd::Zero(1);
-  none.theta_0 = Eigen::VectorXd::Zero(1);
+  none.n_joints = n_joints;
+  none.linear_stiffness = Eigen::VectorXd::Zero(n_joints);
+  none.theta_0 = Eigen::VectorXd::Zero(n_joints);
   return std::make_shared<const Transmission>(std::move(none));
 }
 
@@ -108,9 +115,10 @@ std::vector<PreloadFacts> preloads_of(std::span<const LogSurvey> logs,
     PreloadFacts f;
     f.name = name;
     f.added = options.effects;
-    f.cables = unknown_cables();
-    f.rig =
-        first_log_with(logs, [&](const PartSurvey& part) { return part.preload == name; }).plan.rig;
+    const Rig& rig = first_log_with(logs, parts_of(name)).plan.rig;
+    f.rig = rig;
+    f.arm = rig.arm.kind != nullptr ? &rig.arm : nullptr;
+    f.cables = unknown_cables(rig.n_joints());
     require_agreement(logs, parts_of(name), name);
     const Load& load = f.rig.load;
     if (load.law != nullptr) f.load_inertia = load.law->inertia(load.parameters);
@@ -130,10 +138,11 @@ std::vector<PreloadJob> begin_jobs(std::span<const LogSurvey> logs, const Identi
     PreloadJob job;
     job.name = f.name;
     job.transmission = cables_of(f.rig, options.order);
-    job.transmission.theta_0 = Eigen::VectorXd::Zero(1);
+    job.transmission.theta_0 = Eigen::VectorXd::Zero(f.rig.n_joints());
     job.cable_space = f.rig.cables_given;
     job.linear_motion = f.rig.linear_motion;
     job.load_inertia = f.load_inertia;
+    job.arm = f.arm;
     jobs.push_back(std::move(job));
   }
   for (std::size_t j = 1; j < jobs.size(); ++j)
@@ -145,6 +154,14 @@ std::vector<PreloadJob> begin_jobs(std::span<const LogSurvey> logs, const Identi
           fmt::format("preloads '{:.40}' and '{:.40}' have rigs with different cables",
                       jobs[0].name, jobs[j].name),
           "one fit is of one set of cables: only \"initial_elongation\" may differ");
+  for (std::size_t j = 1; j < jobs.size(); ++j)
+    if (!same_arm(jobs[0].arm, jobs[j].arm))
+      throw input_error(
+          {first_log_with(logs, parts_of(jobs[j].name)).plan.path, 0, 0},
+          fmt::format("preloads '{:.40}' and '{:.40}' have rigs with different arms", jobs[0].name,
+                      jobs[j].name),
+          "one fit is of one arm: give its preloads the same \"arm\", or fit them apart with "
+          "--preload");
   for (std::size_t j = 0; j < jobs.size(); ++j)
     decide_elongations(jobs[j], jobs.size() > 1, options, facts[j]);
   result.linear_motion = jobs[0].linear_motion;

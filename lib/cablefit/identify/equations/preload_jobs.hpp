@@ -17,10 +17,13 @@ namespace cablefit {
 struct PreloadFacts {
   std::string name;
   Rig rig;
+  const Arm* arm = nullptr;  ///< of the logs' rig; nullptr: the links do not move each other
   bool has_blocked = false, has_moving = false;
   TorqueDelay delay;
-  double resonance = 0, load_inertia = 0;
-  double cutoff = 0, rate = 0;  ///< Hz, of the moving logs; the slowest log's rate
+  double resonance = 0, load_inertia = 0;  ///< f0, the highest of all joints
+  double rate = 0;                         ///< Hz, of the slowest moving log
+  /// Hz, of the moving logs, per joint: f0 (0: not known) and cut-off.
+  std::vector<double> resonances, cutoffs;
   std::vector<Decision> decisions;
   std::vector<std::string> warnings;
   /// Effects beyond (31), with the values about which the columns are made, and the cables that

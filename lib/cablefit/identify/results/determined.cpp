@@ -45,15 +45,20 @@ struct Sum {
   std::string text, unit;
 };
 
-/// Coefficient `index` of every cable with the weight gain^(index + 2): with all cables taut it is
-/// a derivative of the elastic torque, all that the deflection can show of the highest order.
-std::optional<Sum> sum_of(const JointFit& fit, const JudgedPoint& judged, int index) {
+/// Coefficient `index` of every cable of a joint (from 0) with the weight gain^(index + 2): with
+/// all cables taut it is a derivative of the joint's elastic torque, all that its deflection can
+/// show of the highest order.
+std::optional<Sum> sum_of(const JointFit& fit, const JudgedPoint& judged, int index, int joint) {
   const PreloadJob& job = fit.jobs.front();
   Sum sum{Eigen::VectorXd::Zero(judged.linearised.x.size()), "", ""};
   Eigen::Index first = 0;
   for (const Cable& cable : job.transmission.cables) {
+    const double gain = cable.motor_radii(job.transmission.reference_theta())(joint);
+    if (gain == 0 && job.n_joints() > 1) {  // the joint's motor does not pull it
+      first += cable.n_coefficients();
+      continue;
+    }
     if (index >= cable.n_coefficients()) return std::nullopt;
-    const double gain = cable.motor_radii(job.transmission.reference_theta())(0);
     const double weight = std::pow(gain, cable.law->length_power(index) + 1);
     sum.weights(first + index) = weight;
     const std::string name = coefficient_name(cable, index, job.cable_space);
@@ -65,23 +70,32 @@ std::optional<Sum> sum_of(const JointFit& fit, const JudgedPoint& judged, int in
                    : fmt::format("N m/rad^{}", cable.law->length_power(index));
     first += cable.n_coefficients();
   }
+  if (sum.text.empty()) return std::nullopt;
   if (job.linear_motion) sum.unit = linear_unit(sum.unit);
   return sum;
+}
+
+/// Every term of the sum is determined by itself.
+bool is_plain(const JudgedPoint& judged, const Sum& sum) {
+  for (Eigen::Index k = 0; k < sum.weights.size(); ++k)
+    if (sum.weights(k) != 0 && !judged.linearised.determines(unit(judged, k))) return false;
+  return true;
 }
 
 /// The sums that the data determine, although their terms are not.
 std::string determined_sums(const JointFit& fit, const JudgedPoint& judged) {
   std::string text;
-  for (int index = 0; index < kMaxCableOrder; ++index) {
-    const std::optional<Sum> sum = sum_of(fit, judged, index);
-    if (!sum) break;
-    if (!judged.linearised.determines(sum->weights)) continue;
-    const double value = sum->weights.head(fit.layout.n_linear).dot(judged.point.solution.x);
-    const double sd =
-        std::sqrt(std::max(0.0, sum->weights.dot(judged.covariance.covariance * sum->weights)));
-    text += fmt::format("{}{} = {:.6g} +- {:.2g} {}", text.empty() ? "" : ", ", sum->text, value,
-                        sd, sum->unit);
-  }
+  for (int joint = 0; joint < fit.jobs.front().n_joints(); ++joint)
+    for (int index = 0; index < kMaxCableOrder; ++index) {
+      const std::optional<Sum> sum = sum_of(fit, judged, index, joint);
+      if (!sum) break;
+      if (!judged.linearised.determines(sum->weights) || is_plain(judged, *sum)) continue;
+      const double value = sum->weights.head(fit.layout.n_linear).dot(judged.point.solution.x);
+      const double sd =
+          std::sqrt(std::max(0.0, sum->weights.dot(judged.covariance.covariance * sum->weights)));
+      text += fmt::format("{}{} = {:.6g} +- {:.2g} {}", text.empty() ? "" : ", ", sum->text, value,
+                          sd, sum->unit);
+    }
   return text;
 }
 

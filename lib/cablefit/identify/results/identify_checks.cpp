@@ -19,10 +19,10 @@ constexpr double kLineSd = 3;
 /// What one equation of a preload leaves, against what it has.
 struct Misfit {
   std::string equation;
+  bool blocked = false;
   double rms = 0, largest = 0;  ///< N m
 
   double share() const { return largest > 0 ? rms / largest : 0; }
-  bool blocked() const { return equation == "blocked"; }
 };
 
 /// rms of rows * combination.
@@ -50,7 +50,7 @@ std::vector<Misfit> misfits_of(const JointFit& fit, const JudgedPoint& judged, s
   for (const JointRecord& record : fit.jobs[job].records)
     for (const JointEquation& equation : record.equations) {
       const JointBlock& block = problem.blocks[b];
-      misfits.push_back({equation.base.name,
+      misfits.push_back({equation.base.name, equation.blocked,
                          rms_of(*block.rows, judged.point.solution.combinations[b]),
                          largest_term(fit, block, judged.point.solution.x)});
       ++b;
@@ -82,7 +82,7 @@ void require_explained(const JointFit& fit, const JudgedPoint& judged, std::size
           fmt::format("preload '{:.40}': these cables do not explain the {} logs: {:.3g} {} rms "
                       "remain where the largest torque is {:.3g} {}; check the signs of the radii, "
                       "the initial elongations and the reference pose in the rig file",
-                      fit.jobs[job].name, m.blocked() ? "blocked" : "moving", m.rms, unit_of(fit),
+                      fit.jobs[job].name, m.blocked ? "blocked" : "moving", m.rms, unit_of(fit),
                       m.largest, unit_of(fit)));
 }
 
@@ -90,18 +90,18 @@ std::vector<std::string> misfit_warnings(const JointFit& fit, const JudgedPoint&
                                          std::size_t job, const IdentifyPreload& preload) {
   std::vector<std::string> warnings;
   for (const Misfit& m : misfits_of(fit, judged, job))
-    if (m.share() > (m.blocked() ? kBlockedShare : kMovingShare))
+    if (m.share() > (m.blocked ? kBlockedShare : kMovingShare))
       warnings.push_back(
           fmt::format("the residual of the {} equation is {:.3g} {} rms, {:.2g} % of its largest "
                       "torque: the sd do not include this error of the model; {}",
                       m.equation, m.rms, unit_of(fit), 100 * m.share(), what_to_try(fit, job)));
-  const std::optional<LineStiffness>& line = preload.line;
-  if (line && std::abs(line->model - line->measured) > kLineSd * line->sd)
-    warnings.push_back(fmt::format(
-        "the straight line through the blocked rows has K = {:.4g} +- {:.2g} {}/{}, through these "
-        "cables {:.4g}: blocked and moving logs do not agree on them; {}",
-        line->measured, line->sd, unit_of(fit), fit.jobs.front().linear_motion ? "m" : "rad",
-        line->model, what_to_try(fit, job)));
+  for (const LineStiffness& line : preload.lines)
+    if (std::abs(line.model - line.measured) > kLineSd * line.sd)
+      warnings.push_back(fmt::format(
+          "the straight line through the blocked rows has {} = {:.4g} +- {:.2g} {}/{}, through "
+          "these cables {:.4g}: blocked and moving logs do not agree on them; {}",
+          line.name, line.measured, line.sd, unit_of(fit),
+          fit.jobs.front().linear_motion ? "m" : "rad", line.model, what_to_try(fit, job)));
   if (!is_searched(fit.jobs[job]) && looks_preloaded(preload.transmission, preload.elongations))
     warnings.emplace_back(
         "the stiffness falls on both sides of zero, as with cables that are both taut there "

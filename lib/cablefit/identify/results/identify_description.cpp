@@ -50,9 +50,10 @@ void note_pushing(const JointFit& fit, const IdentifyPreload& preload, IdentifyR
   }
 }
 
-/// What rests on l_o is told only where l_o is known.
+/// What rests on l_o is told only where l_o is known, and of one joint only: with several, a cable
+/// goes slack along a surface of poses.
 void add_slack_points(IdentifyPreload& preload) {
-  if (preload.knows_elongations())
+  if (preload.knows_elongations() && preload.transmission.n_joints == 1)
     preload.slack =
         slack_points(preload.transmission, preload.deflection_low, preload.deflection_high);
 }
@@ -158,7 +159,7 @@ void describe(const JointFit& fit, const JudgedPoint& judged,
   for (std::size_t j = 0; j < fit.jobs.size(); ++j)
     add_given(fit.jobs[j], result.preloads.emplace_back(preload_of(fit, judged, j, facts[j])));
   for (std::size_t k = 0; k < estimates.size(); ++k) {
-    if (estimates[k].name == kCreep) continue;
+    if (estimates[k].name.starts_with(kCreep)) continue;
     const int preload = fit.layout.parameters[k].preload;
     if (preload == kShared && under_several_loads(fit, k)) {
       add_with_loads(fit, estimates[k], result);

@@ -39,16 +39,25 @@ Figure profile_figure(const ElongationProfile& profile, double scale, const std:
 std::vector<Figure> cable_figures(std::span<const LogSurvey> logs, const IdentifyPreload& preload,
                                   bool linear_motion) {
   const auto of_preload = [&](const PartSurvey& part) { return part.preload == preload.name; };
-  std::vector<ComparedModel> line;
-  if (preload.line) {
-    line.push_back({"classical linear, K (theta - q)", {}});
-    line.back().transmission.linear_stiffness =
-        Eigen::VectorXd::Constant(1, preload.line->measured);
+  std::vector<Figure> figures;
+  const int n_joints = preload.transmission.n_joints;
+  if (n_joints == 1) {
+    std::vector<ComparedModel> line;
+    if (!preload.lines.empty()) {
+      line.push_back({"classical linear, K (theta - q)", {}});
+      line.back().transmission.linear_stiffness =
+          Eigen::VectorXd::Constant(1, preload.lines.front().measured);
+    }
+    figures.push_back(cable_figure(preload.transmission, preload.deflection_low,
+                                   preload.deflection_high, linear_motion, line));
   }
-  return {cable_figure(preload.transmission, preload.deflection_low, preload.deflection_high,
-                       linear_motion, line),
-          mode_figure(preload.transmission, 0, seen_range(logs, of_preload, Channel::q),
-                      seen_range(logs, of_preload, Channel::theta), linear_motion)};
+  for (int joint = 0; joint < n_joints; ++joint) {
+    figures.push_back(
+        mode_figure(preload.transmission, joint, seen_range(logs, of_preload, Channel::q, joint),
+                    seen_range(logs, of_preload, Channel::theta, joint), linear_motion));
+    if (n_joints > 1) figures.back().title += fmt::format(", joint {}", joint + 1);
+  }
+  return figures;
 }
 
 }  // namespace

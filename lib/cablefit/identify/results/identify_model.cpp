@@ -31,10 +31,11 @@ class Parameters {
   std::string why_not_;
 };
 
-/// Empty: its equation was not fitted.
-std::vector<EffectInstance> effects_of(Side side, const Rig& rig, Parameters& parameters) {
+/// Empty: its equation was not fitted. `joint`: from 1.
+std::vector<EffectInstance> effects_of(Side side, int joint, const Rig& rig,
+                                       Parameters& parameters) {
   std::vector<EffectInstance> instances = base_instances(
-      side, 1, rig, [&](const Estimate& blank) { return parameters.find(blank.name); });
+      side, joint, rig, [&](const Estimate& blank) { return parameters.find(blank.name); });
   if (instances.size() < base_effects(side).size()) return {};
   for (const EffectInstance& instance : instances) {
     const Estimate& e = instance.parameters.front();
@@ -63,6 +64,11 @@ std::vector<EffectInstance> added_of(const PreloadFacts& facts, Parameters& para
 std::optional<Model> model_of(const IdentifyResult& result, const IdentifyPreload& preload,
                               const PreloadFacts& facts, std::string& why_not) {
   Parameters parameters(result, preload);
+  if (facts.arm != nullptr && facts.arm->is_coupled()) {
+    if (facts.has_moving)
+      why_not = fmt::format("the links of a {} arm cannot be simulated", facts.arm->kind->name);
+    return std::nullopt;
+  }
   Model model;
   model.name = "poly";
   model.preload = preload.name;
@@ -70,9 +76,11 @@ std::optional<Model> model_of(const IdentifyResult& result, const IdentifyPreloa
   model.rig.transmission = preload.transmission;
   if (model.rig.torque_hold == TorqueHold::automatic)
     model.rig.torque_hold = facts.delay.held ? TorqueHold::zoh : TorqueHold::none;
-  model.joints = {{effects_of(Side::link, facts.rig, parameters),
-                   effects_of(Side::motor, facts.rig, parameters)}};
-  if (model.joints.front().link.empty() || model.joints.front().motor.empty()) return std::nullopt;
+  for (int joint = 1; joint <= facts.rig.n_joints(); ++joint) {
+    model.joints.push_back({effects_of(Side::link, joint, facts.rig, parameters),
+                            effects_of(Side::motor, joint, facts.rig, parameters)});
+    if (model.joints.back().link.empty() || model.joints.back().motor.empty()) return std::nullopt;
+  }
   model.joints.front().added = added_of(facts, parameters);
   model.transmission = preload.transmission;
   for (const Cable& cable : preload.transmission.cables)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cablefit/estimate/fit/least_squares.hpp"
+#include "cablefit/model/model.hpp"
 
 namespace cablefit {
 namespace {
@@ -31,24 +32,33 @@ LinearSolution line_through(const RowStatistics& rows, const JointEquation& equa
   return solve(rows, problem);
 }
 
-std::optional<LineStiffness> line_of(const JointFit& fit, const JudgedPoint& judged,
-                                     std::size_t job) {
+LineStiffness line_of(const JointFit& fit, const JudgedPoint& judged, std::size_t job,
+                      const JointEquation& equation, std::size_t e) {
+  const RowStatistics& rows = (*judged.point.rows[job])[e];
+  const EquationFacts& facts = fit.facts[job][e];
+  const Eigen::Index count = joint_columns(equation, fit.layout.n_coefficients).count;
+  const LinearSolution measured =
+      line_through(rows, equation, fit, Eigen::VectorXd::Unit(count, equation.response));
+  const LinearSolution model = line_through(
+      rows, equation, fit, elastic_combination(equation, fit, judged.point.solution.x));
+  return {joint_parameter_name("K", equation.joint + 1, fit.jobs[job].n_joints()),
+          facts.deflection_low,
+          facts.deflection_high,
+          measured.x(0),
+          std::sqrt(measured.covariance(0, 0)),
+          model.x(0)};
+}
+
+std::vector<LineStiffness> lines_of(const JointFit& fit, const JudgedPoint& judged,
+                                    std::size_t job) {
+  std::vector<LineStiffness> lines;
   std::size_t e = 0;
   for (const JointRecord& record : fit.jobs[job].records)
     for (const JointEquation& equation : record.equations) {
-      const RowStatistics& rows = (*judged.point.rows[job])[e];
-      const EquationFacts& facts = fit.facts[job][e];
+      if (equation.blocked) lines.push_back(line_of(fit, judged, job, equation, e));
       ++e;
-      if (equation.base.name != "blocked") continue;
-      const Eigen::Index count = joint_columns(equation, fit.layout.n_coefficients).count;
-      const LinearSolution measured =
-          line_through(rows, equation, fit, Eigen::VectorXd::Unit(count, equation.response));
-      const LinearSolution model = line_through(
-          rows, equation, fit, elastic_combination(equation, fit, judged.point.solution.x));
-      return LineStiffness{facts.deflection_low, facts.deflection_high, measured.x(0),
-                           std::sqrt(measured.covariance(0, 0)), model.x(0)};
     }
-  return std::nullopt;
+  return lines;
 }
 
 std::vector<IdentifyEquation> equations_of(const JointFit& fit, const JudgedPoint& judged,
@@ -60,7 +70,10 @@ std::vector<IdentifyEquation> equations_of(const JointFit& fit, const JudgedPoin
     for (const JointEquation& equation : record.equations) {
       const double n = static_cast<double>((*judged.point.rows[job])[e].n_rows());
       const double rss = judged.point.solution.rss[block];
-      IdentifyEquation out{equation.base.name, fit.facts[job][e].counts, 0, 0, 0};
+      IdentifyEquation out;
+      out.name = equation.base.name;
+      out.side = equation.blocked ? "blocked" : equation.motor_side ? "motor" : "link";
+      out.counts = fit.facts[job][e].counts;
       out.rms = n > 0 ? std::sqrt(rss / n) : 0;
       out.weight = fit.weights[block];
       out.effective_rows = std::min(n, out.weight * rss);
@@ -81,13 +94,17 @@ IdentifyPreload preload_of(const JointFit& fit, const JudgedPoint& judged, std::
   preload.transmission =
       fitted_cables(fit.jobs[job], judged.point.l_o[job], judged.point.solution.x);
   preload.elongations = fit.elongations(job, judged.point.l_o[job]);
-  const DeflectionRange range = reference_deflections(preload.transmission, preload.elongations);
-  preload.deflection_low = range.low;
-  preload.deflection_high = range.high;
+  const std::vector<DeflectionRange> ranges = deflections_of(fit, job, judged.point);
+  preload.deflection_low = ranges.front().low;
+  preload.deflection_high = ranges.front().high;
+  for (const DeflectionRange& range : ranges) {
+    preload.deflection_low = std::min(preload.deflection_low, range.low);
+    preload.deflection_high = std::max(preload.deflection_high, range.high);
+  }
   const PreloadTorques torques = preload_torques(preload.transmission);
   preload.equilibrium =
       std::max(torques.link.cwiseAbs().maxCoeff(), torques.motor.cwiseAbs().maxCoeff());
-  preload.line = line_of(fit, judged, job);
+  preload.lines = lines_of(fit, judged, job);
   preload.equations = equations_of(fit, judged, job);
   preload.delay = facts.delay;
   preload.resonance = facts.resonance;

@@ -65,8 +65,7 @@ RecursiveTrace recursive_trace(const JointFit& fit, const JointPoint& point,
       for (std::size_t e = 0; e < n; ++e)
         rows = std::max(rows, direct.blocks[block + e].rows->n_rows());
       const std::string name =
-          fit.jobs[j].name +
-          (record.equations.front().base.name == "blocked" ? ", blocked" : ", moving");
+          fit.jobs[j].name + (record.equations.front().blocked ? ", blocked" : ", moving");
       take_record(fit, record, cables, name, std::span(direct.blocks).subspan(block, n),
                   rows / n_points + 1, information, trace);
       block += n;

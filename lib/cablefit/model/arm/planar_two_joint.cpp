@@ -82,6 +82,28 @@ void regressor(const ArmParameters& p, std::span<const Motion> links, int joint,
   out.col(kMY1) = -p.gravity * first.sin();
 }
 
+/// In the plane of x and y, about z; of the masses only M2 has to do with torques, and the base
+/// parameters hold it.
+SerialChain chain(const ArmParameters& p, std::span<const double> base) {
+  using enum LinkParameter;
+  SerialChain chain;
+  chain.joints.resize(2);
+  chain.joints[1].origin = {p.length_1, 0, 0};
+  chain.rig_joint = {0, 1};
+  chain.gravity = {p.gravity * std::sin(p.horizontal), -p.gravity * std::cos(p.horizontal), 0};
+  const auto put = [&](std::size_t link, LinkParameter which, Column column) {
+    const auto k = static_cast<std::size_t>(column);
+    if (k < base.size()) chain.joints[link].inertia(static_cast<Eigen::Index>(which)) = base[k];
+  };
+  put(0, ZZ, kZZ1);
+  put(0, MX, kMX1);
+  put(0, MY, kMY1);
+  put(1, ZZ, kZZ2);
+  put(1, MX, kMX2);
+  put(1, MY, kMY2);
+  return chain;
+}
+
 }  // namespace
 
 ArmKind planar_two_joint() {
@@ -91,7 +113,8 @@ ArmKind planar_two_joint() {
           .read = read,
           .entries = entries,
           .base_parameters = base_parameters,
-          .regressor = regressor};
+          .regressor = regressor,
+          .chain = chain};
 }
 
 }  // namespace cablefit::arms

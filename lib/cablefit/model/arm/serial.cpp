@@ -121,6 +121,17 @@ std::vector<double> described(const ArmParameters& p) {
   return values;
 }
 
+SerialChain chain(const ArmParameters& p, std::span<const double> base) {
+  SerialChain chain = p.serial->chain;
+  for (ChainJoint& joint : chain.joints) joint.inertia.setZero();
+  for (std::size_t k = 0; k < base.size(); ++k) {
+    const Eigen::Index kept = p.serial->kept[k];
+    chain.joints[static_cast<std::size_t>(kept / kLinkParameters)].inertia(kept % kLinkParameters) =
+        base[k];
+  }
+  return chain;
+}
+
 }  // namespace
 
 Eigen::Vector3d gravity_at(const JsonNode& node) {
@@ -142,6 +153,7 @@ ArmKind serial() {
           .base_parameters = base_parameters,
           .regressor = regressor,
           .described = described,
+          .chain = chain,
           .may_slide = true};
 }
 

@@ -12,5 +12,7 @@ CableLaw linear();
 CableLaw polynomial();
 /// Soft toe, then linear.
 CableLaw strand();
+/// Any shape with a continuous slope: lines of stiffness between knots.
+CableLaw spline();
 
 }  // namespace cablefit::laws

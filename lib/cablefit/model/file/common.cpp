@@ -1,6 +1,7 @@
 // What model files and result files have in common.
 #include <fmt/core.h>
 
+#include <cmath>
 #include <filesystem>
 #include <limits>
 
@@ -55,6 +56,22 @@ std::filesystem::path locate(const std::string& named, const std::string& inside
   return path;
 }
 
+/// A coupled arm moves by all of its base parameters, or by none on a rigid drive.
+void require_arm(const Model& model, const JsonNode& node) {
+  if (!model.rig.arm.is_coupled()) return;
+  if (model.arm.empty())
+    throw node.error(
+        fmt::format("the model has no base parameters of its {} arm", model.rig.arm.kind->name),
+        model.rigid ? "a rigid drive moves one joint: drop \"arm\" from the rig, or fit an elastic "
+                      "model"
+                    : "fit moving logs with 'cablefit dynamic', or give \"arm\"");
+  for (const Estimate& e : model.arm)
+    if (!std::isfinite(e.value))
+      throw node.error(
+          fmt::format("base parameter {} of the arm has no value", cablefit::quoted(e.name)),
+          "fit logs that determine it, or give it a value in a model file");
+}
+
 }  // namespace
 
 Estimate read_estimate(const JsonNode& node, std::string name, std::string_view symbol,
@@ -102,22 +119,17 @@ Rig read_rig_reference(const JsonNode* node) {
   return read_rig(path.string());
 }
 
-void require_own_inertias(const Rig& rig, const JsonNode& node) {
-  if (!rig.arm.is_coupled()) return;
-  throw node.error(fmt::format("the links of a {} arm cannot be simulated", rig.arm.kind->name),
-                   "only independent joints can be simulated so far");
-}
-
 void require_inertia(const Model& model, const JsonNode& node) {
+  require_arm(model, node);
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
     const JointModel& joint = model.joints[k];
-    if (!model.rigid && joint.link.empty())
+    if (!model.rigid && !model.is_coupled() && joint.link.empty())
       throw node.error(fmt::format("the link of joint '{}' has no inertia: the model is of stage 1 "
                                    "alone",
                                    model.rig.joints[k]),
                        "fit moving logs with 'cablefit dynamic'; a model of blocked logs cannot "
                        "move");
-    const bool link_moves = model.rigid || inertia_of(joint.link) > 0;
+    const bool link_moves = model.rigid || model.is_coupled() || inertia_of(joint.link) > 0;
     if (link_moves && inertia_of(joint.motor) > 0) continue;
     throw node.error(fmt::format("the {} of joint '{}' has no positive inertia",
                                  link_moves ? "motor" : "link", model.rig.joints[k]),

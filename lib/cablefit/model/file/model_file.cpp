@@ -74,6 +74,20 @@ void read_joints(const JsonNode& node, Model* model) {
   }
 }
 
+/// The links of a coupled arm have its base parameters instead of inertias.
+void require_one_inertia(const Model& model, const JsonNode& root) {
+  if (!model.is_coupled()) return;
+  const std::vector<JsonNode>& joints = root.at("joints").items;
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    if (model.rigid)
+      throw root.at("arm").error("a rigid drive has no base parameters",
+                                 "drop \"arm\", or give every joint a link and a motor");
+    if (const JsonNode* inertia = joints[k].at("link").find("inertia"))
+      throw inertia->error("a link of a coupled arm has no inertia of its own",
+                           "drop it: the base parameters in \"arm\" hold it");
+  }
+}
+
 /// "elastic": what else stage 1 found, for information.
 void read_other_results(const JsonNode& node, Model* model) {
   for (const JsonNode& item : some_items(node)) {
@@ -92,13 +106,14 @@ void require_wanted(const JsonNode& root, std::string_view what, const std::stri
 }  // namespace
 
 Model read_model_file(const JsonNode& root, const Wanted& wanted, std::string* choice) {
-  root.allow_only(
-      {"schema", "name", "preload", "rig", "joints", "transmission", "elastic", "covariance"});
+  root.allow_only({"schema", "name", "preload", "rig", "arm", "joints", "transmission", "elastic",
+                   "covariance"});
   Model model;
   model.rig = read_rig_reference(root.find("rig"));
-  require_own_inertias(model.rig, root);
   model.preload = text_or(root, "preload", model.rig.preload);
+  if (const JsonNode* arm = root.find("arm")) model.arm = read_arm(*arm, model.rig);
   read_joints(root.at("joints"), &model);
+  require_one_inertia(model, root);
   if (model.rigid) {
     if (const JsonNode* node = root.find("transmission")) {
       throw node->error("a rigid drive has no transmission", "drop it, or give link and motor");

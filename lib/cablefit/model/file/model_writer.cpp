@@ -44,6 +44,12 @@ Json side_json(const std::vector<EffectInstance>& effects) {
   return json;
 }
 
+Json arm_json(const Model& model) {
+  Json json = Json::object();
+  for (const Estimate& e : model.arm) json[e.name] = estimate_json(e);
+  return json;
+}
+
 Json joints_json(const Model& model) {
   Json list = Json::array();
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
@@ -192,6 +198,7 @@ std::string model_json(const Model& model) {
   Json json{{"schema", model_file::kModelSchema}, {"name", model.name}};
   if (!model.preload.empty()) json["preload"] = model.preload;
   json["rig"] = model_file::rig_json(model.rig);
+  if (model.is_coupled()) json["arm"] = arm_json(model);
   json["joints"] = joints_json(model);
   TransmissionWriter transmission(model);
   if (!model.rigid) json["transmission"] = transmission.transmission();

@@ -47,10 +47,10 @@ void read_transmission(const JsonNode& node, Model* model);
 /// there is none, to the current folder. Null or missing: the default rig.
 Rig read_rig_reference(const JsonNode* node);
 
-/// Throws Error(input) where links move each other: an axis that is simulated has an inertia of its
-/// own.
-void require_own_inertias(const Rig& rig, const JsonNode& node);
-/// Throws at `place` unless every axis carries a positive inertia.
+/// "arm" of a model file: the base parameters of its rig's coupled arm, by name.
+std::vector<Estimate> read_arm(const JsonNode& node, const Rig& rig);
+/// Throws at `node` unless every axis carries a positive inertia: the links of a coupled arm by
+/// base parameters that all have a value.
 void require_inertia(const Model& model, const JsonNode& node);
 
 }  // namespace cablefit::model_file

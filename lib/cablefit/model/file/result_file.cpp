@@ -151,6 +151,16 @@ void take_added(const JsonNode& fit, FitParameters* parameters, Model* model) {
       (void)parameters->find_dynamic(added_parameter_name(*effect.effect, info));
 }
 
+/// All of them or, of a rigid drive, none.
+void take_arm(FitParameters* parameters, Model* model) {
+  for (const ParameterInfo& info : model->rig.arm.base_parameters()) {
+    const JsonNode* node = parameters->find_dynamic(info.name);
+    if (node == nullptr) return model->arm.clear();
+    model->arm.push_back(
+        read_estimate(*node, std::string(info.name), info.symbol, unit_on(model->rig, info.unit)));
+  }
+}
+
 void take_joints(FitParameters* parameters, Model* model) {
   const int n = model->rig.n_joints();
   const std::string_view rigid_name = base_effects(Side::rigid).front().parameters.front().name;
@@ -189,9 +199,9 @@ Model read_result_file(const JsonNode& root, const Wanted& wanted, std::string* 
   model.name = fit.at("model").text();
   model.preload = preload.at("name").text();
   model.rig = read_rig_reference(preload.find("rig"));
-  require_own_inertias(model.rig, preload);
   take_torque_hold(preload, &model.rig);
   FitParameters parameters(fit);
+  take_arm(&parameters, &model);
   take_joints(&parameters, &model);
   take_added(fit, &parameters, &model);
   if (!model.rigid) take_transmission(&parameters, &model);

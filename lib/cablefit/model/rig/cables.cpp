@@ -59,7 +59,7 @@ double read_toe(const JsonNode& cable, const CableLaw& law) {
   const JsonNode* toe = cable.find("toe");
   if (toe && !law.has_toe) {
     throw toe->error(fmt::format("a {} cable has no toe", law.name),
-                     "use \"law\": \"strand\" or drop it");
+                     "use \"law\": \"strand\" or \"spline\", or drop it");
   }
   if (!law.has_toe) return 0;
   return cable.at("toe").positive();

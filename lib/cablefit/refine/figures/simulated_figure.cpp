@@ -9,6 +9,7 @@
 #include "cablefit/figure/explained.hpp"
 #include "cablefit/figure/new_trace.hpp"
 #include "cablefit/figure/thinned_line.hpp"
+#include "cablefit/model/one_joint.hpp"
 #include "cablefit/refine/figures/outcome_figures.hpp"
 #include "cablefit/simulate/part_replay.hpp"
 
@@ -41,7 +42,9 @@ struct Lines {
 };
 
 /// Throws Error for a log that the model cannot be run on.
-Lines replayed(const TestPart& test, const Model& model, double compared) {
+Lines replayed(const TestPart& test, const Model& one, double compared) {
+  const Model model = whole_of(one);
+  const Eigen::Index joint = one.joint;
   ReplayOptions options;
   options.compared = compared;
   const Experiment experiment = plan_experiment(model, *test.log, *test.part, options);
@@ -50,7 +53,7 @@ Lines replayed(const TestPart& test, const Model& model, double compared) {
   Lines lines{line, line, {}};
   PartReplay replay(experiment, *test.log, *test.part, 0);
   const auto shown = [&](const Eigen::ArrayXXd& theta, const Eigen::ArrayXXd& q, Eigen::Index i) {
-    return kMilli * (model.rigid ? theta(i, 0) : theta(i, 0) - q(i, 0));
+    return kMilli * (model.rigid ? theta(i, joint) : theta(i, joint) - q(i, joint));
   };
   const auto take = [&](const ReplayedRows& rows) {
     for (Eigen::Index i = 0; i < rows.simulated.theta.rows(); ++i) {

@@ -54,11 +54,12 @@ Eigen::ArrayXd torque_of(const Model& model, const SmoothMotion& m, double least
   return tau;
 }
 
-/// What is logged of a torque that is held until the next row.
-Eigen::ArrayXd as_logged(const Eigen::ArrayXd& tau, bool held) {
+/// What is logged of a torque that acts so late, see torque_lateness.
+Eigen::ArrayXd as_logged(const Eigen::ArrayXd& tau, double late) {
   Eigen::ArrayXd out = tau;
-  if (held)
-    for (Eigen::Index i = 0; i + 1 < tau.size(); ++i) out(i) = 0.5 * (tau(i) + tau(i + 1));
+  if (late > 0)
+    for (Eigen::Index i = 0; i + 1 < tau.size(); ++i)
+      out(i) = (1 - late) * tau(i) + late * tau(i + 1);
   return out;
 }
 
@@ -95,10 +96,10 @@ BlockedTwin make_blocked_twin(const std::vector<Model>& models, std::vector<Stre
     const Smoothing smoothing = suited(wanted, stretch.recording.period);
     const Model& model = models[stretch.model];
     twin.sensors.push_back(sensors_of(model.rig, stretch.recording));
-    const bool held = model.rig.torque_hold != TorqueHold::none;
-    const SmoothMotion m = smooth_motion_of(stretch.recording, stretch.t0, held, smoothing);
+    const double late = torque_lateness(model.rig, stretch.recording.period);
+    const SmoothMotion m = smooth_motion_of(stretch.recording, stretch.t0, late, smoothing);
     stretch.recording.theta = m.theta;
-    stretch.recording.tau = as_logged(torque_of(model, m, smoothing.least_speed_theta), held);
+    stretch.recording.tau = as_logged(torque_of(model, m, smoothing.least_speed_theta), late);
   }
   twin.stretches = std::move(stretches);
   return twin;

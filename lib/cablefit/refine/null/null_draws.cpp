@@ -6,6 +6,7 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/copies/surrogate.hpp"
 #include "cablefit/copies/twin.hpp"
+#include "cablefit/model/one_joint.hpp"
 #include "cablefit/refine/null/blocked_twin.hpp"
 #include "cablefit/refine/rows/kernel.hpp"
 #include "cablefit/refine/rows/levels.hpp"
@@ -43,20 +44,31 @@ double rms_acceleration(const Eigen::ArrayXd& theta, double period, const Smooth
   return std::sqrt(smooth.square().mean());
 }
 
-/// Whether the moving stretches are as lively as the measured ones.
-bool move_alike(const Twin& twin, const std::vector<SimulationResult>& motions,
+/// Whether a joint's moving stretches are as lively as the measured ones.
+bool move_alike(const Twin& twin, const std::vector<SimulationResult>& motions, int joint,
                 const Smoothing& smoothing) {
   constexpr double kAlike = 1.25;
   for (std::size_t k = 0; k < motions.size(); ++k) {
     const TwinStretch& stretch = twin.stretches[k];
     if (stretch.link_blocked) continue;
-    const int slot = twin.plans[stretch.log].find(Channel::theta, 0);
+    const int slot = twin.plans[stretch.log].find(Channel::theta, joint);
     const double period = stretch.period;
     const double measured = rms_acceleration(stretch.measured.col(slot).array(), period, smoothing);
-    const double simulated = rms_acceleration(motions[k].theta.col(0), period, smoothing);
+    const double simulated = rms_acceleration(motions[k].theta.col(joint), period, smoothing);
     if (simulated > kAlike * measured || measured > kAlike * simulated) return false;
   }
   return true;
+}
+
+/// That of one joint among all that the model's twin has.
+TwinDisturbance on_joint(const TwinDisturbance& one, const Model& model) {
+  if (model.whole == nullptr) return one;
+  const auto among_all = [&](const std::vector<ArModel>& own) {
+    std::vector<ArModel> all(own.empty() ? 0 : model.whole->joints.size());
+    if (!own.empty()) all[static_cast<std::size_t>(model.joint)] = own.front();
+    return all;
+  };
+  return {among_all(one.motor), among_all(one.link)};
 }
 
 /// Twins of the logs of one preload.
@@ -71,48 +83,84 @@ struct PreloadTwin {
 struct NullBench::Parts {
   std::vector<Model> models;
   std::vector<PreloadTwin> twins;
-  BlockedTwin blocked;  ///< of logs that are all blocked; then there are no other twins
+  BlockedTwin blocked;  ///< of logs that are all blocked, and where no loop of theirs is stable
   Smoothing smoothing;
   TwinDisturbance disturbance;
   double held_back = 0;
   bool follows = false;
 };
 
+namespace {
+
+/// The logs as a twin of one preload sees them.
+struct TwinLogs {
+  std::span<const Model> models;
+  std::span<const LogSurvey> logs;
+  const PartFilter& wanted;
+  const Smoothing& smoothing;
+  int threads;
+};
+
+/// The twin follows the measured motion where the rig's controller does not move it so: `follows`.
+PreloadTwin make_preload_twin(const TwinLogs& of, std::size_t m, bool* follows) {
+  const Model& model = of.models[m];
+  const PartFilter of_model = [&](const PartSurvey& part) {
+    return of.wanted(part) && (of.models.size() == 1 || part.preload == model.preload);
+  };
+  PreloadTwin twin;
+  twin.model = m;
+  const bool held = model.rig.torque_hold != TorqueHold::none;
+  const auto run = [&](bool surrogate) {
+    twin.twin = make_twin(whole_of(model), of.logs, of_model,
+                          {held, kFollowCutoff, surrogate, kDrawStep, kDitherCutoff});
+    Random calibration(1, kCalibration);
+    return run_twin(twin.twin, {}, calibration, of.threads);
+  };
+  auto motions = run(false);
+  const std::vector<LogPlan>& plans = twin.twin.plans;
+  const bool has_controller = std::any_of(plans.begin(), plans.end(), has_reference);
+  if (has_controller && !move_alike(twin.twin, motions, model.joint, of.smoothing)) {
+    motions = run(true);
+    *follows = true;
+  }
+  choose_sensors(twin.twin, motions);
+  for (std::size_t k = 0; k < of.logs.size(); ++k)
+    if (std::any_of(twin.twin.stretches.begin(), twin.twin.stretches.end(),
+                    [k](const TwinStretch& stretch) { return stretch.log == k; }))
+      twin.logs.push_back(k);
+  return twin;
+}
+
+std::vector<PreloadTwin> make_twins(const TwinLogs& of, bool* follows) {
+  std::vector<PreloadTwin> twins;
+  for (std::size_t m = 0; m < of.models.size(); ++m)
+    twins.push_back(make_preload_twin(of, m, follows));
+  return twins;
+}
+
+}  // namespace
+
 NullBench::NullBench(std::span<const Model> models, std::span<const LogSurvey> logs,
                      const PartFilter& wanted, const Smoothing& smoothing, int threads)
     : parts_(std::make_unique<Parts>()) {
   parts_->models.assign(models.begin(), models.end());
   parts_->smoothing = smoothing;
-  if (std::vector<Stretch> all = read_stretches(logs, models, wanted); is_blocked_only(all)) {
+  std::vector<Stretch> all = read_stretches(logs, models, wanted);
+  if (is_blocked_only(all)) {
     parts_->blocked = make_blocked_twin(parts_->models, std::move(all), smoothing);
     return;
   }
-  for (std::size_t m = 0; m < models.size(); ++m) {
-    const Model& model = models[m];
-    const PartFilter of_model = [&](const PartSurvey& part) {
-      return wanted(part) && (models.size() == 1 || part.preload == model.preload);
+  try {
+    parts_->twins = make_twins({models, logs, wanted, smoothing, threads}, &parts_->follows);
+  } catch (const Error& error) {
+    // A loop at the rate of a slow blocked log need not be stable. What is left moves.
+    std::erase_if(all, [](const Stretch& stretch) { return !stretch.blocked; });
+    if (error.kind() != ErrorKind::not_identifiable || all.empty()) throw;
+    parts_->blocked = make_blocked_twin(parts_->models, std::move(all), smoothing);
+    const PartFilter moving = [&](const PartSurvey& part) {
+      return wanted(part) && part.phase != Phase::blocked;
     };
-    PreloadTwin& twin = parts_->twins.emplace_back();
-    twin.model = m;
-    const bool held = model.rig.torque_hold != TorqueHold::none;
-    const auto run = [&](bool follows) {
-      twin.twin = make_twin(model, logs, of_model,
-                            {held, kFollowCutoff, follows, kDrawStep, kDitherCutoff});
-      Random calibration(1, kCalibration);
-      return run_twin(twin.twin, {}, calibration, threads);
-    };
-    auto motions = run(false);
-    const std::vector<LogPlan>& plans = twin.twin.plans;
-    const bool has_controller = std::any_of(plans.begin(), plans.end(), has_reference);
-    if (has_controller && !move_alike(twin.twin, motions, smoothing)) {
-      motions = run(true);
-      parts_->follows = true;
-    }
-    choose_sensors(twin.twin, motions);
-    for (std::size_t k = 0; k < logs.size(); ++k)
-      if (std::any_of(twin.twin.stretches.begin(), twin.twin.stretches.end(),
-                      [k](const TwinStretch& stretch) { return stretch.log == k; }))
-        twin.logs.push_back(k);
+    parts_->twins = make_twins({models, logs, moving, smoothing, threads}, &parts_->follows);
   }
 }
 
@@ -123,6 +171,7 @@ bool NullBench::follows() const { return parts_->follows; }
 void NullBench::disturb(const TwinDisturbance& disturbance) { parts_->disturbance = disturbance; }
 
 void NullBench::silence_torque() {
+  for (BlockedTwin::Sensors& sensors : parts_->blocked.sensors) sensors.noise_tau = 0;
   for (PreloadTwin& preload : parts_->twins)
     for (std::size_t log = 0; log < preload.twin.plans.size(); ++log)
       for (std::size_t k = 0; k < preload.twin.sensors[log].size(); ++k)
@@ -140,20 +189,22 @@ std::vector<NullBench::Recorded> NullBench::record(std::uint64_t seed, int threa
     move_aside(aside, random);
     all.push_back(
         {twin.model,
-         record_twin(aside, run_twin(aside, parts_->disturbance, random, threads), random)});
+         record_twin(aside,
+                     run_twin(aside, on_joint(parts_->disturbance, parts_->models[twin.model]),
+                              random, threads),
+                     random)});
   }
   return all;
 }
 
 std::vector<Stretch> NullBench::draw(std::uint64_t seed, int threads) const {
+  const auto& motor = parts_->disturbance.motor;
+  std::vector<Stretch> all =
+      cablefit::record(parts_->blocked, motor.empty() ? ArModel{} : motor.front(), seed);
   if (parts_->twins.empty()) {
-    const auto& motor = parts_->disturbance.motor;
-    std::vector<Stretch> blocked =
-        cablefit::record(parts_->blocked, motor.empty() ? ArModel{} : motor.front(), seed);
-    if (parts_->held_back > 0) hold_out(blocked, parts_->held_back, HoldOut::all);
-    return blocked;
+    if (parts_->held_back > 0) hold_out(all, parts_->held_back, HoldOut::all);
+    return all;
   }
-  std::vector<Stretch> all;
   const std::vector<Recorded> recorded = record(seed, threads);
   for (std::size_t k = 0; k < recorded.size(); ++k) {
     const std::span<const Model> model(&parts_->models[recorded[k].model], 1);

@@ -1,6 +1,9 @@
 #include "cablefit/refine/rows/base_rows.hpp"
 
+#include <algorithm>
+
 #include "cablefit/elastic/elastic_columns.hpp"
+#include "cablefit/model/one_joint.hpp"
 
 namespace cablefit {
 namespace {
@@ -27,7 +30,8 @@ void fill_elastic(const Model& model, const SmoothMotion& m, bool link,
     JointSignals signals;
     signals.q = m.q;
     signals.theta = m.theta;
-    elastic_basis(transmission, signals, link ? ElasticSide::link : ElasticSide::motor, out);
+    elastic_basis(transmission, signals, link ? ElasticSide::link : ElasticSide::motor, out,
+                  m.others);
   }
   if (link) out = -out;
 }
@@ -37,11 +41,27 @@ Eigen::ArrayXd response_of(RowKind kind, const SmoothMotion& m, const Model& mod
   return model.rigid ? Eigen::ArrayXd(m.tau + m.tau_load) : m.tau;
 }
 
+/// Torques of the links' masses on this one: base parameters with a column, and what the others
+/// give with their values in the last column.
+void fill_arm(const Model& model, const SmoothMotion& m, const BaseLayout& c,
+              Eigen::Ref<Eigen::MatrixXd> all) {
+  Eigen::MatrixXd own = arm_columns(model, m.links, m.links_d, m.links_dd);
+  for (std::size_t k = 0; k < c.arm.size(); ++k) {
+    all.col(static_cast<Eigen::Index>(k)) = own.col(c.arm[k]);
+    own.col(c.arm[k]).setZero();
+  }
+  for (Eigen::Index k = 0; k < own.cols(); ++k)
+    all.rightCols(1) += model.arm[static_cast<std::size_t>(k)].value * own.col(k);
+}
+
 /// The link's effects; that of a given inertia as a torque in the last column.
-void fill_link(const JointModel& axes, const SmoothMotion& m, const BaseLayout& c,
+void fill_link(const Model& model, const SmoothMotion& m, const BaseLayout& c,
                Eigen::Ref<Eigen::MatrixXd> all) {
+  const JointModel& axes = model.joints.front();
   const Motion motion{m.q, m.qd, m.qdd, m.q_direction};
-  if (!c.given) return fill_effects(axes.link, motion, all.leftCols(c.n_link));
+  const auto n_arm = static_cast<Eigen::Index>(c.arm.size());
+  if (model.is_coupled()) fill_arm(model, m, c, all);
+  if (!c.given) return fill_effects(axes.link, motion, all.middleCols(n_arm, c.n_link - n_arm));
   Eigen::MatrixXd effects(m.size(), c.n_link + 1);
   fill_effects(axes.link, motion, effects);
   const Eigen::Index at = c.given->effect_column;
@@ -56,7 +76,7 @@ Eigen::MatrixXd full_columns(RowKind kind, const SmoothMotion& m, const Model& m
   const JointModel& axes = model.joints.front();
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(m.size(), c.n() + 2);
   if (kind == RowKind::link) {
-    fill_link(axes, m, c, all);
+    fill_link(model, m, c, all);
   } else {
     fill_effects(axes.motor, {m.theta, m.thetad, m.thetadd, m.theta_direction},
                  all.middleCols(c.n_link, c.n_motor));
@@ -88,6 +108,7 @@ SmoothMotion thinned(const SmoothMotion& m, Eigen::Index every) {
   out.theta = m.theta(some);
   out.tau = m.tau(some);
   out.tau_load = m.tau_load(some);
+  if (m.others.cols() > 0) out.others = m.others(some, Eigen::all);
   return out;
 }
 
@@ -107,12 +128,18 @@ std::optional<double> given_link_inertia(const Model& model) {
 BaseLayout base_layout(const Model& model) {
   BaseLayout layout;
   const JointModel& axes = model.joints.front();
-  layout.n_link = static_cast<Eigen::Index>(axes.link.size());
+  if (model.is_coupled()) layout.arm = told_arm_columns(model);
+  layout.n_link = static_cast<Eigen::Index>(layout.arm.size() + axes.link.size());
+  layout.has_given = model.is_coupled();
   layout.n_motor = static_cast<Eigen::Index>(axes.motor.size());
   layout.n_elastic = n_elastic(model);
   const std::optional<double> given = given_link_inertia(model);
   for (ModelParameter& p : model_parameters(model)) {
-    const bool is_column = p.kind == ParameterKind::effect || p.kind == ParameterKind::stiffness ||
+    const bool is_of_arm = p.kind == ParameterKind::arm &&
+                           std::find(layout.arm.begin(), layout.arm.end(),
+                                     static_cast<Eigen::Index>(p.index)) != layout.arm.end();
+    const bool is_column = is_of_arm || p.kind == ParameterKind::effect ||
+                           p.kind == ParameterKind::stiffness ||
                            p.kind == ParameterKind::coefficient;
     if (!is_column) continue;
     const bool is_effect = p.kind == ParameterKind::effect;
@@ -122,6 +149,7 @@ BaseLayout base_layout(const Model& model) {
           static_cast<Eigen::Index>(layout.parameters.size());
     if (is_effect && p.on_link && given && axes.link[p.effect].effect->is_inertia()) {
       layout.given = {{static_cast<Eigen::Index>(layout.parameters.size()), *given}};
+      layout.has_given = true;
       layout.n_link -= 1;
       continue;
     }
@@ -153,9 +181,9 @@ StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayo
                       const Smoothing& wanted, const StretchRows* kept) {
   StretchRows rows;
   const Smoothing smoothing = suited(wanted, stretch.recording.period);
-  const bool held = model.rig.torque_hold != TorqueHold::none;
+  const double late = torque_lateness(model.rig, stretch.recording.period);
   rows.motion = std::make_shared<const SmoothMotion>(
-      smooth_motion_of(stretch.recording, stretch.t0, held, smoothing));
+      smooth_motion_of(stretch.recording, stretch.t0, late, smoothing));
   const Kernel filter = gaussian(smoothing.columns, stretch.recording.period);
   for (const RowKind kind : kinds_of(stretch, model)) {
     KindRows& k = rows.kinds.emplace_back();
@@ -171,7 +199,7 @@ StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayo
         apply_at(filter, full_columns(kind, *rows.motion, model, layout), k.at);
     k.base = all.leftCols(layout.n());
     k.response = all.col(layout.n());
-    if (layout.given && link) {
+    if (layout.has_given && link) {
       k.given = all.col(layout.n() + 1);
       k.response -= k.given;
     }
@@ -186,7 +214,7 @@ StretchRows rows_of_torque(const StretchRows& kept, const Stretch& changed, cons
   const Smoothing smoothing = suited(wanted, r.period);
   const Eigen::Index every = spacing(smoothing, evaluation);
   SmoothMotion motion = thinned(*kept.motion, every);
-  motion.tau = smooth_torque(r, model.rig.torque_hold != TorqueHold::none, smoothing, every);
+  motion.tau = smooth_torque(r, torque_lateness(model.rig, r.period), smoothing, every);
   const Kernel filter = gaussian(smoothing.columns, motion.period);
   for (KindRows& k : rows.kinds) {
     k.response =

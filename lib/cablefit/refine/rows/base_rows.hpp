@@ -23,6 +23,11 @@ struct BaseLayout {
     double inertia = 0;              ///< kg m^2
   };
   std::optional<Given> given;
+  /// Of links that move each other: which of the arm's base parameters the link's equation has
+  /// columns for, the first of the link's; the others keep the values of the model.
+  std::vector<Eigen::Index> arm;
+  /// The link's equation has a torque that nothing is fitted to.
+  bool has_given = false;
   Eigen::Index n_link = 0, n_motor = 0, n_elastic = 0;
   std::vector<ModelParameter> parameters;      ///< one per column
   Eigen::Index dry_link = -1, dry_motor = -1;  ///< columns of dry friction; -1: the axis has none
@@ -41,8 +46,8 @@ struct KindRows {
   RowKind kind = RowKind::motor;
   std::vector<Eigen::Index> at;  ///< samples of the stretch
   Eigen::MatrixXd base;          ///< n_rows x layout.n()
-  Eigen::VectorXd response;      ///< n_rows, N m; without the torque of a given inertia
-  Eigen::VectorXd given;         ///< that torque, N m; empty: no inertia is given
+  Eigen::VectorXd response;      ///< n_rows, N m; without the torque of given inertias
+  Eigen::VectorXd given;         ///< that torque, N m; empty: none is given
 };
 
 /// What a stretch gives: at most a link and a motor (or blocked) equation.

@@ -10,24 +10,32 @@ namespace {
 
 constexpr double kSamplesPerWidth = 1.5;  // a kernel narrower than this aliases
 
-/// Torque on the motor of every sample, and the sum of what the cables contribute to it by amount.
+Eigen::ArrayXXd apply_to_columns(const Kernel& kernel, const Eigen::ArrayXXd& columns) {
+  Eigen::ArrayXXd out(columns.rows(), columns.cols());
+  for (Eigen::Index k = 0; k < columns.cols(); ++k) out.col(k) = apply(kernel, columns.col(k));
+  return out;
+}
+
+/// Torque on the motor of every sample, and the sum of what the cables contribute to it by amount;
+/// with the motor `turned` (rad) from where it is.
 struct ElasticTorque {
   Eigen::ArrayXd sum, amounts;
 };
 
-ElasticTorque elastic_torque(const Transmission& transmission, const Eigen::ArrayXd& q,
-                             const Eigen::ArrayXd& theta) {
+ElasticTorque elastic_torque(const Transmission& transmission, const SmoothMotion& m,
+                             double turned) {
+  const Eigen::ArrayXd theta = m.theta + turned;
   if (transmission.cables.empty()) {
     const Eigen::ArrayXd tau =
-        transmission.linear_stiffness(0) * transmission.deflections(0, q, theta);
+        transmission.linear_stiffness(0) * transmission.deflections(0, m.q, theta);
     return {tau, tau.abs()};
   }
   JointSignals signals;
-  signals.q = q;
+  signals.q = m.q;
   signals.theta = theta;
-  Eigen::MatrixXd basis(q.size(), n_elastic_columns(transmission));
-  elastic_basis(transmission, signals, ElasticSide::motor, basis);
-  ElasticTorque torque{Eigen::ArrayXd::Zero(q.size()), Eigen::ArrayXd::Zero(q.size())};
+  Eigen::MatrixXd basis(m.size(), n_elastic_columns(transmission));
+  elastic_basis(transmission, signals, ElasticSide::motor, basis, m.others);
+  ElasticTorque torque{Eigen::ArrayXd::Zero(m.size()), Eigen::ArrayXd::Zero(m.size())};
   Eigen::Index first = 0;
   for (const Cable& cable : transmission.cables) {
     const Eigen::Map<const Eigen::VectorXd> coefficients(cable.coefficients.data(),
@@ -80,7 +88,12 @@ Smoothing suited(const Smoothing& smoothing, double period) {
   return s;
 }
 
-SmoothMotion smooth_motion_of(const Recording& r, double t0, bool held,
+double torque_lateness(const Rig& rig, double period) {
+  if (rig.torque_hold == TorqueHold::none) return 0;
+  return 0.5 * (rig.torque_period > 0 ? std::min(1.0, rig.torque_period / period) : 1.0);
+}
+
+SmoothMotion smooth_motion_of(const Recording& r, double t0, double late,
                               const Smoothing& smoothing) {
   const Kernel smooth = gaussian(smoothing.signals, r.period);
   const Kernel slope = gaussian_slope(smoothing.signals, r.period);
@@ -95,17 +108,25 @@ SmoothMotion smooth_motion_of(const Recording& r, double t0, bool held,
   m.thetad = apply(slope, r.theta);
   m.thetadd = apply(curvature, r.theta);
   m.tau_load = apply(smooth, r.tau_load);
-  m.tau = smooth_torque(r, held, smoothing);
+  m.tau = smooth_torque(r, late, smoothing);
   m.q_direction = m.qd.sign();
   m.theta_direction = m.thetad.sign();
+  m.others = apply_to_columns(smooth, r.others);
+  if (r.links.cols() == 0) return m;
+  Eigen::ArrayXXd links = r.links;
+  links.col(r.joint) = r.q;  // as a sensor's error may have changed it
+  m.links = apply_to_columns(smooth, links);
+  m.links_d = apply_to_columns(slope, links);
+  m.links_dd = apply_to_columns(curvature, links);
   return m;
 }
 
-Eigen::ArrayXd smooth_torque(const Recording& r, bool held, const Smoothing& smoothing,
+Eigen::ArrayXd smooth_torque(const Recording& r, double late, const Smoothing& smoothing,
                              Eigen::Index every) {
   Eigen::ArrayXd tau = r.tau;
-  if (held)
-    for (Eigen::Index i = tau.size() - 1; i > 0; --i) tau(i) = 0.5 * (tau(i) + tau(i - 1));
+  if (late > 0)
+    for (Eigen::Index i = tau.size() - 1; i > 0; --i)
+      tau(i) = (1 - late) * tau(i) + late * tau(i - 1);
   const Kernel kernel = gaussian(smoothing.signals, r.period);
   if (every == 1) return apply(kernel, tau);
   Eigen::ArrayXd out = Eigen::ArrayXd::Zero((tau.size() + every - 1) / every);
@@ -158,9 +179,9 @@ std::vector<JointState> joint_states(const SmoothMotion& m, const Model& model) 
     return states;
   }
   constexpr double kProbe = 1e-6;  // rad; curves bend over mrad
-  const ElasticTorque tau = elastic_torque(model.transmission, m.q, m.theta);
-  const ElasticTorque more = elastic_torque(model.transmission, m.q, m.theta + kProbe);
-  const ElasticTorque less = elastic_torque(model.transmission, m.q, m.theta - kProbe);
+  const ElasticTorque tau = elastic_torque(model.transmission, m, 0);
+  const ElasticTorque more = elastic_torque(model.transmission, m, kProbe);
+  const ElasticTorque less = elastic_torque(model.transmission, m, -kProbe);
   for (Eigen::Index i = 0; i < m.size(); ++i) {
     JointState& s = states[static_cast<std::size_t>(i)];
     s.tau_elas = tau.sum(i);

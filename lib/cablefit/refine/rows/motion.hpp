@@ -51,16 +51,21 @@ struct SmoothMotion {
   Eigen::ArrayXd q, qd, qdd, theta, thetad, thetadd;
   Eigen::ArrayXd tau, tau_load;                 ///< smoothed; tau at the time it acts
   Eigen::ArrayXd q_direction, theta_direction;  ///< -1, 0, 1
+  Eigen::ArrayXXd others;                       ///< see Recording; smoothed
+  Eigen::ArrayXXd links, links_d, links_dd;     ///< of all joints, samples x joints; or none
   Eigen::Index size() const { return theta.size(); }
 };
 
-/// `held`: a logged torque acts until the next sample, so that on average it acts half a period
-/// later.
-SmoothMotion smooth_motion_of(const Recording& recording, double t0, bool held,
+/// How late a logged torque acts on average, as a share of the time between samples: half of what
+/// the drive holds it, 0 where it does not.
+double torque_lateness(const Rig& rig, double period);
+
+/// `late`: see torque_lateness.
+SmoothMotion smooth_motion_of(const Recording& recording, double t0, double late,
                               const Smoothing& smoothing);
 
 /// Only its tau, at every so many of the samples. Fewer than all: 0 within the kernel of the ends.
-Eigen::ArrayXd smooth_torque(const Recording& recording, bool held, const Smoothing& smoothing,
+Eigen::ArrayXd smooth_torque(const Recording& recording, double late, const Smoothing& smoothing,
                              Eigen::Index every = 1);
 
 /// Samples at which an equation has a row, multiples of the stride: far enough from the ends, and

@@ -60,14 +60,17 @@ std::vector<Estimate> amplitudes(const Variant& variant, const FinalFit& fit, Ei
   return out;
 }
 
-/// The effects' parameters that have a column; an inertia that the rig file gives has none.
+/// The parameters of arm and effects that have a column; an inertia that the rig file gives has
+/// none.
 void set_effect_estimates(const Design& design, const FinalFit& fit, Model& model) {
   JointModel& axes = model.joints.front();
   const std::vector<ModelParameter>& columns = design.layout.parameters;
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const ModelParameter& p = columns[k];
-    if (p.kind != ParameterKind::effect) continue;
     const auto at = static_cast<Eigen::Index>(k);
+    if (p.kind == ParameterKind::arm)
+      set_estimate(model.arm[p.index], fit.x(at), sd_at(fit, at), fit.degrees_of_freedom);
+    if (p.kind != ParameterKind::effect) continue;
     set_estimate((p.on_link ? axes.link : axes.motor)[p.effect].parameters[p.index], fit.x(at),
                  sd_at(fit, at), fit.degrees_of_freedom);
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/model/one_joint.hpp"
 
 namespace cablefit {
 namespace {
@@ -27,7 +28,7 @@ std::size_t model_of(std::span<const Model> models, const LogPlan& plan, const P
 }
 
 void require_channels(const LogPlan& plan, const Model& model, bool blocked) {
-  require_one_joint(plan, "refine supports one joint");
+  if (model.whole == nullptr) require_one_joint(plan, "a model of one joint fits no other rig");
   require_channel(plan, Channel::theta, kWhy);
   require_channel(plan, Channel::tau, kWhy);
   if (!model.rigid && !blocked) require_channel(plan, Channel::q, kWhy);
@@ -36,10 +37,19 @@ void require_channels(const LogPlan& plan, const Model& model, bool blocked) {
     require_channel(plan, Channel::tau_load, "the load that the rig file says is a column");
 }
 
-Eigen::ArrayXd column(const Window& window, const LogPlan& plan, Channel channel) {
-  const int slot = plan.find(channel, 0);
+Eigen::ArrayXd column(const Window& window, const LogPlan& plan, Channel channel, int joint) {
+  const int slot = plan.find(channel, joint);
   if (slot < 0) return {};
   return window.data.col(slot).array();
+}
+
+/// Of all joints, samples x joints; 0 where it was not logged, as of a blocked link.
+Eigen::ArrayXXd columns(const Window& window, const LogPlan& plan, Channel channel) {
+  const int n = plan.rig.n_joints();
+  Eigen::ArrayXXd all = Eigen::ArrayXXd::Zero(window.data.rows(), n);
+  for (int joint = 0; joint < n; ++joint)
+    if (plan.has(channel, joint)) all.col(joint) = column(window, plan, channel, joint);
+  return all;
 }
 
 void append(Eigen::ArrayXd& to, const Eigen::ArrayXd& rows) {
@@ -48,11 +58,23 @@ void append(Eigen::ArrayXd& to, const Eigen::ArrayXd& rows) {
   to.tail(rows.size()) = rows;
 }
 
-void append(Stretch& stretch, const Window& window, const LogPlan& plan) {
-  append(stretch.recording.q, column(window, plan, Channel::q));
-  append(stretch.recording.theta, column(window, plan, Channel::theta));
-  append(stretch.recording.tau, column(window, plan, Channel::tau));
-  append(stretch.recording.tau_load, column(window, plan, Channel::tau_load));
+void append(Eigen::ArrayXXd& to, const Eigen::ArrayXXd& rows) {
+  const Eigen::Index before = to.rows();
+  to.conservativeResize(before + rows.rows(), rows.cols());
+  to.bottomRows(rows.rows()) = rows;
+}
+
+void append(Stretch& stretch, const Window& window, const LogPlan& plan, const Model& model) {
+  Recording& r = stretch.recording;
+  append(r.q, column(window, plan, Channel::q, model.joint));
+  append(r.theta, column(window, plan, Channel::theta, model.joint));
+  append(r.tau, column(window, plan, Channel::tau, model.joint));
+  append(r.tau_load, column(window, plan, Channel::tau_load, model.joint));
+  if (model.whole == nullptr) return;
+  const Eigen::ArrayXXd q = columns(window, plan, Channel::q);
+  append(r.others, others_elongation(model, q, columns(window, plan, Channel::theta)));
+  if (model.is_coupled()) append(r.links, q);
+  r.joint = model.joint;
 }
 
 /// q of a blocked link that was not logged stands at 0; of a rigid drive it is theta.
@@ -87,7 +109,7 @@ void read_log(const LogSurvey& log, std::size_t number, std::span<const Model> m
       stretch.part_end = part.t_last - began;
       require_channels(log.plan, models[stretch.model], stretch.blocked);
     }
-    append(stretches.back(), window, log.plan);
+    append(stretches.back(), window, log.plan, models[stretches.back().model]);
     return true;
   });
   for (std::size_t k = first; k < stretches.size(); ++k)
@@ -160,6 +182,9 @@ std::vector<Stretch> hold_out(std::vector<Stretch>& stretches, double share, Hol
     for (Eigen::ArrayXd Recording::*signal :
          {&Recording::q, &Recording::theta, &Recording::tau, &Recording::tau_load})
       stretch.recording.*signal = Eigen::ArrayXd((stretch.recording.*signal).head(kept));
+    for (Eigen::ArrayXXd Recording::*table : {&Recording::others, &Recording::links})
+      if ((stretch.recording.*table).cols() > 0)
+        stretch.recording.*table = Eigen::ArrayXXd((stretch.recording.*table).topRows(kept));
   }
   std::erase_if(stretches, [](const Stretch& s) { return s.recording.theta.size() < kLeastRows; });
   return held;

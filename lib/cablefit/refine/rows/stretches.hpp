@@ -23,7 +23,8 @@ struct Stretch {
 };
 
 /// The wanted parts of the logs, whose preloads are those of `models` (one per preload; a single
-/// one takes every preload). One joint. Throws Error(input) for a missing channel.
+/// one takes every preload). Of one joint: that of the models, see one_joint.hpp. Throws
+/// Error(input) for a missing channel.
 std::vector<Stretch> read_stretches(std::span<const LogSurvey> logs, std::span<const Model> models,
                                     const PartFilter& wanted);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cablefit/model/one_joint.hpp"
 #include "cablefit/simulate/simulator.hpp"
 
 namespace cablefit {
@@ -135,7 +136,7 @@ std::vector<TrialRun> trial_runs(const Design& design) {
 }
 
 std::optional<Stretch> simulated(const TrialRun& run, const Model& given) {
-  Model model = given;
+  Model model = standing_alone(given);
   if (!model.rig.controller) model.rig.controller = stiff_controller(model, run.period);
   model.rig.load = Load{};
   const Eigen::Index n = run.theta_ref.size();
@@ -154,6 +155,11 @@ std::optional<Stretch> simulated(const TrialRun& run, const Model& given) {
   stretch.blocked = run.blocked;
   stretch.recording = {run.period, motion.q.col(0), motion.theta.col(0), motion.tau.col(0),
                        input.tau_load.col(0)};
+  if (!given.is_coupled()) return stretch;
+  Recording& r = stretch.recording;  // the other links stand at 0
+  r.links = Eigen::ArrayXXd::Zero(n, static_cast<Eigen::Index>(given.whole->joints.size()));
+  r.joint = given.joint;
+  r.links.col(r.joint) = r.q;
   return stretch;
 }
 

@@ -129,15 +129,6 @@ void require_preload(std::span<const Model> models, const RefineLogs& logs) {
                           "give a model of every preload, or leave the log out");
 }
 
-void require_one_joint(std::span<const Model> models) {
-  for (const Model& model : models)
-    if (model.joints.size() > 1)
-      throw input_error(
-          {model.rig.path},
-          fmt::format("the rig has {} joints, and refine supports one joint", model.joints.size()),
-          "write one rig file per joint, with its own columns");
-}
-
 /// Of the effects that the models have, those that a blocked link shows could be fitted anew.
 void require_static(std::span<const Model> models) {
   for (const Model& model : models)
@@ -156,7 +147,6 @@ RefineStage stage_of(std::span<const Model> models, const RefineLogs& logs) {
   RefineStage stage;
   stage.models.assign(models.begin(), models.end());
   stage.wanted = of_preload(models);
-  require_one_joint(models);
   require_preload(models, logs);
   if (models.front().rigid) return stage;
   const bool from_stage_1 = models.front().joints.front().link.empty();
@@ -177,6 +167,7 @@ RefineStage stage_of(std::span<const Model> models, const RefineLogs& logs) {
   };
   for (Model& model : stage.models) {
     model.joints.front().link.clear();
+    model.arm.clear();
     add_motor_effects(model);
   }
   return stage;

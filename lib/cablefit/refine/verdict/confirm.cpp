@@ -4,6 +4,7 @@
 #include <map>
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/model/one_joint.hpp"
 #include "cablefit/simulate/replay.hpp"
 
 namespace cablefit {
@@ -37,19 +38,21 @@ SimulatedGap simulated_gap(std::span<const Model> models, std::span<const LogSur
   Sum deflection, tau;
   for (const Model& model : models) {
     const std::vector<LogSurvey> own = logs_of(model, logs, models.size() == 1);
+    const std::string joint =
+        model.whole == nullptr ? "" : std::to_string(model.joint + 1);  // "deflection2"
     if (own.empty()) continue;
     ReplayOptions options;
     options.threads = threads;
     options.compared = compared;
     try {
-      for (const SimulatedPart& part : simulate_logs(model, own, options).parts) {
+      for (const SimulatedPart& part : simulate_logs(whole_of(model), own, options).parts) {
         if (!part.diverged.empty()) gap.failure = part.diverged;
         if (part.phase != to_string(Phase::moving)) continue;
         const auto rows = static_cast<double>(part.n_rows);
         for (const SignalGap& signal : part.gaps) {
-          if (signal.signal == (model.rigid ? "theta" : "deflection"))
+          if (signal.signal == (model.rigid ? "theta" : "deflection") + joint)
             deflection.add(signal.rms, rows);
-          if (signal.signal == "tau") tau.add(signal.rms, rows);
+          if (signal.signal == "tau" + joint) tau.add(signal.rms, rows);
         }
       }
     } catch (const Error& error) {

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "cablefit/report/documents/document_parts.hpp"
 #include "cablefit/report/documents/numbers.hpp"
@@ -234,12 +236,65 @@ Table prediction_table(const Prediction& p) {
   return table;
 }
 
+/// "f_v" and "2" of "f_v[2]"; no joint: of all, as the base parameters of an arm.
+struct JointParameter {
+  std::string name, joint;
+};
+
+JointParameter split(const std::string& name) {
+  const std::size_t open = name.rfind('[');
+  if (open == std::string::npos || !name.ends_with(']')) return {name, ""};
+  return {name.substr(0, open), name.substr(open + 1, name.size() - open - 2)};
+}
+
+std::size_t place_in(std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  names.push_back(name);
+  return names.size() - 1;
+}
+
+std::string short_verdict(Determined determined) {
+  return determined == Determined::identifiable       ? "well"
+         : determined == Determined::not_identifiable ? "no"
+                                                      : std::string(to_string(determined));
+}
+
+/// A row per joint, a column per parameter; of a rig of one joint no row.
+Table joint_matrix(const Prediction& p) {
+  Table table;
+  table.title = fmt::format("{}: what stage 2 will determine of each joint (predicted)", p.preload);
+  std::vector<std::string> joints, names;
+  std::map<std::pair<std::size_t, std::size_t>, std::string> verdicts;
+  for (const PredictedEquation& e : p.equations)
+    for (const PredictedParameter& parameter : e.parameters) {
+      const JointParameter own = split(parameter.name);
+      if (own.joint.empty()) continue;
+      const std::size_t joint = place_in(joints, own.joint), name = place_in(names, own.name);
+      verdicts[{joint, name}] = short_verdict(parameter.determined);
+    }
+  if (joints.size() < 2) return table;
+  table.columns = {{"", "joint", "", true}};
+  for (const std::string& name : names) table.columns.push_back({"", name, "", true});
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    std::vector<std::string>& row = table.rows.emplace_back(1, joints[j]);
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const auto found = verdicts.find({j, k});
+      row.push_back(found != verdicts.end() ? found->second : kNoNumber);
+    }
+  }
+  return table;
+}
+
 void add_prediction(const Prediction& p, Document& document) {
   if (!p.none.empty()) {
     document.paragraphs.push_back(p.preload + ": no prediction of stage 2: " + p.none);
     return;
   }
-  document.tables.push_back(prediction_table(p));
+  Table joints = joint_matrix(p), parameters = prediction_table(p);
+  parameters.detail = !joints.rows.empty();
+  if (!joints.rows.empty()) document.tables.push_back(std::move(joints));
+  document.tables.push_back(std::move(parameters));
   for (const PredictedEquation& e : p.equations)
     for (const std::string& sentence : e.sentences)
       document.warnings.push_back(fmt::format("{}, {}: {}", p.preload, e.name, sentence));

@@ -8,7 +8,10 @@
 #include <limits>
 
 #include "cablefit/report/documents/document_parts.hpp"
+#include "cablefit/report/documents/friction_report.hpp"
+#include "cablefit/report/documents/load_report.hpp"
 #include "cablefit/report/documents/numbers.hpp"
+#include "cablefit/report/documents/polytope_report.hpp"
 #include "cablefit/report/documents/stiffness_report.hpp"
 
 namespace cablefit {
@@ -147,7 +150,11 @@ Table friction_table(const Words& words) {
                           {"efficiency", "driving", "%"},
                           {"efficiency", "driven", "%"}});
   for_each_joint(words.result, [&](const DesignPoint& point, const DesignJoint& joint) {
-    if (!joint.friction) return;
+    if (!joint.friction) {
+      if (!words.result.friction.empty())
+        add_row(table, words.key(point, joint), std::vector<std::string>(5, kNoNumber));
+      return;
+    }
     const DesignFriction& f = *joint.friction;
     add_row(table, words.key(point, joint),
             {few(f.at_rest), few(f.driving), few(f.driven), few(100 * f.efficiency_driving),
@@ -329,13 +336,17 @@ void add_sweep(const DesignResult& result, Document& document) {
                                     : std::string("preload"),
                                 needed_text(words, needed)});
   add_claim(words, document);
+  if (const std::string text = friction_text(result); !text.empty())
+    document.summary.push_back({"friction", text});
   add_table(document, preload_table(words));
   add_detail(document, cost_table(words));
   add_detail(document, friction_table(words));
+  add_friction_tables(result, document);
   add_detail(document, spread_table(words));
   add_detail(document, tension_table(words));
   add_figures(document, result.figures);
   add_tidy_rows(words, document);
+  add_friction_rows(result, document);
 }
 
 /// Least and largest among the designs of the sweep.
@@ -390,6 +401,9 @@ Document design_document(const DesignResult& result) {
   if (sweep) add_sweep(result, document);
   add_decisions(document, result.preload, result.decisions);
   add_stiffness(result, document);
+  add_held_loads(result, document);
+  add_polytopes(result, document);
+  if (!sweep) add_figures(document, result.figures);
   if (result.excitation) add_excitation(result, document);
   finish_decisions(document, 1);
   document.headline = headline_of(result);

@@ -118,6 +118,37 @@ Table suspect_table(const DynamicResult& result) {
   return table;
 }
 
+/// "recursive, memory 2 s".
+std::string rule_text(const OnlineRule& rule) {
+  if (rule.memory == 0) return rule.method;
+  return fmt::format("{}, memory {} s", rule.method, significant(rule.memory, 3));
+}
+
+/// Where each trace ends, against the direct answer.
+Table online_table(const DynamicResult& result) {
+  Table table;
+  table.title = "Estimates updated row by row, at the end of the logs";
+  table.columns = {{"", "preload", "", true}, {"", "model", "", true}, {"", "parameter", "", true},
+                   {"", "unit", "", true},    {"", "direct", ""},      {"", "updated", "", true},
+                   {"", "value", ""},         {"", "sd", ""},          {"", "difference [sd]", ""}};
+  for (const DynamicPreload& preload : result.preloads)
+    for (const DynamicFit& fit : preload.fits)
+      for (std::size_t k = 0; !fit.traces.empty() && k < fit.traces.front().names.size(); ++k)
+        for (const RecursiveTrace& trace : fit.traces) {
+          const Estimate& e = fit.parameters[k];
+          const OnlineEnd end = online_end(trace, k, e);
+          if (!e.not_identifiable.empty() || !std::isfinite(end.value)) continue;
+          table.rows.push_back({preload.name, fit.model, e.name, e.unit, value_text(e.value, e.sd),
+                                rule_text(trace.rule), value_text(end.value, end.sd),
+                                sd_text(end.value, end.sd), significant(end.difference, 2)});
+        }
+  if (!table.rows.empty())
+    table.notes.push_back(
+        "direct: the weighted fit to all rows, the answer of this result; difference: in sd of the "
+        "updated estimate, which does not see all rows alike");
+  return table;
+}
+
 /// One line per setting that was varied.
 Table sweep_summary(const DynamicResult& result) {
   Table table;
@@ -378,6 +409,7 @@ Document dynamic_document(const DynamicResult& result) {
         add_table(document,
                   proof_table(fmt::format("{}, {} by {}", preload.name, fit.model, fit.estimator),
                               *fit.proof));
+  add_table(document, online_table(result));
   add_table(document, suspect_table(result));
   if (Table errors = error_table(result); errors.columns.size() > 2)
     add_detail(document, std::move(errors));

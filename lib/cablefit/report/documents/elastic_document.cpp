@@ -1,6 +1,7 @@
 #include "cablefit/report/documents/elastic_document.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -119,6 +120,44 @@ Table scores_table(const ElasticResult& result) {
            std::isfinite(score.stiffness) ? fmt::format("{:.1f}", score.stiffness) : kNoNumber,
            score.is_test ? "test logs" : "these logs", error_text(score.rms_error),
            error_text(score.max_abs_error), fmt::format("{:.1f}", 1e3 * score.at)});
+  return table;
+}
+
+/// "4 + 4" terms of the cables.
+std::string terms_text(const BasisScore& score) {
+  return fmt::format("{}", fmt::join(score.cable_terms, " + "));
+}
+
+/// Bases of the cable force: the answer of --bases.
+Table bases_table(const ElasticResult& result) {
+  const bool linear_motion = !result.preloads.empty() && result.preloads.front().linear_motion;
+  const std::string torque = torque_unit(linear_motion);
+  Table table;
+  table.title = "Bases of the cable force";
+  table.columns = {{"", "preload", "", true},
+                   {"", "basis", "", true},
+                   {"", "terms", "", true},
+                   {"error", "rms", torque},
+                   {"held-out blocks", "rms", torque},
+                   {"held-out blocks", "best polynomial of as many terms", torque},
+                   {"k(l) = f(l)/l", "least", linear_motion ? "N/m" : "N m/rad"},
+                   {"k(l) = f(l)/l", ">= 0", "", true}};
+  for (const ElasticPreload& preload : result.preloads) {
+    if (!preload.bases) continue;
+    for (const BasisScore& score : preload.bases->scores)
+      table.rows.push_back({preload.name, score.basis, terms_text(score),
+                            error_text(score.rms_error), error_text(score.held_out_rms),
+                            error_text(preload.bases->polynomial_rms(score.n_terms)),
+                            error_text(score.lowest_secant), score.pulls ? "yes" : "no"});
+    if (std::isfinite(preload.bases->floor))
+      table.notes.push_back(
+          fmt::format("{}: scatter about short lines {} {} rms, which no curve "
+                      "explains",
+                      preload.name, error_text(preload.bases->floor), torque));
+  }
+  if (!table.rows.empty())
+    table.notes.push_back(
+        "terms: of each cable, chosen one by one; their number by block cross-validation");
   return table;
 }
 
@@ -298,6 +337,7 @@ Document elastic_document(const ElasticResult& result) {
   lead_with(document, 1);
   document.tables = stiffness_tables(result);
   add_table(document, scores_table(result));
+  add_table(document, bases_table(result));
   add_detail(document, fits_table(result));
   add_detail(document, slack_table(result));
   for (const ElasticPreload& preload : result.preloads)

@@ -17,7 +17,8 @@ constexpr double kMilli = 1e3;
 constexpr double kEquilibriumMet = 1e-9;  // N m
 
 std::string label(const Estimate& e) {
-  return e.symbol == e.name ? e.name : e.name + " (" + e.symbol + ")";
+  const bool same = e.name == e.symbol || e.name.starts_with(e.symbol + "[");
+  return same ? e.name : e.name + " (" + e.symbol + ")";
 }
 
 bool is_elongation(const Estimate& e) { return e.name.starts_with("l_o["); }
@@ -177,15 +178,15 @@ Table line_table(const IdentifyResult& result) {
   Table table;
   table.title = "Linear stiffness K: the straight line through the blocked rows";
   table.columns = {{"", "preload", "", true},
+                   {"", "slope", "", true},
                    {"", "deflection", result.linear_motion ? "mm" : "mrad"},
                    {"", "measured", result.linear_motion ? "N/m" : "N m/rad"},
                    {"", "of these cables", result.linear_motion ? "N/m" : "N m/rad"}};
-  for (const IdentifyPreload& preload : result.preloads) {
-    if (!preload.line) continue;
-    const LineStiffness& line = *preload.line;
-    table.rows.push_back({preload.name, range_text(line.low, line.high),
-                          value_with_sd(line.measured, line.sd), value_text(line.model, line.sd)});
-  }
+  for (const IdentifyPreload& preload : result.preloads)
+    for (const LineStiffness& line : preload.lines)
+      table.rows.push_back({preload.name, line.name, range_text(line.low, line.high),
+                            value_with_sd(line.measured, line.sd),
+                            value_text(line.model, line.sd)});
   return table;
 }
 
@@ -258,13 +259,28 @@ void add_tidy_rows(Document& document, const std::string& preload,
   for (const Estimate& e : parameters) add_tidy(document.tidy, preload, "poly", "joint", e);
 }
 
-/// "residual: blocked 0.0549 N m rms, link ...".
+/// "residual: blocked 0.0549 N m rms, link ..."; of several joints the least and the largest.
 std::string residual_text(const IdentifyPreload& preload, bool linear_motion) {
   std::string text;
-  for (const IdentifyEquation& e : preload.equations)
-    text += fmt::format("{} {} {} {} rms", text.empty() ? "residual:" : ",", e.name,
-                        significant(e.rms, kErrorDigits), torque_unit(linear_motion));
+  for (const char* side : {"blocked", "link", "motor"}) {
+    double least = kUnbounded, most = -kUnbounded;
+    for (const IdentifyEquation& e : preload.equations) {
+      if (e.side != side) continue;
+      least = std::min(least, e.rms);
+      most = std::max(most, e.rms);
+    }
+    if (most < least) continue;
+    const std::string from = significant(least, kErrorDigits), to = significant(most, kErrorDigits);
+    text += fmt::format("{} {} {} {} rms", text.empty() ? "residual:" : ",", side,
+                        from == to ? to : from + " .. " + to, torque_unit(linear_motion));
+  }
   return text;
+}
+
+/// "J_link", or "J_link[1..3]" of several joints.
+std::string name_of_all(const IdentifyResult& result, const char* name) {
+  const int n = result.preloads.front().transmission.n_joints;
+  return n > 1 ? fmt::format("{}[1..{}]", name, n) : name;
 }
 
 Headline headline_of(const IdentifyResult& result) {
@@ -283,19 +299,22 @@ Headline headline_of(const IdentifyResult& result) {
     std::vector<std::string> values;
     std::string unit;
     const auto add = [&](const std::vector<Estimate>& all) {
-      const Estimate* e = find_estimate(all, name);
-      if (e == nullptr || !e->not_identifiable.empty()) return;
-      values.push_back(headline_value(*e));
-      unit = e->unit;
+      for (const Estimate& e : all) {
+        const bool is_it = e.name == name || e.name.starts_with(std::string(name) + "[");
+        if (!is_it || !e.not_identifiable.empty()) continue;
+        values.push_back(headline_value(e));
+        unit = e.unit;
+      }
     };
     add(result.parameters);
     for (const IdentifyPreload& preload : result.preloads) add(preload.parameters);
-    if (!values.empty()) headline.numbers.push_back({name, joined_numbers(values) + " " + unit});
+    if (!values.empty())
+      headline.numbers.push_back({name_of_all(result, name), joined_numbers(values) + " " + unit});
   }
   std::vector<std::string> residuals;
   for (const IdentifyPreload& preload : result.preloads)
     for (const IdentifyEquation& e : preload.equations)
-      if (e.name == "motor") residuals.push_back(significant(e.rms, kErrorDigits));
+      if (e.side == "motor") residuals.push_back(significant(e.rms, kErrorDigits));
   if (!residuals.empty())
     headline.numbers.push_back(
         {"residual, motor equation",

@@ -20,6 +20,42 @@ std::string percent(double share) {
   return std::isfinite(share) ? fmt::format("{:.0f}", 100 * share) : kNoNumber;
 }
 
+/// Of several joints what each has.
+Table joint_table(const RefineResult& result) {
+  const std::string torque = torque_unit(result.linear_motion);
+  Table table;
+  table.title = "Joints";
+  table.columns = {{"", "joint", "", true},
+                   {"", "verdict", "", true},
+                   {"", "effect", "", true},
+                   {"gap on test", "before", torque},
+                   {"gap on test", "after", torque},
+                   {"", "noise floor", torque},
+                   {"", "p", ""}};
+  for (const RefineResult& r : result.joints) {
+    std::string effects;
+    for (const NamedEffect& effect : r.effects)
+      effects += (effects.empty() ? "" : ", ") + effect_text(effect, result);
+    const bool is_done = r.not_refined.empty();
+    const auto known = [&](double value) { return is_done ? number(value) : kNoNumber; };
+    table.rows.push_back({r.joint_name, is_done ? std::string(to_string(r.verdict)) : "not refined",
+                          effects, known(r.torque.test_before), known(r.torque.test_after),
+                          known(r.torque.noise_floor), known(r.search_p)});
+  }
+  table.notes = {"each joint by its own equations, the measured motion of the others given"};
+  return table;
+}
+
+Table joint_reasons(const RefineResult& result) {
+  Table table;
+  table.title = "Why, joint by joint";
+  table.detail = true;
+  table.columns = {{"", "joint", "", true}, {"", "reason", "", true}};
+  for (const RefineResult& r : result.joints)
+    table.rows.push_back({r.joint_name, r.not_refined.empty() ? r.reason : r.not_refined});
+  return table;
+}
+
 Table where_table(const RefineResult& result) {
   const std::string torque = torque_unit(result.linear_motion);
   Table table;
@@ -42,7 +78,7 @@ Table where_table(const RefineResult& result) {
 Table league_table(const RefineResult& result) {
   Table table;
   table.title = "Candidates for the first effect";
-  table.detail = result.verdict == Verdict::none;
+  table.detail = result.verdict == Verdict::none || !result.joints.empty();
   table.columns = {{"", "effect", "", true},
                    {"", "side", "", true},
                    {"removes of the", "squared gap", "%"},
@@ -51,8 +87,8 @@ Table league_table(const RefineResult& result) {
   const std::size_t n = std::min(kLeagueRows, result.league.size());
   for (std::size_t k = 0; k < n; ++k) {
     const Rival& row = result.league[k];
-    table.rows.push_back(
-        {row.name, row.side, percent(row.gain), percent(row.inclusion), row.refused});
+    table.rows.push_back({row.name, side_text(row.side, row.joint, result), percent(row.gain),
+                          percent(row.inclusion), row.refused});
   }
   if (result.league.size() > n)
     table.notes.push_back(
@@ -92,8 +128,9 @@ Table step_table(const RefineResult& result) {
                    {"gap", "held out", torque}, {"gap", "test", torque}, {"", "kept", "", true},
                    {"", "why not", "", true}};
   for (const RefineStep& step : result.steps)
-    table.rows.push_back({step.added, step.side, number(step.gap_train), number(step.gap_held_out),
-                          number(step.gap_test), step.accepted ? "yes" : "no", step.reason});
+    table.rows.push_back({step.added, side_text(step.side, step.joint, result),
+                          number(step.gap_train), number(step.gap_held_out), number(step.gap_test),
+                          step.accepted ? "yes" : "no", step.reason});
   return table;
 }
 
@@ -125,9 +162,11 @@ void add_model_rows(Table& table, const Model& model) {
   for (const Estimate& e : model.elastic) add(e);
 }
 
-void add_effect_rows(Table& table, const NamedEffect& effect) {
+void add_effect_rows(Table& table, const NamedEffect& effect, const RefineResult& result) {
   const Effect& row = *effect.instance.effect;
-  const std::string method = fmt::format("{}.{}", row.name, to_string(row.site));
+  const std::string method =
+      fmt::format("{}.{}{}", row.name, to_string(row.site),
+                  result.joints.empty() ? "" : fmt::format("[{}]", effect.joint));
   for (const auto* some : {&effect.instance.parameters, &effect.derived})
     for (const Estimate& e : *some) add_tidy(table, "", "refined", method, e);
 }
@@ -147,8 +186,8 @@ void add_gap_rows(Table& table, const GapStory& gap, const std::string& what,
 Table tidy_rows(const RefineResult& result) {
   Table table = tidy_table();
   for (const Model& model : result.models) add_model_rows(table, model);
-  for (const KeptEffect& kept : result.kept) add_effect_rows(table, kept.now);
-  for (const NamedEffect& effect : result.effects) add_effect_rows(table, effect);
+  for (const KeptEffect& kept : result.kept) add_effect_rows(table, kept.now, result);
+  for (const NamedEffect& effect : result.effects) add_effect_rows(table, effect, result);
   add_gap_rows(table, result.torque, "torque", torque_unit(result.linear_motion));
   add_gap_rows(table, result.simulation, "simulation", result.linear_motion ? "m" : "rad");
   if (result.models.size() == 1)  // then all of it is about its preload
@@ -163,8 +202,9 @@ Document refine_document(const RefineResult& result, const std::vector<std::stri
   document.title = "What the model lacks";
   document.summary = refine_story(result, model_files);
   document.headline = refine_headline(result);
-  for (Table table : {where_table(result), league_table(result), separability_table(result),
-                      step_table(result), shift_table(result)})
+  for (Table table :
+       {joint_table(result), joint_reasons(result), where_table(result), league_table(result),
+        separability_table(result), step_table(result), shift_table(result)})
     if (!table.rows.empty()) document.tables.push_back(std::move(table));
   if (!result.model_choice.empty())
     document.paragraphs.push_back(

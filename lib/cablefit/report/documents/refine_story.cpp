@@ -20,7 +20,8 @@ constexpr int kDigits = 3;
 constexpr std::string_view kFrequency = "frequency";  // whose variable is Hz
 constexpr std::size_t kPlaces = 2;                    // where the gap is, in the story
 constexpr double kMovedSd = 2;
-constexpr double kMovedShare = 0.02;  // where there is no sd
+constexpr std::size_t kMostShifts = 8;  // in the story; the table has all
+constexpr double kMovedShare = 0.02;    // where there is no sd
 
 std::string number(double value) { return significant(value, kDigits); }
 
@@ -63,10 +64,8 @@ std::vector<SummaryLine> where_lines(const RefineResult& result) {
 
 SummaryLine verdict_line(const RefineResult& result) {
   std::string names;
-  for (const NamedEffect& effect : result.effects) {
-    const Effect& row = *effect.instance.effect;
-    names += (names.empty() ? "" : ", ") + effect_text(row.name, to_string(row.site));
-  }
+  for (const NamedEffect& effect : result.effects)
+    names += (names.empty() ? "" : ", ") + effect_text(effect, result);
   std::string text(to_string(result.verdict));
   if (result.verdict == Verdict::ambiguous) names += " or a similar effect";
   if (!names.empty()) text += ": " + names;
@@ -93,8 +92,7 @@ bool is_seen(const EffectInstance& instance) {
 }
 
 /// What the model has already: values as it says them, and in these logs.
-SummaryLine kept_line(const KeptEffect& kept) {
-  const Effect& row = *kept.now.instance.effect;
+SummaryLine kept_line(const KeptEffect& kept, const RefineResult& result) {
   std::string text;
   for (std::size_t p = 0; p < kept.given.size(); ++p) {
     const Estimate& e = kept.now.instance.parameters[p];
@@ -103,7 +101,7 @@ SummaryLine kept_line(const KeptEffect& kept) {
                         value_with_sd(e.value, e.sd), e.unit.empty() ? "" : " ", e.unit);
   }
   if (!is_seen(kept.now.instance)) text += "; these logs do not show it";
-  return {"kept", fmt::format("{}: {}", effect_text(row.name, to_string(row.site)), text)};
+  return {"kept", fmt::format("{}: {}", effect_text(kept.now, result), text)};
 }
 
 /// Where none of the draws came as far, p says of what: a fit, and no more than the draws support.
@@ -132,24 +130,29 @@ SummaryLine evidence_line(const NamedEffect& effect, bool held_out_blocks) {
                                   chance_text(evidence), percent(evidence.inclusion))};
 }
 
-std::string rival_text(const Rival& rival) {
-  const std::string name = effect_text(rival.name, rival.side);
+std::string rival_text(const Rival& rival, const RefineResult& result) {
+  const std::string name = effect_text(rival.name, rival.side, rival.joint, result);
   if (rival.by_rule) return name + " is the same in any log of the usual kind";
   return fmt::format("{} removes {}, {} sd less", name, percent(rival.gain),
                      significant(std::max(0.0, rival.difference), 2));
 }
 
-SummaryLine rivals_line(const NamedEffect& effect, const std::vector<Rival>& league) {
+/// `is_first`: of its joint; further ones were chosen from another list of candidates.
+SummaryLine rivals_line(const NamedEffect& effect, const RefineResult& result, bool is_first) {
   std::string text;
-  for (const Rival& rival : effect.rivals) text += (text.empty() ? "" : "; ") + rival_text(rival);
+  for (const Rival& rival : effect.rivals)
+    text += (text.empty() ? "" : "; ") + rival_text(rival, result);
   if (!text.empty()) return {"rivals", text};
   const Effect& row = *effect.instance.effect;
+  const std::vector<Rival>& league = result.league;
   const auto next = std::find_if(league.begin(), league.end(), [&](const Rival& r) {
-    return r.refused.empty() && (r.name != row.name || r.side != to_string(row.site));
+    return r.refused.empty() && r.joint == effect.joint &&
+           (r.name != row.name || r.side != to_string(row.site));
   });
-  if (next == league.end() || !(next->gain > 0)) return {"rivals", "none"};
+  if (!is_first || next == league.end() || !(next->gain > 0)) return {"rivals", "none"};
   return {"rivals", fmt::format("none; the next best, {}, removes {} alone",
-                                effect_text(next->name, next->side), percent(next->gain))};
+                                effect_text(next->name, next->side, next->joint, result),
+                                percent(next->gain))};
 }
 
 std::string date_text(const EffectInstance& event, const RefineResult& result) {
@@ -162,19 +165,20 @@ std::string date_text(const EffectInstance& event, const RefineResult& result) {
 }
 
 void add_effect_lines(const RefineResult& result, std::vector<SummaryLine>& lines) {
+  int last_joint = 0;
   for (const NamedEffect& effect : result.effects) {
     const Effect& row = *effect.instance.effect;
-    std::string text = fmt::format("{}: {}; {}", row.name, row.equation, parameters_text(effect));
+    const std::string name =
+        result.joints.empty() ? std::string(row.name) : effect_text(effect, result);
+    std::string text = fmt::format("{}: {}; {}", name, row.equation, parameters_text(effect));
     if (row.is_event) text += "; " + date_text(effect.instance, result);
     if (effect.torque_rms > 0)
       text += fmt::format("; carries {} {} rms", number(effect.torque_rms),
                           torque_unit(result.linear_motion));
     lines.push_back({"effect", text});
     lines.push_back(evidence_line(effect, result.held_out_blocks));
-    // Further ones were chosen from another list of candidates.
-    const bool is_first = &effect == &result.effects.front();
-    if (is_first || !effect.rivals.empty())
-      lines.push_back(rivals_line(effect, is_first ? result.league : std::vector<Rival>{}));
+    const bool is_first = effect.joint != std::exchange(last_joint, effect.joint);
+    if (is_first || !effect.rivals.empty()) lines.push_back(rivals_line(effect, result, is_first));
   }
 }
 
@@ -257,18 +261,40 @@ std::string shift_text(const ParameterShift& shift) {
   return std::isfinite(moved) ? fmt::format("{} ({:+.0f} sd)", text, moved) : text;
 }
 
+/// Those that moved most, in the order of the model.
 SummaryLine shifts_line(const RefineResult& result) {
-  std::string text;
+  std::vector<const ParameterShift*> moved;
   for (const ParameterShift& shift : result.shifts)
-    if (is_shifted(shift)) text += (text.empty() ? "" : ", ") + shift_text(shift);
+    if (is_shifted(shift)) moved.push_back(&shift);
+  const std::size_t n_more = moved.size() - std::min(moved.size(), kMostShifts);
+  std::vector<const ParameterShift*> most = moved;
+  std::stable_sort(most.begin(), most.end(), [](const auto* a, const auto* b) {
+    return std::abs(moved_sd(*a)) > std::abs(moved_sd(*b));
+  });
+  most.resize(moved.size() - n_more);
+  std::string text;
+  for (const ParameterShift* shift : moved)
+    if (std::find(most.begin(), most.end(), shift) != most.end())
+      text += (text.empty() ? "" : ", ") + shift_text(*shift);
+  if (n_more > 0) text += fmt::format("; {} more moved less", n_more);
   if (text.empty()) text = fmt::format("no parameter moved by more than {:g} sd", kMovedSd);
   return {"shifts", text};
 }
 
 }  // namespace
 
-std::string effect_text(std::string_view name, std::string_view side) {
-  return fmt::format("{} ({})", name, side);
+std::string side_text(std::string_view side, int joint, const RefineResult& result) {
+  return result.joints.empty() ? std::string(side) : fmt::format("{} {}", side, joint);
+}
+
+std::string effect_text(std::string_view name, std::string_view side, int joint,
+                        const RefineResult& result) {
+  return fmt::format("{} ({})", name, side_text(side, joint, result));
+}
+
+std::string effect_text(const NamedEffect& effect, const RefineResult& result) {
+  const Effect& row = *effect.instance.effect;
+  return effect_text(row.name, to_string(row.site), effect.joint, result);
 }
 
 std::string regime_text(const Regime& regime, bool linear_motion) {
@@ -291,10 +317,8 @@ Headline refine_headline(const RefineResult& result) {
   Headline headline;
   std::tie(headline.word, headline.tone) = kWords.at(static_cast<std::size_t>(result.verdict));
   std::string names;
-  for (const NamedEffect& effect : result.effects) {
-    const Effect& row = *effect.instance.effect;
-    names += (names.empty() ? "" : ", ") + effect_text(row.name, to_string(row.site));
-  }
+  for (const NamedEffect& effect : result.effects)
+    names += (names.empty() ? "" : ", ") + effect_text(effect, result);
   headline.verdict = names.empty() ? result.reason : names + "; " + result.reason;
   const bool changed = !result.effects.empty();
   const std::string torque = torque_unit(result.linear_motion);
@@ -317,7 +341,7 @@ Headline refine_headline(const RefineResult& result) {
 std::vector<SummaryLine> refine_story(const RefineResult& result,
                                       const std::vector<std::string>& model_files) {
   std::vector<SummaryLine> lines = {verdict_line(result)};
-  for (const KeptEffect& kept : result.kept) lines.push_back(kept_line(kept));
+  for (const KeptEffect& kept : result.kept) lines.push_back(kept_line(kept, result));
   add_effect_lines(result, lines);
   if (result.torque.known) lines.push_back(gap_line(result));
   if (result.simulation.known || result.elastic_only) lines.push_back(simulation_line(result));

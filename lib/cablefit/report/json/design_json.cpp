@@ -1,5 +1,6 @@
 #include "cablefit/report/json/design_json.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "cablefit/report/json/json_list.hpp"
@@ -32,13 +33,58 @@ Json cost_json(const ModelCost& cost) {
               {"collision", collision_json(cost.collision)}};
 }
 
+Json interval_json(double low, double high) {
+  return std::isfinite(low) ? Json{low, high} : Json(nullptr);
+}
+
+Json part_json(const DesignFriction::Part& part) {
+  return Json{{"name", part.name},
+              {"unit", part.unit},
+              {"value", part.value.value},
+              {"sd", part.value.sd},
+              {"ci95", interval_json(part.value.low, part.value.high)}};
+}
+
+Json fitted_friction_json(const FittedFriction& point) {
+  return Json{{"preload", point.preload},
+              {"l_o", point.l_o},
+              {"tension", point.tension},
+              {"value", point.value},
+              {"sd", point.sd}};
+}
+
+Json line_json(const FrictionCurve& curve) {
+  if (!curve.line) return {};
+  const PreloadLine& line = *curve.line;
+  return Json{{"over", curve.by_tension ? "tension" : "l_o"},
+              {"intercept", line.intercept()},
+              {"intercept_sd", line.intercept_sd()},
+              {"slope", line.slope},
+              {"slope_sd", line.slope_sd()},
+              {"misfit_sd", line.misfit},
+              {"p_value", line.p_value},
+              {"range", {line.low, line.high}}};
+}
+
+Json curve_json(const FrictionCurve& curve) {
+  return Json{{"joint", curve.joint + 1},
+              {"name", curve.name},
+              {"unit", curve.unit},
+              {"fits", list_of(curve.points, fitted_friction_json)},
+              {"line", line_json(curve)}};
+}
+
 Json friction_json(const std::optional<DesignFriction>& f) {
   if (!f) return {};
   return Json{{"at_rest", f->at_rest},
               {"driving", f->driving},
               {"driven", f->driven},
               {"efficiency_driving", f->efficiency_driving},
-              {"efficiency_driven", f->efficiency_driven}};
+              {"efficiency_driven", f->efficiency_driven},
+              {"sd", f->sd},
+              {"ci95", interval_json(f->low, f->high)},
+              {"efficiency_driving_ci95", interval_json(f->efficiency_low, f->efficiency_high)},
+              {"parts", list_of(f->parts, part_json)}};
 }
 
 Json spread_json(const std::optional<DesignSpread>& sd) {
@@ -76,6 +122,12 @@ Json point_json(const DesignPoint& point) {
   return Json{{"l_o", point.l_o},
               {"radius_factor", point.radius_factor},
               {"own", point.is_own},
+              {"initial_elongations", point.initial_elongations},
+              {"joints", list_of(point.joints, joint_json)}};
+}
+
+Json fitted_json(const DesignPoint& point) {
+  return Json{{"preload", point.preload},
               {"initial_elongations", point.initial_elongations},
               {"joints", list_of(point.joints, joint_json)}};
 }
@@ -196,6 +248,48 @@ Json balance_json(const Balance& balance) {
               {"cables", cables}};
 }
 
+Json held_json(const HeldLoad& held) {
+  return Json{{"initial_elongations", held.initial_elongations},
+              {"own", held.is_own},
+              {"load", values_of(held.load)},
+              {"q", values_of(held.q)},
+              {"deflection", values_of(held.deflection)},
+              {"deflection_without_slack", values_of(held.without_slack)},
+              {"slack_share", held.slack_share()},
+              {"elongations", values_of(held.elongation)},
+              {"tensions", values_of(held.tension)}};
+}
+
+/// One list per column.
+Json columns_of(const Eigen::MatrixXd& matrix) { return rows_of(matrix.transpose()); }
+
+Json polytope_json(const TorquePolytope& p) {
+  Json joints = Json::array();
+  for (int j = 0; j < p.q.size(); ++j)
+    joints.push_back({{"range", {-p.largest(j, -1), p.largest(j, 1)}},
+                      {"range_alone", {-p.largest_alone(j, -1), p.largest_alone(j, 1)}}});
+  return Json{{"where", p.where},
+              {"q", values_of(p.q)},
+              {"closure", p.closure},
+              {"cone_normals", columns_of(p.cone)},
+              {"joints", joints},
+              {"vertices", columns_of(p.vertices)},
+              {"normals", columns_of(p.normals)}};
+}
+
+Json slack_json(const SlackOrder& order) {
+  Json cables = Json::array();
+  for (const SlackLoad& slack : order.cables)
+    cables.push_back({{"cable", slack.cable}, {"load", slack.load}});
+  return Json{{"direction", values_of(order.direction)}, {"cables", cables}};
+}
+
+Json polytopes_json(const DesignResult& result) {
+  return Json{{"largest_tension", result.largest_tension},
+              {"poses", list_of(result.polytopes, polytope_json)},
+              {"slack_order", list_of(result.slack_orders, slack_json)}};
+}
+
 }  // namespace
 
 std::string design_json(const DesignResult& result) {
@@ -210,9 +304,13 @@ std::string design_json(const DesignResult& result) {
   json["detector"] = detector_json(result);
   json["needed_preload"] = list_of(result.needed, needed_json);
   json["points"] = list_of(result.points, point_json);
+  if (!result.fitted.empty()) json["fitted_preloads"] = list_of(result.fitted, fitted_json);
+  if (!result.friction.empty()) json["friction"] = list_of(result.friction, curve_json);
   if (!result.stiffness.empty()) json["stiffness"] = list_of(result.stiffness, pose_json);
   if (result.along) json["stiffness_along"] = along_json(*result.along);
   if (result.balance) json["balance"] = balance_json(*result.balance);
+  if (!result.polytopes.empty()) json["torque_polytopes"] = polytopes_json(result);
+  if (!result.held.empty()) json["held_loads"] = list_of(result.held, held_json);
   json["excitation"] = excitation_json(result);
   json["decisions"] = report_json::decisions(result.decisions);
   return report_json::text(json);

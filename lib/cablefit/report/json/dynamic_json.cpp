@@ -1,5 +1,6 @@
 #include "cablefit/report/json/dynamic_json.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "cablefit/model/file/writer.hpp"
@@ -62,6 +63,27 @@ Json sweep_json(const Sweep& sweep) {
   return Json{{"parameters", sweep.parameters}, {"points", points}, {"verdicts", verdicts}};
 }
 
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json online_json(const DynamicFit& fit, const RecursiveTrace& trace) {
+  const OnlineRule& rule = trace.rule;
+  Json parameters = Json::array();
+  for (std::size_t k = 0; k < trace.names.size(); ++k) {
+    const OnlineEnd end = online_end(trace, k, fit.parameters[k]);
+    parameters.push_back(Json{{"name", trace.names[k]},
+                              {"unit", trace.units[k]},
+                              {"value", number_or_null(end.value)},
+                              {"sd", number_or_null(end.sd)},
+                              {"difference_in_sd", number_or_null(end.difference)}});
+  }
+  return Json{{"method", rule.method},
+              {"memory", rule.memory > 0 ? Json(rule.memory) : Json()},
+              {"forgetting", rule.step > 0 ? Json() : Json(rule.forgetting)},
+              {"step", rule.step > 0 ? Json(rule.step) : Json()},
+              {"slowest", rule.step > 0 ? number_or_null(rule.slowest) : Json()},
+              {"parameters", parameters}};
+}
+
 Json covariance_or_null(const ParameterCovariance& covariance) {
   return covariance.empty() ? Json() : model_file::covariance_json(covariance);
 }
@@ -86,6 +108,7 @@ Json fit_json(const DynamicFit& fit) {
                         {"estimator_difference", by_name(fit.estimator_difference)},
                         {"stage1_misfit", by_name(fit.stage1_misfit)}};
   if (!fit.suspects.empty()) json["suspects"] = suspects_json(fit.suspects);
+  for (const RecursiveTrace& trace : fit.traces) json["online"].push_back(online_json(fit, trace));
   if (fit.sweep) json["sweep"] = sweep_json(*fit.sweep);
   json["verdicts"] = by_name(fit.verdicts);
   json["warnings"] = fit.warnings;

@@ -95,6 +95,29 @@ Json score_json(const ElasticScore& score) {
   return json;
 }
 
+Json basis_json(const BasisScore& score) {
+  Json json{{"basis", score.basis},
+            {"terms", score.n_terms},
+            {"cable_terms", score.cable_terms},
+            {"rms_error", score.rms_error},
+            {"held_out_rms", score.held_out_rms},
+            {"lowest_secant", score.lowest_secant},
+            {"pulls", score.pulls},
+            {"held_out_by_terms", score.path}};
+  json["atoms"] = list_of(score.terms, [](const BasisTerm& term) {
+    return Json{{"cable", term.cable}, {"atom", term.atom}, {"coefficient", term.coefficient}};
+  });
+  return json;
+}
+
+Json bases_json(const BasisComparison& bases) {
+  Json json{{"scores", list_of(bases.scores, basis_json)},
+            {"blocks", bases.n_blocks},
+            {"folds", bases.n_folds}};
+  json["scatter"] = std::isfinite(bases.floor) ? Json(bases.floor) : Json();
+  return json;
+}
+
 Json modes_json(const ElasticPreload& preload) {
   Json slack = Json::array();
   for (const ModeCounts::Slack& own : preload.modes.slack)
@@ -126,6 +149,7 @@ Json preload_json(const ElasticPreload& preload) {
   for (const RigFact& fact : preload.rig_facts) json["rig_content"][fact.name] = fact.value;
   if (!preload.shape_doubt.empty()) json["shape_doubt"] = preload.shape_doubt;
   if (!preload.scores.empty()) json["scores"] = list_of(preload.scores, score_json);
+  if (preload.bases) json["bases"] = bases_json(*preload.bases);
   if (!preload.joints.empty()) json["joints"] = list_of(preload.joints, joint_json);
   return json;
 }

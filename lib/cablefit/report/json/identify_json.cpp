@@ -24,12 +24,23 @@ Json equations_json(const std::vector<IdentifyEquation>& equations) {
   return json;
 }
 
-Json line_json(const std::optional<LineStiffness>& line) {
-  if (!line) return nullptr;
-  return Json{{"range", {line->low, line->high}},
-              {"measured", line->measured},
-              {"sd", line->sd},
-              {"model", line->model}};
+Json line_json(const LineStiffness& line) {
+  return Json{{"range", {line.low, line.high}},
+              {"measured", line.measured},
+              {"sd", line.sd},
+              {"model", line.model}};
+}
+
+/// Of one joint its line, of several a list with names.
+Json lines_json(const IdentifyPreload& preload) {
+  if (preload.transmission.n_joints == 1)
+    return preload.lines.empty() ? Json() : line_json(preload.lines.front());
+  Json list = Json::array();
+  for (const LineStiffness& line : preload.lines) {
+    list.push_back(line_json(line));
+    list.back()["name"] = line.name;
+  }
+  return list;
 }
 
 Json elongation_json(const IdentifyPreload& preload, const Cable& cable) {
@@ -71,7 +82,7 @@ Json preload_json(const IdentifyPreload& preload) {
               {"cables", cables_json(preload)},
               {"deflection_range", {preload.deflection_low, preload.deflection_high}},
               {"equilibrium_torque", preload.equilibrium},
-              {"linear_K", line_json(preload.line)},
+              {"linear_K", lines_json(preload)},
               {"slack_points", slack_json(preload)},
               {"equations", equations_json(preload.equations)},
               {"resonance_hz", preload.resonance > 0 ? Json(preload.resonance) : Json()},

@@ -1,5 +1,6 @@
 #include "cablefit/report/json/refine_json.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "cablefit/report/documents/document_parts.hpp"
@@ -12,8 +13,6 @@ namespace {
 using report_json::Json;
 using report_json::list_of;
 using report_json::text_or_null;
-
-constexpr int kJoint = 1;  // refine is made for one
 
 Json regime_json(const Regime& regime) {
   return Json{{"equation", regime.equation},
@@ -31,6 +30,7 @@ Json rival_json(const Rival& rival) {
   return Json{
       {"name", rival.name},
       {"side", rival.side},
+      {"joint", rival.joint},
       {"evidence",
        {{"gain", rival.gain}, {"difference_sd", rival.difference}, {"inclusion", rival.inclusion}}},
       {"alias", rival.by_rule},
@@ -38,11 +38,9 @@ Json rival_json(const Rival& rival) {
 }
 
 Json league_json(const Rival& row) {
-  return Json{{"name", row.name},
-              {"side", row.side},
-              {"gain", row.gain},
-              {"inclusion", row.inclusion},
-              {"refused", text_or_null(row.refused)}};
+  return Json{{"name", row.name},           {"side", row.side},
+              {"joint", row.joint},         {"gain", row.gain},
+              {"inclusion", row.inclusion}, {"refused", text_or_null(row.refused)}};
 }
 
 Json evidence_json(const RefineEvidence& evidence) {
@@ -71,7 +69,7 @@ Json effect_json(const RefineResult& result, const NamedEffect& effect) {
   parameters.insert(parameters.end(), effect.derived.begin(), effect.derived.end());
   return Json{{"name", effect.instance.effect->name},
               {"side", to_string(effect.instance.effect->site)},
-              {"joint", kJoint},
+              {"joint", effect.joint},
               {"equation", effect.instance.effect->equation},
               {"parameters", report_json::parameters(parameters)},
               {"event", event_json(result, effect.instance)},
@@ -87,7 +85,7 @@ Json kept_json(const KeptEffect& kept) {
   parameters.insert(parameters.end(), kept.now.derived.begin(), kept.now.derived.end());
   return Json{{"name", row.name},
               {"side", to_string(row.site)},
-              {"joint", kJoint},
+              {"joint", kept.now.joint},
               {"equation", row.equation},
               {"given", report_json::parameters(kept.given)},
               {"parameters", report_json::parameters(parameters)},
@@ -95,9 +93,13 @@ Json kept_json(const KeptEffect& kept) {
 }
 
 Json step_json(const RefineStep& step) {
-  return Json{{"added", step.added},         {"side", step.side},
-              {"accepted", step.accepted},   {"reason", text_or_null(step.reason)},
-              {"gap_train", step.gap_train}, {"gap_held_out", step.gap_held_out},
+  return Json{{"added", step.added},
+              {"side", step.side},
+              {"joint", step.joint},
+              {"accepted", step.accepted},
+              {"reason", text_or_null(step.reason)},
+              {"gap_train", step.gap_train},
+              {"gap_held_out", step.gap_held_out},
               {"gap_test", step.gap_test}};
 }
 
@@ -123,10 +125,12 @@ Json gap_json(const GapStory& gap, const std::string& unit, bool with_train) {
 Json remainder_json(const RefineResult& result) {
   const bool moves = !result.elastic_only;
   const auto if_there = [](bool there, double value) { return there ? Json(value) : Json(); };
-  const auto material = [&](std::string_view equation) {
+  const auto material = [&](const std::string& equation) {
+    double most = 0;  // of several joints: "link[1]", "link[2]"
     for (const EquationRemainder& e : result.remainders)
-      if (e.equation == equation) return Json(e.material);
-    return Json();
+      if (e.equation == equation || e.equation.starts_with(equation + '['))
+        most = std::max(most, e.material);
+    return if_there(most > 0, most);
   };
   const bool has_link = moves && !result.rigid, has_blocked = result.floor_blocked > 0;
   return Json{{"unit", torque_unit(result.linear_motion)},
@@ -171,6 +175,23 @@ Json not_separable_json(const NotSeparable& group) {
               {"still_together", group.still_together}};
 }
 
+/// One of several joints.
+Json joint_json(const RefineResult& r) {
+  if (!r.not_refined.empty())
+    return Json{{"joint", r.joint}, {"name", r.joint_name}, {"not_refined", r.not_refined}};
+  return Json{{"joint", r.joint},
+              {"name", r.joint_name},
+              {"verdict", to_string(r.verdict)},
+              {"reason", r.reason},
+              {"unexplained", unexplained_json(r.unexplained, r.linear_motion)},
+              {"rho", {{"before", r.rho_before}, {"after", r.rho_after}}},
+              {"remainder", remainder_json(r)},
+              {"gap",
+               {{"torque", gap_json(r.torque, torque_unit(r.linear_motion), true)},
+                {"simulation", gap_json(r.simulation, r.linear_motion ? "m" : "rad", false)}}},
+              {"p_value", r.search_p}};
+}
+
 Json models_json(const RefineResult& result, std::span<const std::string> files) {
   Json list = Json::array();
   for (std::size_t k = 0; k < files.size(); ++k)
@@ -191,6 +212,7 @@ std::string refine_json(const RefineResult& result, std::span<const std::string>
   json["effects"] = Json::array();
   for (const NamedEffect& effect : result.effects)
     json["effects"].push_back(effect_json(result, effect));
+  if (!result.joints.empty()) json["joints"] = list_of(result.joints, joint_json);
   if (!result.kept.empty()) json["kept"] = list_of(result.kept, kept_json);
   json["rho"] = {{"before", result.rho_before}, {"after", result.rho_after}};
   json["remainder"] = remainder_json(result);

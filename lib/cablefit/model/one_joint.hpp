@@ -1,0 +1,52 @@
+// One joint out of a model of several, as a model of its own. The equations of motion of joint k
+// hold the positions of the others only in the elongations of the cables that pass it,
+//   l_i = g_ik(theta_k) - h_ik(q_k) + sum over j /= k (g_ij(theta_j) - h_ij(q_j)) + l_o
+// (Fichera & Grossard 2017, (3)-(4)), and in the torque of links that move each other: where those
+// positions are measured, joint k stands alone.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "cablefit/model/model.hpp"
+
+namespace cablefit {
+
+/// Joint `joint` (from 0): its axes, the cables that pass it with their pulleys on it, and what the
+/// rig says of it, named as on a rig of one joint. It remembers `whole`. Links that move each other
+/// keep their arm, whose torque on this joint follows from the motion of all (arm_columns).
+Model one_joint(const Model& whole, int joint);
+
+/// The same without the others, which stand at 0: an arm as an inertia M_kk(0) of the link.
+Model standing_alone(const Model& one);
+
+/// Torque on the joint per unit of each base parameter of its arm, samples x parameters; positions,
+/// velocities and accelerations of all links, samples x joints.
+Eigen::MatrixXd arm_columns(const Model& one, const Eigen::ArrayXXd& q, const Eigen::ArrayXXd& qd,
+                            const Eigen::ArrayXXd& qdd);
+
+/// Base parameters that the joint's own equation can tell apart: those whose columns are not made
+/// of earlier ones, for any motion (QR of random ones), and that the model knows to within their
+/// size, or knows no sd of.
+std::vector<Eigen::Index> told_arm_columns(const Model& one);
+
+/// The model that `model` was taken from, with its axes and cables in their places; itself, when it
+/// was not taken from any.
+Model whole_of(const Model& model);
+
+/// A parameter of the model of one joint as the whole calls it: "f_s" is "f_s[2]", what belongs to
+/// a cable has one name.
+std::string name_in_whole(const Model& one, const std::string& name);
+
+/// Several joints of one model, each taken from it and fitted. Of a cable that passes several the
+/// coefficients of the joint that knows them best, by sd over value; of the arm each base parameter
+/// likewise. With their covariance.
+Model joined(std::span<const Model> joints);
+
+/// What the other joints add to the elongation of each cable of the model, samples x cables, m;
+/// `q`, `theta`: of all joints, samples x joints, rad. No columns: nothing, it is whole.
+Eigen::ArrayXXd others_elongation(const Model& model, const Eigen::ArrayXXd& q,
+                                  const Eigen::ArrayXXd& theta);
+
+}  // namespace cablefit

@@ -1,0 +1,274 @@
+#include "cablefit/refine/joints.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/model/one_joint.hpp"
+#include "cablefit/refine/null/kept_effects.hpp"
+#include "cablefit/refine/rows/physical_values.hpp"
+#include "cablefit/refine/rows/refined_model.hpp"
+#include "cablefit/refine/steps/elastic_stage.hpp"
+
+namespace cablefit {
+namespace {
+
+std::vector<Model> one_joint_each(std::span<const Model> models, int joint) {
+  std::vector<Model> one;
+  for (const Model& model : models) one.push_back(one_joint(model, joint));
+  return one;
+}
+
+std::vector<LogSurvey> fitted_logs(const RefineLogs& logs) {
+  std::vector<LogSurvey> all = logs.blocked;
+  all.insert(all.end(), logs.train.begin(), logs.train.end());
+  return all;
+}
+
+/// The models of a joint with the base fit that its training logs give. Of blocked logs alone, and
+/// where there is none, as they are.
+std::vector<Model> with_base_fit(const std::vector<Model>& models, const RefineLogs& logs) {
+  const RefineStage stage = stage_of(models, logs);
+  if (stage.elastic_only) return models;
+  std::vector<Stretch> stretches = read_stretches(fitted_logs(logs), stage.models, stage.wanted);
+  if (stretches.empty()) return models;
+  const Smoothing wanted = smoothing_for(finest_period(stretches, false));
+  const ScanSettings settings;
+  const BaseFit base = fit_kept_base(stage.models, std::move(stretches), wanted, settings).base;
+  return models_with(base.design,
+                     physical_values(base.design, settings.block_seconds, base.levels, base.fit.x));
+}
+
+/// Simulations of one joint move the others too: all of them with values that fit.
+std::vector<Model> with_base_fits(std::span<const Model> given, const RefineLogs& logs) {
+  std::vector<Model> models(given.begin(), given.end());
+  for (int joint = 0; joint < static_cast<int>(given.front().joints.size()); ++joint) {
+    try {
+      const std::vector<Model> fitted = with_base_fit(one_joint_each(models, joint), logs);
+      for (std::size_t m = 0; m < models.size(); ++m) models[m] = whole_of(fitted[m]);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::not_identifiable) throw;  // the joint says so in its turn
+    }
+  }
+  return models;
+}
+
+std::string of_joint(const std::string& name, int joint) {
+  return fmt::format("{}[{}]", name, joint);
+}
+
+/// "stribeck (motor 2)" of "stribeck (motor)".
+std::string with_number(const std::string& effect, int joint) {
+  if (!effect.ends_with(')')) return effect;
+  return fmt::format("{} {})", effect.substr(0, effect.size() - 1), joint);
+}
+
+/// What the result of one joint says, as that of one among several.
+void tell_joint(RefineResult& r) {
+  for (Regime& regime : r.where) regime.equation = of_joint(regime.equation, r.joint);
+  for (EquationRemainder& e : r.remainders) e.equation = of_joint(e.equation, r.joint);
+  for (NamedEffect& effect : r.effects) {
+    effect.joint = r.joint;
+    for (Rival& rival : effect.rivals) rival.joint = r.joint;
+  }
+  for (KeptEffect& kept : r.kept) kept.now.joint = r.joint;
+  for (Rival& row : r.league) row.joint = r.joint;
+  for (RefineStep& step : r.steps) step.joint = r.joint;
+  for (ParameterShift& shift : r.shifts) shift.name = name_in_whole(r.models.front(), shift.name);
+  if (r.unexplained) r.unexplained->equation = of_joint(r.unexplained->equation, r.joint);
+  for (NotSeparable& group : r.not_separable) {
+    for (std::string& effect : group.effects) effect = with_number(effect, r.joint);
+    for (std::string& effect : group.still_together) effect = with_number(effect, r.joint);
+  }
+  for (Figure& figure : r.figures) {
+    figure.section = fmt::format("Joint {}: {}", r.joint_name, figure.section);
+    if (figure.rank == FigureRank::main && r.joint > 1) figure.rank = FigureRank::shown;
+  }
+}
+
+template <typename List>
+void append(List& to, const List& more) {
+  to.insert(to.end(), more.begin(), more.end());
+}
+
+/// Lists one behind the other. Warnings and decisions that all joints share once.
+void append_lists(const RefineResult& r, RefineResult& all) {
+  append(all.where, r.where);
+  append(all.effects, r.effects);
+  append(all.kept, r.kept);
+  append(all.league, r.league);
+  append(all.not_separable, r.not_separable);
+  append(all.remainders, r.remainders);
+  append(all.steps, r.steps);
+  append(all.shifts, r.shifts);
+  append(all.figures, r.figures);
+  for (const std::string& warning : r.warnings) {
+    const std::string own = fmt::format("joint {}: {}", r.joint_name, warning);
+    if (std::find(all.warnings.begin(), all.warnings.end(), own) == all.warnings.end())
+      all.warnings.push_back(own);
+  }
+}
+
+/// Root mean square over the joints for which `known`.
+template <typename Known, typename Get>
+double rms_over(const std::vector<RefineResult>& joints, Known known, Get get) {
+  double squares = 0, n = 0;
+  for (const RefineResult& r : joints)
+    if (known(r)) {
+      squares += get(r) * get(r);
+      ++n;
+    }
+  return n > 0 ? std::sqrt(squares / n) : 0;
+}
+
+GapStory rms_gap(const std::vector<RefineResult>& joints, GapStory RefineResult::*gap) {
+  GapStory all;
+  const auto known = [gap](const RefineResult& r) { return (r.*gap).known; };
+  all.known = std::any_of(joints.begin(), joints.end(), known);
+  for (double GapStory::*value :
+       {&GapStory::train_before, &GapStory::train_after, &GapStory::test_before,
+        &GapStory::test_after, &GapStory::noise_floor})
+    all.*value = rms_over(joints, known, [&](const RefineResult& r) { return r.*gap.*value; });
+  for (auto interval : {&GapStory::test_before_ci, &GapStory::test_after_ci})
+    for (std::size_t i = 0; i < 2; ++i)
+      (all.*interval)[i] =
+          rms_over(joints, known, [&](const RefineResult& r) { return (r.*gap.*interval)[i]; });
+  return all;
+}
+
+void take_gaps(RefineResult& all) {
+  const auto is_done = [](const RefineResult& r) { return r.not_refined.empty(); };
+  for (double RefineResult::*value :
+       {&RefineResult::remainder_link, &RefineResult::remainder_motor, &RefineResult::floor_link,
+        &RefineResult::floor_motor, &RefineResult::remainder_blocked, &RefineResult::floor_blocked})
+    all.*value = rms_over(all.joints, is_done, [&](const RefineResult& r) { return r.*value; });
+  all.torque = rms_gap(all.joints, &RefineResult::torque);
+  all.simulation = rms_gap(all.joints, &RefineResult::simulation);
+  double before = 0, after = 0, n = 0;
+  for (const RefineResult& r : all.joints)
+    if (is_done(r)) {
+      before += r.rho_before;
+      after += r.rho_after;
+      ++n;
+    }
+  all.rho_before = before / n;
+  all.rho_after = after / n;
+}
+
+/// The joint that decides: one with an effect, then one with a gap that nothing explains.
+Verdict verdict_of(const std::vector<RefineResult>& joints) {
+  for (const Verdict verdict : {Verdict::ambiguous, Verdict::named, Verdict::unexplained})
+    for (const RefineResult& r : joints)
+      if (r.not_refined.empty() && r.verdict == verdict) return verdict;
+  return Verdict::none;
+}
+
+/// "named on joints 2 and 4, none on joint 1".
+std::string reasons_of(const std::vector<RefineResult>& joints) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> groups;
+  for (const RefineResult& r : joints) {
+    const std::string word =
+        r.not_refined.empty() ? std::string(to_string(r.verdict)) : "not refined";
+    auto group = std::find_if(groups.begin(), groups.end(),
+                              [&](const auto& other) { return other.first == word; });
+    if (group == groups.end()) group = groups.insert(groups.end(), {word, {}});
+    group->second.push_back(r.joint_name);
+  }
+  std::string text;
+  for (const auto& [word, names] : groups)
+    text += fmt::format("{}{} on joint{} {}", text.empty() ? "" : "; ", word,
+                        names.size() > 1 ? "s" : "", fmt::join(names, ", "));
+  return text;
+}
+
+/// Where the joint says so most: the largest squared gap, then the first.
+const RefineResult& leading(const std::vector<RefineResult>& joints, Verdict verdict) {
+  const RefineResult* best = nullptr;
+  for (const RefineResult& r : joints) {
+    const bool wanted = r.not_refined.empty() && r.verdict == verdict;
+    if (wanted && (best == nullptr || r.rho_before > best->rho_before)) best = &r;
+  }
+  return best != nullptr ? *best : joints.front();
+}
+
+/// Of every preload the model with what each joint's fit says.
+std::vector<Model> joined_models(std::span<const Model> models,
+                                 const std::vector<RefineResult>& joints) {
+  std::vector<Model> all;
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    std::vector<Model> own;
+    for (const RefineResult& r : joints)
+      if (m < r.models.size()) own.push_back(r.models[m]);
+    all.push_back(own.empty() ? models[m] : joined(own));
+  }
+  return all;
+}
+
+RefineResult merged(std::span<const Model> models, std::vector<RefineResult> joints) {
+  RefineResult all;
+  all.models = joined_models(models, joints);
+  for (RefineResult& r : joints) tell_joint(r);
+  for (const RefineResult& r : joints) append_lists(r, all);
+  all.joints = std::move(joints);
+  all.verdict = verdict_of(all.joints);
+  all.reason = reasons_of(all.joints);
+  const RefineResult& first = leading(all.joints, all.verdict);
+  all.inputs = first.inputs;
+  all.preloads = first.preloads;
+  all.rig_path = first.rig_path;
+  all.linear_motion = first.linear_motion;
+  all.rigid = first.rigid;
+  all.held_out_blocks = first.held_out_blocks;
+  all.elastic_only = first.elastic_only;
+  all.unexplained = first.unexplained;
+  all.next_experiment = first.next_experiment;
+  const auto n = static_cast<double>(all.joints.size());
+  for (const RefineResult& r : all.joints) {
+    if (!r.not_refined.empty() || n * r.search_p >= all.search_p) continue;
+    all.search_p = n * r.search_p;
+    all.search_p_is_fitted = r.search_p_is_fitted;
+    all.n_draws = r.n_draws;
+  }
+  take_gaps(all);
+  return all;
+}
+
+}  // namespace
+
+RefineResult refine_joints(std::span<const Model> given, const RefineLogs& logs,
+                           const RefineOptions& options, const RefineOne& refine_one) {
+  const std::vector<Model> models = with_base_fits(given, logs);
+  const auto n = static_cast<int>(models.front().joints.size());
+  RefineOptions own = options;
+  own.significance /= n;
+  std::vector<RefineResult> joints;
+  std::optional<Error> first;
+  for (int joint = 0; joint < n; ++joint) {
+    RefineResult r;
+    const std::string& name = models.front().rig.joints[static_cast<std::size_t>(joint)];
+    if (options.progress)
+      own.progress = [&](std::string_view what, double share) {
+        options.progress(fmt::format("joint {}, {}", name, what), share);
+      };
+    try {
+      r = refine_one(one_joint_each(models, joint), logs, own);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::not_identifiable) throw;
+      if (!first) first = error;
+      r.not_refined = error.what();
+    }
+    r.joint = joint + 1;
+    r.joint_name = name;
+    joints.push_back(std::move(r));
+  }
+  if (std::all_of(joints.begin(), joints.end(),
+                  [](const RefineResult& r) { return !r.not_refined.empty(); }))
+    throw Error(*first);
+  return merged(models, std::move(joints));
+}
+
+}  // namespace cablefit

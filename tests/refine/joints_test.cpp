@@ -1,0 +1,90 @@
+// Several joints: an effect that is hidden on one of them is named there, and nowhere else. The
+// logs are made by plain arithmetic that shares nothing with the library.
+#include <catch2/catch.hpp>
+
+#include "cablefit/session/stages.hpp"
+#include "tests/hidden/joints/joint_effects.hpp"
+#include "tests/support/recover.hpp"
+
+namespace cablefit::test {
+namespace {
+
+constexpr std::size_t kDraws = 6;
+
+struct Finger {
+  Bench bench;
+  RefineResult result;
+};
+
+/// `more`: further keys of the rig file.
+Finger refined(const PlainRig& hidden, const std::string& more = "") {
+  Finger finger;
+  finger.bench.folder().write("finger.urdf", urdf_text(phalanges(), "finger"));
+  finger.bench.rig =
+      read_rig(finger.bench.folder().write("rig.json", rig_text(tendon_finger(), more)));
+  RefineLogs logs;
+  logs.blocked = {finger.bench.add_text(blocked_log(hidden, {0.1, 0.1}, 60, 11, 200, 0, 0.005))};
+  logs.train = {finger.bench.add_text(moving_log(hidden, 20, 12))};
+  RefineOptions options;
+  options.n_draws = kDraws;
+  finger.result = missing_effects(logs, options);
+  return finger;
+}
+
+TEST_CASE("an effect of one joint is named with its joint", "[refine]") {
+  for (const std::size_t joint : {0u, 1u}) {
+    INFO("joint " << joint + 1);
+    PlainRig hidden = tendon_finger();
+    find_joint_effect("stribeck", "motor").hide(hidden, joint, 0.6);
+    const RefineResult result = refined(hidden).result;
+    CHECK(result.verdict == Verdict::named);
+    REQUIRE(result.effects.size() == 1);
+    CHECK(result.effects[0].instance.effect->name == "stribeck");
+    CHECK(result.effects[0].instance.effect->site == Site::motor);
+    CHECK(result.effects[0].joint == static_cast<int>(joint) + 1);
+    REQUIRE(result.joints.size() == 2);
+    CHECK(result.joints[joint].verdict == Verdict::named);
+    CHECK(result.joints[1 - joint].verdict == Verdict::none);
+    // Most of the gap is gone on the part of the log that was held out.
+    const GapStory& gap = result.joints[joint].torque;
+    CHECK(gap.test_after < gap.noise_floor + 0.2 * (gap.test_before - gap.noise_floor));
+    // The joined model has it, by both names of its place.
+    REQUIRE(result.models.size() == 1);
+    REQUIRE(result.models[0].joints.size() == 2);
+    CHECK(result.models[0].joints[joint].added.size() == 1);
+    CHECK(result.models[0].joints[1 - joint].added.empty());
+  }
+}
+
+TEST_CASE("an effect of an arm is named with its joint", "[refine]") {
+  PlainRig hidden = phalanges_rig();
+  find_joint_effect("quadratic_drag", "link").hide(hidden, 1, 1);
+  const RefineResult result =
+      refined(hidden, R"( "arm": {"type": "urdf", "file": "finger.urdf"},)").result;
+  CHECK(result.verdict == Verdict::named);
+  REQUIRE(result.effects.size() == 1);
+  CHECK(result.effects[0].instance.effect->name == "quadratic_drag");
+  CHECK(result.effects[0].instance.effect->site == Site::link);
+  CHECK(result.effects[0].joint == 2);
+  // The arm is part of the model that is written, with what the joint that knows it best says.
+  CHECK(result.models.at(0).arm.size() == result.models.at(0).rig.arm.base_parameters().size());
+}
+
+TEST_CASE("where nothing is missing on any joint nothing is named", "[refine]") {
+  const RefineResult result = refined(tendon_finger()).result;
+  CHECK(result.verdict == Verdict::none);
+  CHECK(result.effects.empty());
+  for (const RefineResult& joint : result.joints) CHECK(joint.verdict == Verdict::none);
+  // Friction of both joints is that of the simulation, within 4 sd of its fit.
+  const PlainRig truth = tendon_finger();
+  for (std::size_t joint = 0; joint < 2; ++joint)
+    for (const EffectInstance& instance : result.models.at(0).joints[joint].motor) {
+      const Estimate& e = instance.parameters.front();
+      if (instance.effect->name != "coulomb") continue;
+      CHECK(e.name == "f_sm[" + std::to_string(joint + 1) + "]");
+      CHECK(std::abs(e.value - truth.joints[joint].f_sm) < 4 * e.sd);
+    }
+}
+
+}  // namespace
+}  // namespace cablefit::test
