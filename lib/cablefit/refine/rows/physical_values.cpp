@@ -13,19 +13,29 @@ constexpr int kNothingHeld = -1;
 double least_of(const Design& design, Eigen::Index column, const Eigen::MatrixXd& total) {
   const Model& model = design.models.front();
   const ModelParameter& p = design.layout.parameters[static_cast<std::size_t>(column)];
-  if (!is_inertia(model, p)) return p.lower;
+  if (!is_inertia(model, p)) return 0;
   const double own = std::sqrt(total(1 + column, 1 + column));
   const double least = own > 0 ? kLeastTorque * std::sqrt(total(0, 0)) / own : 0;
   const auto cad = model.rig.cad.find(p.name);
   return cad != model.rig.cad.end() && cad->second > 0 ? std::max(least, cad->second) : least;
 }
 
-/// Where the fit is beyond what a robot can have: an inertia that is not positive, a friction below
-/// 0.
+/// Of a spring, or of a cable where it becomes taut. One with pretension may never come near that
+/// elongation, and what its curve would be there says nothing.
+bool is_stiffness(const Model& model, const ModelParameter& p) {
+  if (p.kind == ParameterKind::stiffness) return true;
+  return p.kind == ParameterKind::coefficient && p.index == 0 &&
+         !(model.transmission.cables[p.cable].initial_elongation > 0);
+}
+
+/// Where the fit is beyond what a robot can have: an inertia that is not positive, a friction or a
+/// stiffness below 0.
 bool is_beyond(const Design& design, Eigen::Index column, double value) {
   const ModelParameter& p = design.layout.parameters[static_cast<std::size_t>(column)];
-  if (is_inertia(design.models.front(), p)) return !(value > 0);
-  return p.kind == ParameterKind::effect && value < p.lower;
+  const Model& model = design.models.front();
+  if (is_inertia(model, p)) return !(value > 0);
+  const bool is_friction = p.kind == ParameterKind::effect && p.lower == 0;
+  return value < 0 && (is_friction || is_stiffness(model, p));
 }
 
 /// The values of all other columns with those of `held` as they are in `x`.
