@@ -6,9 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "cablefit/base/random.hpp"
 #include "cablefit/refine/null/null_draws.hpp"
 #include "cablefit/refine/rows/levels.hpp"
 #include "cablefit/refine/rows/physical_values.hpp"
+#include "cablefit/session/stages.hpp"
 #include "tests/refine/hidden_logs.hpp"
 #include "tests/support/recover.hpp"
 
@@ -92,6 +94,37 @@ TEST_CASE("where q is a copy of theta the base is a rigid drive", "[refine]") {
   const OwnBase base = own_base(logs, 1);
   CHECK(base.models.front().rigid);
   CHECK(base.decisions.at(0).reason == "q is a copy of theta");
+}
+
+/// Cable 2 is taut in the last third alone, which is held out.
+TEST_CASE("a cable that the training samples never load makes the base a straight spring",
+          "[refine]") {
+  constexpr double kStiffness = 50, kOther = 80, kFriction = 0.2, kPeak = 0.1;  // N m/rad, N m, rad
+  constexpr double kPeriod = 0.01, kRamp = 5, kSeconds = 60;
+  Random random(1, 5);
+  std::string rows = "t,q,theta,tau\n";
+  for (int i = 0; i * kPeriod < kSeconds; ++i) {
+    const double t = i * kPeriod, ramp = std::fmod(t, 2 * kRamp) / kRamp;  // up, then down
+    const double side = t < 2 * kSeconds / 3 ? 1 : -1;
+    const double theta = side * kPeak * (ramp < 1 ? ramp : 2 - ramp);
+    const double direction = side * (ramp < 1 ? 1 : -1);
+    const double tau =
+        (side > 0 ? kStiffness : kOther) * theta + kFriction * direction + 0.02 * random.normal();
+    rows += fmt::format("{:.3f},0,{:.6f},{:.5f}\n", t, theta, tau);
+  }
+  Bench bench;
+  bench.add_text(rows);
+  RefineLogs logs;
+  logs.blocked = {bench.logs()[0]};
+  RefineOptions options;
+  options.n_draws = 6;
+  const RefineResult result = missing_effects(logs, options);
+  const auto cables =
+      std::find_if(result.decisions.begin(), result.decisions.end(),
+                   [](const Decision& decision) { return decision.name == "cables"; });
+  REQUIRE(cables != result.decisions.end());
+  CHECK(cables->value == "a straight spring");
+  CHECK(result.models.at(0).transmission.cables.empty());
 }
 
 TEST_CASE("what a model lacks begins at the CAD value, a bound or any inertia", "[refine]") {

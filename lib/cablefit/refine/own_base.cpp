@@ -19,6 +19,7 @@ namespace {
 
 // Not the straight line, even where it will do for stage 1: a gap to be explained is smaller.
 constexpr const char* kCables = "poly";
+constexpr const char* kCablesChoice = "cables";
 constexpr int kPlainOrder = 2;
 constexpr double kAnyInertia = 1;  // kg m^2; it stands until the rows have told
 
@@ -144,7 +145,7 @@ void take_stage1(std::span<const LogSurvey> logs, int threads, std::vector<Model
   for (Model& model : models)
     for (const ElasticPreload& preload : stage1.preloads)
       if (preload.name == model.preload) take_cables(*preload.find(kCables), model);
-  decisions.push_back({"cables", kCables, "stage 1, from the blocked logs"});
+  decisions.push_back({kCablesChoice, kCables, "stage 1, from the blocked logs"});
   if (models.front().rig.arm.is_coupled()) take_arm(logs, stage1, threads, models, decisions);
 }
 
@@ -159,6 +160,12 @@ void take_spring(std::vector<Model>& models) {
   }
 }
 
+void use_spring(OwnBase& base, const std::string& why) {
+  take_spring(base.models);
+  std::erase_if(base.decisions, [](const Decision& d) { return d.name == kCablesChoice; });
+  base.decisions.push_back({kCablesChoice, "a straight spring", why});
+}
+
 void take_one_step(std::span<const LogSurvey> logs, int threads, std::vector<Model>& models,
                    std::vector<Decision>& decisions) {
   IdentifyOptions options;
@@ -171,7 +178,8 @@ void take_one_step(std::span<const LogSurvey> logs, int threads, std::vector<Mod
         model.name = kCables;
         model.transmission = preload.transmission;
       }
-  decisions.push_back({"cables", kCables, "one step, from the moving logs: no link is blocked"});
+  decisions.push_back(
+      {kCablesChoice, kCables, "one step, from the moving logs: no link is blocked"});
 }
 
 /// An inertia that the rig file gives is not fitted.
@@ -225,10 +233,18 @@ OwnBase own_base(const RefineLogs& given, int threads) {
       take_one_step(logs, threads, base.models, base.decisions);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::not_identifiable) throw;
-      take_spring(base.models);
-      base.decisions.push_back({"cables", "a straight spring", error.what()});
+      use_spring(base, error.what());
     }
   (void)fill_start_values(base.models);  // all of them: nothing to say
+  return base;
+}
+
+std::optional<OwnBase> with_spring(OwnBase base, const std::string& why) {
+  const bool has_cables =
+      std::any_of(base.models.begin(), base.models.end(),
+                  [](const Model& model) { return !model.transmission.cables.empty(); });
+  if (!has_cables) return {};
+  use_spring(base, why);
   return base;
 }
 

@@ -3,6 +3,7 @@
 // anything is looked for.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,10 @@ struct OwnBase {
 /// effects are those of stage 2. Throws Error(input) for missing channels, and
 /// what the stages throw.
 OwnBase own_base(const RefineLogs& logs, int threads);
+
+/// The same with one straight spring in place of cables, whose parameters the training samples do
+/// not all determine: `why`. Nothing of a base without cables.
+std::optional<OwnBase> with_spring(OwnBase base, const std::string& why);
 
 /// A missing value of an effect becomes the rig's "cad", else its bound; a missing inertia 1.
 /// refine estimates all of them. Returns which were missing.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cablefit/base/error.hpp"
 #include "cablefit/dynamic/dynamic_fit.hpp"
 #include "cablefit/identify/elastic_stage.hpp"
 #include "cablefit/refine/own_base.hpp"
@@ -60,11 +61,28 @@ OwnBase complete(std::vector<Model> models, const RefineLogs& logs, const Refine
 
 }  // namespace
 
+namespace {
+
+/// A part of the logs is held out, so that the others may not have every cable taut.
+RefineResult refine_own(OwnBase& base, const RefineLogs& logs, const RefineOptions& options) {
+  try {
+    return refine(base.models, logs, options);
+  } catch (const Error& error) {
+    auto straight = with_spring(base, error.what());
+    if (error.kind() != ErrorKind::not_identifiable || !straight) throw;
+    base = std::move(*straight);
+    return refine(base.models, logs, options);
+  }
+}
+
+}  // namespace
+
 RefineResult missing_effects(const RefineLogs& logs, std::vector<Model> models,
                              const RefineOptions& options) {
   const bool is_own = models.empty();
-  const OwnBase base = complete(std::move(models), logs, options);
-  RefineResult result = refine(base.models, logs, options);
+  OwnBase base = complete(std::move(models), logs, options);
+  RefineResult result =
+      is_own ? refine_own(base, logs, options) : refine(base.models, logs, options);
   if (is_own) result.model_choice = "fitted to the logs";
   result.decisions.insert(result.decisions.begin(), base.decisions.begin(), base.decisions.end());
   return result;
