@@ -172,7 +172,8 @@ TEST_CASE("a grid of a candidate rises within the bounds of its parameter", "[co
       REQUIRE(grid.n_values >= 2);
       CHECK((grid.low > 0 || !grid.is_geometric));
       CHECK(grid.value(0, kScale) == Approx(grid.lowest(kScale)));
-      CHECK(grid.value(grid.n_values - 1, kScale) == Approx(grid.highest(kScale)));
+      CHECK(grid.value(grid.n_values - 1, kScale) == Approx(grid.grid_end(kScale)));
+      CHECK(grid.grid_end(kScale) <= grid.highest(kScale));
       CHECK(info.lower <= grid.lowest(kScale));
       CHECK(grid.highest(kScale) <= info.upper);
       for (int k = 1; k < grid.n_values; ++k)

@@ -57,6 +57,18 @@ TEST_CASE("a second harmonic that is there is kept", "[refine]") {
   CHECK(own.tail(2).norm() == Approx(0.5 * truth(hidden)).epsilon(0.1));
 }
 
+/// A motor's poles behind a reduction: no grid has orders that dense.
+TEST_CASE("a ripple of many periods is found above the grid", "[refine]") {
+  const HiddenLogs hidden = hidden_logs({"cogging.motor.geared=1"});
+  const BaseFit base = base_of(hidden);
+  const Candidate best = best_of(base, "cogging", Site::motor);
+  const double order = hidden.truth.effects.at(0).coefficients.at(1).value;
+  CHECK(order > best.variant.effect->shape.front().grid_end(base.design.scale));
+  CHECK(best.variant.is_plain);
+  CHECK(best.variant.shape.at(0) == Approx(order).epsilon(0.002));
+  CHECK(best.x.tail(2).norm() == Approx(truth(hidden)).epsilon(0.1));
+}
+
 TEST_CASE("an exponent is that of the textbooks unless the blocks want another", "[refine]") {
   const HiddenLogs hidden = hidden_logs({"quadratic_drag.motor=0.3"}, 2);
   const Candidate best = best_of(base_of(hidden), "quadratic_drag", Site::motor);

@@ -113,14 +113,14 @@ Site site_of(Side side) {
 double ShapeGrid::value(int i, const LogScale& scale) const {
   assert(i >= 0 && i < n_values);
   const double share = n_values > 1 ? static_cast<double>(i) / (n_values - 1) : 0.5;
-  const double from = lowest(scale), to = highest(scale);
+  const double from = lowest(scale), to = grid_end(scale);
   if (!is_geometric) return from + share * (to - from);
   return from * std::pow(to / from, share);
 }
 
 double ShapeGrid::lowest(const LogScale& scale) const {
   const double plain = low * factor(scale);
-  return is_rare ? std::min(std::max(plain, scale.usual), highest(scale)) : plain;
+  return is_rare ? std::min(std::max(plain, scale.usual), grid_end(scale)) : plain;
 }
 
 double ShapeGrid::factor(const LogScale& scale) const {

@@ -97,12 +97,17 @@ struct ShapeGrid {
   double canonical = 0;   ///< the value of the textbooks, an exponent of 2; 0: none is special
   /// Beyond the highest value the logs show another effect: refine identifies none that is there.
   bool is_open_above = false;
+  /// Periods per rad: above the grid as many of the strongest lines of the residual's spectrum over
+  /// the position are tried, and the parameter has no upper bound.
+  int n_lines = 0;
 
   /// Value i = 0 .. n_values-1, in SI.
   double value(int i, const LogScale& scale) const;
+  /// Where the grid ends, in SI.
+  double grid_end(const LogScale& scale) const { return high * factor(scale); }
   /// The bounds of the parameter in SI.
   double lowest(const LogScale& scale) const;
-  double highest(const LogScale& scale) const { return high * factor(scale); }
+  double highest(const LogScale& scale) const { return n_lines > 0 ? kUnbounded : grid_end(scale); }
 
  private:
   double factor(const LogScale& scale) const;

@@ -30,15 +30,23 @@ Hooks acts(Map map) {
   return hooks;
 }
 
-template <bool kTwo>
-Planted cogging(const Draw& draw, const Run&, const Bench&) {
-  const double a = draw.size, n = 12 + 20 * draw.u, phase = kTwoPi * draw.w;
-  const double second = kTwo ? 0.5 : 0;
+Planted ripple(const Draw& draw, double n, double second) {
+  const double a = draw.size, phase = kTwoPi * draw.w;
   return {motor_torque([=](const State& s) {
             const double x = n * s.theta + phase;
             return a * (std::sin(x) + second * std::sin(2 * x + 1));
           }),
           {{"amplitude", a, "N m"}, {"order", n, ""}, {"phase", phase, "rad"}}};
+}
+
+template <bool kTwo>
+Planted cogging(const Draw& draw, const Run&, const Bench&) {
+  return ripple(draw, 12 + 20 * draw.u, kTwo ? 0.5 : 0);
+}
+
+/// Of a motor behind a reduction: dozens of periods in the range.
+Planted geared_cogging(const Draw& draw, const Run&, const Bench&) {
+  return ripple(draw, 200 + 100 * draw.u, 0);
 }
 
 /// The motor's share of a lossy screw: it gives (1 + a) tau_elas while it drives and tau_elas while
@@ -98,6 +106,8 @@ constexpr std::array kRows{
         "+ a sin(n theta + p), n 12 to 32", cogging<false>},
     Row{"cogging", "motor", "", other, "two_harmonics", 0.3, "N m", Shows::motor,
         "+ a (sin(n theta + p) + 0.5 sin(2 n theta + 2 p + 1))", cogging<true>},
+    Row{"cogging", "motor", "", other, "geared", 0.3, "N m", Shows::motor,
+        "+ a sin(n theta + p), n 200 to 300", geared_cogging},
     Row{"drive_efficiency", "motor", "", matched, "", 0.06, "", Shows::motor,
         "+ a tau_elas while tau_elas thetad > 0", drive_efficiency},
     Row{"torque_gain", "drive", "scale", matched, "", 0.02, "", Shows::motor,

@@ -21,9 +21,14 @@ constexpr ParameterInfo kEccentricity[] = {{"a_sin", "a_sin", "rad", "deflection
 
 // Three to twenty periods over the range: with fewer any smooth curve passes for them, as what a
 // wrong torque constant leaves. Orders whose phases at the ends of half the range are 0.6 rad apart
-// are all but the same.
-constexpr ShapeGrid kOrder[] = {
-    {.low = 9.4, .high = 62, .n_values = 89, .is_geometric = false, .unit = GridUnit::per_travel}};
+// are all but the same. A motor behind a reduction has its poles and screw turns far above: these
+// are lines of a spectrum, too narrow for a grid.
+constexpr ShapeGrid kOrder[] = {{.low = 9.4,
+                                 .high = 62,
+                                 .n_values = 89,
+                                 .is_geometric = false,
+                                 .unit = GridUnit::per_travel,
+                                 .n_lines = 3}};
 
 void gravity(const JointState& state, const double* /*shape*/, const double* /*z*/, double* link,
              double* /*motor*/) {

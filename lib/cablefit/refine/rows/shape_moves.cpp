@@ -17,7 +17,7 @@ double unit_of(const Design& design, const FreeShape& at) {
   const Variant& variant = design.added[at.variant];
   const ShapeGrid& grid = variant.effect->shape[at.shape];
   return grid.is_geometric ? std::abs(variant.shape[at.shape])
-                           : grid.highest(design.scale) - grid.lowest(design.scale);
+                           : grid.grid_end(design.scale) - grid.lowest(design.scale);
 }
 
 bool can_move(const Variant& variant) {

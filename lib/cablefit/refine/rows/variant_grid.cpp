@@ -101,13 +101,13 @@ Variant with_shape(Variant variant, std::size_t shape, double value) {
 }
 
 std::pair<double, double> around(const ShapeGrid& grid, double value, const LogScale& scale) {
-  const double low = grid.lowest(scale), high = grid.highest(scale);
+  const double low = grid.lowest(scale), end = grid.grid_end(scale), high = grid.highest(scale);
   if (grid.n_values < 2) return {low, high};
   if (grid.is_geometric) {
-    const double step = std::pow(high / low, 1.0 / (grid.n_values - 1));
+    const double step = std::pow(end / low, 1.0 / (grid.n_values - 1));
     return {std::max(low, value / step), std::min(high, value * step)};
   }
-  const double step = (high - low) / (grid.n_values - 1);
+  const double step = (end - low) / (grid.n_values - 1);
   return {std::max(low, value - step), std::min(high, value + step)};
 }
 

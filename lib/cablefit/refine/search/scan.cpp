@@ -10,6 +10,7 @@
 #include "cablefit/refine/rows/variant_grid.hpp"
 #include "cablefit/refine/search/applicable.hpp"
 #include "cablefit/refine/search/golden.hpp"
+#include "cablefit/refine/search/order_spectrum.hpp"
 #include "cablefit/refine/search/quick_look.hpp"
 
 namespace cablefit {
@@ -79,6 +80,12 @@ std::optional<BlockGrams> grams_with(const Scanner& scanner, const Variant& vari
                   scanner.columns(variant, evaluation), seconds);
 }
 
+bool is_line(const Design& design, const Variant& variant) {
+  const std::span<const ShapeGrid> shape = variant.effect->shape;
+  return shape.size() == 1 && shape.front().n_lines > 0 &&
+         variant.shape.front() > shape.front().grid_end(design.scale);
+}
+
 /// No candidate where the columns are not there or cannot be told from the others'.
 std::optional<Candidate> try_variant(const Scanner& scanner, Variant variant,
                                      Evaluation evaluation = Evaluation::fine) {
@@ -91,6 +98,7 @@ std::optional<Candidate> try_variant(const Scanner& scanner, Variant variant,
   const auto fit = fit_blocks(*grams, start.levels, !in_sample, {kTolerance, n});
   if (!fit) return {};
   Candidate c;
+  c.is_line = is_line(start.design, variant);
   c.variant = std::move(variant);
   c.x = fit->x;
   c.rms = fit->rms();
@@ -206,7 +214,10 @@ std::optional<Candidate> best_fitting(const Scanner& scanner,
   std::optional<Looked> plain, full;
   ErrorsByBlock errors;
   for (const Variant& variant : variants) {
-    const auto products = look.products(scanner.columns(variant, Evaluation::coarse));
+    // Once a row is not enough for what repeats several times from row to row.
+    const Evaluation evaluation =
+        is_line(scanner.start.design, variant) ? Evaluation::fine : Evaluation::coarse;
+    const auto products = look.products(scanner.columns(variant, evaluation));
     const auto looked = looked_at(look, products, variant);
     if (looked) keep_least(errors, *looked, scanner.settings.block_seconds);
     keep_better(full, looked);
@@ -284,9 +295,20 @@ std::optional<Candidate> best_replacing(const Scanner& scanner,
   return best;
 }
 
+/// Those of the grid, and where it is one of orders the lines above it that the residual shows.
+std::vector<Variant> variants_to_try(const Scanner& scanner, const Effect& row) {
+  const Design& design = scanner.start.design;
+  std::vector<Variant> variants = variants_of(row, design, scanner.settings.event_step);
+  if (row.shape.size() != 1 || row.shape.front().n_lines == 0) return variants;
+  const ShapeGrid& grid = row.shape.front();
+  for (const double order :
+       strongest_orders(design, scanner.start.fit.x, grid.grid_end(design.scale), grid.n_lines))
+    variants.push_back({&row, {order}, 0, 0, false});
+  return variants;
+}
+
 std::optional<Candidate> best_variant(const Scanner& scanner, const Effect& row) {
-  std::vector<Variant> variants =
-      variants_of(row, scanner.start.design, scanner.settings.event_step);
+  std::vector<Variant> variants = variants_to_try(scanner, row);
   if (variants.empty()) return {};  // no log is long enough for a date
   if (replaces_rows(variants.front())) return best_replacing(scanner, variants);
   auto best = best_fitting(scanner, variants);

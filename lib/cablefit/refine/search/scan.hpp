@@ -18,6 +18,7 @@ struct Candidate {
   KindLevels rms{};      ///< N m, left
   std::string refused;   ///< why it is no candidate, "a negative friction"; empty: it is one
   double elsewhere = 0;  ///< of what passes: the gain that half of the other blocks' dates exceed
+  bool is_line = false;  ///< of many periods, above the grid of orders: see ShapeGrid::n_lines
 };
 
 struct ScanSettings {

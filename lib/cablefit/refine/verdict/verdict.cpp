@@ -14,6 +14,8 @@ namespace cablefit {
 namespace {
 
 constexpr double kNextShare = 0.3;  // of the gap that is left
+// The same of a line of many periods: no imperfect law repeats with the position that often.
+constexpr double kLineShare = 0.05;
 constexpr double kNextMateriality =
     0.02;                           // of what is left: imperfect first terms leave a small residual
 constexpr double kLookAlikeSd = 2;  // paired blocks' difference
@@ -106,7 +108,8 @@ class Significance {
     const Effect& row = *c.variant.effect;
     const double least =
         is_first_ ? options_.materiality : std::max(kNextMateriality, options_.materiality);
-    if (!is_first_ && c.gain * gap_.total < kNextShare * gap_.above()) return false;
+    const double share = c.is_line ? kLineShare : kNextShare;
+    if (!is_first_ && c.gain * gap_.total < share * gap_.above()) return false;
     if (row.is_event && is_at_floor()) return false;
     if (row.passes() && c.gain < kStandsOut * c.elsewhere) return false;
     return c.gain >= least && chance_.is_beyond(row, c.gain, kSafety) &&
