@@ -127,6 +127,32 @@ TEST_CASE("a cable that the training samples never load makes the base a straigh
   CHECK(result.models.at(0).transmission.cables.empty());
 }
 
+/// Dry friction and an offset are one constant then.
+TEST_CASE("logs of one direction are refined without an offset", "[refine]") {
+  constexpr double kJ = 0.01, kViscous = 0.2, kDry = 0.5, kMean = 2, kSwing = 1, kRate = 3;
+  Random random(1, 6);
+  std::string rows = "t,theta,tau\n";
+  for (int i = 0; i < 12000; ++i) {
+    const double t = i * 0.002, phase = kRate * t;
+    const double theta = kMean * t + kSwing / kRate * std::sin(phase);
+    const double speed = kMean + kSwing * std::cos(phase);
+    const double tau = -kJ * kSwing * kRate * std::sin(phase) + kViscous * speed + kDry;
+    rows += fmt::format("{:.3f},{:.6f},{:.5f}\n", t, theta, tau + 0.01 * random.normal());
+  }
+  Bench bench;
+  bench.add_text(rows);
+  RefineLogs logs;
+  logs.train = {bench.logs()[0]};
+  RefineOptions options;
+  options.n_draws = 6;
+  const RefineResult result = missing_effects(logs, options);
+  CHECK(result.verdict == Verdict::none);
+  CHECK(warns(result.warnings,
+              "the logs do not separate offset of the base model from its other parameters: it is "
+              "held at 0; move in both directions, at several speeds"));
+  CHECK(value_of(result.models.at(0), "f_s") == Approx(kDry).epsilon(0.02));
+}
+
 TEST_CASE("what a model lacks begins at the CAD value, a bound or any inertia", "[refine]") {
   Model model = hidden_logs({}).models.front();
   const double none = std::numeric_limits<double>::quiet_NaN();

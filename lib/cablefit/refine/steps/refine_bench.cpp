@@ -14,6 +14,7 @@
 #include "cablefit/refine/null/remainder.hpp"
 #include "cablefit/refine/rows/physical_values.hpp"
 #include "cablefit/refine/rows/recorded_effects.hpp"
+#include "cablefit/refine/steps/determined_effects.hpp"
 #include "cablefit/refine/steps/elastic_stage.hpp"
 #include "cablefit/refine/steps/fit_bias.hpp"
 #include "cablefit/refine/verdict/conclusion.hpp"
@@ -240,10 +241,11 @@ RefineState prepare(RefineBench& bench, std::span<const Model> models, const Ref
       throw input_error({}, "the last third of the logs, held out, has too few rows to judge by",
                         "record longer, or give other logs with --test");
   }
-  const std::vector<Model> bases = bench.elastic_only
-                                       ? with_visible_effects({models.begin(), models.end()}, train,
-                                                              wanted, bench.scan.block_seconds)
-                                       : std::vector<Model>(models.begin(), models.end());
+  const std::vector<Model> bases =
+      bench.elastic_only ? with_visible_effects({models.begin(), models.end()}, train, wanted,
+                                                bench.scan.block_seconds)
+                         : with_determined_effects({models.begin(), models.end()}, train, wanted,
+                                                   bench.scan.block_seconds, result.warnings);
   KeptBase kept = fit_kept_base(bases, std::move(train), wanted, bench.scan);
   result.warnings.insert(result.warnings.end(), kept.warnings.begin(), kept.warnings.end());
   BaseFit base = std::move(kept.base);

@@ -1,0 +1,47 @@
+#include "cablefit/refine/steps/determined_effects.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cablefit/refine/null/kept_effects.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr KindLevels kAlike = {1, 1, 1};
+
+void remove(const Effect& effect, bool on_link, std::vector<Model>& models) {
+  for (Model& model : models) {
+    JointModel& axes = model.joints.front();
+    std::erase_if(on_link ? axes.link : axes.motor,
+                  [&](const EffectInstance& has) { return has.effect == &effect; });
+  }
+}
+
+}  // namespace
+
+std::vector<Model> with_determined_effects(std::vector<Model> models,
+                                           const std::vector<Stretch>& stretches,
+                                           const Smoothing& smoothing, double block_seconds,
+                                           std::vector<std::string>& warnings) {
+  const Design design = make_design(without_kept(models), stretches, smoothing);
+  const BlockGrams grams = block_grams(design, block_seconds);
+  if (fit_blocks(grams, kAlike, false)) return models;
+  const std::vector<Eigen::Index> told = told_columns(grams, kAlike, 0);
+  std::vector<Model> fewer = models;
+  const JointModel& axes = models.front().joints.front();
+  for (std::size_t k = 0; k < design.layout.parameters.size(); ++k) {
+    if (std::binary_search(told.begin(), told.end(), static_cast<Eigen::Index>(k))) continue;
+    const ModelParameter& p = design.layout.parameters[k];
+    if (p.kind != ParameterKind::effect || is_inertia(models.front(), p)) return models;
+    remove(*(p.on_link ? axes.link : axes.motor)[p.effect].effect, p.on_link, fewer);
+    warnings.push_back(fmt::format(
+        "the logs do not separate {} of the base model from its other parameters: it is held at 0; "
+        "move in both directions, at several speeds",
+        p.name));
+  }
+  return fewer;
+}
+
+}  // namespace cablefit
