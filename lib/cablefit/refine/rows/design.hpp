@@ -61,6 +61,16 @@ VariantColumns variant_columns(const Design& design, const Variant& variant,
                                const Eigen::VectorXd& values,
                                Evaluation evaluation = Evaluation::fine);
 
+/// Rows [from, from + columns.rows()) of such columns; all others are zero.
+struct ActiveColumns {
+  Eigen::Index from = 0;
+  Eigen::MatrixXd columns;
+};
+/// The same columns without the rows that an event cannot reach.
+std::vector<std::vector<ActiveColumns>> active_columns(const Design& design, const Variant& variant,
+                                                       const Eigen::VectorXd& values,
+                                                       Evaluation evaluation);
+
 /// What the equations of these rows leave, N m (n_rows x 1): model minus measured.
 VariantColumns residuals(const std::vector<StretchRows>& rows, const Eigen::VectorXd& x);
 

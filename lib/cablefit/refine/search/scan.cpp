@@ -64,6 +64,9 @@ struct Scanner {
   VariantColumns columns(const Variant& variant, Evaluation evaluation) const {
     return variant_columns(start.design, variant, start.fit.x, evaluation);
   }
+  QuickLook::Products products(const Variant& variant, Evaluation evaluation) const {
+    return look.products(active_columns(start.design, variant, start.fit.x, evaluation));
+  }
 };
 
 std::optional<BlockGrams> grams_with(const Scanner& scanner, const Variant& variant,
@@ -161,8 +164,7 @@ Variant moved_shape(const Scanner& scanner, Variant variant, Evaluation evaluati
   const int rounds = row.passes() ? 3 : 2;  // place and length of what passes pull at each other
   const auto error_with = [&](const Variant& other) {
     if (!replaces_rows(other)) {
-      const auto looked =
-          looked_at(scanner.look, scanner.look.products(scanner.columns(other, evaluation)), other);
+      const auto looked = looked_at(scanner.look, scanner.products(other, evaluation), other);
       return looked && looked->is_physical ? looked->error : kUnbounded;
     }
     const auto tried = try_variant(scanner, other, evaluation);
@@ -206,7 +208,7 @@ std::optional<Candidate> best_fitting(const Scanner& scanner,
   std::optional<Looked> plain, full;
   ErrorsByBlock errors;
   for (const Variant& variant : variants) {
-    const auto products = look.products(scanner.columns(variant, Evaluation::coarse));
+    const auto products = scanner.products(variant, Evaluation::coarse);
     const auto looked = looked_at(look, products, variant);
     if (looked) keep_least(errors, *looked, scanner.settings.block_seconds);
     keep_better(full, looked);
