@@ -46,14 +46,21 @@ struct SomeTorques {
   Eigen::MatrixXd link, motor;  ///< n_linear x samples
 };
 
-/// At every `every`-th sample, with `margin` of them without torque at either end.
-SomeTorques some_torques(const Variant& variant, const Stretch& stretch,
-                         const std::vector<JointState>& states, Eigen::Index every,
+/// Of every so many samples of a stretch.
+struct SomeStates {
+  const std::vector<JointState>& of;
+  Eigen::Index stride;  ///< between these in `of`
+  double h;             ///< s, between these
+};
+
+/// With `margin` of them without torque at either end.
+SomeTorques some_torques(const Variant& variant, const Stretch& stretch, const SomeStates& states,
                          Eigen::Index margin) {
   const Effect& row = *variant.effect;
   const auto n = static_cast<Eigen::Index>(row.n_linear());
-  const auto samples = (static_cast<Eigen::Index>(states.size()) + every - 1) / every;
-  const double h = static_cast<double>(every) * stretch.recording.period;
+  const auto samples =
+      (static_cast<Eigen::Index>(states.of.size()) + states.stride - 1) / states.stride;
+  const double h = states.h;
   const SampleRange active = active_samples(variant, stretch, h, samples);
   const Eigen::Index all = active.last - active.first + 2 * margin;
   SomeTorques out{active.first - margin, Eigen::MatrixXd::Zero(n, all),
@@ -61,7 +68,7 @@ SomeTorques some_torques(const Variant& variant, const Stretch& stretch,
   EffectWalk walk(row, variant.shape);
   JointState dated;  // of an event, whose age is not the state's own
   for (Eigen::Index i = active.first; i < active.last; ++i) {
-    const JointState* state = &states[static_cast<std::size_t>(i * every)];
+    const JointState* state = &states.of[static_cast<std::size_t>(i * states.stride)];
     if (row.is_event) {
       dated = *state;
       dated.since_event = since_event(variant, stretch, dated.t);
@@ -127,8 +134,12 @@ std::vector<ActiveColumns> torque_columns(const Design& design, const Variant& v
   const bool is_coarse = evaluation == Evaluation::coarse;
   const Eigen::Index every = is_coarse ? smoothing.stride : smoothing.every;
   const Kernel filter = gaussian(smoothing.columns, static_cast<double>(every) * smoothing.period);
+  const Stretch& stretch = design.stretches[k];
   SomeTorques torques =
-      some_torques(variant, design.stretches[k], design.states[k], every, 2 * filter.reach());
+      some_torques(variant, stretch,
+                   {is_coarse ? design.coarse_states[k] : design.states[k], is_coarse ? 1 : every,
+                    static_cast<double>(every) * stretch.recording.period},
+                   2 * filter.reach());
   if (design.models.front().rigid && counts_on_rigid(*variant.effect))
     torques.motor += torques.link;
   const Eigen::Index n = n_linear(variant);
@@ -152,14 +163,17 @@ std::vector<double> parameters_of(const Variant& variant, double linear) {
 std::vector<ActiveColumns> sensor_columns(const Design& design, const Variant& variant,
                                           const Eigen::VectorXd& values, std::size_t k) {
   const Effect& row = *variant.effect;
-  const StretchRows corrected = corrected_rows(design, k, row, parameters_of(variant, row.step));
+  const auto corrected =
+      corrected_columns(design, k, row, parameters_of(variant, row.step), Evaluation::fine);
   const Eigen::VectorXd own = values.head(design.layout.n());
   std::vector<ActiveColumns> columns;
-  for (std::size_t i = 0; i < corrected.kinds.size(); ++i) {
-    const KindRows &after = corrected.kinds[i], &before = design.rows[k].kinds[i];
-    columns.push_back({0, ((after.base.leftCols(own.size()) * own - after.response) -
-                           (before.base.leftCols(own.size()) * own - before.response)) /
-                              row.step});
+  for (std::size_t i = 0; i < corrected.size(); ++i) {
+    const KindRows& before = design.rows[k].kinds[i];
+    const Eigen::MatrixXd& after = corrected[i].columns;
+    const Eigen::VectorXd model = before.base.leftCols(own.size()) * own;
+    const bool has_own = after.cols() > 1;  // positions changed
+    const Eigen::VectorXd changed = has_own ? after.rightCols(own.size()) * own : model;
+    columns.push_back({0, ((changed - after.col(0)) - (model - before.response)) / row.step});
   }
   return columns;
 }

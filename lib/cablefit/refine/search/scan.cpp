@@ -74,9 +74,9 @@ std::optional<BlockGrams> grams_with(const Scanner& scanner, const Variant& vari
   const Design& design = scanner.start.design;
   const double seconds = scanner.settings.block_seconds;
   if (replaces_rows(variant)) {
-    const auto rows = replaced_rows(design, variant, evaluation);
-    if (rows.empty()) return {};
-    return block_grams(rows, design.stretches, seconds);
+    const auto columns = replaced_columns(design, variant, evaluation);
+    if (columns.empty()) return {};
+    return replaced(scanner.start.grams, design.rows, design.stretches, columns, seconds);
   }
   return extended(scanner.start.grams, design.rows, design.stretches,
                   scanner.columns(variant, evaluation), seconds);
