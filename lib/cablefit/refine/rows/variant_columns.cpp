@@ -53,6 +53,14 @@ struct SomeStates {
   double h;             ///< s, between these
 };
 
+/// Begins to load a state: together they are larger than the caches near the core, and a walk has
+/// little else to do.
+void fetch(const JointState& state) {
+  constexpr std::size_t kLine = 64;  // bytes of a cache line
+  const char* const bytes = reinterpret_cast<const char*>(&state);
+  for (std::size_t k = 0; k < sizeof(JointState); k += kLine) __builtin_prefetch(bytes + k);
+}
+
 /// With `margin` of them without torque at either end.
 SomeTorques some_torques(const Variant& variant, const Stretch& stretch, const SomeStates& states,
                          Eigen::Index margin) {
@@ -66,9 +74,14 @@ SomeTorques some_torques(const Variant& variant, const Stretch& stretch, const S
   SomeTorques out{active.first - margin, Eigen::MatrixXd::Zero(n, all),
                   Eigen::MatrixXd::Zero(n, all)};
   EffectWalk walk(row, variant.shape);
-  JointState dated;  // of an event, whose age is not the state's own
+  JointState dated;                    // of an event, whose age is not the state's own
+  constexpr Eigen::Index kAhead = 12;  // states in which memory answers
+  const auto state_at = [&](Eigen::Index i) -> const JointState& {
+    return states.of[static_cast<std::size_t>(i * states.stride)];
+  };
   for (Eigen::Index i = active.first; i < active.last; ++i) {
-    const JointState* state = &states.of[static_cast<std::size_t>(i * states.stride)];
+    fetch(state_at(std::min(i + kAhead, active.last - 1)));
+    const JointState* state = &state_at(i);
     if (row.is_event) {
       dated = *state;
       dated.since_event = since_event(variant, stretch, dated.t);
