@@ -22,14 +22,19 @@ struct SampleRange {
   Eigen::Index first = 0, last = 0;
 };
 
-/// Those in which an effect may do something: of an event none before it or when it is over.
+/// Whether an event does nothing in a stretch: it comes later or is over.
+bool is_idle(const Variant& variant, const Stretch& stretch) {
+  if (!variant.effect->is_event) return false;
+  const bool is_over =
+      stretch.log > variant.event_log && (variant.effect->passes() || variant.ends_with_log);
+  return stretch.log < variant.event_log || is_over;
+}
+
+/// Those in which an effect may do something: of an event none before it.
 SampleRange active_samples(const Variant& variant, const Stretch& stretch, double step,
                            Eigen::Index n) {
   const Effect& row = *variant.effect;
-  if (!row.is_event) return {0, n};
-  const bool is_over = stretch.log > variant.event_log && (row.passes() || variant.ends_with_log);
-  if (stretch.log < variant.event_log || is_over) return {n, n};
-  if (stretch.log > variant.event_log) return {0, n};
+  if (!row.is_event || stretch.log > variant.event_log) return {0, n};
   const auto sample_at = [&](double time) {
     const double samples = std::floor((time - stretch.t0) / step);
     return std::clamp<Eigen::Index>(static_cast<Eigen::Index>(samples), 0, n);
@@ -143,6 +148,9 @@ ActiveColumns filtered(const Kernel& filter, const Eigen::MatrixXd& samples, Eig
 
 std::vector<ActiveColumns> torque_columns(const Design& design, const Variant& variant,
                                           std::size_t k, Evaluation evaluation) {
+  const Eigen::Index n = n_linear(variant);
+  const ActiveColumns none{0, Eigen::MatrixXd(0, n)};
+  if (is_idle(variant, design.stretches[k])) return {design.rows[k].kinds.size(), none};
   const Smoothing smoothing = design.smoothing_of(k);
   const bool is_coarse = evaluation == Evaluation::coarse;
   const Eigen::Index every = is_coarse ? smoothing.stride : smoothing.every;
@@ -155,13 +163,11 @@ std::vector<ActiveColumns> torque_columns(const Design& design, const Variant& v
                    2 * filter.reach());
   if (design.models.front().rigid && counts_on_rigid(*variant.effect))
     torques.motor += torques.link;
-  const Eigen::Index n = n_linear(variant);
   std::vector<ActiveColumns> columns;
   for (const KindRows& kind : design.rows[k].kinds) {
     const Eigen::MatrixXd& own = kind.kind == RowKind::link ? torques.link : torques.motor;
     const bool is_zero = own.size() == 0 || own.isZero(0);
-    columns.push_back(is_zero ? ActiveColumns{0, Eigen::MatrixXd(0, n)}
-                              : filtered(filter, own, torques.from, n, kind.at, every));
+    columns.push_back(is_zero ? none : filtered(filter, own, torques.from, n, kind.at, every));
   }
   return columns;
 }
