@@ -113,14 +113,16 @@ TEST_CASE("a quick look is the fit in sample", "[refine]") {
   const Variant gravity{&find_candidate("gravity_imbalance", Site::link), {}, 0, 0, false};
   const VariantColumns columns = variant_columns(base.design, gravity, base.fit.x);
   const QuickLook look(base.design, base.grams, base.levels);
-  const auto glance = look.with(look.products(columns), 4, 0);
+  const auto products =
+      look.products(active_columns(base.design, gravity, base.fit.x, Evaluation::fine));
+  const auto glance = look.with(products, 4, 0);
   const auto fit = fit_blocks(
       extended(base.grams, base.design.rows, base.design.stretches, columns, 2), base.levels);
   REQUIRE(glance);
   REQUIRE(fit);
   CHECK(glance->error == Approx(fit->in_sample.sum()).epsilon(1e-6));
   CHECK((glance->x - fit->x.tail(4)).norm() < 1e-6 * glance->x.norm());
-  CHECK_FALSE(look.with(look.products(columns), 4, 1));  // none is all its own
+  CHECK_FALSE(look.with(products, 4, 1));  // none is all its own
 }
 
 /// A linear model of cables that stiffen: the next order of a pair, no limit of the drive.

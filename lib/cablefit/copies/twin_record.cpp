@@ -89,7 +89,8 @@ SimulationResult on_rows_of_log(SimulationResult fine, const TwinStretch& stretc
   if (stretch.fine == 1) return fine;
   const Eigen::Index n = stretch.fine, rows = stretch.measured.rows();
   const auto every = Eigen::seqN(Eigen::Index{0}, rows, n);
-  SimulationResult out = fine;
+  SimulationResult out;
+  out.diverged_at = fine.diverged_at;
   for (const auto channel : {&SimulationResult::q, &SimulationResult::theta, &SimulationResult::qd,
                              &SimulationResult::thetad, &SimulationResult::tension})
     if ((fine.*channel).rows() > 0)

@@ -169,7 +169,8 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
                         first.design, first.x, bench.floor);
   const std::vector<TrialRun> runs = trial_runs(first.design);
   tell(options, "which effects are separable", 0);
-  result.not_separable = find_not_separable(first.design, first.x, bench.floor, runs);
+  result.not_separable =
+      find_not_separable(first.design, first.x, bench.floor, runs, options.threads);
 
   Chain chain{first};
   find_effects(bench, chain, result);

@@ -71,8 +71,9 @@ inline double Coupling::combine(const Strand& strand, LawFunction values_of, dou
   if (!(l > 0)) return 0.0;
   std::array<double, kMaxCableOrder> values;  // NOLINT(*-member-init): filled by the next call
   values_of(strand.shape, l, values.data());
-  double sum = 0;
-  for (std::size_t j = 0; j < static_cast<std::size_t>(strand.n_coefficients); ++j) {
+  // The first apart: a pair of them, loaded at once, would wait until both stores are through.
+  double sum = strand.coefficients[0] * values[0];
+  for (std::size_t j = 1; j < static_cast<std::size_t>(strand.n_coefficients); ++j) {
     sum += strand.coefficients[j] * values[j];
   }
   return sum;

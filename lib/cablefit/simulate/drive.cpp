@@ -103,7 +103,7 @@ const std::vector<double>& ControllerDrive::torque(Eigen::Index row, Eigen::Inde
                                                    const std::vector<double>& theta) {
   const double now =
       (rows_before_ + static_cast<double>(row)) * steps_per_row_ + static_cast<double>(step);
-  if (now >= std::round(n_commands_ * steps_per_command_)) command(row, step, theta);
+  if (now >= next_command_) command(row, step, theta);
   if (!drive_.is_needed()) return tau_;
   const double middle = now + 0.5 - (n_commands_ - 1) * steps_per_command_;
   return drive_.at(middle / steps_per_command_);
@@ -117,6 +117,7 @@ void ControllerDrive::end(Eigen::Index n_rows) {
 void ControllerDrive::command(Eigen::Index row, Eigen::Index step,
                               const std::vector<double>& theta) {
   ++n_commands_;
+  next_command_ = std::round(n_commands_ * steps_per_command_);
   const double fraction = static_cast<double>(step) / steps_per_row_;
   for (std::size_t k = 0; k < tau_.size(); ++k) {
     const auto joint = static_cast<Eigen::Index>(k);

@@ -82,6 +82,7 @@ class ControllerDrive final : public Drive {
   Controller controller_;
   double period_, steps_per_row_, steps_per_command_;
   double n_commands_ = 0;
+  double next_command_ = 0;      ///< step of the next, counted from the first row
   double rows_before_ = 0;       ///< of the present block
   std::vector<double> quantum_;  ///< rad; 0: none
   struct Memory {

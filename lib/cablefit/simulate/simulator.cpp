@@ -28,43 +28,72 @@ std::unique_ptr<Drive> make_drive(const Model& model, const SimulationInput& sta
   return std::make_unique<ReplayDrive>(model, options, clock);
 }
 
+/// A table from one of its rows on to the next.
+class FromRow {
+ public:
+  explicit FromRow(std::size_t n_joints) : from_(n_joints), change_(n_joints) {}
+  void begin(const Eigen::ArrayXXd& table, Eigen::Index row) {
+    is_there_ = table.size() > 0;
+    if (!is_there_) return;
+    const Eigen::Index next = std::min(row + 1, table.rows() - 1);
+    for (std::size_t k = 0; k < from_.size(); ++k) {
+      from_[k] = table(row, static_cast<Eigen::Index>(k));
+      change_[k] = table(next, static_cast<Eigen::Index>(k)) - from_[k];
+    }
+  }
+  bool is_there() const { return is_there_; }
+  /// `fraction`: of the way to the next row.
+  void add(double fraction, std::vector<double>& to) const {
+    if (!is_there_) return;
+    for (std::size_t k = 0; k < to.size(); ++k) to[k] += from_[k] + fraction * change_[k];
+  }
+
+ private:
+  bool is_there_ = false;
+  std::vector<double> from_, change_;
+};
+
 /// Torques that do not depend on the state, linear between rows: the log's load on the link (none
 /// when the rig has a law of q or there is no column) and the disturbances.
 class OuterTorques {
  public:
   OuterTorques(const Model& model, const Clock& clock)
       : from_log_(!model.rig.load.law || model.rig.load.law->from_column),
-        steps_per_row_(static_cast<double>(clock.steps_per_row)),
+        load_(model.joints.size()),
+        on_link_(model.joints.size()),
+        on_motor_(model.joints.size()),
         motor_(model.joints.size(), 0.0),
-        link_(model.joints.size(), 0.0) {}
+        link_(model.joints.size(), 0.0) {
+    const auto steps = static_cast<double>(clock.steps_per_row);
+    for (Eigen::Index step = 0; step < clock.steps_per_row; ++step)
+      middle_.push_back((static_cast<double>(step) + 0.5) / steps);
+  }
 
-  /// On the links, over step `step` of row `row`.
-  const double* on_links(const SimulationInput& block, Eigen::Index row, Eigen::Index step) {
+  /// The steps that follow are those of row `row`.
+  void begin(const SimulationInput& block, Eigen::Index row) {
+    if (from_log_) load_.begin(block.tau_load, row);
+    on_link_.begin(block.link_disturbance, row);
+    on_motor_.begin(block.motor_disturbance, row);
+  }
+  /// On the links, over step `step` of the row.
+  const double* on_links(std::size_t step) {
     std::fill(link_.begin(), link_.end(), 0.0);
-    if (from_log_) add(block.tau_load, row, step, link_);
-    add(block.link_disturbance, row, step, link_);
+    load_.add(middle_[step], link_);
+    on_link_.add(middle_[step], link_);
     return link_.data();
   }
   /// The same on the motors, which `drive` turns.
-  const double* on_motors(const SimulationInput& block, Eigen::Index row, Eigen::Index step,
-                          const std::vector<double>& drive) {
-    if (block.motor_disturbance.size() == 0) return drive.data();
-    motor_ = drive;
-    add(block.motor_disturbance, row, step, motor_);
+  const double* on_motors(std::size_t step, const std::vector<double>& drive) {
+    if (!on_motor_.is_there()) return drive.data();
+    std::copy(drive.begin(), drive.end(), motor_.begin());
+    on_motor_.add(middle_[step], motor_);
     return motor_.data();
   }
 
  private:
-  void add(const Eigen::ArrayXXd& table, Eigen::Index row, Eigen::Index step,
-           std::vector<double>& to) const {
-    if (table.size() == 0) return;
-    const double fraction = (static_cast<double>(step) + 0.5) / steps_per_row_;
-    for (std::size_t k = 0; k < to.size(); ++k)
-      to[k] += between_rows(table, row, fraction, static_cast<Eigen::Index>(k));
-  }
-
   bool from_log_;
-  double steps_per_row_;
+  FromRow load_, on_link_, on_motor_;
+  std::vector<double> middle_;  ///< of the row's steps, as shares of it
   std::vector<double> motor_, link_;
 };
 
@@ -112,10 +141,11 @@ class Simulation::State {
 
  private:
   void step_on(const SimulationInput& block, Eigen::Index row) {
+    outer_.begin(block, row);
     for (Eigen::Index step = 0; step < clock_.steps_per_row; ++step) {
       const std::vector<double>& tau = drive_->torque(row, step, plant_.theta());
-      plant_.step(outer_.on_motors(block, row, step, tau), outer_.on_links(block, row, step),
-                  clock_.h);
+      const auto number = static_cast<std::size_t>(step);
+      plant_.step(outer_.on_motors(number, tau), outer_.on_links(number), clock_.h);
     }
   }
 

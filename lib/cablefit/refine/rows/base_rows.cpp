@@ -97,17 +97,13 @@ Eigen::Index spacing(const Smoothing& smoothing, Evaluation evaluation) {
   return evaluation == Evaluation::coarse ? smoothing.stride : 1;
 }
 
-/// Every so many of the samples; of a coarse motion only positions and torques.
-SmoothMotion thinned(const SmoothMotion& m, Eigen::Index every) {
-  if (every == 1) return m;
+/// Positions at every so many of the samples.
+SmoothMotion thinned_positions(const SmoothMotion& m, Eigen::Index every) {
   const auto some = Eigen::seq(0, m.size() - 1, every);
   SmoothMotion out;
-  out.t0 = m.t0;
   out.period = static_cast<double>(every) * m.period;
   out.q = m.q(some);
   out.theta = m.theta(some);
-  out.tau = m.tau(some);
-  out.tau_load = m.tau_load(some);
   if (m.others.cols() > 0) out.others = m.others(some, Eigen::all);
   return out;
 }
@@ -177,13 +173,19 @@ Eigen::Index count_rows(const std::vector<StretchRows>& rows) {
   return n;
 }
 
+std::shared_ptr<const SmoothMotion> motion_of(const Stretch& stretch, const Model& model,
+                                              const Smoothing& wanted) {
+  const Recording& recording = stretch.recording;
+  return std::make_shared<const SmoothMotion>(
+      smooth_motion_of(recording, stretch.t0, torque_lateness(model.rig, recording.period),
+                       suited(wanted, recording.period)));
+}
+
 StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayout& layout,
                       const Smoothing& wanted, const StretchRows* kept) {
   StretchRows rows;
   const Smoothing smoothing = suited(wanted, stretch.recording.period);
-  const double late = torque_lateness(model.rig, stretch.recording.period);
-  rows.motion = std::make_shared<const SmoothMotion>(
-      smooth_motion_of(stretch.recording, stretch.t0, late, smoothing));
+  rows.motion = motion_of(stretch, model, smoothing);
   const Kernel filter = gaussian(smoothing.columns, stretch.recording.period);
   for (const RowKind kind : kinds_of(stretch, model)) {
     KindRows& k = rows.kinds.emplace_back();
@@ -207,44 +209,58 @@ StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayo
   return rows;
 }
 
-StretchRows rows_of_torque(const StretchRows& kept, const Stretch& changed, const Model& model,
-                           const Smoothing& wanted, Evaluation evaluation) {
-  StretchRows rows = kept;
-  const Recording& r = changed.recording;
-  const Smoothing smoothing = suited(wanted, r.period);
+std::vector<ReplacedColumns> columns_of_torque(const StretchRows& kept, const Recording& changed,
+                                               const Model& model, const Smoothing& wanted,
+                                               Evaluation evaluation) {
+  const Smoothing smoothing = suited(wanted, changed.period);
   const Eigen::Index every = spacing(smoothing, evaluation);
-  SmoothMotion motion = thinned(*kept.motion, every);
-  motion.tau = smooth_torque(r, torque_lateness(model.rig, r.period), smoothing, every);
-  const Kernel filter = gaussian(smoothing.columns, motion.period);
-  for (KindRows& k : rows.kinds) {
-    k.response =
+  SmoothMotion motion;
+  motion.tau = smooth_torque(changed, torque_lateness(model.rig, changed.period), smoothing, every);
+  motion.tau_load = kept.motion->tau_load(Eigen::seq(0, kept.motion->size() - 1, every));
+  const Kernel filter =
+      gaussian(smoothing.columns, static_cast<double>(every) * kept.motion->period);
+  std::vector<ReplacedColumns> replaced;
+  for (const KindRows& k : kept.kinds) {
+    ReplacedColumns& response = replaced.emplace_back(ReplacedColumns{0, 1, {}});
+    response.columns =
         apply_at(filter, response_of(k.kind, motion, model).matrix(), thinned(k.at, every));
-    if (k.given.size() > 0) k.response -= k.given;
+    if (k.given.size() > 0) response.columns -= k.given;
   }
-  if (evaluation == Evaluation::fine)
-    rows.motion = std::make_shared<const SmoothMotion>(std::move(motion));
-  return rows;
+  return replaced;
 }
 
-StretchRows rows_of_cables(const StretchRows& kept, const BaseLayout& before, const Model& model,
-                           const BaseLayout& layout, const Smoothing& wanted,
-                           Evaluation evaluation) {
-  StretchRows rows = kept;
+std::vector<ReplacedColumns> columns_of_cables(const StretchRows& kept, const BaseLayout& before,
+                                               const Model& model, const BaseLayout& layout,
+                                               const Smoothing& wanted, Evaluation evaluation) {
   const Smoothing smoothing = suited(wanted, kept.motion->period);
   const Eigen::Index every = spacing(smoothing, evaluation);
-  const SmoothMotion motion = thinned(*kept.motion, every);
+  const SmoothMotion motion = thinned_positions(*kept.motion, every);
   const Kernel filter = gaussian(smoothing.columns, motion.period);
-  const Eigen::Index effects = before.n_link + before.n_motor;
-  for (KindRows& k : rows.kinds) {
+  std::vector<ReplacedColumns> replaced;
+  for (const KindRows& k : kept.kinds) {
     Eigen::MatrixXd elastic(motion.size(), layout.n_elastic);
     fill_elastic(model, motion, k.kind == RowKind::link, elastic);
-    const Eigen::MatrixXd old = std::move(k.base);
-    const Eigen::Index more = old.cols() - before.n();
-    k.base.resize(old.rows(), layout.n() + more);
-    k.base << old.leftCols(effects), apply_at(filter, elastic, thinned(k.at, every)),
-        old.rightCols(more);
+    replaced.push_back({1 + before.n_link + before.n_motor, before.n_elastic,
+                        apply_at(filter, elastic, thinned(k.at, every))});
   }
-  return rows;
+  return replaced;
+}
+
+void put_in(StretchRows& rows, const std::vector<ReplacedColumns>& replaced) {
+  for (std::size_t i = 0; i < rows.kinds.size(); ++i) {
+    KindRows& kind = rows.kinds[i];
+    const ReplacedColumns& part = replaced[i];
+    const Eigen::Index of_response = part.first == 0 ? 1 : 0;
+    if (of_response > 0) kind.response = part.columns.col(0);
+    const Eigen::Index before = part.first + of_response - 1, n = part.columns.cols() - of_response;
+    const Eigen::Index behind = kind.base.cols() - before - (part.n - of_response);
+    if (n == 0 && before + behind == kind.base.cols()) continue;
+    Eigen::MatrixXd base(kind.base.rows(), before + n + behind);
+    base.leftCols(before) = kind.base.leftCols(before);
+    base.middleCols(before, n) = part.columns.rightCols(n);
+    base.rightCols(behind) = kind.base.rightCols(behind);
+    kind.base = std::move(base);
+  }
 }
 
 }  // namespace cablefit

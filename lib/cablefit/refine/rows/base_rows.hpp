@@ -59,17 +59,32 @@ struct StretchRows {
 /// Of all kinds and stretches.
 Eigen::Index count_rows(const std::vector<StretchRows>& rows);
 
-/// `wanted`: made to suit the stretch. `kept`: take the rows of these instead of choosing, so that
-/// a changed recording can be compared row by row.
+/// `wanted`, here and below: made to suit the stretch.
+std::shared_ptr<const SmoothMotion> motion_of(const Stretch& stretch, const Model& model,
+                                              const Smoothing& wanted);
+
+/// `kept`: take the rows of these instead of choosing, so that a changed recording can be compared
+/// row by row.
 StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayout& layout,
                       const Smoothing& wanted, const StretchRows* kept = nullptr);
 
-/// The rows of a stretch again where positions are as they were: of another torque, or of a model
-/// with other cables. `kept`: rows with the columns of `before`, and what was added to them.
-StretchRows rows_of_torque(const StretchRows& kept, const Stretch& changed, const Model& model,
-                           const Smoothing& wanted, Evaluation evaluation);
-StretchRows rows_of_cables(const StretchRows& kept, const BaseLayout& before, const Model& model,
-                           const BaseLayout& layout, const Smoothing& wanted,
-                           Evaluation evaluation);
+/// Columns that take the place of `n` of [response, base] of one kind of row, from `first` on.
+struct ReplacedColumns {
+  Eigen::Index first = 0, n = 0;
+  Eigen::MatrixXd columns;  ///< n_rows x any number
+};
+
+/// What changes per kind of row where positions are as they were: the response by another torque,
+/// the elastic columns by other cables. `kept`: rows with the columns of `before`, and perhaps
+/// others behind them.
+std::vector<ReplacedColumns> columns_of_torque(const StretchRows& kept, const Recording& changed,
+                                               const Model& model, const Smoothing& wanted,
+                                               Evaluation evaluation);
+std::vector<ReplacedColumns> columns_of_cables(const StretchRows& kept, const BaseLayout& before,
+                                               const Model& model, const BaseLayout& layout,
+                                               const Smoothing& wanted, Evaluation evaluation);
+
+/// Puts them in their places.
+void put_in(StretchRows& rows, const std::vector<ReplacedColumns>& replaced);
 
 }  // namespace cablefit

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "cablefit/model/effect_walk.hpp"
 
@@ -72,16 +73,35 @@ LogScale scale_of(const Design& design) {
   return scale;
 }
 
+/// Of the rows that there are and the models.
+void fill_states(Design& design) {
+  design.states.clear();
+  design.coarse_states.clear();
+  for (std::size_t k = 0; k < design.stretches.size(); ++k) {
+    const auto& states = design.states.emplace_back(
+        joint_states(*design.rows[k].motion, design.models[design.stretches[k].model]));
+    const auto stride = static_cast<std::size_t>(design.smoothing_of(k).stride);
+    auto& coarse = design.coarse_states.emplace_back();
+    for (std::size_t i = 0; i < states.size(); i += stride) coarse.push_back(states[i]);
+  }
+}
+
 void fill_rows(Design& design, const std::vector<StretchRows>* kept) {
   design.rows.clear();
-  design.states.clear();
   for (std::size_t k = 0; k < design.stretches.size(); ++k) {
     const Stretch& stretch = design.stretches[k];
-    const Model& model = design.models[stretch.model];
-    design.rows.push_back(base_rows(stretch, model, design.layout, design.smoothing,
-                                    kept != nullptr ? &(*kept)[k] : nullptr));
-    design.states.push_back(joint_states(*design.rows.back().motion, model));
+    design.rows.push_back(base_rows(stretch, design.models[stretch.model], design.layout,
+                                    design.smoothing, kept != nullptr ? &(*kept)[k] : nullptr));
   }
+  fill_states(design);
+}
+
+/// Whether the rows depend on the coefficients: on those of cables by an effect that was added, and
+/// of an arm by what its links do to each other.
+bool rows_follow_values(const Design& design) {
+  return !design.added.empty() ||
+         std::any_of(design.models.begin(), design.models.end(),
+                     [](const Model& model) { return model.is_coupled(); });
 }
 
 bool same_positions(const Recording& a, const Recording& b) {
@@ -89,17 +109,62 @@ bool same_positions(const Recording& a, const Recording& b) {
 }
 
 /// The column of dry friction with what the row does to all of it.
-std::vector<StretchRows> rows_of_dry_friction(const Design& design, Variant variant,
-                                              Evaluation evaluation) {
+std::vector<std::vector<ReplacedColumns>> columns_of_dry_friction(const Design& design,
+                                                                  Variant variant,
+                                                                  Evaluation evaluation) {
   const Eigen::Index dry = dry_column(design, *variant.effect);
   if (dry < 0) return {};
   variant.is_plain = false;
-  const VariantColumns columns = variant_columns(design, variant, {}, evaluation);
-  std::vector<StretchRows> rows = design.rows;
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    for (std::size_t i = 0; i < rows[k].kinds.size(); ++i)
-      rows[k].kinds[i].base.col(dry) += columns[k][i].col(0);
-  return rows;
+  const auto active = active_columns(design, variant, {}, evaluation);
+  std::vector<std::vector<ReplacedColumns>> replaced;
+  for (std::size_t k = 0; k < active.size(); ++k) {
+    auto& kinds = replaced.emplace_back();
+    for (std::size_t i = 0; i < active[k].size(); ++i) {
+      const Eigen::MatrixXd& added = active[k][i].columns;
+      ReplacedColumns& kind =
+          kinds.emplace_back(ReplacedColumns{1 + dry, 1, design.rows[k].kinds[i].base.col(dry)});
+      kind.columns.middleRows(active[k][i].from, added.rows()) += added.leftCols(1);
+    }
+  }
+  return replaced;
+}
+
+/// With the effect's cables; nothing where it makes no sense for them.
+std::optional<std::vector<Model>> with_other_cables(const Design& design, const Variant& variant) {
+  std::vector<Model> models = design.models;
+  if (models.front().rigid) return {};
+  for (Model& model : models) {
+    auto changed = variant.effect->change(model.transmission, variant.shape.data());
+    if (!changed) return {};
+    model.transmission = std::move(*changed);
+  }
+  return models;
+}
+
+std::vector<std::vector<ReplacedColumns>> columns_of_other_cables(const Design& design,
+                                                                  const Variant& variant,
+                                                                  Evaluation evaluation) {
+  const auto models = with_other_cables(design, variant);
+  if (!models) return {};
+  const BaseLayout layout = base_layout(models->front());
+  std::vector<std::vector<ReplacedColumns>> replaced;
+  for (std::size_t k = 0; k < design.stretches.size(); ++k)
+    replaced.push_back(columns_of_cables(design.rows[k], design.layout,
+                                         (*models)[design.stretches[k].model], layout,
+                                         design.smoothing, evaluation));
+  return replaced;
+}
+
+/// Of the model, with the response.
+std::vector<ReplacedColumns> all_columns(const StretchRows& rows) {
+  std::vector<ReplacedColumns> all;
+  for (const KindRows& kind : rows.kinds) {
+    const Eigen::Index n = 1 + kind.base.cols();
+    ReplacedColumns& own = all.emplace_back(ReplacedColumns{0, n, {}});
+    own.columns.resize(kind.base.rows(), n);
+    own.columns << kind.response, kind.base;
+  }
+  return all;
 }
 
 }  // namespace
@@ -155,47 +220,35 @@ Eigen::Index dry_column(const Design& design, const Effect& row) {
   return row.site == Site::link ? design.layout.dry_link : design.layout.dry_motor;
 }
 
-StretchRows corrected_rows(const Design& design, std::size_t k, const Effect& row,
-                           const std::vector<double>& parameters, Evaluation evaluation) {
+std::vector<ReplacedColumns> corrected_columns(const Design& design, std::size_t k,
+                                               const Effect& row,
+                                               const std::vector<double>& parameters,
+                                               Evaluation evaluation) {
   Stretch stretch = design.stretches[k];
-  if (row.correct != nullptr) row.correct(parameters.data(), stretch.recording);
   const Model& model = design.models[stretch.model];
-  if (same_positions(stretch.recording, design.stretches[k].recording))
-    return rows_of_torque(design.rows[k], stretch, model, design.smoothing, evaluation);
-  StretchRows rows = base_rows(stretch, model, design.layout, design.smoothing, &design.rows[k]);
-  for (std::size_t i = 0; i < rows.kinds.size(); ++i) {
-    Eigen::MatrixXd& base = rows.kinds[i].base;
-    const Eigen::MatrixXd& old = design.rows[k].kinds[i].base;
-    const Eigen::Index own = base.cols(), more = old.cols() - design.layout.n();
-    base.conservativeResize(Eigen::NoChange, own + more);
-    base.rightCols(more) = old.rightCols(more);
-  }
-  return rows;
+  if (row.correct != nullptr) row.correct(parameters.data(), stretch.recording);
+  if (!same_positions(stretch.recording, design.stretches[k].recording))
+    return all_columns(base_rows(stretch, model, design.layout, design.smoothing, &design.rows[k]));
+  return columns_of_torque(design.rows[k], stretch.recording, model, design.smoothing, evaluation);
 }
 
-std::vector<StretchRows> replaced_rows(const Design& design, const Variant& variant,
-                                       Evaluation evaluation) {
+std::vector<std::vector<ReplacedColumns>> replaced_columns(const Design& design,
+                                                           const Variant& variant,
+                                                           Evaluation evaluation) {
   const Effect& row = *variant.effect;
-  if (row.takes_dry_friction) return rows_of_dry_friction(design, variant, evaluation);
-  std::vector<Model> models = design.models;
-  BaseLayout layout = design.layout;
-  if (row.change != nullptr) {
-    if (models.front().rigid) return {};
-    for (Model& model : models) {
-      auto changed = row.change(model.transmission, variant.shape.data());
-      if (!changed) return {};
-      model.transmission = std::move(*changed);
-    }
-    layout = base_layout(models.front());
-  }
-  std::vector<StretchRows> rows;
-  for (std::size_t k = 0; k < design.stretches.size(); ++k) {
-    const Model& model = models[design.stretches[k].model];
-    rows.push_back(row.change != nullptr
-                       ? rows_of_cables(design.rows[k], design.layout, model, layout,
-                                        design.smoothing, evaluation)
-                       : corrected_rows(design, k, row, variant.shape, evaluation));
-  }
+  if (row.takes_dry_friction) return columns_of_dry_friction(design, variant, evaluation);
+  if (row.change != nullptr) return columns_of_other_cables(design, variant, evaluation);
+  std::vector<std::vector<ReplacedColumns>> replaced;
+  for (std::size_t k = 0; k < design.stretches.size(); ++k)
+    replaced.push_back(corrected_columns(design, k, row, variant.shape, evaluation));
+  return replaced;
+}
+
+std::vector<StretchRows> replaced_rows(const Design& design, const Variant& variant) {
+  const auto replaced = replaced_columns(design, variant, Evaluation::fine);
+  if (replaced.empty()) return {};
+  std::vector<StretchRows> rows = design.rows;
+  for (std::size_t k = 0; k < rows.size(); ++k) put_in(rows[k], replaced[k]);
   return rows;
 }
 
@@ -243,11 +296,13 @@ Design with_variant(const Design& design, const Variant& variant, const Eigen::V
     if (row.change != nullptr)
       for (Model& model : out.models)
         model.transmission = *row.change(model.transmission, variant.shape.data());
-    if (row.correct != nullptr)
-      for (Stretch& stretch : out.stretches) row.correct(variant.shape.data(), stretch.recording);
+    for (std::size_t k = 0; k < out.rows.size() && row.correct != nullptr; ++k) {
+      Stretch& stretch = out.stretches[k];
+      row.correct(variant.shape.data(), stretch.recording);
+      out.rows[k].motion = motion_of(stretch, out.models[stretch.model], out.smoothing);
+    }
     out.layout = base_layout(out.models.front());
-    for (std::size_t k = 0; k < out.stretches.size(); ++k)
-      out.states[k] = joint_states(*out.rows[k].motion, out.models[out.stretches[k].model]);
+    fill_states(out);
   } else {
     append(out.rows, variant_columns(design, variant, values));
   }
@@ -260,6 +315,10 @@ Design relinearised(const Design& design, const Eigen::VectorXd& values) {
   for (Model& model : out.models) {
     set_base_values(out.layout, values, model);
     for (const Variant& variant : out.added) change_again(variant, model.transmission);
+  }
+  if (!rows_follow_values(design)) {
+    fill_states(out);
+    return out;
   }
   fill_rows(out, &design.rows);
   out.added.clear();

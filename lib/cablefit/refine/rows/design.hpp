@@ -39,6 +39,8 @@ struct Design {
   std::vector<Stretch> stretches;
   std::vector<StretchRows> rows;                ///< per stretch; `base` has all columns
   std::vector<std::vector<JointState>> states;  ///< per stretch
+  /// Those at multiples of the stride, side by side: a coarse evaluation waits for memory else.
+  std::vector<std::vector<JointState>> coarse_states;
   std::vector<Variant> added;
   LogScale scale;
   Eigen::Index n_columns() const;
@@ -61,23 +63,38 @@ VariantColumns variant_columns(const Design& design, const Variant& variant,
                                const Eigen::VectorXd& values,
                                Evaluation evaluation = Evaluation::fine);
 
+/// Rows [from, from + columns.rows()) of such columns; all others are zero.
+struct ActiveColumns {
+  Eigen::Index from = 0;
+  Eigen::MatrixXd columns;
+};
+/// The same columns without the rows that an event cannot reach.
+std::vector<std::vector<ActiveColumns>> active_columns(const Design& design, const Variant& variant,
+                                                       const Eigen::VectorXd& values,
+                                                       Evaluation evaluation);
+
 /// What the equations of these rows leave, N m (n_rows x 1): model minus measured.
 VariantColumns residuals(const std::vector<StretchRows>& rows, const Eigen::VectorXd& x);
 
 /// These behind the columns that the rows have.
 void append(std::vector<StretchRows>& rows, const VariantColumns& columns);
 
-/// The rows of a stretch with what `row` corrects in its recording. What was added before stays as
-/// it is.
-StretchRows corrected_rows(const Design& design, std::size_t stretch, const Effect& row,
-                           const std::vector<double>& parameters,
-                           Evaluation evaluation = Evaluation::fine);
+/// What changes in the rows of a stretch, per kind, with what `row` corrects in its recording. What
+/// was added before stays as it is.
+std::vector<ReplacedColumns> corrected_columns(const Design& design, std::size_t stretch,
+                                               const Effect& row,
+                                               const std::vector<double>& parameters,
+                                               Evaluation evaluation);
 
 /// Whether a variant has no columns but other base columns or responses (other cables, a clipped
-/// torque), and these. Empty: it makes no sense for this model.
+/// torque), these per stretch and kind of row, and the rows with them. Empty: it makes no sense for
+/// this model.
 bool replaces_rows(const Variant& variant);
-std::vector<StretchRows> replaced_rows(const Design& design, const Variant& variant,
-                                       Evaluation evaluation = Evaluation::fine);
+std::vector<std::vector<ReplacedColumns>> replaced_columns(const Design& design,
+                                                           const Variant& variant,
+                                                           Evaluation evaluation);
+/// Their motion is that of the design.
+std::vector<StretchRows> replaced_rows(const Design& design, const Variant& variant);
 
 /// Whether the variant's cables can be made of the design's: some need what another effect made of
 /// them first.

@@ -81,6 +81,30 @@ double squared_error(const Eigen::MatrixXd& gram, const Eigen::VectorXd& x) {
   return std::max(0.0, c.dot(gram * c));
 }
 
+/// The Gram matrix of rows [from, from + n) of a kind with `other` columns in place of some.
+Eigen::MatrixXd gram_with(const ReplacedColumns& other, const Eigen::MatrixXd& gram,
+                          const KindRows& kind, Eigen::Index from, Eigen::Index n) {
+  const Eigen::Index left = other.first, m = other.columns.cols();
+  const Eigen::Index right = gram.rows() - left - other.n, all = left + m + right;
+  const auto c = other.columns.middleRows(from, n);
+  Eigen::MatrixXd out(all, all);
+  out.topLeftCorner(left, left) = gram.topLeftCorner(left, left);
+  out.topRightCorner(left, right) = gram.topRightCorner(left, right);
+  out.bottomLeftCorner(right, left) = gram.bottomLeftCorner(right, left);
+  out.bottomRightCorner(right, right) = gram.bottomRightCorner(right, right);
+  auto across = out.middleCols(left, m);
+  if (left > 0) {
+    across.topRows(1) = kind.response.segment(from, n).transpose() * c;
+    across.middleRows(1, left - 1) =
+        kind.base.middleRows(from, n).leftCols(left - 1).transpose() * c;
+  }
+  across.middleRows(left, m) = c.transpose() * c;
+  across.bottomRows(right) = kind.base.middleRows(from, n).rightCols(right).transpose() * c;
+  out.block(left, 0, m, left) = across.topRows(left).transpose();
+  out.block(left, left + m, m, right) = across.bottomRows(right).transpose();
+  return out;
+}
+
 void add_kind_sums(const BlockGrams& grams, BlockFit& fit) {
   for (const BlockGrams::Block& block : grams.blocks)
     for (std::size_t k = 0; k < kRowKinds; ++k) {
@@ -144,6 +168,28 @@ BlockGrams extended(const BlockGrams& base, const std::vector<StretchRows>& rows
             g.bottomRightCorner(c.cols(), c.cols()) = c.transpose() * c;
             g.bottomLeftCorner(c.cols(), before) = g.topRightCorner(before, c.cols()).transpose();
           });
+    }
+  return grams;
+}
+
+BlockGrams replaced(const BlockGrams& base, const std::vector<StretchRows>& rows,
+                    const std::vector<Stretch>& stretches,
+                    const std::vector<std::vector<ReplacedColumns>>& columns,
+                    double block_seconds) {
+  BlockGrams grams = base;
+  std::size_t n_blocks = 0;
+  const auto first = first_blocks(stretches, block_seconds, n_blocks);
+  for (std::size_t s = 0; s < rows.size(); ++s)
+    for (std::size_t i = 0; i < rows[s].kinds.size(); ++i) {
+      const KindRows& kind = rows[s].kinds[i];
+      const ReplacedColumns& other = columns[s][i];
+      grams.n_columns = base.n_columns - other.n + other.columns.cols();
+      for_each_block(kind, stretches[s].recording.period, block_seconds,
+                     [&](std::size_t b, Eigen::Index from, Eigen::Index n) {
+                       Eigen::MatrixXd& gram =
+                           grams.blocks[first[s] + b].gram[static_cast<std::size_t>(kind.kind)];
+                       gram = gram_with(other, gram, kind, from, n);
+                     });
     }
   return grams;
 }

@@ -39,6 +39,12 @@ BlockGrams extended(const BlockGrams& base, const std::vector<StretchRows>& rows
                     const std::vector<Stretch>& stretches, const VariantColumns& columns,
                     double block_seconds);
 
+/// The same with other columns in place of some, per stretch and kind of row: only the products of
+/// these are formed.
+BlockGrams replaced(const BlockGrams& base, const std::vector<StretchRows>& rows,
+                    const std::vector<Stretch>& stretches,
+                    const std::vector<std::vector<ReplacedColumns>>& columns, double block_seconds);
+
 /// The columns of these numbers, in this order.
 BlockGrams with_columns(const BlockGrams& grams, const std::vector<Eigen::Index>& which);
 

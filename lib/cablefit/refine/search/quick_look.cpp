@@ -24,15 +24,15 @@ Extent extent_of(const Eigen::MatrixXd& columns) {
   return {from, std::max<Eigen::Index>(0, to - from)};
 }
 
-void add_products(const KindRows& rows, const Eigen::MatrixXd& columns, double weight,
+void add_products(const KindRows& rows, const ActiveColumns& active, double weight,
                   QuickLook::Products& sum) {
-  const Extent extent = extent_of(columns);
+  const Extent extent = extent_of(active.columns);
   if (extent.n == 0) return;
-  const Eigen::MatrixXd c = weight * columns.middleRows(extent.from, extent.n);
-  sum.cross.row(0) += rows.response.segment(extent.from, extent.n).transpose() * c;
-  sum.cross.bottomRows(rows.base.cols()) +=
-      rows.base.middleRows(extent.from, extent.n).transpose() * c;
-  sum.own += columns.middleRows(extent.from, extent.n).transpose() * c;
+  const Eigen::Index first = active.from + extent.from;
+  const Eigen::MatrixXd c = weight * active.columns.middleRows(extent.from, extent.n);
+  sum.cross.row(0) += rows.response.segment(first, extent.n).transpose() * c;
+  sum.cross.bottomRows(rows.base.cols()) += rows.base.middleRows(first, extent.n).transpose() * c;
+  sum.own += active.columns.middleRows(extent.from, extent.n).transpose() * c;
 }
 
 double weight_of(const KindLevels& levels, RowKind kind) {
@@ -62,8 +62,9 @@ QuickLook::QuickLook(const Design& design, const BlockGrams& grams, const KindLe
   error_ = total(0, 0) - response_.squaredNorm();
 }
 
-QuickLook::Products QuickLook::products(const VariantColumns& columns) const {
-  const Eigen::Index n = columns.front().front().cols();
+QuickLook::Products QuickLook::products(
+    const std::vector<std::vector<ActiveColumns>>& columns) const {
+  const Eigen::Index n = columns.front().front().columns.cols();
   Products sum{Eigen::MatrixXd::Zero(1 + scale_.size(), n), Eigen::MatrixXd::Zero(n, n)};
   for (std::size_t s = 0; s < columns.size(); ++s)
     for (std::size_t k = 0; k < columns[s].size(); ++k) {

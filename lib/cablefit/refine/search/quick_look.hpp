@@ -17,7 +17,7 @@ class QuickLook {
   struct Products {
     Eigen::MatrixXd cross, own;
   };
-  Products products(const VariantColumns& columns) const;
+  Products products(const std::vector<std::vector<ActiveColumns>>& columns) const;
 
   struct Glance {
     double error = 0;   ///< weighted and squared, in sample

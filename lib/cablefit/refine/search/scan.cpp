@@ -65,6 +65,9 @@ struct Scanner {
   VariantColumns columns(const Variant& variant, Evaluation evaluation) const {
     return variant_columns(start.design, variant, start.fit.x, evaluation);
   }
+  QuickLook::Products products(const Variant& variant, Evaluation evaluation) const {
+    return look.products(active_columns(start.design, variant, start.fit.x, evaluation));
+  }
 };
 
 std::optional<BlockGrams> grams_with(const Scanner& scanner, const Variant& variant,
@@ -72,9 +75,9 @@ std::optional<BlockGrams> grams_with(const Scanner& scanner, const Variant& vari
   const Design& design = scanner.start.design;
   const double seconds = scanner.settings.block_seconds;
   if (replaces_rows(variant)) {
-    const auto rows = replaced_rows(design, variant, evaluation);
-    if (rows.empty()) return {};
-    return block_grams(rows, design.stretches, seconds);
+    const auto columns = replaced_columns(design, variant, evaluation);
+    if (columns.empty()) return {};
+    return replaced(scanner.start.grams, design.rows, design.stretches, columns, seconds);
   }
   return extended(scanner.start.grams, design.rows, design.stretches,
                   scanner.columns(variant, evaluation), seconds);
@@ -169,8 +172,7 @@ Variant moved_shape(const Scanner& scanner, Variant variant, Evaluation evaluati
   const int rounds = row.passes() ? 3 : 2;  // place and length of what passes pull at each other
   const auto error_with = [&](const Variant& other) {
     if (!replaces_rows(other)) {
-      const auto looked =
-          looked_at(scanner.look, scanner.look.products(scanner.columns(other, evaluation)), other);
+      const auto looked = looked_at(scanner.look, scanner.products(other, evaluation), other);
       return looked && looked->is_physical ? looked->error : kUnbounded;
     }
     const auto tried = try_variant(scanner, other, evaluation);
@@ -217,7 +219,7 @@ std::optional<Candidate> best_fitting(const Scanner& scanner,
     // Once a row is not enough for what repeats several times from row to row.
     const Evaluation evaluation =
         is_line(scanner.start.design, variant) ? Evaluation::fine : Evaluation::coarse;
-    const auto products = look.products(scanner.columns(variant, evaluation));
+    const auto products = scanner.products(variant, evaluation);
     const auto looked = looked_at(look, products, variant);
     if (looked) keep_least(errors, *looked, scanner.settings.block_seconds);
     keep_better(full, looked);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "cablefit/base/parallel.hpp"
 #include "cablefit/refine/search/applicable.hpp"
 #include "cablefit/refine/search/search.hpp"
 
@@ -95,16 +96,23 @@ std::optional<Seen> see_replaced(const Design& design, const Variant& variant, c
 }
 
 std::optional<Seen> see(const Design& design, const Variant& variant, const Stack& stack,
-                        const Eigen::VectorXd& values, const Eigen::VectorXd* scale) {
+                        const Eigen::VectorXd& values) {
   if (replaces_rows(variant)) return see_replaced(design, variant, stack, values);
   const VariantColumns columns = variant_columns(design, variant, values);
   Seen seen;
   seen.span =
       stack.of(n_linear(variant), [&](std::size_t s, std::size_t i) { return columns[s][i]; });
-  seen.scale = scale != nullptr ? *scale : unit_scale(seen.span);
+  seen.scale = unit_scale(seen.span);
   seen.example = seen.span * seen.scale;
   return seen;
 }
+
+/// A variant of a family.
+struct Numbered {
+  std::size_t family;
+  const Variant* variant;
+};
+
 }  // namespace
 
 std::vector<Family> families_of(const Design& design) {
@@ -131,7 +139,8 @@ std::vector<Family> families_of(const Design& design) {
 }
 
 Products products_of(const Design& design, const std::vector<Family>& families,
-                     const KindLevels& floor, const Eigen::VectorXd& values, const Products* like) {
+                     const KindLevels& floor, const Eigen::VectorXd& values, const Products* like,
+                     int threads) {
   const Stack stack(design, floor);
   Products out;
   out.n_base = design.n_columns();
@@ -140,22 +149,29 @@ Products products_of(const Design& design, const std::vector<Family>& families,
       stack.of(out.n_base, [&](std::size_t s, std::size_t i) -> Eigen::MatrixXd {
         return design.rows[s].kinds[i].base;
       })};
-  Eigen::Index at = out.n_base;
+  std::vector<Numbered> variants;
   for (std::size_t f = 0; f < families.size(); ++f)
-    for (const Variant& variant : families[f].variants) {
-      const std::size_t v = out.family.size();
-      const auto seen =
-          see(design, variant, stack, values, like != nullptr ? &like->scale[v] : nullptr);
-      if (!seen) continue;
-      out.scale.push_back(seen->scale);
-      out.family.push_back(static_cast<Eigen::Index>(f));
-      out.first.push_back(at);
-      out.n.push_back(seen->span.cols());
-      out.example.push_back(at + seen->span.cols());
-      blocks.push_back(seen->span);
-      blocks.emplace_back(seen->example);
-      at += seen->span.cols() + 1;
+    for (const Variant& variant : families[f].variants) variants.push_back({f, &variant});
+  const auto all_seen = parallel_map(threads, variants, [&](const Numbered& one) {
+    return see(design, *one.variant, stack, values);
+  });
+  Eigen::Index at = out.n_base;
+  for (std::size_t k = 0; k < variants.size(); ++k) {
+    if (!all_seen[k]) continue;
+    Seen seen = *all_seen[k];
+    if (like != nullptr && !replaces_rows(*variants[k].variant)) {
+      seen.scale = like->scale[out.family.size()];
+      seen.example = seen.span * seen.scale;
     }
+    out.scale.push_back(seen.scale);
+    out.family.push_back(static_cast<Eigen::Index>(variants[k].family));
+    out.first.push_back(at);
+    out.n.push_back(seen.span.cols());
+    out.example.push_back(at + seen.span.cols());
+    at += seen.span.cols() + 1;
+    blocks.push_back(std::move(seen.span));
+    blocks.emplace_back(std::move(seen.example));
+  }
   Eigen::MatrixXd all(blocks.front().rows(), at);
   Eigen::Index column = 0;
   for (const Eigen::MatrixXd& block : blocks) {

@@ -30,6 +30,7 @@ struct Products {
 /// In units of `floor` (per kind of row). `values`: of the base's columns. `like`: of other rows
 /// with the same columns, added; nullptr: none.
 Products products_of(const Design& design, const std::vector<Family>& families,
-                     const KindLevels& floor, const Eigen::VectorXd& values, const Products* like);
+                     const KindLevels& floor, const Eigen::VectorXd& values, const Products* like,
+                     int threads);
 
 }  // namespace cablefit

@@ -115,11 +115,11 @@ std::vector<Family> only_open(const std::vector<Family>& families, std::vector<O
 /// For each group the first run that leaves the fewest pairs of it together.
 void advise(std::vector<Open> open, const std::vector<Family>& all, const Design& design,
             const Eigen::VectorXd& values, const KindLevels& floor, double least,
-            const std::vector<TrialRun>& runs, std::vector<NotSeparable>& out) {
+            const std::vector<TrialRun>& runs, int threads, std::vector<NotSeparable>& out) {
   const Model model = recorded_models(models_with(design, values)).front();
   const std::vector<Family> families = only_open(all, open);
   if (families.empty()) return;
-  const Products have = products_of(design, families, floor, values, nullptr);
+  const Products have = products_of(design, families, floor, values, nullptr, threads);
   const Distances now(have, families);
   std::vector<std::size_t> fewest;
   for (const Open& one : open) fewest.push_back(still_close(one, families, now, least).size());
@@ -129,7 +129,7 @@ void advise(std::vector<Open> open, const std::vector<Family>& all, const Design
     const Design trial = with_variants(make_design(design.models, {*stretch}, design.smoothing),
                                        design.added, values);
     if (trial.rows.front().kinds.front().response.size() == 0) continue;
-    const Products more = products_of(trial, families, floor, values, &have);
+    const Products more = products_of(trial, families, floor, values, &have, threads);
     const Distances distances(more, families);
     for (std::size_t k = 0; k < open.size(); ++k) {
       const auto close = still_close(open[k], families, distances, kSeparated * least);
@@ -150,10 +150,10 @@ void advise(std::vector<Open> open, const std::vector<Family>& all, const Design
 
 std::vector<NotSeparable> find_not_separable(const Design& design, const Eigen::VectorXd& x,
                                              const KindLevels& floor,
-                                             const std::vector<TrialRun>& runs) {
+                                             const std::vector<TrialRun>& runs, int threads) {
   const Eigen::VectorXd values = x.head(design.n_columns());
   const std::vector<Family> families = families_of(design);
-  const Products products = products_of(design, families, floor, values, nullptr);
+  const Products products = products_of(design, families, floor, values, nullptr, threads);
   const Distances distances(products, families);
   const double least = std::max(kTie, kClear / (kMaterial * products.n_rows));
   std::vector<Open> open;
@@ -175,7 +175,7 @@ std::vector<NotSeparable> find_not_separable(const Design& design, const Eigen::
     told.from_base = one.from_base;
     told.is_alias = are_aliases(families, one.group);
   }
-  advise(std::move(open), families, design, values, floor, least, runs, out);
+  advise(std::move(open), families, design, values, floor, least, runs, threads, out);
   return out;
 }
 

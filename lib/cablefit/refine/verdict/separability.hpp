@@ -16,6 +16,6 @@ namespace cablefit {
 /// `x`: values of the design's columns. `floor`: per kind of row.
 std::vector<NotSeparable> find_not_separable(const Design& design, const Eigen::VectorXd& x,
                                              const KindLevels& floor,
-                                             const std::vector<TrialRun>& runs);
+                                             const std::vector<TrialRun>& runs, int threads = 1);
 
 }  // namespace cablefit

@@ -141,14 +141,26 @@ std::vector<Piece> pieces_of(const Design& design, const Eigen::VectorXd& x, Row
   return pieces;
 }
 
-/// What a sine of that frequency, of any size and phase, removes from the squares of a piece.
-double removed(const Piece& piece, double frequency) {
+/// Sine and cosine of a frequency at the times of a piece, as columns.
+Eigen::MatrixXd waves(const Piece& piece, double frequency) {
   const Eigen::ArrayXd phase = 2 * std::numbers::pi * frequency * piece.t;
   Eigen::MatrixXd a(phase.size(), 2);
   a.col(0) = phase.sin().matrix();
   a.col(1) = phase.cos().matrix();
-  const Eigen::Matrix2d gram = a.transpose() * a;
-  const Eigen::Vector2d right = a.transpose() * piece.residual.matrix();
+  return a;
+}
+
+/// Waves of a frequency to those of that plus another: cheaper than sines.
+void turn_on(Eigen::MatrixXd& waves, const Eigen::MatrixXd& by) {
+  const Eigen::ArrayXd sine = waves.col(0), cosine = waves.col(1);
+  waves.col(0) = sine * by.col(1).array() + cosine * by.col(0).array();
+  waves.col(1) = cosine * by.col(1).array() - sine * by.col(0).array();
+}
+
+/// What a sine of any size and phase removes from the squares of a piece.
+double removed(const Piece& piece, const Eigen::MatrixXd& waves) {
+  const Eigen::Matrix2d gram = waves.transpose() * waves;
+  const Eigen::Vector2d right = waves.transpose() * piece.residual.matrix();
   const double determinant = gram.determinant();
   if (!(determinant > 1e-6 * gram.squaredNorm())) return 0;
   return right.dot(gram.inverse() * right);
@@ -158,6 +170,29 @@ struct Line {
   double frequency = 0, removed = 0;
 };
 
+void keep_stronger(Line& best, const Line& other) {
+  if (other.removed > best.removed) best = other;
+}
+
+/// Of evenly spaced frequencies.
+Line strongest_of(const std::vector<Piece>& pieces, double lowest, double highest, double step) {
+  std::vector<Eigen::MatrixXd> now, by;
+  for (const Piece& piece : pieces) {
+    now.push_back(waves(piece, lowest));
+    by.push_back(waves(piece, step));
+  }
+  Line best;
+  for (double f = lowest; f < highest; f += step) {
+    Line here{f, 0};
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      here.removed += removed(pieces[k], now[k]);
+      turn_on(now[k], by[k]);
+    }
+    keep_stronger(best, here);
+  }
+  return best;
+}
+
 /// The frequency at which sines, one a piece, remove most. Noise alone gives each piece two
 /// degrees of freedom, which the search makes larger: of a gap that is a small price.
 Line strongest_line(const std::vector<Piece>& pieces, double lowest, double highest) {
@@ -165,15 +200,14 @@ Line strongest_line(const std::vector<Piece>& pieces, double lowest, double high
   for (const Piece& piece : pieces)
     longest = std::max(longest, piece.t(piece.t.size() - 1) - piece.t(0));
   const double step = 0.4 / longest;
-  Line best;
-  const auto try_at = [&](double frequency) {
-    double sum = 0;
-    for (const Piece& piece : pieces) sum += removed(piece, frequency);
-    if (sum > best.removed) best = {frequency, sum};
+  const auto line_at = [&](double frequency) {
+    Line line{frequency, 0};
+    for (const Piece& piece : pieces) line.removed += removed(piece, waves(piece, frequency));
+    return line;
   };
-  for (double f = std::max(lowest, step); f < highest; f += step) try_at(f);
-  const double around = best.frequency;
-  for (int k = -8; k <= 8; ++k) try_at(around + step * k / 8);
+  const double around = strongest_of(pieces, std::max(lowest, step), highest, step).frequency;
+  Line best = line_at(around);
+  for (int k = -8; k <= 8; ++k) keep_stronger(best, line_at(around + step * k / 8));
   return best;
 }
 
