@@ -63,16 +63,28 @@ void add_by_block(const HeldOut& held_out, const Eigen::MatrixXd& rows,
 
 }  // namespace
 
+namespace {
+
+/// Numbers of the rows of a factor that say anything. They need not be the first: where a column
+/// has no sample or depends on those before it, the factor has an empty row.
+std::vector<Eigen::Index> filled_rows(const Eigen::MatrixXd& factor) {
+  constexpr double kEmpty = 1e-15;  // of all of it: less is rounding
+  const double least = kEmpty * factor.norm();
+  std::vector<Eigen::Index> filled;
+  for (Eigen::Index i = 0; i < factor.rows(); ++i)
+    if (factor.row(i).norm() > least) filled.push_back(i);
+  return filled;
+}
+
+}  // namespace
+
 Eigen::MatrixXd BasisRows::factor_without(Eigen::Index fold) const {
-  Eigen::MatrixXd stacked(0, n_columns());
+  StreamingQr all(n_columns());
   for (std::size_t block = 0; block < blocks.size(); ++block) {
     if (static_cast<Eigen::Index>(block) % kHeldOutFolds == fold) continue;
-    const Eigen::Index n = std::min(n_rows[block], n_columns());  // the others are 0
-    stacked.conservativeResize(stacked.rows() + n, Eigen::NoChange);
-    stacked.bottomRows(n) = blocks[block].r().topRows(n);
+    const Eigen::MatrixXd& factor = blocks[block].r();
+    all.add(factor(filled_rows(factor), Eigen::all));
   }
-  StreamingQr all(n_columns());
-  all.add(stacked);
   return all.r();
 }
 

@@ -9,9 +9,13 @@
 namespace cablefit {
 namespace {
 
-constexpr double kNoGain = 1e-10;  // correlation with the residual, of |y|
-constexpr double kInSpan = 1e-7;   // of an atom, outside of the span of those chosen
-constexpr int kStepsPerTerm = 4;   // non-negative terms come and go
+// Far above rounding, which would choose otherwise on another machine: the rounding of a
+// correlation, 1e-16, is divided by what is outside of the span.
+constexpr double kNoGain = 1e-8;  // correlation with the residual, of |y|
+constexpr double kInSpan = 1e-5;  // of an atom, outside of the span of those chosen
+constexpr double kTie =
+    1 + 1e-6;  // times the largest correlation: less is no larger, the first counts
+constexpr int kStepsPerTerm = 4;  // non-negative terms come and go
 
 using Atoms = std::vector<Eigen::Index>;
 
@@ -37,7 +41,7 @@ class Pursuit {
     for (Eigen::Index j = 0; j < unit_.cols(); ++j) {
       if (!(outside_(j) > kInSpan) || has(fit_.atoms, j)) continue;
       const double along = options_.non_negative ? correlation(j) : std::abs(correlation(j));
-      if (along / outside_(j) <= most) continue;
+      if (along / outside_(j) <= kTie * most) continue;
       best = j;
       most = along / outside_(j);
     }
