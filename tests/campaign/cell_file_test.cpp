@@ -8,15 +8,15 @@
 #include <limits>
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/campaign/batch_json.hpp"
 #include "cablefit/campaign/cell_fit.hpp"
 #include "cablefit/campaign/portable_text.hpp"
 #include "cablefit/model/arm/urdf_file.hpp"
 #include "cablefit/report/documents/batch_document.hpp"
-#include "cablefit/report/json/batch_json.hpp"
-#include "cablefit/report/json/dynamic_json.hpp"
-#include "cablefit/report/json/elastic_json.hpp"
 #include "cablefit/report/page/page_parts.hpp"
 #include "cablefit/report/writers/writers.hpp"
+#include "cablefit/results/dynamic_json.hpp"
+#include "cablefit/results/elastic_json.hpp"
 #include "tests/support/message.hpp"
 #include "tests/support/temp_folder.hpp"
 

@@ -3,10 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cablefit/model/model.hpp"
-#include "cablefit/report/json/check_json.hpp"
-#include "cablefit/report/json/dynamic_json.hpp"
-#include "cablefit/report/json/elastic_json.hpp"
-#include "cablefit/report/json/elastic_reader.hpp"
+#include "cablefit/results/check_json.hpp"
+#include "cablefit/results/dynamic_json.hpp"
+#include "cablefit/results/elastic_json.hpp"
+#include "cablefit/results/elastic_reader.hpp"
 #include "tests/report/results.hpp"
 #include "tests/report/schema.hpp"
 #include "tests/support/message.hpp"

@@ -7,7 +7,7 @@
 
 #include "cablefit/dynamic/dynamic_fit.hpp"
 #include "cablefit/elastic/elastic_fit.hpp"
-#include "cablefit/report/json/dynamic_json.hpp"
+#include "cablefit/results/dynamic_json.hpp"
 #include "tests/simulate/true_models.hpp"
 #include "tests/support/temp_folder.hpp"
 

@@ -6,7 +6,7 @@
 #include "cablefit/base/json/json_document.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/campaign/campaign_cell.hpp"
-#include "cablefit/model/effect_names.hpp"
+#include "cablefit/model/effects/effect_names.hpp"
 
 namespace cablefit {
 namespace {

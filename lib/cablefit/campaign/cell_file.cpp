@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "cablefit/base/digest.hpp"
-#include "cablefit/base/input_file.hpp"
+#include "cablefit/base/files/digest.hpp"
+#include "cablefit/base/files/input_file.hpp"
 #include "cablefit/base/json/json_document.hpp"
 #include "cablefit/campaign/record_reader.hpp"
 #include "cablefit/campaign/record_writer.hpp"

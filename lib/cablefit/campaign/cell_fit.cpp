@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/model/effect_names.hpp"
+#include "cablefit/model/effects/effect_names.hpp"
 #include "cablefit/prove/fitted_model.hpp"
 #include "cablefit/session/read_logs.hpp"
 #include "cablefit/session/stages.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "cablefit/base/digest.hpp"
+#include "cablefit/base/files/digest.hpp"
 #include "cablefit/model/rig.hpp"
 #include "cablefit/version.hpp"
 

@@ -8,7 +8,7 @@
 #include "cablefit/base/catalog.hpp"
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/quote.hpp"
-#include "cablefit/model/effect_parameter.hpp"
+#include "cablefit/model/effects/effect_parameter.hpp"
 
 namespace cablefit {
 namespace {

@@ -9,7 +9,7 @@
 #include "cablefit/base/quote.hpp"
 #include "cablefit/campaign/batch.hpp"
 #include "cablefit/campaign/cell_fit.hpp"
-#include "cablefit/model/effect_parameter.hpp"
+#include "cablefit/model/effects/effect_parameter.hpp"
 
 namespace cablefit {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "cablefit/base/quote.hpp"
-#include "cablefit/model/effect_parameter.hpp"
+#include "cablefit/model/effects/effect_parameter.hpp"
 #include "cablefit/model/file/fit_parameters.hpp"
 #include "cablefit/model/file/parts.hpp"
 #include "cablefit/model/json_reading.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cablefit/model/effect_walk.hpp"
+#include "cablefit/model/effects/effect_walk.hpp"
 
 namespace cablefit {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/model/effect_walk.hpp"
+#include "cablefit/model/effects/effect_walk.hpp"
 #include "cablefit/refine/rows/design.hpp"
 
 namespace cablefit {
