@@ -29,6 +29,6 @@ foreach(room design/curves design/loads elastic/bases elastic/checks elastic/est
         elastic/rows elastic/zeros)
   cablefit_together(cablefit lib/cablefit/${room} LETTERS a-z)
 endforeach()
-cablefit_together(cablefit lib/cablefit/results FILES "*_json.cpp")
+cablefit_together(cablefit lib/cablefit/results/write FILES "*_json.cpp")
 cablefit_together(cablefit_program apps/commands)
 cablefit_together(cablefit_program apps/options)

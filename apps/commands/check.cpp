@@ -6,7 +6,7 @@
 #include "cablefit/dynamic/prediction.hpp"
 #include "cablefit/dynamic/rows/torque_delay.hpp"
 #include "cablefit/report/documents/check_document.hpp"
-#include "cablefit/results/check_json.hpp"
+#include "cablefit/results/write/check_json.hpp"
 #include "cablefit/samples/check_figures.hpp"
 #include "commands/command.hpp"
 #include "options/command_line.hpp"

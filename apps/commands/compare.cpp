@@ -1,5 +1,5 @@
 // cablefit compare: do two results differ by more than their uncertainty, and what changed.
-#include "cablefit/campaign/compare.hpp"
+#include "cablefit/campaign/compare/compare.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include "cablefit/base/files/digest.hpp"
 #include "cablefit/base/problems.hpp"
 #include "cablefit/base/quote.hpp"
-#include "cablefit/campaign/compare_json.hpp"
+#include "cablefit/campaign/compare/compare_json.hpp"
 #include "cablefit/report/documents/compare_document.hpp"
 #include "commands/command.hpp"
 #include "options/command_line.hpp"

@@ -10,7 +10,7 @@
 #include "cablefit/prove/prove.hpp"
 #include "cablefit/report/documents/elastic_document.hpp"
 #include "cablefit/report/writers/bases_csv.hpp"
-#include "cablefit/results/elastic_json.hpp"
+#include "cablefit/results/write/elastic_json.hpp"
 #include "cablefit/session/stages.hpp"
 #include "commands/command.hpp"
 #include "options/command_line.hpp"

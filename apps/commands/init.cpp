@@ -9,7 +9,7 @@
 #include "cablefit/base/problems.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/campaign/campaign.hpp"
-#include "cablefit/campaign/templates.hpp"
+#include "cablefit/campaign/plan/templates.hpp"
 #include "commands/command.hpp"
 #include "options/command_line.hpp"
 #include "options/common_options.hpp"

@@ -7,7 +7,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/elastic/curve_of_model.hpp"
-#include "cablefit/model/read_models.hpp"
+#include "cablefit/results/read_model.hpp"
 #include "cablefit/session/read_logs.hpp"
 #include "cablefit/simulate/experiment.hpp"
 #include "options/stage1_logs.hpp"

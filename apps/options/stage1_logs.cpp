@@ -4,7 +4,7 @@
 
 #include "cablefit/base/files/digest.hpp"
 #include "cablefit/base/json/json_document.hpp"
-#include "cablefit/campaign/recorded_estimates.hpp"
+#include "cablefit/campaign/compare/recorded_estimates.hpp"
 
 namespace cablefit::apps {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "cablefit/results/identify_json.hpp"
-#include "cablefit/results/refine_json.hpp"
+#include "cablefit/results/write/identify_json.hpp"
+#include "cablefit/results/write/refine_json.hpp"
 #include "output/file_names.hpp"
 
 namespace cablefit::apps {

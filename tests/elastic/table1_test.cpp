@@ -5,8 +5,8 @@
 #include "cablefit/elastic/models/passivity.hpp"
 #include "cablefit/report/documents/elastic_document.hpp"
 #include "cablefit/report/writers/writers.hpp"
-#include "cablefit/results/elastic_json.hpp"
-#include "cablefit/results/elastic_reader.hpp"
+#include "cablefit/results/read/elastic_reader.hpp"
+#include "cablefit/results/write/elastic_json.hpp"
 #include "tests/elastic/curves.hpp"
 #include "tests/support/columns.hpp"
 

@@ -2,7 +2,7 @@
 // says what is true), as the two stages found them but with smaller sd.
 #include <cmath>
 
-#include "cablefit/results/identify_json.hpp"
+#include "cablefit/results/write/identify_json.hpp"
 #include "tests/identify/simulated_rigs.hpp"
 #include "tests/report/schema.hpp"
 

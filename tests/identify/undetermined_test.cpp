@@ -4,7 +4,7 @@
 
 #include "cablefit/identify/identify.hpp"
 #include "cablefit/report/writers/trace_csv.hpp"
-#include "cablefit/results/identify_json.hpp"
+#include "cablefit/results/write/identify_json.hpp"
 #include "tests/identify/simulated_rigs.hpp"
 #include "tests/report/schema.hpp"
 #include "tests/support/message.hpp"

@@ -1,7 +1,7 @@
 // What `compare` says of two results, in words and as JSON.
 #include <catch2/catch.hpp>
 
-#include "cablefit/campaign/compare_json.hpp"
+#include "cablefit/campaign/compare/compare_json.hpp"
 #include "cablefit/report/documents/compare_document.hpp"
 #include "tests/report/schema.hpp"
 #include "tests/support/recorded_estimate.hpp"

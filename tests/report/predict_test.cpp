@@ -6,7 +6,7 @@
 #include "cablefit/report/documents/predict_document.hpp"
 #include "cablefit/report/writers/screen.hpp"
 #include "cablefit/report/writers/writers.hpp"
-#include "cablefit/results/predict_json.hpp"
+#include "cablefit/results/write/predict_json.hpp"
 #include "tests/report/schema.hpp"
 
 namespace {

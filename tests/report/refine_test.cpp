@@ -9,7 +9,7 @@
 #include "cablefit/report/sections/refine_story.hpp"
 #include "cablefit/report/writers/screen.hpp"
 #include "cablefit/report/writers/writers.hpp"
-#include "cablefit/results/refine_json.hpp"
+#include "cablefit/results/write/refine_json.hpp"
 #include "tests/report/results.hpp"
 #include "tests/report/schema.hpp"
 

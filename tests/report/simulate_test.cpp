@@ -6,7 +6,7 @@
 #include "cablefit/report/documents/simulate_document.hpp"
 #include "cablefit/report/writers/screen.hpp"
 #include "cablefit/report/writers/writers.hpp"
-#include "cablefit/results/simulate_json.hpp"
+#include "cablefit/results/write/simulate_json.hpp"
 #include "tests/report/schema.hpp"
 
 namespace {

@@ -11,8 +11,8 @@
 #include "cablefit/report/writers/text_table.hpp"
 #include "cablefit/report/writers/wrap.hpp"
 #include "cablefit/report/writers/writers.hpp"
-#include "cablefit/results/dynamic_json.hpp"
-#include "cablefit/results/elastic_json.hpp"
+#include "cablefit/results/write/dynamic_json.hpp"
+#include "cablefit/results/write/elastic_json.hpp"
 #include "tests/report/results.hpp"
 #include "tests/report/schema.hpp"
 

@@ -2,10 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cablefit/results/dynamic_json.hpp"
-#include "cablefit/results/elastic_json.hpp"
-#include "cablefit/results/json_list.hpp"
-#include "cablefit/results/json_parts.hpp"
+#include "cablefit/results/write/dynamic_json.hpp"
+#include "cablefit/results/write/elastic_json.hpp"
+#include "cablefit/results/write/json_list.hpp"
+#include "cablefit/results/write/json_parts.hpp"
 
 namespace cablefit {
 namespace {

@@ -5,7 +5,7 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/file/parts.hpp"
-#include "cablefit/results/elastic_reader.hpp"
+#include "cablefit/results/read/elastic_reader.hpp"
 
 namespace cablefit {
 namespace {

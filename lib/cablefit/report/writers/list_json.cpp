@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cablefit/results/json_parts.hpp"
+#include "cablefit/results/write/json_parts.hpp"
 
 namespace cablefit {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cablefit/results/json_list.hpp"
-#include "cablefit/results/json_parts.hpp"
+#include "cablefit/results/write/json_list.hpp"
+#include "cablefit/results/write/json_parts.hpp"
 
 namespace cablefit {
 
