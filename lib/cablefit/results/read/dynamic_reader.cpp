@@ -8,6 +8,7 @@
 #include "cablefit/model/file/parts.hpp"
 #include "cablefit/model/model.hpp"
 #include "cablefit/results/read/fit_reader.hpp"
+#include "cablefit/results/read/proof_reader.hpp"
 #include "cablefit/results/read/reader_parts.hpp"
 #include "cablefit/results/read/validation_reader.hpp"
 
@@ -32,6 +33,24 @@ std::vector<SuspectSpan> read_suspects(const JsonNode& node) {
                      number_or_nan(item, "from"), number_or_nan(item, "to"),
                      number_or_nan(item, "largest"), count_or_zero(item, "rows")});
   return spans;
+}
+
+std::optional<Sweep> read_sweep(const JsonNode& node) {
+  const JsonNode* given = object_or_none(node, "sweep");
+  if (given == nullptr) return std::nullopt;
+  Sweep sweep;
+  sweep.parameters = texts_or_none(*given, "parameters");
+  for (const JsonNode& item : items_or_none(*given, "points")) {
+    SweepPoint& point = sweep.points.emplace_back();
+    point.setting = item.at("setting").text();
+    point.factor = number_or_nan(item, "factor");
+    point.value = number_or_nan(item, "value");
+    point.change = numbers_or_nan(item, "change_in_sd");
+  }
+  for (const JsonNode& item : items_or_none(*given, "verdicts"))
+    sweep.verdicts.push_back(
+        {item.at("setting").text(), text_or_none(item, "verdict"), flag_or(item, "flat", true)});
+  return sweep;
 }
 
 ElasticFit read_stage1(const JsonNode& node, const JsonNode& fit_node, const Rig& rig,
@@ -98,6 +117,8 @@ DynamicFit read_dynamic_fit(const JsonNode& node, const Rig* rig) {
   fit.verdicts = texts_by_name(node, "verdicts");
   read_systematic(node, fit);
   fit.suspects = read_suspects(node);
+  fit.sweep = read_sweep(node);
+  fit.proof = read_proof(node);
   fit.warnings = texts_or_none(node, "warnings");
   if (rig != nullptr) read_model_parts(node, *rig, fit);
   return fit;

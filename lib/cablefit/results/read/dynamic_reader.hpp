@@ -9,9 +9,9 @@
 
 namespace cablefit {
 
-/// All of the file but for what it has of proofs, sweeps and recursive estimators. With rig files
-/// each fit has its curve of stage 1 and the effects beyond (31); a fit without "elastic" has no
-/// curve. Throws Error(input) at file:line:column.
+/// All of the file but for what it has of recursive estimators. With rig files each fit has its
+/// curve of stage 1 and the effects beyond (31); a fit without "elastic" has no curve. Throws
+/// Error(input) at file:line:column.
 DynamicResult parse_dynamic_result(const JsonNode& root, RigFiles rig_files = RigFiles::read);
 
 /// Of one of "preloads", without its fits; and of one of its "fits". `rig`: that of the preload;

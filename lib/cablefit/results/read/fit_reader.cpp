@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cablefit/model/model.hpp"
+#include "cablefit/results/read/proof_reader.hpp"
 #include "cablefit/results/read/reader_parts.hpp"
 
 namespace cablefit::result_file {
@@ -143,6 +144,7 @@ ElasticFit read_elastic_fit(const JsonNode& node, const Rig* rig) {
   if (const JsonNode* derived = node.find("derived")) fit.derived = read_estimates(*derived);
   fit.joints = read_joint_errors(node);
   fit.misfit = read_misfit(node);
+  fit.proof = read_proof(node);
   fit.rms_error = number_or_nan(node, "rms_error");
   fit.max_abs_error = number_or_nan(node, "max_abs_error");
   fit.held_out_rms = number_or_nan(node, "held_out_rms");

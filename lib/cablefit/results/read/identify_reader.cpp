@@ -9,6 +9,7 @@
 #include "cablefit/base/quote.hpp"
 #include "cablefit/model/file/parts.hpp"
 #include "cablefit/model/json_reading.hpp"
+#include "cablefit/results/read/fit_reader.hpp"
 #include "cablefit/results/read/reader_parts.hpp"
 
 namespace cablefit {
@@ -75,15 +76,26 @@ std::vector<SlackPoint> read_slack(const JsonNode& node) {
   return points;
 }
 
-void read_model(const JsonNode& node, IdentifyPreload& preload) {
-  const JsonNode* model = object_or_none(node, "model");
-  if (model == nullptr) return;
-  std::string choice;
-  preload.model = model_file::read_model_file(*model, {}, &choice);
-  preload.transmission = preload.model->transmission;
+/// The fitted cables, and the model where the dynamics were identified. `shared`: parameters of all
+/// preloads.
+void read_cables(const JsonNode& node, const std::vector<Estimate>& shared,
+                 IdentifyPreload& preload) {
+  if (const JsonNode* model = object_or_none(node, "model")) {
+    std::string choice;
+    preload.model = model_file::read_model_file(*model, {}, &choice);
+    preload.transmission = preload.model->transmission;
+    return;
+  }
+  ElasticFit curve;
+  curve.parameters = shared;
+  curve.parameters.insert(curve.parameters.end(), preload.parameters.begin(),
+                          preload.parameters.end());
+  read_curve(node, model_file::read_rig_reference(node.find("rig")),
+             {&node, "run `cablefit identify` again"}, curve);
+  preload.transmission = curve.transmission;
 }
 
-IdentifyPreload read_preload(const JsonNode& node, RigFiles rig_files) {
+IdentifyPreload read_preload(const JsonNode& node) {
   IdentifyPreload preload;
   preload.name = node.at("name").text();
   preload.rig_path = text_or_none(node, "rig");
@@ -102,7 +114,6 @@ IdentifyPreload read_preload(const JsonNode& node, RigFiles rig_files) {
   preload.load_inertia = number_or_nan(node, "load_inertia");
   preload.decisions = read_decisions(node);
   preload.warnings = texts_or_none(node, "warnings");
-  if (rig_files == RigFiles::read) read_model(node, preload);
   return preload;
 }
 
@@ -121,8 +132,10 @@ IdentifyResult parse_identify_result(const JsonNode& root, RigFiles rig_files) {
   result.inputs = read_inputs(root);
   result.warnings = texts_or_none(root, "warnings");
   result.parameters = read_estimates(root.at("parameters"));
-  for (const JsonNode& item : root.at("preloads").items)
-    result.preloads.push_back(read_preload(item, rig_files));
+  for (const JsonNode& item : root.at("preloads").items) {
+    result.preloads.push_back(read_preload(item));
+    if (rig_files == RigFiles::read) read_cables(item, result.parameters, result.preloads.back());
+  }
   for (const JsonNode& item : items_or_none(root, "profiles"))
     result.profiles.push_back(read_profile(item));
   result.active_bounds = texts_or_none(root, "active_bounds");

@@ -6,8 +6,8 @@
 
 namespace cablefit {
 
-/// Estimates, ranges, decisions, profiles and what else the file has; with rig files also the model
-/// of each preload, where its dynamics were identified, and its cables. Throws Error(input) at
+/// Estimates, ranges, decisions, profiles and what else the file has; with rig files also the
+/// cables of each preload, and its model where the dynamics were identified. Throws Error(input) at
 /// file:line:column.
 IdentifyResult parse_identify_result(const JsonNode& root, RigFiles rig_files = RigFiles::read);
 

@@ -10,6 +10,8 @@
 namespace cablefit::result_file {
 namespace {
 
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
 /// The member, or nullptr where it is null or missing.
 const JsonNode* given(const JsonNode& object, std::string_view key) {
   const JsonNode* node = object.find(key);
@@ -36,7 +38,14 @@ void require_schema(const JsonNode& root, std::string_view schema, std::string_v
 
 double number_or_nan(const JsonNode& object, std::string_view key) {
   const JsonNode* node = given(object, key);
-  return node == nullptr ? std::numeric_limits<double>::quiet_NaN() : node->number();
+  return node == nullptr ? kNone : node->number();
+}
+
+std::vector<double> numbers_or_nan(const JsonNode& object, std::string_view key) {
+  std::vector<double> values;
+  for (const JsonNode& item : items_or_none(object, key))
+    values.push_back(item.is_null() ? kNone : item.number());
+  return values;
 }
 
 std::string text_or_none(const JsonNode& object, std::string_view key) {
@@ -75,8 +84,7 @@ const JsonNode* object_or_none(const JsonNode& object, std::string_view key) {
 
 std::map<std::string, double> numbers_by_name(const JsonNode& object, std::string_view key) {
   return by_name<double>(object, key, [](const JsonMember& member) {
-    return member.second.is_null() ? std::numeric_limits<double>::quiet_NaN()
-                                   : member.second.number();
+    return member.second.is_null() ? kNone : member.second.number();
   });
 }
 

@@ -20,6 +20,8 @@ void require_schema(const JsonNode& root, std::string_view schema, std::string_v
 
 /// NaN: null or missing.
 double number_or_nan(const JsonNode& object, std::string_view key);
+/// A list of such numbers.
+std::vector<double> numbers_or_nan(const JsonNode& object, std::string_view key);
 /// Empty: null or missing.
 std::string text_or_none(const JsonNode& object, std::string_view key);
 bool flag_or(const JsonNode& object, std::string_view key, bool otherwise);
