@@ -75,7 +75,7 @@ Model read_dynamic_model(const JsonNode& root, const model_file::Wanted& wanted,
   DynamicFit fit = read_dynamic_fit(fit_node, &rig);
   const bool in_one_step = !fit.elastic;
   take_own_curve(fit_node, rig, fit);
-  const Model model = model_of(fit, preload, rig);
+  Model model = model_of(fit, preload, rig);
   std::vector<Estimate> known = parameters_of(model);
   if (in_one_step) known.insert(known.end(), model.elastic.begin(), model.elastic.end());
   require_known(fit_node.at("parameters"), known);
