@@ -5,7 +5,7 @@
 #include <new>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/base/output_file.hpp"
+#include "cablefit/base/files/output_file.hpp"
 #include "cablefit/version.hpp"
 #include "commands/command.hpp"
 #include "origin.hpp"

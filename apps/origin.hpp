@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cablefit/report/documents/document.hpp"
+#include "cablefit/report/parts/document.hpp"
 
 namespace cablefit::apps {
 

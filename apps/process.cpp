@@ -7,8 +7,8 @@
 #include <csignal>
 #include <cstdio>
 
-#include "cablefit/base/output_file.hpp"
-#include "commands/progress.hpp"
+#include "cablefit/base/files/output_file.hpp"
+#include "output/progress.hpp"
 
 namespace cablefit::apps {
 namespace {

@@ -19,11 +19,16 @@ function(cablefit_together target folder)
   target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
 endfunction()
 
-foreach(folder design dynamic dynamic/checks dynamic/loops dynamic/output_error dynamic/rows
-        elastic estimate/fit estimate/solve estimate/spread estimate/tests identify identify/elongations
-        identify/equations identify/results refine refine/null refine/rows refine/search refine/steps
-        refine/verdict predict simulate)
+foreach(folder design design/excitation dynamic dynamic/checks dynamic/loops dynamic/output_error dynamic/rows
+        elastic elastic/figures elastic/models estimate/fit estimate/solve estimate/spread estimate/tests
+        identify identify/elongations identify/equations identify/results refine refine/null refine/rows
+        refine/search refine/steps refine/verdict predict simulate)
   cablefit_together(cablefit lib/cablefit/${folder})
 endforeach()
-cablefit_together(cablefit lib/cablefit/report/json FILES "*_json.cpp")
+foreach(room design/curves design/loads elastic/bases elastic/checks elastic/estimates
+        elastic/rows elastic/zeros)
+  cablefit_together(cablefit lib/cablefit/${room} LETTERS a-z)
+endforeach()
+cablefit_together(cablefit lib/cablefit/results/write FILES "*_json.cpp")
 cablefit_together(cablefit_program apps/commands)
+cablefit_together(cablefit_program apps/options)

@@ -6,19 +6,19 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "cablefit/base/output_file.hpp"
+#include "cablefit/base/files/output_file.hpp"
 #include "cablefit/base/problems.hpp"
 #include "cablefit/base/quote.hpp"
+#include "cablefit/campaign/batch_json.hpp"
 #include "cablefit/report/documents/batch_document.hpp"
-#include "cablefit/report/json/batch_json.hpp"
-#include "cablefit/report/json/dynamic_json.hpp"
-#include "cablefit/report/json/elastic_json.hpp"
 #include "cablefit/report/writers/junit.hpp"
+#include "cablefit/results/write/dynamic_json.hpp"
+#include "cablefit/results/write/elastic_json.hpp"
 #include "commands/command.hpp"
-#include "commands/command_line.hpp"
-#include "commands/delivery.hpp"
-#include "commands/progress.hpp"
-#include "commands/progress_line.hpp"
+#include "options/command_line.hpp"
+#include "output/delivery.hpp"
+#include "output/progress.hpp"
+#include "output/progress_line.hpp"
 #include "process.hpp"
 
 namespace cablefit::apps {

@@ -6,12 +6,12 @@
 #include "cablefit/dynamic/prediction.hpp"
 #include "cablefit/dynamic/rows/torque_delay.hpp"
 #include "cablefit/report/documents/check_document.hpp"
-#include "cablefit/report/json/check_json.hpp"
+#include "cablefit/results/write/check_json.hpp"
 #include "cablefit/samples/check_figures.hpp"
 #include "commands/command.hpp"
-#include "commands/command_line.hpp"
-#include "commands/delivery.hpp"
-#include "commands/progress.hpp"
+#include "options/command_line.hpp"
+#include "output/delivery.hpp"
+#include "output/progress.hpp"
 
 namespace cablefit::apps {
 namespace {

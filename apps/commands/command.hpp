@@ -4,14 +4,13 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
+
+#include "options/arguments.hpp"
 
 namespace cablefit::apps {
 
 /// Exit code of a command that did its work, and whose result does not pass a gate asked for.
 inline constexpr int kGateFailed = 1;
-
-using Arguments = std::vector<std::string>;  ///< of the command, without its own name
 
 struct Command {
   std::string_view name;

@@ -1,17 +1,17 @@
 // cablefit compare: do two results differ by more than their uncertainty, and what changed.
-#include "cablefit/campaign/compare.hpp"
+#include "cablefit/campaign/compare/compare.hpp"
 
 #include <fmt/format.h>
 
-#include "cablefit/base/digest.hpp"
 #include "cablefit/base/error.hpp"
+#include "cablefit/base/files/digest.hpp"
 #include "cablefit/base/problems.hpp"
 #include "cablefit/base/quote.hpp"
+#include "cablefit/campaign/compare/compare_json.hpp"
 #include "cablefit/report/documents/compare_document.hpp"
-#include "cablefit/report/json/compare_json.hpp"
 #include "commands/command.hpp"
-#include "commands/command_line.hpp"
-#include "commands/delivery.hpp"
+#include "options/command_line.hpp"
+#include "output/delivery.hpp"
 #include "process.hpp"
 
 namespace cablefit::apps {

@@ -3,17 +3,18 @@
 
 #include <filesystem>
 
-#include "cablefit/base/digest.hpp"
 #include "cablefit/base/error.hpp"
+#include "cablefit/base/files/digest.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/design/design_sweep.hpp"
 #include "cablefit/report/documents/design_document.hpp"
-#include "cablefit/report/json/design_json.hpp"
-#include "cablefit/report/json/elastic_models.hpp"
+#include "cablefit/results/design_models.hpp"
+#include "cablefit/results/elastic_models.hpp"
+#include "cablefit/results/write/design_json.hpp"
 #include "commands/command.hpp"
-#include "commands/command_line.hpp"
-#include "commands/delivery.hpp"
-#include "commands/progress.hpp"
+#include "options/command_line.hpp"
+#include "output/delivery.hpp"
+#include "output/progress.hpp"
 
 namespace cablefit::apps {
 namespace {

@@ -9,15 +9,15 @@
 #include "cablefit/identify/elastic_stage.hpp"
 #include "cablefit/prove/prove.hpp"
 #include "cablefit/report/documents/elastic_document.hpp"
-#include "cablefit/report/json/elastic_json.hpp"
 #include "cablefit/report/writers/bases_csv.hpp"
+#include "cablefit/results/write/elastic_json.hpp"
 #include "cablefit/session/stages.hpp"
 #include "commands/command.hpp"
-#include "commands/command_line.hpp"
-#include "commands/delivery.hpp"
-#include "commands/elongation_option.hpp"
-#include "commands/given_logs.hpp"
-#include "commands/progress.hpp"
+#include "options/command_line.hpp"
+#include "options/elongation_option.hpp"
+#include "options/given_logs.hpp"
+#include "output/delivery.hpp"
+#include "output/progress.hpp"
 
 namespace cablefit::apps {
 namespace {

@@ -4,12 +4,12 @@
 #include "cablefit/report/documents/identify_document.hpp"
 #include "cablefit/report/writers/trace_csv.hpp"
 #include "commands/command.hpp"
-#include "commands/command_line.hpp"
-#include "commands/delivery.hpp"
-#include "commands/dynamic_model.hpp"
-#include "commands/elongation_option.hpp"
-#include "commands/progress.hpp"
-#include "commands/result_files.hpp"
+#include "options/command_line.hpp"
+#include "options/dynamic_model.hpp"
+#include "options/elongation_option.hpp"
+#include "output/delivery.hpp"
+#include "output/progress.hpp"
+#include "output/result_files.hpp"
 
 namespace cablefit::apps {
 namespace {

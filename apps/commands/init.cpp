@@ -5,15 +5,15 @@
 #include <filesystem>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/base/output_file.hpp"
+#include "cablefit/base/files/output_file.hpp"
 #include "cablefit/base/problems.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/campaign/campaign.hpp"
-#include "cablefit/campaign/templates.hpp"
+#include "cablefit/campaign/plan/templates.hpp"
 #include "commands/command.hpp"
-#include "commands/command_line.hpp"
-#include "commands/common_options.hpp"
-#include "commands/progress.hpp"
+#include "options/command_line.hpp"
+#include "options/common_options.hpp"
+#include "output/progress.hpp"
 #include "process.hpp"
 
 namespace cablefit::apps {

@@ -10,11 +10,11 @@
 #include "cablefit/model/cables.hpp"
 #include "cablefit/model/effects.hpp"
 #include "cablefit/model/load.hpp"
-#include "cablefit/report/json/list_json.hpp"
+#include "cablefit/report/writers/list_json.hpp"
 #include "cablefit/report/writers/writers.hpp"
 #include "commands/command.hpp"
-#include "commands/command_line.hpp"
-#include "commands/delivery.hpp"
+#include "options/command_line.hpp"
+#include "output/delivery.hpp"
 
 namespace cablefit::apps {
 namespace {

@@ -1,15 +1,16 @@
 // cablefit predict: elastic torques, sensor torques and contacts along logs, without a simulation.
 #include "cablefit/predict/predict.hpp"
-#include "cablefit/base/digest.hpp"
 #include "cablefit/base/error.hpp"
+#include "cablefit/base/files/digest.hpp"
 #include "cablefit/report/documents/predict_document.hpp"
-#include "cablefit/report/json/elastic_models.hpp"
-#include "cablefit/report/json/predict_json.hpp"
+#include "cablefit/results/elastic_models.hpp"
+#include "cablefit/results/read_model.hpp"
+#include "cablefit/results/write/predict_json.hpp"
 #include "commands/command.hpp"
-#include "commands/command_line.hpp"
-#include "commands/delivery.hpp"
-#include "commands/model_argument.hpp"
-#include "commands/progress.hpp"
+#include "options/command_line.hpp"
+#include "options/model_argument.hpp"
+#include "output/delivery.hpp"
+#include "output/progress.hpp"
 
 namespace cablefit::apps {
 namespace {

@@ -1,15 +1,16 @@
 // cablefit simulate: a model on the input of logs.
-#include "cablefit/base/digest.hpp"
 #include "cablefit/base/error.hpp"
+#include "cablefit/base/files/digest.hpp"
 #include "cablefit/base/problems.hpp"
 #include "cablefit/report/documents/simulate_document.hpp"
-#include "cablefit/report/json/simulate_json.hpp"
+#include "cablefit/results/read_model.hpp"
+#include "cablefit/results/write/simulate_json.hpp"
 #include "cablefit/simulate/replay.hpp"
 #include "commands/command.hpp"
-#include "commands/command_line.hpp"
-#include "commands/delivery.hpp"
-#include "commands/model_argument.hpp"
-#include "commands/progress.hpp"
+#include "options/command_line.hpp"
+#include "options/model_argument.hpp"
+#include "output/delivery.hpp"
+#include "output/progress.hpp"
 
 namespace cablefit::apps {
 namespace {

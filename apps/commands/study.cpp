@@ -7,16 +7,16 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/report/documents/study_document.hpp"
-#include "cablefit/report/json/dynamic_json.hpp"
-#include "cablefit/report/json/elastic_json.hpp"
-#include "cablefit/report/json/study_json.hpp"
+#include "cablefit/report/writers/study_json.hpp"
+#include "cablefit/results/write/dynamic_json.hpp"
+#include "cablefit/results/write/elastic_json.hpp"
 #include "commands/command.hpp"
-#include "commands/command_line.hpp"
-#include "commands/delivery.hpp"
-#include "commands/draws_option.hpp"
-#include "commands/given_logs.hpp"
-#include "commands/progress.hpp"
-#include "commands/result_files.hpp"
+#include "options/command_line.hpp"
+#include "options/draws_option.hpp"
+#include "options/given_logs.hpp"
+#include "output/delivery.hpp"
+#include "output/progress.hpp"
+#include "output/result_files.hpp"
 
 namespace cablefit::apps {
 namespace {

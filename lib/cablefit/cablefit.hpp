@@ -17,6 +17,7 @@
 #include "cablefit/base/parameter.hpp"
 #include "cablefit/identify/identify.hpp"
 #include "cablefit/model/model.hpp"
+#include "cablefit/results/read_model.hpp"
 #include "cablefit/samples/check.hpp"
 #include "cablefit/samples/survey/memory_log.hpp"
 #include "cablefit/session/read_logs.hpp"

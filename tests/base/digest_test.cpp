@@ -1,4 +1,4 @@
-#include "cablefit/base/digest.hpp"
+#include "cablefit/base/files/digest.hpp"
 
 #include <catch2/catch.hpp>
 

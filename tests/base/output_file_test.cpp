@@ -1,4 +1,4 @@
-#include "cablefit/base/output_file.hpp"
+#include "cablefit/base/files/output_file.hpp"
 
 #include <catch2/catch.hpp>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "cablefit/base/streamed_file.hpp"
+#include "cablefit/base/files/streamed_file.hpp"
 
 #include <catch2/catch.hpp>
 #include <filesystem>

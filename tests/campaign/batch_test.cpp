@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/campaign/batch_json.hpp"
 #include "cablefit/report/documents/batch_document.hpp"
-#include "cablefit/report/documents/batch_figures.hpp"
-#include "cablefit/report/json/batch_json.hpp"
+#include "cablefit/report/sections/batch_figures.hpp"
 #include "cablefit/report/writers/junit.hpp"
 #include "cablefit/report/writers/writers.hpp"
 #include "tests/report/schema.hpp"

@@ -1,6 +1,6 @@
 // A cell's file: every output made from what it keeps is the output made from the fit itself, it
 // does not depend on where the campaign lies, and it is not taken for another cell's.
-#include "cablefit/campaign/cell_file.hpp"
+#include "cablefit/campaign/cells/cell_file.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,15 +8,15 @@
 #include <limits>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/campaign/cell_fit.hpp"
-#include "cablefit/campaign/portable_text.hpp"
+#include "cablefit/campaign/batch_json.hpp"
+#include "cablefit/campaign/cells/cell_fit.hpp"
+#include "cablefit/campaign/cells/portable_text.hpp"
 #include "cablefit/model/arm/urdf_file.hpp"
 #include "cablefit/report/documents/batch_document.hpp"
-#include "cablefit/report/json/batch_json.hpp"
-#include "cablefit/report/json/dynamic_json.hpp"
-#include "cablefit/report/json/elastic_json.hpp"
 #include "cablefit/report/page/page_parts.hpp"
 #include "cablefit/report/writers/writers.hpp"
+#include "cablefit/results/write/dynamic_json.hpp"
+#include "cablefit/results/write/elastic_json.hpp"
 #include "tests/support/message.hpp"
 #include "tests/support/temp_folder.hpp"
 

@@ -1,5 +1,5 @@
 // The rule that tells two estimates apart, and which of two results' estimates it is given.
-#include "cablefit/campaign/compare.hpp"
+#include "cablefit/campaign/compare/compare.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

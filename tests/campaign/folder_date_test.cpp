@@ -1,4 +1,4 @@
-#include "cablefit/campaign/folder_date.hpp"
+#include "cablefit/campaign/plan/folder_date.hpp"
 
 #include <catch2/catch.hpp>
 

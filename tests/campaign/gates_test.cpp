@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cablefit/campaign/batch.hpp"
-#include "cablefit/report/json/batch_json.hpp"
+#include "cablefit/campaign/batch_json.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace cablefit {

@@ -3,7 +3,7 @@
 #include <sstream>
 #include <string>
 
-#include "cablefit/report/documents/escape.hpp"
+#include "cablefit/report/parts/escape.hpp"
 #include "cablefit/report/writers/wrap.hpp"
 #include "tests/cli/case_file.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cablefit/model/effect_walk.hpp"
+#include "cablefit/model/effects/effect_walk.hpp"
 #include "cablefit/simulate/sensitivity/sensitive_plant.hpp"
 #include "tests/conformance/transmissions.hpp"
 #include "tests/simulate/benches.hpp"

@@ -4,7 +4,7 @@
 #include <functional>
 #include <random>
 
-#include "cablefit/elastic/elastic_columns.hpp"
+#include "cablefit/elastic/rows/elastic_columns.hpp"
 #include "cablefit/simulate/coupling.hpp"
 #include "tests/conformance/transmissions.hpp"
 

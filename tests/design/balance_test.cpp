@@ -1,7 +1,7 @@
 // Preloads out of equilibrium, (8c), and the nearest that are in it: projections by hand.
 #include <catch2/catch.hpp>
 
-#include "cablefit/design/pose_stiffness.hpp"
+#include "cablefit/design/loads/pose_stiffness.hpp"
 #include "cablefit/model/equilibrium.hpp"
 
 namespace {

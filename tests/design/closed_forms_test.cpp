@@ -16,9 +16,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "cablefit/design/curve_models.hpp"
+#include "cablefit/design/curves/curve_models.hpp"
+#include "cablefit/design/curves/equilibrium_preload.hpp"
 #include "cablefit/design/design_sweep.hpp"
-#include "cablefit/design/equilibrium_preload.hpp"
 #include "tests/support/message.hpp"
 
 namespace {

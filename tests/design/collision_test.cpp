@@ -6,8 +6,8 @@
 #include <cstdio>
 
 #include "cablefit/base/random.hpp"
-#include "cablefit/design/curve_models.hpp"
-#include "cablefit/design/equilibrium_preload.hpp"
+#include "cablefit/design/curves/curve_models.hpp"
+#include "cablefit/design/curves/equilibrium_preload.hpp"
 #include "cablefit/estimate/spread/window_means.hpp"
 #include "tests/simulate/benches.hpp"
 

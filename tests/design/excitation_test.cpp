@@ -1,5 +1,5 @@
 // The motion that is designed: within its limits, better than a sine, and its planned sd is met.
-#include "cablefit/design/excitation_plan.hpp"
+#include "cablefit/design/excitation/excitation_plan.hpp"
 
 #include <catch2/catch.hpp>
 #include <chrono>

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cablefit/design/curves/equilibrium_preload.hpp"
 #include "cablefit/design/design_sweep.hpp"
-#include "cablefit/design/equilibrium_preload.hpp"
 #include "tests/identify/simulated_rigs.hpp"
 #include "tests/simulate/benches.hpp"
 #include "tests/support/message.hpp"

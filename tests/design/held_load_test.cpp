@@ -1,11 +1,11 @@
 // Links under a constant load: closed forms of a pair, and the balance of torques of a finger.
-#include "cablefit/design/held_load.hpp"
+#include "cablefit/design/loads/held_load.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "cablefit/design/equilibrium_preload.hpp"
-#include "cablefit/design/joint_curve.hpp"
+#include "cablefit/design/curves/equilibrium_preload.hpp"
+#include "cablefit/design/curves/joint_curve.hpp"
 #include "tests/support/message.hpp"
 
 namespace {

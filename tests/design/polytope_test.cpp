@@ -1,12 +1,12 @@
 // Torques that cables can make: closed forms, and brute force for a finger of
 // three joints.
-#include "cablefit/design/torque_polytope.hpp"
+#include "cablefit/design/loads/torque_polytope.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "cablefit/design/equilibrium_preload.hpp"
+#include "cablefit/design/curves/equilibrium_preload.hpp"
 #include "tests/truth/parts.hpp"
 
 namespace {

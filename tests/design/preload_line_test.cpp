@@ -1,5 +1,5 @@
 // Lines through estimates of several preloads: closed forms, and bands that hold the truth.
-#include "cablefit/design/preload_line.hpp"
+#include "cablefit/design/curves/preload_line.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

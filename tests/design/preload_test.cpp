@@ -1,9 +1,9 @@
 // The paper's cables: closure, range and errors against the simulator, and the paper's conclusion.
 #include <cmath>
 
-#include "cablefit/design/curve_models.hpp"
+#include "cablefit/design/curves/curve_models.hpp"
+#include "cablefit/design/curves/equilibrium_preload.hpp"
 #include "cablefit/design/design_sweep.hpp"
-#include "cablefit/design/equilibrium_preload.hpp"
 #include "cablefit/model/modes.hpp"
 #include "tests/conformance/transmissions.hpp"
 #include "tests/simulate/benches.hpp"

@@ -1,8 +1,8 @@
 // The sd of a design's numbers against closed forms.
 #include <cmath>
 
+#include "cablefit/design/curves/equilibrium_preload.hpp"
 #include "cablefit/design/design_sweep.hpp"
-#include "cablefit/design/equilibrium_preload.hpp"
 #include "tests/conformance/transmissions.hpp"
 #include "tests/simulate/benches.hpp"
 

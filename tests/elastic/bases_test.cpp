@@ -1,6 +1,6 @@
 // Bases for the force of the cables: the atoms against other formulas, the held-out error against a
 // fit by hand, the number of terms on curves of a known one, and the high preload of the paper.
-#include "cablefit/elastic/cable_bases.hpp"
+#include "cablefit/elastic/bases/cable_bases.hpp"
 
 #include <Eigen/QR>
 #include <functional>

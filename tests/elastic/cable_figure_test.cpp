@@ -1,5 +1,5 @@
 // Fig. 4 of the paper from a model: two linear cables with preload, stiff while both are taut.
-#include "cablefit/elastic/cable_figure.hpp"
+#include "cablefit/elastic/figures/cable_figure.hpp"
 
 #include <catch2/catch.hpp>
 

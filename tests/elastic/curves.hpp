@@ -3,7 +3,7 @@
 
 #include <Eigen/QR>
 
-#include "cablefit/elastic/blocked_rows.hpp"
+#include "cablefit/elastic/rows/blocked_rows.hpp"
 #include "tests/support/recover.hpp"
 
 namespace cablefit::test {

@@ -1,5 +1,5 @@
 // Force closure and disclosure as a map, against the closed form of simple rigs.
-#include "cablefit/elastic/mode_figure.hpp"
+#include "cablefit/elastic/figures/mode_figure.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -2,11 +2,11 @@
 // pushes (paper/notes.md, 7).
 #include <nlohmann/json.hpp>
 
-#include "cablefit/elastic/passivity.hpp"
+#include "cablefit/elastic/models/passivity.hpp"
 #include "cablefit/report/documents/elastic_document.hpp"
-#include "cablefit/report/json/elastic_json.hpp"
-#include "cablefit/report/json/elastic_reader.hpp"
 #include "cablefit/report/writers/writers.hpp"
+#include "cablefit/results/read/elastic_reader.hpp"
+#include "cablefit/results/write/elastic_json.hpp"
 #include "tests/elastic/curves.hpp"
 #include "tests/support/columns.hpp"
 

@@ -1,6 +1,6 @@
 // Any text as a result of stage 1 (cablefit/elastic/1), as stage 2 reads it back.
 #include "cablefit/base/json/json_document.hpp"
-#include "cablefit/report/json/elastic_reader.hpp"
+#include "cablefit/results/read/elastic_reader.hpp"
 #include "tests/fuzz/invariant.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t n_bytes) {

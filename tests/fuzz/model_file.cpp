@@ -2,6 +2,7 @@
 // read can be written, and read again.
 #include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/model.hpp"
+#include "cablefit/results/read_model.hpp"
 #include "tests/fuzz/invariant.hpp"
 
 namespace {

@@ -3,8 +3,8 @@
 #include "cablefit/identify/elastic_search.hpp"
 
 #include "cablefit/identify/elastic_stage.hpp"
-#include "cablefit/report/json/elastic_json.hpp"
-#include "cablefit/report/json/elastic_reader.hpp"
+#include "cablefit/results/read/elastic_reader.hpp"
+#include "cablefit/results/write/elastic_json.hpp"
 #include "tests/identify/simulated_rigs.hpp"
 #include "tests/report/schema.hpp"
 #include "tests/support/message.hpp"

@@ -2,7 +2,9 @@
 // says what is true), as the two stages found them but with smaller sd.
 #include <cmath>
 
-#include "cablefit/report/json/identify_json.hpp"
+#include "cablefit/base/json/json_document.hpp"
+#include "cablefit/results/read/identify_reader.hpp"
+#include "cablefit/results/write/identify_json.hpp"
 #include "tests/identify/simulated_rigs.hpp"
 #include "tests/report/schema.hpp"
 
@@ -44,7 +46,9 @@ TEST_CASE("one pair of cables and two preloads in the shipped logs", "[identify]
   }
   // The truth has different inertias: 0.339 and 0.328, 0.0133 and 0.014.
   CHECK(warns(r.warnings, "inertias differ between preloads"));
-  CHECK(schema_errors("identify", identify_json(r)) == "");
+  const std::string text = identify_json(r);
+  CHECK(schema_errors("identify", text) == "");
+  CHECK(identify_json(parse_identify_result(parse_json(text, "identify.json"))) == text);
 }
 
 TEST_CASE("any number of threads gives the same bits", "[identify]") {

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cablefit/identify/identify.hpp"
-#include "cablefit/report/json/identify_json.hpp"
 #include "cablefit/report/writers/trace_csv.hpp"
+#include "cablefit/results/write/identify_json.hpp"
 #include "tests/identify/simulated_rigs.hpp"
 #include "tests/report/schema.hpp"
 #include "tests/support/message.hpp"

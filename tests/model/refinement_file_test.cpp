@@ -6,6 +6,7 @@
 
 #include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/model.hpp"
+#include "cablefit/results/read_model.hpp"
 #include "tests/support/message.hpp"
 
 namespace {

@@ -3,6 +3,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/model/model.hpp"
+#include "cablefit/results/read_model.hpp"
 #include "tests/support/message.hpp"
 #include "tests/support/temp_folder.hpp"
 

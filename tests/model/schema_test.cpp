@@ -5,6 +5,7 @@
 
 #include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/model.hpp"
+#include "cablefit/results/read_model.hpp"
 #include "tests/support/message.hpp"
 #include "tests/support/temp_folder.hpp"
 

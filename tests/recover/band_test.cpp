@@ -1,7 +1,8 @@
 // The 95 % band of a simulation against the true motion, over seeds: a model is fitted to noisy
 // logs, and simulated beside a motion that it has not seen, recorded without noise.
 #include "cablefit/identify/elastic_stage.hpp"
-#include "cablefit/report/json/dynamic_json.hpp"
+#include "cablefit/results/read_model.hpp"
+#include "cablefit/results/write/dynamic_json.hpp"
 #include "cablefit/simulate/replay.hpp"
 #include "tests/support/monte_carlo.hpp"
 #include "tests/support/recover.hpp"

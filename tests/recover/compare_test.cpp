@@ -1,5 +1,5 @@
 // `compare` on campaigns that differ by chance only, and by one real change.
-#include "cablefit/campaign/compare.hpp"
+#include "cablefit/campaign/compare/compare.hpp"
 
 #include "tests/recover/both_stages.hpp"
 #include "tests/support/monte_carlo.hpp"

@@ -2,7 +2,7 @@
 // same to 1e-9.
 #include <cstdlib>
 
-#include "cablefit/base/output_file.hpp"
+#include "cablefit/base/files/output_file.hpp"
 #include "tests/reference/shared_data.hpp"
 #include "tests/support/columns.hpp"
 

@@ -1,8 +1,8 @@
 // What `compare` says of two results, in words and as JSON.
 #include <catch2/catch.hpp>
 
+#include "cablefit/campaign/compare/compare_json.hpp"
 #include "cablefit/report/documents/compare_document.hpp"
-#include "cablefit/report/json/compare_json.hpp"
 #include "tests/report/schema.hpp"
 #include "tests/support/recorded_estimate.hpp"
 

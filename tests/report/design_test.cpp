@@ -4,8 +4,8 @@
 
 #include "cablefit/design/design_sweep.hpp"
 #include "cablefit/report/documents/design_document.hpp"
-#include "cablefit/report/json/design_json.hpp"
 #include "cablefit/report/writers/writers.hpp"
+#include "cablefit/results/write/design_json.hpp"
 #include "tests/report/schema.hpp"
 #include "tests/simulate/benches.hpp"
 

@@ -1,4 +1,4 @@
-#include "cablefit/report/documents/escape.hpp"
+#include "cablefit/report/parts/escape.hpp"
 
 #include <catch2/catch.hpp>
 

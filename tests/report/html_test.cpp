@@ -4,13 +4,13 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "cablefit/report/documents/figure_units.hpp"
 #include "cablefit/report/page/html_text.hpp"
 #include "cablefit/report/page/page_body.hpp"
 #include "cablefit/report/page/page_data.hpp"
 #include "cablefit/report/page/page_parts.hpp"
 #include "cablefit/report/page/svg_figure.hpp"
 #include "cablefit/report/page/trace_look.hpp"
+#include "cablefit/report/parts/figure_units.hpp"
 #include "cablefit/report/writers/writers.hpp"
 #include "tests/support/message.hpp"
 

@@ -2,11 +2,14 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/model.hpp"
-#include "cablefit/report/json/check_json.hpp"
-#include "cablefit/report/json/dynamic_json.hpp"
-#include "cablefit/report/json/elastic_json.hpp"
-#include "cablefit/report/json/elastic_reader.hpp"
+#include "cablefit/results/read/dynamic_reader.hpp"
+#include "cablefit/results/read/elastic_reader.hpp"
+#include "cablefit/results/read_model.hpp"
+#include "cablefit/results/write/check_json.hpp"
+#include "cablefit/results/write/dynamic_json.hpp"
+#include "cablefit/results/write/elastic_json.hpp"
 #include "tests/report/results.hpp"
 #include "tests/report/schema.hpp"
 #include "tests/support/message.hpp"
@@ -41,6 +44,28 @@ TEST_CASE("a result of stage 1 reads back bit by bit") {
   CHECK(read.preloads[0].fits[0].transmission.cables.empty());
   CHECK(read.preloads[0].counts.rows_at_rest == 90);
   CHECK(read.preloads[0].windows.rows_resampled == 7);
+}
+
+TEST_CASE("a result of stage 2 reads back bit by bit") {
+  DynamicResult written = test::dynamic_result();
+  written.preloads[0].fits[1].suspects.push_back({"link", "a.csv", "run 2", 1.5, 1.6, -4, 3});
+  const std::string text = dynamic_json(written);
+  const DynamicResult read = parse_dynamic_result(parse_json(text, "dynamic.json"));
+  CHECK(dynamic_json(read) == text);
+  CHECK(read.preloads[0].fits[1].elastic->transmission.cables[0].coefficients ==
+        written.preloads[0].fits[1].elastic->transmission.cables[0].coefficients);
+}
+
+TEST_CASE("the estimates of a result can be read where its rig file is gone") {
+  DynamicResult written = test::dynamic_result();
+  written.preloads[0].rig_path = "gone.json";
+  const JsonNode root = parse_json(dynamic_json(written), "dynamic.json");
+  CHECK_THROWS_WITH(parse_dynamic_result(root), Catch::Matchers::Contains("no rig file"));
+  const DynamicResult read = parse_dynamic_result(root, RigFiles::leave);
+  CHECK(read.preloads[0].rig_path == "gone.json");
+  CHECK(read.preloads[0].fits[1].parameters[0].value ==
+        written.preloads[0].fits[1].parameters[0].value);
+  CHECK(!read.preloads[0].fits[1].elastic);
 }
 
 TEST_CASE("results are as the schemas say") {

@@ -1,4 +1,4 @@
-#include "cablefit/report/documents/numbers.hpp"
+#include "cablefit/report/parts/numbers.hpp"
 
 #include <catch2/catch.hpp>
 #include <cstdlib>

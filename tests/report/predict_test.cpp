@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cablefit/report/documents/predict_document.hpp"
-#include "cablefit/report/json/predict_json.hpp"
 #include "cablefit/report/writers/screen.hpp"
 #include "cablefit/report/writers/writers.hpp"
+#include "cablefit/results/write/predict_json.hpp"
 #include "tests/report/schema.hpp"
 
 namespace {

@@ -2,14 +2,16 @@
 // the same whether stage 1 comes from memory or from its file.
 #include <catch2/catch.hpp>
 
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/dynamic/dynamic_fit.hpp"
 #include "cablefit/elastic/elastic_fit.hpp"
 #include "cablefit/model/rig.hpp"
 #include "cablefit/report/documents/check_document.hpp"
-#include "cablefit/report/json/check_json.hpp"
-#include "cablefit/report/json/dynamic_json.hpp"
-#include "cablefit/report/json/elastic_json.hpp"
-#include "cablefit/report/json/elastic_reader.hpp"
+#include "cablefit/results/read/dynamic_reader.hpp"
+#include "cablefit/results/read/elastic_reader.hpp"
+#include "cablefit/results/write/check_json.hpp"
+#include "cablefit/results/write/dynamic_json.hpp"
+#include "cablefit/results/write/elastic_json.hpp"
 #include "tests/report/schema.hpp"
 #include "tests/support/temp_folder.hpp"
 
@@ -48,6 +50,8 @@ TEST_CASE("real results are as the schemas say, whatever the number of threads")
   const std::string dynamic = dynamic_json(stage2(elastic, 1));
   CHECK(test::schema_errors("dynamic", dynamic) == "");
   CHECK(dynamic_json(stage2(elastic, 4)) == dynamic);
+
+  CHECK(dynamic_json(parse_dynamic_result(parse_json(dynamic, "dynamic.json"))) == dynamic);
 
   const test::TempFolder folder;
   const ElasticResult read =

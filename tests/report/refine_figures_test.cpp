@@ -7,6 +7,7 @@
 
 #include "cablefit/base/json/json_document.hpp"
 #include "cablefit/refine/figures/shown_rows.hpp"
+#include "cablefit/results/read_model.hpp"
 
 namespace {
 

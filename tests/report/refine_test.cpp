@@ -6,10 +6,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "cablefit/report/documents/refine_story.hpp"
-#include "cablefit/report/json/refine_json.hpp"
+#include "cablefit/report/sections/refine_story.hpp"
 #include "cablefit/report/writers/screen.hpp"
 #include "cablefit/report/writers/writers.hpp"
+#include "cablefit/results/write/refine_json.hpp"
 #include "tests/report/results.hpp"
 #include "tests/report/schema.hpp"
 

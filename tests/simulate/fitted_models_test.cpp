@@ -7,7 +7,8 @@
 
 #include "cablefit/dynamic/dynamic_fit.hpp"
 #include "cablefit/elastic/elastic_fit.hpp"
-#include "cablefit/report/json/dynamic_json.hpp"
+#include "cablefit/results/read_model.hpp"
+#include "cablefit/results/write/dynamic_json.hpp"
 #include "tests/simulate/true_models.hpp"
 #include "tests/support/temp_folder.hpp"
 

@@ -9,11 +9,11 @@
 
 #include "cablefit/base/catalog.hpp"
 #include "cablefit/base/error.hpp"
-#include "cablefit/base/output_file.hpp"
+#include "cablefit/base/files/output_file.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/base/workers.hpp"
-#include "cablefit/campaign/cell_file.hpp"
-#include "cablefit/campaign/cell_fit.hpp"
+#include "cablefit/campaign/cells/cell_file.hpp"
+#include "cablefit/campaign/cells/cell_fit.hpp"
 
 namespace cablefit {
 namespace {

@@ -5,8 +5,8 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/json/json_document.hpp"
 #include "cablefit/base/quote.hpp"
-#include "cablefit/campaign/campaign_cell.hpp"
-#include "cablefit/model/effect_names.hpp"
+#include "cablefit/campaign/plan/campaign_cell.hpp"
+#include "cablefit/model/effects/effect_names.hpp"
 
 namespace cablefit {
 namespace {

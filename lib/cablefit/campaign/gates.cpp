@@ -7,9 +7,9 @@
 
 #include "cablefit/base/json/json_document.hpp"
 #include "cablefit/base/quote.hpp"
-#include "cablefit/campaign/batch.hpp"
-#include "cablefit/campaign/cell_fit.hpp"
-#include "cablefit/model/effect_parameter.hpp"
+#include "cablefit/campaign/batch_reader.hpp"
+#include "cablefit/campaign/cells/cell_fit.hpp"
+#include "cablefit/model/effects/effect_parameter.hpp"
 
 namespace cablefit {
 namespace {
@@ -49,46 +49,28 @@ void judge_error(const BatchCell& cell, const DynamicPreload& preload, const Dyn
                          preload.linear_motion ? "N" : "N m"));
 }
 
-std::string text_or(const JsonNode& object, std::string_view key, const std::string& otherwise) {
-  const JsonNode* node = object.find(key);
-  return node != nullptr && node->is_string() ? node->string_value : otherwise;
-}
-
 /// The cell of the baseline that `cell` is held against: of the same name, else the latest one of
 /// the same robot and preload; nullptr when there is none.
-const JsonNode* baseline_cell(const JsonNode& cells, const BatchCell& cell) {
-  const JsonNode* latest = nullptr;
-  for (const JsonNode& other : cells.items) {
-    const std::string& name = other.at("name").text();
-    if (name == cell.name) return &other;
-    if (text_or(other, "preload", name) != cell.preload ||
-        text_or(other, "robot", "") != cell.robot)
-      continue;
-    if (latest == nullptr || text_or(other, "date", "") >= text_or(*latest, "date", ""))
-      latest = &other;
+const BatchCell* baseline_cell(const std::vector<BatchCell>& cells, const BatchCell& cell) {
+  const BatchCell* latest = nullptr;
+  for (const BatchCell& other : cells) {
+    if (other.name == cell.name) return &other;
+    if (other.preload != cell.preload || other.robot != cell.robot) continue;
+    if (latest == nullptr || other.date >= latest->date) latest = &other;
   }
   return latest;
 }
 
-/// What a drift is measured from.
-struct Baseline {
-  double value = kNone, sd = kNone;
-};
-
-/// Of parameter `name` in the fit of `model`; NaN when not there.
-Baseline baseline_of(const JsonNode* cell, std::string_view stage, const std::string& model,
+/// Of parameter `name` in the fit of `model`, what a drift is measured from; NaN when not there.
+template <class Result>
+Estimate baseline_of(const std::optional<Result>& result, const std::string& model,
                      const std::string& name) {
-  const JsonNode* result = cell == nullptr ? nullptr : cell->find(stage);
-  if (result == nullptr || !result->is_object()) return {};
-  for (const JsonNode& preload : result->at("preloads").items)
-    for (const JsonNode& fit : preload.at("fits").items) {
-      if (fit.at("model").text() != model) continue;
-      for (const JsonNode& parameter : fit.at("parameters").items)
-        if (parameter.at("name").text() == name && parameter.at("value").is_number()) {
-          const JsonNode* sd = parameter.find("sd");
-          return {parameter.at("value").number(),
-                  sd != nullptr && sd->is_number() ? sd->number() : kNone};
-        }
+  if (!result) return {};
+  for (const auto& preload : result->preloads)
+    for (const auto& fit : preload.fits) {
+      if (fit.model != model) continue;
+      const Estimate* e = find_estimate(fit.parameters, name);
+      if (e != nullptr && std::isfinite(e->value)) return *e;
     }
   return {};
 }
@@ -96,7 +78,7 @@ Baseline baseline_of(const JsonNode* cell, std::string_view stage, const std::st
 /// A change beyond the limit counts only when it is not chance: a coefficient that is known to 50 %
 /// may move by 20 %.
 Gate drift_gate(const BatchCell& cell, const std::string& name, const Estimate& now,
-                const Baseline& before, double limit) {
+                const Estimate& before, double limit) {
   const double change = std::abs(now.value - before.value);
   const double drift = change == 0 ? 0 : 100 * change / std::abs(before.value);
   const double sds = change / std::hypot(now.sd, before.sd);
@@ -120,7 +102,7 @@ Gate drift_gate(const BatchCell& cell, const std::string& name, const Estimate& 
 /// Offset and encoder zero have no size that a percentage could be of.
 bool has_drift(const Estimate& e) { return e.name != "offset" && e.name != "theta_0"; }
 
-void judge_elastic_drift(const BatchCell& cell, const JsonNode* before, double limit,
+void judge_elastic_drift(const BatchCell& cell, const CellResults& before, double limit,
                          std::vector<Gate>& gates) {
   for (const ElasticPreload& preload : cell.elastic->preloads)
     for (const ElasticFit& fit : preload.fits) {
@@ -130,14 +112,16 @@ void judge_elastic_drift(const BatchCell& cell, const JsonNode* before, double l
         if (!has_drift(e) || (!is_selected && !is_stiffness)) continue;
         const std::string name = e.name.starts_with("f_") ? e.name + " of stage 1" : e.name;
         gates.push_back(
-            drift_gate(cell, name, e, baseline_of(before, "elastic", fit.model, e.name), limit));
+            drift_gate(cell, name, e, baseline_of(before.elastic, fit.model, e.name), limit));
       }
     }
 }
 
-void judge_drift(const Campaign& campaign, const JsonNode& baseline, const BatchCell& cell,
-                 std::vector<Gate>& gates) {
-  const JsonNode* before = baseline_cell(baseline.at("cells"), cell);
+void judge_drift(const Campaign& campaign, const std::vector<BatchCell>& baseline,
+                 const BatchCell& cell, std::vector<Gate>& gates) {
+  const BatchCell* found = baseline_cell(baseline, cell);
+  const CellResults nothing;
+  const CellResults& before = found == nullptr ? nothing : *found;
   const double limit = campaign.limits.drift_percent;
   judge_elastic_drift(cell, before, limit, gates);
   if (!cell.dynamic) return;
@@ -145,8 +129,8 @@ void judge_drift(const Campaign& campaign, const JsonNode& baseline, const Batch
     if (const DynamicFit* fit = chosen_fit(*cell.elastic, preload))
       for (const Estimate& e : fit->parameters)
         if (is_physical(e.name))
-          gates.push_back(drift_gate(cell, e.name, e,
-                                     baseline_of(before, "dynamic", fit->model, e.name), limit));
+          gates.push_back(
+              drift_gate(cell, e.name, e, baseline_of(before.dynamic, fit->model, e.name), limit));
 }
 
 /// Fails when refine named an effect, or could not say.
@@ -202,8 +186,9 @@ void check_baseline(const Campaign& campaign) {
 std::vector<Gate> judge(const Campaign& campaign, const std::vector<BatchCell>& cells) {
   std::vector<Gate> gates;
   const CampaignLimits& limits = campaign.limits;
-  JsonNode baseline;
-  if (!limits.drift_baseline.empty()) baseline = read_baseline(limits.drift_baseline);
+  std::vector<BatchCell> baseline;
+  if (!limits.drift_baseline.empty())
+    baseline = parse_batch_cells(read_baseline(limits.drift_baseline));
   for (const BatchCell& cell : cells) {
     if (!cell.error.empty() || !cell.elastic) {
       gates.push_back(missing_gate(cell));

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "cablefit/campaign/cell_fit.hpp"
+#include "cablefit/campaign/cells/cell_fit.hpp"
 #include "cablefit/design/collision.hpp"
 #include "cablefit/model/modes.hpp"
 

@@ -1,9 +1,11 @@
 #include "cablefit/copies/twin.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/copies/surrogate.hpp"
+#include "cablefit/samples/survey/gapless_rows.hpp"
 #include "cablefit/samples/survey/noise.hpp"
 #include "cablefit/simulate/start_state.hpp"
 
@@ -16,13 +18,6 @@ void require_channels(const LogPlan& plan, bool rigid) {
   require_channel(plan, Channel::theta, "the simulated logs of --prove");
   require_channel(plan, Channel::tau, "the simulated logs of --prove");
   if (!rigid) require_channel(plan, Channel::q, "the simulated logs of --prove");
-}
-
-/// Rows of a window behind those of the stretch.
-void append(TwinStretch& stretch, const Window& window) {
-  const Eigen::Index before = stretch.measured.rows();
-  stretch.measured.conservativeResize(before + window.data.rows(), window.data.cols());
-  stretch.measured.bottomRows(window.data.rows()) = window.data;
 }
 
 void set_start(const LogSurvey& log, TwinStretch& stretch) {
@@ -50,17 +45,14 @@ void set_start(const LogSurvey& log, TwinStretch& stretch) {
 std::vector<TwinStretch> read_stretches(const LogSurvey& log, std::size_t number,
                                         const PartFilter& wanted) {
   std::vector<TwinStretch> stretches;
-  for_each_window(log, wanted, 0, kLeastRows, 0, [&](Window&& window) {
-    if (window.starts_segment && window.begin == 0) {
-      stretches.emplace_back();
-      stretches.back().log = number;
-      stretches.back().part = window.part;
-      stretches.back().t0 = window.t0;
-      stretches.back().period = stretches.back().input.period = window.period;
-      stretches.back().input.t0 = window.t0 - log.parts.front().t_first;
-    }
-    append(stretches.back(), window);
-    return true;
+  for_each_run(log, wanted, kLeastRows, 0, [&](GaplessRows&& run) {
+    TwinStretch& stretch = stretches.emplace_back();
+    stretch.log = number;
+    stretch.part = run.part;
+    stretch.t0 = run.t0;
+    stretch.period = stretch.input.period = run.period;
+    stretch.input.t0 = run.t0 - log.parts.front().t_first;
+    stretch.measured = std::move(run.data);
   });
   return stretches;
 }

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/design/curve_models.hpp"
-#include "cablefit/design/joint_curve.hpp"
-#include "cablefit/elastic/cable_figure.hpp"
+#include "cablefit/design/curves/curve_models.hpp"
+#include "cablefit/design/curves/joint_curve.hpp"
+#include "cablefit/elastic/figures/cable_figure.hpp"
 
 namespace cablefit {
 namespace {

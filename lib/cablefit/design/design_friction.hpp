@@ -4,8 +4,8 @@
 #include <optional>
 #include <span>
 
+#include "cablefit/design/curves/joint_curve.hpp"
 #include "cablefit/design/design_result.hpp"
-#include "cablefit/design/joint_curve.hpp"
 #include "cablefit/model/model.hpp"
 
 namespace cablefit {

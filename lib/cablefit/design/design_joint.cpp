@@ -2,10 +2,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "cablefit/design/curve_models.hpp"
+#include "cablefit/design/curves/curve_models.hpp"
+#include "cablefit/design/curves/joint_curve.hpp"
 #include "cablefit/design/design_friction.hpp"
 #include "cablefit/design/design_sweep.hpp"
-#include "cablefit/design/joint_curve.hpp"
 #include "cablefit/model/least_inertias.hpp"
 
 namespace cablefit {

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "cablefit/design/collision.hpp"
-#include "cablefit/design/excitation_plan.hpp"
+#include "cablefit/design/excitation/excitation_plan.hpp"
 #include "cablefit/design/friction_curves.hpp"
-#include "cablefit/design/held_load.hpp"
-#include "cablefit/design/pose_stiffness.hpp"
-#include "cablefit/design/torque_polytope.hpp"
+#include "cablefit/design/loads/held_load.hpp"
+#include "cablefit/design/loads/pose_stiffness.hpp"
+#include "cablefit/design/loads/torque_polytope.hpp"
 #include "cablefit/figure/figure.hpp"
 #include "cablefit/samples/plan/input_file.hpp"
 #include "cablefit/samples/rows/settings.hpp"

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/design/equilibrium_preload.hpp"
+#include "cablefit/design/curves/equilibrium_preload.hpp"
 
 namespace cablefit {
 namespace {

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/design/curves/joint_curve.hpp"
 #include "cablefit/design/design_friction.hpp"
-#include "cablefit/design/joint_curve.hpp"
 #include "cablefit/model/principal_copies.hpp"
 
 namespace cablefit {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cablefit/design/preload_line.hpp"
+#include "cablefit/design/curves/preload_line.hpp"
 #include "cablefit/model/model.hpp"
 
 namespace cablefit {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "cablefit/design/curves/equilibrium_preload.hpp"
 #include "cablefit/design/design_sweep.hpp"
-#include "cablefit/design/equilibrium_preload.hpp"
 #include "cablefit/model/modes.hpp"
 
 namespace cablefit {

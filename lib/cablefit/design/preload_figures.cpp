@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/design/curves/equilibrium_preload.hpp"
+#include "cablefit/design/curves/joint_curve.hpp"
 #include "cablefit/design/design_spread.hpp"
-#include "cablefit/design/equilibrium_preload.hpp"
-#include "cablefit/design/joint_curve.hpp"
 
 namespace cablefit {
 namespace {

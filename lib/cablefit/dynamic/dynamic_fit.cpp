@@ -22,7 +22,7 @@
 #include "cablefit/dynamic/rows/first_shapes.hpp"
 #include "cablefit/dynamic/rows/requirements.hpp"
 #include "cablefit/dynamic/rows/settled_effects.hpp"
-#include "cablefit/model/effect_parameter.hpp"
+#include "cablefit/model/effects/effect_parameter.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
 #include "cablefit/samples/rows/unused_rows.hpp"
 

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/elastic/elastic_checks.hpp"
-#include "cablefit/elastic/elastic_estimates.hpp"
-#include "cablefit/elastic/elastic_figures.hpp"
-#include "cablefit/elastic/model_errors.hpp"
-#include "cablefit/elastic/preload_checks.hpp"
+#include "cablefit/elastic/checks/elastic_checks.hpp"
+#include "cablefit/elastic/checks/preload_checks.hpp"
+#include "cablefit/elastic/estimates/elastic_estimates.hpp"
+#include "cablefit/elastic/figures/elastic_figures.hpp"
+#include "cablefit/elastic/models/model_errors.hpp"
 #include "cablefit/model/model.hpp"
 
 namespace cablefit {

@@ -8,8 +8,8 @@
 
 #include <string>
 
-#include "cablefit/elastic/blocked_rows.hpp"
 #include "cablefit/elastic/elastic_result.hpp"
+#include "cablefit/elastic/rows/blocked_rows.hpp"
 
 namespace cablefit {
 

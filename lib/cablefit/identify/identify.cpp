@@ -16,7 +16,7 @@
 #include "cablefit/identify/results/identify_estimates.hpp"
 #include "cablefit/identify/results/identify_figures.hpp"
 #include "cablefit/identify/results/recursive.hpp"
-#include "cablefit/model/effect_parameter.hpp"
+#include "cablefit/model/effects/effect_parameter.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
 
 namespace cablefit {

@@ -7,7 +7,7 @@
 
 #include "cablefit/dynamic/dynamic_result.hpp"
 #include "cablefit/elastic/elastic_result.hpp"
-#include "cablefit/elastic/elongation_range.hpp"
+#include "cablefit/elastic/rows/elongation_range.hpp"
 #include "cablefit/estimate/fit/recursive_trace.hpp"
 #include "cablefit/model/model.hpp"
 #include "cablefit/model/modes.hpp"

@@ -7,7 +7,7 @@
 
 #include "cablefit/dynamic/rows/dynamic_job.hpp"
 #include "cablefit/dynamic/rows/joint_settings.hpp"
-#include "cablefit/elastic/blocked_rows.hpp"
+#include "cablefit/elastic/rows/blocked_rows.hpp"
 #include "cablefit/model/model.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "cablefit/base/input_file.hpp"
+#include "cablefit/base/files/input_file.hpp"
 #include "cablefit/log/compression.hpp"
 
 namespace cablefit {

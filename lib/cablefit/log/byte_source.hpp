@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "cablefit/base/digest.hpp"
+#include "cablefit/base/files/digest.hpp"
 
 namespace cablefit {
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "cablefit/base/digest.hpp"
 #include "cablefit/base/error.hpp"
+#include "cablefit/base/files/digest.hpp"
 
 namespace cablefit {
 

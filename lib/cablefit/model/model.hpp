@@ -64,15 +64,6 @@ struct Model {
 /// The model's name when no fit has given one: "rigid", "linear" or "poly".
 std::string_view default_model_name(const Model& model);
 
-/// A model file, or a result file (cablefit/dynamic/1) plus the preload and model wanted; empty:
-/// the only one, else the first preload and "poly". `choice` says in words which was taken. Throws
-/// Error(input) with file:line:column.
-Model read_model(const std::string& path, const std::string& preload, const std::string& model,
-                 std::string& choice);
-class JsonNode;
-/// The same from a document that is read already.
-Model parse_model(const JsonNode& root, const std::string& preload, const std::string& model,
-                  std::string& choice);
 /// The text of a cablefit/model/1 file.
 std::string model_json(const Model& model);
 

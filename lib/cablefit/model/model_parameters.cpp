@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cablefit/model/effect_parameter.hpp"
+#include "cablefit/model/effects/effect_parameter.hpp"
 
 namespace cablefit {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cablefit/base/streamed_file.hpp"
+#include "cablefit/base/files/streamed_file.hpp"
 #include "cablefit/predict/elastic_prediction.hpp"
 #include "cablefit/predict/equation_residuals.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/copies/twin.hpp"
-#include "cablefit/elastic/blocked_rows.hpp"
+#include "cablefit/elastic/rows/blocked_rows.hpp"
 #include "cablefit/prove/proof_runs.hpp"
 #include "cablefit/prove/residual_colour.hpp"
 #include "cablefit/samples/rows/agreement.hpp"

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <limits>
 
-#include "cablefit/model/effect_walk.hpp"
+#include "cablefit/model/effects/effect_walk.hpp"
 
 namespace cablefit {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cablefit/base/streamed_file.hpp"
+#include "cablefit/base/files/streamed_file.hpp"
 #include "cablefit/simulate/part_replay.hpp"
 
 namespace cablefit {

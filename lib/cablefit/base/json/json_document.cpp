@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "cablefit/base/catalog.hpp"
-#include "cablefit/base/input_file.hpp"
+#include "cablefit/base/files/input_file.hpp"
 #include "cablefit/base/json/json_events.hpp"
 #include "cablefit/base/quote.hpp"
 

@@ -116,19 +116,6 @@ std::vector<VariableTest> new_tests(const JudgedRows& rows, Eigen::Index n_regre
 
 }  // namespace
 
-std::string_view to_string(Finding finding) {
-  switch (finding) {
-    case Finding::nothing:
-      return "nothing";
-    case Finding::immaterial:
-      return "immaterial";
-    case Finding::material:
-      return "material";
-    default:
-      return "untestable";
-  }
-}
-
 std::vector<double> sampled_column(const JudgedRows& rows, Eigen::Index column, std::size_t most) {
   const Eigen::Index step =
       std::max<Eigen::Index>(1, divided_up(rows.n_rows, static_cast<Eigen::Index>(most)));

@@ -10,7 +10,7 @@
 #include "cablefit/estimate/fit/parameter_estimate.hpp"
 #include "cablefit/estimate/fit/sd_choice.hpp"
 #include "cablefit/estimate/spread/long_run.hpp"
-#include "cablefit/model/effect_parameter.hpp"
+#include "cablefit/model/effects/effect_parameter.hpp"
 
 namespace cablefit {
 namespace {

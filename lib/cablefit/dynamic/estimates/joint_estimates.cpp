@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "cablefit/dynamic/estimates/estimates.hpp"
-#include "cablefit/elastic/elastic_quantities.hpp"
+#include "cablefit/elastic/estimates/elastic_quantities.hpp"
 #include "cablefit/estimate/spread/long_run.hpp"
 
 namespace cablefit {

@@ -15,7 +15,7 @@
 #include "cablefit/dynamic/output_error/window_pass.hpp"
 #include "cablefit/estimate/fit/nonlinear_least_squares.hpp"
 #include "cablefit/estimate/fit/parameter_estimate.hpp"
-#include "cablefit/model/effect_walk.hpp"
+#include "cablefit/model/effects/effect_walk.hpp"
 
 namespace cablefit {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/model/effect_parameter.hpp"
-#include "cablefit/model/effect_walk.hpp"
+#include "cablefit/model/effects/effect_parameter.hpp"
+#include "cablefit/model/effects/effect_walk.hpp"
 
 namespace cablefit {
 namespace {

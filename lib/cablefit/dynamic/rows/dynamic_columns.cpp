@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "cablefit/model/effect_parameter.hpp"
+#include "cablefit/model/effects/effect_parameter.hpp"
 #include "cablefit/model/model.hpp"
 
 namespace cablefit {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "cablefit/dynamic/rows/added_effects.hpp"
-#include "cablefit/elastic/elastic_columns.hpp"
 #include "cablefit/elastic/elastic_result.hpp"
+#include "cablefit/elastic/rows/elastic_columns.hpp"
 #include "cablefit/estimate/solve/motion_advice.hpp"
 #include "cablefit/model/arm.hpp"
 #include "cablefit/model/effects.hpp"

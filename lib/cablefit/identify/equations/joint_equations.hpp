@@ -9,7 +9,7 @@
 
 #include "cablefit/base/parameter.hpp"
 #include "cablefit/dynamic/rows/dynamic_columns.hpp"
-#include "cablefit/elastic/elongation_range.hpp"
+#include "cablefit/elastic/rows/elongation_range.hpp"
 #include "cablefit/estimate/solve/row_statistics.hpp"
 #include "cablefit/model/cables.hpp"
 #include "cablefit/samples/rows/row_stream.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "cablefit/elastic/passivity.hpp"
+#include "cablefit/elastic/models/passivity.hpp"
 
 namespace cablefit {
 namespace {

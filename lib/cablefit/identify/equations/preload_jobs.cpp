@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "cablefit/elastic/blocked_rows.hpp"
+#include "cablefit/elastic/rows/blocked_rows.hpp"
 #include "cablefit/identify/equations/equilibrium.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/elastic/elastic_checks.hpp"
+#include "cablefit/elastic/checks/elastic_checks.hpp"
 
 namespace cablefit {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "cablefit/dynamic/estimates/estimates.hpp"
 #include "cablefit/dynamic/estimates/joint_estimates.hpp"
-#include "cablefit/elastic/elastic_quantities.hpp"
-#include "cablefit/elastic/passivity.hpp"
+#include "cablefit/elastic/estimates/elastic_quantities.hpp"
+#include "cablefit/elastic/models/passivity.hpp"
 #include "cablefit/identify/results/identify_checks.hpp"
 #include "cablefit/identify/results/identify_model.hpp"
 #include "cablefit/identify/results/identify_preload.hpp"

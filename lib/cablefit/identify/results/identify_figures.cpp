@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "cablefit/elastic/cable_figure.hpp"
-#include "cablefit/elastic/mode_figure.hpp"
+#include "cablefit/elastic/figures/cable_figure.hpp"
+#include "cablefit/elastic/figures/mode_figure.hpp"
 #include "cablefit/identify/results/recursive.hpp"
 
 namespace cablefit {

@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "cablefit/model/effect_parameter.hpp"
+#include "cablefit/model/assembled_model.hpp"
+#include "cablefit/model/effects/effect_parameter.hpp"
 
 namespace cablefit {
 namespace {
@@ -31,18 +32,19 @@ class Parameters {
   std::string why_not_;
 };
 
-/// Empty: its equation was not fitted. `joint`: from 1.
-std::vector<EffectInstance> effects_of(Side side, int joint, const Rig& rig,
-                                       Parameters& parameters) {
-  std::vector<EffectInstance> instances = base_instances(
-      side, joint, rig, [&](const Estimate& blank) { return parameters.find(blank.name); });
-  if (instances.size() < base_effects(side).size()) return {};
-  for (const EffectInstance& instance : instances) {
-    const Estimate& e = instance.parameters.front();
-    if (instance.effect->is_inertia() && !(e.value > 0))
-      parameters.refuse(fmt::format("{} is not positive", e.name));
-  }
-  return instances;
+/// Every equation of the joint was fitted.
+bool has_all(const JointModel& axes) {
+  return axes.link.size() == base_effects(Side::link).size() &&
+         axes.motor.size() == base_effects(Side::motor).size();
+}
+
+void require_inertias(const JointModel& axes, Parameters& parameters) {
+  for (const auto* side : {&axes.link, &axes.motor})
+    for (const EffectInstance& instance : *side) {
+      const Estimate& e = instance.parameters.front();
+      if (instance.effect->is_inertia() && !(e.value > 0))
+        parameters.refuse(fmt::format("{} is not positive", e.name));
+    }
 }
 
 /// Effects beyond (31) with what was estimated of them.
@@ -69,26 +71,21 @@ std::optional<Model> model_of(const IdentifyResult& result, const IdentifyPreloa
       why_not = fmt::format("the links of a {} arm cannot be simulated", facts.arm->kind->name);
     return std::nullopt;
   }
-  Model model;
+  Rig rig = facts.rig;
+  rig.transmission = preload.transmission;
+  if (rig.torque_hold == TorqueHold::automatic)
+    rig.torque_hold = facts.delay.held ? TorqueHold::zoh : TorqueHold::none;
+  const auto find = [&](const Estimate& blank) { return parameters.find(blank.name); };
+  Model model = assembled_model(rig, false, find);
   model.name = "poly";
   model.preload = preload.name;
-  model.rig = facts.rig;
-  model.rig.transmission = preload.transmission;
-  if (model.rig.torque_hold == TorqueHold::automatic)
-    model.rig.torque_hold = facts.delay.held ? TorqueHold::zoh : TorqueHold::none;
-  for (int joint = 1; joint <= facts.rig.n_joints(); ++joint) {
-    model.joints.push_back({effects_of(Side::link, joint, facts.rig, parameters),
-                            effects_of(Side::motor, joint, facts.rig, parameters)});
-    if (model.joints.back().link.empty() || model.joints.back().motor.empty()) return std::nullopt;
+  for (const JointModel& axes : model.joints) {
+    if (!has_all(axes)) return std::nullopt;
+    require_inertias(axes, parameters);
   }
   model.joints.front().added = added_of(facts, parameters);
   model.transmission = preload.transmission;
-  for (const Cable& cable : preload.transmission.cables)
-    for (int k = 0; k < cable.n_coefficients(); ++k)
-      if (const auto e = parameters.find(coefficient_name(cable, k, facts.rig.cables_given)))
-        model.elastic.push_back(*e);
-  for (const Cable& cable : preload.transmission.cables)
-    if (const auto e = parameters.find(elongation_name(cable))) model.elastic.push_back(*e);
+  model.elastic = elastic_estimates(preload.transmission, facts.rig, find);
   why_not = parameters.why_not();
   return why_not.empty() ? std::optional(std::move(model)) : std::nullopt;
 }

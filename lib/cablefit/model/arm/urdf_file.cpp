@@ -26,7 +26,7 @@ UrdfTree read_urdf(const std::string& /*path*/) {
 #include <cmath>
 
 #include "cablefit/base/catalog.hpp"
-#include "cablefit/base/input_file.hpp"
+#include "cablefit/base/files/input_file.hpp"
 #include "cablefit/base/quote.hpp"
 
 namespace cablefit {

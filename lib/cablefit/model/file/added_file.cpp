@@ -79,25 +79,26 @@ void read_event(const JsonNode& node, EffectInstance& instance) {
   instance.event_time = date.at("time").number();
 }
 
-EffectInstance read_refinement(const JsonNode& node, const Model& model) {
+EffectInstance read_refinement(const JsonNode& node, const Rig& rig, bool rigid) {
   node.allow_only({"name", "side", "parameters", "event"});
   const Site site = choose(node.at("side"), kSites);
   const JsonNode& name = node.at("name");
   EffectInstance instance;
   instance.effect = at_place_of(name, [&] { return &find_candidate(name.text(), site); });
-  if (model.rigid && site == Site::transmission)
+  if (rigid && site == Site::transmission)
     throw name.error(fmt::format("{} on a rigid drive", cablefit::quoted(name.text())),
                      "it has no transmission: drop it, or give link and motor");
-  instance.parameters = read_parameters(node.find("parameters"), node, *instance.effect, model.rig);
+  instance.parameters = read_parameters(node.find("parameters"), node, *instance.effect, rig);
   read_event(node, instance);
   return instance;
 }
 
 }  // namespace
 
-std::vector<EffectInstance> read_refinements(const JsonNode& node, const Model& model) {
+std::vector<EffectInstance> read_refinements(const JsonNode& node, const Rig& rig, bool rigid) {
   std::vector<EffectInstance> refinements;
-  for (const JsonNode& item : some_items(node)) refinements.push_back(read_refinement(item, model));
+  for (const JsonNode& item : some_items(node))
+    refinements.push_back(read_refinement(item, rig, rigid));
   return refinements;
 }
 

@@ -5,12 +5,12 @@
 #include <string_view>
 
 #include "cablefit/base/json/json_document.hpp"
-#include "cablefit/model/read_models.hpp"
+#include "cablefit/model/completeness.hpp"
+#include "cablefit/model/model.hpp"
 
 namespace cablefit::model_file {
 
 inline constexpr std::string_view kModelSchema = "cablefit/model/1";
-inline constexpr std::string_view kResultSchema = "cablefit/dynamic/1";
 
 /// What the caller asked for; empty: nothing in particular.
 struct Wanted {
@@ -20,8 +20,6 @@ struct Wanted {
 
 /// cablefit/model/1. `choice` says in words what was taken.
 Model read_model_file(const JsonNode& root, const Wanted& wanted, std::string* choice);
-/// cablefit/dynamic/1.
-Model read_result_file(const JsonNode& root, const Wanted& wanted, std::string* choice);
 
 /// A parameter of that name and unit (SI): a bare number, or an object with value, and perhaps unit
 /// (converted; must be of the same kind), sd, sd_white, ci95, cad, not_identifiable, active_bound.
@@ -34,7 +32,7 @@ Estimate read_strict_estimate(const JsonNode& node, std::string name, std::strin
 std::string stiffness_unit(const Rig& rig);
 
 /// "refinements" of a joint: [{"name", "side", "parameters": {...}, "event": {"log", "time"}}].
-std::vector<EffectInstance> read_refinements(const JsonNode& node, const Model& model);
+std::vector<EffectInstance> read_refinements(const JsonNode& node, const Rig& rig, bool rigid);
 
 /// "covariance": {"parameters": [names], "matrix": [rows]}. Throws for another number of rows or
 /// columns than names.

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "cablefit/base/random.hpp"
-#include "cablefit/model/effect_walk.hpp"
+#include "cablefit/model/effects/effect_walk.hpp"
 #include "cablefit/samples/survey/channel_scan.hpp"
 
 namespace cablefit {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cablefit/elastic/elastic_columns.hpp"
+#include "cablefit/elastic/rows/elastic_columns.hpp"
 #include "cablefit/model/one_joint.hpp"
 
 namespace cablefit {

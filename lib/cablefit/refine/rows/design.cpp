@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "cablefit/model/effect_walk.hpp"
+#include "cablefit/model/effects/effect_walk.hpp"
 
 namespace cablefit {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/elastic/elastic_columns.hpp"
+#include "cablefit/elastic/rows/elastic_columns.hpp"
 
 namespace cablefit {
 namespace {

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "cablefit/estimate/spread/long_run.hpp"
-#include "cablefit/model/effect_parameter.hpp"
+#include "cablefit/model/effects/effect_parameter.hpp"
 #include "cablefit/refine/rows/shape_moves.hpp"
 
 namespace cablefit {

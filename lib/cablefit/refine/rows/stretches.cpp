@@ -7,6 +7,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/model/one_joint.hpp"
+#include "cablefit/samples/survey/gapless_rows.hpp"
 
 namespace cablefit {
 namespace {
@@ -37,44 +38,28 @@ void require_channels(const LogPlan& plan, const Model& model, bool blocked) {
     require_channel(plan, Channel::tau_load, "the load that the rig file says is a column");
 }
 
-Eigen::ArrayXd column(const Window& window, const LogPlan& plan, Channel channel, int joint) {
-  const int slot = plan.find(channel, joint);
-  if (slot < 0) return {};
-  return window.data.col(slot).array();
-}
-
 /// Of all joints, samples x joints; 0 where it was not logged, as of a blocked link.
-Eigen::ArrayXXd columns(const Window& window, const LogPlan& plan, Channel channel) {
+Eigen::ArrayXXd columns(const GaplessRows& run, const LogPlan& plan, Channel channel) {
   const int n = plan.rig.n_joints();
-  Eigen::ArrayXXd all = Eigen::ArrayXXd::Zero(window.data.rows(), n);
+  Eigen::ArrayXXd all = Eigen::ArrayXXd::Zero(run.data.rows(), n);
   for (int joint = 0; joint < n; ++joint)
-    if (plan.has(channel, joint)) all.col(joint) = column(window, plan, channel, joint);
+    if (plan.has(channel, joint)) all.col(joint) = run.column(plan, channel, joint);
   return all;
 }
 
-void append(Eigen::ArrayXd& to, const Eigen::ArrayXd& rows) {
-  const Eigen::Index before = to.size();
-  to.conservativeResize(before + rows.size());
-  to.tail(rows.size()) = rows;
-}
-
-void append(Eigen::ArrayXXd& to, const Eigen::ArrayXXd& rows) {
-  const Eigen::Index before = to.rows();
-  to.conservativeResize(before + rows.rows(), rows.cols());
-  to.bottomRows(rows.rows()) = rows;
-}
-
-void append(Stretch& stretch, const Window& window, const LogPlan& plan, const Model& model) {
-  Recording& r = stretch.recording;
-  append(r.q, column(window, plan, Channel::q, model.joint));
-  append(r.theta, column(window, plan, Channel::theta, model.joint));
-  append(r.tau, column(window, plan, Channel::tau, model.joint));
-  append(r.tau_load, column(window, plan, Channel::tau_load, model.joint));
-  if (model.whole == nullptr) return;
-  const Eigen::ArrayXXd q = columns(window, plan, Channel::q);
-  append(r.others, others_elongation(model, q, columns(window, plan, Channel::theta)));
-  if (model.is_coupled()) append(r.links, q);
+Recording recording_of(const GaplessRows& run, const LogPlan& plan, const Model& model) {
+  Recording r;
+  r.period = run.period;
+  r.q = run.column(plan, Channel::q, model.joint);
+  r.theta = run.column(plan, Channel::theta, model.joint);
+  r.tau = run.column(plan, Channel::tau, model.joint);
+  r.tau_load = run.column(plan, Channel::tau_load, model.joint);
+  if (model.whole == nullptr) return r;
+  const Eigen::ArrayXXd q = columns(run, plan, Channel::q);
+  r.others = others_elongation(model, q, columns(run, plan, Channel::theta));
+  if (model.is_coupled()) r.links = q;
   r.joint = model.joint;
+  return r;
 }
 
 /// q of a blocked link that was not logged stands at 0; of a rigid drive it is theta.
@@ -90,30 +75,24 @@ void complete(const Model& model, const Rig& rig, Stretch& stretch) {
 
 void read_log(const LogSurvey& log, std::size_t number, std::span<const Model> models,
               const PartFilter& wanted, std::vector<Stretch>& stretches) {
-  const std::size_t first = stretches.size();
   const double began = log.parts.front().t_first;
   const bool blocked = std::all_of(log.parts.begin(), log.parts.end(), [&](const PartSurvey& p) {
     return !wanted(p) || p.phase == Phase::blocked;
   });
-  const double bridge = blocked ? kBlockedBridge : 0;
-  for_each_window(log, wanted, 0, kLeastRows, bridge, [&](Window&& window) {
-    const PartSurvey& part = log.parts[window.part];
-    if (window.starts_segment && window.begin == 0) {
-      Stretch& stretch = stretches.emplace_back();
-      stretch.log = number;
-      stretch.model = model_of(models, log.plan, part);
-      stretch.blocked = part.phase == Phase::blocked;
-      stretch.recording.period = window.period;
-      stretch.t0 = window.t0 - began;
-      stretch.part_begin = part.t_first - began;
-      stretch.part_end = part.t_last - began;
-      require_channels(log.plan, models[stretch.model], stretch.blocked);
-    }
-    append(stretches.back(), window, log.plan, models[stretches.back().model]);
-    return true;
+  for_each_run(log, wanted, kLeastRows, blocked ? kBlockedBridge : 0, [&](GaplessRows&& run) {
+    const PartSurvey& part = log.parts[run.part];
+    Stretch& stretch = stretches.emplace_back();
+    stretch.log = number;
+    stretch.model = model_of(models, log.plan, part);
+    const Model& model = models[stretch.model];
+    stretch.blocked = part.phase == Phase::blocked;
+    stretch.t0 = run.t0 - began;
+    stretch.part_begin = part.t_first - began;
+    stretch.part_end = part.t_last - began;
+    require_channels(log.plan, model, stretch.blocked);
+    stretch.recording = recording_of(run, log.plan, model);
+    complete(model, log.plan.rig, stretch);
   });
-  for (std::size_t k = first; k < stretches.size(); ++k)
-    complete(models[stretches[k].model], log.plan.rig, stretches[k]);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "cablefit/model/effect_walk.hpp"
+#include "cablefit/model/effects/effect_walk.hpp"
 #include "cablefit/refine/rows/design.hpp"
 
 namespace cablefit {

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "cablefit/report/documents/batch_figures.hpp"
-#include "cablefit/report/documents/document_parts.hpp"
 #include "cablefit/report/documents/dynamic_document.hpp"
 #include "cablefit/report/documents/elastic_document.hpp"
-#include "cablefit/report/documents/numbers.hpp"
-#include "cablefit/report/documents/preload_report.hpp"
+#include "cablefit/report/parts/document_parts.hpp"
+#include "cablefit/report/parts/numbers.hpp"
+#include "cablefit/report/sections/batch_figures.hpp"
+#include "cablefit/report/sections/preload_report.hpp"
 
 namespace cablefit {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cablefit/campaign/batch.hpp"
-#include "cablefit/report/documents/document.hpp"
+#include "cablefit/report/parts/document.hpp"
 
 namespace cablefit {
 

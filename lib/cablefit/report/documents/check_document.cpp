@@ -8,8 +8,8 @@
 #include <map>
 #include <utility>
 
-#include "cablefit/report/documents/document_parts.hpp"
-#include "cablefit/report/documents/numbers.hpp"
+#include "cablefit/report/parts/document_parts.hpp"
+#include "cablefit/report/parts/numbers.hpp"
 
 namespace cablefit {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cablefit/dynamic/prediction.hpp"
-#include "cablefit/report/documents/document.hpp"
+#include "cablefit/report/parts/document.hpp"
 #include "cablefit/samples/check.hpp"
 
 namespace cablefit {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <utility>
 
-#include "cablefit/model/effect_parameter.hpp"
-#include "cablefit/report/documents/document_parts.hpp"
-#include "cablefit/report/documents/numbers.hpp"
+#include "cablefit/model/effects/effect_parameter.hpp"
+#include "cablefit/report/parts/document_parts.hpp"
+#include "cablefit/report/parts/numbers.hpp"
 
 namespace cablefit {
 namespace {

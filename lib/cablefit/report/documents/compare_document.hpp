@@ -1,8 +1,8 @@
 // A comparison for people: what changed, in words, and the numbers behind it.
 #pragma once
 
-#include "cablefit/campaign/compare.hpp"
-#include "cablefit/report/documents/document.hpp"
+#include "cablefit/campaign/compare/compare.hpp"
+#include "cablefit/report/parts/document.hpp"
 
 namespace cablefit {
 

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <limits>
 
-#include "cablefit/report/documents/document_parts.hpp"
-#include "cablefit/report/documents/friction_report.hpp"
-#include "cablefit/report/documents/load_report.hpp"
-#include "cablefit/report/documents/numbers.hpp"
-#include "cablefit/report/documents/polytope_report.hpp"
-#include "cablefit/report/documents/stiffness_report.hpp"
+#include "cablefit/report/parts/document_parts.hpp"
+#include "cablefit/report/parts/numbers.hpp"
+#include "cablefit/report/sections/friction_report.hpp"
+#include "cablefit/report/sections/load_report.hpp"
+#include "cablefit/report/sections/polytope_report.hpp"
+#include "cablefit/report/sections/stiffness_report.hpp"
 
 namespace cablefit {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cablefit/design/design_result.hpp"
-#include "cablefit/report/documents/document.hpp"
+#include "cablefit/report/parts/document.hpp"
 
 namespace cablefit {
 

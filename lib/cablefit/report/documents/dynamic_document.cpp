@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "cablefit/figure/explained.hpp"
-#include "cablefit/report/documents/document_parts.hpp"
-#include "cablefit/report/documents/numbers.hpp"
-#include "cablefit/report/documents/proof_report.hpp"
-#include "cablefit/report/documents/validation_tables.hpp"
+#include "cablefit/report/parts/document_parts.hpp"
+#include "cablefit/report/parts/numbers.hpp"
+#include "cablefit/report/sections/proof_report.hpp"
+#include "cablefit/report/sections/validation_tables.hpp"
 
 namespace cablefit {
 namespace {

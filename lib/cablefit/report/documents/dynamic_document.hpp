@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cablefit/dynamic/dynamic_result.hpp"
-#include "cablefit/report/documents/document.hpp"
+#include "cablefit/report/parts/document.hpp"
 
 namespace cablefit {
 

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "cablefit/model/modes.hpp"
-#include "cablefit/report/documents/document_parts.hpp"
-#include "cablefit/report/documents/numbers.hpp"
-#include "cablefit/report/documents/proof_report.hpp"
+#include "cablefit/report/parts/document_parts.hpp"
+#include "cablefit/report/parts/numbers.hpp"
+#include "cablefit/report/sections/proof_report.hpp"
 
 namespace cablefit {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cablefit/elastic/elastic_result.hpp"
-#include "cablefit/report/documents/document.hpp"
+#include "cablefit/report/parts/document.hpp"
 
 namespace cablefit {
 

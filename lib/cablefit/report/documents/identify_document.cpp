@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/report/documents/document_parts.hpp"
-#include "cablefit/report/documents/numbers.hpp"
+#include "cablefit/report/parts/document_parts.hpp"
+#include "cablefit/report/parts/numbers.hpp"
 
 namespace cablefit {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cablefit/predict/predict_result.hpp"
-#include "cablefit/report/documents/document.hpp"
+#include "cablefit/report/parts/document.hpp"
 
 namespace cablefit {
 

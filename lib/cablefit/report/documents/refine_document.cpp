@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/report/documents/document_parts.hpp"
-#include "cablefit/report/documents/numbers.hpp"
-#include "cablefit/report/documents/refine_story.hpp"
+#include "cablefit/report/parts/document_parts.hpp"
+#include "cablefit/report/parts/numbers.hpp"
+#include "cablefit/report/sections/refine_story.hpp"
 
 namespace cablefit {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "cablefit/report/documents/document_parts.hpp"
-#include "cablefit/report/documents/numbers.hpp"
-#include "cablefit/report/documents/part_names.hpp"
+#include "cablefit/report/parts/document_parts.hpp"
+#include "cablefit/report/parts/numbers.hpp"
+#include "cablefit/report/parts/part_names.hpp"
 
 namespace cablefit {
 namespace {

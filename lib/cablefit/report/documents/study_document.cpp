@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "cablefit/report/documents/check_document.hpp"
-#include "cablefit/report/documents/document_parts.hpp"
 #include "cablefit/report/documents/dynamic_document.hpp"
 #include "cablefit/report/documents/elastic_document.hpp"
 #include "cablefit/report/documents/identify_document.hpp"
 #include "cablefit/report/documents/refine_document.hpp"
+#include "cablefit/report/parts/document_parts.hpp"
 
 namespace cablefit {
 namespace {

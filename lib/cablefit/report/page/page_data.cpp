@@ -7,9 +7,9 @@
 
 #include "cablefit/base/base64.hpp"
 #include "cablefit/base/quote.hpp"
-#include "cablefit/report/documents/batch_figures.hpp"
 #include "cablefit/report/page/html_text.hpp"
 #include "cablefit/report/page/trace_look.hpp"
+#include "cablefit/report/sections/batch_figures.hpp"
 
 namespace cablefit {
 namespace {

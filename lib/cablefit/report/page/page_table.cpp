@@ -5,8 +5,8 @@
 
 #include <array>
 
-#include "cablefit/report/documents/escape.hpp"
 #include "cablefit/report/page/html_text.hpp"
+#include "cablefit/report/parts/escape.hpp"
 
 namespace cablefit {
 namespace {

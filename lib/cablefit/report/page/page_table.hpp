@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cablefit/report/documents/document.hpp"
+#include "cablefit/report/parts/document.hpp"
 
 namespace cablefit {
 

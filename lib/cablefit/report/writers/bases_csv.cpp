@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "cablefit/report/documents/document_parts.hpp"
-#include "cablefit/report/documents/escape.hpp"
+#include "cablefit/report/parts/document_parts.hpp"
+#include "cablefit/report/parts/escape.hpp"
 
 namespace cablefit {
 

@@ -7,9 +7,9 @@
 #include <span>
 #include <utility>
 
-#include "cablefit/report/documents/document_parts.hpp"
 #include "cablefit/report/documents/dynamic_document.hpp"
-#include "cablefit/report/documents/numbers.hpp"
+#include "cablefit/report/parts/document_parts.hpp"
+#include "cablefit/report/parts/numbers.hpp"
 #include "cablefit/report/writers/text_table.hpp"
 #include "cablefit/report/writers/wrap.hpp"
 

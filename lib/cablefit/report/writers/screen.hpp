@@ -1,7 +1,7 @@
 // What a terminal shows without --verbose: the answer, in 40 lines for most results.
 #pragma once
 
-#include "cablefit/report/documents/document.hpp"
+#include "cablefit/report/parts/document.hpp"
 
 namespace cablefit {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "cablefit/report/documents/escape.hpp"
+#include "cablefit/report/parts/escape.hpp"
 #include "cablefit/report/writers/wrap.hpp"
 
 namespace cablefit {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "cablefit/report/documents/escape.hpp"
+#include "cablefit/report/parts/escape.hpp"
 
 namespace cablefit {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cablefit/report/documents/escape.hpp"
+#include "cablefit/report/parts/escape.hpp"
 
 namespace cablefit {
 namespace {

@@ -1,5 +1,5 @@
 // The tidy table of a document as CSV (RFC 4180, lines end in \n).
-#include "cablefit/report/documents/escape.hpp"
+#include "cablefit/report/parts/escape.hpp"
 #include "cablefit/report/writers/writers.hpp"
 
 namespace cablefit {

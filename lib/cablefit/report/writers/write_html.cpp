@@ -4,8 +4,8 @@
 #include <array>
 
 #include "cablefit/base/base64.hpp"
-#include "cablefit/base/digest.hpp"
 #include "cablefit/base/error.hpp"
+#include "cablefit/base/files/digest.hpp"
 #include "cablefit/report/page/html_text.hpp"
 #include "cablefit/report/page/page_body.hpp"
 #include "cablefit/report/page/page_data.hpp"

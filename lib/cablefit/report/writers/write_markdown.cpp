@@ -1,5 +1,5 @@
 // A document as Markdown (GitHub's tables).
-#include "cablefit/report/documents/escape.hpp"
+#include "cablefit/report/parts/escape.hpp"
 #include "cablefit/report/writers/writers.hpp"
 
 namespace cablefit {

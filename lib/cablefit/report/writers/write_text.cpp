@@ -1,7 +1,7 @@
 // A document for the terminal.
 #include <algorithm>
 
-#include "cablefit/report/documents/escape.hpp"
+#include "cablefit/report/parts/escape.hpp"
 #include "cablefit/report/writers/text_table.hpp"
 #include "cablefit/report/writers/wrap.hpp"
 #include "cablefit/report/writers/writers.hpp"

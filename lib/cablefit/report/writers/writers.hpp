@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "cablefit/report/documents/document.hpp"
+#include "cablefit/report/parts/document.hpp"
 
 namespace cablefit {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cablefit/base/input_file.hpp"
+#include "cablefit/base/files/input_file.hpp"
 #include "cablefit/log/log_reader.hpp"
 #include "cablefit/model/rig.hpp"
 #include "cablefit/samples/plan/decision.hpp"

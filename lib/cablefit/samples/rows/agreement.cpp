@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "cablefit/base/digest.hpp"
+#include "cablefit/base/files/digest.hpp"
 
 namespace cablefit {
 namespace {

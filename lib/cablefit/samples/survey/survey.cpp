@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "cablefit/base/digest.hpp"
+#include "cablefit/base/files/digest.hpp"
 #include "cablefit/base/parallel.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/samples/survey/part_tracker.hpp"

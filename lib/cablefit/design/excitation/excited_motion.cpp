@@ -1,0 +1,128 @@
+#include "cablefit/design/excitation/excited_motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/design/curves/joint_curve.hpp"
+#include "cablefit/model/least_inertias.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr int kTries = 5;         // of a scale
+constexpr double kMargin = 0.99;  // of the limit that was broken, at the next try
+constexpr double kDamping = 0.7;
+constexpr double kSurrogateBandwidth = 15;  // Hz
+constexpr double kLargestGain = 0.3;        // kd period / J_motor; a sampled loop is unstable at 2
+
+/// A PD controller, damped for what swings along and stable with the motor alone.
+Controller surrogate(const Model& model, double period) {
+  const auto [motor, all] = least_inertias(model);
+  const double omega = 2 * std::numbers::pi * kSurrogateBandwidth;
+  Controller c;
+  c.kd = std::min(2 * kDamping * all * omega, kLargestGain * motor / period);
+  c.kp = std::min(all * omega * omega, c.kd * omega / (2 * kDamping));
+  c.period = period;
+  return c;
+}
+
+double load_on(const Model& model, const ExcitationLimits& limits, double q) {
+  const Load& load = model.rig.load;
+  const bool by_law = load.law != nullptr && !load.law->from_column;
+  return by_law ? load.law->torque(load.parameters, q) : limits.load;
+}
+
+/// At rest around the middle, cables and controller holding the load.
+SimulationInput at_rest(const Model& model, const ExcitationLimits& limits) {
+  const auto n = static_cast<Eigen::Index>(model.joints.size());
+  SimulationInput input;
+  input.period = 1 / limits.rate;
+  input.q0 = input.qd0 = input.theta0 = input.thetad0 = Eigen::VectorXd::Zero(n);
+  const Eigen::VectorXd zero =
+      model.rigid ? Eigen::VectorXd(Eigen::VectorXd::Zero(n)) : model.transmission.encoder_zero();
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const double held = -load_on(model, limits, limits.middle);
+    const double droop = held / model.rig.controller->kp;
+    const double phi =
+        model.rigid
+            ? 0
+            : JointCurve(model.transmission, static_cast<int>(k)).deflection_at(held).value_or(0);
+    input.theta0(k) = limits.middle - droop;
+    input.q0(k) = limits.middle - droop - phi - zero(k);
+  }
+  return input;
+}
+
+void set_shares(const ExcitationLimits& limits, ExcitedMotion& motion) {
+  const SimulationResult& r = motion.result;
+  const auto largest = [](const Eigen::ArrayXXd& x) { return x.abs().maxCoeff(); };
+  motion.position_share = std::max({largest(r.theta - limits.middle), largest(r.q - limits.middle),
+                                    largest(motion.theta_ref - limits.middle)}) /
+                          limits.max_position;
+  motion.speed_share = std::max(largest(r.thetad), largest(r.qd)) / limits.max_speed;
+  motion.torque_share = largest(r.tau) / limits.max_torque;
+}
+
+/// The factor at which the reference itself reaches its share of the limits.
+double reference_scale(const ExcitationLimits& limits, const Eigen::ArrayXXd& shape, double share) {
+  const Eigen::Index n = shape.rows();
+  if (n < 2) return 0;
+  const double way = shape.abs().maxCoeff();
+  const double speed =
+      (shape.bottomRows(n - 1) - shape.topRows(n - 1)).abs().maxCoeff() * limits.rate;
+  if (!(way > 0 && speed > 0)) return 0;
+  return share * std::min(limits.max_position / way, limits.max_speed / speed);
+}
+
+}  // namespace
+
+Model excitable(const Model& model, double rate, std::string& words) {
+  if (model.joints.empty())
+    throw Error(ErrorKind::input,
+                "a rig file has no inertias: an excitation needs a model file or a result of "
+                "'cablefit dynamic', or CAD values in a model file");
+  if (model.rig.arm.is_coupled())
+    throw Error(
+        ErrorKind::input,
+        "links that move each other: no excitation is designed for them; design that of one "
+        "joint at a time, with the others held");
+  Model moved = model;
+  if (moved.rig.controller) {
+    words = "the rig's controller";
+    return moved;
+  }
+  moved.rig.controller = surrogate(model, 1 / rate);
+  words = fmt::format("a surrogate controller (kp {:.3g}, kd {:.3g}), as the rig has no controller",
+                      moved.rig.controller->kp, moved.rig.controller->kd);
+  return moved;
+}
+
+std::optional<ExcitedMotion> motion_within(const Model& model, const ExcitationLimits& limits,
+                                           const Eigen::ArrayXXd& shape, double share,
+                                           double step) {
+  ExcitedMotion motion;
+  motion.period = 1 / limits.rate;
+  motion.input = at_rest(model, limits);
+  motion.input.tau_load =
+      Eigen::ArrayXXd::Constant(shape.rows(), shape.cols(), load_on(model, limits, limits.middle));
+  SimulationOptions options;
+  options.closed_loop = true;
+  options.step = step;
+  double scale = reference_scale(limits, shape, share);
+  for (int i = 0; i < kTries && scale > 0; ++i) {
+    motion.theta_ref = motion.input.theta_ref = limits.middle + scale * shape;
+    motion.result = simulate(model, motion.input, options);
+    if (motion.result.diverged_at) return std::nullopt;
+    set_shares(limits, motion);
+    const double worst = std::max({motion.position_share, motion.speed_share, motion.torque_share});
+    if (worst <= 1) return motion;
+    scale *= kMargin / worst;
+  }
+  return std::nullopt;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,26 @@
+// The story of a refinement in about ten lines. Internal to report/.
+#pragma once
+
+#include "cablefit/refine/refine_result.hpp"
+#include "cablefit/report/parts/document.hpp"
+
+namespace cablefit {
+
+Headline refine_headline(const RefineResult& result);
+std::vector<SummaryLine> refine_story(const RefineResult& result,
+                                      const std::vector<std::string>& model_files);
+
+/// "motor", of one of several joints "motor 2".
+std::string side_text(std::string_view side, int joint, const RefineResult& result);
+/// "stribeck (motor)", "stribeck (motor 2)".
+std::string effect_text(std::string_view name, std::string_view side, int joint,
+                        const RefineResult& result);
+std::string effect_text(const NamedEffect& effect, const RefineResult& result);
+
+/// "thetad from -0.386 to 0.208 rad/s", "negative direction of thetad".
+std::string regime_text(const Regime& regime, bool linear_motion);
+
+/// How many sd a parameter moved; NaN without an sd.
+double moved_sd(const ParameterShift& shift);
+
+}  // namespace cablefit
