@@ -76,15 +76,16 @@ std::vector<Eigen::Index> filled_rows(const Eigen::MatrixXd& factor) {
   return filled;
 }
 
+void add_filled(const StreamingQr& some, StreamingQr& all) {
+  all.add(some.r()(filled_rows(some.r()), Eigen::all));
+}
+
 }  // namespace
 
 Eigen::MatrixXd BasisRows::factor_without(Eigen::Index fold) const {
   StreamingQr all(n_columns());
-  for (std::size_t block = 0; block < blocks.size(); ++block) {
-    if (static_cast<Eigen::Index>(block) % kHeldOutFolds == fold) continue;
-    const Eigen::MatrixXd& factor = blocks[block].r();
-    all.add(factor(filled_rows(factor), Eigen::all));
-  }
+  for (std::size_t k = 0; k < folds.size(); ++k)
+    if (static_cast<Eigen::Index>(k) != fold) add_filled(folds[k], all);
   return all.r();
 }
 
@@ -105,6 +106,9 @@ BasisRows collect_basis(const ElasticJob& job, const BlockedRows& rows,
         return own;
       },
       [&](const EquationBatch& own) { add_by_block(held_out, own.rows, own.numbers, basis); });
+  basis.folds.assign(kHeldOutFolds, StreamingQr(basis.n_columns()));
+  for (std::size_t block = 0; block < basis.blocks.size(); ++block)
+    add_filled(basis.blocks[block], basis.folds[block % kHeldOutFolds]);
   return basis;
 }
 

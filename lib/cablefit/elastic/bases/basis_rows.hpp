@@ -22,6 +22,7 @@ struct BasisRows {
   Eigen::Index n_beside = 0;
   std::vector<StreamingQr> blocks;   ///< R of [columns] = Q R, by held-out block
   std::vector<Eigen::Index> n_rows;  ///< per block
+  std::vector<StreamingQr> folds;    ///< the same of all blocks of a fold
 
   Eigen::Index n_atoms() const { return static_cast<Eigen::Index>(atoms.size()); }
   Eigen::Index n_columns() const { return n_beside + n_atoms() + 1; }
