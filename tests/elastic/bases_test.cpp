@@ -144,6 +144,22 @@ TEST_CASE("the held-out error is that of blocks which a fit has not seen", "[ela
   }
 }
 
+/// The trap: without a sample in its first columns a block has its factor's rows further down, and
+/// with fewer rows than columns they are not the first ones.
+TEST_CASE("a factor has all rows of blocks that are short or lack a column", "[elastic]") {
+  constexpr Eigen::Index kShort = 3;
+  ByHand data(90, second_order_force, 0.3, kShort);
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(data.basis.n_columns(), data.basis.n_columns());
+  for (std::size_t block = 0; block < data.raw.size(); ++block) {
+    data.raw[block].leftCols(static_cast<Eigen::Index>(block % 5)).setZero();
+    data.basis.blocks[block] = StreamingQr(data.basis.n_columns());
+    data.basis.blocks[block].add(data.raw[block]);
+    if (block % kHeldOutFolds != 1) gram += data.raw[block].transpose() * data.raw[block];
+  }
+  const Eigen::MatrixXd r = factor_without(data.basis.folds(), 1);
+  CHECK((r.transpose() * r - gram).norm() < 1e-13 * gram.norm());
+}
+
 // At most 5 % false additions, as for orders (order_test.cpp).
 TEST_CASE("cross-validation adds no term to a polynomial", "[elastic]") {
   constexpr int kRuns = 200;

@@ -82,8 +82,15 @@ void add_filled(const StreamingQr& some, StreamingQr& all) {
 
 }  // namespace
 
-Eigen::MatrixXd BasisRows::factor_without(Eigen::Index fold) const {
-  StreamingQr all(n_columns());
+std::vector<StreamingQr> BasisRows::folds() const {
+  std::vector<StreamingQr> folds(kHeldOutFolds, StreamingQr(n_columns()));
+  for (std::size_t block = 0; block < blocks.size(); ++block)
+    add_filled(blocks[block], folds[block % kHeldOutFolds]);
+  return folds;
+}
+
+Eigen::MatrixXd factor_without(const std::vector<StreamingQr>& folds, Eigen::Index fold) {
+  StreamingQr all(folds.front().r().cols());
   for (std::size_t k = 0; k < folds.size(); ++k)
     if (static_cast<Eigen::Index>(k) != fold) add_filled(folds[k], all);
   return all.r();
@@ -106,9 +113,6 @@ BasisRows collect_basis(const ElasticJob& job, const BlockedRows& rows,
         return own;
       },
       [&](const EquationBatch& own) { add_by_block(held_out, own.rows, own.numbers, basis); });
-  basis.folds.assign(kHeldOutFolds, StreamingQr(basis.n_columns()));
-  for (std::size_t block = 0; block < basis.blocks.size(); ++block)
-    add_filled(basis.blocks[block], basis.folds[block % kHeldOutFolds]);
   return basis;
 }
 

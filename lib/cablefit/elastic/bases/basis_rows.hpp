@@ -22,13 +22,15 @@ struct BasisRows {
   Eigen::Index n_beside = 0;
   std::vector<StreamingQr> blocks;   ///< R of [columns] = Q R, by held-out block
   std::vector<Eigen::Index> n_rows;  ///< per block
-  std::vector<StreamingQr> folds;    ///< the same of all blocks of a fold
 
   Eigen::Index n_atoms() const { return static_cast<Eigen::Index>(atoms.size()); }
   Eigen::Index n_columns() const { return n_beside + n_atoms() + 1; }
-  /// R of all rows but those of one fold; of a fold that there is none: of all.
-  Eigen::MatrixXd factor_without(Eigen::Index fold) const;
+  /// The same of all blocks of a fold, by fold.
+  std::vector<StreamingQr> folds() const;
 };
+
+/// R of all rows but those of one fold; of a fold that there is none: of all.
+Eigen::MatrixXd factor_without(const std::vector<StreamingQr>& folds, Eigen::Index fold);
 
 /// One pass over the logs: the atoms are formed at the full rate and low-passed like the torque.
 /// `beside`: columns of `rows` that every fit has. One joint.

@@ -23,8 +23,8 @@ struct Reduced {
   Eigen::VectorXd y;
 };
 
-Reduced reduced(const BasisRows& basis, Eigen::Index fold) {
-  Reduced r{basis.factor_without(fold), {}, {}};
+Reduced reduced(const BasisRows& basis, const std::vector<StreamingQr>& folds, Eigen::Index fold) {
+  Reduced r{factor_without(folds, fold), {}, {}};
   const Eigen::Index first = basis.n_beside, n = basis.n_atoms();
   r.atoms = r.factor.block(first, first, n + 1, n);
   r.y = r.factor.block(first, first + n, n + 1, 1);
@@ -103,10 +103,11 @@ Eigen::VectorXd residual_of(const BasisRows& basis, const Reduced& r, const Spar
 }
 
 /// Mean squared error of every block that has rows, by number of terms: a row per number.
-Eigen::MatrixXd held_out_errors(const BasisRows& basis, const CableBasis& dictionary) {
+Eigen::MatrixXd held_out_errors(const BasisRows& basis, const std::vector<StreamingQr>& folds,
+                                const CableBasis& dictionary) {
   Eigen::MatrixXd errors = Eigen::MatrixXd::Zero(kMostTerms, kHeldOutBlocks);
   for (Eigen::Index fold = 0; fold < kHeldOutFolds; ++fold) {
-    const Reduced r = reduced(basis, fold);
+    const Reduced r = reduced(basis, folds, fold);
     const std::vector<SparseFit> path = path_of(basis, dictionary, r);
     if (path.empty()) continue;
     for (int n = 1; n <= kMostTerms; ++n) {
@@ -141,11 +142,12 @@ int number_of_terms(const Eigen::MatrixXd& errors) {
 }  // namespace
 
 BasisChoice choose_terms(const BasisRows& basis, const CableBasis& dictionary) {
-  const Eigen::MatrixXd errors = held_out_errors(basis, dictionary);
+  const std::vector<StreamingQr> folds = basis.folds();
+  const Eigen::MatrixXd errors = held_out_errors(basis, folds, dictionary);
   BasisChoice choice;
   for (Eigen::Index n = 0; n < errors.rows(); ++n)
     choice.held_out_rms.push_back(std::sqrt(errors.row(n).mean()));
-  const Reduced all = reduced(basis, kNoFold);
+  const Reduced all = reduced(basis, folds, kNoFold);
   const std::vector<SparseFit> path = path_of(basis, dictionary, all);
   if (path.empty()) return choice;
   const auto n = std::min(static_cast<std::size_t>(number_of_terms(errors)), path.size());
