@@ -137,7 +137,7 @@ void add_cable_options(CLI::App& app, AsTheyAre& cables) {
   app.add_flag("--balance", cables.balance,
                "the nearest preload in equilibrium, (8c), to the model's own");
   add_number(
-      app, "--max-tension", "N", {1e-9}, [&cables](double f) { cables.max_tension = f; },
+      app, "--max-tension", "N", {1e-9, 1e9}, [&cables](double f) { cables.max_tension = f; },
       "torques of the links that cables up to this tension make, at rest and at --pose: vertices, "
       "force closure, and which cable goes slack first (N m in joint space)");
   app.add_option("--hold", cables.hold,
@@ -371,7 +371,7 @@ DesignResult run(DesignCommand& command) {
   if (!sweep && !excite && !command.cables.any())
     throw usage_error("neither --torque nor --excite is given",
                       "give the torque that the joint has to carry, or a file for the motion; "
-                      "--stiffness, --balance or --hold for the cables as they are");
+                      "--stiffness, --balance, --hold or --max-tension for the cables as they are");
   if (sweep) check_sweep(command.design);
   check_fitted(command);
   if (excite) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/json/json_document.hpp"
 #include "cablefit/base/quote.hpp"
@@ -42,13 +44,17 @@ void read_models(const JsonNode& node, Campaign& campaign) {
 
 /// The equations of a straight spring leave more than any of them explains.
 void read_effects(const JsonNode& node, Campaign& campaign) {
-  for (const JsonNode& item : node.items) {
+  for (const std::string& name : node.texts()) {
+    const JsonNode& item = node.items[campaign.effects.size()];
     try {
-      (void)blank_effects({item.text()});
+      (void)blank_effects({name});
     } catch (const Error& error) {
       throw item.error(error.what(), "see 'cablefit list effects'");
     }
-    campaign.effects.push_back(item.text());
+    if (std::find(campaign.effects.begin(), campaign.effects.end(), name) != campaign.effects.end())
+      throw item.error(fmt::format("effect {} is given twice", cablefit::quoted(name)),
+                       "leave one out");
+    campaign.effects.push_back(name);
   }
   if (!campaign.effects.empty() && campaign.models != std::vector<std::string>{"poly"})
     throw node.error("'effects' are fitted in one model", "write \"models\": [\"poly\"]");

@@ -108,17 +108,11 @@ std::vector<int> pilot_orders(const Stage1& stage) {
                             : job.orders;
 }
 
-/// Gauss-Newton on the encoder zeros of all joints, as of one: from where the straight lines cross
-/// zero, every zero with its own column. Leaves `stage` with the rows about the last zeros.
-void find_zeros(Stage1& stage) {
-  const ElasticCandidate line = linear_candidate(stage.all, stage.nuisance);
-  const LinearSolution straight = solve_candidate(stage.all, line);
-  const Eigen::VectorXd stiffness = straight.x.head(stage.n_joints());
-  const Eigen::VectorXd constant = straight.x(places_of(stage, line, "offset"));
-  const Eigen::VectorXd width = straight.rms() * stiffness.cwiseAbs().cwiseInverse();
-  Eigen::VectorXd zeros = -constant.cwiseQuotient(stiffness);
-  Transmission pilot = classical_spring(stage.job.basis);
-  pilot.linear_stiffness = stiffness;
+/// Gauss-Newton on the encoder zeros of all joints, as of one: every zero with its own column.
+/// Leaves `stage` with the rows about the last zeros; returns the logarithm of the joints' residual
+/// variances, infinite where there is none.
+double settle_zeros(Stage1& stage, Transmission pilot, const Eigen::VectorXd& width,
+                    Eigen::VectorXd& zeros) {
   for (int iteration = 0; iteration < kJointsZeroIterations && zeros.allFinite(); ++iteration) {
     pilot.theta_0 = zeros;
     stage.joints = collect_joints(stage.job, zeros, &pilot);
@@ -128,9 +122,29 @@ void find_zeros(Stage1& stage) {
     const LinearSolution s = solve_plain(stage.all, curve);
     const Eigen::VectorXd step = s.x(places_of(stage, curve, "theta_0"));
     pilot = fitted_transmission(curve, s.x);
-    if (!step.allFinite() || (step.cwiseAbs().array() < kZeroFound * width.array()).all()) return;
+    if (!step.allFinite() || (step.cwiseAbs().array() < kZeroFound * width.array()).all()) break;
     zeros += step.cwiseMin(5 * width).cwiseMax(-5 * width);
   }
+  double sum = 0;
+  for (const BlockedRows& joint : stage.joints) sum += std::log(own_variance(stage, joint));
+  return std::isnan(sum) ? kUnbounded : sum;
+}
+
+/// There may be several minima: begun where the straight lines cross zero, and at the encoders' own
+/// zeros.
+void find_zeros(Stage1& stage) {
+  const ElasticCandidate line = linear_candidate(stage.all, stage.nuisance);
+  const LinearSolution straight = solve_candidate(stage.all, line);
+  const Eigen::VectorXd stiffness = straight.x.head(stage.n_joints());
+  const Eigen::VectorXd constant = straight.x(places_of(stage, line, "offset"));
+  const Eigen::VectorXd width = straight.rms() * stiffness.cwiseAbs().cwiseInverse();
+  Transmission pilot = classical_spring(stage.job.basis);
+  pilot.linear_stiffness = stiffness;
+  Eigen::VectorXd from_lines = -constant.cwiseQuotient(stiffness);
+  Eigen::VectorXd from_own = Eigen::VectorXd::Zero(stage.n_joints());
+  const double of_lines = settle_zeros(stage, pilot, width, from_lines);
+  const double of_own = settle_zeros(stage, pilot, width, from_own);
+  if (of_lines <= of_own) settle_zeros(stage, pilot, width, from_lines);
 }
 
 /// --zero theta_0: of every joint its encoder's zero instead of the drive's offset.

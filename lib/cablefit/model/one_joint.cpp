@@ -46,13 +46,21 @@ Transmission one_joint(const Transmission& whole, int joint) {
   return one;
 }
 
+/// Whether a name ends with this number, and not with a longer one: "q11" is not of joint 1.
+bool is_about(const std::string& name, const std::string& ending) {
+  if (!name.ends_with(ending)) return false;
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const std::size_t before = name.size() - ending.size();
+  return before == 0 || !is_digit(ending.front()) || !is_digit(name[before - 1]);
+}
+
 /// Entries about this joint without its number, those about no joint as they are.
 template <typename Value>
 std::map<std::string, Value> about(const std::map<std::string, Value>& all,
                                    const std::string& ending) {
   std::map<std::string, Value> own;
   for (const auto& [name, value] : all)
-    if (name.ends_with(ending))
+    if (is_about(name, ending))
       own.insert_or_assign(name.substr(0, name.size() - ending.size()), value);
     else
       own.try_emplace(name, value);

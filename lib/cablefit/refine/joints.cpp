@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <optional>
 
 #include "cablefit/base/error.hpp"
@@ -95,7 +96,7 @@ void append(List& to, const List& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
-/// Lists one behind the other. Warnings and decisions that all joints share once.
+/// Lists one behind the other, warnings with their joint.
 void append_lists(const RefineResult& r, RefineResult& all) {
   append(all.where, r.where);
   append(all.effects, r.effects);
@@ -106,11 +107,12 @@ void append_lists(const RefineResult& r, RefineResult& all) {
   append(all.steps, r.steps);
   append(all.shifts, r.shifts);
   append(all.figures, r.figures);
-  for (const std::string& warning : r.warnings) {
-    const std::string own = fmt::format("joint {}: {}", r.joint_name, warning);
-    if (std::find(all.warnings.begin(), all.warnings.end(), own) == all.warnings.end())
-      all.warnings.push_back(own);
-  }
+  if (!r.not_refined.empty())
+    all.warnings.push_back(
+        fmt::format("joint {}: not refined: the model file has start values for it, no estimates",
+                    r.joint_name));
+  for (const std::string& warning : r.warnings)
+    all.warnings.push_back(fmt::format("joint {}: {}", r.joint_name, warning));
 }
 
 /// Root mean square over the joints for which `known`.
@@ -195,6 +197,17 @@ const RefineResult& leading(const std::vector<RefineResult>& joints, Verdict ver
   return best != nullptr ? *best : joints.front();
 }
 
+/// What a joint has that was not refined are start values, no estimates.
+void mark_start_values(const RefineResult& joint, Model& model) {
+  JointModel& axes = model.joints[static_cast<std::size_t>(joint.joint) - 1];
+  for (auto* side : {&axes.link, &axes.motor})
+    for (EffectInstance& instance : *side)
+      for (Estimate& e : instance.parameters) {
+        e.sd = std::numeric_limits<double>::quiet_NaN();
+        e.not_identifiable = "a start value: the joint was not refined";
+      }
+}
+
 /// Of every preload the model with what each joint's fit says.
 std::vector<Model> joined_models(std::span<const Model> models,
                                  const std::vector<RefineResult>& joints) {
@@ -204,6 +217,8 @@ std::vector<Model> joined_models(std::span<const Model> models,
     for (const RefineResult& r : joints)
       if (m < r.models.size()) own.push_back(r.models[m]);
     all.push_back(own.empty() ? models[m] : joined(own));
+    for (const RefineResult& r : joints)
+      if (!r.not_refined.empty()) mark_start_values(r, all.back());
   }
   return all;
 }
@@ -226,6 +241,7 @@ RefineResult merged(std::span<const Model> models, std::vector<RefineResult> joi
   all.elastic_only = first.elastic_only;
   all.unexplained = first.unexplained;
   all.next_experiment = first.next_experiment;
+  all.next_run = first.next_run;
   const auto n = static_cast<double>(all.joints.size());
   for (const RefineResult& r : all.joints) {
     if (!r.not_refined.empty() || n * r.search_p >= all.search_p) continue;

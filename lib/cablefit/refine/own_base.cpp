@@ -139,6 +139,13 @@ void take_arm(std::span<const LogSurvey> logs, const ElasticResult& stage1, int 
   decisions.push_back({"arm", "base parameters", "stage 2, from the moving logs"});
 }
 
+bool any_moves(std::span<const LogSurvey> logs) {
+  return std::any_of(logs.begin(), logs.end(), [](const LogSurvey& log) {
+    return std::any_of(log.parts.begin(), log.parts.end(),
+                       [](const PartSurvey& part) { return part.phase == Phase::moving; });
+  });
+}
+
 void take_stage1(std::span<const LogSurvey> logs, int threads, std::vector<Model>& models,
                  std::vector<Decision>& decisions) {
   const ElasticResult stage1 = shared_stage1(logs, threads);
@@ -146,7 +153,8 @@ void take_stage1(std::span<const LogSurvey> logs, int threads, std::vector<Model
     for (const ElasticPreload& preload : stage1.preloads)
       if (preload.name == model.preload) take_cables(*preload.find(kCables), model);
   decisions.push_back({kCablesChoice, kCables, "stage 1, from the blocked logs"});
-  if (models.front().rig.arm.is_coupled()) take_arm(logs, stage1, threads, models, decisions);
+  if (models.front().rig.arm.is_coupled() && any_moves(logs))
+    take_arm(logs, stage1, threads, models, decisions);
 }
 
 /// One straight spring, whose stiffness the rows tell.
@@ -228,6 +236,10 @@ OwnBase own_base(const RefineLogs& given, int threads) {
                               has_both ? "q is a copy of theta" : "no log has both q and theta"});
   else if (all_blocked)
     take_stage1(logs, threads, base.models, base.decisions);
+  else if (base.models.front().rig.arm.is_coupled())
+    throw Error(ErrorKind::not_identifiable,
+                "links that move each other are refined beside blocked logs; give a log with the "
+                "links blocked, or a model");
   else
     try {
       take_one_step(logs, threads, base.models, base.decisions);
@@ -243,7 +255,8 @@ std::optional<OwnBase> with_spring(OwnBase base, const std::string& why) {
   const bool has_cables =
       std::any_of(base.models.begin(), base.models.end(),
                   [](const Model& model) { return !model.transmission.cables.empty(); });
-  if (!has_cables) return {};
+  // A spring per joint is not what cables do that pass several.
+  if (!has_cables || base.models.front().joints.size() > 1) return {};
   use_spring(base, why);
   return base;
 }

@@ -68,10 +68,16 @@ RefineResult refine_own(OwnBase& base, const RefineLogs& logs, const RefineOptio
   try {
     return refine(base.models, logs, options);
   } catch (const Error& error) {
+    if (error.kind() != ErrorKind::not_identifiable) throw;
     auto straight = with_spring(base, error.what());
-    if (error.kind() != ErrorKind::not_identifiable || !straight) throw;
+    if (!straight) throw;
     base = std::move(*straight);
-    return refine(base.models, logs, options);
+    RefineResult result = refine(base.models, logs, options);
+    result.warnings.emplace_back(
+        "the base has a straight spring, as the training samples do not load every cable: cables "
+        "that stiffen may look like a slip, a load or an encoder error; load both cables in each "
+        "third of the logs, or give a model");
+    return result;
   }
 }
 

@@ -13,10 +13,11 @@ namespace {
 
 constexpr int kNewtonSteps = 400;
 constexpr int kHalvings = 60;
-constexpr double kBalance = 1e-10;  // of the torques: in equilibrium
-constexpr double kSoft = 1e-9;      // of the stiffest direction: no cable holds it
-constexpr double kDecrease = 1e-4;  // of the predicted one (Armijo 1966)
-constexpr double kHair = 1e-9;      // m (rad): just taut
+constexpr double kBalance = 1e-10;   // of the torques: in equilibrium
+constexpr double kSoft = 1e-9;       // of the stiffest direction: no cable holds it
+constexpr double kRounding = 1e-14;  // of the terms of the potential
+constexpr double kDecrease = 1e-4;   // of the predicted one (Armijo 1966)
+constexpr double kHair = 1e-9;       // m (rad): just taut
 
 /// The cables as they are, or as if slack ones could push.
 struct CablesAt {
@@ -85,11 +86,14 @@ Eigen::VectorXd newton_step(const Slope& slope) {
            (eigen.eigenvectors().transpose() * slope.gradient).cwiseQuotient(lambda));
 }
 
-/// The step, halved until the potential falls; false: it does not.
+/// The step, halved until the potential falls; false: it does not, or what the step promises is
+/// below the rounding of the potential.
 bool descend(const CablesAt& at, const Slope& slope, const Eigen::VectorXd& load,
              Eigen::VectorXd& q) {
   Eigen::VectorXd step = newton_step(slope);
   const double before = potential(at, q, load);
+  const double terms = std::abs(before) + 2 * std::abs(load.dot(q));
+  if (-slope.gradient.dot(step) <= kRounding * terms) return false;
   for (int i = 0; i < kHalvings; ++i, step /= 2)
     if (potential(at, q + step, load) <= before + kDecrease * slope.gradient.dot(step)) {
       q += step;
@@ -105,12 +109,11 @@ bool find_equilibrium(const CablesAt& at, const Eigen::VectorXd& load, Eigen::Ve
     const Slope slope = slope_of(at, q, load);
     if (slope.gradient.cwiseAbs().maxCoeff() <= kBalance * slope.torques) return true;
     if (descend(at, slope, load, q)) continue;
-    // The last bits of the potential: what is left of the torques decides.
-    q += newton_step(slope);
-    const Slope last = slope_of(at, q, load);
-    return last.gradient.cwiseAbs().maxCoeff() <= 1e3 * kBalance * last.torques;
+    q += newton_step(slope);  // beyond the last bits of the potential
+    break;
   }
-  return false;
+  const Slope last = slope_of(at, q, load);
+  return last.gradient.cwiseAbs().maxCoeff() <= 1e3 * kBalance * last.torques;
 }
 
 Eigen::VectorXd equilibrium(const Transmission& transmission, const Eigen::VectorXd& load,

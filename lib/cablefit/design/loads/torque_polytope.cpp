@@ -13,9 +13,10 @@
 namespace cablefit {
 namespace {
 
-constexpr double kParallel = 1e-10;   // of the largest column: none, or no part of a normal
-constexpr double kSamePoint = 1e-9;   // of the size of the polytope
-constexpr double kFirstShare = 1e-4;  // of the largest load of a search for a slack cable
+constexpr double kParallel = 1e-10;  // of the largest column: none, or no part of a normal
+constexpr double kSamePoint = 1e-9;  // of the size of the polytope
+// Of the largest load of a search for a slack cable; doubled, it comes to exactly that load.
+constexpr double kFirstShare = 1.0 / 8192;
 using Points = std::vector<Eigen::VectorXd>;
 
 double size_of(const Eigen::MatrixXd& columns) {

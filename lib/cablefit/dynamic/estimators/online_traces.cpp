@@ -196,6 +196,19 @@ Decision decision_of(const OnlineRule& rule, const EstimationTask& task, bool gi
                       origin, samples, rule.forgetting, equivalent_samples(rule.forgetting))};
 }
 
+/// The sd of the gradient is that of the steady state; empty: it came there.
+std::string why_not_settled(const RecursiveTrace& trace) {
+  constexpr double kTimeConstants = 3;
+  const double seconds = trace.points.empty() ? 0 : trace.points.back().t;
+  if (trace.rule.method != "gradient" || kTimeConstants * trace.rule.slowest <= seconds) return "";
+  return fmt::format(
+      "the gradient estimate did not converge: its slowest direction takes {:.3g} s and the logs "
+      "last {:.3g} s; its sd, of the steady state, is too small; give a shorter --memory, or "
+      "longer "
+      "logs",
+      trace.rule.slowest, seconds);
+}
+
 }  // namespace
 
 Estimation with_traces(const EstimationTask& task, std::span<const OnlineMethod> methods) {
@@ -210,6 +223,8 @@ Estimation with_traces(const EstimationTask& task, std::span<const OnlineMethod>
     else
       end_at(out.fit.parameters, trace);
     out.decisions.push_back(decision_of(trace.rule, task, task.job.options.memory > 0));
+    if (std::string why = why_not_settled(trace); !why.empty())
+      out.fit.warnings.push_back(std::move(why));
     out.fit.traces.push_back(std::move(trace));
   }
   return out;

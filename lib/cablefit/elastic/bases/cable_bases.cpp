@@ -97,6 +97,7 @@ Eigen::VectorXd residual_of(const BasisRows& basis, const Reduced& r, const Spar
   for (std::size_t k = 0; k < fit.atoms.size(); ++k)
     v(basis.n_beside + fit.atoms[k]) = -fit.x(static_cast<Eigen::Index>(k));
   const Eigen::Index n = basis.n_beside;
+  if (n == 0) return v;
   const Eigen::VectorXd left = r.factor.topRows(n) * v;
   v.head(n) = -r.factor.topLeftCorner(n, n).colPivHouseholderQr().solve(left);
   return v;

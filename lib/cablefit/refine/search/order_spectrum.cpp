@@ -44,8 +44,8 @@ double evaluation_period(const Design& design) {
   return longest;
 }
 
-/// Sum of the residual by position, 2^m bins and as many empty ones: lines between two orders of
-/// the transform show then, too.
+/// Sum of the residual by position under a Hann window, 2^m bins and as many empty ones: lines
+/// between two orders of the transform show then, too.
 std::vector<double> by_position(const Design& design, const Eigen::VectorXd& x, const Range& range,
                                 double width) {
   const auto n_bins = static_cast<std::size_t>((range.high - range.low) / width) + 1;
@@ -53,7 +53,9 @@ std::vector<double> by_position(const Design& design, const Eigen::VectorXd& x, 
   while (size < 2 * n_bins) size *= 2;
   std::vector<double> bins(size, 0.0);
   for_each_motor_row(design, x, [&](double theta, double residual) {
-    bins[static_cast<std::size_t>((theta - range.low) / width)] += residual;
+    const double along = theta - range.low;
+    const double hann = std::sin(std::numbers::pi * along / (range.high - range.low));
+    bins[static_cast<std::size_t>(along / width)] += hann * hann * residual;
   });
   return bins;
 }
@@ -92,8 +94,13 @@ std::vector<double> strongest_orders(const Design& design, const Eigen::VectorXd
   std::stable_sort(peaks.begin(), peaks.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<double> orders;
-  for (const auto& [power, order] : peaks)
-    if (orders.size() < static_cast<std::size_t>(n)) orders.push_back(order);
+  const double lobe = 4 * std::numbers::pi / length;  // half the width of a line in this window
+  for (const auto& [power, order] : peaks) {
+    const bool is_apart = std::all_of(orders.begin(), orders.end(), [&, at = order](double other) {
+      return std::abs(at - other) > lobe;
+    });
+    if (is_apart && orders.size() < static_cast<std::size_t>(n)) orders.push_back(order);
+  }
   return orders;
 }
 

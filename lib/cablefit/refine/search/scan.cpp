@@ -227,10 +227,13 @@ std::optional<Candidate> best_fitting(const Scanner& scanner,
   }
   const auto tried = [&](const std::optional<Looked>& looked) -> std::optional<Candidate> {
     if (!looked) return {};
-    // Blocks that a coarse date is wrong in would speak against what lasts.
-    const bool lasts = looked->variant.effect->lasts();
-    return try_variant(scanner, lasts ? moved_shape(scanner, looked->variant, Evaluation::coarse)
-                                      : looked->variant);
+    // Blocks that a coarse date is wrong in would speak against what lasts, and blocks far from
+    // the middle against a line whose order is a little off.
+    if (looked->variant.effect->lasts())
+      return try_variant(scanner, moved_shape(scanner, looked->variant, Evaluation::coarse));
+    return try_variant(scanner, is_line(scanner.start.design, looked->variant)
+                                    ? moved_shape(scanner, looked->variant, Evaluation::fine)
+                                    : looked->variant);
   };
   auto best = simpler(tried(plain), tried(full));
   if (best && best->variant.effect->passes())

@@ -30,17 +30,19 @@ std::vector<Model> with_determined_effects(std::vector<Model> models,
   if (fit_blocks(grams, kAlike, false)) return models;
   const std::vector<Eigen::Index> told = told_columns(grams, kAlike, 0);
   std::vector<Model> fewer = models;
+  std::vector<std::string> held;
   const JointModel& axes = models.front().joints.front();
   for (std::size_t k = 0; k < design.layout.parameters.size(); ++k) {
     if (std::binary_search(told.begin(), told.end(), static_cast<Eigen::Index>(k))) continue;
     const ModelParameter& p = design.layout.parameters[k];
     if (p.kind != ParameterKind::effect || is_inertia(models.front(), p)) return models;
     remove(*(p.on_link ? axes.link : axes.motor)[p.effect].effect, p.on_link, fewer);
-    warnings.push_back(fmt::format(
+    held.push_back(fmt::format(
         "the logs do not separate {} of the base model from its other parameters: it is held at 0; "
         "move in both directions, at several speeds",
         p.name));
   }
+  warnings.insert(warnings.end(), held.begin(), held.end());
   return fewer;
 }
 

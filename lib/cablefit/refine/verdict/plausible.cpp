@@ -46,6 +46,9 @@ double parts_over_sum(const Design& design, const Eigen::VectorXd& x, Eigen::Ind
 
 std::string why_not_plausible(const Design& design, const Eigen::VectorXd& x) {
   const Variant& variant = design.added.back();
+  const Eigen::Index dry =
+      variant.effect->takes_dry_friction ? dry_column(design, *variant.effect) : -1;
+  if (dry >= 0 && !(x(dry) > 0)) return "with it the axis has no dry friction that it could act on";
   if (std::string reason = at_open_end(variant, design.scale); !reason.empty()) return reason;
   const Eigen::Index n = n_linear(variant);
   if (n == 1) return larger_than_deflection(*variant.effect, design.scale, x[x.size() - 1]);

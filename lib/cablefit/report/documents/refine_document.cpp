@@ -155,6 +155,7 @@ void add_model_rows(Table& table, const Model& model) {
   const auto add = [&](const Estimate& e) {
     add_tidy(table, model.preload, "refined", "refine", e);
   };
+  for (const Estimate& e : model.arm) add(e);
   for (const JointModel& joint : model.joints)
     for (const auto* side : {&joint.link, &joint.motor})
       for (const EffectInstance& instance : *side)

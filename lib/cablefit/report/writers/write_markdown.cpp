@@ -47,7 +47,9 @@ std::string decision_text(const DecisionLine& line) {
 std::string write_markdown(const Document& document) {
   std::string text = "# " + markdown_text(document.title) + "\n\n";
   for (const SummaryLine& line : document.summary)
-    text += "- **" + markdown_text(line.label) + "**: " + markdown_text(line.text) + "\n";
+    text += line.label.empty()  // goes on with the line before
+                ? "  " + markdown_text(line.text) + "\n"
+                : "- **" + markdown_text(line.label) + "**: " + markdown_text(line.text) + "\n";
   if (!document.summary.empty()) text += "\n";
   for (const Table& table : document.tables) text += table_text(table);
   for (const std::string& paragraph : document.paragraphs)

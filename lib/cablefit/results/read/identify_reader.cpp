@@ -111,7 +111,8 @@ IdentifyPreload read_preload(const JsonNode& node) {
   preload.slack = read_slack(node);
   preload.equations = read_equations(node);
   preload.resonance = bound_or(node, "resonance_hz", 0);
-  preload.load_inertia = number_or_nan(node, "load_inertia");
+  if (node.find("load_inertia") != nullptr)
+    preload.load_inertia = number_or_nan(node, "load_inertia");
   preload.decisions = read_decisions(node);
   preload.warnings = texts_or_none(node, "warnings");
   return preload;

@@ -59,7 +59,7 @@ bool flag_or(const JsonNode& object, std::string_view key, bool otherwise) {
 }
 
 std::size_t count_or_zero(const JsonNode& object, std::string_view key) {
-  const JsonNode* node = object.find(key);
+  const JsonNode* node = given(object, key);
   if (node == nullptr) return 0;
   const double value = node->number();
   if (value >= 0 && value == std::floor(value)) return static_cast<std::size_t>(value);
@@ -67,7 +67,7 @@ std::size_t count_or_zero(const JsonNode& object, std::string_view key) {
 }
 
 std::vector<std::string> texts_or_none(const JsonNode& object, std::string_view key) {
-  const JsonNode* node = object.find(key);
+  const JsonNode* node = given(object, key);
   return node == nullptr ? std::vector<std::string>{} : node->texts();
 }
 
