@@ -96,6 +96,17 @@ TEST_CASE("where q is a copy of theta the base is a rigid drive", "[refine]") {
   CHECK(base.decisions.at(0).reason == "q is a copy of theta");
 }
 
+/// One log, given as text, without a model.
+RefineResult refined(const std::string& text, std::vector<LogSurvey> RefineLogs::*use) {
+  Bench bench;
+  bench.add_text(text);
+  RefineLogs logs;
+  logs.*use = {bench.logs()[0]};
+  RefineOptions options;
+  options.n_draws = 6;
+  return missing_effects(logs, options);
+}
+
 /// Cable 2 is taut in the last third alone, which is held out.
 TEST_CASE("a cable that the training samples never load makes the base a straight spring",
           "[refine]") {
@@ -112,13 +123,7 @@ TEST_CASE("a cable that the training samples never load makes the base a straigh
         (side > 0 ? kStiffness : kOther) * theta + kFriction * direction + 0.02 * random.normal();
     rows += fmt::format("{:.3f},0,{:.6f},{:.5f}\n", t, theta, tau);
   }
-  Bench bench;
-  bench.add_text(rows);
-  RefineLogs logs;
-  logs.blocked = {bench.logs()[0]};
-  RefineOptions options;
-  options.n_draws = 6;
-  const RefineResult result = missing_effects(logs, options);
+  const RefineResult result = refined(rows, &RefineLogs::blocked);
   const auto cables =
       std::find_if(result.decisions.begin(), result.decisions.end(),
                    [](const Decision& decision) { return decision.name == "cables"; });
@@ -139,13 +144,7 @@ TEST_CASE("logs of one direction are refined without an offset", "[refine]") {
     const double tau = -kJ * kSwing * kRate * std::sin(phase) + kViscous * speed + kDry;
     rows += fmt::format("{:.3f},{:.6f},{:.5f}\n", t, theta, tau + 0.01 * random.normal());
   }
-  Bench bench;
-  bench.add_text(rows);
-  RefineLogs logs;
-  logs.train = {bench.logs()[0]};
-  RefineOptions options;
-  options.n_draws = 6;
-  const RefineResult result = missing_effects(logs, options);
+  const RefineResult result = refined(rows, &RefineLogs::train);
   CHECK(result.verdict == Verdict::none);
   CHECK(warns(result.warnings,
               "the logs do not separate offset of the base model from its other parameters: it is "

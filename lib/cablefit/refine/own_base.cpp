@@ -124,6 +124,7 @@ void take_arm(std::span<const LogSurvey> logs, const ElasticResult& stage1, int 
     if (std::any_of(log.parts.begin(), log.parts.end(),
                     [](const PartSurvey& part) { return part.phase == Phase::moving; }))
       moving.push_back(log);
+  if (moving.empty()) return;  // blocked logs alone show no mass
   DynamicOptions options;
   options.samples.threads = threads;
   options.estimator = "wls";
@@ -139,13 +140,6 @@ void take_arm(std::span<const LogSurvey> logs, const ElasticResult& stage1, int 
   decisions.push_back({"arm", "base parameters", "stage 2, from the moving logs"});
 }
 
-bool any_moves(std::span<const LogSurvey> logs) {
-  return std::any_of(logs.begin(), logs.end(), [](const LogSurvey& log) {
-    return std::any_of(log.parts.begin(), log.parts.end(),
-                       [](const PartSurvey& part) { return part.phase == Phase::moving; });
-  });
-}
-
 void take_stage1(std::span<const LogSurvey> logs, int threads, std::vector<Model>& models,
                  std::vector<Decision>& decisions) {
   const ElasticResult stage1 = shared_stage1(logs, threads);
@@ -153,8 +147,7 @@ void take_stage1(std::span<const LogSurvey> logs, int threads, std::vector<Model
     for (const ElasticPreload& preload : stage1.preloads)
       if (preload.name == model.preload) take_cables(*preload.find(kCables), model);
   decisions.push_back({kCablesChoice, kCables, "stage 1, from the blocked logs"});
-  if (models.front().rig.arm.is_coupled() && any_moves(logs))
-    take_arm(logs, stage1, threads, models, decisions);
+  if (models.front().rig.arm.is_coupled()) take_arm(logs, stage1, threads, models, decisions);
 }
 
 /// One straight spring, whose stiffness the rows tell.

@@ -16,7 +16,7 @@ constexpr int kPullGrid = 2000;        // of a range, for the least k(l)
 constexpr int kPoints = 400;           // of a curve
 constexpr double kRoundedZero = 1e-9;  // of the largest k(l)
 
-/// The rows of a fold, freed of what every fit has beside the terms.
+/// The rows of a fold without the part that the columns beside the terms explain.
 struct Reduced {
   Eigen::MatrixXd factor;  ///< of all columns
   Eigen::MatrixXd atoms;
