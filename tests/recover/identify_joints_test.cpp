@@ -4,6 +4,7 @@
 #include <random>
 
 #include "cablefit/identify/identify.hpp"
+#include "cablefit/model/arm/urdf_file.hpp"
 #include "tests/recover/joints_truth.hpp"
 #include "tests/support/monte_carlo.hpp"
 #include "tests/support/recover.hpp"
@@ -14,8 +15,9 @@ namespace {
 
 using Tables = std::map<std::string, RunTable>;
 
-NamedValues identify_truth(const PlainRig& rig) {
+NamedValues identify_truth(const PlainRig& rig, const Rig& file) {
   NamedValues values;
+  if (file.arm.is_coupled()) values = arm_truth(file);
   for (const PlainCable& cable : rig.cables) {
     for (std::size_t j = 0; j < cable.k.size(); ++j)
       values.emplace_back(fmt::format("k[{}]_{}", cable.name, j), cable.k[j]);
@@ -39,6 +41,8 @@ struct Outcome {
   double share() const { return inside / n; }
 };
 
+unsigned runs() { return full_monte_carlo() ? 20 : 3; }
+
 /// The same rig moved otherwise: each seed has its own motion, and so its own rounding.
 PlainRig moved_by(PlainRig rig, unsigned seed) {
   std::mt19937 random(seed);
@@ -50,13 +54,15 @@ PlainRig moved_by(PlainRig rig, unsigned seed) {
   return rig;
 }
 
-Outcome cover(const char* title, const PlainRig& plain, unsigned n_runs) {
+/// `arm`: of links that move each other.
+Outcome cover(const char* title, const PlainRig& plain, const PlainArm* arm = nullptr) {
   const TempFolder folder;
-  const Rig rig = read_rig(folder.write("rig.json", rig_text(plain, "")));
+  if (arm != nullptr) folder.write("arm.urdf", urdf_text(*arm, "arm"));
+  const Rig rig = read_rig(folder.write("rig.json", rig_text(plain, arm ? kUrdfArm : "")));
   IdentifyOptions options;
   options.elongations = ElongationMode::search;
   Tables tables;
-  for (unsigned seed = 1; seed <= n_runs; ++seed) {
+  for (unsigned seed = 1; seed <= runs(); ++seed) {
     Bench bench;
     bench.rig = rig;
     // Links held at a whole number of counts, as in serial_arms_test.cpp.
@@ -66,7 +72,9 @@ Outcome cover(const char* title, const PlainRig& plain, unsigned n_runs) {
     bench.add_text(moving_log(own, 8, seed + 1000));
     const IdentifyResult r = identify(bench.logs(), options);
     CHECK(r.preloads.at(0).equilibrium < 1e-9);
-    for (const auto& [name, value] : identify_truth(plain)) {
+    REQUIRE(r.preloads.at(0).model);
+    CHECK(r.preloads.at(0).model->is_coupled() == (arm != nullptr));
+    for (const auto& [name, value] : identify_truth(plain, rig)) {
       RunTable& table = tables[name];
       table.name = name;
       table.truth = value;
@@ -85,21 +93,27 @@ Outcome cover(const char* title, const PlainRig& plain, unsigned n_runs) {
   return outcome;
 }
 
-unsigned runs() { return full_monte_carlo() ? 20 : 3; }
-
 /// Parameters of one run are correlated: four count as one.
 double least_share(const Outcome& outcome) {
   return full_monte_carlo() ? 0.90 : 0.95 - 3.3 * std::sqrt(0.95 * 0.05 / (outcome.n / 4));
 }
 
 TEST_CASE("one step of a finger with four cables, l_o searched", "[recover][monte-carlo]") {
-  const Outcome outcome = cover("  two joints, four cables", four_cable_finger(), runs());
+  const Outcome outcome = cover("  two joints, four cables", four_cable_finger());
   CHECK(outcome.share() > least_share(outcome));
   if (full_monte_carlo()) CHECK(outcome.share() < 0.985);
 }
 
 TEST_CASE("one step of a finger of three joints and four tendons", "[recover][monte-carlo]") {
-  const Outcome outcome = cover("  three joints, four tendons", three_joint_finger(), runs());
+  const Outcome outcome = cover("  three joints, four tendons", three_joint_finger());
+  CHECK(outcome.share() > least_share(outcome));
+  if (full_monte_carlo()) CHECK(outcome.share() < 0.985);
+}
+
+TEST_CASE("one step of a finger whose links move each other", "[recover][monte-carlo]") {
+  if (!reads_urdf()) return;
+  const PlainArm arm = phalanges();
+  const Outcome outcome = cover("  two phalanges, four cables", four_cable_phalanges(), &arm);
   CHECK(outcome.share() > least_share(outcome));
   if (full_monte_carlo()) CHECK(outcome.share() < 0.985);
 }

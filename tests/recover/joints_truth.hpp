@@ -13,6 +13,19 @@ inline std::string name_of(const PlainRig& rig, const char* name, std::size_t jo
   return rig.n() > 1 ? fmt::format("{}[{}]", name, joint + 1) : name;
 }
 
+/// What the rig file says of an arm whose links move each other.
+inline constexpr const char* kUrdfArm = R"( "arm": {"type": "urdf", "file": "arm.urdf"},)";
+
+/// Base parameters of the rig's URDF.
+inline NamedValues arm_truth(const Rig& rig) {
+  NamedValues truth;
+  const std::vector<double> described = rig.arm.described();
+  const auto base = rig.arm.base_parameters();
+  REQUIRE(described.size() == base.size());
+  for (std::size_t k = 0; k < base.size(); ++k) truth.emplace_back(base[k].name, described[k]);
+  return truth;
+}
+
 inline NamedValues stage1_truth(const PlainRig& rig) {
   NamedValues values;
   for (const PlainCable& cable : rig.cables)

@@ -15,8 +15,6 @@ namespace {
 
 constexpr double kLimit = 3;  // sd
 
-constexpr const char* kArm = R"( "arm": {"type": "urdf", "file": "arm.urdf"},)";
-
 /// A pair of cables per joint.
 PlainRig seven_joint_rig() {
   PlainRig rig;
@@ -45,15 +43,6 @@ PlainRig seven_joint_rig() {
   return rig;
 }
 
-NamedValues arm_truth(const Rig& rig) {
-  NamedValues truth;
-  const std::vector<double> described = rig.arm.described();
-  const auto base = rig.arm.base_parameters();
-  REQUIRE(described.size() == base.size());
-  for (std::size_t k = 0; k < base.size(); ++k) truth.emplace_back(base[k].name, described[k]);
-  return truth;
-}
-
 struct Recovered {
   Rig rig;
   DynamicResult dynamic;
@@ -62,7 +51,7 @@ struct Recovered {
 Recovered recover(const PlainRig& plain, const PlainArm& arm, double seconds, unsigned seed) {
   Bench bench;
   bench.folder().write("arm.urdf", urdf_text(arm, "arm"));
-  bench.rig = read_rig(bench.folder().write("rig.json", rig_text(plain, kArm)));
+  bench.rig = read_rig(bench.folder().write("rig.json", rig_text(plain, kUrdfArm)));
   // Held at a whole number of counts: what an encoder at rest is off by, up to half a count, stage
   // 1 takes for an offset of K times that, 3 mN m here, and its sd cannot know.
   const std::vector<double> at(plain.n(), 10000 * plain.quantum);

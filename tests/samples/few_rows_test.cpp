@@ -27,7 +27,7 @@ std::string message(double rate, bool wraps, double rest_speed, const SampleOpti
   bench.add_text(motion(rate, wraps));
   DynamicOptions options;
   options.samples = samples;
-  DynamicJob job{bench.logs(), options, "low", kAllParts, {}, {"rigid"}, true, {}, {}, nullptr};
+  DynamicJob job{bench.logs(), options, "low", kAllParts, {}, {"rigid"}, true, {}, {}};
   EquationRows rows;
   rows.columns.n_effects = 4;
   rows.equation.name = "motor";
@@ -69,7 +69,7 @@ TEST_CASE("noise that lowers the cut-off hides the motion", "[samples]") {
   Bench bench;
   bench.add_text(motion(100, false));
   const DynamicOptions options;
-  DynamicJob job{bench.logs(), options, "low", kAllParts, {}, {"rigid"}, true, {}, {}, nullptr};
+  DynamicJob job{bench.logs(), options, "low", kAllParts, {}, {"rigid"}, true, {}, {}};
   job.settings.rows.signal.cutoff = 0.9;
   job.settings.decisions = {{"cut-off", "0.9 Hz", "position noise below 0.25 %"}};
   EquationRows rows;

@@ -37,6 +37,20 @@ inline PlainRig four_cable_finger(double force_1 = 280, double force_2 = 350) {
   return rig;
 }
 
+/// Two phalanges that move each other, with two pairs of cables; the second passes the first joint.
+inline PlainRig four_cable_phalanges() {
+  PlainRig rig = phalanges_rig();
+  const PlainMap none = round_map(0);
+  rig.cables = {
+      {"flexor", {round_map(0.01), none}, {round_map(0.01), none}, {1e5, 1.5e7}},
+      {"extensor", {round_map(-0.01), none}, {round_map(-0.01), none}, {7e4, 1.5e7}},
+      {"pip", {none, round_map(0.006)}, {round_map(0.005), round_map(0.006)}, {5e4, 1e7}},
+      {"dip", {none, round_map(-0.006)}, {round_map(-0.005), round_map(-0.006)}, {6e4, 1e7}}};
+  for (std::size_t c = 0; c < 4; ++c)
+    rig.cables[c].l_o = elongation_of_force(rig.cables[c], c < 2 ? 200 : 90);
+  return rig;
+}
+
 /// A finger of three joints and four tendons (n + 1): all pull with one force at rest.
 inline PlainRig three_joint_finger(double force = 300) {
   PlainRig rig;

@@ -162,7 +162,6 @@ void refuse_doubtful(const ElasticResult& elastic, DynamicPreload& preload) {
 DynamicPreload fit_preload(DynamicJob job, const ElasticResult& elastic) {
   require_agreement(job.logs, job.wanted, job.preload);
   DynamicPreload preload;
-  if (job.rig().arm.kind != nullptr) job.arm = &job.rig().arm;
   preload.name = job.preload;
   preload.linear_motion = job.rig().linear_motion;
   preload.rig_path = job.rig().path;
@@ -258,8 +257,8 @@ DynamicResult fit_dynamic(std::span<const LogSurvey> logs, const ElasticResult& 
       result.preloads.push_back(fit_ratios(logs, name, wanted, options));
       continue;
     }
-    DynamicJob job{logs, options, name,    wanted,         {}, options.models, rigid,
-                   {},   {},      nullptr, options.effects};
+    DynamicJob job{logs, options, name,  wanted,         {}, options.models, rigid,
+                   {},   {},      false, options.effects};
     for (const LogSurvey& log : logs)
       if (std::any_of(log.parts.begin(), log.parts.end(), wanted))
         require_channels(log.plan, rigid);

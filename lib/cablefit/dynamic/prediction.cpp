@@ -132,14 +132,13 @@ void predict(const Group& group, const SampleOptions& samples, Prediction& out) 
   options.samples = samples;
   options.models = {out.rigid ? "rigid" : "poly"};
   DynamicJob job{group.logs, options, out.preload, parts_of(group), {}, options.models,
-                 out.rigid,  {},      {},          nullptr};
+                 out.rigid,  {},      {}};
   require_agreement(job.logs, job.wanted, job.preload);
   ElasticResult rough;
   if (!job.rigid) {
     rough = rough_stage1(job);
     job.elastic = {&rough.preloads.front().fits.front()};
   }
-  if (job.rig().arm.kind != nullptr) job.arm = &job.rig().arm;
   DynamicPreload unused;
   choose_settings(job, unused, rough);
   out.cutoff = job.settings.rows.signal.cutoff;

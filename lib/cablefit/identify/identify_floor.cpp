@@ -72,9 +72,6 @@ Eigen::VectorXd shift_by(const JointFit& fit, const JudgedPoint& judged, std::si
 Decision add_shift(std::span<const LogSurvey> logs, const IdentifyOptions& options,
                    const JointFit& fit, const JudgedPoint& judged, std::size_t job,
                    const PreloadFacts& facts, Eigen::VectorXd& shift) {
-  if (facts.arm != nullptr && facts.arm->is_coupled())
-    return {"moving: method's floor", "not in the sd",
-            "not measured for links that move each other"};
   const MovingJob moving(logs, options, fit, judged, job, facts);
   const std::vector<EquationRows> equations = make_equations(moving.job);
   const Model model =

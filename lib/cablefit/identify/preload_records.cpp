@@ -144,7 +144,6 @@ MovingJob::MovingJob(std::span<const LogSurvey> logs, const IdentifyOptions& opt
                      const PreloadFacts& facts)
     : job{logs,  dynamic, facts.name, moving_parts(facts.name), {&elastic}, {"poly"},
           false, {},      {}} {
-  job.arm = facts.arm;
   job.added = facts.added;
   elastic.model = "poly";
   elastic.transmission = fitted;

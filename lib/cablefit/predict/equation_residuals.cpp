@@ -32,9 +32,6 @@ Eigen::VectorXd combination_of(const Model& model, const EquationRows& e,
 }
 
 void require_equations(const Model& model) {
-  if (model.rig.arm.kind != nullptr && model.rig.arm.is_coupled())
-    throw input_error({model.rig.path}, "links that move each other are not predicted yet",
-                      "predict one joint at a time");
   if (!model.joints.empty()) require_fittable(model.joints.front().added, model.rigid);
 }
 
@@ -55,7 +52,7 @@ struct EquationResiduals::Parts {
       : curve(curve_of(model)),
         options(options_of(model, curve, samples)),
         job{logs, options, model.preload, wanted,         {}, options.models, model.rigid,
-            {},   {},      nullptr,       options.effects} {
+            {},   {},      false,         options.effects} {
     if (!model.rigid) job.elastic = {&curve.preloads.front().fits.front()};
   }
   Parts(const Parts&) = delete;

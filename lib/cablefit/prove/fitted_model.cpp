@@ -31,8 +31,6 @@ Model fitted_model(const DynamicFit& fit, const DynamicPreload& preload, const R
     settle(axes.motor, why_not);
     if (axes.motor.empty()) why_not = "the model has no motion of its own to simulate";
   }
-  if (rig.arm.kind != nullptr && rig.arm.is_coupled())
-    why_not = "--prove is not made for links that move each other";
   return model;
 }
 

@@ -35,7 +35,7 @@ std::map<std::string, ResidualColour> residual_colours(std::span<const LogSurvey
                                                        const DynamicFit& fit,
                                                        const DynamicOptions& options) {
   DynamicPreload scratch;
-  DynamicJob job{logs, options, preload, {}, {}, {fit.model}, !fit.elastic, {}, {}, nullptr};
+  DynamicJob job{logs, options, preload, {}, {}, {fit.model}, !fit.elastic, {}, {}};
   job.wanted = [&preload](const PartSurvey& part) {
     return part.phase == Phase::moving && part.preload == preload;
   };

@@ -57,9 +57,8 @@ struct FitPlanner::Settings {
             "default", [](const PartSurvey&) { return true; },
             {},        {m.rigid ? "rigid" : "poly"},
             m.rigid,   {},
-            {},        nullptr} {
+            {}} {
     if (!m.rigid) job.elastic = {&elastic.preloads.front().fits.front()};
-    if (job.rig().arm.kind != nullptr) job.arm = &job.rig().arm;
     DynamicPreload unused;
     unused.name = "default";
     choose_settings(job, unused, elastic);

@@ -45,7 +45,7 @@ bool has_load(const DynamicJob& job) {
 /// Why these logs cannot be fitted by output error; empty when they can.
 std::string obstacle(const EstimationTask& task, const Model& start) {
   const DynamicJob& job = task.job;
-  if (job.arm != nullptr && job.arm->is_coupled()) return "not made for links that move each other";
+  if (job.is_coupled()) return "not made for links that move each other";
   if (job.rigid && !job.added.empty() && has_load(job))
     return "an added effect of a rigid drive may depend on its load, and output error adds the "
            "logged load to the torque";
@@ -322,9 +322,7 @@ JointEstimates joint_estimates_of(const OutputErrorFit& oe, const DynamicFit& fi
 Estimation estimate(const EstimationTask& task) {
   Estimation start = least_squares_fit(task, Weighting::by_residual);
   const DynamicJob& job = task.job;
-  const bool coupled = job.arm != nullptr && job.arm->is_coupled();
-  const Model model =
-      coupled ? Model{} : fitted_model(job, task.equations, start.solutions, task.model);
+  const Model model = fitted_model(job, task.equations, start.solutions, task.model);
   const std::string why = obstacle(task, model);
   if (!why.empty()) return stay_with_least_squares(task, std::move(start), why);
   const FittedRows rows = rows_of(job);

@@ -1,21 +1,28 @@
 #include "cablefit/dynamic/loops/fitted_model.hpp"
 
+#include <algorithm>
+
+#include "cablefit/model/assembled_model.hpp"
+
 namespace cablefit {
 namespace {
 
-/// The effects of the equation's own joint with their values.
-std::vector<EffectInstance> effects_of(const DynamicColumns& c, const LinearSolution& s,
-                                       const Rig& rig) {
-  return base_instances(
-      c.side, c.place.joint + 1, rig, [&](const Estimate& blank) -> std::optional<Estimate> {
-        for (std::size_t k = 0; k < c.parameters.size(); ++k) {
-          if (c.parameters[k].name != blank.name) continue;
-          Estimate e = blank;
-          e.value = c.parameters[k].given.value_or(s.x(static_cast<Eigen::Index>(k)));
-          return e;
-        }
-        return std::nullopt;
-      });
+/// What the equations' columns say of a parameter: the value that was given, or else the solution.
+FindEstimate finder(const std::vector<EquationRows>& equations,
+                    const std::vector<LinearSolution>& solutions) {
+  return [&](const Estimate& blank) -> std::optional<Estimate> {
+    for (std::size_t k = 0; k < equations.size(); ++k) {
+      const std::vector<DynamicParameter>& parameters = equations[k].columns.parameters;
+      const auto found =
+          std::find_if(parameters.begin(), parameters.end(),
+                       [&](const DynamicParameter& p) { return p.name == blank.name; });
+      if (found == parameters.end()) continue;
+      Estimate e = blank;
+      e.value = found->given.value_or(solutions[k].x(found - parameters.begin()));
+      return e;
+    }
+    return std::nullopt;
+  };
 }
 
 /// The effects beyond (31), with what the columns of either side say of their parameters.
@@ -32,19 +39,10 @@ std::vector<EffectInstance> added_of(const DynamicJob& job,
 
 Model fitted_model(const DynamicJob& job, const std::vector<EquationRows>& equations,
                    const std::vector<LinearSolution>& solutions, std::size_t which) {
-  Model model;
+  Model model = assembled_model(job.rig(), job.rigid, finder(equations, solutions));
   model.name = job.models[which];
   model.preload = job.preload;
-  model.rig = job.rig();
-  model.rigid = job.rigid;
   if (!job.rigid) model.transmission = job.elastic[which]->transmission;
-  model.joints.resize(static_cast<std::size_t>(job.n_joints()));
-  for (std::size_t k = 0; k < equations.size(); ++k) {
-    const DynamicColumns& columns = equations[k].columns;
-    JointModel& joint = model.joints[static_cast<std::size_t>(columns.place.joint)];
-    (columns.side == Side::link ? joint.link : joint.motor) =
-        effects_of(columns, solutions[k], model.rig);
-  }
   model.joints.front().added = added_of(job, equations, solutions);
   return model;
 }

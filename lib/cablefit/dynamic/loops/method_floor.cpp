@@ -66,14 +66,11 @@ std::vector<LinearSolution> fit_copy(const DynamicJob& job, const std::vector<Lo
   DynamicOptions options = job.options;
   options.honest_sd = false;
   const DynamicJob own{copy,       options,   job.preload,  job.wanted,         job.elastic,
-                       job.models, job.rigid, job.settings, job.joint_settings, job.arm,
+                       job.models, job.rigid, job.settings, job.joint_settings, job.links_alone,
                        job.added};
   std::vector<EquationRows> equations = make_equations(own);
   collect_rows(own, equations);
-  std::vector<LinearSolution> solutions;
-  for (const EquationRows& e : equations)
-    solutions.push_back(solve_equation(e, own.elastic, which));
-  return solutions;
+  return solve_equations(equations, own.elastic, which);
 }
 
 /// Differences of parameters that both determine.
@@ -111,10 +108,6 @@ MethodFloor method_floor(const DynamicJob& job, const std::vector<EquationRows>&
                          const std::vector<LinearSolution>& solutions,
                          const std::vector<bool>& with_instruments, std::size_t which) {
   MethodFloor floor;
-  if (job.arm != nullptr && job.arm->is_coupled()) {
-    floor.note = "not measured for links that move each other";
-    return floor;
-  }
   const auto any = [&](bool instruments) {
     return std::find(with_instruments.begin(), with_instruments.end(), instruments) !=
            with_instruments.end();

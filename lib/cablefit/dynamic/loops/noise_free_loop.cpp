@@ -240,7 +240,7 @@ void look_at_controller(const DynamicJob& job, std::span<const LogSurvey> logs, 
 
 LoopPlan plan_loop(const DynamicJob& job, std::span<const LogSurvey> logs) {
   LoopPlan plan;
-  if (job.arm != nullptr && job.arm->is_coupled())
+  if (job.is_coupled())
     return {LoopKind::none,
             "instruments are made equation by equation, and the equations of a coupled arm share "
             "parameters",

@@ -25,6 +25,11 @@ const ChosenSettings& DynamicJob::settings_of(int joint) const {
   return joint_settings.empty() ? settings : joint_settings[static_cast<std::size_t>(joint)];
 }
 
+const Arm* DynamicJob::arm() const {
+  const Arm& own = rig().arm;
+  return links_alone || own.kind == nullptr ? nullptr : &own;
+}
+
 namespace {
 
 void widen(const Eigen::MatrixXd& rows, EquationRows& e) {
@@ -36,8 +41,8 @@ void widen(const Eigen::MatrixXd& rows, EquationRows& e) {
 EquationRows make_equation(const DynamicJob& job, ElasticDetail detail, Side side, int joint) {
   const ChosenSettings& settings = job.settings_of(joint);
   EquationRows e;
-  e.columns =
-      dynamic_columns(side, job.elastic, detail, {joint, job.n_joints(), job.arm}, {job.added, {}});
+  e.columns = dynamic_columns(side, job.elastic, detail, {joint, job.n_joints(), job.arm()},
+                              {job.added, {}});
   const double rest = side == Side::link ? settings.rest_speed_q : settings.rest_speed_theta;
   e.equation = dynamic_equation(e.columns, job.elastic, job.settings.rows.signal.torque_held, rest);
   if (side == Side::link) {
@@ -217,6 +222,22 @@ RowStatistics stacked_rows(const std::vector<EquationRows>& equations,
     weights.push_back(rss > 0 ? static_cast<double>(e.rows->n_rows()) / rss : 1);
   }
   return RowStatistics::weighted(rows, weights);
+}
+
+std::vector<LinearSolution> solve_equations(const std::vector<EquationRows>& equations,
+                                            const std::vector<const ElasticFit*>& elastic,
+                                            std::size_t which) {
+  std::vector<LinearSolution> solutions(equations.size());
+  for (const std::vector<std::size_t>& system : systems_of(equations)) {
+    const EquationRows& first = equations[system.front()];
+    const LinearSolution solution =
+        system.size() > 1
+            ? solve_rows(stacked_rows(equations, system, elastic, which, Weighting::by_residual),
+                         first.columns, elastic, which)
+            : solve_equation(first, elastic, which);
+    for (const std::size_t k : system) solutions[k] = solution;
+  }
+  return solutions;
 }
 
 }  // namespace cablefit

@@ -24,7 +24,7 @@ struct DynamicJob {
   bool rigid = false;
   ChosenSettings settings;
   std::vector<ChosenSettings> joint_settings;  ///< of several joints, what each would choose
-  const Arm* arm = nullptr;                    ///< nullptr: the links do not move each other
+  bool links_alone = false;                    ///< each as if the others did not move it
   /// Effects beyond (31), with the values about which the columns are made.
   std::vector<EffectInstance> added = {};
 
@@ -34,6 +34,9 @@ struct DynamicJob {
   const LogSurvey& first_log() const;
   const PartSurvey& first_part() const;
   const Rig& rig() const { return first_log().plan.rig; }
+  /// nullptr: the links do not move each other.
+  const Arm* arm() const;
+  bool is_coupled() const { return arm() != nullptr && arm()->is_coupled(); }
 };
 
 /// One equation of the model with its rows.
@@ -90,6 +93,12 @@ LinearSolution solve_rows(const RowStatistics& rows, const DynamicColumns& colum
 /// The fit of model number `which` to one equation.
 LinearSolution solve_equation(const EquationRows& equation,
                               const std::vector<const ElasticFit*>& elastic, std::size_t which);
+
+/// The fit of model number `which` to each equation; of equations that share parameters the same
+/// fit, to their rows weighted by their residuals.
+std::vector<LinearSolution> solve_equations(const std::vector<EquationRows>& equations,
+                                            const std::vector<const ElasticFit*>& elastic,
+                                            std::size_t which);
 
 /// Chooses filter, decimation, rest speeds and torque hold: fills job.settings, and the resonance
 /// and the torque delay of `preload`. `elastic`: stage 1, for its deflection range.

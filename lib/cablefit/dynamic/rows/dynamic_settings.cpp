@@ -51,9 +51,9 @@ SampleOptions wide_band(const DynamicJob& job, double rate) {
 std::vector<double> pilot_resonances(DynamicJob& job, const ElasticResult& elastic) {
   const double rate = sample_rates(job.logs, job.wanted).lowest;
   const int n = job.n_joints();
-  const Arm* arm = std::exchange(job.arm, nullptr);  // each link for itself: near enough
+  job.links_alone = true;  // near enough
   const std::vector<EquationRows> pilot = pilot_equations(job, kPilotWindows);
-  job.arm = arm;
+  job.links_alone = false;
   const std::size_t last = job.elastic.size() - 1;
   const ElasticPreload* stage1 = stage1_of(elastic, job.preload);
   std::vector<double> resonances;

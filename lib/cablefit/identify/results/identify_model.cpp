@@ -32,10 +32,10 @@ class Parameters {
   std::string why_not_;
 };
 
-/// Every equation of the joint was fitted.
-bool has_all(const JointModel& axes) {
-  return axes.link.size() == base_effects(Side::link).size() &&
-         axes.motor.size() == base_effects(Side::motor).size();
+/// Every equation of the joint was fitted. A link of a coupled arm has no inertia of its own.
+bool has_all(const Model& model, const JointModel& axes) {
+  const std::size_t n_link = base_effects(Side::link).size() - (model.is_coupled() ? 1 : 0);
+  return axes.link.size() == n_link && axes.motor.size() == base_effects(Side::motor).size();
 }
 
 void require_inertias(const JointModel& axes, Parameters& parameters) {
@@ -66,11 +66,6 @@ std::vector<EffectInstance> added_of(const PreloadFacts& facts, Parameters& para
 std::optional<Model> model_of(const IdentifyResult& result, const IdentifyPreload& preload,
                               const PreloadFacts& facts, std::string& why_not) {
   Parameters parameters(result, preload);
-  if (facts.arm != nullptr && facts.arm->is_coupled()) {
-    if (facts.has_moving)
-      why_not = fmt::format("the links of a {} arm cannot be simulated", facts.arm->kind->name);
-    return std::nullopt;
-  }
   Rig rig = facts.rig;
   rig.transmission = preload.transmission;
   if (rig.torque_hold == TorqueHold::automatic)
@@ -80,7 +75,7 @@ std::optional<Model> model_of(const IdentifyResult& result, const IdentifyPreloa
   model.name = "poly";
   model.preload = preload.name;
   for (const JointModel& axes : model.joints) {
-    if (!has_all(axes)) return std::nullopt;
+    if (!has_all(model, axes)) return std::nullopt;
     require_inertias(axes, parameters);
   }
   model.joints.front().added = added_of(facts, parameters);

@@ -28,7 +28,7 @@ std::optional<ValueChange> bias_at(const RefineBench& bench, const Values& value
     twin.hold_back(bench.held_back);
     twin.silence_torque();  // its noise has no bias to give; without it one draw is enough
     const Design design =
-        design_like(values.design, values.x, models, twin.draw(bench.options.seed, threads));
+        design_like(values.design, values.x, models, twin.draw(bench.seed, threads));
     if (design.n_columns() != values.x.size()) return {};
     auto bias = change_to_fit(design, values.x, levels, bench.scan.block_seconds, is_unrecorded);
     if (bias) forget_unrecorded(values.design, bias->x);

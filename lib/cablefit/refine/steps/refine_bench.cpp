@@ -11,6 +11,7 @@
 #include "cablefit/refine/gap_levels.hpp"
 #include "cablefit/refine/null/chance_tail.hpp"
 #include "cablefit/refine/null/kept_effects.hpp"
+#include "cablefit/refine/null/logs_seed.hpp"
 #include "cablefit/refine/null/remainder.hpp"
 #include "cablefit/refine/rows/physical_values.hpp"
 #include "cablefit/refine/rows/recorded_effects.hpp"
@@ -64,7 +65,7 @@ KindLevels fitted_floor(RefineBench& bench, const Design& base, const Eigen::Vec
   std::vector<KindLevels> levels;
   Eigen::VectorXd bias = Eigen::VectorXd::Zero(x.size());
   std::vector<BaseFit> draws =
-      run_draws(bench, kFloorCopies, bench.options.seed, "noise floor",
+      run_draws(bench, kFloorCopies, bench.seed, "noise floor",
                 [&](std::uint64_t seed) { return bench.null->fitted(seed, nullptr); });
   for (const BaseFit& draw : draws) {
     levels.push_back(draw.fit.rms());
@@ -95,10 +96,10 @@ void find_test_floors(RefineBench& bench, const BaseFit& base, const RefineLogs&
       logs.test.empty()
           ? bench.floor
           : test_floor_of(bench, rms_over(run_draws(
-                                     bench, kFloorCopies, bench.options.seed, "noise floor",
+                                     bench, kFloorCopies, bench.seed, "noise floor",
                                      [&](std::uint64_t seed) { return draws.unfitted(seed); })));
   std::vector<LogSurvey> recorded;
-  for (NullBench::Recorded& one : draws.logs().record(bench.options.seed, bench.options.threads))
+  for (NullBench::Recorded& one : draws.logs().record(bench.seed, bench.options.threads))
     recorded.insert(recorded.end(), one.logs.begin(), one.logs.end());
   bench.simulation_floor =
       simulated_gap(draws.models(), recorded, bench.options.threads, bench.compared());
@@ -141,7 +142,7 @@ void disturb_null(RefineBench& bench, const RefineState& state, const Search& fo
   if (is_quiet(first)) return;
   bench.null->logs().disturb(first);
   const std::vector<KindMemory> drawn =
-      run_draws(bench, kFloorCopies, bench.options.seed, "the remainder", [&](std::uint64_t seed) {
+      run_draws(bench, kFloorCopies, bench.seed, "the remainder", [&](std::uint64_t seed) {
         const BaseFit base = bench.null->fitted(seed, &found.levels);
         return memory_with(base.design, base.fit, best, found.levels, block_seconds);
       });
@@ -212,7 +213,7 @@ bool draw_more(RefineBench& bench, const RefineState& state, const Search& found
   settings.threads = 1;
   std::vector<NullDraw> more = run_draws(
       bench, std::min(kFirstDraws, bench.options.n_draws - before),
-      bench.options.seed + kFloorCopies + before, "null distribution",
+      bench.seed + kFloorCopies + before, "null distribution",
       [&](std::uint64_t seed) { return bench.null->searched(seed, bench.draw_levels, settings); });
   bench.draws.insert(bench.draws.end(), std::make_move_iterator(more.begin()),
                      std::make_move_iterator(more.end()));
@@ -256,6 +257,7 @@ RefineState prepare(RefineBench& bench, std::span<const Model> models, const Ref
         physical_values(base.design, bench.scan.block_seconds, base.levels, base.fit.x, &held);
   };
   to_physical();
+  bench.seed = seed_for(bench.logs, bench.options.seed);
   bench.null.emplace(base.design, base.fit.x, bench.logs, bench.wanted, bench.options.threads);
   if (bench.null->logs().follows())
     result.warnings.emplace_back(

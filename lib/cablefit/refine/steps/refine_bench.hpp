@@ -1,6 +1,7 @@
 // What every step of refine works with, and where the workflow stands. Internal to refine/.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -32,6 +33,7 @@ struct RefineBench {
   KindLevels floor{}, test_floor{};
   ValueChange base_bias = {};  ///< of the base fit, see fit_bias.hpp
   SimulatedGap simulation_floor = {};
+  std::uint64_t seed = 0;  ///< of the first simulated data set; counted up from there
   std::optional<BaseDraws> null = {};
   BaseFit noise = {};        ///< one of its draws without an effect
   KindLevels draw_levels{};  ///< weights of their searches: those of the first search
