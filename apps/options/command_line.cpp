@@ -163,7 +163,9 @@ bool parse(CLI::App& app, const Arguments& arguments) {
     return false;
   } catch (const CLI::ArgumentMismatch& error) {
     const std::string message = error.what();  // "--cutoff: 1 required HZ missing"
-    throw usage_error(message.substr(0, message.find(':')) + " needs a value",
+    const bool again = message.find("At Most") != std::string::npos;
+    throw usage_error(message.substr(0, message.find(':')) +
+                          (again ? " is given more than once" : " needs a value"),
                       fmt::format("see '{} --help'", app.get_name()));
   } catch (const CLI::ParseError& error) {
     throw usage_error(error.what(), fmt::format("see '{} --help'", app.get_name()));

@@ -57,6 +57,29 @@ TEST_CASE("a preload that the curve shows is searched without being asked", "[id
   CHECK(find_estimate(joint.preloads.at(0).parameters, "l_o[1]") != nullptr);
 }
 
+// The more both cables are stretched, the further out one goes slack: the curve is as steep at a
+// fifth of the sweep as at zero, and falls beyond.
+TEST_CASE("a large preload is searched too, a small one not in vain", "[identify]") {
+  for (const double l_o : {9e-3, 15e-3, 25e-3}) {
+    INFO("l_o = " << l_o);
+    const truth::Rig rig = stretched(l_o);
+    Bench bench;
+    bench.add(blocked_log(rig, 23));
+    const ElasticPreload preload =
+        fit_elastic_stage(bench.logs(), {}, ElongationMode::automatic).preloads.at(0);
+    NamedValues truth = elastic_truth(rig);
+    truth.emplace_back("l_o[1]", rig.cable_1.initial_elongation);
+    truth.emplace_back("l_o[2]", rig.cable_2.initial_elongation);
+    check_recovered(preload.find("poly")->parameters, truth, 3);
+    CHECK(find_estimate(identify(bench.logs(), {}).preloads.at(0).parameters, "l_o[1]") != nullptr);
+  }
+  Bench bench;
+  bench.add(blocked_log(truth::Rig::low(), 24));
+  const ElasticPreload preload =
+      fit_elastic_stage(bench.logs(), {}, ElongationMode::automatic).preloads.at(0);
+  CHECK(find_estimate(preload.find("poly")->parameters, "l_o[1]") == nullptr);
+}
+
 TEST_CASE("a curve that is not that of the cables gives no intervals", "[identify]") {
   const std::vector<LogSurvey> logs = {shipped("high/blocked.csv")};
   const ElasticResult known = fit_elastic_stage(logs, {}, ElongationMode::known);

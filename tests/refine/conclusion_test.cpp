@@ -162,3 +162,25 @@ TEST_CASE("a name needs a size and a gain", "[refine]") {
   CHECK(why(0.01, 0.01) ==
         "it reduces the squared residual by only 0.01 of the squared noise floor");
 }
+
+/// The trap: a scale that one load hides in the stiffness shows in logs of another load alone.
+TEST_CASE("test logs that the model misses by far are not called explained", "[refine]") {
+  RefineResult result;
+  result.rho_before = 1;
+  result.search_p = 0.5;
+  result.test_remainders = {{"motor", 0.05, 0.04, 0.04, 0.2}};
+  conclude(result);
+  CHECK(result.verdict == Verdict::none);
+  CHECK(result.reason ==
+        "the squared residual is 1 times that of the sensors' noise; no effect of the catalogue is "
+        "both significant and large enough (p = 0.5)");
+  result.test_remainders = {{"motor", 0.5, 0.3, 0.4, 0.2}};  // like the noise
+  conclude(result);
+  CHECK(result.verdict == Verdict::none);
+  result.test_remainders = {{"link", 0.01, 0, 0.02, 0.2}, {"motor", 16.2, 15.9, 0.04, 0.2}};
+  conclude(result);
+  CHECK(result.verdict == Verdict::unexplained);
+  CHECK(result.reason ==
+        "the residual of the test logs is 16.2 N m beyond the noise of 0.04 (motor equation), and "
+        "the training logs do not show what is missing: train with logs like these too");
+}

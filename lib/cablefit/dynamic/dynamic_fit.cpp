@@ -101,6 +101,17 @@ ParameterCovariance known_together(const JointEstimates& joint,
   return joint.covariance_of(names);
 }
 
+/// Whoever asks for an estimator by name hears when another one was used.
+void note_other_estimator(const std::string& asked, Estimation& estimation) {
+  const std::string& used = estimation.fit.estimator;
+  if (asked == "auto" || used.empty() || used == asked) return;
+  std::string why;
+  for (const Decision& d : estimation.decisions)
+    if (d.name.starts_with("estimator")) why = ": " + d.reason;
+  estimation.fit.warnings.push_back(
+      fmt::format("the estimator '{}' was not used, but '{}'{}", asked, used, why));
+}
+
 void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equations,
                 DynamicPreload& preload) {
   const Estimator& estimator = find_estimator(job.options.estimator);
@@ -110,6 +121,7 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
   for (std::size_t m = 0; m < job.models.size(); ++m) {
     const EstimationTask task{job, equations, m};
     Estimation estimation = estimator.estimate(task);
+    note_other_estimator(job.options.estimator, estimation);
     add_systematic(task, estimator.by_filtered_rows, estimation);
     if (estimator.by_filtered_rows) refuse_moving_inertias(task, others, estimation);
     DynamicFit& fit = estimation.fit;

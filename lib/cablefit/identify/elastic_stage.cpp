@@ -16,30 +16,82 @@ const Rig& rig_of(std::span<const LogSurvey> logs, const std::string& preload) {
       .plan.rig;
 }
 
-/// The preload fitted again with l_o looked for, where that explains the curve; else as it was.
-ElasticPreload with_search(std::span<const LogSurvey> logs, const ElasticOptions& options,
-                           ElasticPreload plain) {
-  const double before = plain.fits.back().rms_error;
+const char* unit_of(const ElasticPreload& preload) { return preload.linear_motion ? "N" : "N m"; }
+
+/// The preload fitted again with l_o looked for. Throws Error(not_identifiable) where there is
+/// none.
+ElasticPreload searched(std::span<const LogSurvey> logs, const ElasticOptions& options,
+                        const ElasticPreload& plain) {
   ElasticOptions own = options;
   own.preload = plain.name;
+  return fit_elastic_with_search(logs, own, true).preloads.at(0);
+}
+
+bool is_better(const ElasticPreload& found, const ElasticPreload& plain) {
+  return found.fits.back().rms_error <= (1 - kSearchGain) * plain.fits.back().rms_error;
+}
+
+ElasticPreload with_reason(ElasticPreload found, const ElasticPreload& plain,
+                           std::string_view reason) {
+  for (Decision& d : found.decisions)
+    if (d.name == "l_o")
+      d.reason =
+          fmt::format("{}; the residual of the cables goes from {:.3g} to {:.3g} {} rms", reason,
+                      plain.fits.back().rms_error, found.fits.back().rms_error, unit_of(plain));
+  return found;
+}
+
+/// With l_o looked for, where that explains the curve; else as it was, with the doubt.
+ElasticPreload without_doubt(std::span<const LogSurvey> logs, const ElasticOptions& options,
+                             ElasticPreload plain) {
   try {
-    ElasticPreload found = fit_elastic_with_search(logs, own, true).preloads.at(0);
-    const double after = found.fits.back().rms_error;
-    if (after <= (1 - kSearchGain) * before) {
-      for (Decision& d : found.decisions)
-        if (d.name == "l_o")
-          d.reason =
-              fmt::format("{}; the residual of the cables goes from {:.3g} to {:.3g} {} rms",
-                          plain.shape_doubt, before, after, plain.linear_motion ? "N" : "N m");
-      return found;
-    }
+    ElasticPreload found = searched(logs, options, plain);
+    if (is_better(found, plain)) return with_reason(std::move(found), plain, plain.shape_doubt);
     plain.shape_doubt += fmt::format("; a search of l_o leaves the residual at {:.3g} {} rms",
-                                     after, plain.linear_motion ? "N" : "N m");
+                                     found.fits.back().rms_error, unit_of(plain));
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::not_identifiable) throw;
     plain.shape_doubt += fmt::format("; a search of l_o found none ({})", error.what());
   }
   plain.warnings.push_back(fmt::format("{}: stage 2 gives no intervals", plain.shape_doubt));
+  return plain;
+}
+
+/// Its stiffness falls by a tenth somewhere on the way to this stretch.
+bool softens(const Cable& cable, double stretch) {
+  constexpr int kSteps = 18;
+  constexpr double kFall = 0.9, kReach = 0.9;  // beyond that a high order may swing
+  double highest = 0;
+  for (int k = 0; k <= kSteps; ++k) {
+    const double stiffness = cable.stiffness(stretch * std::max(1e-6, kReach * k / kSteps));
+    if (stiffness < kFall * highest) return true;
+    highest = std::max(highest, stiffness);
+  }
+  return false;
+}
+
+/// With l_o = 0 each of the two cables acts on its own side and becomes stiffer, if anything. Where
+/// both seem to soften they may be taut together up to there, however far that is.
+bool may_be_preloaded(const ElasticPreload& plain) {
+  const Transmission& pair = plain.fits.back().transmission;
+  const double stretch = std::min(-plain.deflection_low, plain.deflection_high);
+  return pair.n_joints == 1 && pair.cables.size() == 2 && stretch > 0 &&
+         std::all_of(pair.cables.begin(), pair.cables.end(), [&](const Cable& cable) {
+           return cable.initial_elongation == 0 && !cable.coefficients.empty() &&
+                  softens(cable, stretch);
+         });
+}
+
+/// With l_o looked for, where that is better; else as it was.
+ElasticPreload tried(std::span<const LogSurvey> logs, const ElasticOptions& options,
+                     ElasticPreload plain) {
+  try {
+    ElasticPreload found = searched(logs, options, plain);
+    if (is_better(found, plain))
+      return with_reason(std::move(found), plain, "both cables seem to soften with l_o = 0");
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::not_identifiable) throw;
+  }
   return plain;
 }
 
@@ -54,9 +106,13 @@ ElasticResult fit_elastic_stage(std::span<const LogSurvey> logs, const ElasticOp
   if (mode == ElongationMode::known || options.still || options.unconstrained ||
       !options.orders.empty() || options.offset)
     return result;
-  for (ElasticPreload& preload : result.preloads)
-    if (!preload.shape_doubt.empty() && !rig_of(logs, preload.name).cables_given)
-      preload = with_search(logs, options, std::move(preload));
+  for (ElasticPreload& preload : result.preloads) {
+    if (rig_of(logs, preload.name).cables_given) continue;
+    if (!preload.shape_doubt.empty())
+      preload = without_doubt(logs, options, std::move(preload));
+    else if (may_be_preloaded(preload))
+      preload = tried(logs, options, std::move(preload));
+  }
   return result;
 }
 

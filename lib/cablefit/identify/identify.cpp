@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "cablefit/dynamic/estimates/estimates.hpp"
-#include "cablefit/elastic/elastic_fit.hpp"
 #include "cablefit/identify/aliased_inertias.hpp"
+#include "cablefit/identify/elastic_stage.hpp"
 #include "cablefit/identify/elongations/joint_solution.hpp"
 #include "cablefit/identify/identify_floor.hpp"
 #include "cablefit/identify/preload_records.hpp"
@@ -17,6 +17,7 @@
 #include "cablefit/identify/results/identify_figures.hpp"
 #include "cablefit/identify/results/recursive.hpp"
 #include "cablefit/model/effects/effect_parameter.hpp"
+#include "cablefit/model/modes.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
 
 namespace cablefit {
@@ -118,7 +119,9 @@ bool curve_wants_search(std::span<const LogSurvey> logs, const IdentifyOptions& 
   };
   if (preload_names(logs, is_blocked).size() != 1) return false;
   if (first_log_with(logs, is_blocked).plan.rig.cables_given) return false;
-  return !fit_elastic(logs, elastic).preloads.at(0).shape_doubt.empty();
+  const ElasticPreload stage1 =
+      fit_elastic_stage(logs, elastic, ElongationMode::automatic).preloads.at(0);
+  return !stage1.shape_doubt.empty() || is_preloaded(stage1.fits.back().transmission);
 }
 
 }  // namespace

@@ -89,6 +89,11 @@ struct Cable {
   /// Elastic energy (6), J; 0 when slack.
   double energy(double l) const;
 
+  /// The joint (from 0) moves the cable, be it by the motor or by the link.
+  bool passes(std::size_t joint) const {
+    return !motor_map[joint].is_zero() || !link_map[joint].is_zero();
+  }
+
   int n_coefficients() const { return law->n_coefficients(order); }
   LawShape shape() const { return {order, toe}; }
 };

@@ -14,15 +14,11 @@ namespace {
 
 std::size_t place(int joint) { return static_cast<std::size_t>(joint); }
 
-bool passes(const Cable& cable, std::size_t joint) {
-  return !cable.motor_map[joint].is_zero() || !cable.link_map[joint].is_zero();
-}
-
 /// Which cables of the whole pass the joint.
 std::vector<std::size_t> passing(const Transmission& whole, std::size_t joint) {
   std::vector<std::size_t> cables;
   for (std::size_t i = 0; i < whole.cables.size(); ++i)
-    if (passes(whole.cables[i], joint)) cables.push_back(i);
+    if (whole.cables[i].passes(joint)) cables.push_back(i);
   return cables;
 }
 
@@ -379,7 +375,7 @@ Eigen::ArrayXXd others_elongation(const Model& model, const Eigen::ArrayXXd& q,
   for (std::size_t k = 0; k < places.size(); ++k) {
     const Cable& cable = whole.cables[places[k]];
     for (Eigen::Index j = 0; j < q.cols(); ++j) {
-      if (j == model.joint || !passes(cable, static_cast<std::size_t>(j))) continue;
+      if (j == model.joint || !cable.passes(static_cast<std::size_t>(j))) continue;
       const auto other = static_cast<std::size_t>(j);
       l.col(static_cast<Eigen::Index>(k)) +=
           cable.motor_map[other].displacements(theta.col(j) - zero[j]) -

@@ -50,15 +50,18 @@ struct EquationResiduals::Parts {
   Parts(const Model& model, std::span<const LogSurvey> logs, const PartFilter& wanted,
         const SampleOptions& samples)
       : curve(curve_of(model)),
+        arm(model.rig.arm),
         options(options_of(model, curve, samples)),
         job{logs, options, model.preload, wanted,         {}, options.models, model.rigid,
             {},   {},      false,         options.effects} {
     if (!model.rigid) job.elastic = {&curve.preloads.front().fits.front()};
+    if (arm.is_coupled()) job.other_arm = &arm;
   }
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
 
   ElasticResult curve;
+  Arm arm;  ///< the model's: a rig file beside a log may have other masses
   DynamicOptions options;
   DynamicJob job;
   std::vector<ResidualEquation> equations;

@@ -24,18 +24,12 @@ std::vector<Model> one_joint_each(std::span<const Model> models, int joint) {
   return one;
 }
 
-std::vector<LogSurvey> fitted_logs(const RefineLogs& logs) {
-  std::vector<LogSurvey> all = logs.blocked;
-  all.insert(all.end(), logs.train.begin(), logs.train.end());
-  return all;
-}
-
 /// The models of a joint with the base fit that its training logs give. Of blocked logs alone, and
 /// where there is none, as they are.
 std::vector<Model> with_base_fit(const std::vector<Model>& models, const RefineLogs& logs) {
   const RefineStage stage = stage_of(models, logs);
   if (stage.elastic_only) return models;
-  std::vector<Stretch> stretches = read_stretches(fitted_logs(logs), stage.models, stage.wanted);
+  std::vector<Stretch> stretches = read_stretches(logs.fitted(), stage.models, stage.wanted);
   if (stretches.empty()) return models;
   const Smoothing wanted = smoothing_for(finest_period(stretches, false));
   const ScanSettings settings;

@@ -42,12 +42,6 @@ Model blank_model(const std::string& preload, const Rig& rig, bool rigid) {
   return model;
 }
 
-std::vector<LogSurvey> all_logs(const RefineLogs& logs) {
-  std::vector<LogSurvey> all = logs.blocked;
-  all.insert(all.end(), logs.train.begin(), logs.train.end());
-  return all;
-}
-
 bool any_part(std::span<const LogSurvey> logs, const std::string& preload, Phase phase) {
   return std::any_of(logs.begin(), logs.end(), [&](const LogSurvey& log) {
     return std::any_of(log.parts.begin(), log.parts.end(), [&](const PartSurvey& part) {
@@ -210,7 +204,7 @@ std::string fill(const Rig& rig, bool is_inertia, const ParameterInfo& info, Est
 
 OwnBase own_base(const RefineLogs& given, int threads) {
   OwnBase base;
-  const std::vector<LogSurvey> logs = all_logs(given);
+  const std::vector<LogSurvey> logs = given.fitted();
   const std::vector<std::string> names =
       preload_names(logs, [](const PartSurvey& /*part*/) { return true; });
   const bool has_both = std::any_of(logs.begin(), logs.end(), [](const LogSurvey& log) {

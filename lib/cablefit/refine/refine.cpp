@@ -118,6 +118,12 @@ void tell_inputs(std::span<const Model> models, const RefineLogs& logs, RefineRe
 
 }  // namespace
 
+std::vector<LogSurvey> RefineLogs::fitted() const {
+  std::vector<LogSurvey> all = blocked;
+  all.insert(all.end(), train.begin(), train.end());
+  return all;
+}
+
 std::string_view to_string(Verdict verdict) {
   constexpr std::array<std::string_view, 4> kNames{"named", "none", "ambiguous", "unexplained"};
   return kNames[static_cast<std::size_t>(verdict)];
@@ -159,8 +165,7 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
   result.warnings = stage.warnings;
   RefineBench bench{options, stage.wanted, stage.elastic_only};
   bench.scan.threads = options.threads;
-  bench.logs = logs.blocked;
-  bench.logs.insert(bench.logs.end(), logs.train.begin(), logs.train.end());
+  bench.logs = logs.fitted();
   bench.all = bench.logs;
   bench.all.insert(bench.all.end(), logs.test.begin(), logs.test.end());
   const RefineState first = prepare(bench, models, logs, result);
@@ -187,6 +192,11 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
   tell_remainder(fit.rms, bench.floor, result);
   result.remainders =
       remainders_of(state.design, fit.x, bench.floor, bench.scan.block_seconds, options.material);
+  result.material_given = options.material.has_value();
+  const TestReading& last = readings.back();
+  if (!result.held_out_blocks)
+    result.test_remainders = remainders_of(last.rows, last.x, bench.test_floor,
+                                           bench.scan.block_seconds, options.material);
   const RefineState before = confirmed.values.of(chain, 0);
   state.x = fit.x;
   const RefineState after = confirmed.values.of(chain, chain.size() - 1);
@@ -204,6 +214,9 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
   result.rho_after = state.rho;
   tell_gaps(bench, chain, readings, result);
   conclude(result);
+  if (result.verdict == Verdict::unexplained && !result.unexplained && !result.held_out_blocks)
+    result.unexplained =
+        describe_remainder(last.rows, last.x, bench.test_floor, bench.scan.block_seconds);
   choose_next_run({first.design, first.x, bench.floor, bench.first_search.candidates, runs},
                   result);
   if (options.figures)

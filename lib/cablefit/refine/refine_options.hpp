@@ -27,6 +27,9 @@ struct RefineOptions {
 /// Which logs are for what. Without test logs the last third of every moving log is held out.
 struct RefineLogs {
   std::vector<LogSurvey> train, test, blocked;
+
+  /// Blocked, then training.
+  std::vector<LogSurvey> fitted() const;
 };
 
 }  // namespace cablefit

@@ -7,6 +7,7 @@
 #include "cablefit/identify/elastic_stage.hpp"
 #include "cablefit/refine/own_base.hpp"
 #include "cablefit/refine/search/model_set.hpp"
+#include "cablefit/session/found_controller.hpp"
 
 namespace cablefit {
 
@@ -52,9 +53,7 @@ OwnBase complete(std::vector<Model> models, const RefineLogs& logs, const Refine
     base.decisions = fill_start_values(models);
     base.models = std::move(models);
   }
-  std::vector<LogSurvey> fitted = logs.train;
-  fitted.insert(fitted.end(), logs.blocked.begin(), logs.blocked.end());
-  base.models = models_with_logs(std::move(base.models), fitted);
+  base.models = models_with_logs(std::move(base.models), logs.fitted());
   require_model_set(base.models);
   return base;
 }
@@ -83,10 +82,13 @@ RefineResult refine_own(OwnBase& base, const RefineLogs& logs, const RefineOptio
 
 }  // namespace
 
-RefineResult missing_effects(const RefineLogs& logs, std::vector<Model> models,
+RefineResult missing_effects(const RefineLogs& given, std::vector<Model> models,
                              const RefineOptions& options) {
   const bool is_own = models.empty();
-  OwnBase base = complete(std::move(models), logs, options);
+  OwnBase base = complete(std::move(models), given, options);
+  RefineLogs logs = given;
+  if (auto controller = take_found_controller(logs, base.models))
+    base.decisions.push_back(*std::move(controller));
   RefineResult result =
       is_own ? refine_own(base, logs, options) : refine(base.models, logs, options);
   if (is_own) result.model_choice = "fitted to the logs";

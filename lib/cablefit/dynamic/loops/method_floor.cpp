@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -46,16 +48,43 @@ void choose_encoders(Twin& twin, const std::vector<SimulationResult>& motions) {
     }
 }
 
-/// All joints turned alike, so that the encoders round otherwise and the cables do not notice.
+/// A turn of all joints that stretches no cable, as far as there is one: of links and motors.
+struct Turn {
+  Eigen::VectorXd links, motors;
+};
+
+Turn free_turn(const Model& model) {
+  const int n = model.rig.n_joints();
+  const Eigen::VectorXd all = Eigen::VectorXd::Ones(n);
+  if (model.rigid || model.transmission.cables.empty()) return {all, all};
+  const Transmission& cables = model.transmission;
+  const Eigen::MatrixXd link = cables.link_coupling(cables.reference_q()).transpose();
+  const Eigen::MatrixXd motor = cables.motor_coupling(cables.reference_theta()).transpose();
+  const Eigen::MatrixXd following = motor.colPivHouseholderQr().solve(link);
+  // Links that cables of different ratios hold against each other cannot turn so.
+  constexpr double kExact = 1e-9;
+  const Eigen::JacobiSVD<Eigen::MatrixXd> stretch(motor * following - link, Eigen::ComputeFullV);
+  Turn turn{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const bool stretches =
+        k < stretch.singularValues().size() && stretch.singularValues()(k) > kExact * link.norm();
+    if (!stretches) turn.links += stretch.matrixV().col(k) * stretch.matrixV().col(k).dot(all);
+  }
+  turn.motors = following * turn.links;
+  return turn;
+}
+
+/// All joints turned, so that the encoders round otherwise and the cables do not notice.
 std::vector<SimulationResult> moved_aside(const Twin& twin, std::vector<SimulationResult> motions,
                                           Random& random) {
+  const Turn turn = free_turn(twin.model);
   for (std::size_t k = 0; k < motions.size(); ++k) {
     double quantum = 0;
     for (const TwinSensor& sensor : twin.sensors[twin.stretches[k].log])
       quantum = std::max(quantum, sensor.quantum);
     const double aside = kAside * quantum * random.uniform();
-    motions[k].q += aside;
-    motions[k].theta += aside;
+    motions[k].q.rowwise() += aside * turn.links.transpose().array();
+    motions[k].theta.rowwise() += aside * turn.motors.transpose().array();
   }
   return motions;
 }

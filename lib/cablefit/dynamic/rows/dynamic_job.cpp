@@ -26,7 +26,7 @@ const ChosenSettings& DynamicJob::settings_of(int joint) const {
 }
 
 const Arm* DynamicJob::arm() const {
-  const Arm& own = rig().arm;
+  const Arm& own = other_arm != nullptr ? *other_arm : rig().arm;
   return links_alone || own.kind == nullptr ? nullptr : &own;
 }
 

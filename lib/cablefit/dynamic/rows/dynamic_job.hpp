@@ -27,6 +27,7 @@ struct DynamicJob {
   bool links_alone = false;                    ///< each as if the others did not move it
   /// Effects beyond (31), with the values about which the columns are made.
   std::vector<EffectInstance> added = {};
+  const Arm* other_arm = nullptr;  ///< in place of the rig's
 
   int n_joints() const { return rig().n_joints(); }
   const ChosenSettings& settings_of(int joint) const;

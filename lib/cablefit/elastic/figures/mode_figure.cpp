@@ -20,7 +20,7 @@ std::vector<std::size_t> cables_of(const Transmission& transmission, std::size_t
   std::vector<std::size_t> moved;
   for (std::size_t c = 0; c < transmission.cables.size(); ++c) {
     const Cable& cable = transmission.cables[c];
-    if (!cable.motor_map[joint].is_zero() || !cable.link_map[joint].is_zero()) moved.push_back(c);
+    if (cable.passes(joint)) moved.push_back(c);
   }
   return moved;
 }

@@ -43,7 +43,7 @@ Eigen::ArrayXd elongation(const Transmission& transmission, const Cable& cable,
                           std::span<const JointSignals> joints) {
   std::optional<Eigen::ArrayXd> sum;
   for (std::size_t k = 0; k < joints.size(); ++k) {
-    if (joints.size() > 1 && cable.motor_map[k].is_zero() && cable.link_map[k].is_zero()) continue;
+    if (joints.size() > 1 && !cable.passes(k)) continue;
     const Eigen::ArrayXd turned = joints[k].theta - encoder_zero(transmission, k);
     Eigen::ArrayXd share =
         cable.motor_map[k].displacements(turned) - cable.link_map[k].displacements(joints[k].q);

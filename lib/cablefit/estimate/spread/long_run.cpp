@@ -133,6 +133,8 @@ Eigen::Index lags_of_orders(Eigen::Index n, Eigen::Index max_order) {
 void restore(const Eigen::Ref<const Eigen::MatrixXd>& series, const FittedOut& fitted,
              Eigen::Index max_order, LongRunCovariance& result) {
   constexpr int kPasses = 6;  // each adds less than a third of the one before
+  // Of a variance, by all passes. Where the prewhitening is near its cap they need not converge.
+  constexpr double kMostGrowth = 9;
   const auto n = static_cast<double>(series.rows());
   const Eigen::Index n_lags = std::min<Eigen::Index>(
       series.rows(), static_cast<Eigen::Index>(std::ceil(5 * result.bandwidth)) + max_order + 1);
@@ -141,13 +143,14 @@ void restore(const Eigen::Ref<const Eigen::MatrixXd>& series, const FittedOut& f
     Component component(series.col(k), n_lags, &fitted, k);
     if (!(component.total > 0) || !(result.covariance(k, k) > 0)) continue;
     double variance = result.covariance(k, k) / n;
+    const double most = kMostGrowth * variance;
     for (int pass = 0; pass < kPasses; ++pass) {
       component.level = variance / component.total;
       const Eigen::VectorXd whole = component.whole();
       const double next =
           long_run_variance(whole, prewhitening_of(whole.head(n_orders), n), result.bandwidth);
       if (!(next > 0)) break;
-      variance = next;
+      variance = std::min(next, most);
     }
     const double grow = std::sqrt(std::max(1.0, n * variance / result.covariance(k, k)));
     result.covariance.row(k) *= grow;

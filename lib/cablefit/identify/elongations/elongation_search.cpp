@@ -116,7 +116,7 @@ class Grid {
   }
   bool acts_on(const Group& group, int joint) const {
     return std::any_of(group.cables.begin(), group.cables.end(), [&](std::size_t c) {
-      return passes(fit_.jobs[group.job].transmission.cables[c], static_cast<std::size_t>(joint));
+      return fit_.jobs[group.job].transmission.cables[c].passes(static_cast<std::size_t>(joint));
     });
   }
 

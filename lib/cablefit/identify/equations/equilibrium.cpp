@@ -42,10 +42,6 @@ Eigen::MatrixXd pulls_of(const Transmission& transmission, const std::vector<Eig
 
 }  // namespace
 
-bool passes(const Cable& cable, std::size_t joint) {
-  return !cable.motor_map[joint].is_zero() || !cable.link_map[joint].is_zero();
-}
-
 Eigen::MatrixXd reference_coupling(const Transmission& transmission) {
   const Eigen::Index n = transmission.n_joints;
   Eigen::MatrixXd coupling(2 * n, static_cast<Eigen::Index>(transmission.cables.size()));
@@ -116,12 +112,12 @@ std::vector<std::vector<std::size_t>> cable_groups(const Transmission& transmiss
   for (std::size_t k = 0; k < n_joints; ++k) group[k] = k;
   const auto first_joint = [&](const Cable& cable) {
     std::size_t k = 0;
-    while (k + 1 < n_joints && !passes(cable, k)) ++k;
+    while (k + 1 < n_joints && !cable.passes(k)) ++k;
     return k;
   };
   for (const Cable& cable : transmission.cables)
     for (std::size_t k = 0; k < n_joints; ++k)
-      if (passes(cable, k)) {
+      if (cable.passes(k)) {
         const std::size_t from = std::max(group[k], group[first_joint(cable)]);
         const std::size_t to = std::min(group[k], group[first_joint(cable)]);
         std::replace(group.begin(), group.end(), from, to);

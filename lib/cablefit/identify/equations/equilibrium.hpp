@@ -27,9 +27,6 @@ bool can_balance(const Transmission& transmission, const Eigen::VectorXd& l_o);
 /// equilibrium in which no other cable pulls than those with l_o > 0.
 std::vector<bool> balanced_cables(const Transmission& transmission, const Eigen::VectorXd& l_o);
 
-/// The joint (from 0) moves the cable, be it by the motor or by the link.
-bool passes(const Cable& cable, std::size_t joint);
-
 /// Cables that act on each other, by way of the joints that they pass: places, ascending. Cables of
 /// different groups neither balance each other nor stand in one equation.
 std::vector<std::vector<std::size_t>> cable_groups(const Transmission& transmission);

@@ -156,7 +156,8 @@ class ChannelsLayout final : public JsonLayout {
                  TextPosition at) const {
     if (std::find(known.begin(), known.end(), key_) == known.end()) {
       if (key_ == "schema")
-        throw error(at, "this is a file of cablefit, not a log", "give a rig file by --rig FILE");
+        throw error(at, "this is a rig file or a result of cablefit, not a log",
+                    "give a rig file by --rig FILE, and a model as a whole file");
       throw error(at, "unknown key " + quoted(key_) + in, suggestion(key_, known));
     }
     if (!given.insert(key_).second) {

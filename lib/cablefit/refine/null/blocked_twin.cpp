@@ -99,7 +99,7 @@ BlockedTwin make_blocked_twin(const std::vector<Model>& models, std::vector<Stre
     const double late = torque_lateness(model.rig, stretch.recording.period);
     const SmoothMotion m = smooth_motion_of(stretch.recording, stretch.t0, late, smoothing);
     stretch.recording.theta = m.theta;
-    stretch.recording.tau = as_logged(torque_of(model, m, smoothing.least_speed_theta), late);
+    stretch.recording.tau = as_logged(torque_of(model, m, smoothing.least_speed_blocked), late);
   }
   twin.stretches = std::move(stretches);
   return twin;

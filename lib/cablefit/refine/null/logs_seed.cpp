@@ -1,5 +1,6 @@
 #include "cablefit/refine/null/logs_seed.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <random>
@@ -8,17 +9,26 @@
 namespace cablefit {
 namespace {
 
+using Marks = std::vector<std::uint64_t>;
+
 /// The largest and the smallest value of every channel: exact, however the rows are summed.
-std::vector<std::uint64_t> marks_of(std::span<const LogSurvey> logs) {
-  std::vector<std::uint64_t> marks;
-  for (const LogSurvey& log : logs) {
-    marks.push_back(log.n_rows);
-    for (const PartSurvey& part : log.parts)
-      for (const ChannelSurvey& channel : part.channels)
-        for (const double extreme : {channel.min, channel.max})
-          marks.push_back(std::bit_cast<std::uint64_t>(extreme));
-  }
+Marks marks_of(const LogSurvey& log) {
+  Marks marks = {log.n_rows};
+  for (const PartSurvey& part : log.parts)
+    for (const ChannelSurvey& channel : part.channels)
+      for (const double extreme : {channel.min, channel.max})
+        marks.push_back(std::bit_cast<std::uint64_t>(extreme));
   return marks;
+}
+
+/// In an order of their own: that of the logs says nothing.
+Marks marks_of(std::span<const LogSurvey> logs) {
+  std::vector<Marks> each;
+  for (const LogSurvey& log : logs) each.push_back(marks_of(log));
+  std::sort(each.begin(), each.end());
+  Marks all;
+  for (const Marks& marks : each) all.insert(all.end(), marks.begin(), marks.end());
+  return all;
 }
 
 }  // namespace
@@ -26,7 +36,7 @@ std::vector<std::uint64_t> marks_of(std::span<const LogSurvey> logs) {
 std::uint64_t seed_for(std::span<const LogSurvey> logs, std::uint64_t seed) {
   constexpr unsigned kHalf = 32;
   std::vector<std::uint32_t> words;
-  std::vector<std::uint64_t> marks = marks_of(logs);
+  Marks marks = marks_of(logs);
   marks.push_back(seed);
   for (const std::uint64_t mark : marks) {
     words.push_back(static_cast<std::uint32_t>(mark));

@@ -191,11 +191,12 @@ StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayo
     KindRows& k = rows.kinds.emplace_back();
     k.kind = kind;
     const bool link = kind == RowKind::link;
-    k.at = kept != nullptr
-               ? kept->kinds[rows.kinds.size() - 1].at
-               : moving_rows(link ? rows.motion->qd : rows.motion->thetad,
-                             link ? smoothing.least_speed_q : smoothing.least_speed_theta,
-                             stretch.recording.period, smoothing);
+    const double least = link                       ? smoothing.least_speed_q
+                         : kind == RowKind::blocked ? smoothing.least_speed_blocked
+                                                    : smoothing.least_speed_theta;
+    k.at = kept != nullptr ? kept->kinds[rows.kinds.size() - 1].at
+                           : moving_rows(link ? rows.motion->qd : rows.motion->thetad, least,
+                                         stretch.recording.period, smoothing);
     std::erase_if(k.at, [&](Eigen::Index i) { return i < stretch.rows_from; });
     const Eigen::MatrixXd all =
         apply_at(filter, full_columns(kind, *rows.motion, model, layout), k.at);

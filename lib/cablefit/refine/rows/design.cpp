@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -30,11 +31,18 @@ double encoder_noise(const Eigen::ArrayXd& x) {
   return std::max(rounding, std::sqrt(sum / static_cast<double>(x.size())));
 }
 
-double least_speed(const std::vector<Stretch>& stretches, Eigen::ArrayXd Recording::*signal,
-                   bool of_link, const Smoothing& smoothing) {
+/// What tells a speed from rest.
+struct LeastSpeed {
+  double by_noise = 0, rms = 0;  ///< rad/s
+  double value() const { return std::max(by_noise, kShareOfSpeed * rms); }
+};
+
+template <typename Wanted>
+LeastSpeed least_speed(const std::vector<Stretch>& stretches, Eigen::ArrayXd Recording::*signal,
+                       const Smoothing& smoothing, Wanted wanted) {
   double noise = kUnbounded, squares = 0, n = 0, per_noise = 0;
   for (const Stretch& stretch : stretches) {
-    if (of_link && stretch.blocked) continue;
+    if (!wanted(stretch)) continue;
     const double period = stretch.recording.period;
     const Kernel slope = gaussian_slope(suited(smoothing, period).signals, period);
     const Eigen::ArrayXd& x = stretch.recording.*signal;
@@ -43,9 +51,24 @@ double least_speed(const std::vector<Stretch>& stretches, Eigen::ArrayXd Recordi
     squares += apply(slope, x).square().sum();
     n += static_cast<double>(x.size());
   }
-  if (n == 0) return 0;
+  if (n == 0) return {};
   if (!std::isfinite(noise)) noise = 0;
-  return std::max(kQuietSpeeds * per_noise * noise, kShareOfSpeed * std::sqrt(squares / n));
+  return {kQuietSpeeds * per_noise * noise, std::sqrt(squares / n)};
+}
+
+/// Of all logs together, but a sweep of a blocked link may be slower than that altogether.
+void set_least_speeds(const std::vector<Stretch>& stretches, Smoothing& smoothing) {
+  constexpr double kShareOfSweep = 0.7;
+  const auto is_blocked = [](const Stretch& stretch) { return stretch.blocked; };
+  smoothing.least_speed_theta =
+      least_speed(stretches, &Recording::theta, smoothing, [](const Stretch& /*any*/) {
+        return true;
+      }).value();
+  smoothing.least_speed_q =
+      least_speed(stretches, &Recording::q, smoothing, std::not_fn(is_blocked)).value();
+  const LeastSpeed sweep = least_speed(stretches, &Recording::theta, smoothing, is_blocked);
+  smoothing.least_speed_blocked =
+      std::max(sweep.by_noise, std::min(smoothing.least_speed_theta, kShareOfSweep * sweep.rms));
 }
 
 LogScale scale_of(const Design& design) {
@@ -203,11 +226,7 @@ Design make_design(std::span<const Model> models, std::vector<Stretch> stretches
   design.models.assign(models.begin(), models.end());
   design.layout = base_layout(models.front());
   design.stretches = std::move(stretches);
-  if (!(smoothing.least_speed_theta > 0)) {
-    smoothing.least_speed_theta =
-        least_speed(design.stretches, &Recording::theta, false, smoothing);
-    smoothing.least_speed_q = least_speed(design.stretches, &Recording::q, true, smoothing);
-  }
+  if (!(smoothing.least_speed_theta > 0)) set_least_speeds(design.stretches, smoothing);
   design.smoothing = smoothing;
   fill_rows(design, nullptr);
   design.scale = scale_of(design);

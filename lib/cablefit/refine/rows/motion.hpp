@@ -21,6 +21,7 @@ struct Smoothing {
   double period = 1e-3;     ///< s, of these samples
   double row_period() const { return static_cast<double>(stride) * period; }  ///< s, row to row
   double least_speed_theta = 0, least_speed_q = 0;  ///< rad/s; slower rows are at rest
+  double least_speed_blocked = 0;                   ///< of theta, while the link is blocked
 };
 
 /// In widths of the columns' kernel. Rows at this distance tell of slow signals what denser ones

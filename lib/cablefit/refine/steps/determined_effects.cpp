@@ -11,15 +11,15 @@ namespace {
 
 constexpr KindLevels kAlike = {1, 1, 1};
 
-void remove(const Effect& effect, bool on_link, std::vector<Model>& models) {
+}  // namespace
+
+void remove_effect(const Effect& effect, bool on_link, std::vector<Model>& models) {
   for (Model& model : models) {
     JointModel& axes = model.joints.front();
     std::erase_if(on_link ? axes.link : axes.motor,
                   [&](const EffectInstance& has) { return has.effect == &effect; });
   }
 }
-
-}  // namespace
 
 std::vector<Model> with_determined_effects(std::vector<Model> models,
                                            const std::vector<Stretch>& stretches,
@@ -36,7 +36,7 @@ std::vector<Model> with_determined_effects(std::vector<Model> models,
     if (std::binary_search(told.begin(), told.end(), static_cast<Eigen::Index>(k))) continue;
     const ModelParameter& p = design.layout.parameters[k];
     if (p.kind != ParameterKind::effect || is_inertia(models.front(), p)) return models;
-    remove(*(p.on_link ? axes.link : axes.motor)[p.effect].effect, p.on_link, fewer);
+    remove_effect(*(p.on_link ? axes.link : axes.motor)[p.effect].effect, p.on_link, fewer);
     held.push_back(fmt::format(
         "the logs do not separate {} of the base model from its other parameters: it is held at 0; "
         "move in both directions, at several speeds",

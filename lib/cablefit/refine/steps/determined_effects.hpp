@@ -14,4 +14,7 @@ std::vector<Model> with_determined_effects(std::vector<Model> models,
                                            const Smoothing& smoothing, double block_seconds,
                                            std::vector<std::string>& warnings);
 
+/// Takes a base effect of the link or the motor out of the models' joint.
+void remove_effect(const Effect& effect, bool on_link, std::vector<Model>& models);
+
 }  // namespace cablefit

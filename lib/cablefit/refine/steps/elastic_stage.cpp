@@ -1,4 +1,5 @@
 #include "cablefit/refine/steps/elastic_stage.hpp"
+#include "cablefit/refine/steps/determined_effects.hpp"
 
 #include <fmt/format.h>
 
@@ -59,12 +60,6 @@ const Effect* least_visible(const Design& design, double block_seconds) {
     least = motor[k].effect;
   }
   return least;
-}
-
-void remove(const Effect* effect, std::vector<Model>& models) {
-  for (Model& model : models)
-    std::erase_if(model.joints.front().motor,
-                  [effect](const EffectInstance& instance) { return instance.effect == effect; });
 }
 
 /// Range of theta over its rms speed, s: how long it takes to go through what there is.
@@ -188,6 +183,7 @@ Smoothing blocked_smoothing(std::span<const Model> models, const std::vector<Str
     constexpr double kOfUsual = 0.5;
     Smoothing tried = make_design(models, stretches, widened(narrowest, width, period)).smoothing;
     tried.least_speed_theta *= kOfUsual;
+    tried.least_speed_blocked *= kOfUsual;
     const double enough = enough_rows(make_design(models, stretches, tried));
     if (enough > most) best = tried;
     most = std::max(most, enough);
@@ -201,7 +197,7 @@ std::vector<Model> with_visible_effects(std::vector<Model> models,
                                         const Smoothing& smoothing, double block_seconds) {
   while (const Effect* least =
              least_visible(design_of(models, stretches, smoothing), block_seconds))
-    remove(least, models);
+    remove_effect(*least, false, models);
   return models;
 }
 

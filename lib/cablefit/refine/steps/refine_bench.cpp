@@ -261,9 +261,9 @@ RefineState prepare(RefineBench& bench, std::span<const Model> models, const Ref
   bench.null.emplace(base.design, base.fit.x, bench.logs, bench.wanted, bench.options.threads);
   if (bench.null->logs().follows())
     result.warnings.emplace_back(
-        "the rig's controller with the reference of the logs does not reproduce the "
-        "measured motion (is a feed-forward torque or a delay missing in the rig "
-        "file?); p-values use simulations that follow the measured motion");
+        "the controller with the reference of the logs does not reproduce the measured "
+        "motion (is a feed-forward torque or a delay missing in it?); p-values use "
+        "simulations that follow the measured motion");
   bench.held_back = result.held_out_blocks ? kHeldOutShare : 0;
   bench.null->logs().hold_back(bench.held_back);
   bench.floor = fitted_floor(bench, base.design, base.fit.x);

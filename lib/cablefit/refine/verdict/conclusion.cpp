@@ -122,7 +122,8 @@ std::string immaterial(const RefineResult& result) {
   const char* unit = result.linear_motion ? "N" : "N m";
   std::string text;
   for (const EquationRemainder& e : result.remainders) {
-    if (!(e.at_least < e.material) || e.above > kLikeNoise * e.noise) return "";
+    const bool is_seen = !result.material_given && e.above > kLikeNoise * e.noise;
+    if (!(e.at_least < e.material) || is_seen) return "";
     const std::string surely =
         e.above < e.material ? "" : fmt::format(", lower 95 % bound {:.2g} {}", e.at_least, unit);
     text += fmt::format("{}{:.2g} {} of {:.2g} ({} equation{})", text.empty() ? "" : ", ", e.above,
@@ -130,6 +131,26 @@ std::string immaterial(const RefineResult& result) {
   }
   return text.empty() ? ""
                       : "the residual beyond the sensors' noise is too small to matter: " + text;
+}
+
+/// Says which equation of the test logs has a residual that matters, by a model that leaves none in
+/// the training logs; empty: none has.
+std::string missed_by_training(const RefineResult& result) {
+  for (const EquationRemainder& e : result.test_remainders)
+    if (e.at_least >= e.material && e.above > kLikeNoise * e.noise)
+      return fmt::format(
+          "the residual of the test logs is {:.3g} {} beyond the noise of {:.2g} ({} equation), "
+          "and "
+          "the training logs do not show what is missing: train with logs like these too",
+          e.above, result.linear_motion ? "N" : "N m", e.noise, e.equation);
+  return "";
+}
+
+/// `reason`: why nothing is missing in the training logs.
+void conclude_none(const std::string& reason, RefineResult& result) {
+  const std::string missed = missed_by_training(result);
+  result.verdict = missed.empty() ? Verdict::none : Verdict::unexplained;
+  result.reason = missed.empty() ? reason : missed;
 }
 
 }  // namespace
@@ -163,18 +184,17 @@ void conclude(RefineResult& result) {
       fmt::format("the squared residual is {:.3g} times that of the sensors' noise", rho);
   // At the floor there is nothing to explain, whatever was tried and refused.
   if (rho < (refused ? kNoGap : kRemainder)) {
-    result.verdict = Verdict::none;
-    result.reason = level + (refused ? "; what fits best, " + result.steps.front().added +
-                                           ", was refused: " + result.steps.front().reason
-                                     : fmt::format("; no effect of the catalogue is significant "
-                                                   "and material (p = {:.2g})",
-                                                   result.search_p));
+    conclude_none(level + (refused ? "; what fits best, " + result.steps.front().added +
+                                         ", was refused: " + result.steps.front().reason
+                                   : fmt::format("; no effect of the catalogue is both "
+                                                 "significant and large enough (p = {:.2g})",
+                                                 result.search_p)),
+                  result);
     return;
   }
   const std::string nothing = immaterial(result);
   if (!nothing.empty()) {
-    result.verdict = Verdict::none;
-    result.reason = nothing;
+    conclude_none(nothing, result);
     return;
   }
   result.verdict = Verdict::unexplained;

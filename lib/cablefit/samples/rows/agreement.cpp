@@ -19,7 +19,7 @@ void require_same_rig(const LogSurvey& first, const LogSurvey& log, const std::s
   throw input_error(
       {log.plan.path, 0, 0},
       fmt::format("preload '{:.40}' has logs of two rigs, {} and {}", preload, name(a), name(b)),
-      "fit them separately, or give their preloads different names in the rig files");
+      "give them one rig file, with the load of each in a column tau_load; or fit them separately");
 }
 
 /// "q2, theta2, tau2" of a log that is read as one of one joint.

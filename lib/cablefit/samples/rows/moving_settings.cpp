@@ -26,7 +26,10 @@ double rest_speed(std::span<const LogSurvey> logs, const PartFilter& wanted,
   const double noise =
       velocity_noise(worst_noise(logs, wanted, channel, motion.joint()), band, rate);
   const double blur = motion.acceleration(rows.signal, channel) / (2 * std::numbers::pi * band);
-  return std::max(4 * noise, blur);
+  // rad/s: a joint that shows neither noise nor motion stands still while others move.
+  constexpr double kStandsStill = 1e-9;
+  const bool beside_others = first_log_with(logs, wanted).plan.rig.n_joints() > 1;
+  return std::max({4 * noise, blur, beside_others ? kStandsStill : 0});
 }
 
 void choose_rest_speed(ChosenSettings& chosen, std::span<const LogSurvey> logs,

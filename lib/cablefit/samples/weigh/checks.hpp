@@ -23,6 +23,7 @@ Findings spikes(const Logs& logs);         ///< lone samples far beyond all othe
 Findings jumps(const Logs& logs);          ///< positions that leap from one sample to the next
 Findings positions(const Logs& logs);      ///< theta against q: sign, degrees, reduction, range
 Findings velocity(const Logs& logs);       ///< w against the derivative of the position
+Findings reference(const Logs& logs);      ///< theta_ref against theta
 Findings blocked_slope(const Logs& logs);  ///< tau against theta while the link is blocked
 Findings work(const Logs& logs);           ///< the drive's work over a closed motion
 Findings deflection(const Logs& logs);     ///< tau against theta - q

@@ -90,8 +90,8 @@ CoarsePart coarse_part(const LogSurvey& log, std::size_t log_index, std::size_t 
       const int slot = log.plan.find(channel, k);
       return slot < 0 ? Eigen::ArrayXd() : means.column(slot + 1);
     };
-    CoarsePart::Joint joint{
-        column(Channel::q), column(Channel::theta), column(Channel::w), column(Channel::tau), {}};
+    CoarsePart::Joint joint{column(Channel::q),   column(Channel::theta),     column(Channel::w),
+                            column(Channel::tau), column(Channel::theta_ref), {}};
     joint.load = load_of(log.plan, joint, column(Channel::tau_load));
     part.joints.push_back(std::move(joint));
   }

@@ -13,6 +13,7 @@ namespace cablefit {
 struct CoarsePart {
   struct Joint {
     Eigen::ArrayXd q, theta, w, tau;
+    Eigen::ArrayXd theta_ref;
     Eigen::ArrayXd load;  ///< tau_load, by its column or by the rig's law
   };
   std::size_t log = 0, part = 0;

@@ -18,11 +18,12 @@ struct WeighingRow {
 };
 
 /// Causes before their consequences.
-constexpr std::array<WeighingRow, 12> kWeighings = {{{weighing::clock, true, true},
+constexpr std::array<WeighingRow, 13> kWeighings = {{{weighing::clock, true, true},
                                                      {weighing::spikes, true, true},
                                                      {weighing::jumps, true, true},
                                                      {weighing::positions, false, true},
                                                      {weighing::velocity, false, false},
+                                                     {weighing::reference, false, false},
                                                      {weighing::work, false, true},
                                                      {weighing::deflection, false, true},
                                                      {weighing::blocked_slope, false, true},

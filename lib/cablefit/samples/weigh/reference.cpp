@@ -1,0 +1,61 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "cablefit/samples/weigh/checks.hpp"
+
+namespace cablefit::weighing {
+namespace {
+
+constexpr double kFollows = 0.95;  // correlation of theta and its reference
+constexpr double kLowRatio = 0.5, kHighRatio = 2;
+constexpr double kSameUnit = 0.03;  // relative deviation from a unit's factor
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+/// Odd only: a controller's reference need not be theta's.
+Finding odd_reference(const LogPlan& plan, const CoarsePart& part, int joint, double slope) {
+  const std::string reference = weighed_name(plan, Channel::theta_ref, joint);
+  const std::string theta = weighed_name(plan, Channel::theta, joint);
+  const double size = std::abs(slope);
+  if (size > kLowRatio && size < kHighRatio)
+    return {part.log,
+            {},
+            false,
+            fmt::format("{} is reversed: its slope on {} is {:.2f}", reference, theta, slope),
+            mending_line(plan, Channel::theta_ref, joint, -1)};
+  const std::string more =
+      fmt::format("{} moves {:.3g} times as much as {}", reference, slope, theta);
+  if (std::abs(slope / kDegrees - 1) < kSameUnit && !plan.rig.linear_motion)
+    return {part.log,
+            {},
+            false,
+            more + ": degrees?",
+            mending_unit(plan, Channel::theta_ref, joint, "deg")};
+  return {part.log,
+          {},
+          false,
+          more + ": a unit or a reduction?",
+          mending_line(plan, Channel::theta_ref, joint, nice_factor(1 / slope))};
+}
+
+}  // namespace
+
+Findings reference(const Logs& logs) {
+  Findings findings;
+  for (const CoarsePart& part : logs.parts) {
+    if (logs.survey(part).phase != Phase::moving) continue;
+    const LogPlan& plan = logs.plan(part);
+    for (int j = 0; j < plan.rig.n_joints(); ++j) {
+      const CoarsePart::Joint& joint = part.joints[static_cast<std::size_t>(j)];
+      if (joint.theta.size() == 0 || joint.theta_ref.size() == 0) continue;
+      const CoarseLine line = coarse_line(joint.theta, joint.theta_ref);
+      if (std::abs(line.correlation) < kFollows) continue;
+      if (line.slope > kLowRatio && line.slope < kHighRatio) continue;
+      findings.push_back(odd_reference(plan, part, j, line.slope));
+    }
+  }
+  return findings;
+}
+
+}  // namespace cablefit::weighing

@@ -1,0 +1,40 @@
+#include "cablefit/session/found_controller.hpp"
+
+#include <algorithm>
+
+#include "cablefit/dynamic/loops/controller_fit.hpp"
+
+namespace cablefit {
+namespace {
+
+bool is_moving(const PartSurvey& part) { return part.phase == Phase::moving; }
+
+bool moves(const LogSurvey& log) {
+  return std::any_of(log.parts.begin(), log.parts.end(), is_moving);
+}
+
+bool says_how_it_is_driven(const Rig& rig) { return rig.controller || rig.open_loop; }
+
+}  // namespace
+
+std::optional<Decision> take_found_controller(RefineLogs& logs, std::vector<Model>& models) {
+  std::vector<LogSurvey> moving;
+  std::copy_if(logs.train.begin(), logs.train.end(), std::back_inserter(moving), moves);
+  if (moving.empty() || moving.front().plan.rig.n_joints() > 1) return std::nullopt;
+  for (const auto* some : {&logs.train, &logs.test, &logs.blocked})
+    for (const LogSurvey& log : *some)
+      if (says_how_it_is_driven(log.plan.rig)) return std::nullopt;
+  for (const Model& model : models)
+    if (says_how_it_is_driven(model.rig)) return std::nullopt;
+
+  const std::optional<ControllerFit> found = fit_controller(moving, is_moving);
+  if (!found || !found->fits()) return std::nullopt;
+  for (auto* some : {&logs.train, &logs.test, &logs.blocked})
+    for (LogSurvey& log : *some) log.plan.rig.controller = found->controller;
+  for (Model& model : models) model.rig.controller = found->controller;
+  return Decision{"controller", found->text(models.front().rig.linear_motion),
+                  "found from reference, position and torque of the training logs, as the rig file "
+                  "names none"};
+}
+
+}  // namespace cablefit

@@ -1,0 +1,18 @@
+// The position controller of logs whose rig file names none. Internal to session/.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "cablefit/model/model.hpp"
+#include "cablefit/refine/refine_options.hpp"
+#include "cablefit/samples/plan/decision.hpp"
+
+namespace cablefit {
+
+/// Gives the logs and the models the controller that made the torque of the moving training logs,
+/// so that their closed loop can be simulated: a replay of the torque drifts. One joint. Nothing
+/// where a rig file names a controller, or none explains the torque; nothing is changed then.
+std::optional<Decision> take_found_controller(RefineLogs& logs, std::vector<Model>& models);
+
+}  // namespace cablefit
