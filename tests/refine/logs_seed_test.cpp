@@ -33,4 +33,13 @@ TEST_CASE("other logs draw other random numbers, the same logs the same", "[refi
   CHECK(seed != seed_of(log_text("0.09"), 2));
 }
 
+TEST_CASE("the order of the logs does not change the seed", "[refine]") {
+  Bench one, other;
+  one.add_text(log_text("0.09"));
+  one.add_text(log_text("0.091"));
+  other.add_text(log_text("0.091"));
+  other.add_text(log_text("0.09"));
+  CHECK(seed_for(one.logs(), 1) == seed_for(other.logs(), 1));
+}
+
 }  // namespace

@@ -101,7 +101,7 @@ ParameterCovariance known_together(const JointEstimates& joint,
   return joint.covariance_of(names);
 }
 
-/// Whoever asks for an estimator by name hears when another one was used.
+/// Warns when the estimator that was asked for was not used.
 void note_other_estimator(const std::string& asked, Estimation& estimation) {
   const std::string& used = estimation.fit.estimator;
   if (asked == "auto" || used.empty() || used == asked) return;

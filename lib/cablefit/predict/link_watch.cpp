@@ -89,9 +89,10 @@ Figure watch_figure(const PredictedPart& part, const ContactWatch& watch,
 LinkWatch::LinkWatch(const Model& model, const PredictOptions& options)
     : model_(model), options_(options), moves_(has_motion(model)) {
   if (!moves_ && (!options.sensed.empty() || !options.quiet.empty()))
-    throw input_error({model.rig.path},
-                      "a model of stage 1 alone shows no torque of a sensor and no contact",
-                      "give a result of `cablefit dynamic` or `cablefit identify`");
+    throw input_error(
+        {model.rig.path},
+        "--sensed and --fitted need inertias and friction: this is a model of stage 1",
+        "give a result of `cablefit dynamic` or `cablefit identify`");
   quiet_.resize(model.joints.size());
   if (!moves_) return;
   if (!options.sensed.empty()) file_.emplace(options.sensed);

@@ -16,8 +16,8 @@ namespace cablefit {
 class LinkWatch {
  public:
   /// Looks at the logs without a contact, where options name some. Both must outlive it. A model of
-  /// stage 1 has no equations of motion: then nothing is added. Throws Error(input) where options
-  /// ask such a model for what only they give.
+  /// stage 1 has no equations of motion: then nothing is added. Throws Error(input) when options
+  /// ask such a model for torques of a sensor or for contacts.
   LinkWatch(const Model& model, const PredictOptions& options);
 
   /// `parts`: of the log number `number` (from 1), one for each that is wanted. What cannot be

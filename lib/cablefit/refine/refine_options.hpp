@@ -13,7 +13,7 @@ namespace cablefit {
 
 struct RefineOptions {
   std::size_t n_draws = 24;   ///< simulated data sets
-  unsigned long seed = 1;     ///< mixed with the logs, see seed_for()
+  unsigned long seed = 1;     ///< mixed with the contents of the training logs
   double materiality = 0.01;  ///< smallest share of the squared residual of an identified effect
   std::optional<double> material;  ///< N m that matter; nothing: see material_torque()
   double significance = 0.01;      ///< largest p-value of an identified effect

@@ -202,10 +202,9 @@ std::string why_not_settled(const RecursiveTrace& trace) {
   const double seconds = trace.points.empty() ? 0 : trace.points.back().t;
   if (trace.rule.method != "gradient" || kTimeConstants * trace.rule.slowest <= seconds) return "";
   return fmt::format(
-      "the gradient estimate did not converge: its slowest direction takes {:.3g} s and the logs "
-      "last {:.3g} s; its sd, of the steady state, is too small; give a shorter --memory, or "
-      "longer "
-      "logs",
+      "the gradient estimate did not converge: its slowest direction takes {:.3g} s and the "
+      "logs last {:.3g} s; its sd, of the steady state, is too small; give a shorter --memory, "
+      "or longer logs",
       trace.rule.slowest, seconds);
 }
 

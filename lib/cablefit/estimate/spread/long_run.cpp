@@ -132,8 +132,8 @@ Eigen::Index lags_of_orders(Eigen::Index n, Eigen::Index max_order) {
 /// correlations stay.
 void restore(const Eigen::Ref<const Eigen::MatrixXd>& series, const FittedOut& fitted,
              Eigen::Index max_order, LongRunCovariance& result) {
-  constexpr int kPasses = 6;  // each adds less than a third of the one before
-  // Of a variance, by all passes. Where the prewhitening is near its cap they need not converge.
+  constexpr int kPasses = 6;  // each adds less than a third of the one before, as a rule
+  // Of a variance, by all passes: they need not converge where the prewhitening is near its cap.
   constexpr double kMostGrowth = 9;
   const auto n = static_cast<double>(series.rows());
   const Eigen::Index n_lags = std::min<Eigen::Index>(

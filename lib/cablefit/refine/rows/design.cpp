@@ -31,7 +31,7 @@ double encoder_noise(const Eigen::ArrayXd& x) {
   return std::max(rounding, std::sqrt(sum / static_cast<double>(x.size())));
 }
 
-/// What tells a speed from rest.
+/// Below it a position counts as standing still.
 struct LeastSpeed {
   double by_noise = 0, rms = 0;  ///< rad/s
   double value() const { return std::max(by_noise, kShareOfSpeed * rms); }

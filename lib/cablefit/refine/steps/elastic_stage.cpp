@@ -1,5 +1,4 @@
 #include "cablefit/refine/steps/elastic_stage.hpp"
-#include "cablefit/refine/steps/determined_effects.hpp"
 
 #include <fmt/format.h>
 
@@ -8,6 +7,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/refine/null/kept_effects.hpp"
+#include "cablefit/refine/steps/determined_effects.hpp"
 
 namespace cablefit {
 namespace {

@@ -133,24 +133,24 @@ std::string immaterial(const RefineResult& result) {
                       : "the residual beyond the sensors' noise is too small to matter: " + text;
 }
 
-/// Says which equation of the test logs has a residual that matters, by a model that leaves none in
-/// the training logs; empty: none has.
-std::string missed_by_training(const RefineResult& result) {
+/// Why test logs contradict a model that fits the training logs: an equation whose residual
+/// matters; empty: none has one.
+std::string contradiction_by_test(const RefineResult& result) {
   for (const EquationRemainder& e : result.test_remainders)
     if (e.at_least >= e.material && e.above > kLikeNoise * e.noise)
       return fmt::format(
-          "the residual of the test logs is {:.3g} {} beyond the noise of {:.2g} ({} equation), "
-          "and "
-          "the training logs do not show what is missing: train with logs like these too",
+          "the residual of the test logs is {:.3g} {} beyond the noise of {:.2g} ({} "
+          "equation), and the training logs do not show what is missing: train with logs like "
+          "these too",
           e.above, result.linear_motion ? "N" : "N m", e.noise, e.equation);
   return "";
 }
 
 /// `reason`: why nothing is missing in the training logs.
 void conclude_none(const std::string& reason, RefineResult& result) {
-  const std::string missed = missed_by_training(result);
-  result.verdict = missed.empty() ? Verdict::none : Verdict::unexplained;
-  result.reason = missed.empty() ? reason : missed;
+  const std::string contradiction = contradiction_by_test(result);
+  result.verdict = contradiction.empty() ? Verdict::none : Verdict::unexplained;
+  result.reason = contradiction.empty() ? reason : contradiction;
 }
 
 }  // namespace
