@@ -183,4 +183,21 @@ TEST_CASE("test logs that the model misses by far are not called explained", "[r
   CHECK(result.reason ==
         "the residual of the test logs is 16.2 N m beyond the noise of 0.04 (motor equation), and "
         "the training logs do not show what is missing: train with logs like these too");
+  result.held_out_blocks = true;
+  conclude(result);
+  CHECK(result.verdict == Verdict::unexplained);
+  CHECK(result.reason ==
+        "the residual of the last third of the logs is 16.2 N m beyond the noise of 0.04 (motor "
+        "equation), and the rows before it do not show what is missing: train with more logs of "
+        "such motion too");
+}
+
+TEST_CASE("a given material size decides alone on test logs too", "[refine]") {
+  RefineResult result;
+  result.rho_before = 1;
+  result.search_p = 0.5;
+  result.test_remainders = {{"motor", 0.5, 0.3, 0.4, 0.2}};  // like the noise
+  result.material_given = true;
+  conclude(result);
+  CHECK(result.verdict == Verdict::unexplained);
 }

@@ -194,9 +194,8 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
       remainders_of(state.design, fit.x, bench.floor, bench.scan.block_seconds, options.material);
   result.material_given = options.material.has_value();
   const TestReading& last = readings.back();
-  if (!result.held_out_blocks)
-    result.test_remainders = remainders_of(last.rows, last.x, bench.test_floor,
-                                           bench.scan.block_seconds, options.material);
+  result.test_remainders = remainders_of(last.rows, last.x, bench.test_floor,
+                                         bench.scan.block_seconds, options.material);
   const RefineState before = confirmed.values.of(chain, 0);
   state.x = fit.x;
   const RefineState after = confirmed.values.of(chain, chain.size() - 1);
@@ -214,7 +213,7 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
   result.rho_after = state.rho;
   tell_gaps(bench, chain, readings, result);
   conclude(result);
-  if (result.verdict == Verdict::unexplained && !result.unexplained && !result.held_out_blocks)
+  if (result.verdict == Verdict::unexplained && !result.unexplained)
     result.unexplained =
         describe_remainder(last.rows, last.x, bench.test_floor, bench.scan.block_seconds);
   choose_next_run({first.design, first.x, bench.floor, bench.first_search.candidates, runs},

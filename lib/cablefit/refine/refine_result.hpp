@@ -151,7 +151,7 @@ struct RefineResult {
   double remainder_blocked = 0, floor_blocked = 0;  ///< N m rms
   std::vector<EquationRemainder> remainders;        ///< of the equations with rows
   bool material_given = false;                      ///< by an option, which then decides alone
-  std::vector<EquationRemainder> test_remainders;   ///< of the test logs, where some are given
+  std::vector<EquationRemainder> test_remainders;   ///< of the held-out rows
   double rho_before = 0, rho_after = 0;
   std::vector<RefineStep> steps;
   GapStory torque, simulation;

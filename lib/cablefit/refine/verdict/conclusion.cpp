@@ -133,16 +133,19 @@ std::string immaterial(const RefineResult& result) {
                       : "the residual beyond the sensors' noise is too small to matter: " + text;
 }
 
-/// Why test logs contradict a model that fits the training logs: an equation whose residual
+/// Why held-out rows contradict a model that fits the training rows: an equation whose residual
 /// matters; empty: none has one.
 std::string contradiction_by_test(const RefineResult& result) {
+  const bool of_logs = !result.held_out_blocks;
   for (const EquationRemainder& e : result.test_remainders)
-    if (e.at_least >= e.material && e.above > kLikeNoise * e.noise)
+    if (e.at_least >= e.material && (result.material_given || e.above > kLikeNoise * e.noise))
       return fmt::format(
-          "the residual of the test logs is {:.3g} {} beyond the noise of {:.2g} ({} "
-          "equation), and the training logs do not show what is missing: train with logs like "
-          "these too",
-          e.above, result.linear_motion ? "N" : "N m", e.noise, e.equation);
+          "the residual of {} is {:.3g} {} beyond the noise of {:.2g} ({} equation), and the {} "
+          "show what is missing: train with {} too",
+          of_logs ? "the test logs" : "the last third of the logs", e.above,
+          result.linear_motion ? "N" : "N m", e.noise, e.equation,
+          of_logs ? "training logs do not" : "rows before it do not",
+          of_logs ? "logs like these" : "more logs of such motion");
   return "";
 }
 
