@@ -13,7 +13,8 @@ build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libceres-dev libc
 test_packages=(nodejs chromium liborocos-kdl-dev hunspell hunspell-en-gb)
 fuzz_packages=(clang-14 libclang-rt-14-dev)
 declare -A step_packages=([format]=clang-format-14 [readme]="python3 hunspell hunspell-en-gb"
-                          [tidy]=clang-tidy-14 [sanitize]=chromium)
+                          [tidy]=clang-tidy-14 [changed]=clang-tidy-14
+                          [sanitize]=chromium)
 # Packages whose program may as well come from elsewhere, and are then not wanted: Debian's npm cannot
 # stand beside a node of nodesource.org.
 declare -A program_of=([npm]=npm [nodejs]=node [chromium]=chromium)

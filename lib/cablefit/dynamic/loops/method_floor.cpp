@@ -143,7 +143,7 @@ MethodFloor method_floor(const DynamicJob& job, const std::vector<EquationRows>&
   };
   try {
     for (const LinearSolution& solution : solutions)
-      floor.variance.push_back(Eigen::VectorXd::Zero(solution.x.size()));
+      floor.variance.emplace_back(Eigen::VectorXd::Zero(solution.x.size()));
     CopyDraws draws(job, fitted_model(job, equations, solutions, which), any(true), any(false));
     draws.for_each([&](const CopyDraw& draw) {
       const std::vector<LinearSolution> found = fit_copy(job, draw.logs, which);

@@ -239,16 +239,18 @@ Eigen::Index dry_column(const Design& design, const Effect& row) {
   return row.site == Site::link ? design.layout.dry_link : design.layout.dry_motor;
 }
 
-std::vector<ReplacedColumns> corrected_columns(const Design& design, std::size_t k,
+std::vector<ReplacedColumns> corrected_columns(const Design& design, std::size_t stretch,
                                                const Effect& row,
                                                const std::vector<double>& parameters,
                                                Evaluation evaluation) {
-  Stretch stretch = design.stretches[k];
-  const Model& model = design.models[stretch.model];
-  if (row.correct != nullptr) row.correct(parameters.data(), stretch.recording);
-  if (!same_positions(stretch.recording, design.stretches[k].recording))
-    return all_columns(base_rows(stretch, model, design.layout, design.smoothing, &design.rows[k]));
-  return columns_of_torque(design.rows[k], stretch.recording, model, design.smoothing, evaluation);
+  const StretchRows& rows = design.rows[stretch];
+  const Stretch& recorded = design.stretches[stretch];
+  Stretch changed = recorded;
+  const Model& model = design.models[changed.model];
+  if (row.correct != nullptr) row.correct(parameters.data(), changed.recording);
+  if (!same_positions(changed.recording, recorded.recording))
+    return all_columns(base_rows(changed, model, design.layout, design.smoothing, &rows));
+  return columns_of_torque(rows, changed.recording, model, design.smoothing, evaluation);
 }
 
 std::vector<std::vector<ReplacedColumns>> replaced_columns(const Design& design,

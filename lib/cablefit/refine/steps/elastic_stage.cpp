@@ -98,9 +98,9 @@ double enough_rows(const Design& design) {
   for (std::size_t k = 0; k < design.stretches.size(); ++k) {
     double n = 0;
     for (const KindRows& kind : design.rows[k].kinds) n += static_cast<double>(kind.at.size());
-    const auto all = static_cast<double>(design.stretches[k].recording.theta.size() /
-                                         design.smoothing_of(k).stride);
-    sum += std::min(1.0, n / (kEnough * std::max(1.0, all)));
+    const Eigen::Index samples = design.stretches[k].recording.theta.size();
+    const Eigen::Index all = std::max<Eigen::Index>(1, samples / design.smoothing_of(k).stride);
+    sum += std::min(1.0, n / (kEnough * static_cast<double>(all)));
   }
   return sum / static_cast<double>(design.stretches.size());
 }
@@ -178,7 +178,7 @@ Smoothing blocked_smoothing(std::span<const Model> models, const std::vector<Str
   double width = std::clamp(kOfTravel * travel_time(stretches), narrowest.signals, widest);
   Smoothing best;
   double most = -1;
-  for (; width <= kWider * widest; width *= kWider) {
+  while (width <= kWider * widest) {
     // A row asks for the same sign of the speed all over its kernel: that does not happen at rest.
     constexpr double kOfUsual = 0.5;
     Smoothing tried = make_design(models, stretches, widened(narrowest, width, period)).smoothing;
@@ -188,6 +188,7 @@ Smoothing blocked_smoothing(std::span<const Model> models, const std::vector<Str
     if (enough > most) best = tried;
     most = std::max(most, enough);
     if (most > kAlmost) break;
+    width *= kWider;
   }
   return best;
 }
