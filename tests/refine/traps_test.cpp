@@ -92,6 +92,33 @@ TEST_CASE("draws follow the motion where the rig's loop would not", "[refine][tr
   CHECK(follows(0.1));
 }
 
+/// rms of what theta - q does around 33 Hz: second differences over 15 ms.
+double fast_deflection(const Stretch& stretch) {
+  const auto every = static_cast<Eigen::Index>(0.015 / stretch.recording.period);
+  const Eigen::ArrayXd phi = stretch.recording.theta - stretch.recording.q;
+  const Eigen::Index n = phi.size() - 2 * every;
+  const Eigen::ArrayXd bent = phi.head(n) - 2 * phi.segment(every, n) + phi.tail(n);
+  return std::sqrt(bent.square().mean());
+}
+
+/// Noise of the torque sensor that moves the copies frees their motors from stiction.
+TEST_CASE("copies without a controller move no more than the logs", "[refine][trap]") {
+  const HiddenLogs nothing = hidden_logs({});
+  RefineLogs logs = nothing.logs;
+  for (LogSurvey& log : logs.train) log.plan.rig.controller.reset();
+  const auto all = [](const PartSurvey&) { return true; };
+  const NullBench bench(nothing.models, logs.train, all, smoothing_for(1e-3), 1);
+  const std::vector<Stretch> measured = read_stretches(logs.train, nothing.models, all);
+  const std::vector<Stretch> copies = bench.draw(1);
+  REQUIRE(copies.size() == measured.size());
+  for (std::size_t k = 0; k < copies.size(); ++k) {
+    INFO("log " << k);
+    const double ratio = fast_deflection(copies[k]) / fast_deflection(measured[k]);
+    CHECK(ratio > 0.9);
+    CHECK(ratio < 1.5);
+  }
+}
+
 /// On a frozen base the part of an effect that the base has swallowed is lost.
 TEST_CASE("a frozen base shrinks what is found", "[refine][trap]") {
   const HiddenLogs hidden = hidden_logs({"quadratic_drag.link=1"});

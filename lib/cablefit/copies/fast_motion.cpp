@@ -12,6 +12,7 @@ namespace {
 constexpr double kWidestBand = 0.4;  // of the rate, for the low-pass
 constexpr int kFilterOrder = 4;
 constexpr double kPart = 1.5;  // upper to lower limit of a part of the band, at most
+constexpr double kEdge = 4;    // periods of the highest frequency
 
 /// Central differences.
 Eigen::ArrayXd velocity(const Eigen::ArrayXd& x, double period) {
@@ -91,6 +92,10 @@ FastMotion fast_motion(const Model& model, const LogPlan& plan, const TwinStretc
   columns << theta, tau, around_rows(tau, torque_held),
       motor_torque(model.joints[static_cast<std::size_t>(joint)].motor, quiet, period) +
           elastic_torque(model, plan, stretch.measured, joint);
+  // At either end the filter and the differences are off by far, and the bands would spread that.
+  const auto edge = std::min(n / 4, static_cast<Eigen::Index>(kEdge / (band.to * period)));
+  columns.col(3).head(edge) = columns.col(2).head(edge);
+  columns.col(3).tail(edge) = columns.col(2).tail(edge);
   const int parts = static_cast<int>(std::ceil(std::log(band.to / band.from) / std::log(kPart)));
   Eigen::MatrixXd below = smooth(columns, period, band.from);
   for (int part = 1; part <= parts; ++part) {
