@@ -208,6 +208,28 @@ TEST_CASE("long-run variance of residuals, regressors that are there for a while
   }
 }
 
+// What was taken out is put back in passes, each from the level that the one before found. Where a
+// fit takes out more than is left the passes grow without end: a variance by 9 at most.
+TEST_CASE("long-run variance grows by a bounded factor", "[estimate]") {
+  const Eigen::Index n = 1000;
+  Normal normal(46400);
+  Eigen::MatrixXd series(n, 1);
+  double x = 0;
+  for (double& value : series.reshaped()) value = x = 0.9 * x + normal();
+  const double plain = interval_covariance(series).covariance(0, 0);
+  // The same autocovariances were taken out, times level / total: prewhitening and bandwidth are
+  // those of the plain series.
+  const auto growth = [&](double total) {
+    const FittedOut fitted{{series}, Eigen::VectorXd::Constant(1, total)};
+    return interval_covariance(series, &fitted).covariance(0, 0) / plain;
+  };
+  CHECK_THAT(growth(1e-3 * plain), Catch::WithinRel(9, 1e-6));
+  CHECK_THAT(growth(1e-6 * plain), Catch::WithinRel(9, 1e-6));
+  // 1 + 0.1 (1 + 0.1 (...)) where little was. The kernel sums of the whitened series and of its
+  // autocovariances differ at the ends, by some lags in 1000 entries.
+  CHECK_THAT(growth(10 * plain), Catch::WithinRel(1 / 0.9, 0.03));
+}
+
 // Brockwell & Davis 1991, (8.1.3): x = 0.5 x_1 + 0.3 x_2 + e has rho_1 = 0.5 / 0.7 and
 // rho_2 = 0.5 rho_1 + 0.3; the recursion has to give back what made its autocovariance.
 TEST_CASE("an autoregression from its autocovariance", "[estimate]") {

@@ -1,5 +1,6 @@
 // Arms from URDF files: what is read, and what is refused in which words. What a build without
 // URDF says is tested in that build.
+#include <array>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -165,6 +166,43 @@ TEST_CASE("sliding arms are read on linear rigs") {
   CHECK(rig.arm.described()[1] == Approx(1.1));
 }
 
+TEST_CASE("an inertia that no body has is refused with its link") {
+  if (!reads_urdf()) return;
+  const auto with = [](const char* mass, const char* ixx, const char* iyy, const char* izz) {
+    return replaced(skew_text(),
+                    R"(<mass value="0.15"/> <inertia ixx="3e-5" ixy="0" ixz="0" )"
+                    R"(iyy="3e-5" iyz="0" izz="3e-5"/>)",
+                    fmt::format(R"(<mass value="{}"/> <inertia ixx="{}" ixy="0" ixz="0" )"
+                                R"(iyy="{}" iyz="0" izz="{}"/>)",
+                                mass, ixx, iyy, izz));
+  };
+  const auto refused = [&](const std::string& text) {
+    const std::string at = "rig.json:2:34: arm.urdf:36: link 'camera' has ";
+    const std::string message = UrdfRig(text).refused(2);
+    REQUIRE(message.substr(0, at.size()) == at);
+    return message.substr(at.size());
+  };
+  const std::string again =
+      "; export the inertia about the centre of mass again, in kg m^2; CAD programs differ in the "
+      "sign of ixy, ixz and iyz";
+  CHECK(refused(with("0.15", "-3e-5", "3e-5", "3e-5")) ==
+        "a negative principal moment of inertia, -3e-05 kg m^2" + again);
+  // In g mm^2, of one axis.
+  CHECK(refused(with("0.15", "3e-5", "3e-5", "30")) ==
+        "an impossible inertia: its largest principal moment, 30 kg m^2, is above the sum of the "
+        "others, 3e-05 + 3e-05 kg m^2" +
+            again);
+  CHECK(refused(with("0", "3e-5", "3e-5", "3e-5")) ==
+        "an inertia of up to 3e-05 kg m^2, but a mass of 0; give it its mass, or leave out its "
+        "<inertial>");
+  // A link of nothing, a point, a thin rod and a thin plate with rounded digits are bodies.
+  for (const auto& [mass, ixx, iyy, izz] :
+       {std::array{"0", "0", "0", "0"}, std::array{"0.15", "0", "0", "0"},
+        std::array{"0.15", "0", "3e-5", "3e-5"},
+        std::array{"0.15", "1.33e-5", "1.33e-5", "2.67e-5"}})
+    CHECK(UrdfRig(with(mass, ixx, iyy, izz)).read(2).n_joints() == 2);
+}
+
 TEST_CASE("a file that is no URDF is refused at its line") {
   if (!reads_urdf()) return;
   const auto refused = [](const std::string& text) { return UrdfRig(text).refused(2); };
@@ -194,7 +232,7 @@ TEST_CASE("a file that is no URDF is refused at its line") {
   CHECK(skew_with("<mass value=\"1.3\"/>", "<mass value=\"1,3\"/>") ==
         "arm.urdf:17: value='1,3' is not 1 number");
   CHECK(skew_with("<mass value=\"1.3\"/>", "<mass value=\"-1\"/>") ==
-        "arm.urdf:16: a negative mass");
+        "arm.urdf:16: link 'upper' has a mass of -1 kg; a mass is positive");
   CHECK(skew_with("xyz=\"0.1 0 0.05\"", "xyz=\"0.1 0\"") ==
         "arm.urdf:13: xyz='0.1 0' is not 3 numbers");
   CHECK(skew_with("xyz=\"0.1 0 0.05\"", "xyz=\"0.1 0 nan\"") ==

@@ -74,6 +74,8 @@ Outcome cover(const char* title, const PlainRig& plain, const PlainArm* arm = nu
     CHECK(r.preloads.at(0).equilibrium < 1e-9);
     REQUIRE(r.preloads.at(0).model);
     CHECK(r.preloads.at(0).model->is_coupled() == (arm != nullptr));
+    for (const Estimate& e : r.preloads.at(0).model->arm)
+      CHECK(r.preloads.at(0).model->covariance.of({e.name, "k[pip]_0"}));
     for (const auto& [name, value] : identify_truth(plain, rig)) {
       RunTable& table = tables[name];
       table.name = name;

@@ -71,6 +71,22 @@ TEST_CASE("gaps are counted and do not stretch the period", "[samples]") {
   CHECK_THAT(part.period, Catch::WithinRel(1e-3, 1e-9));
 }
 
+// A compressed log comes in other pieces than a plain one, and has to give the same bits.
+TEST_CASE("noise does not depend on how many values come at a time", "[samples]") {
+  const Columns log = noisy_log(20000, 5210);
+  const Eigen::Map<const Eigen::ArrayXd> values(log.columns.at(1).second.data(), 20000);
+  const auto noise = [&](Eigen::Index at_once) {
+    ChannelScan scan;
+    for (Eigen::Index i = 0; i < values.size(); i += at_once)
+      scan.add(values.segment(i, std::min(at_once, values.size() - i)));
+    return scan.result().noise;
+  };
+  for (const Eigen::Index at_once : {1, 3, 7, 100, 777, 4096}) {
+    INFO(at_once << " at a time");
+    CHECK(noise(at_once) == noise(20000));
+  }
+}
+
 // Sixth differences of white noise: chi-square with about n/6 independent terms; 5 % is 3 sd at
 // 20000 rows.
 TEST_CASE("white noise is estimated beside smooth motion", "[samples]") {

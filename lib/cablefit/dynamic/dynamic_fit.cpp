@@ -178,6 +178,7 @@ DynamicPreload fit_preload(DynamicJob job, const ElasticResult& elastic) {
   preload.linear_motion = job.rig().linear_motion;
   preload.rig_path = job.rig().path;
   require_torque(job);
+  require_motion(job);
   note_load(job, preload);
   choose_settings(job, preload, elastic);
   find_first_shapes(job);

@@ -18,7 +18,6 @@ namespace {
 /// Moving parts that one fit would take together.
 struct Group {
   Prediction about;
-  std::string rig_path;
   std::vector<LogSurvey> logs;
   std::vector<std::vector<bool>> parts;  ///< per log, of its parts
 };
@@ -29,16 +28,15 @@ bool good_for(const CheckedPart& part, const char* model) {
 
 Group& group_of(std::vector<Group>& groups, const LogSurvey& log, const CheckedPart& part) {
   const bool rigid = !good_for(part, "dynamic");
-  const Rig& rig = log.plan.rig;
+  const LogPart own{&log.plan, part.survey.phase};
   for (Group& group : groups)
-    if (group.about.preload == part.survey.preload && group.rig_path == rig.path &&
-        group.about.rigid == rigid)
+    if (group.about.preload == part.survey.preload && group.about.rigid == rigid &&
+        is_same_bench({&group.logs.front().plan, Phase::moving}, own))
       return group;
   Group group;
   group.about.preload = part.survey.preload;
   group.about.rigid = rigid;
-  group.about.linear_motion = rig.linear_motion;
-  group.rig_path = rig.path;
+  group.about.linear_motion = log.plan.rig.linear_motion;
   return groups.emplace_back(std::move(group));
 }
 

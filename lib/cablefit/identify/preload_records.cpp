@@ -7,6 +7,7 @@
 
 #include "cablefit/dynamic/rows/dynamic_job.hpp"
 #include "cablefit/dynamic/rows/joint_settings.hpp"
+#include "cablefit/dynamic/rows/requirements.hpp"
 #include "cablefit/elastic/rows/blocked_rows.hpp"
 #include "cablefit/model/model.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
@@ -130,6 +131,7 @@ JointRecord first_moving_record(std::span<const LogSurvey> logs, const IdentifyO
   DynamicOptions dynamic;
   dynamic.samples = options.samples;
   DynamicJob job{logs, dynamic, facts.name, moving_parts(facts.name), {}, {}, false, {}, {}};
+  require_motion(job);
   SampleOptions wide = options.samples;
   if (!wide.cutoff) wide.cutoff = kWideBand * sample_rates(logs, job.wanted).lowest;
   choose_joint_settings(job, wide, std::vector<double>(static_cast<std::size_t>(job.n_joints())));
@@ -158,6 +160,7 @@ MovingJob::MovingJob(std::span<const LogSurvey> logs, const IdentifyOptions& opt
     joint.deflection_low = range.low;
     joint.deflection_high = range.high;
   }
+  require_motion(job);
   choose_settings(job, found, stage1);
 }
 

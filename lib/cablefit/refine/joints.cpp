@@ -5,15 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <optional>
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/model/one_joint.hpp"
-#include "cablefit/refine/null/kept_effects.hpp"
-#include "cablefit/refine/rows/physical_values.hpp"
-#include "cablefit/refine/rows/refined_model.hpp"
-#include "cablefit/refine/steps/elastic_stage.hpp"
+#include "cablefit/refine/kept_joint.hpp"
 
 namespace cablefit {
 namespace {
@@ -22,20 +18,6 @@ std::vector<Model> one_joint_each(std::span<const Model> models, int joint) {
   std::vector<Model> one;
   for (const Model& model : models) one.push_back(one_joint(model, joint));
   return one;
-}
-
-/// The models of a joint with the base fit that its training logs give. Of blocked logs alone, and
-/// where there is none, as they are.
-std::vector<Model> with_base_fit(const std::vector<Model>& models, const RefineLogs& logs) {
-  const RefineStage stage = stage_of(models, logs);
-  if (stage.elastic_only) return models;
-  std::vector<Stretch> stretches = read_stretches(logs.fitted(), stage.models, stage.wanted);
-  if (stretches.empty()) return models;
-  const Smoothing wanted = smoothing_for(finest_period(stretches, false));
-  const ScanSettings settings;
-  const BaseFit base = fit_kept_base(stage.models, std::move(stretches), wanted, settings).base;
-  return models_with(base.design,
-                     physical_values(base.design, settings.block_seconds, base.levels, base.fit.x));
 }
 
 /// Simulations of one joint move the others too: all of them with values that fit.
@@ -101,10 +83,6 @@ void append_lists(const RefineResult& r, RefineResult& all) {
   append(all.steps, r.steps);
   append(all.shifts, r.shifts);
   append(all.figures, r.figures);
-  if (!r.not_refined.empty())
-    all.warnings.push_back(
-        fmt::format("joint {}: not refined: the model file has start values for it, no estimates",
-                    r.joint_name));
   for (const std::string& warning : r.warnings)
     all.warnings.push_back(fmt::format("joint {}: {}", r.joint_name, warning));
 }
@@ -191,17 +169,6 @@ const RefineResult& leading(const std::vector<RefineResult>& joints, Verdict ver
   return best != nullptr ? *best : joints.front();
 }
 
-/// What a joint has that was not refined are start values, no estimates.
-void mark_start_values(const RefineResult& joint, Model& model) {
-  JointModel& axes = model.joints[static_cast<std::size_t>(joint.joint) - 1];
-  for (auto* side : {&axes.link, &axes.motor})
-    for (EffectInstance& instance : *side)
-      for (Estimate& e : instance.parameters) {
-        e.sd = std::numeric_limits<double>::quiet_NaN();
-        e.not_identifiable = "a start value: the joint was not refined";
-      }
-}
-
 /// Of every preload the model with what each joint's fit says.
 std::vector<Model> joined_models(std::span<const Model> models,
                                  const std::vector<RefineResult>& joints) {
@@ -211,8 +178,6 @@ std::vector<Model> joined_models(std::span<const Model> models,
     for (const RefineResult& r : joints)
       if (m < r.models.size()) own.push_back(r.models[m]);
     all.push_back(own.empty() ? models[m] : joined(own));
-    for (const RefineResult& r : joints)
-      if (!r.not_refined.empty()) mark_start_values(r, all.back());
   }
   return all;
 }
@@ -270,6 +235,9 @@ RefineResult refine_joints(std::span<const Model> given, const RefineLogs& logs,
       if (error.kind() != ErrorKind::not_identifiable) throw;
       if (!first) first = error;
       r.not_refined = error.what();
+      KeptJoint kept = kept_joint(given, models, joint, logs);
+      r.models = std::move(kept.models);
+      r.warnings.push_back(fmt::format("not refined: {}; {}", r.not_refined, kept.source));
     }
     r.joint = joint + 1;
     r.joint_name = name;

@@ -144,6 +144,16 @@ void take_stage1(std::span<const LogSurvey> logs, int threads, std::vector<Model
   if (models.front().rig.arm.is_coupled()) take_arm(logs, stage1, threads, models, decisions);
 }
 
+void add_start_springs(Model& model) {
+  const int n = model.rig.n_joints();
+  for (int joint = 1; joint <= n; ++joint) {
+    Estimate& e = model.elastic.emplace_back();
+    e.name = e.symbol = joint_parameter_name(kSpringName, joint, n);
+    e.unit = model.rig.linear_motion ? "N/m" : "N m/rad";
+    e.not_identifiable = kStartValue;
+  }
+}
+
 /// One straight spring, whose stiffness the rows tell.
 void take_spring(std::vector<Model>& models) {
   for (Model& model : models) {
@@ -152,6 +162,7 @@ void take_spring(std::vector<Model>& models) {
     model.transmission = classical_spring(model.transmission);
     model.transmission.linear_stiffness = Eigen::VectorXd::Ones(n);
     model.transmission.theta_0 = Eigen::VectorXd::Zero(n);
+    add_start_springs(model);
   }
 }
 
@@ -196,7 +207,7 @@ std::string fill(const Rig& rig, bool is_inertia, const ParameterInfo& info, Est
             : is_inertia                ? kAnyInertia
             : std::isfinite(info.lower) ? info.lower
                                         : 0;
-  e.not_identifiable.clear();
+  e.not_identifiable = kStartValue;
   return e.name + (has_cad ? " (CAD)" : "");
 }
 

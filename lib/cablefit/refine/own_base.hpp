@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cablefit/model/model.hpp"
@@ -28,6 +29,10 @@ OwnBase own_base(const RefineLogs& logs, int threads);
 /// The same with one straight spring in place of cables, whose parameters the training samples do
 /// not all determine: `why`. Nothing of a base without cables.
 std::optional<OwnBase> with_spring(OwnBase base, const std::string& why);
+
+/// Why a start value has no sd; a fit takes the text away with the value.
+inline constexpr std::string_view kStartValue = "a start value";
+inline constexpr std::string_view kSpringName = "K";
 
 /// A missing value of an effect becomes the rig's "cad", else its bound; a missing inertia 1.
 /// refine estimates all of them. Returns which were missing.

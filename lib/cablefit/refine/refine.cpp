@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "cablefit/refine/bounded_work.hpp"
 #include "cablefit/refine/figures/refine_figures.hpp"
@@ -199,13 +198,8 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
   const RefineState before = confirmed.values.of(chain, 0);
   state.x = fit.x;
   const RefineState after = confirmed.values.of(chain, chain.size() - 1);
-  std::vector<Eigen::Index> held;
-  fit.x = physical_values(after.design, bench.scan.block_seconds, state.levels, after.x, &held);
+  take_physical(after.design, bench.scan.block_seconds, state.levels, after.x, fit);
   if (confirmed.values.left()) add_systematic(*confirmed.values.left(), fit);
-  for (const Eigen::Index column : held) {
-    fit.covariance.row(column).setConstant(std::numeric_limits<double>::quiet_NaN());
-    fit.covariance.col(column).setConstant(std::numeric_limits<double>::quiet_NaN());
-  }
   tell_effects(models, named_effects(after.design, fit), result);
   result.shifts = parameter_shifts(first.design, before.x, after.design, fit);
   result.models = refined_models(after.design, fit);

@@ -196,7 +196,7 @@ Estimation estimate_iv(const EstimationTask& task) {
     out.fit.verdicts[verdict_key(task.equations[k])] =
         verdict(j, "wls would be sufficient", "the iv estimates are used");
   }
-  if (job.n_joints() == 1) out.joint = join_estimates(out.fit, influences, task.stage1());
+  out.joint = join_estimates(out.fit, influences, task.stage1());
   note_controller(task, plan, out);
   note_instruments(task, plan, fit, out);
   return out;
@@ -329,7 +329,7 @@ Estimation estimate_automatically(const EstimationTask& task) {
     }
     out.fit.verdicts[verdict_key(e)] = text;
   }
-  if (job.n_joints() == 1) out.joint = join_estimates(out.fit, influences, task.stage1());
+  out.joint = join_estimates(out.fit, influences, task.stage1());
   note_controller(task, plan, out);
   note_instruments(task, plan, fit, out);
   return out;

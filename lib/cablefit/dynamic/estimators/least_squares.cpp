@@ -40,7 +40,7 @@ Estimation least_squares_fit(const EstimationTask& task, Weighting weighting) {
       out.solutions[k] = solution;
     }
   }
-  if (job.n_joints() == 1) out.joint = join_estimates(out.fit, influences, task.stage1());
+  out.joint = join_estimates(out.fit, influences, task.stage1());
   return out;
 }
 

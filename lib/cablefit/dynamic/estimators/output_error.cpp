@@ -335,7 +335,7 @@ Estimation estimate(const EstimationTask& task) {
   if (oe.parameters.empty()) return stay_with_least_squares(task, std::move(start), oe.message);
   Estimation out;
   fill(task, oe, start, out);
-  if (job.n_joints() == 1) out.joint = joint_estimates_of(oe, out.fit);
+  out.joint = joint_estimates_of(oe, out.fit);
   note_fit(task, rows, loop, oe, out);
   note_stage1(task, options, oe, out);
   return out;

@@ -12,15 +12,17 @@ namespace {
 /// The lower of two cut-offs, 0 being none.
 double lower_cutoff(double a, double b) { return a > 0 && b > 0 ? std::min(a, b) : std::max(a, b); }
 
-/// What all equations share: enough for the joint that needs most.
+/// What all equations share: enough for the joint that needs most. The margin around rest is that
+/// of the highest cut-off: an equation with a lower one widens it (row_stream.hpp).
 void take_most(RowSettings& all, const ChosenSettings& joint) {
   const RowSettings& own = joint.rows;
+  if (own.signal.cutoff >= all.signal.cutoff) {
+    const bool is_same = own.signal.cutoff == all.signal.cutoff;
+    all.rest_margin = is_same ? std::max(all.rest_margin, own.rest_margin) : own.rest_margin;
+  }
   all.signal.cutoff = std::max(all.signal.cutoff, own.signal.cutoff);
-  all.lowest_cutoff =
-      lower_cutoff(all.lowest_cutoff, lower_cutoff(own.signal.cutoff, joint.cutoff_q));
   all.decimate = std::min(all.decimate, own.decimate);
   all.drop_edge = std::max(all.drop_edge, own.drop_edge);
-  all.rest_margin = std::max(all.rest_margin, own.rest_margin);
   all.rate = own.rate;
 }
 
@@ -57,7 +59,11 @@ std::vector<Decision> told_by_joint(const std::vector<ChosenSettings>& joints,
 
 ChosenSettings merged(const std::vector<ChosenSettings>& joints) {
   ChosenSettings all = joints.front();
-  for (const ChosenSettings& joint : joints) take_most(all.rows, joint);
+  for (const ChosenSettings& joint : joints) {
+    take_most(all.rows, joint);
+    all.rows.lowest_cutoff = lower_cutoff(all.rows.lowest_cutoff,
+                                          lower_cutoff(joint.rows.signal.cutoff, joint.cutoff_q));
+  }
   all.decisions = told_by_joint(joints, all.rows);
   all.warnings.clear();
   for (std::size_t k = 0; k < joints.size(); ++k)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -121,6 +122,44 @@ bool torque_changes(const DynamicJob& job, int joint) {
   return false;
 }
 
+/// The most that a position moves in any part, and the most that its noise alone would.
+struct Travel {
+  double most = 0, of_noise = 0;
+};
+
+/// None: no such channel.
+std::optional<Travel> travel_of(const DynamicJob& job, Channel channel, int joint) {
+  std::optional<Travel> travel;
+  for (const LogSurvey& log : job.logs)
+    for (const PartSurvey& part : log.parts) {
+      const int k = log.plan.find(channel, joint);
+      if (k < 0 || !job.wanted(part)) continue;
+      // The expected range of n normal numbers is below 2 sqrt(2 ln n) sd (Gumbel 1958).
+      const double n = std::max(2.0, static_cast<double>(part.n_rows));
+      const double in_sd = 2 * std::sqrt(2 * std::log(n)) + 1;
+      if (!travel) travel = Travel{};
+      travel->most = std::max(travel->most, part.channels[static_cast<std::size_t>(k)].range());
+      travel->of_noise =
+          std::max(travel->of_noise, in_sd * position_noise(log, part, channel, joint));
+    }
+  return travel;
+}
+
+/// "q2 moves 1e-05 rad, theta2 3e-05 rad", where neither position of the joint moves beyond its
+/// noise; empty: it moves.
+std::string stillness_of(const DynamicJob& job, int joint) {
+  std::string text;
+  for (const Channel channel : {Channel::q, Channel::theta}) {
+    const std::optional<Travel> travel = travel_of(job, channel, joint);
+    if (!travel) continue;
+    if (travel->most > travel->of_noise) return "";
+    text += fmt::format("{}{}{} {}{:.2g} {}", text.empty() ? "" : ", ", channel_name(channel),
+                        joint + 1, text.empty() ? "moves " : "", travel->most,
+                        job.rig().linear_motion ? "m" : "rad");
+  }
+  return text;
+}
+
 void require_restoring(const ElasticFit& fit, const std::string& preload) {
   if (fit.transmission.cables.empty() && !(fit.transmission.linear_stiffness.minCoeff() > 0))
     throw Error(
@@ -169,6 +208,17 @@ void require_torque(const DynamicJob& job) {
       throw input_error({job.first_log().plan.path, 0, 0},
                         fmt::format("tau{} never changes", n > 1 ? std::to_string(joint + 1) : ""),
                         "check which column holds the torque");
+}
+
+void require_motion(const DynamicJob& job) {
+  const int n = job.n_joints();
+  for (int joint = 0; n > 1 && joint < n; ++joint)
+    if (const std::string still = stillness_of(job, joint); !still.empty())
+      throw Error(
+          ErrorKind::not_identifiable,
+          fmt::format("preload '{:.40}': joint {} stands still: {}, within the noise of the "
+                      "encoders; record a log in which joint {} moves too",
+                      job.preload, joint + 1, still, joint + 1));
 }
 
 std::string too_few_rows(const DynamicJob& job, const EquationRows& e, std::size_t n_rows,

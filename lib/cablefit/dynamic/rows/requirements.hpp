@@ -11,6 +11,9 @@ void require_channels(const LogPlan& plan, bool rigid);
 /// A torque that changes, of every joint.
 void require_torque(const DynamicJob& job);
 
+/// Of several joints each moves beyond the noise of its encoders.
+void require_motion(const DynamicJob& job);
+
 /// Of an equation, fewer say nothing.
 inline constexpr int kRowsPerParameter = 4;
 

@@ -28,6 +28,7 @@ UrdfTree read_urdf(const std::string& /*path*/) {
 #include "cablefit/base/catalog.hpp"
 #include "cablefit/base/files/input_file.hpp"
 #include "cablefit/base/quote.hpp"
+#include "cablefit/model/arm/rigid_body.hpp"
 
 namespace cablefit {
 namespace {
@@ -141,18 +142,20 @@ class Reader {
       throw input_error(at(e), fmt::format("link {} appears twice", cablefit::quoted(link.name)),
                         "");
     if (const XMLElement* inertial = e.FirstChildElement("inertial"))
-      link.inertia = inertia_of(*inertial);
+      link.inertia = inertia_of(*inertial, link.name);
     tree_.links.push_back(std::move(link));
   }
 
-  LinkInertia inertia_of(const XMLElement& e) const {
+  LinkInertia inertia_of(const XMLElement& e, const std::string& link) const {
     const XMLElement& tensor = child(e, "inertia");
     LinkInertia about_centre = LinkInertia::Zero();
     about_centre(0) = numbers<1>(child(e, "mass"), "value")[0];
     Eigen::Index next = 4;
     for (const char* name : {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"})
       about_centre(next++) = numbers<1>(tensor, name)[0];
-    if (about_centre(0) < 0) throw input_error(at(e), "a negative mass", "");
+    if (const BodyFault fault = body_fault(about_centre); !fault.what.empty())
+      throw input_error(at(e), fmt::format("link {} has {}", cablefit::quoted(link), fault.what),
+                        fault.remedy);
     Vector3d origin = Vector3d::Zero(), rpy = Vector3d::Zero();
     if (const XMLElement* pose = e.FirstChildElement("origin")) {
       origin = vector(*pose, "xyz", origin);

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cablefit {
 namespace {
@@ -74,6 +75,16 @@ Eigen::VectorXd physical_values(const Design& design, double block_seconds,
   }
   if (on_bound != nullptr) *on_bound = held;
   return values;
+}
+
+void take_physical(const Design& design, double block_seconds, const KindLevels& levels,
+                   const Eigen::VectorXd& x, FinalFit& fit) {
+  std::vector<Eigen::Index> held;
+  fit.x = physical_values(design, block_seconds, levels, x, &held);
+  for (const Eigen::Index column : held) {
+    fit.covariance.row(column).setConstant(std::numeric_limits<double>::quiet_NaN());
+    fit.covariance.col(column).setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
 }
 
 }  // namespace cablefit

@@ -2,7 +2,7 @@
 // and written into a model. Internal to refine/.
 #pragma once
 
-#include "cablefit/refine/rows/evidence.hpp"
+#include "cablefit/refine/rows/final_fit.hpp"
 
 namespace cablefit {
 
@@ -17,5 +17,9 @@ Eigen::VectorXd physical_values(const Design& design, double block_seconds,
                                 std::vector<Eigen::Index>* on_bound = nullptr);
 
 inline constexpr double kLeastTorque = 0.003;
+
+/// Gives the fit these values in place of `x`; those on a bound have no sd.
+void take_physical(const Design& design, double block_seconds, const KindLevels& levels,
+                   const Eigen::VectorXd& x, FinalFit& fit);
 
 }  // namespace cablefit

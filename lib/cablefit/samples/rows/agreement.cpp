@@ -3,23 +3,29 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
-#include "cablefit/base/files/digest.hpp"
+#include "cablefit/samples/plan/rig_files.hpp"
 
 namespace cablefit {
 namespace {
 
-std::string content(const Rig& rig) { return rig.path.empty() ? "" : sha256_of_file(rig.path); }
+/// The load is known without the law of a rig file. A blocked link feels none.
+bool has_own_load(const LogPlan& plan, Phase phase) {
+  const LoadLaw* law = plan.rig.load.law;
+  if (law != nullptr) return law->from_column;
+  return phase == Phase::blocked || plan.has_for_all(Channel::tau_load);
+}
 
-void require_same_rig(const LogSurvey& first, const LogSurvey& log, const std::string& preload) {
-  const Rig& a = first.plan.rig;
-  const Rig& b = log.plan.rig;
-  if (a.path == b.path || content(a) == content(b)) return;
+void require_same_rig(const LogPart& first, const LogPart& part, const std::string& preload) {
+  if (is_same_bench(first, part)) return;
   const auto name = [](const Rig& rig) { return rig.path.empty() ? "no rig file" : rig.path; };
   throw input_error(
-      {log.plan.path, 0, 0},
-      fmt::format("preload '{:.40}' has logs of two rigs, {} and {}", preload, name(a), name(b)),
-      "give them one rig file, with the load of each in a column tau_load; or fit them separately");
+      {part.plan->path, 0, 0},
+      fmt::format("preload '{:.40}' has logs of two rigs, {} and {}", preload,
+                  name(first.plan->rig), name(part.plan->rig)),
+      "give them one rig file, or files that differ in \"load\" alone, each log with its load; or "
+      "fit them separately");
 }
 
 /// "q2, theta2, tau2" of a log that is read as one of one joint.
@@ -51,6 +57,13 @@ std::vector<std::string> unread_joints(std::span<const LogSurvey> logs) {
 
 }  // namespace
 
+bool is_same_bench(const LogPart& a, const LogPart& b) {
+  const RigDifference difference = compare_rig_files(a.plan->rig, b.plan->rig);
+  if (difference == RigDifference::none) return true;
+  return difference == RigDifference::load && has_own_load(*a.plan, a.phase) &&
+         has_own_load(*b.plan, b.phase);
+}
+
 RateRange sample_rates(std::span<const LogSurvey> logs, const PartFilter& wanted) {
   RateRange rates{kUnbounded, 0};
   for (const LogSurvey& log : logs)
@@ -64,12 +77,14 @@ RateRange sample_rates(std::span<const LogSurvey> logs, const PartFilter& wanted
 
 void require_agreement(std::span<const LogSurvey> logs, const PartFilter& wanted,
                        const std::string& preload) {
-  const LogSurvey* first = nullptr;
+  // Of each phase the first: a blocked log needs no load, beside which a moving one may lack it.
+  std::map<Phase, LogPart> firsts;
   for (const LogSurvey& log : logs)
     for (const PartSurvey& part : log.parts) {
       if (!wanted(part)) continue;
-      if (first == nullptr) first = &log;
-      require_same_rig(*first, log, preload);
+      const LogPart own{&log.plan, part.phase};
+      firsts.try_emplace(part.phase, own);
+      for (const auto& [phase, first] : firsts) require_same_rig(first, own, preload);
       const Load& load = log.plan.rig.load;
       if (part.phase == Phase::moving && load.law != nullptr && load.law->from_column)
         require_channel(log.plan, Channel::tau_load, "the load that the rig file says is a column");

@@ -9,8 +9,18 @@
 
 namespace cablefit {
 
-/// For the wanted parts, which are all of `preload`: rig files of the same content, and a tau_load
-/// column wherever the rig says that the load is one. Throws Error(input) naming the two logs.
+struct LogPart {
+  const LogPlan* plan = nullptr;
+  Phase phase = Phase::moving;
+};
+
+/// Whether parts may be of one fit: rig files of the same content, or equal but for a load that
+/// each log has as a channel.
+bool is_same_bench(const LogPart& a, const LogPart& b);
+
+/// For the wanted parts, which are all of `preload`: rig files of the same content, or equal but
+/// for a load that each log has as a channel (samples/load_channels.hpp), and a tau_load column
+/// wherever the rig says that the load is one. Throws Error(input) naming the two logs.
 void require_agreement(std::span<const LogSurvey> logs, const PartFilter& wanted,
                        const std::string& preload);
 

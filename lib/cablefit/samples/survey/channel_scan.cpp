@@ -34,12 +34,14 @@ void ChannelScan::look_at_differences(const Values& x) {
     if (step < quantum_ && step > 0) quantum_ = step;
   }
   const Eigen::Index m = n - kOrder;
-  if (m > 0) {
-    const auto at = [&](Eigen::Index k) { return recent_.segment(k, m); };
-    sum_d6_ +=
-        (at(0) + at(6) - 6 * (at(1) + at(5)) + 15 * (at(2) + at(4)) - 20 * at(3)).square().sum();
-    n_d6_ += m;
+  // One after the other: how many values come at a time is as the reader of a file has them, and
+  // must not show in the rounding.
+  for (Eigen::Index i = 0; i < m; ++i) {
+    const double* const x6 = recent_.data() + i;
+    const double d6 = x6[0] + x6[6] - 6 * (x6[1] + x6[5]) + 15 * (x6[2] + x6[4]) - 20 * x6[3];
+    sum_d6_ += d6 * d6;
   }
+  n_d6_ += std::max<Eigen::Index>(0, m);
   n_known_ = std::min(n, kOrder);
   std::copy_n(recent_.data() + n - n_known_, n_known_, recent_.data());
 }

@@ -135,6 +135,12 @@ CoarseLine coarse_line(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y) {
   return {xy / xx, xy / std::sqrt(xx * yy)};
 }
 
+double usual_slope_error(double correlation) {
+  return std::max(0.0, 1 / (correlation * correlation) - 1);
+}
+
+double largest_slope_error(double correlation) { return std::sqrt(usual_slope_error(correlation)); }
+
 double coarse_range(const Eigen::ArrayXd& x) {
   return x.size() == 0 ? 0 : x.maxCoeff() - x.minCoeff();
 }

@@ -40,6 +40,12 @@ struct CoarseLine {
 };
 CoarseLine coarse_line(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y);
 
+/// Relative error of a slope, by the line's correlation: largest where the scatter goes with x, as
+/// the deflection of cables does with a load; otherwise the slope of y on x and that of x on y
+/// enclose the true one.
+double largest_slope_error(double correlation);
+double usual_slope_error(double correlation);
+
 /// Largest minus smallest; 0 when empty.
 double coarse_range(const Eigen::ArrayXd& x);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cablefit/base/quote.hpp"
@@ -42,6 +43,17 @@ std::string mending_line(const LogPlan& plan, Channel channel, int joint, double
   return fmt::format(
       "write \"{}\": {{\"column\": \"{}\", \"scale\": {:.4g}{}}} in the rig file's columns", name,
       column_name(plan, channel, joint), mapping.scale * factor, more);
+}
+
+std::string measured_line(const LogPlan& plan, Channel channel, int joint, double factor,
+                          std::optional<double> error, std::string_view what) {
+  constexpr double kLeastPercent = 0.1;  // a log without noise does not make it exact
+  const double percent = std::max(kLeastPercent, 100 * error.value_or(0));
+  const std::string size =
+      error ? fmt::format("known to within {:.{}f} %", percent, percent < 0.95 ? 1 : 0)
+            : std::string("only an estimate");
+  return fmt::format("look up the exact {}, the measured one is {}; {}", what, size,
+                     mending_line(plan, channel, joint, nice_factor(factor)));
 }
 
 std::string mending_unit(const LogPlan& plan, Channel channel, int joint, std::string_view unit) {

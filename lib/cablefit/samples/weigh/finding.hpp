@@ -27,6 +27,11 @@ double nice_factor(double measured);
 /// "theta": {"column": "motor", "scale": -1}.
 std::string mending_line(const LogPlan& plan, Channel channel, int joint, double factor);
 
+/// The same of a factor that was measured, with its relative error if that is known: the drawing or
+/// the data sheet has the exact one. `what`: its name.
+std::string measured_line(const LogPlan& plan, Channel channel, int joint, double factor,
+                          std::optional<double> error, std::string_view what);
+
 /// The same that names its unit: "theta": {"column": "motor", "unit": "deg"}.
 std::string mending_unit(const LogPlan& plan, Channel channel, int joint, std::string_view unit);
 

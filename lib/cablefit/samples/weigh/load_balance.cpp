@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "cablefit/samples/weigh/checks.hpp"
 
@@ -70,6 +71,7 @@ bool is_close(double ratio) { return ratio > 1 / kOddBalance && ratio < kOddBala
 struct Balance {
   double ratio = 0;  // tau over what balances the load
   bool known = false;
+  std::optional<double> error = {};  // relative; none: not known, the offset of tau is in it
 };
 
 /// A load that always opposes the motion: friction that grows with it looks like a larger load.
@@ -94,7 +96,8 @@ Balance fitted_balance(const BalanceRows& rows) {
   if (load.norm() < kOwnShare * about.norm() || !(tau.norm() > 0)) return {};
   const double correlation = load.dot(tau) / (load.norm() * tau.norm());
   const double ratio = -load.dot(tau) / load.squaredNorm();
-  return {ratio, std::abs(correlation) > (is_usual(ratio) ? kFollowsClosely : kFollowsLoad)};
+  return {ratio, std::abs(correlation) > (is_usual(ratio) ? kFollowsClosely : kFollowsLoad),
+          usual_slope_error(correlation)};
 }
 
 /// In these columns the constant load is called tau and the torque tau_load.
@@ -133,7 +136,8 @@ Balance constant_balance(const CoarsePart& part) {
   return balance;
 }
 
-Finding balance_finding(const LogPlan& plan, std::size_t log, double ratio) {
+Finding balance_finding(const LogPlan& plan, std::size_t log, const Balance& balance) {
+  const double ratio = balance.ratio;
   const double size = std::abs(ratio);
   if (ratio < 0 && size < kOddBalance && size > 1 / kOddBalance)
     return {log,
@@ -160,7 +164,12 @@ Finding balance_finding(const LogPlan& plan, std::size_t log, double ratio) {
             plan.find(Channel::tau_load) >= 0 ? mending_line(plan, Channel::tau_load, 0, kGravity)
                                               : "correct the load in the rig file"};
   const bool wrong = ratio < 0 || size > kWrongBalance || size < 1 / kWrongBalance;
-  return {log, {}, wrong, what, mending_line(plan, Channel::tau, 0, nice_factor(1 / ratio))};
+  return {log,
+          {},
+          wrong,
+          what,
+          measured_line(plan, Channel::tau, 0, 1 / ratio, balance.error,
+                        "factor (torque constant, reduction)")};
 }
 
 /// Logs of several whose torque or load is read otherwise than the others'.
@@ -172,7 +181,7 @@ Findings odd_ones_out(const Logs& logs, const PartList& parts) {
     if (!balance.known) continue;
     any_usual = any_usual || is_usual(balance.ratio);
     if (!is_usual(balance.ratio))
-      findings.push_back(balance_finding(logs.plan(*part), part->log, balance.ratio));
+      findings.push_back(balance_finding(logs.plan(*part), part->log, balance));
   }
   return any_usual ? findings : Findings{};
 }
@@ -189,7 +198,7 @@ Findings weigh_group(const Logs& logs, const PartList& parts) {
   Balance balance = fitted_balance(balance_rows(parts));
   if (!balance.known) balance = constant_balance(first);
   if (!balance.known || is_close(balance.ratio)) return {};
-  Finding finding = balance_finding(logs.plan(first), first.log, balance.ratio);
+  Finding finding = balance_finding(logs.plan(first), first.log, balance);
   finding.whole_rig = true;
   return {finding};
 }

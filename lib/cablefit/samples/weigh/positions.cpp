@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <span>
 
 #include "cablefit/samples/weigh/checks.hpp"
+#include "cablefit/samples/weigh/stiff_motors.hpp"
 
 namespace cablefit::weighing {
 namespace {
@@ -43,24 +43,13 @@ std::span<const UnitRatio> unit_ratios(const Rig& rig) {
 }
 constexpr double kTurn = 2 * std::numbers::pi;
 
-/// Where theta would be on stiff cables: theta = S^+ P^T q from the couplings at rest. Empty when
-/// the motors' radii do not determine it.
-Eigen::MatrixXd stiff_motors(const Rig& rig) {
-  const int n = rig.n_joints();
-  if (!rig.cables_given) return Eigen::MatrixXd::Identity(n, n);
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n);
-  const Eigen::MatrixXd link = rig.transmission.link_coupling(zero).transpose();
-  const Eigen::MatrixXd motor = rig.transmission.motor_coupling(zero).transpose();
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(motor);
-  if (qr.rank() < n) return {};
-  return qr.solve(link);
-}
-
 bool has_unit(const LogPlan& plan, Channel channel, int joint) {
   return plan.slots[static_cast<std::size_t>(plan.find(channel, joint))].has_unit;
 }
 
-Finding ratio_finding(const LogPlan& plan, const CoarsePart& part, int joint, double slope) {
+Finding ratio_finding(const LogPlan& plan, const CoarsePart& part, int joint,
+                      const CoarseLine& line) {
+  const double slope = line.slope;
   const std::string theta = weighed_name(plan, Channel::theta, joint);
   const std::string q = weighed_name(plan, Channel::q, joint);
   const double size = std::abs(slope);
@@ -93,7 +82,8 @@ Finding ratio_finding(const LogPlan& plan, const CoarsePart& part, int joint, do
         mending_unit(plan, turns, joint, "rev"));
   }
   return finding(more + "a reduction?",
-                 mending_line(plan, Channel::theta, joint, nice_factor(1 / slope)));
+                 measured_line(plan, Channel::theta, joint, 1 / slope,
+                               largest_slope_error(line.correlation), "ratio"));
 }
 
 /// Work of the drive says which of two positions that run against each other is turned.
@@ -134,7 +124,8 @@ std::optional<Finding> swapped_columns(const LogPlan& plan, const CoarsePart& pa
   const double theta_range = coarse_range(joint.theta), q_range = coarse_range(expected);
   if (are_alike(joint.theta, joint.tau) && theta_range < kStandsOut * q_range)
     return swapped(plan, part, j, alike(Channel::tau, Channel::theta), Channel::tau, Channel::q);
-  if (theta_range < kStandsStill * q_range)
+  // Not where the link itself stands still, and others move its cables.
+  if (theta_range < kStandsStill * std::min(q_range, coarse_range(joint.q)))
     return swapped(
         plan, part, j,
         fmt::format("{} stands still while {} moves", name(Channel::theta), name(Channel::q)),
@@ -173,7 +164,7 @@ std::optional<Finding> weigh_ratio(const LogPlan& plan, const CoarsePart& part, 
   // Without torque, a link that swings on a drive at rest may run against it.
   if (joint.tau.size() == 0 && size < kHighRatio) return std::nullopt;
   if (usual) return turned_position(plan, part, j, line.slope);
-  return ratio_finding(plan, part, j, line.slope);
+  return ratio_finding(plan, part, j, line);
 }
 
 bool is_unit_ratio(const Rig& rig, double slope) {
@@ -203,9 +194,7 @@ void weigh_columns(const Logs& logs, const CoarsePart& part, Findings& findings)
     if (!plan.has_measured(Channel::q, j) || !plan.has_measured(Channel::theta, j)) return;
   if (stiff.size() == 0 || part.t.size() < kFewBlocks) return;
   for (int j = 0; j < n; ++j) {
-    Eigen::ArrayXd expected = Eigen::ArrayXd::Zero(part.t.size());
-    for (int k = 0; k < n; ++k)
-      expected += stiff(j, k) * part.joints[static_cast<std::size_t>(k)].q;
+    const Eigen::ArrayXd expected = stiff_theta(stiff, part, j);
     std::optional<Finding> finding;
     if (weighs_ratio(logs, part, j, expected)) finding = weigh_ratio(plan, part, j, expected);
     if (!finding) finding = swapped_columns(plan, part, j, expected);

@@ -14,7 +14,9 @@ constexpr double kSameUnit = 0.03;  // relative deviation from a unit's factor
 constexpr double kDegrees = 180 / std::numbers::pi;
 
 /// Odd only: a controller's reference need not be theta's.
-Finding odd_reference(const LogPlan& plan, const CoarsePart& part, int joint, double slope) {
+Finding odd_reference(const LogPlan& plan, const CoarsePart& part, int joint,
+                      const CoarseLine& line) {
+  const double slope = line.slope;
   const std::string reference = weighed_name(plan, Channel::theta_ref, joint);
   const std::string theta = weighed_name(plan, Channel::theta, joint);
   const double size = std::abs(slope);
@@ -36,7 +38,8 @@ Finding odd_reference(const LogPlan& plan, const CoarsePart& part, int joint, do
           {},
           false,
           more + ": a unit or a reduction?",
-          mending_line(plan, Channel::theta_ref, joint, nice_factor(1 / slope))};
+          measured_line(plan, Channel::theta_ref, joint, 1 / slope,
+                        usual_slope_error(line.correlation), "ratio")};
 }
 
 }  // namespace
@@ -52,7 +55,7 @@ Findings reference(const Logs& logs) {
       const CoarseLine line = coarse_line(joint.theta, joint.theta_ref);
       if (std::abs(line.correlation) < kFollows) continue;
       if (line.slope > kLowRatio && line.slope < kHighRatio) continue;
-      findings.push_back(odd_reference(plan, part, j, line.slope));
+      findings.push_back(odd_reference(plan, part, j, line));
     }
   }
   return findings;

@@ -10,6 +10,7 @@ namespace cablefit::weighing {
 namespace {
 
 constexpr double kAgrees = 0.2;        // relative
+constexpr double kReversed = 0.05;     // relative: of the same size, with another sign
 constexpr double kFollowsSpeed = 0.9;  // correlation
 constexpr double kUnitMatch = 0.05;
 constexpr std::size_t kFewInner = 20;
@@ -50,16 +51,22 @@ Findings velocity(const Logs& logs) {
       if (std::abs(line.slope - 1) < kAgrees) continue;
       const std::string w = weighed_name(plan, Channel::w, j);
       std::string guess;
-      for (const SpeedUnit& unit : kSpeedUnits)
-        if (std::abs(line.slope / unit.ratio - 1) < kUnitMatch)
-          guess = fmt::format(": {} in {}?", w, unit.name);
+      std::string remedy = std::abs(line.slope + 1) < kReversed
+                               ? mending_line(plan, Channel::w, j, -1)
+                               : measured_line(plan, Channel::w, j, 1 / line.slope,
+                                               usual_slope_error(line.correlation), "factor");
+      for (const SpeedUnit& unit : kSpeedUnits) {
+        if (std::abs(line.slope / unit.ratio - 1) > kUnitMatch) continue;
+        guess = fmt::format(": {} in {}?", w, unit.name);
+        remedy = mending_line(plan, Channel::w, j, 1 / unit.ratio);
+      }
       findings.push_back(
           {part.log,
            {},
            line.slope < 0 || !guess.empty(),
            fmt::format("{} is {:.3g} times d{}/dt{}", w, line.slope,
                        weighed_name(plan, by_theta ? Channel::theta : Channel::q, j), guess),
-           mending_line(plan, Channel::w, j, 1 / line.slope)});
+           remedy});
     }
   }
   return findings;
