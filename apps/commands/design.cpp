@@ -341,11 +341,20 @@ Model take_cables(const std::string& path, const DesignCommand& command, std::st
 }
 
 /// Fits of several preloads, for friction against the preload.
-std::vector<Model> take_fitted(const std::string& path, DesignCommand& command) {
+FittedPreloads take_fitted(const std::string& path, DesignCommand& command) {
   if (command.fitted.empty()) return other_preloads(path, command.model);
   const std::vector<std::string>& files = command.fitted;
   command.common.more_inputs.insert(command.common.more_inputs.end(), files.begin(), files.end());
-  return read_fitted_models(files, command.model);
+  return {read_fitted_models(files, command.model), {}};
+}
+
+DesignResult sweep_with_fits(const std::string& path, const Model& model, DesignCommand& command) {
+  FittedPreloads fits = take_fitted(path, command);
+  command.design.fitted = std::move(fits.models);
+  DesignResult result = sweep_design(model, command.design);
+  for (const std::string& preload : fits.left_out)
+    result.warnings.push_back("not in the curves against the preload: " + preload);
+  return result;
 }
 
 void add_inputs(const std::string& path, const DesignCommand& command, DesignResult& result) {
@@ -386,8 +395,7 @@ DesignResult run(DesignCommand& command) {
   if (sweep) {
     const Progress progress(command.common.quiet, "sweeping the preload");
     command.design.figures = figures;
-    command.design.fitted = take_fitted(path, command);
-    result = sweep_design(model, command.design);
+    result = sweep_with_fits(path, model, command);
   }
   describe_cables(command, model.transmission, result);
   describe_loads(command, model, figures, result);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/base/problems.hpp"
 #include "cablefit/report/documents/study_document.hpp"
 #include "cablefit/report/writers/study_json.hpp"
 #include "cablefit/results/write/dynamic_json.hpp"
@@ -56,7 +57,6 @@ StudyOptions options_of(const StudyCommand& command) {
   return options;
 }
 
-/// Of every stage that has a result, behind that of the study itself.
 /// Of the entries of Study::refine: their results, and their models.
 struct RefineFiles {
   std::vector<std::string> results, models;
@@ -68,6 +68,7 @@ RefineFiles refine_files_of(const Study& study) {
   return {names_by_preload("refine", preloads), names_by_preload("refined", preloads)};
 }
 
+/// Of every stage that has a result, behind that of the study itself.
 std::vector<ResultFile> files_of(const Study& study, const RefineFiles& refine,
                                  const Document& document) {
   std::vector<ResultFile> files;
@@ -83,6 +84,16 @@ std::vector<ResultFile> files_of(const Study& study, const RefineFiles& refine,
   for (const ResultFile& file : files) names.push_back(file.name);
   files.insert(files.begin(), {"study.json", study_json(study, document, names)});
   return files;
+}
+
+/// A script that looks at the exit code alone learns of a stage that failed.
+void require_no_failure(const Study& study) {
+  Problems problems;
+  for (const Study::NotDone& stage : study.not_done)
+    if (stage.error)
+      problems.add(
+          Error(*stage.error, fmt::format("{} has no result: {}", stage.stage, stage.reason)));
+  problems.throw_if_any();
 }
 
 }  // namespace
@@ -116,6 +127,7 @@ int run_study(const Arguments& arguments) {
   const RefineFiles refine = refine_files_of(result);
   const Document document = study_document(result, refine.models);
   deliver(options, document, files_of(result, refine, document));
+  require_no_failure(result);
   if (!result.elastic && !result.dynamic && !result.identify && result.refine.empty())
     throw Error(ErrorKind::not_identifiable, "no stage has a result; see the reasons above");
   return 0;

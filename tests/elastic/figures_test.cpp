@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cablefit/elastic/elastic_fit.hpp"
+#include "cablefit/elastic/figures/basis_figures.hpp"
 #include "tests/support/recover.hpp"
 
 namespace {
@@ -51,6 +52,33 @@ TEST_CASE("figures of stage 1 show the residuals of the fit") {
       CHECK(trace.x.size() == trace.y.size());
     }
   }
+}
+
+TEST_CASE("the first figure of stage 1 is the error of each model, with its size") {
+  const ElasticPreload low = fitted(true, 1);
+  const auto first = std::find_if(low.figures.begin(), low.figures.end(),
+                                  [](const Figure& one) { return one.rank == FigureRank::main; });
+  REQUIRE(first != low.figures.end());
+  CHECK(first->title == "Elastic error against deflection");
+  REQUIRE(first->traces.size() == low.fits.size());
+  for (std::size_t k = 0; k < low.fits.size(); ++k) {
+    const Trace& error = first->traces[k];
+    CHECK_THAT(largest(error.y), Catch::WithinRel(low.fits[k].max_abs_error, 1e-9));
+    CHECK(error.name.ends_with(fmt::format(", rms {:.3g} N m", low.fits[k].rms_error)));
+  }
+}
+
+TEST_CASE("errors of bases, from tenths to tens of N m, are drawn on a logarithmic axis") {
+  ElasticPreload preload;
+  BasisScore score;
+  score.basis = "polynomial";
+  score.path = {41, 3, 0.06};
+  preload.bases.emplace().scores = {score};
+  const std::vector<Figure> figures = basis_figures(preload);
+  REQUIRE(figures.size() == 2);
+  CHECK_FALSE(figures[0].y.logarithmic);  // of the stiffness
+  CHECK(figures[1].y.logarithmic);
+  CHECK(figures[1].traces.front().y == score.path);
 }
 
 TEST_CASE("the fitted line of the figure is the linear model") {

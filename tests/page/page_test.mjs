@@ -292,6 +292,54 @@ test("plots appear as the reader comes to them, and links of the contents lead t
   assertQuiet(page);
 });
 
+test("plots below the screen are drawn too, without scrolling", async () => {
+  const page = await open("elastic.html");
+  const nEmpty = `cablefitReport.plots.filter(({place, isDrawn}) => !isDrawn && !place.closest("details")).length`;
+  for (let tries = 0; tries < 100 && await page.evaluate(nEmpty); ++tries)
+    await new Promise((done) => setTimeout(done, 100));
+  assert.equal(await page.evaluate(nEmpty), 0);
+  assert.equal(await page.evaluate("scrollY"), 0);
+  assertQuiet(page);
+});
+
+test("elastic begins with the errors of both models", async () => {
+  const page = await open("elastic.html");
+  const {title, traces} = await page.evaluate("cablefitReport.plots[0].figure");
+  assert.equal(title, "Elastic error against deflection");
+  assert.match(traces[0].name, /^linear, rms \d+\.\d+ N m$/);
+  assert.match(traces[1].name, /^poly, order 2, rms 0\.\d+ N m$/);
+});
+
+/** Mean lightness, 0..255, of a strip `width` px wide that ends `offset` px left of the table's right edge. */
+async function lightnessAtEdge(page, offset, width) {
+  const box = await page.evaluate(`(() => {
+    const box = document.querySelector("main .scroll").getBoundingClientRect();
+    return {x: box.right + scrollX, y: box.top + scrollY, h: box.height};
+  })()`);
+  const clip = {x: box.x - offset - width, y: box.y + 0.4 * box.h, width, height: 0.3 * box.h, scale: 1};
+  const {data} = await page.send("Page.captureScreenshot", {clip, captureBeyondViewport: true});
+  return page.evaluate(`new Promise((done) => {
+    const image = new Image();
+    image.onload = () => {
+      const canvas = document.createElement("canvas");
+      [canvas.width, canvas.height] = [image.width, image.height];
+      const context = canvas.getContext("2d");
+      context.drawImage(image, 0, 0);
+      const bytes = context.getImageData(0, 0, image.width, image.height).data;
+      done(bytes.reduce((sum, byte) => sum + byte, 0) / bytes.length);
+    };
+    image.src = "data:image/png;base64,${data}";
+  })`);
+}
+
+test("a shadow says that a table goes on at the right, until it ends", async () => {
+  const page = await open("check.html", {width: 390, height: 844});
+  const before = await lightnessAtEdge(page, 0, 4);
+  await page.evaluate('(() => { const table = document.querySelector("main .scroll"); table.scrollLeft = table.scrollWidth; })()');
+  const after = await lightnessAtEdge(page, 0, 4);
+  assert.ok(before < after - 20, `${before} before, ${after} at the end`);
+});
+
 /** The first plot on the screen, and the middle of some of its parts. */
 async function firstPlot(page) {
   await page.evaluate("document.documentElement.style.scrollBehavior = 'auto'; " +
@@ -325,9 +373,9 @@ test("dragging zooms, Reset shows everything again", async () => {
 test("a click in the legend hides a trace, another shows it", async () => {
   const page = await open("elastic.html");
   const {legend} = await firstPlot(page);
-  const visible = () => page.evaluate("cablefitReport.plots[0].place.data[2].visible ?? true");
+  const visible = () => page.evaluate("cablefitReport.plots[0].place.data[1].visible ?? true");
   for (const wanted of ["legendonly", true]) {
-    await page.click(legend[2].x + legend[2].w / 2, legend[2].y + legend[2].h / 2);
+    await page.click(legend[1].x + legend[1].w / 2, legend[1].y + legend[1].h / 2);
     await page.evaluate("new Promise((done) => setTimeout(done, 900))");  // it might be a double click
     assert.equal(await visible(), wanted);
   }
@@ -353,7 +401,7 @@ test("a plot is saved as SVG, on white", async () => {
   await page.evaluate('document.querySelectorAll("figure button")[1].click()');
   const saved = () => readdirSync(downloads).filter((name) => name.endsWith(".svg"));
   for (let tries = 0; tries < 50 && !saved().length; ++tries) await new Promise((done) => setTimeout(done, 100));
-  assert.deepEqual(saved(), ["low_Blocked_link_elastic_torque_Torque_against_deflection.svg"]);
+  assert.deepEqual(saved(), ["low_Blocked_link_elastic_torque_Elastic_error_against_deflection.svg"]);
   const svg = readFileSync(join(downloads, saved()[0]), "utf8");
   assert.ok(svg.startsWith("<svg "));
   assert.ok(svg.includes("fill: rgb(255, 255, 255)"), "the ground is not white");

@@ -5,9 +5,14 @@
 #include "cablefit/design/design_sweep.hpp"
 #include "cablefit/report/documents/design_document.hpp"
 #include "cablefit/report/writers/writers.hpp"
+#include "cablefit/results/design_models.hpp"
 #include "cablefit/results/write/design_json.hpp"
+#include "cablefit/results/write/dynamic_json.hpp"
+#include "cablefit/results/write/elastic_json.hpp"
+#include "tests/report/results.hpp"
 #include "tests/report/schema.hpp"
 #include "tests/simulate/benches.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace {
 
@@ -50,6 +55,24 @@ ExcitationPlan plan() {
   plan.motion.torque_share = 0.25;
   plan.n_tried = 200;
   return plan;
+}
+
+TEST_CASE("a preload without a fit that serves is left out of the curves and named", "[report]") {
+  DynamicResult result = test::dynamic_result();
+  result.preloads.push_back(test::dynamic_preload("slack"));
+  std::erase_if(result.preloads.back().fits,
+                [](const DynamicFit& fit) { return fit.model != "linear"; });
+  const test::TempFolder folder;
+  const std::string path = folder.write("dynamic.json", dynamic_json(result));
+  const FittedPreloads found = other_preloads(path, "");
+  CHECK(found.models.size() + 1 == result.preloads.size());
+  REQUIRE(found.left_out.size() == 1);
+  CHECK(found.left_out[0] == "slack: " + path +
+                                 ": model 'linear' is one spring, without cables; choose one with "
+                                 "cables, --model poly");
+  // A result of stage 1 has no friction: nothing is missing.
+  const std::string stage1 = folder.write("elastic.json", elastic_json(test::elastic_result()));
+  CHECK(other_preloads(stage1, "").left_out.empty());
 }
 
 TEST_CASE("a design is valid JSON, with and without each of its parts", "[report]") {

@@ -188,6 +188,25 @@ TEST_CASE("a figure as SVG: every trace, round ticks, nothing that is no number"
   CHECK(svg_figure(figure).find("nan") == std::string::npos);
 }
 
+TEST_CASE("a logarithmic axis has powers of ten where a linear one has even steps") {
+  Figure figure;
+  figure.y = {"error", "N m", true};
+  figure.traces = {{"", TraceStyle::line, 1, {0, 1, 2, 3}, {0.06, 1, 41, 0}, {}, {}, {}}};
+  const std::string svg = svg_figure(figure);
+  INFO(svg);
+  for (const char* tick : {">0.1</text>", ">1</text>", ">10</text>"})
+    CHECK(svg.find(tick) != std::string::npos);
+  CHECK(svg.find(">20</text>") == std::string::npos);
+  CHECK(svg.find("inf") == std::string::npos);  // 0 has no place
+  figure.traces.front().y = {1, 2, 3, 4};
+  CHECK(svg_figure(figure).find(">2</text>") != std::string::npos);
+  Document document;
+  document.figures = {figure};
+  const auto data = nlohmann::json::parse(page_data(document));
+  CHECK(data["figures"][0]["y"]["log"] == true);
+  CHECK(data["figures"][0]["x"]["log"] == false);
+}
+
 TEST_CASE("a plot of values that differ by rounding alone, far from 0, or with many names") {
   Figure figure;
   figure.traces = {

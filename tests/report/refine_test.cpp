@@ -10,6 +10,7 @@
 #include "cablefit/report/writers/screen.hpp"
 #include "cablefit/report/writers/writers.hpp"
 #include "cablefit/results/write/refine_json.hpp"
+#include "cablefit/session/replayed_torque.hpp"
 #include "tests/report/results.hpp"
 #include "tests/report/schema.hpp"
 
@@ -226,9 +227,16 @@ where      motor equation, thetad from -0.386 to 0.208 rad/s: 76 % of its square
            rows; 0.117 N m rms there, noise floor 0.0854
 and        link equation, sgn(qd) = -1: 90 % of its squared gap in 50 % of its rows; 0.0500 N m rms
            there, noise floor 0.0360
-shifts     f_vm 1.0606 -> 1.1439 +- 0.0043 N m s/rad (+19 sd), f_sm 2.8757 -> 2.7682 +- 0.0044 N m
-           (-24 sd)
 model      refined.json
+
+Parameters that moved
+
+parameter  unit       before   after      sd  change
+                                                [sd]
+----------------------------------------------------
+f_vm       N m s/rad  1.0606  1.1439  0.0043     +19
+f_sm       N m        2.8757  2.7682  0.0044     -24
+before: the model given, fitted to the same logs in the same way
 
 Candidates for the first effect
 
@@ -257,7 +265,6 @@ simulation: of the test logs, mrad rms: 0.910 -> 0.120 (0.110 .. 0.130), noise f
 remainder: link 0.00370 N m, motor 0.0150 N m rms above the noise floor
 where: motor equation, thetad from -0.386 to 0.208 rad/s: 76 % of its squared gap in 41 % of its rows; 0.117 N m rms there, noise floor 0.0854
 and: link equation, sgn(qd) = -1: 90 % of its squared gap in 50 % of its rows; 0.0500 N m rms there, noise floor 0.0360
-shifts: f_vm 1.0606 -> 1.1439 +- 0.0043 N m s/rad (+19 sd), f_sm 2.8757 -> 2.7682 +- 0.0044 N m (-24 sd)
 next run: slow sweeps through several speeds
 model: refined.json
 )");
@@ -267,6 +274,29 @@ std::string story_of(const RefineResult& result) {
   std::string story;
   for (const SummaryLine& line : refine_document(result, kFiles).summary) story += line.text + "\n";
   return story;
+}
+
+TEST_CASE("parameters that do not move are one line, not a table") {
+  RefineResult r = named();
+  CHECK_THAT(story_of(r), !Catch::Matchers::Contains("no parameter moved"));
+  r.shifts.resize(1);  // J_motor, by 0.07 sd
+  CHECK_THAT(story_of(r), Catch::Matchers::Contains("no parameter moved by more than 2 sd"));
+  for (const Table& table : refine_document(r, kFiles).tables)
+    CHECK(table.title != "Parameters that moved");
+}
+
+TEST_CASE("a simulated gap of a replayed torque says so, in the story and above the plots") {
+  RefineResult r = ambiguous();
+  const auto replayed = Catch::Matchers::Contains(
+      "noise floor 0.100; the torque of the log is replayed (no controller in the rig file): "
+      "positions drift whatever the model, so judge by the torque gap");
+  const auto label_of = [&] { return refine_headline(r).numbers.at(1).label; };
+  CHECK_THAT(story_of(r), !replayed);
+  CHECK(label_of() == "simulation gap on test data, rms");
+  r.decisions = {
+      {std::string(kReplayedTorque), "simulations of test logs", "no controller in the rig file"}};
+  CHECK_THAT(story_of(r), replayed);
+  CHECK(label_of() == "simulation gap on test data (torque replayed), rms");
 }
 
 TEST_CASE("an event has its date, and a gain on held-out data where these can show it") {
@@ -301,7 +331,8 @@ model: refined.json
 TEST_CASE("the story in Markdown and its numbers as CSV") {
   const Document document = refine_document(named(), kFiles);
   const std::string markdown = write_markdown(document);
-  CHECK(markdown.find("- **model**: refined.json\n\n## Where the gap is") != std::string::npos);
+  CHECK(markdown.find("- **model**: refined.json\n\n## Parameters that moved") !=
+        std::string::npos);
   const std::string csv = write_csv(document);
   CHECK(csv.find(",refined,stribeck.motor,amplitude,amplitude,N m,0.1821,0.0077,") !=
         std::string::npos);

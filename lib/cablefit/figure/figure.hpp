@@ -8,8 +8,9 @@
 namespace cablefit {
 
 struct FigureAxis {
-  std::string title;  ///< "deflection theta - q"
-  std::string unit;   ///< printed in brackets; may be empty
+  std::string title;         ///< "deflection theta - q"
+  std::string unit;          ///< printed in brackets; may be empty
+  bool logarithmic = false;  ///< of y only; values up to 0 are not drawn
 };
 
 enum class TraceStyle {

@@ -224,6 +224,11 @@ std::vector<Estimate> proved(const ElasticFit& fit) {
   return parameters;
 }
 
+bool has_searched_elongation(const ElasticFit& fit) {
+  return std::any_of(fit.parameters.begin(), fit.parameters.end(),
+                     [](const Estimate& e) { return e.name.starts_with("l_o"); });
+}
+
 }  // namespace
 
 void prove_elastic(std::span<const LogSurvey> logs, const ElasticOptions& options,
@@ -232,6 +237,12 @@ void prove_elastic(std::span<const LogSurvey> logs, const ElasticOptions& option
     for (ElasticFit& fit : preload.fits) {
       if (fit.transmission.n_joints > 1) {
         fit.warnings.emplace_back("not proved: --prove of stage 1 supports one joint");
+        continue;
+      }
+      if (has_searched_elongation(fit)) {
+        fit.warnings.emplace_back(
+            "not proved: l_o was searched, and its intervals are profile likelihoods; give l_o in "
+            "the rig file to prove the fit");
         continue;
       }
       const Plan plan = make_plan(logs, options, prove, preload, fit);

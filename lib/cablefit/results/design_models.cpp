@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/json/json_document.hpp"
 #include "cablefit/base/quote.hpp"
@@ -34,10 +36,16 @@ Model model_of_rig(const JsonNode& root, std::string& choice) {
   return model;
 }
 
-bool has_preloads(const std::string& path) {
-  const JsonNode root = read_json_file(path);
+/// Of a result with fits of stage 2 or of one step; none of other files.
+std::vector<std::string> names_of_preloads(const JsonNode& root) {
   const JsonNode* preloads = root.find("preloads");
-  return preloads != nullptr && preloads->is_array();
+  const JsonNode* schema = root.find("schema");
+  const bool is_stage1 =
+      schema != nullptr && schema->is_string() && schema->text() == "cablefit/elastic/1";
+  std::vector<std::string> names;
+  if (is_stage1 || preloads == nullptr || !preloads->is_array()) return names;
+  for (const JsonNode& item : preloads->items) names.push_back(item.at("name").text());
+  return names;
 }
 
 }  // namespace
@@ -80,11 +88,20 @@ std::vector<Model> read_fitted_models(const std::vector<std::string>& paths,
   return all;
 }
 
-std::vector<Model> other_preloads(const std::string& path, const std::string& model) try {
-  if (!has_preloads(path)) return {};
-  return read_fitted_models({path}, model);
-} catch (const Error&) {
-  return {};
+FittedPreloads other_preloads(const std::string& path, const std::string& model) {
+  const JsonNode root = read_json_file(path);
+  FittedPreloads found;
+  for (const std::string& name : names_of_preloads(root)) {
+    try {
+      std::string choice;
+      Model one = parse_model(root, name, model, choice, Completeness::as_it_is);
+      require_cables(one, path);
+      found.models.push_back(std::move(one));
+    } catch (const Error& error) {
+      found.left_out.push_back(fmt::format("{}: {}", name, error.what()));
+    }
+  }
+  return found;
 }
 
 }  // namespace cablefit

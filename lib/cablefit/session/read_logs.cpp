@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cablefit/base/problems.hpp"
+#include "cablefit/samples/load_channels.hpp"
 #include "cablefit/samples/weigh/weigh.hpp"
 
 namespace cablefit {
@@ -55,6 +56,7 @@ std::vector<LogSurvey> read_logs(const std::vector<std::string>& paths,
     });
   problems.throw_if_any();
   weigh_logs(logs);
+  make_load_channels(logs);
   return logs;
 }
 

@@ -16,9 +16,9 @@ struct LogOptions {
   int threads = 1;
 };
 
-/// All logs, in the order given. Throws one Error with what is wrong in any of them: files that
-/// cannot be read, a log given twice, and what weigh_logs() says of units, signs and samples that
-/// cannot be right.
+/// All logs, in the order given; of rig files that differ in their load alone, each with its load
+/// as a channel. Throws one Error with what is wrong in any of them: files that cannot be read, a
+/// log given twice, and what weigh_logs() says of units, signs and samples that cannot be right.
 std::vector<LogSurvey> read_logs(const std::vector<std::string>& paths,
                                  const LogOptions& options = {});
 

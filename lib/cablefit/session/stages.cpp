@@ -8,6 +8,7 @@
 #include "cablefit/refine/own_base.hpp"
 #include "cablefit/refine/search/model_set.hpp"
 #include "cablefit/session/found_controller.hpp"
+#include "cablefit/session/replayed_torque.hpp"
 
 namespace cablefit {
 
@@ -80,6 +81,17 @@ RefineResult refine_own(OwnBase& base, const RefineLogs& logs, const RefineOptio
   }
 }
 
+/// Of a rig file that asks for it, or of a preload without cables in a rig file.
+bool has_searched_elongation(const Model& model) {
+  const std::vector<Cable>& cables = model.transmission.cables;
+  const std::vector<bool>& asked = model.rig.search_elongation;
+  for (std::size_t c = 0; c < cables.size(); ++c)
+    if (cables[c].initial_elongation != 0 &&
+        (!model.rig.cables_given || (c < asked.size() && asked[c])))
+      return true;
+  return false;
+}
+
 }  // namespace
 
 RefineResult missing_effects(const RefineLogs& given, std::vector<Model> models,
@@ -89,9 +101,14 @@ RefineResult missing_effects(const RefineLogs& given, std::vector<Model> models,
   RefineLogs logs = given;
   if (auto controller = take_found_controller(logs, base.models))
     base.decisions.push_back(*std::move(controller));
+  if (auto replay = replayed_torque(logs)) base.decisions.push_back(*std::move(replay));
   RefineResult result =
       is_own ? refine_own(base, logs, options) : refine(base.models, logs, options);
   if (is_own) result.model_choice = "fitted to the logs";
+  if (std::any_of(base.models.begin(), base.models.end(), has_searched_elongation))
+    result.warnings.emplace_back(
+        "the sd of stiffness and inertia do not include the error of the searched l_o; 'cablefit "
+        "identify' gives intervals that do");
   result.decisions.insert(result.decisions.begin(), base.decisions.begin(), base.decisions.end());
   return result;
 }

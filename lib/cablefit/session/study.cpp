@@ -60,15 +60,19 @@ class Stages {
       stage();
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::output) throw;  // a full disk says nothing about the robot
-      skip(name, error.what());
+      leave_out(name, error.what(), error.kind());
     }
   }
   void skip(std::string_view name, std::string reason) {
-    std::replace(reason.begin(), reason.end(), '\n', ' ');
-    study_.not_done.push_back({std::string(name), std::move(reason)});
+    leave_out(name, std::move(reason), std::nullopt);
   }
 
  private:
+  void leave_out(std::string_view name, std::string reason, std::optional<ErrorKind> error) {
+    std::replace(reason.begin(), reason.end(), '\n', ' ');
+    study_.not_done.push_back({std::string(name), std::move(reason), error});
+  }
+
   const StudyOptions& options_;
   Study& study_;
 };

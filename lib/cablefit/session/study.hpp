@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cablefit/base/error.hpp"
 #include "cablefit/dynamic/prediction.hpp"
 #include "cablefit/samples/check.hpp"
 #include "cablefit/session/stages.hpp"
@@ -29,6 +30,7 @@ struct Study {
   /// A stage without a result: its name, and why.
   struct NotDone {
     std::string stage, reason;
+    std::optional<ErrorKind> error = {};  ///< the stage failed; none: the logs do not allow it
   };
   /// The answer of refine for one preload: each has its own friction.
   struct Missing {
@@ -46,8 +48,9 @@ struct Study {
 };
 
 /// `test`: logs that only the last stage reads, once, in its end; none: the last third of every
-/// moving log. A stage that the logs do not allow is no error, its reason is kept; the others go
-/// on. Throws Error(input) for a test log of a preload that is not fitted, and Error(output).
+/// moving log. A stage that the logs do not allow is no error. A stage that fails does not stop the
+/// others. The reason of either is kept. Throws Error(input) for a test log of a preload that is
+/// not fitted, and Error(output).
 Study study(std::span<const LogSurvey> logs, std::span<const LogSurvey> test,
             const StudyOptions& options);
 

@@ -32,14 +32,6 @@ void require_in_every_joint(const LogPlan& plan, Channel channel, std::string_vi
   if (!plan.has_for_all(channel)) require_channel(plan, channel, why);
 }
 
-/// Why there can be no closed loop; empty: there can.
-std::string no_closed_loop(const LogPlan& plan) {
-  if (plan.rig.open_loop) return "the rig file says that the torque is a command";
-  if (!plan.rig.controller) return "no controller in the rig file";
-  if (plan.has_for_all(Channel::theta_ref)) return "";
-  return fmt::format("no reference '{}' in the log", plan.rig.controller->reference);
-}
-
 void choose_mode(const LogPlan& plan, const ReplayOptions& options, Experiment& experiment) {
   const std::string obstacle = no_closed_loop(plan);
   const bool given = options.mode != ReplayMode::automatic;
@@ -125,6 +117,13 @@ void require_channels(const Model& model, const LogPlan& plan, const PartSurvey&
 }
 
 }  // namespace
+
+std::string no_closed_loop(const LogPlan& plan) {
+  if (plan.rig.open_loop) return "the rig file says that the torque is a command";
+  if (!plan.rig.controller) return "no controller in the rig file";
+  if (plan.has_for_all(Channel::theta_ref)) return "";
+  return fmt::format("no reference '{}' in the log", plan.rig.controller->reference);
+}
 
 bool is_of_model(const Model& model, const PartSurvey& part) {
   return model.preload.empty() || part.preload == model.preload;

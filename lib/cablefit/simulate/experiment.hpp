@@ -46,6 +46,9 @@ Rig rig_for_simulation(const std::string& log_path, const std::string& rig_optio
 LogSurvey survey_for_simulation(const std::string& log_path, const std::string& rig_option,
                                 const Model& model, const Reading& reading = {});
 
+/// Why a log cannot be simulated in closed loop, so that its torque is replayed; empty: it can.
+std::string no_closed_loop(const LogPlan& plan);
+
 /// Of the model's preload; of any, where the model names none.
 bool is_of_model(const Model& model, const PartSurvey& part);
 

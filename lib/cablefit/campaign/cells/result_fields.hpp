@@ -43,7 +43,7 @@ void fields(Archive& a, WindowCounts& v) {
 
 template <class Archive>
 void fields(Archive& a, FigureAxis& v) {
-  a("title", v.title), a("unit", v.unit);
+  a("title", v.title), a("unit", v.unit), a("logarithmic", v.logarithmic);
 }
 
 template <class Archive>

@@ -79,7 +79,7 @@ class CurveScan {
 
   Figure torque(Figure figure) const {
     figure.title = "Torque against deflection";
-    figure.rank = FigureRank::main;
+    figure.wide = true;
     figure.caption =
         "The torques for rising and falling theta differ by twice the static friction "
         "of the motor. The curves are the models without friction, with the offset. "
@@ -99,13 +99,20 @@ class CurveScan {
     return figure;
   }
 
+  /// The first plot of a report: the torques of two models lie on each other, their errors do not.
   Figure error(Figure figure) const {
     figure.title = "Elastic error against deflection";
-    figure.caption = "Measured torque minus that of the model, the motor's friction included.";
+    figure.rank = FigureRank::main;
+    figure.wide = true;
+    figure.caption =
+        "Measured torque minus that of the model, the motor's friction included. The "
+        "error of a good model is a flat band of noise.";
     figure.y.title = "elastic error";
     for (std::size_t k = 0; k < errors_.size(); ++k) {
-      figure.traces.push_back(model_trace(k, TraceStyle::points));
-      errors_[k].draw(figure.traces.back());
+      Trace trace = model_trace(k, TraceStyle::points);
+      trace.name += fmt::format(", rms {:.3g} {}", preload_.fits[k].rms_error, figure.y.unit);
+      errors_[k].draw(trace);
+      figure.traces.push_back(std::move(trace));
     }
     return figure;
   }
@@ -179,7 +186,7 @@ std::vector<Figure> elastic_figures(const ElasticJob& job, const BlockedRows& ro
   blank.group = "Blocked link: elastic torque";
   blank.x = {"deflection theta - q", preload.unit};
   blank.y = {"motor torque tau", plan.unit};
-  std::vector<Figure> figures = {curves.torque(blank), curves.error(blank)};
+  std::vector<Figure> figures = {curves.error(blank), curves.torque(blank)};
   const Transmission& cables = preload.fits.back().transmission;
   const auto push_back = [&](Figure figure) {
     figure.section = section;

@@ -77,23 +77,10 @@ Table verdict_table(const DynamicResult& result) {
 }
 
 Table sd_table(const DynamicResult& result) {
-  Table table;
-  table.title = "Robust standard deviations, and the white-noise ones of (25)";
-  table.columns = {{"", "preload", "", true},   {"", "model", "", true},
-                   {"", "parameter", "", true}, {"", "unit", "", true},
-                   {"", "value", ""},           {"", "sd", ""},
-                   {"", "sd of (25)", ""},      {"95 % interval", "from", ""},
-                   {"95 % interval", "to", ""}};
-  for (const DynamicPreload& preload : result.preloads) {
-    for (const DynamicFit& fit : preload.fits) {
-      for (const Estimate& e : fit.parameters) {
-        if (!e.not_identifiable.empty()) continue;
-        table.rows.push_back({preload.name, fit.model, e.name, e.unit, value_text(e.value, e.sd),
-                              sd_text(e.value, e.sd), significant(e.sd_white, 2),
-                              value_text(e.ci_low, e.sd), value_text(e.ci_high, e.sd)});
-      }
-    }
-  }
+  Table table = both_sd_table({"preload", "model"});
+  for (const DynamicPreload& preload : result.preloads)
+    for (const DynamicFit& fit : preload.fits)
+      add_sd_rows(table, {preload.name, fit.model}, fit.parameters);
   return table;
 }
 

@@ -221,22 +221,10 @@ Table slack_table(const ElasticResult& result) {
 }
 
 Table sd_table(const ElasticResult& result) {
-  Table table;
-  table.title = "Robust standard deviations, and the white-noise ones of (25)";
-  table.columns = {{"", "preload", "", true},   {"", "model", "", true},
-                   {"", "parameter", "", true}, {"", "unit", "", true},
-                   {"", "value", ""},           {"", "sd", ""},
-                   {"", "sd of (25)", ""},      {"95 % interval", "from", ""},
-                   {"95 % interval", "to", ""}};
-  for (const ElasticPreload& preload : result.preloads) {
-    for (const ElasticFit& fit : preload.fits) {
-      for (const Estimate& e : fit.parameters) {
-        table.rows.push_back({preload.name, fit.model, e.name, e.unit, value_text(e.value, e.sd),
-                              sd_text(e.value, e.sd), significant(e.sd_white, 2),
-                              value_text(e.ci_low, e.sd), value_text(e.ci_high, e.sd)});
-      }
-    }
-  }
+  Table table = both_sd_table({"preload", "model"});
+  for (const ElasticPreload& preload : result.preloads)
+    for (const ElasticFit& fit : preload.fits)
+      add_sd_rows(table, {preload.name, fit.model}, fit.parameters);
   return table;
 }
 

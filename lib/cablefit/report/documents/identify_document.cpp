@@ -228,29 +228,11 @@ Table equation_table(const IdentifyResult& result) {
   return table;
 }
 
-void add_sd_rows(Table& table, const std::string& preload, const std::vector<Estimate>& all) {
-  for (const Estimate& e : all) {
-    if (!e.not_identifiable.empty()) continue;
-    table.rows.push_back({preload, e.name, e.unit, value_text(e.value, e.sd),
-                          sd_text(e.value, e.sd), significant(e.sd_white, 2),
-                          value_text(e.ci_low, e.sd), value_text(e.ci_high, e.sd)});
-  }
-}
-
 Table sd_table(const IdentifyResult& result) {
-  Table table;
-  table.title = "Robust standard deviations, and the white-noise ones of (25)";
-  table.columns = {{"", "preload", "", true},
-                   {"", "parameter", "", true},
-                   {"", "unit", "", true},
-                   {"", "value", ""},
-                   {"", "sd", ""},
-                   {"", "sd of (25)", ""},
-                   {"95 % interval", "from", ""},
-                   {"95 % interval", "to", ""}};
-  add_sd_rows(table, "all", result.parameters);
+  Table table = both_sd_table({"preload"});
+  add_sd_rows(table, {"all"}, result.parameters);
   for (const IdentifyPreload& preload : result.preloads)
-    add_sd_rows(table, preload.name, preload.parameters);
+    add_sd_rows(table, {preload.name}, preload.parameters);
   return table;
 }
 

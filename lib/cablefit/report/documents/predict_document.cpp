@@ -197,12 +197,8 @@ Document predict_document(const PredictResult& result) {
     document.summary.push_back({"trajectories", result.trajectories});
   if (!result.sensed.empty()) document.summary.push_back({"torques", result.sensed});
   add_warnings(document, "", result.warnings);
-  for (const PredictedPart& part : result.parts) {
-    add_decisions(document, cell_name(result.parts, part), part.decisions);
-    add_warnings(document, cell_name(result.parts, part), part.warnings);
-    add_figures(document, part.figures);
-  }
-  finish_decisions(document, result.parts.size());
+  add_parts(document, result.parts,
+            [&](const PredictedPart& part) { return cell_name(result.parts, part); });
   document.headline = headline_of(result);
   lead_with(document, 1);
   return document;

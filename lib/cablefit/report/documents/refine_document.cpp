@@ -134,18 +134,25 @@ Table step_table(const RefineResult& result) {
   return table;
 }
 
-Table shift_table(const RefineResult& result) {
+/// In sd.
+std::string change_text(double moved) {
+  if (!std::isfinite(moved)) return kNoNumber;
+  return fmt::format("{:+.{}f}", moved, std::abs(moved) < 9.95 ? 1 : 0);
+}
+
+/// Parameters before and after, all or those that moved.
+Table shift_table(const RefineResult& result, bool all) {
   Table table;
-  table.title = "Parameters before and after";
-  table.detail = true;  // in short among the lines of the summary
+  table.title = all ? "Parameters before and after" : "Parameters that moved";
+  table.detail = all;
   table.columns = {{"", "parameter", "", true}, {"", "unit", "", true}, {"", "before", ""},
-                   {"", "after", ""},           {"", "sd", ""},         {"", "moved", "sd"}};
+                   {"", "after", ""},           {"", "sd", ""},         {"", "change", "sd"}};
   if (result.effects.empty()) return table;  // then nothing moved them
   for (const ParameterShift& shift : result.shifts) {
-    const double moved = moved_sd(shift);
+    if (!all && !is_shifted(shift)) continue;
     table.rows.push_back({shift.name, shift.unit, value_text(shift.before, shift.sd),
                           value_text(shift.after, shift.sd), sd_text(shift.after, shift.sd),
-                          std::isfinite(moved) ? fmt::format("{:+.1f}", moved) : kNoNumber});
+                          change_text(moved_sd(shift))});
   }
   table.notes = {"before: the model given, fitted to the same logs in the same way"};
   return table;
@@ -203,9 +210,9 @@ Document refine_document(const RefineResult& result, const std::vector<std::stri
   document.title = "What the model lacks";
   document.summary = refine_story(result, model_files);
   document.headline = refine_headline(result);
-  for (Table table :
-       {joint_table(result), joint_reasons(result), where_table(result), league_table(result),
-        separability_table(result), step_table(result), shift_table(result)})
+  for (Table table : {joint_table(result), joint_reasons(result), shift_table(result, false),
+                      where_table(result), league_table(result), separability_table(result),
+                      step_table(result), shift_table(result, true)})
     if (!table.rows.empty()) document.tables.push_back(std::move(table));
   if (!result.model_choice.empty())
     document.paragraphs.push_back(

@@ -172,12 +172,8 @@ Document simulate_document(const SimulateResult& result) {
   if (!result.trajectories.empty())
     document.summary.push_back({"trajectories", result.trajectories});
   add_warnings(document, "", result.warnings);
-  for (const SimulatedPart& part : result.parts) {
-    add_decisions(document, part_name(result.parts, part), part.decisions);
-    add_warnings(document, part_name(result.parts, part), part.warnings);
-    add_figures(document, part.figures);
-  }
-  finish_decisions(document, result.parts.size());
+  add_parts(document, result.parts,
+            [&](const SimulatedPart& part) { return part_name(result.parts, part); });
   document.headline = headline_of(result);
   lead_with(document, 1);
   return document;

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "cablefit/report/documents/check_document.hpp"
@@ -98,7 +99,8 @@ class Appendix {
     }
     warnings_.emplace_back();
     for (const std::string& warning : stage.warnings)
-      warnings_.back().push_back(fmt::format("{}: {}", name, warning));
+      if (known_.insert(warning).second)  // what is wrong with a log, every stage says
+        warnings_.back().push_back(fmt::format("{}: {}", name, warning));
     stage.warnings.clear();
     append(document_, stage);
   }
@@ -116,6 +118,7 @@ class Appendix {
   Document& document_;
   std::string leader_;
   std::vector<std::vector<std::string>> warnings_;
+  std::set<std::string> known_;
 };
 
 }  // namespace

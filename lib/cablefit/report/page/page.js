@@ -129,7 +129,7 @@
   }
 
   const noteAnnotations = (figure, colours) => figure.notes.map((note) => ({
-    x: note.x, y: note.y, showarrow: false, text: plain(note.text), font: {size: 11.5, color: colours.ink},
+    x: note.x, y: figure.y.log ? Math.log10(note.y) : note.y, showarrow: false, text: plain(note.text), font: {size: 11.5, color: colours.ink},
     bgcolor: colours.ground, borderpad: 1
   }));
 
@@ -137,7 +137,8 @@
     return {title: {text: axisTitle(axis), standoff: 8}, color: colours.ink, gridcolor: colours.grid,
             zerolinecolor: colours.rule, linecolor: colours.rule, showline: true, mirror: true,
             ticks: "outside", ticklen: 4, tickcolor: colours.rule, automargin: true,
-            exponentformat: "power", separatethousands: false};
+            exponentformat: "power", separatethousands: false,
+            ...(axis.log ? {type: "log", dtick: "D2", minexponent: 4} : {})};
   }
 
   function drawnLayout(figure, colours) {
@@ -225,7 +226,7 @@
     for (let node = target; node; node = node.parentElement) if (node.matches("details")) node.open = true;
   }
 
-  /** Plots are drawn when they come near the screen, which keeps long pages quick to open. */
+  /** Plots are drawn first when they come near the screen, which keeps long pages quick to open. */
   function drawWhenSeen() {
     const observer = new IntersectionObserver((entries) => {
       for (const entry of entries) {
@@ -236,13 +237,28 @@
     for (const plot of plots) observer.observe(plot.place);
   }
 
+  const kIdleWait = 2000;  // ms, after which a plot is drawn although the browser is busy
+  const whenIdle = globalThis.requestIdleCallback
+      ? (work) => requestIdleCallback(work, {timeout: kIdleWait}) : (work) => setTimeout(work, 50);
+  const isFolded = (plot) => plot.place.closest("details:not([open])") !== null;
+
+  /** The other plots follow one by one, so that scrolling, a screenshot or print finds none empty. */
+  function drawRest() {
+    const next = plots.find((plot) => !plot.isDrawn && !isFolded(plot));
+    if (!next) return;
+    whenIdle(async () => {
+      if (!next.isDrawn) await draw(next, darkWanted.matches);
+      drawRest();
+    });
+  }
+
   const isWide = (plot) => plot.place.parentElement.classList.contains("wide");
   const kPaperWidth = 670;  // px, A4 within its margins
 
   function forPaper() {
     document.documentElement.classList.remove("dark");
     for (const plot of plots) {
-      if (plot.place.closest("details:not([open])")) continue;  // what is folded is not printed
+      if (isFolded(plot)) continue;  // what is folded is not printed
       draw(plot, false, isWide(plot) ? kPaperWidth : kPaperWidth * 0.48);
     }
   }
@@ -255,6 +271,7 @@
   document.documentElement.classList.toggle("dark", darkWanted.matches);
   plots.push(...[...document.querySelectorAll("figure[data-figure]")].map(prepare));
   drawWhenSeen();
+  drawRest();
   openTarget();
   addEventListener("hashchange", openTarget);
   darkWanted.addEventListener("change", forScreen);

@@ -42,7 +42,8 @@ Json numbers(const std::vector<double>& values) {
 Json axis_json(const FigureAxis& axis) {
   return {{"title", shown(axis.title)},
           {"unit", pretty_unit(printable(axis.unit))},
-          {"dates", axis.title == kDateAxis}};
+          {"dates", axis.title == kDateAxis},
+          {"log", axis.logarithmic}};
 }
 
 Json look_json(const TraceLook& look) {

@@ -77,6 +77,19 @@ std::vector<double> ticks_of(const Scale& scale, int n) {
   return ticks;
 }
 
+/// Logarithms of 1, 2 and 5 times powers of ten; over many decades of the powers alone.
+std::vector<double> log_ticks_of(const Scale& scale) {
+  constexpr double kFewDecades = 2.5;
+  const bool is_long = scale.high - scale.low > kFewDecades;
+  std::vector<double> ticks;
+  for (double power = std::floor(scale.low); power <= scale.high; ++power)
+    for (const double nice : {1.0, 2.0, 5.0})
+      if (const double tick = power + std::log10(nice);
+          tick >= scale.low && tick <= scale.high && (nice == 1 || !is_long))
+        ticks.push_back(tick);
+  return ticks;
+}
+
 /// With the digits that tell it from its neighbours.
 std::string tick_text(double value, double step) {
   const double largest = std::max(std::abs(value), step);
@@ -132,7 +145,7 @@ class Drawing {
       for (std::size_t i = 0; i < figure.traces[k].y.size(); ++i) x.add(x_of(k, i));
       for (const auto* values :
            {&figure.traces[k].y, &figure.traces[k].low, &figure.traces[k].high})
-        for (const double value : *values) y.add(value);
+        for (const double value : *values) y.add(drawn_y(value));
     }
     for (const Mark& mark : figure.marks) x.add(mark.x);
     x_ = labels_.empty()
@@ -153,6 +166,18 @@ class Drawing {
   }
 
  private:
+  double drawn_y(double value) const { return figure_.y.logarithmic ? std::log10(value) : value; }
+  double y_at(double value) const { return y_(drawn_y(value)); }
+
+  std::string tick_text_up(const std::vector<double>& ticks, std::size_t k) const {
+    if (figure_.y.logarithmic) return fmt::format("{:.3g}", std::pow(10, ticks[k]));
+    return tick_text(ticks[k], step_of(ticks));
+  }
+
+  static double step_of(const std::vector<double>& ticks) {
+    return ticks.size() > 1 ? ticks[1] - ticks[0] : 1;
+  }
+
   /// Bars of several traces at one name stand beside each other.
   double x_of(std::size_t k, std::size_t i) const {
     const Trace& trace = figure_.traces[k];
@@ -167,13 +192,12 @@ class Drawing {
     const std::string grid =
         fmt::format("<path style=\"stroke:{};fill:none\" d=\"", colour("grid"));
     std::string lines, words;
-    const auto step_of = [](const std::vector<double>& ticks) {
-      return ticks.size() > 1 ? ticks[1] - ticks[0] : 1;
-    };
-    const std::vector<double> across = ticks_of(x_, kTicksAcross), up = ticks_of(y_, kTicksUp);
-    for (const double tick : up) {
-      lines += fmt::format("M{:.1f} {:.1f}H{:.1f}", kLeft, y_(tick), right);
-      words += text_at(kLeft - 6, y_(tick) + 4, "end", tick_text(tick, step_of(up)));
+    const std::vector<double> across = ticks_of(x_, kTicksAcross);
+    const std::vector<double> up =
+        figure_.y.logarithmic ? log_ticks_of(y_) : ticks_of(y_, kTicksUp);
+    for (std::size_t k = 0; k < up.size(); ++k) {
+      lines += fmt::format("M{:.1f} {:.1f}H{:.1f}", kLeft, y_(up[k]), right);
+      words += text_at(kLeft - 6, y_(up[k]) + 4, "end", tick_text_up(up, k));
     }
     if (labels_.empty())
       for (const double tick : across) {
@@ -215,7 +239,7 @@ class Drawing {
     bool is_open = false;
     double last_x = NAN, last_y = NAN;
     for (std::size_t i = 0; i < trace.y.size(); ++i) {
-      const double x = std::round(2 * x_(x_of(k, i))) / 2, y = std::round(2 * y_(trace.y[i])) / 2;
+      const double x = std::round(2 * x_(x_of(k, i))) / 2, y = std::round(2 * y_at(trace.y[i])) / 2;
       if (!std::isfinite(x) || !std::isfinite(y)) {
         is_open = false;
         continue;
@@ -237,7 +261,7 @@ class Drawing {
     std::string path;
     const Trace& trace = figure_.traces[k];
     for (std::size_t i = 0; i < trace.y.size(); ++i) {
-      const double x = x_(x_of(k, i)), y = y_(trace.y[i]);
+      const double x = x_(x_of(k, i)), y = y_at(trace.y[i]);
       if (!std::isfinite(x) || !std::isfinite(y)) continue;
       const std::pair place(static_cast<int>(x), static_cast<int>(y));
       if (seen.insert(place).second) path += fmt::format("M{} {}h0", place.first, place.second);
@@ -252,7 +276,7 @@ class Drawing {
     const std::size_t every = n >= trace.y.size() ? 1 : trace.y.size() / n;
     std::string path;
     for (std::size_t i = every / 2; i < trace.y.size(); i += every) {
-      const double x = x_(x_of(k, i)), y = y_(trace.y[i]);
+      const double x = x_(x_of(k, i)), y = y_at(trace.y[i]);
       if (std::isfinite(x) && std::isfinite(y)) path += symbol_at(look.symbol, x, y);
     }
     return path;
@@ -270,9 +294,9 @@ class Drawing {
     if (trace.style == TraceStyle::interval) {
       std::string bars;
       for (std::size_t i = 0; i < trace.y.size(); ++i)
-        if (std::isfinite(y_(trace.low[i])) && std::isfinite(y_(trace.high[i])))
-          bars += fmt::format("M{:.1f} {:.1f}V{:.1f}", x_(x_of(k, i)), y_(trace.low[i]),
-                              y_(trace.high[i]));
+        if (std::isfinite(y_at(trace.low[i])) && std::isfinite(y_at(trace.high[i])))
+          bars += fmt::format("M{:.1f} {:.1f}V{:.1f}", x_(x_of(k, i)), y_at(trace.low[i]),
+                              y_at(trace.high[i]));
       svg_ += stroke(look, bars, "none");
       look.n_symbols = kEveryPoint;
     } else {

@@ -165,6 +165,30 @@ void add_tidy_number(Table& table, const std::string& preload, const std::string
       {preload, model, method, name, "", unit, exact(value), "", "", "", "", "", "", "", ""});
 }
 
+Table both_sd_table(const std::vector<std::string>& where) {
+  Table table;
+  table.title = "Robust standard deviations, and the white-noise ones of (25)";
+  for (const std::string& title : where) table.columns.push_back({"", title, "", true});
+  const std::vector<Column> own = {{"", "parameter", "", true}, {"", "unit", "", true},
+                                   {"", "value", ""},           {"", "sd", ""},
+                                   {"", "sd of (25)", ""},      {"95 % interval", "from", ""},
+                                   {"95 % interval", "to", ""}};
+  table.columns.insert(table.columns.end(), own.begin(), own.end());
+  return table;
+}
+
+void add_sd_rows(Table& table, const std::vector<std::string>& where,
+                 const std::vector<Estimate>& parameters) {
+  for (const Estimate& e : parameters) {
+    if (!e.not_identifiable.empty()) continue;
+    std::vector<std::string>& row = table.rows.emplace_back(where);
+    for (std::string cell :
+         {e.name, e.unit, value_text(e.value, e.sd), sd_text(e.value, e.sd),
+          significant(e.sd_white, 2), value_text(e.ci_low, e.sd), value_text(e.ci_high, e.sd)})
+      row.push_back(std::move(cell));
+  }
+}
+
 Table derived_table() {
   Table table;
   table.title = "Derived quantities";

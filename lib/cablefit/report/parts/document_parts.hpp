@@ -31,15 +31,26 @@ void finish_decisions(Document& document, std::size_t n_preloads);
 void add_warnings(Document& document, const std::string& where,
                   const std::vector<std::string>& warnings);
 
+/// In the units of the tables.
+void add_figures(Document& document, const std::vector<Figure>& figures);
+
+/// Decisions, warnings and figures of the parts of logs; `name`: of a part.
+template <typename Part, typename Name>
+void add_parts(Document& document, const std::vector<Part>& parts, Name name) {
+  for (const Part& part : parts) {
+    add_decisions(document, name(part), part.decisions);
+    add_warnings(document, name(part), part.warnings);
+    add_figures(document, part.figures);
+  }
+  finish_decisions(document, parts.size());
+}
+
 /// A table that has rows; `detail`: see Table::detail.
 void add_table(Document& document, Table table);
 void add_detail(Document& document, Table table);
 
 /// All of a document behind another, but for its title and summary.
 void append(Document& all, const Document& part);
-
-/// In the units of the tables.
-void add_figures(Document& document, const std::vector<Figure>& figures);
 
 /// Leaves so many main figures, the first; without any the first figures become it.
 void lead_with(Document& document, std::size_t n);
@@ -54,6 +65,12 @@ std::string headline_value(const Estimate& e);
 Table counts_table();
 void add_counts(Table& table, const std::string& preload, const std::string& equation,
                 const RowCounts& rows, const WindowCounts& windows);
+
+/// Columns and rows of the table of both sd. `where`: titles, and then cells, of what the fits are
+/// told apart by. Parameters that are not identifiable have no row.
+Table both_sd_table(const std::vector<std::string>& where);
+void add_sd_rows(Table& table, const std::vector<std::string>& where,
+                 const std::vector<Estimate>& parameters);
 
 /// Columns and one row of the tidy table.
 Table tidy_table();

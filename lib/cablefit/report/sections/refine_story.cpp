@@ -12,6 +12,7 @@
 #include "cablefit/refine/rows/regime_variables.hpp"
 #include "cablefit/report/parts/document_parts.hpp"
 #include "cablefit/report/parts/numbers.hpp"
+#include "cablefit/session/replayed_torque.hpp"
 
 namespace cablefit {
 namespace {
@@ -20,8 +21,6 @@ constexpr int kDigits = 3;
 constexpr std::string_view kFrequency = "frequency";  // whose variable is Hz
 constexpr std::size_t kPlaces = 2;                    // where the gap is, in the story
 constexpr double kMovedSd = 2;
-constexpr std::size_t kMostShifts = 8;  // in the story; the table has all
-constexpr double kMovedShare = 0.02;    // where there is no sd
 
 std::string number(double value) { return significant(value, kDigits); }
 
@@ -204,6 +203,24 @@ SummaryLine gap_line(const RefineResult& result) {
                                       : "")};
 }
 
+/// Why the simulation replays the torque of a log; nullptr in closed loop.
+const Decision* replay_of(const RefineResult& result) {
+  const auto found =
+      std::find_if(result.decisions.begin(), result.decisions.end(),
+                   [](const Decision& decision) { return decision.name == kReplayedTorque; });
+  return found == result.decisions.end() ? nullptr : &*found;
+}
+
+/// What a replayed torque makes of the gap; nothing in closed loop.
+std::string replay_text(const RefineResult& result) {
+  const Decision* replay = replay_of(result);
+  if (replay == nullptr) return "";
+  return fmt::format(
+      "; the torque of the log is replayed ({}): positions drift whatever the model, so judge by "
+      "the torque gap",
+      replay->reason);
+}
+
 SummaryLine simulation_line(const RefineResult& result) {
   const GapStory& gap = result.simulation;
   if (result.elastic_only) return {"simulation", "none: a blocked link does not move"};
@@ -213,7 +230,8 @@ SummaryLine simulation_line(const RefineResult& result) {
           "of the test logs, {} rms: {}{}, noise floor {}", result.linear_motion ? "mm" : "mrad",
           before_after(1e3 * gap.test_before, 1e3 * gap.test_after, !result.effects.empty()),
           interval_text({1e3 * gap.test_after_ci[0], 1e3 * gap.test_after_ci[1]}),
-          number(1e3 * gap.noise_floor))};
+          number(1e3 * gap.noise_floor)) +
+          replay_text(result)};
 }
 
 SummaryLine remainder_line(const RefineResult& result) {
@@ -246,39 +264,8 @@ std::string unexplained_text(const Unexplained& found, bool linear_motion) {
       found.equation, size, significant(found.correlation_time, 2));
 }
 
-/// Whether it is worth a word: by its sd, or where that is not known by its size.
-bool is_shifted(const ParameterShift& shift) {
-  const double moved = moved_sd(shift);
-  if (std::isfinite(moved)) return std::abs(moved) > kMovedSd;
-  return std::abs(shift.after - shift.before) > kMovedShare * std::abs(shift.before);
-}
-
-std::string shift_text(const ParameterShift& shift) {
-  const double moved = moved_sd(shift);
-  const std::string text =
-      fmt::format("{} {} -> {} {}", shift.name, value_text(shift.before, shift.sd),
-                  value_with_sd(shift.after, shift.sd), shift.unit);
-  return std::isfinite(moved) ? fmt::format("{} ({:+.0f} sd)", text, moved) : text;
-}
-
-/// Those that moved most, in the order of the model.
-SummaryLine shifts_line(const RefineResult& result) {
-  std::vector<const ParameterShift*> moved;
-  for (const ParameterShift& shift : result.shifts)
-    if (is_shifted(shift)) moved.push_back(&shift);
-  const std::size_t n_more = moved.size() - std::min(moved.size(), kMostShifts);
-  std::vector<const ParameterShift*> most = moved;
-  std::stable_sort(most.begin(), most.end(), [](const auto* a, const auto* b) {
-    return std::abs(moved_sd(*a)) > std::abs(moved_sd(*b));
-  });
-  most.resize(moved.size() - n_more);
-  std::string text;
-  for (const ParameterShift* shift : moved)
-    if (std::find(most.begin(), most.end(), shift) != most.end())
-      text += (text.empty() ? "" : ", ") + shift_text(*shift);
-  if (n_more > 0) text += fmt::format("; {} more moved less", n_more);
-  if (text.empty()) text = fmt::format("no parameter moved by more than {:g} sd", kMovedSd);
-  return {"shifts", text};
+bool shifts_any(const RefineResult& result) {
+  return std::any_of(result.shifts.begin(), result.shifts.end(), is_shifted);
 }
 
 }  // namespace
@@ -309,6 +296,13 @@ std::string regime_text(const Regime& regime, bool linear_motion) {
 
 double moved_sd(const ParameterShift& shift) { return (shift.after - shift.before) / shift.sd; }
 
+bool is_shifted(const ParameterShift& shift) {
+  constexpr double kMovedShare = 0.02;  // where there is no sd
+  const double moved = moved_sd(shift);
+  if (std::isfinite(moved)) return std::abs(moved) > kMovedSd;
+  return std::abs(shift.after - shift.before) > kMovedShare * std::abs(shift.before);
+}
+
 Headline refine_headline(const RefineResult& result) {
   constexpr std::array<std::pair<const char*, Tone>, 4> kWords{{{"identified effect", Tone::good},
                                                                 {"nothing missing", Tone::good},
@@ -330,7 +324,8 @@ Headline refine_headline(const RefineResult& result) {
     headline.numbers = {{"torque gap on test data, rms", numbers(result.torque, 1, torque)}};
   if (result.simulation.known)
     headline.numbers.push_back(
-        {"simulation gap on test data, rms",
+        {replay_of(result) != nullptr ? "simulation gap on test data (torque replayed), rms"
+                                      : "simulation gap on test data, rms",
          numbers(result.simulation, 1e3, result.linear_motion ? "mm" : "mrad")});
   if (result.torque.known)
     headline.numbers.push_back(
@@ -350,7 +345,8 @@ std::vector<SummaryLine> refine_story(const RefineResult& result,
     lines.push_back({"remainder", unexplained_text(*result.unexplained, result.linear_motion)});
   if (result.verdict != Verdict::none)
     for (SummaryLine& line : where_lines(result)) lines.push_back(std::move(line));
-  if (!result.effects.empty()) lines.push_back(shifts_line(result));
+  if (!result.effects.empty() && !shifts_any(result))
+    lines.push_back({"shifts", fmt::format("no parameter moved by more than {:g} sd", kMovedSd)});
   if (!result.next_experiment.empty()) lines.push_back({"next run", result.next_experiment});
   if (!model_files.empty())
     lines.push_back({"model", fmt::format("{}", fmt::join(model_files, ", "))});

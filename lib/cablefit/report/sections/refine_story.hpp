@@ -22,5 +22,7 @@ std::string regime_text(const Regime& regime, bool linear_motion);
 
 /// How many sd a parameter moved; NaN without an sd.
 double moved_sd(const ParameterShift& shift);
+/// Whether that is worth a word: by its sd, or where that is not known by its size.
+bool is_shifted(const ParameterShift& shift);
 
 }  // namespace cablefit
