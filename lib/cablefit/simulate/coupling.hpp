@@ -25,13 +25,13 @@ class Coupling {
  private:
   using LawFunction = void (*)(const LawShape& shape, double l, double* values);
   struct Strand {
-    LawFunction basis, slope;
-    LawShape shape;
-    int n_coefficients;
-    std::array<double, kMaxCableOrder> coefficients;
-    double slack;             ///< l where every map is 0
-    std::size_t first_joint;  ///< into the radii and maps below
-    bool round;               ///< all its pulleys are round
+    LawFunction basis = nullptr, slope = nullptr;
+    LawShape shape = {};
+    int n_coefficients = 0;
+    std::array<double, kMaxCableOrder> coefficients = {};
+    double slack = 0;             ///< l where every map is 0
+    std::size_t first_joint = 0;  ///< into the radii and maps below
+    bool round = false;           ///< all its pulleys are round
   };
 
   /// phi of the linear model, Transmission::deflections.
