@@ -62,6 +62,19 @@ TEST_CASE("nothing hidden: nothing named", "[refine][slow]") {
   CHECK(result.league.size() > 20);
 }
 
+TEST_CASE("what is smaller than the size that was asked for is not named", "[refine][slow]") {
+  const HiddenLogs hidden = hidden_logs({"stribeck.motor=0.3"});
+  RefineOptions options;
+  options.n_draws = 8;
+  options.threads = 2;
+  REQUIRE(first_name(refine(hidden.models, hidden.logs, options)) == "stribeck");
+  options.material = 1000;
+  const RefineResult result = refine(hidden.models, hidden.logs, options);
+  CHECK(result.effects.empty());
+  CHECK(result.verdict == Verdict::none);
+  CHECK(result.reason.find("too small to matter") != std::string::npos);
+}
+
 /// An axis that is homed before each log has slipped in one of them only.
 TEST_CASE("a slip that ends with its log is named and sized", "[refine][slow]") {
   HiddenLogs hidden = hidden_logs({"slip.transmission=1"}, 2);

@@ -146,6 +146,15 @@ void find_effects(RefineBench& bench, Chain& chain, RefineResult& result) {
   if (!result.effects.empty()) chain.back() = with_best_shapes(bench, std::move(chain.back()));
 }
 
+/// By the size that the user gave: no residual of the base is worth a search for its cause.
+bool is_immaterial(const RefineBench& bench, const RefineState& first) {
+  if (!bench.options.material) return false;
+  const std::vector<EquationRemainder> all = remainders_of(
+      first.design, first.x, bench.floor, bench.scan.block_seconds, bench.options.material);
+  return std::none_of(all.begin(), all.end(),
+                      [](const EquationRemainder& e) { return e.at_least >= e.material; });
+}
+
 /// A bias that stays in the values widens their intervals. It is one vector, of one cause, so that
 /// the values are off together.
 void add_systematic(const ValueChange& bias, FinalFit& fit) {
@@ -177,7 +186,7 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
       find_not_separable(first.design, first.x, bench.floor, runs, options.threads);
 
   Chain chain{first};
-  find_effects(bench, chain, result);
+  if (!is_immaterial(bench, first)) find_effects(bench, chain, result);
   require_half_explained(chain, result);
   require_one_law(bench, chain, result);
   const Confirmed confirmed = confirm_on_test(bench, chain, result);
