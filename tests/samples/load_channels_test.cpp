@@ -85,7 +85,14 @@ TEST_CASE("rig files that differ in more than the load are two rigs", "[samples]
       logs_of(folder, {rig_text(kRope), rig_text(kArm, R"(, "torque_hold": "none")")});
   make_load_channels(logs);
   CHECK_FALSE(logs[0].plan.has(Channel::tau_load));
-  CHECK_THAT(disagreement(logs), Catch::Matchers::Contains("has logs of two rigs"));
+  CHECK_THAT(disagreement(logs), Catch::Matchers::Contains("which differ in \"torque_hold\""));
+}
+
+TEST_CASE("the name of a rig file is only a label", "[samples]") {
+  const TempFolder folder;
+  const std::vector<LogSurvey> logs =
+      logs_of(folder, {rig_text(kRope), rig_text(kRope, R"(, "name": "bench at the window")")});
+  CHECK(disagreement(logs) == "no error");
 }
 
 TEST_CASE("a moving log without a load beside one with is refused", "[samples]") {

@@ -28,7 +28,7 @@ bool has_law(const LogSurvey& log) {
 bool is_under_another_load(const LogSurvey& log, const std::vector<LogSurvey>& logs) {
   return has_law(log) && std::any_of(logs.begin(), logs.end(), [&](const LogSurvey& other) {
            return share_preload(log, other) &&
-                  compare_rig_files(log.plan.rig, other.plan.rig) == RigDifference::load;
+                  compare_rig_files(log.plan.rig, other.plan.rig).difference == RigDifference::load;
          });
 }
 

@@ -1,12 +1,19 @@
 // Whether the rig files of two logs say the same.
 #pragma once
 
+#include <string>
+
 #include "cablefit/model/rig.hpp"
 
 namespace cablefit {
 
-/// The rig files, as they are on disk: of the same content; equal but for "load"; different.
 enum class RigDifference { none, load, other };
-RigDifference compare_rig_files(const Rig& a, const Rig& b);
+
+/// Of rig files as they are on disk. Their "name" is only a label.
+struct RigComparison {
+  RigDifference difference = RigDifference::none;
+  std::string key;  ///< of other differences the first one's, e.g. "cables"; empty: one has no file
+};
+RigComparison compare_rig_files(const Rig& a, const Rig& b);
 
 }  // namespace cablefit

@@ -20,12 +20,14 @@ bool has_own_load(const LogPlan& plan, Phase phase) {
 void require_same_rig(const LogPart& first, const LogPart& part, const std::string& preload) {
   if (is_same_bench(first, part)) return;
   const auto name = [](const Rig& rig) { return rig.path.empty() ? "no rig file" : rig.path; };
+  const std::string key = compare_rig_files(first.plan->rig, part.plan->rig).key;
   throw input_error(
       {part.plan->path, 0, 0},
-      fmt::format("preload '{:.40}' has logs of two rigs, {} and {}", preload,
-                  name(first.plan->rig), name(part.plan->rig)),
-      "give them one rig file, or files that differ in \"load\" alone, each log with its load; or "
-      "fit them separately");
+      fmt::format("preload '{:.40}' has logs of two rigs, {} and {}{}", preload,
+                  name(first.plan->rig), name(part.plan->rig),
+                  key.empty() ? "" : fmt::format(", which differ in \"{}\"", key)),
+      "give them one rig file, or files that differ in \"load\" alone, each with its load (none: "
+      "{\"type\": \"none\"}); or fit them separately");
 }
 
 /// "q2, theta2, tau2" of a log that is read as one of one joint.
@@ -58,7 +60,7 @@ std::vector<std::string> unread_joints(std::span<const LogSurvey> logs) {
 }  // namespace
 
 bool is_same_bench(const LogPart& a, const LogPart& b) {
-  const RigDifference difference = compare_rig_files(a.plan->rig, b.plan->rig);
+  const RigDifference difference = compare_rig_files(a.plan->rig, b.plan->rig).difference;
   if (difference == RigDifference::none) return true;
   return difference == RigDifference::load && has_own_load(*a.plan, a.phase) &&
          has_own_load(*b.plan, b.phase);
