@@ -105,8 +105,7 @@ std::string hiding_cause(const DynamicJob& job, const EquationRows& e) {
   if (job.options.samples.rest_speed || !(equation.rest_speed > 0) || !equation.speed) return "";
   const RateRange rates = sample_rates(job.logs, job.wanted);
   const std::vector<double> speeds = calm_speeds(job, equation, rates);
-  std::string hidden =
-      hidden_motion(job, equation, at_quantile(speeds, kFastMotion), rates.lowest);
+  std::string hidden = hidden_motion(job, equation, at_quantile(speeds, kFastMotion), rates.lowest);
   if (!hidden.empty()) return hidden;
   const bool moves = at_quantile(speeds, kMovingQuantile) > equation.rest_speed;
   return moves ? lowered_cutoff(job, e, rates.lowest) : "";
