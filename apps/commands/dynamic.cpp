@@ -21,8 +21,7 @@
 #include "cablefit/results/read/elastic_reader.hpp"
 #include "cablefit/results/write/dynamic_json.hpp"
 #include "cablefit/results/write/elastic_json.hpp"
-#include "cablefit/samples/load_channels.hpp"
-#include "cablefit/samples/weigh/weigh.hpp"
+#include "cablefit/session/read_logs.hpp"
 #include "cablefit/session/stages.hpp"
 #include "commands/command.hpp"
 #include "options/command_line.hpp"
@@ -346,8 +345,7 @@ std::vector<LogSurvey> campaign_logs(const CommonOptions& options) {
   if (logs.empty())
     throw usage_error(fmt::format("{} has no preload '{}'", kCampaignHere, options.preload),
                       "see its cells");
-  weigh_logs(logs);
-  make_load_channels(logs);
+  join_logs(logs);
   return logs;
 }
 

@@ -12,8 +12,7 @@
 #include "cablefit/report/writers/excite_csv.hpp"
 #include "cablefit/results/elastic_models.hpp"
 #include "cablefit/results/read_model.hpp"
-#include "cablefit/samples/load_channels.hpp"
-#include "cablefit/samples/weigh/weigh.hpp"
+#include "cablefit/session/read_logs.hpp"
 #include "cablefit/session/stages.hpp"
 #include "cablefit/simulate/experiment.hpp"
 #include "commands/command.hpp"
@@ -274,8 +273,7 @@ void weigh_input(RefineLogs& logs) {
   std::vector<LogSurvey> all;
   for (auto* some : {&logs.train, &logs.test, &logs.blocked})
     for (LogSurvey& log : *some) all.push_back(std::move(log));
-  weigh_logs(all);
-  make_load_channels(all);
+  join_logs(all);
   auto next = all.begin();
   for (auto* some : {&logs.train, &logs.test, &logs.blocked})
     for (LogSurvey& log : *some) log = std::move(*next++);

@@ -91,8 +91,8 @@ TEST_CASE("a joint that is not refined keeps the values of the given model", "[r
       Refined(moving_log(with_second_at_rest(two_pairs()), 12, 23)).run({given});
   REQUIRE_FALSE(result.joints.at(1).not_refined.empty());
   CHECK(warns(result.warnings, "joint 2: not refined: " + result.joints[1].not_refined +
-                                   "; its values in the refined model are those of the model "
-                                   "that it began with"));
+                                   "; its values in the refined model are those of the first "
+                                   "model"));
   const Model model = read_back(result.models.at(0));
   const std::vector<Estimate> was = second_joint(given), is = second_joint(model);
   REQUIRE(is.size() == was.size());
@@ -133,9 +133,8 @@ TEST_CASE("a joint that is not refined has the values of the base fit", "[refine
 TEST_CASE("a joint of which nothing is known has no values", "[refine]") {
   const RefineResult result = Refined(moving_log(with_second_at_rest(two_pairs()), 12, 23)).run();
   REQUIRE_FALSE(result.joints.at(1).not_refined.empty());
-  CHECK(
-      warns(result.warnings,
-            "; in the refined model those of its values are null that the logs do not determine"));
+  CHECK(warns(result.warnings,
+              "; its values that the logs do not determine are null in the refined model"));
   for (const Estimate& e : second_joint(read_back(result.models.at(0)))) {
     INFO(e.name);
     CHECK(std::isnan(e.value));

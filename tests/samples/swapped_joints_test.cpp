@@ -34,13 +34,13 @@ TEST_CASE("motors that follow the link of another joint are found", "[samples]")
   CHECK(weighed("finger", drives) ==
         "moving.csv: joints 1 and 2: are theta1 and theta2 swapped? theta1 and theta2 follow their "
         "own links with correlations of -0.15 and -0.16, swapped 1.00 and 0.98; exchange their "
-        "columns in the rig file, and tau with theta or tau_load with q where they were recorded "
-        "in the same order");
+        "columns in the rig file; if tau was recorded in the order of theta, or tau_load in that "
+        "of q, exchange those too");
   CHECK(weighed("pairs", links) ==
         "moving.csv: joints 1 and 2: are q1 and q2 swapped? theta1 and theta2 follow their own "
         "links with correlations of -0.44 and 0.59, swapped 1.00 and 1.00; exchange their columns "
-        "in the rig file, and tau with theta or tau_load with q where they were recorded in the "
-        "same order");
+        "in the rig file; if tau was recorded in the order of theta, or tau_load in that of q, "
+        "exchange those too");
   // The cables separate links and drives, although each swap alone mends one of two joints.
   CHECK(weighed("finger", links).find("are q1 and q2 swapped?") != std::string::npos);
   CHECK(weighed("pairs", drives).find("are theta1 and theta2 swapped?") != std::string::npos);

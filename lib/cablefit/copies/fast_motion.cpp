@@ -92,7 +92,7 @@ FastMotion fast_motion(const Model& model, const LogPlan& plan, const TwinStretc
   columns << theta, tau, around_rows(tau, torque_held),
       motor_torque(model.joints[static_cast<std::size_t>(joint)].motor, quiet, period) +
           elastic_torque(model, plan, stretch.measured, joint);
-  // At either end the filter and the differences are off by far, and the bands would spread that.
+  // Filter and differences are wrong at either end. The narrow bands would spread that error.
   const auto edge = std::min(n / 4, static_cast<Eigen::Index>(kEdge / (band.to * period)));
   columns.col(3).head(edge) = columns.col(2).head(edge);
   columns.col(3).tail(edge) = columns.col(2).tail(edge);

@@ -13,6 +13,7 @@
 #include "cablefit/model/model_parameters.hpp"
 #include "cablefit/prove/fitted_model.hpp"
 #include "cablefit/refine/rows/base_rows.hpp"
+#include "cablefit/samples/survey/phases.hpp"
 
 namespace cablefit {
 namespace {
@@ -115,9 +116,7 @@ void take_arm(std::span<const LogSurvey> logs, const ElasticResult& stage1, int 
               std::vector<Model>& models, std::vector<Decision>& decisions) {
   std::vector<LogSurvey> moving;
   for (const LogSurvey& log : logs)
-    if (std::any_of(log.parts.begin(), log.parts.end(),
-                    [](const PartSurvey& part) { return part.phase == Phase::moving; }))
-      moving.push_back(log);
+    if (has_phase(log, Phase::moving)) moving.push_back(log);
   if (moving.empty()) return;  // blocked logs alone show no mass
   DynamicOptions options;
   options.samples.threads = threads;

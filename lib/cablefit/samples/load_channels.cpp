@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cablefit/samples/plan/rig_files.hpp"
+#include "cablefit/samples/survey/phases.hpp"
 
 namespace cablefit {
 namespace {
@@ -93,14 +94,9 @@ void make_load_channel(LogSurvey& log) {
                             "the rig files of the logs differ in their load alone"});
 }
 
-bool moves(const LogSurvey& log) {
-  return std::any_of(log.parts.begin(), log.parts.end(),
-                     [](const PartSurvey& part) { return part.phase == Phase::moving; });
-}
-
 /// What is lost where the law of a moving log becomes a channel.
 void warn_of_law(LogSurvey& log) {
-  if (!moves(log)) return;
+  if (!has_phase(log, Phase::moving)) return;
   const Load& load = log.plan.rig.load;
   const double inertia = load.law->inertia(load.parameters);
   if (inertia > 0)

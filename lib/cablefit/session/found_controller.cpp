@@ -3,15 +3,12 @@
 #include <algorithm>
 
 #include "cablefit/dynamic/loops/controller_fit.hpp"
+#include "cablefit/samples/survey/phases.hpp"
 
 namespace cablefit {
 namespace {
 
 bool is_moving(const PartSurvey& part) { return part.phase == Phase::moving; }
-
-bool moves(const LogSurvey& log) {
-  return std::any_of(log.parts.begin(), log.parts.end(), is_moving);
-}
 
 bool says_how_it_is_driven(const Rig& rig) { return rig.controller || rig.open_loop; }
 
@@ -19,7 +16,8 @@ bool says_how_it_is_driven(const Rig& rig) { return rig.controller || rig.open_l
 
 std::optional<Decision> take_found_controller(RefineLogs& logs, std::vector<Model>& models) {
   std::vector<LogSurvey> moving;
-  std::copy_if(logs.train.begin(), logs.train.end(), std::back_inserter(moving), moves);
+  std::copy_if(logs.train.begin(), logs.train.end(), std::back_inserter(moving),
+               [](const LogSurvey& log) { return has_phase(log, Phase::moving); });
   if (moving.empty() || moving.front().plan.rig.n_joints() > 1) return std::nullopt;
   for (const auto* some : {&logs.train, &logs.test, &logs.blocked})
     for (const LogSurvey& log : *some)

@@ -39,6 +39,11 @@ LogSurvey read_log(const std::string& path, const LogOptions& options) {
 
 }  // namespace
 
+void join_logs(std::vector<LogSurvey>& logs) {
+  weigh_logs(logs);
+  make_load_channels(logs);
+}
+
 std::vector<LogSurvey> read_logs(const std::vector<std::string>& paths, const LogOptions& options) {
   return read_logs(paths, [&](const std::string& path) { return read_log(path, options); });
 }
@@ -55,8 +60,7 @@ std::vector<LogSurvey> read_logs(const std::vector<std::string>& paths,
       logs.push_back(read(path));
     });
   problems.throw_if_any();
-  weigh_logs(logs);
-  make_load_channels(logs);
+  join_logs(logs);
   return logs;
 }
 

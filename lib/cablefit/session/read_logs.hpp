@@ -16,6 +16,10 @@ struct LogOptions {
   int threads = 1;
 };
 
+/// What all logs of a command are read with together: what weigh_logs() says of units, signs and
+/// samples, then the loads of rig files that differ in them alone (make_load_channels()).
+void join_logs(std::vector<LogSurvey>& logs);
+
 /// All logs, in the order given; of rig files that differ in their load alone, each with its load
 /// as a channel. Throws one Error with what is wrong in any of them: files that cannot be read, a
 /// log given twice, and what weigh_logs() says of units, signs and samples that cannot be right.

@@ -7,6 +7,7 @@
 #include "cablefit/identify/elastic_stage.hpp"
 #include "cablefit/refine/own_base.hpp"
 #include "cablefit/refine/search/model_set.hpp"
+#include "cablefit/samples/survey/phases.hpp"
 #include "cablefit/session/found_controller.hpp"
 #include "cablefit/session/replayed_torque.hpp"
 
@@ -15,9 +16,7 @@ namespace cablefit {
 std::vector<LogSurvey> logs_of(std::span<const LogSurvey> logs, Phase phase) {
   std::vector<LogSurvey> chosen;
   for (const LogSurvey& log : logs)
-    if (std::any_of(log.parts.begin(), log.parts.end(),
-                    [phase](const PartSurvey& part) { return part.phase == phase; }))
-      chosen.push_back(log);
+    if (has_phase(log, phase)) chosen.push_back(log);
   return chosen;
 }
 

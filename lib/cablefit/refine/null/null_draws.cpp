@@ -16,9 +16,8 @@ namespace {
 
 constexpr std::uint64_t kSensors = 11, kCalibration = 12;
 // Hz. Below the first a surrogate controller follows the measured motion and torque as they are.
-// What the drive adds up to the second is followed as far as torque and motion agree: the sensors'
-// noise is no motion, and would free the drive from its stiction. Beyond, the kernels of the rows
-// leave nothing.
+// Up to the second it follows what torque and motion have in common. The rest is sensor noise: as a
+// torque it would move a drive that is in stiction. Beyond, the kernels of the rows leave nothing.
 constexpr double kFollowCutoff = 10, kDitherCutoff = 150;
 // s: a mode of 100 Hz is off by (2 pi 100 h)^2 / 24 = 2e-4 of its frequency, far less than draws
 // scatter.

@@ -133,8 +133,8 @@ std::string immaterial(const RefineResult& result) {
                       : "the residual beyond the sensors' noise is too small to matter: " + text;
 }
 
-/// Why held-out rows contradict a model that fits the training rows: an equation whose residual
-/// matters; empty: none has one.
+/// Why held-out samples contradict a model that fits the training samples: an equation whose
+/// residual matters; empty: none has one.
 std::string contradiction_by_test(const RefineResult& result) {
   const bool of_logs = !result.held_out_blocks;
   for (const EquationRemainder& e : result.test_remainders)
@@ -144,8 +144,8 @@ std::string contradiction_by_test(const RefineResult& result) {
           "show what is missing: train with {} too",
           of_logs ? "the test logs" : "the last third of the logs", e.above,
           result.linear_motion ? "N" : "N m", e.noise, e.equation,
-          of_logs ? "training logs do not" : "rows before it do not",
-          of_logs ? "logs like these" : "more logs of such motion");
+          of_logs ? "training logs do not" : "samples before it do not",
+          of_logs ? "logs like these" : "longer or more logs");
   return "";
 }
 

@@ -75,7 +75,7 @@ Table where_table(const RefineResult& result) {
   return table;
 }
 
-Table league_table(const RefineResult& result) {
+Table candidate_table(const RefineResult& result) {
   Table table;
   table.title = "Candidates for the first effect";
   table.detail = result.verdict == Verdict::none || !result.joints.empty();
@@ -211,7 +211,7 @@ Document refine_document(const RefineResult& result, const std::vector<std::stri
   document.summary = refine_story(result, model_files);
   document.headline = refine_headline(result);
   for (Table table : {joint_table(result), joint_reasons(result), shift_table(result, false),
-                      where_table(result), league_table(result), separability_table(result),
+                      where_table(result), candidate_table(result), separability_table(result),
                       step_table(result), shift_table(result, true)})
     if (!table.rows.empty()) document.tables.push_back(std::move(table));
   if (!result.model_choice.empty())

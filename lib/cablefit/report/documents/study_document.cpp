@@ -99,7 +99,7 @@ class Appendix {
     }
     warnings_.emplace_back();
     for (const std::string& warning : stage.warnings)
-      if (known_.insert(warning).second)  // what is wrong with a log, every stage says
+      if (known_.insert(warning).second)  // each stage repeats those of a log
         warnings_.back().push_back(fmt::format("{}: {}", name, warning));
     stage.warnings.clear();
     append(document_, stage);

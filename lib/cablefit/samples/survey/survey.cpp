@@ -10,6 +10,7 @@
 #include "cablefit/base/parallel.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/samples/survey/part_tracker.hpp"
+#include "cablefit/samples/survey/phases.hpp"
 
 namespace cablefit {
 namespace {
@@ -352,9 +353,7 @@ void require_most_kept(const LogPlan& plan, const MendedCounts& counts) {
 
 /// A moving log needs every column that the rig file names.
 void require_mapped_columns(const LogSurvey& survey) {
-  const bool moves = std::any_of(survey.parts.begin(), survey.parts.end(),
-                                 [](const PartSurvey& p) { return p.phase == Phase::moving; });
-  if (moves && survey.plan.absent) throw Error(*survey.plan.absent);
+  if (has_phase(survey, Phase::moving) && survey.plan.absent) throw Error(*survey.plan.absent);
 }
 
 LogSurvey survey_once(const LogPlan& plan, const std::string& preload, int threads) {

@@ -20,26 +20,20 @@ Finding odd_reference(const LogPlan& plan, const CoarsePart& part, int joint,
   const std::string reference = weighed_name(plan, Channel::theta_ref, joint);
   const std::string theta = weighed_name(plan, Channel::theta, joint);
   const double size = std::abs(slope);
+  const auto finding = [&](const std::string& what, const std::string& remedy) {
+    return Finding{part.log, {}, false, what, remedy};
+  };
   if (size > kLowRatio && size < kHighRatio)
-    return {part.log,
-            {},
-            false,
-            fmt::format("{} is reversed: its slope on {} is {:.2f}", reference, theta, slope),
-            mending_line(plan, Channel::theta_ref, joint, -1)};
+    return finding(
+        fmt::format("{} is reversed: its slope on {} is {:.2f}", reference, theta, slope),
+        mending_line(plan, Channel::theta_ref, joint, -1));
   const std::string more =
       fmt::format("{} moves {:.3g} times as much as {}", reference, slope, theta);
   if (std::abs(slope / kDegrees - 1) < kSameUnit && !plan.rig.linear_motion)
-    return {part.log,
-            {},
-            false,
-            more + ": degrees?",
-            mending_unit(plan, Channel::theta_ref, joint, "deg")};
-  return {part.log,
-          {},
-          false,
-          more + ": a unit or a reduction?",
-          measured_line(plan, Channel::theta_ref, joint, 1 / slope,
-                        usual_slope_error(line.correlation), "ratio")};
+    return finding(more + ": degrees?", mending_unit(plan, Channel::theta_ref, joint, "deg"));
+  return finding(more + ": a unit or a reduction?",
+                 measured_line(plan, Channel::theta_ref, joint, 1 / slope,
+                               usual_slope_error(line.correlation), "ratio"));
 }
 
 }  // namespace

@@ -59,8 +59,8 @@ Finding finding_of(const LogPlan& plan, const CoarsePart& part, std::pair<int, i
                   "correlations of {:.2f} and {:.2f}, swapped {:.2f} and {:.2f}",
                   a + 1, b + 1, which, weighed_name(plan, Channel::theta, a),
                   weighed_name(plan, Channel::theta, b), own[0], own[1], swapped[0], swapped[1]),
-      "exchange their columns in the rig file, and tau with theta or tau_load with q where "
-      "they were recorded in the same order"};
+      "exchange their columns in the rig file; if tau was recorded in the order of theta, or "
+      "tau_load in that of q, exchange those too"};
 }
 
 /// "theta1 and theta2 swapped"; where no cable couples the joints nothing shows which they are.

@@ -6,6 +6,7 @@
 #include <array>
 #include <set>
 
+#include "cablefit/samples/survey/phases.hpp"
 #include "cablefit/samples/weigh/checks.hpp"
 
 namespace cablefit {
@@ -42,15 +43,11 @@ std::string with_count(const std::string& what, std::size_t others) {
 /// Whether another log with the same rig file and the same kind of parts is right as it is.
 bool others_are_right(const std::vector<LogSurvey>& logs, const std::set<std::size_t>& told,
                       const Finding& finding) {
-  const auto moves = [](const LogSurvey& log) {
-    return std::any_of(log.parts.begin(), log.parts.end(),
-                       [](const PartSurvey& part) { return part.phase == Phase::moving; });
-  };
   if (finding.whole_rig) return false;
   const LogSurvey& wrong = logs[finding.log];
   for (std::size_t k = 0; k < logs.size(); ++k)
     if (!told.contains(k) && logs[k].plan.rig.path == wrong.plan.rig.path &&
-        moves(logs[k]) == moves(wrong))
+        has_phase(logs[k], Phase::moving) == has_phase(wrong, Phase::moving))
       return true;
   return false;
 }
