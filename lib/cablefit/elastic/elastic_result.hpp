@@ -12,6 +12,7 @@
 #include "cablefit/estimate/tests/fit_proof.hpp"
 #include "cablefit/figure/figure.hpp"
 #include "cablefit/model/cables.hpp"
+#include "cablefit/model/elongation_covariance.hpp"
 #include "cablefit/model/rig_facts.hpp"
 #include "cablefit/samples/plan/input_file.hpp"
 #include "cablefit/samples/rows/settings.hpp"
@@ -127,7 +128,8 @@ std::string model_text(const ElasticFit& fit);
 struct ElasticResult {
   std::vector<InputFile> inputs;
   std::vector<ElasticPreload> preloads;
-  std::vector<std::string> warnings;
+  ElongationCovariance elongations = {};  ///< of l_o that were searched
+  std::vector<std::string> warnings = {};
 };
 
 }  // namespace cablefit

@@ -104,6 +104,7 @@ ElasticResult fit_elastic_with_search(std::span<const LogSurvey> logs,
   each.zero = ZeroMode::offset;
   ElasticResult result;
   result.inputs = joint.inputs;
+  result.elongations = joint.elongations;
   result.warnings = joint.warnings;
   for (const IdentifyPreload& preload : joint.preloads) {
     each.preload = preload.name;

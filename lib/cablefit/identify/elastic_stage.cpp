@@ -18,43 +18,49 @@ const Rig& rig_of(std::span<const LogSurvey> logs, const std::string& preload) {
 
 const char* unit_of(const ElasticPreload& preload) { return preload.linear_motion ? "N" : "N m"; }
 
+/// Stage 1 of one preload.
+struct Stage1 {
+  ElasticPreload preload;
+  ElongationCovariance elongations = {};
+};
+
 /// The preload fitted again with l_o looked for. Throws Error(not_identifiable) where there is
 /// none.
-ElasticPreload searched(std::span<const LogSurvey> logs, const ElasticOptions& options,
-                        const ElasticPreload& plain) {
+Stage1 searched(std::span<const LogSurvey> logs, const ElasticOptions& options,
+                const ElasticPreload& plain) {
   ElasticOptions own = options;
   own.preload = plain.name;
-  return fit_elastic_with_search(logs, own, true).preloads.at(0);
+  ElasticResult found = fit_elastic_with_search(logs, own, true);
+  return {std::move(found.preloads.at(0)), std::move(found.elongations)};
 }
 
-bool is_better(const ElasticPreload& found, const ElasticPreload& plain) {
-  return found.fits.back().rms_error <= (1 - kSearchGain) * plain.fits.back().rms_error;
+bool is_better(const Stage1& found, const ElasticPreload& plain) {
+  return found.preload.fits.back().rms_error <= (1 - kSearchGain) * plain.fits.back().rms_error;
 }
 
-ElasticPreload with_reason(ElasticPreload found, const ElasticPreload& plain,
-                           std::string_view reason) {
-  for (Decision& d : found.decisions)
+Stage1 with_reason(Stage1 found, const ElasticPreload& plain, std::string_view reason) {
+  for (Decision& d : found.preload.decisions)
     if (d.name == "l_o")
-      d.reason =
-          fmt::format("{}; the residual of the cables goes from {:.3g} to {:.3g} {} rms", reason,
-                      plain.fits.back().rms_error, found.fits.back().rms_error, unit_of(plain));
+      d.reason = fmt::format("{}; the residual of the cables goes from {:.3g} to {:.3g} {} rms",
+                             reason, plain.fits.back().rms_error,
+                             found.preload.fits.back().rms_error, unit_of(plain));
   return found;
 }
 
 /// With l_o looked for, where that explains the curve; else as it was, with the doubt.
-ElasticPreload without_doubt(std::span<const LogSurvey> logs, const ElasticOptions& options,
-                             ElasticPreload plain) {
+Stage1 without_doubt(std::span<const LogSurvey> logs, const ElasticOptions& options,
+                     ElasticPreload plain) {
   try {
-    ElasticPreload found = searched(logs, options, plain);
+    Stage1 found = searched(logs, options, plain);
     if (is_better(found, plain)) return with_reason(std::move(found), plain, plain.shape_doubt);
     plain.shape_doubt += fmt::format("; a search of l_o leaves the residual at {:.3g} {} rms",
-                                     found.fits.back().rms_error, unit_of(plain));
+                                     found.preload.fits.back().rms_error, unit_of(plain));
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::not_identifiable) throw;
     plain.shape_doubt += fmt::format("; a search of l_o found none ({})", error.what());
   }
   plain.warnings.push_back(fmt::format("{}: stage 2 gives no intervals", plain.shape_doubt));
-  return plain;
+  return {std::move(plain)};
 }
 
 /// Its stiffness falls by a tenth somewhere on the way to this stretch.
@@ -83,16 +89,15 @@ bool may_be_preloaded(const ElasticPreload& plain) {
 }
 
 /// With l_o looked for, where that is better; else as it was.
-ElasticPreload tried(std::span<const LogSurvey> logs, const ElasticOptions& options,
-                     ElasticPreload plain) {
+Stage1 tried(std::span<const LogSurvey> logs, const ElasticOptions& options, ElasticPreload plain) {
   try {
-    ElasticPreload found = searched(logs, options, plain);
+    Stage1 found = searched(logs, options, plain);
     if (is_better(found, plain))
       return with_reason(std::move(found), plain, "both cables seem to soften with l_o = 0");
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::not_identifiable) throw;
   }
-  return plain;
+  return {std::move(plain)};
 }
 
 }  // namespace
@@ -108,10 +113,12 @@ ElasticResult fit_elastic_stage(std::span<const LogSurvey> logs, const ElasticOp
     return result;
   for (ElasticPreload& preload : result.preloads) {
     if (rig_of(logs, preload.name).cables_given) continue;
-    if (!preload.shape_doubt.empty())
-      preload = without_doubt(logs, options, std::move(preload));
-    else if (may_be_preloaded(preload))
-      preload = tried(logs, options, std::move(preload));
+    const bool is_doubted = !preload.shape_doubt.empty();
+    if (!is_doubted && !may_be_preloaded(preload)) continue;
+    Stage1 stage1 = is_doubted ? without_doubt(logs, options, std::move(preload))
+                               : tried(logs, options, std::move(preload));
+    preload = std::move(stage1.preload);
+    add_independent(stage1.elongations, result.elongations);
   }
   return result;
 }

@@ -9,6 +9,7 @@
 #include "cablefit/elastic/elastic_result.hpp"
 #include "cablefit/elastic/rows/elongation_range.hpp"
 #include "cablefit/estimate/fit/recursive_trace.hpp"
+#include "cablefit/model/elongation_covariance.hpp"
 #include "cablefit/model/model.hpp"
 #include "cablefit/model/modes.hpp"
 
@@ -73,6 +74,7 @@ struct IdentifyResult {
   std::vector<Estimate> parameters;  ///< shared by all preloads
   /// Of the cable coefficients, the first parameters, in their order; l_o as uncertain as it is.
   Eigen::MatrixXd coefficient_covariance;
+  ElongationCovariance elongations;  ///< of every l_o that was searched and determined
   std::vector<IdentifyPreload> preloads;
   std::vector<ElongationProfile> profiles;
   std::optional<RecursiveTrace> trace;  ///< when asked for

@@ -87,6 +87,10 @@ ElasticResult shared_stage1(std::span<const LogSurvey> logs, int threads) {
   options.samples.threads = threads;
   options.honest_sd = false;
   ElasticResult result = fit_elastic_stage(logs, options, ElongationMode::automatic);
+  if (!result.elongations.empty()) {
+    options.honest_sd = true;
+    result = fit_elastic_stage(logs, options, ElongationMode::automatic);
+  }
   if (logs.front().plan.rig.cables_given) return result;
   int lowest = kMaxCableOrder, highest = 0;
   for (const ElasticPreload& preload : result.preloads) {
@@ -133,14 +137,15 @@ void take_arm(std::span<const LogSurvey> logs, const ElasticResult& stage1, int 
   decisions.push_back({"arm", "base parameters", "stage 2, from the moving logs"});
 }
 
-void take_stage1(std::span<const LogSurvey> logs, int threads, std::vector<Model>& models,
-                 std::vector<Decision>& decisions) {
+void take_stage1(std::span<const LogSurvey> logs, int threads, OwnBase& base) {
+  std::vector<Model>& models = base.models;
   const ElasticResult stage1 = shared_stage1(logs, threads);
+  base.elongations = stage1.elongations;
   for (Model& model : models)
     for (const ElasticPreload& preload : stage1.preloads)
       if (preload.name == model.preload) take_cables(*preload.find(kCables), model);
-  decisions.push_back({kCablesChoice, kCables, "stage 1, from the blocked logs"});
-  if (models.front().rig.arm.is_coupled()) take_arm(logs, stage1, threads, models, decisions);
+  base.decisions.push_back({kCablesChoice, kCables, "stage 1, from the blocked logs"});
+  if (models.front().rig.arm.is_coupled()) take_arm(logs, stage1, threads, models, base.decisions);
 }
 
 void add_start_springs(Model& model) {
@@ -167,23 +172,23 @@ void take_spring(std::vector<Model>& models) {
 
 void use_spring(OwnBase& base, const std::string& why) {
   take_spring(base.models);
+  base.elongations = {};
   std::erase_if(base.decisions, [](const Decision& d) { return d.name == kCablesChoice; });
   base.decisions.push_back({kCablesChoice, "a straight spring", why});
 }
 
-void take_one_step(std::span<const LogSurvey> logs, int threads, std::vector<Model>& models,
-                   std::vector<Decision>& decisions) {
+void take_one_step(std::span<const LogSurvey> logs, int threads, OwnBase& base) {
   IdentifyOptions options;
   options.samples.threads = threads;
-  options.honest_sd = false;
   const IdentifyResult found = identify(logs, options);
-  for (Model& model : models)
+  base.elongations = found.elongations;
+  for (Model& model : base.models)
     for (const IdentifyPreload& preload : found.preloads)
       if (preload.name == model.preload) {
         model.name = kCables;
         model.transmission = preload.transmission;
       }
-  decisions.push_back(
+  base.decisions.push_back(
       {kCablesChoice, kCables, "one step, from the moving logs: no link is blocked"});
 }
 
@@ -232,14 +237,14 @@ OwnBase own_base(const RefineLogs& given, int threads) {
     base.decisions.push_back({"base", "a rigid drive",
                               has_both ? "q is a copy of theta" : "no log has both q and theta"});
   else if (all_blocked)
-    take_stage1(logs, threads, base.models, base.decisions);
+    take_stage1(logs, threads, base);
   else if (base.models.front().rig.arm.is_coupled())
     throw Error(ErrorKind::not_identifiable,
                 "links that move each other are refined beside blocked logs; give a log with the "
                 "links blocked, or a model");
   else
     try {
-      take_one_step(logs, threads, base.models, base.decisions);
+      take_one_step(logs, threads, base);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::not_identifiable) throw;
       use_spring(base, error.what());

@@ -16,6 +16,7 @@ namespace cablefit {
 struct OwnBase {
   std::vector<Model> models;  ///< one per preload, in the order in which they come
   std::vector<Decision> decisions;
+  ElongationCovariance elongations = {};  ///< of l_o that were searched
 };
 
 /// Of the training and blocked logs: a rigid drive where no log has q, or q is a copy of theta.

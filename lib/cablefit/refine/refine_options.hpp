@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cablefit/model/elongation_covariance.hpp"
 #include "cablefit/samples/survey/survey.hpp"
 
 namespace cablefit {
@@ -19,6 +20,7 @@ struct RefineOptions {
   double significance = 0.01;      ///< largest p-value of an identified effect
   std::size_t most_effects = 3;
   std::string preload;  ///< of models that are fitted to the logs, only this one; empty: all
+  ElongationCovariance elongations;  ///< of l_o of the models that were searched
   int threads = 1;
   bool figures = false;
   std::function<void(std::string_view what, double share)> progress;

@@ -50,6 +50,7 @@ OwnBase complete(std::vector<Model> models, const RefineLogs& logs, const Refine
       return !options.preload.empty() && model.preload != options.preload;
     });
   } else {
+    base.elongations = elongation_covariance(models);
     base.decisions = fill_start_values(models);
     base.models = std::move(models);
   }
@@ -62,16 +63,21 @@ OwnBase complete(std::vector<Model> models, const RefineLogs& logs, const Refine
 
 namespace {
 
+RefineResult refine_from(const OwnBase& base, const RefineLogs& logs, RefineOptions options) {
+  options.elongations = base.elongations;
+  return refine(base.models, logs, options);
+}
+
 /// A part of the logs is held out, so that the others may not have every cable taut.
 RefineResult refine_own(OwnBase& base, const RefineLogs& logs, const RefineOptions& options) {
   try {
-    return refine(base.models, logs, options);
+    return refine_from(base, logs, options);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::not_identifiable) throw;
     auto straight = with_spring(base, error.what());
     if (!straight) throw;
     base = std::move(*straight);
-    RefineResult result = refine(base.models, logs, options);
+    RefineResult result = refine_from(base, logs, options);
     result.warnings.emplace_back(
         "the base has a straight spring, as the training samples do not load every cable: cables "
         "that stiffen may look like a slip, a load or an encoder error; load both cables in each "
@@ -102,9 +108,10 @@ RefineResult missing_effects(const RefineLogs& given, std::vector<Model> models,
     base.decisions.push_back(*std::move(controller));
   if (auto replay = replayed_torque(logs)) base.decisions.push_back(*std::move(replay));
   RefineResult result =
-      is_own ? refine_own(base, logs, options) : refine(base.models, logs, options);
+      is_own ? refine_own(base, logs, options) : refine_from(base, logs, options);
   if (is_own) result.model_choice = "fitted to the logs";
-  if (std::any_of(base.models.begin(), base.models.end(), has_searched_elongation))
+  if (base.elongations.empty() &&
+      std::any_of(base.models.begin(), base.models.end(), has_searched_elongation))
     result.warnings.emplace_back(
         "the sd of stiffness and inertia do not include the error of the searched l_o; 'cablefit "
         "identify' gives intervals that do");

@@ -151,6 +151,27 @@ void add_derived(const PreloadJob& job, const JointEstimates& from, IdentifyPrel
   }
 }
 
+/// Correlated as in the fit, each with its own sd: that knows the method's floor too.
+ElongationCovariance searched_elongations(const JointFit& fit, const JudgedPoint& judged,
+                                          const std::vector<Estimate>& estimates) {
+  const Eigen::MatrixXd& all = judged.covariance.covariance;
+  ElongationCovariance searched;
+  std::vector<Eigen::Index> kept;
+  std::vector<double> scale;
+  for (Eigen::Index k = fit.layout.n_linear; k < all.rows(); ++k) {
+    const Estimate& e = estimates[static_cast<std::size_t>(k)];
+    if (!e.not_identifiable.empty() || !(e.sd > 0) || !(all(k, k) > 0)) continue;
+    const int job = fit.layout.parameters[static_cast<std::size_t>(k)].preload;
+    searched.of.push_back({fit.jobs[static_cast<std::size_t>(job)].name, e.name});
+    scale.push_back(e.sd / std::sqrt(all(k, k)));
+    kept.push_back(k);
+  }
+  const auto n = static_cast<Eigen::Index>(scale.size());
+  const Eigen::Map<const Eigen::VectorXd> widened(scale.data(), n);
+  searched.matrix = widened.asDiagonal() * all(kept, kept) * widened.asDiagonal();
+  return searched;
+}
+
 }  // namespace
 
 void describe(const JointFit& fit, const JudgedPoint& judged,
@@ -187,6 +208,7 @@ void describe(const JointFit& fit, const JudgedPoint& judged,
   result.coefficient_covariance =
       (options.honest_sd ? judged.covariance.covariance : judged.covariance.white)
           .topLeftCorner(n, n);
+  result.elongations = searched_elongations(fit, judged, estimates);
   const std::vector<std::string> correlated = correlation_warnings(fit, judged);
   result.warnings.insert(result.warnings.end(), correlated.begin(), correlated.end());
 }

@@ -331,16 +331,8 @@ Design with_variant(const Design& design, const Variant& variant, const Eigen::V
   return out;
 }
 
-Design relinearised(const Design& design, const Eigen::VectorXd& values) {
+Design rebuilt(const Design& design, const Eigen::VectorXd& values) {
   Design out = design;
-  for (Model& model : out.models) {
-    set_base_values(out.layout, values, model);
-    for (const Variant& variant : out.added) change_again(variant, model.transmission);
-  }
-  if (!rows_follow_values(design)) {
-    fill_states(out);
-    return out;
-  }
   fill_rows(out, &design.rows);
   out.added.clear();
   for (const Variant& variant : design.added) {
@@ -351,6 +343,17 @@ Design relinearised(const Design& design, const Eigen::VectorXd& values) {
     else
       out = with_variant(out, variant, values);
   }
+  return out;
+}
+
+Design relinearised(const Design& design, const Eigen::VectorXd& values) {
+  Design out = design;
+  for (Model& model : out.models) {
+    set_base_values(out.layout, values, model);
+    for (const Variant& variant : out.added) change_again(variant, model.transmission);
+  }
+  if (rows_follow_values(design)) return rebuilt(out, values);
+  fill_states(out);
   return out;
 }
 

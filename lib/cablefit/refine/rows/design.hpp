@@ -107,6 +107,10 @@ void change_again(const Variant& variant, Transmission& transmission);
 /// Error(not_identifiable) for one that does not.
 Design with_variant(const Design& design, const Variant& variant, const Eigen::VectorXd& values);
 
+/// All rows and columns anew from its models, for the same samples; nonlinear columns with `values`
+/// of those before them.
+Design rebuilt(const Design& design, const Eigen::VectorXd& values);
+
 /// All of it anew with other coefficients in the models: states and nonlinear columns follow them.
 Design relinearised(const Design& design, const Eigen::VectorXd& values);
 

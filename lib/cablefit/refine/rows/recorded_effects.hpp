@@ -13,6 +13,7 @@ std::vector<Model> recorded_models(std::vector<Model> models);
 
 /// Whether it would see this one.
 bool is_recorded(const Effect& row);
+inline bool is_unrecorded(const Effect& row) { return !is_recorded(row); }
 
 /// Sets what belongs to the columns of those to 0. `x`: of all columns.
 void forget_unrecorded(const Design& design, Eigen::VectorXd& x);

@@ -17,8 +17,6 @@ struct Values {
   Eigen::VectorXd x;
 };
 
-bool is_unrecorded(const Effect& row) { return !is_recorded(row); }
-
 std::optional<ValueChange> bias_at(const RefineBench& bench, const Values& values,
                                    const KindLevels& levels) {
   const std::vector<Model> models = recorded_models(models_with(values.design, values.x));

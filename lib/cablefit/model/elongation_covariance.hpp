@@ -1,0 +1,29 @@
+// How sure the initial elongations l_o are that somebody searched, together.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cablefit/model/model.hpp"
+
+namespace cablefit {
+
+struct ElongationCovariance {
+  struct Of {
+    std::string preload, name;  ///< the name as elongation_name()
+  };
+  std::vector<Of> of;
+  Eigen::MatrixXd matrix;  ///< as many rows and columns; m^2 or rad^2
+
+  bool empty() const { return of.empty(); }
+};
+
+/// These beside those of another search, of which they are independent.
+void add_independent(const ElongationCovariance& more, ElongationCovariance& all);
+
+/// Of every model that has the covariance of its l_o; models are independent of each other.
+ElongationCovariance elongation_covariance(std::span<const Model> models);
+
+}  // namespace cablefit
