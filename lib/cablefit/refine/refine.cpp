@@ -210,9 +210,8 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
   const RefineState after = confirmed.values.of(chain, chain.size() - 1);
   take_physical(after.design, bench.scan.block_seconds, state.levels, after.x, fit);
   if (confirmed.values.left()) add_systematic(*confirmed.values.left(), fit);
-  for (const ValueChange& error :
-       elongation_errors(after.design, after.x, state.levels, bench.scan.block_seconds,
-                         options.elongations))
+  for (const ValueChange& error : elongation_errors(after.design, after.x, state.levels,
+                                                    bench.scan.block_seconds, options.elongations))
     add_systematic(error, fit);
   tell_effects(models, named_effects(after.design, fit), result);
   result.shifts = parameter_shifts(first.design, before.x, after.design, fit);

@@ -107,8 +107,7 @@ RefineResult missing_effects(const RefineLogs& given, std::vector<Model> models,
   if (auto controller = take_found_controller(logs, base.models))
     base.decisions.push_back(*std::move(controller));
   if (auto replay = replayed_torque(logs)) base.decisions.push_back(*std::move(replay));
-  RefineResult result =
-      is_own ? refine_own(base, logs, options) : refine_from(base, logs, options);
+  RefineResult result = is_own ? refine_own(base, logs, options) : refine_from(base, logs, options);
   if (is_own) result.model_choice = "fitted to the logs";
   if (base.elongations.empty() &&
       std::any_of(base.models.begin(), base.models.end(), has_searched_elongation))
