@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "cablefit/dynamic/checks/low_cutoff.hpp"
-#include "cablefit/dynamic/loops/fitted_model.hpp"
 #include "cablefit/dynamic/loops/method_floor.hpp"
+#include "cablefit/dynamic/loops/model_of_solutions.hpp"
 #include "cablefit/estimate/fit/parameter_estimate.hpp"
 #include "cablefit/identify/elongations/joint_solution.hpp"
 #include "cablefit/identify/preload_records.hpp"
@@ -75,7 +75,7 @@ Decision add_shift(std::span<const LogSurvey> logs, const IdentifyOptions& optio
   const MovingJob moving(logs, options, fit, judged, job, facts);
   const std::vector<EquationRows> equations = make_equations(moving.job);
   const Model model =
-      fitted_model(moving.job, equations, as_solutions(fit, judged, equations, job), 0);
+      model_of_solutions(moving.job, equations, as_solutions(fit, judged, equations, job), 0);
   try {
     Eigen::VectorXd own = Eigen::VectorXd::Zero(shift.size());
     CopyDraws(moving.job, model, false, true).for_each([&](const CopyDraw& copy) {

@@ -6,7 +6,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/copies/twin.hpp"
-#include "cablefit/prove/fitted_model.hpp"
+#include "cablefit/prove/model_to_simulate.hpp"
 #include "cablefit/prove/proof_runs.hpp"
 #include "cablefit/prove/residual_colour.hpp"
 #include "cablefit/prove/stage1_draw.hpp"
@@ -148,7 +148,7 @@ void prove_dynamic(std::span<const LogSurvey> logs, const ProveStage1& stage1,
     const Rig& rig = log_of(logs, preload.name).plan.rig;
     for (DynamicFit& fit : preload.fits) {
       std::string why_not;
-      const Model model = fitted_model(fit, preload, rig, why_not);
+      const Model model = model_to_simulate(fit, preload, rig, why_not);
       if (!why_not.empty()) {
         fit.warnings.push_back("not proved: " + why_not);
         continue;

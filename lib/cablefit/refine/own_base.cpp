@@ -11,7 +11,7 @@
 #include "cablefit/identify/elastic_stage.hpp"
 #include "cablefit/identify/identify.hpp"
 #include "cablefit/model/model_parameters.hpp"
-#include "cablefit/prove/fitted_model.hpp"
+#include "cablefit/prove/model_to_simulate.hpp"
 #include "cablefit/refine/rows/base_rows.hpp"
 #include "cablefit/samples/survey/phases.hpp"
 
@@ -131,7 +131,7 @@ void take_arm(std::span<const LogSurvey> logs, const ElasticResult& stage1, int 
       if (preload.name != model.preload) continue;
       const DynamicFit& fit = preload.fits.front();
       std::string not_asked;  // the arm is taken apart from it
-      model.joints = fitted_model(fit, preload, model.rig, not_asked).joints;
+      model.joints = model_to_simulate(fit, preload, model.rig, not_asked).joints;
       model.arm = arm_of(fit, model.rig);
     }
   decisions.push_back({"arm", "base parameters", "stage 2, from the moving logs"});

@@ -107,7 +107,7 @@ def all_cases(options):
     named = [row for row in rows if not row["in_base"]]
     matched = [row for row in named if row["form"] == "matched"]
     outside = [row for row in table["effects"] if row["form"] == "outside"]
-    design = "full"
+    design = options.design
     if options.reduced:
         design, options.seeds, options.controls, options.sizes = "short", 1, 8, "1"
     makers = {

@@ -4,7 +4,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/model/effects/effect_names.hpp"
-#include "cablefit/prove/fitted_model.hpp"
+#include "cablefit/prove/model_to_simulate.hpp"
 #include "cablefit/session/read_logs.hpp"
 #include "cablefit/session/stages.hpp"
 
@@ -79,7 +79,7 @@ std::vector<Model> base_models(const ElasticResult& elastic, const DynamicResult
   const DynamicFit* fit = chosen_fit(elastic, preload);
   std::string why_not = fit == nullptr ? "stage 2 has no fit to start from" : "";
   Model model;
-  if (fit != nullptr) model = fitted_model(*fit, preload, rig, why_not);
+  if (fit != nullptr) model = model_to_simulate(*fit, preload, rig, why_not);
   if (!why_not.empty()) return {};
   if (fit->elastic) model.elastic = fit->elastic->parameters;
   return {model};

@@ -11,8 +11,8 @@
 #include "cablefit/dynamic/estimates/estimates.hpp"
 #include "cablefit/dynamic/estimators/least_squares_fit.hpp"
 #include "cablefit/dynamic/estimators/rows.hpp"
-#include "cablefit/dynamic/loops/fitted_model.hpp"
 #include "cablefit/dynamic/loops/log_copy.hpp"
+#include "cablefit/dynamic/loops/model_of_solutions.hpp"
 #include "cablefit/dynamic/loops/noise_free_loop.hpp"
 #include "cablefit/dynamic/output_error/log_stretches.hpp"
 #include "cablefit/dynamic/output_error/stage1_prior.hpp"
@@ -322,7 +322,7 @@ JointEstimates joint_estimates_of(const OutputErrorFit& oe, const DynamicFit& fi
 Estimation estimate(const EstimationTask& task) {
   Estimation start = least_squares_fit(task, Weighting::by_residual);
   const DynamicJob& job = task.job;
-  const Model model = fitted_model(job, task.equations, start.solutions, task.model);
+  const Model model = model_of_solutions(job, task.equations, start.solutions, task.model);
   const std::string why = obstacle(task, model);
   if (!why.empty()) return stay_with_least_squares(task, std::move(start), why);
   const FittedRows rows = rows_of(job);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cablefit/dynamic/loops/fitted_model.hpp"
+#include "cablefit/dynamic/loops/model_of_solutions.hpp"
 #include "cablefit/estimate/tests/exogeneity.hpp"
 
 namespace cablefit {
@@ -15,7 +15,7 @@ void simulate_and_fit(const DynamicJob& job, std::span<const LogSurvey> logs,
                       const std::vector<EquationRows>& equations,
                       const std::vector<LinearSolution>& before, std::size_t which,
                       const LoopPlan& plan, IvFit& fit) {
-  const Model model = fitted_model(job, equations, before, which);
+  const Model model = model_of_solutions(job, equations, before, which);
   const SimulatedLogs simulated = simulate_loops(job, logs, model, plan);
   ++fit.n_simulations;
   fit.failure = simulated.failure;

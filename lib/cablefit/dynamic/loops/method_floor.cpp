@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/dynamic/loops/fitted_model.hpp"
 #include "cablefit/dynamic/loops/log_copy.hpp"
+#include "cablefit/dynamic/loops/model_of_solutions.hpp"
 
 namespace cablefit {
 namespace {
@@ -144,7 +144,8 @@ MethodFloor method_floor(const DynamicJob& job, const std::vector<EquationRows>&
   try {
     for (const LinearSolution& solution : solutions)
       floor.variance.emplace_back(Eigen::VectorXd::Zero(solution.x.size()));
-    CopyDraws draws(job, fitted_model(job, equations, solutions, which), any(true), any(false));
+    CopyDraws draws(job, model_of_solutions(job, equations, solutions, which), any(true),
+                    any(false));
     draws.for_each([&](const CopyDraw& draw) {
       const std::vector<LinearSolution> found = fit_copy(job, draw.logs, which);
       for (std::size_t k = 0; k < solutions.size(); ++k)

@@ -10,7 +10,7 @@ namespace cablefit {
 
 /// `why_not`: what keeps the fit from being simulated; empty when nothing does. Parameters that the
 /// data cannot determine are an obstacle when they are inertias, else 0.
-Model fitted_model(const DynamicFit& fit, const DynamicPreload& preload, const Rig& rig,
-                   std::string& why_not);
+Model model_to_simulate(const DynamicFit& fit, const DynamicPreload& preload, const Rig& rig,
+                        std::string& why_not);
 
 }  // namespace cablefit

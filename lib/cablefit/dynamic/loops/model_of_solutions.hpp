@@ -10,7 +10,7 @@ namespace cablefit {
 
 /// Model number `which` of the job with the values of `solutions`, one per equation. A parameter
 /// that the rows do not determine is 0. Not for arms whose links move each other.
-Model fitted_model(const DynamicJob& job, const std::vector<EquationRows>& equations,
-                   const std::vector<LinearSolution>& solutions, std::size_t which);
+Model model_of_solutions(const DynamicJob& job, const std::vector<EquationRows>& equations,
+                         const std::vector<LinearSolution>& solutions, std::size_t which);
 
 }  // namespace cablefit

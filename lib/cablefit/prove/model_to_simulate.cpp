@@ -1,4 +1,4 @@
-#include "cablefit/prove/fitted_model.hpp"
+#include "cablefit/prove/model_to_simulate.hpp"
 
 #include <fmt/format.h>
 
@@ -22,8 +22,8 @@ void settle(std::vector<EffectInstance>& effects, std::string& why_not) {
 
 }  // namespace
 
-Model fitted_model(const DynamicFit& fit, const DynamicPreload& preload, const Rig& rig,
-                   std::string& why_not) {
+Model model_to_simulate(const DynamicFit& fit, const DynamicPreload& preload, const Rig& rig,
+                        std::string& why_not) {
   why_not.clear();
   Model model = model_of(fit, preload, rig);
   for (JointModel& axes : model.joints) {

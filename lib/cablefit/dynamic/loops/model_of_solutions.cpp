@@ -1,4 +1,4 @@
-#include "cablefit/dynamic/loops/fitted_model.hpp"
+#include "cablefit/dynamic/loops/model_of_solutions.hpp"
 
 #include <algorithm>
 
@@ -37,8 +37,8 @@ std::vector<EffectInstance> added_of(const DynamicJob& job,
 
 }  // namespace
 
-Model fitted_model(const DynamicJob& job, const std::vector<EquationRows>& equations,
-                   const std::vector<LinearSolution>& solutions, std::size_t which) {
+Model model_of_solutions(const DynamicJob& job, const std::vector<EquationRows>& equations,
+                         const std::vector<LinearSolution>& solutions, std::size_t which) {
   Model model = assembled_model(job.rig(), job.rigid, finder(equations, solutions));
   model.name = job.models[which];
   model.preload = job.preload;
