@@ -107,29 +107,49 @@ RefineResult refined(const std::string& text, std::vector<LogSurvey> RefineLogs:
   return missing_effects(logs, options);
 }
 
-/// Cable 2 is taut in the last third alone, which is held out.
-TEST_CASE("a cable that the training samples never load makes the base a straight spring",
-          "[refine]") {
+/// A blocked sweep up and down on one side of zero; in the last third on the other, if asked for.
+std::string one_sided_sweep(bool both_sides) {
   constexpr double kStiffness = 50, kOther = 80, kFriction = 0.2, kPeak = 0.1;  // N m/rad, N m, rad
   constexpr double kPeriod = 0.01, kRamp = 5, kSeconds = 60;
   Random random(1, 5);
   std::string rows = "t,q,theta,tau\n";
   for (int i = 0; i * kPeriod < kSeconds; ++i) {
     const double t = i * kPeriod, ramp = std::fmod(t, 2 * kRamp) / kRamp;  // up, then down
-    const double side = t < 2 * kSeconds / 3 ? 1 : -1;
+    const double side = both_sides && t >= 2 * kSeconds / 3 ? -1 : 1;
     const double theta = side * kPeak * (ramp < 1 ? ramp : 2 - ramp);
     const double direction = side * (ramp < 1 ? 1 : -1);
     const double tau =
         (side > 0 ? kStiffness : kOther) * theta + kFriction * direction + 0.02 * random.normal();
     rows += fmt::format("{:.3f},0,{:.6f},{:.5f}\n", t, theta, tau);
   }
-  const RefineResult result = refined(rows, &RefineLogs::blocked);
-  const auto cables =
-      std::find_if(result.decisions.begin(), result.decisions.end(),
-                   [](const Decision& decision) { return decision.name == "cables"; });
-  REQUIRE(cables != result.decisions.end());
-  CHECK(cables->value == "a straight spring");
+  return rows;
+}
+
+std::string cables_decision(const RefineResult& result) {
+  for (const Decision& decision : result.decisions)
+    if (decision.name == "cables") return decision.value;
+  return "";
+}
+
+TEST_CASE("a cable that the training samples never load makes the base a straight spring",
+          "[refine]") {
+  const RefineResult result = refined(one_sided_sweep(true), &RefineLogs::blocked);
+  CHECK(cables_decision(result) == "a straight spring");
   CHECK(result.models.at(0).transmission.cables.empty());
+}
+
+/// The other cable's law is that of the robot all the same; a straight spring leaves its
+/// stiffening.
+TEST_CASE("a cable that no log loads is left out of the base", "[refine]") {
+  const RefineResult result = refined(one_sided_sweep(false), &RefineLogs::blocked);
+  CHECK(cables_decision(result) == "no cable 2");
+  REQUIRE(result.models.at(0).transmission.cables.size() == 1);
+  CHECK(result.models.at(0).transmission.cables[0].name == "1");
+  CHECK(result.verdict == Verdict::none);
+  REQUIRE(!result.warnings.empty());
+  CHECK(result.warnings.back() ==
+        "the base has no cable 2, as no log loads it: load both cables in each third of the logs, "
+        "or give a model");
 }
 
 /// Dry friction and an offset are one constant then.

@@ -171,6 +171,20 @@ TEST_CASE("look-alikes are listed, and the simplest of equals is the headline", 
   CHECK_FALSE(lists(judge_search(sure, kGap, draws(), {}, true).rivals, "presliding"));
 }
 
+/// At one load a torque scale closes 3 % more of the gap than the wrong zero that made it.
+TEST_CASE("what closes nearly as much is listed though all blocks know better", "[refine]") {
+  const auto is_listed = [](double apart) {  // share of the gap
+    const double less = apart * (kGap.total - kGap.floor) / kGap.total;
+    const std::vector<Candidate> found = {candidate("torque_gain", Site::drive, 0.4),
+                                          candidate("encoder_offset", Site::sensor, 0.4 - less)};
+    const Judgement j = judge_search(found, kGap, draws(), {}, true);
+    CHECK(best_name(j) == "torque_gain");
+    return lists(j.rivals, "encoder_offset");
+  };
+  CHECK(is_listed(0.028));
+  CHECK_FALSE(is_listed(0.035));
+}
+
 TEST_CASE("what acts on the robot comes before what a sensor reads", "[refine]") {
   const auto first = [](double sensor, double torque) {
     return best_name(judge_search({candidate("encoder_offset", Site::sensor, sensor),

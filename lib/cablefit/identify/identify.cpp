@@ -113,7 +113,7 @@ JointPoint settled_fit(std::span<const LogSurvey> logs, const IdentifyOptions& o
       any = move_effects(fit, point, j, facts[j].added) || any;
     if (any && pass < kMostPasses) continue;
     if (any)
-      own.front().warnings.push_back(
+      own.front().warnings.emplace_back(
           "the nonlinear parameters of the effects did not converge: the logs do not "
           "determine them well");
     facts = std::move(own);

@@ -20,6 +20,6 @@ namespace cablefit {
 /// Throws Error(input) for missing channels, rigs that do not match and known l_o that cannot
 /// balance; Error(not_identifiable) when there are too few rows, or rows that these
 /// cables do not explain.
-IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& options);
+IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& given);
 
 }  // namespace cablefit

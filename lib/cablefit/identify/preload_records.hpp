@@ -27,6 +27,7 @@ struct MovingJob {
             const JudgedPoint& judged, std::size_t at, const PreloadFacts& facts);
   MovingJob(const MovingJob&) = delete;
   MovingJob& operator=(const MovingJob&) = delete;
+  ~MovingJob() = default;
 
   ElasticFit elastic;
   DynamicOptions dynamic;

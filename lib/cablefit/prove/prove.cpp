@@ -96,13 +96,13 @@ void add_blocked(const ProveStage1& stage1, const DynamicPreload& preload, const
                  const TwinDrive& drive, Plan& plan) {
   const PartFilter wanted = parts_of(Phase::blocked, preload.name);
   if (stage1.logs.empty() || !has_part(stage1.logs, wanted)) {
-    plan.moving.notes.push_back("stage 1 drawn from its covariance");
+    plan.moving.notes.emplace_back("stage 1 drawn from its covariance");
     return;
   }
   plan.blocked = make_twin(model, stage1.logs, wanted, drive);
   Random unused(0);
   choose_sensors(*plan.blocked, run_twin(*plan.blocked, {}, unused));
-  plan.moving.notes.push_back("stage 1 rerun on simulated blocked logs");
+  plan.moving.notes.emplace_back("stage 1 rerun on simulated blocked logs");
 }
 
 Plan make_plan(std::span<const LogSurvey> logs, const ProveStage1& stage1,

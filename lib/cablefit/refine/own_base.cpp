@@ -20,7 +20,6 @@ namespace {
 
 // Not the straight line, even where it will do for stage 1: a gap to be explained is smaller.
 constexpr const char* kCables = "poly";
-constexpr const char* kCablesChoice = "cables";
 constexpr int kPlainOrder = 2;
 constexpr double kAnyInertia = 1;  // kg m^2; it stands until the rows have told
 
@@ -217,34 +216,35 @@ std::string fill(const Rig& rig, bool is_inertia, const ParameterInfo& info, Est
 
 }  // namespace
 
-OwnBase own_base(const RefineLogs& given, int threads) {
+OwnBase own_base(const RefineLogs& logs, int threads) {
   OwnBase base;
-  const std::vector<LogSurvey> logs = given.fitted();
+  const std::vector<LogSurvey> fitted = logs.fitted();
   const std::vector<std::string> names =
-      preload_names(logs, [](const PartSurvey& /*part*/) { return true; });
-  const bool has_both = std::any_of(logs.begin(), logs.end(), [](const LogSurvey& log) {
+      preload_names(fitted, [](const PartSurvey& /*part*/) { return true; });
+  const bool has_both = std::any_of(fitted.begin(), fitted.end(), [](const LogSurvey& log) {
     return log.plan.has(Channel::q) && log.plan.has(Channel::theta);
   });
-  const bool rigid = !has_both || is_copied(logs);
+  const bool rigid = !has_both || is_copied(fitted);
   bool all_blocked = true;
   for (const std::string& name : names) {
-    const Rig& rig =
-        first_log_with(logs, [&](const PartSurvey& part) { return part.preload == name; }).plan.rig;
+    const Rig& rig = first_log_with(fitted, [&](const PartSurvey& part) {
+                       return part.preload == name;
+                     }).plan.rig;
     base.models.push_back(blank_model(name, rig, rigid));
-    all_blocked = all_blocked && any_part(logs, name, Phase::blocked);
+    all_blocked = all_blocked && any_part(fitted, name, Phase::blocked);
   }
   if (rigid)
     base.decisions.push_back({"base", "a rigid drive",
                               has_both ? "q is a copy of theta" : "no log has both q and theta"});
   else if (all_blocked)
-    take_stage1(logs, threads, base);
+    take_stage1(fitted, threads, base);
   else if (base.models.front().rig.arm.is_coupled())
     throw Error(ErrorKind::not_identifiable,
                 "links that move each other are refined beside blocked logs; give a log with the "
                 "links blocked, or a model");
   else
     try {
-      take_one_step(logs, threads, base);
+      take_one_step(fitted, threads, base);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::not_identifiable) throw;
       use_spring(base, error.what());
@@ -253,12 +253,7 @@ OwnBase own_base(const RefineLogs& given, int threads) {
   return base;
 }
 
-std::optional<OwnBase> with_spring(OwnBase base, const std::string& why) {
-  const bool has_cables =
-      std::any_of(base.models.begin(), base.models.end(),
-                  [](const Model& model) { return !model.transmission.cables.empty(); });
-  // A spring per joint is not what cables do that pass several.
-  if (!has_cables || base.models.front().joints.size() > 1) return {};
+OwnBase with_spring(OwnBase base, const std::string& why) {
   use_spring(base, why);
   return base;
 }

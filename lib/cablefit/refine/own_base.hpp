@@ -27,13 +27,14 @@ struct OwnBase {
 /// what the stages throw.
 OwnBase own_base(const RefineLogs& logs, int threads);
 
-/// The same with one straight spring in place of cables, whose parameters the training samples do
-/// not all determine: `why`. Nothing of a base without cables.
-std::optional<OwnBase> with_spring(OwnBase base, const std::string& why);
+/// The same with one straight spring in place of its cables; the decision says `why`.
+OwnBase with_spring(OwnBase base, const std::string& why);
 
 /// Why a start value has no sd; a fit takes the text away with the value.
 inline constexpr std::string_view kStartValue = "a start value";
 inline constexpr std::string_view kSpringName = "K";
+/// Name of the decision about cables or a spring.
+inline constexpr const char* kCablesChoice = "cables";
 
 /// A missing value of an effect becomes the rig's "cad", else its bound; a missing inertia 1.
 /// refine estimates all of them. Returns which were missing.

@@ -7,6 +7,7 @@
 #include "cablefit/identify/elastic_stage.hpp"
 #include "cablefit/refine/own_base.hpp"
 #include "cablefit/refine/search/model_set.hpp"
+#include "cablefit/refine/simpler_bases.hpp"
 #include "cablefit/samples/survey/phases.hpp"
 #include "cablefit/session/found_controller.hpp"
 #include "cablefit/session/replayed_torque.hpp"
@@ -68,22 +69,25 @@ RefineResult refine_from(const OwnBase& base, const RefineLogs& logs, RefineOpti
   return refine(base.models, logs, options);
 }
 
-/// A part of the logs is held out, so that the others may not have every cable taut.
+/// A part of the logs is held out, so that the others may not have every cable taut: then from the
+/// first base that they determine.
 RefineResult refine_own(OwnBase& base, const RefineLogs& logs, const RefineOptions& options) {
+  std::string why;
   try {
     return refine_from(base, logs, options);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::not_identifiable) throw;
-    auto straight = with_spring(base, error.what());
-    if (!straight) throw;
-    base = std::move(*straight);
-    RefineResult result = refine_from(base, logs, options);
-    result.warnings.emplace_back(
-        "the base has a straight spring, as the training samples do not load every cable: cables "
-        "that stiffen may look like a slip, a load or an encoder error; load both cables in each "
-        "third of the logs, or give a model");
-    return result;
+    why = error.what();
   }
+  for (SimplerBase& simpler : simpler_bases(base, logs, why)) try {
+      RefineResult result = refine_from(simpler.base, logs, options);
+      base = std::move(simpler.base);
+      result.warnings.push_back(std::move(simpler.warning));
+      return result;
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::not_identifiable) throw;
+    }
+  throw Error(ErrorKind::not_identifiable, why);
 }
 
 /// Of a rig file that asks for it, or of a preload without cables in a rig file.
@@ -99,15 +103,16 @@ bool has_searched_elongation(const Model& model) {
 
 }  // namespace
 
-RefineResult missing_effects(const RefineLogs& given, std::vector<Model> models,
+RefineResult missing_effects(const RefineLogs& logs, std::vector<Model> models,
                              const RefineOptions& options) {
   const bool is_own = models.empty();
-  OwnBase base = complete(std::move(models), given, options);
-  RefineLogs logs = given;
-  if (auto controller = take_found_controller(logs, base.models))
+  OwnBase base = complete(std::move(models), logs, options);
+  RefineLogs own_logs = logs;
+  if (auto controller = take_found_controller(own_logs, base.models))
     base.decisions.push_back(*std::move(controller));
-  if (auto replay = replayed_torque(logs)) base.decisions.push_back(*std::move(replay));
-  RefineResult result = is_own ? refine_own(base, logs, options) : refine_from(base, logs, options);
+  if (auto replay = replayed_torque(own_logs)) base.decisions.push_back(*std::move(replay));
+  RefineResult result =
+      is_own ? refine_own(base, own_logs, options) : refine_from(base, own_logs, options);
   if (is_own) result.model_choice = "fitted to the logs";
   if (base.elongations.empty() &&
       std::any_of(base.models.begin(), base.models.end(), has_searched_elongation))

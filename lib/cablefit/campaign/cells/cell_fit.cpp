@@ -77,15 +77,15 @@ std::vector<Model> base_models(const ElasticResult& elastic, const DynamicResult
                                const Rig& rig) {
   const DynamicPreload& preload = dynamic.preloads.front();
   const DynamicFit* fit = chosen_fit(elastic, preload);
-  std::string why_not = fit == nullptr ? "stage 2 has no fit to start from" : "";
-  Model model;
-  if (fit != nullptr) model = model_to_simulate(*fit, preload, rig, why_not);
+  if (fit == nullptr) return {};
+  std::string why_not;
+  Model model = model_to_simulate(*fit, preload, rig, why_not);
   if (!why_not.empty()) return {};
   if (fit->elastic) model.elastic = fit->elastic->parameters;
   return {model};
 }
 
-CellRefine refine_cell(const CampaignCell& cell, const CellResults& fitted, RefineLogs logs,
+CellRefine refine_cell(const CampaignCell& cell, const CellResults& fitted, const RefineLogs& logs,
                        const BatchOptions& options) {
   RefineOptions refine_options;
   refine_options.seed = options.seed;
@@ -141,7 +141,7 @@ CellResults fit_cell(const Campaign& campaign, const CampaignCell& cell, const C
   logs.train = cell.refine->train.empty() ? moving : read(cell.refine->train);
   logs.test = read(cell.refine->test);
   std::erase_if(logs.blocked, [&](const LogSurvey& log) { return holds(logs.train, log); });
-  results.refine = refine_cell(cell, results, std::move(logs), options);
+  results.refine = refine_cell(cell, results, logs, options);
   return results;
 }
 

@@ -149,7 +149,7 @@ std::string doubt(const EstimationTask& task, const EquationRows& e, Eigen::Inde
     return fmt::format("it is at the end of its range, {}: the logs do not determine it",
                        found.active_bound);
   if (is_inertia) {
-    const std::string alias = inertia_alias(*e.rows, e.columns, k, task.job.rig().linear_motion);
+    std::string alias = inertia_alias(*e.rows, e.columns, k, task.job.rig().linear_motion);
     if (!alias.empty()) return alias;
   }
   if (!oe.converged)
@@ -236,7 +236,7 @@ void note_fit(const EstimationTask& task, const FittedRows& rows, const LoopPlan
                              oe.instruments});
   out.fit.warnings.insert(out.fit.warnings.end(), oe.warnings.begin(), oe.warnings.end());
   if (!task.job.added.empty())
-    out.fit.warnings.push_back(
+    out.fit.warnings.emplace_back(
         "output error: the intervals of effects that act at low speed are too narrow; compare with "
         "--estimator iv");
   if (oe.residual_rms > kWrongNoise || oe.residual_rms < 1 / kWrongNoise)

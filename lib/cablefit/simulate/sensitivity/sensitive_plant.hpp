@@ -50,7 +50,7 @@ class SensitivePlant {
  private:
   struct Copy {
     Plant plant;
-    double moved;  ///< by how much its column's quantity is
+    double moved = 0;  ///< by how much its column's quantity is
   };
 
   void make_copies();
