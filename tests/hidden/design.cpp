@@ -114,9 +114,10 @@ std::vector<Run> preloads(std::uint64_t seed, const Bench& bench) {
 Run extra_run(const CaseSpec& spec, const Bench& bench, const std::vector<Run>& others) {
   Run run;
   run.name = "extra";
-  run.role = "train";
+  run.blocked = spec.extra->blocked;
+  run.role = run.blocked ? "blocked" : "train";
   run.number = static_cast<int>(others.size());
-  run.load = spec.extra->load;
+  run.load = run.blocked ? 0 : spec.extra->load;
   run.reference = spec.extra->reference;
   if (run.reference.empty()) run.reference = multisine(kFast.spec(20, spec.seed * 64 + 63), bench);
   return run;

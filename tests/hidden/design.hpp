@@ -21,6 +21,7 @@ struct Wish {
 struct Extra {
   double load = 0;      ///< N m
   Reference reference;  ///< rad at 1 kHz; empty: fast and dithered
+  bool blocked = false;
 };
 
 struct CaseSpec {

@@ -45,12 +45,12 @@ Wish wish_of(const std::string& text) {
   return wish;
 }
 
-/// Column theta_ref at 1 kHz, read off between the rows of the file, and the load of its first row
-/// if it has one.
+/// Column theta_ref at 1 kHz, read off between the rows of the file, the load of its first row if
+/// it has one, and whether its comment wants the link blocked.
 Extra extra_of(const std::string& file, double load) {
   const RealLog log = read_log(file);
   const Eigen::VectorXd t = log.column("t"), reference = log.column("theta_ref");
-  Extra extra{load, {}};
+  Extra extra{load, {}, log.comment == "# with the link blocked"};
   Eigen::Index row = 0;
   for (double now = t[0]; row + 1 < t.size(); now += 1 / kRate) {
     while (row + 1 < t.size() && t[row + 1] <= now) ++row;
@@ -93,7 +93,8 @@ int main(int argc, char** argv) try {
     spec.controller = !no_controller;
     if (with_rho->count() > 0) spec.rho = rho;
     if (with_load->count() + with_file->count() > 0)
-      spec.extra = extra_file.empty() ? Extra{extra_load, {}} : extra_of(extra_file, extra_load);
+      spec.extra =
+          extra_file.empty() ? Extra{extra_load, {}, false} : extra_of(extra_file, extra_load);
     write_case(out, make_case(spec));
   });
 

@@ -46,7 +46,10 @@ std::string RealLog::with_tau(const Eigen::VectorXd& tau) const {
 RealLog read_log(const std::filesystem::path& file) {
   std::ifstream in(file);
   RealLog log;
-  if (!std::getline(in, log.header)) throw std::runtime_error("cannot read " + file.string());
+  do {
+    if (!std::getline(in, log.header)) throw std::runtime_error("cannot read " + file.string());
+    if (log.header.starts_with('#')) log.comment = log.header;
+  } while (log.header.starts_with('#'));
   if (log.header.ends_with('\r')) log.header.pop_back();
   log.names = split(log.header);
   std::vector<std::vector<std::string>> rows;

@@ -11,6 +11,7 @@ namespace hidden {
 
 struct RealLog {
   std::string header;
+  std::string comment;  ///< the last line before the header that begins with #
   std::vector<std::string> names;
   Eigen::MatrixXd values;  ///< one row per sample
 
