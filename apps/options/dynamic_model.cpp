@@ -58,7 +58,8 @@ void use_model(const StartModel& start, IdentifyOptions& fit) {
 
 std::string missing_sd(const Model& model) {
   std::string names;
-  for (const Estimate& e : curve_of(model).preloads.front().fits.front().parameters)
+  const ElasticResult curve = curve_of(model);
+  for (const Estimate& e : curve.preloads.front().fits.front().parameters)
     if (!std::isfinite(e.sd)) names += (names.empty() ? "" : ", ") + e.name;
   return names;
 }

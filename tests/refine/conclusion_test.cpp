@@ -188,8 +188,8 @@ TEST_CASE("test logs that the model misses by far are not called explained", "[r
   CHECK(result.verdict == Verdict::unexplained);
   CHECK(result.reason ==
         "the residual of the last third of the logs is 16.2 N m beyond the noise of 0.04 (motor "
-        "equation), and the samples before it do not show what is missing: train with longer or "
-        "more logs too");
+        "equation), and the samples before it do not show what is missing: record longer, or "
+        "train with more logs");
 }
 
 TEST_CASE("a given material size decides alone on test logs too", "[refine]") {

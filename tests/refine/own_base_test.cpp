@@ -6,10 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "cablefit/base/json/json_document.hpp"
 #include "cablefit/base/random.hpp"
 #include "cablefit/refine/null/null_draws.hpp"
 #include "cablefit/refine/rows/levels.hpp"
 #include "cablefit/refine/rows/physical_values.hpp"
+#include "cablefit/results/read_model.hpp"
 #include "cablefit/session/stages.hpp"
 #include "tests/refine/hidden_logs.hpp"
 #include "tests/support/recover.hpp"
@@ -148,8 +150,14 @@ TEST_CASE("a cable that no log loads is left out of the base", "[refine]") {
   CHECK(result.verdict == Verdict::none);
   REQUIRE(!result.warnings.empty());
   CHECK(result.warnings.back() ==
-        "the base has no cable 2, as no log loads it: load both cables in each third of the logs, "
-        "or give a model");
+        "the base has no cable 2: the training samples do not load it; load both cables in each "
+        "third of the logs, or give a model");
+  std::string choice;
+  const Model again = parse_model(parse_json(model_json(result.models.at(0)), "refined.json"), "",
+                                  "", choice, Completeness::as_it_is);
+  REQUIRE(again.transmission.cables.size() == 1);
+  CHECK(again.transmission.cables[0].coefficients ==
+        result.models.at(0).transmission.cables[0].coefficients);
 }
 
 /// Dry friction and an offset are one constant then.

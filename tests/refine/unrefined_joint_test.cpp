@@ -91,8 +91,8 @@ TEST_CASE("a joint that is not refined keeps the values of the given model", "[r
       Refined(moving_log(with_second_at_rest(two_pairs()), 12, 23)).run({given});
   REQUIRE_FALSE(result.joints.at(1).not_refined.empty());
   CHECK(warns(result.warnings, "joint 2: not refined: " + result.joints[1].not_refined +
-                                   "; its values in the refined model are those of the first "
-                                   "model"));
+                                   "; its values in the refined model are those that it "
+                                   "had before"));
   const Model model = read_back(result.models.at(0));
   const std::vector<Estimate> was = second_joint(given), is = second_joint(model);
   REQUIRE(is.size() == was.size());

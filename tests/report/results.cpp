@@ -144,7 +144,7 @@ DynamicPreload dynamic_preload(const std::string& name) {
   DynamicPreload preload;
   preload.name = name;
   preload.resonance = 76.2;
-  preload.delay = {0.0005, 2e-6, true, true, false, "half a hold"};
+  preload.delay = {0.0005, 2e-6, 0.001, true, true, false, "half a hold"};
   preload.counts["link"] = {12634, 3344, 0, 44};
   preload.counts["motor"] = {8055, 7923, 0, 44};
   preload.windows = {32000, 0, 0, 2};

@@ -82,6 +82,7 @@ struct DynamicFit {
 /// Delay from the measured torque to its effect, and the hold that was chosen from it.
 struct TorqueDelay {
   double seconds = 0, sd = 0;
+  double hold = 0;  ///< s, the hold that it was compared with; 0: not estimated
   bool estimated = false;
   bool held = false;
   bool undecided = false;  ///< the motion does not show whether it is held

@@ -47,14 +47,20 @@ JointPoint fit_first(std::span<const LogSurvey> logs, const IdentifyOptions& opt
   return search_elongations(fit);
 }
 
-/// Whether the drive holds its torque, and how long, is seen where the link moves; it is one drive.
+/// Moving logs show whether the drive holds its torque. Blocked logs have the same drive, also
+/// those of a preload without moving ones.
 JointRecord with_found_hold(JointRecord blocked, const IdentifyOptions& options,
-                            const PreloadFacts& facts) {
-  const TorqueHold asked = options.samples.torque_hold.value_or(facts.rig.torque_hold);
-  if (asked != TorqueHold::automatic || !facts.delay.held) return blocked;
+                            const std::vector<PreloadFacts>& all, PreloadFacts& own) {
+  if (options.samples.torque_hold.value_or(own.rig.torque_hold) != TorqueHold::automatic)
+    return blocked;
+  const PreloadFacts* shown = &own;
+  for (const PreloadFacts& other : all)
+    if (!shown->has_moving && other.has_moving) shown = &other;
+  if (!shown->delay.held) return blocked;
   SignalSettings& signal = blocked.settings.signal;
   signal.torque_held = true;
-  if (!(signal.torque_period > 0)) signal.torque_period = 1 / facts.rate;
+  if (!(signal.torque_period > 0)) signal.torque_period = shown->delay.hold;
+  own.decisions.push_back({"blocked: torque hold", "zoh", "as the moving logs show"});
   return blocked;
 }
 
@@ -64,16 +70,16 @@ JointFit full_fit(std::span<const LogSurvey> logs, const IdentifyOptions& option
                   std::vector<PreloadFacts>& facts) {
   int moving = 0;
   for (std::size_t j = 0; j < jobs.size(); ++j) {
-    std::vector<JointRecord>& records = jobs[j].records;
-    if (facts[j].has_moving) {
-      ++moving;
-      const Transmission cables = fitted_cables(first.jobs[j], start.l_o[j], start.solution.x);
-      records.push_back(
-          moving_record(logs, options, cables, deflections_of(first, j, start), facts[j]));
-    }
-    if (facts[j].has_blocked)
-      records.insert(records.begin(), with_found_hold(blocked[j], options, facts[j]));
+    if (!facts[j].has_moving) continue;
+    ++moving;
+    const Transmission cables = fitted_cables(first.jobs[j], start.l_o[j], start.solution.x);
+    jobs[j].records.push_back(
+        moving_record(logs, options, cables, deflections_of(first, j, start), facts[j]));
   }
+  for (std::size_t j = 0; j < jobs.size(); ++j)
+    if (facts[j].has_blocked)
+      jobs[j].records.insert(jobs[j].records.begin(),
+                             with_found_hold(blocked[j], options, facts, facts[j]));
   return make_joint_fit(logs, std::move(jobs), moving > 1, options.unconstrained,
                         options.samples.threads);
 }

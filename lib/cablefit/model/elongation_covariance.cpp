@@ -1,5 +1,7 @@
 #include "cablefit/model/elongation_covariance.hpp"
 
+#include <utility>
+
 namespace cablefit {
 
 void add_independent(const ElongationCovariance& more, ElongationCovariance& all) {
@@ -17,14 +19,21 @@ ElongationCovariance elongation_covariance(std::span<const Model> models) {
   for (const Model& model : models) {
     ElongationCovariance own;
     std::vector<std::string> names;
+    std::vector<double> sd;
     for (const Cable& cable : model.transmission.cables) {
       const std::string name = elongation_name(cable);
-      if (!model.covariance.of({name})) continue;
+      const Estimate* e = find_estimate(model.elastic, name);
+      if (e == nullptr || !(e->sd > 0) || !model.covariance.of({name})) continue;
+      sd.push_back(e->sd);
       own.of.push_back({model.preload, name});
       names.push_back(name);
     }
     if (names.empty()) continue;
     own.matrix = *model.covariance.of(names);
+    const Eigen::VectorXd scale =
+        Eigen::Map<const Eigen::VectorXd>(sd.data(), own.matrix.rows()).array() /
+        own.matrix.diagonal().array().sqrt();
+    own.matrix = scale.asDiagonal() * own.matrix * scale.asDiagonal();
     add_independent(own, all);
   }
   return all;

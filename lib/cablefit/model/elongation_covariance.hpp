@@ -1,4 +1,4 @@
-// How sure the initial elongations l_o are that somebody searched, together.
+// Joint covariance of initial elongations l_o that were searched.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,7 +23,8 @@ struct ElongationCovariance {
 /// These beside those of another search, of which they are independent.
 void add_independent(const ElongationCovariance& more, ElongationCovariance& all);
 
-/// Of every model that has the covariance of its l_o; models are independent of each other.
+/// Of every model that has the covariance of its l_o, with the sd that the model gives them. Those
+/// of different models count as independent: a model file has no more.
 ElongationCovariance elongation_covariance(std::span<const Model> models);
 
 }  // namespace cablefit

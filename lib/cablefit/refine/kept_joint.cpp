@@ -129,7 +129,7 @@ KeptJoint kept_joint(std::span<const Model> given, std::span<const Model> starte
                      const RefineLogs& logs) {
   std::vector<Model> own = as_given(given, started, joint);
   if (std::none_of(own.begin(), own.end(), has_start_values))
-    return {std::move(own), "its values in the refined model are those of the first model"};
+    return {std::move(own), "its values in the refined model are those that it had before"};
   if (auto fitted = base_estimates(own, logs))
     return {*std::move(fitted), "its values in the refined model are those of the base fit"};
   for (Model& one : own) drop_start_values(one);

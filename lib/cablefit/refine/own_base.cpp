@@ -78,18 +78,34 @@ std::pair<int, int> orders_of(const ElasticFit& fit) {
   return {least->order, most->order};
 }
 
+/// With the sd of l_o as they are where one was searched: refine adds them to its own.
+ElasticResult stage1_of(std::span<const LogSurvey> logs, ElasticOptions options) {
+  options.honest_sd = false;
+  ElasticResult result = fit_elastic_stage(logs, options, ElongationMode::automatic);
+  if (result.elongations.empty()) return result;
+  options.honest_sd = true;
+  return fit_elastic_stage(logs, options, ElongationMode::automatic);
+}
+
+/// Whether some preload has much larger errors in one result than in the other.
+bool is_worse(const ElasticResult& one, const ElasticResult& other) {
+  constexpr double kMuch = 1.5;
+  return std::any_of(one.preloads.begin(), one.preloads.end(), [&](const ElasticPreload& preload) {
+    return std::any_of(
+        other.preloads.begin(), other.preloads.end(), [&](const ElasticPreload& same) {
+          return same.name == preload.name &&
+                 preload.find(kCables)->rms_error > kMuch * same.find(kCables)->rms_error;
+        });
+  });
+}
+
 /// Coefficients are shared between preloads, and a cable of a lower order than its neighbour would
 /// be an effect to be found (stiffness_order): of different orders the highest for all. At most the
 /// second order of the paper: a higher one is such an effect. Those of a rig file stand.
 ElasticResult shared_stage1(std::span<const LogSurvey> logs, int threads) {
   ElasticOptions options;
   options.samples.threads = threads;
-  options.honest_sd = false;
-  ElasticResult result = fit_elastic_stage(logs, options, ElongationMode::automatic);
-  if (!result.elongations.empty()) {
-    options.honest_sd = true;
-    result = fit_elastic_stage(logs, options, ElongationMode::automatic);
-  }
+  ElasticResult result = stage1_of(logs, options);
   if (logs.front().plan.rig.cables_given) return result;
   int lowest = kMaxCableOrder, highest = 0;
   for (const ElasticPreload& preload : result.preloads) {
@@ -99,7 +115,17 @@ ElasticResult shared_stage1(std::span<const LogSurvey> logs, int threads) {
   }
   if (lowest == highest && highest <= kPlainOrder) return result;
   options.order = std::min(highest, kPlainOrder);
-  return fit_elastic_stage(logs, options, ElongationMode::automatic);
+  ElasticResult plain = stage1_of(logs, options);
+  if (!plain.elongations.empty() || !is_worse(plain, result)) return plain;
+  // A high order may have bent where both cables are taut: only a search of l_o tells.
+  try {
+    options.honest_sd = true;
+    ElasticResult searched = fit_elastic_stage(logs, options, ElongationMode::search);
+    if (is_worse(plain, searched)) return searched;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::not_identifiable) throw;
+  }
+  return plain;
 }
 
 std::vector<Estimate> arm_of(const DynamicFit& fit, const Rig& rig) {
@@ -179,7 +205,12 @@ void use_spring(OwnBase& base, const std::string& why) {
 void take_one_step(std::span<const LogSurvey> logs, int threads, OwnBase& base) {
   IdentifyOptions options;
   options.samples.threads = threads;
-  const IdentifyResult found = identify(logs, options);
+  options.honest_sd = false;
+  IdentifyResult found = identify(logs, options);
+  if (!found.elongations.empty()) {
+    options.honest_sd = true;
+    found = identify(logs, options);
+  }
   base.elongations = found.elongations;
   for (Model& model : base.models)
     for (const IdentifyPreload& preload : found.preloads)

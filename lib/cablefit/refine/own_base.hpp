@@ -3,7 +3,6 @@
 // anything is looked for.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +32,10 @@ OwnBase with_spring(OwnBase base, const std::string& why);
 /// Why a start value has no sd; a fit takes the text away with the value.
 inline constexpr std::string_view kStartValue = "a start value";
 inline constexpr std::string_view kSpringName = "K";
+/// What is said where the sd do not hold the error of a searched l_o.
+inline constexpr const char* kElongationsHeld =
+    "the sd of stiffness and inertia do not include the error of the searched l_o; 'cablefit "
+    "identify' gives intervals that do";
 /// Name of the decision about cables or a spring.
 inline constexpr const char* kCablesChoice = "cables";
 

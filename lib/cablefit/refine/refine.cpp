@@ -11,6 +11,7 @@
 #include "cablefit/refine/gap_levels.hpp"
 #include "cablefit/refine/joints.hpp"
 #include "cablefit/refine/null/kept_effects.hpp"
+#include "cablefit/refine/own_base.hpp"
 #include "cablefit/refine/rows/physical_values.hpp"
 #include "cablefit/refine/rows/refined_model.hpp"
 #include "cablefit/refine/steps/best_shapes.hpp"
@@ -156,14 +157,6 @@ bool is_immaterial(const RefineBench& bench, const RefineState& first) {
                       [](const EquationRemainder& e) { return e.at_least >= e.material; });
 }
 
-/// A bias that stays in the values widens their intervals. It is one vector, of one cause, so that
-/// the values are off together.
-void add_systematic(const ValueChange& bias, FinalFit& fit) {
-  Eigen::VectorXd all(bias.x.size() + bias.shapes.size());
-  all << bias.x, bias.shapes;
-  fit.covariance.topLeftCorner(all.size(), all.size()) += all * all.transpose();
-}
-
 RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
                          const RefineOptions& options) {
   RefineResult result;
@@ -190,6 +183,7 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
   if (!is_immaterial(bench, first)) find_effects(bench, chain, result);
   require_half_explained(chain, result);
   require_one_law(bench, chain, result);
+  require_more_than_elongations(bench, chain, result);
   const Confirmed confirmed = confirm_on_test(bench, chain, result);
   const std::vector<TestReading>& readings = confirmed.readings;
   RefineState& state = chain.back();
@@ -210,9 +204,8 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
   const RefineState after = confirmed.values.of(chain, chain.size() - 1);
   take_physical(after.design, bench.scan.block_seconds, state.levels, after.x, fit);
   if (confirmed.values.left()) add_systematic(*confirmed.values.left(), fit);
-  for (const ValueChange& error : elongation_errors(after.design, after.x, state.levels,
-                                                    bench.scan.block_seconds, options.elongations))
-    add_systematic(error, fit);
+  if (!add_elongation_errors(after.design, after.x, state.levels, bench, fit))
+    result.warnings.emplace_back(kElongationsHeld);
   tell_effects(models, named_effects(after.design, fit), result);
   result.shifts = parameter_shifts(first.design, before.x, after.design, fit);
   result.models = refined_models(after.design, fit);

@@ -10,6 +10,10 @@
 namespace cablefit {
 namespace {
 
+// Of the other cable's longest elongation. Less than the first is the noise of encoders that stand
+// at zero; with more than the second a cable is loaded, and something else is wrong.
+constexpr double kLoaded = 0.01, kWellLoaded = 0.5;
+
 bool has_cables(const OwnBase& base) {
   return std::any_of(base.models.begin(), base.models.end(),
                      [](const Model& model) { return !model.transmission.cables.empty(); });
@@ -20,20 +24,17 @@ bool is_plain_pair(const Model& model) {
   return model.transmission.cables.size() == 2 && !model.rig.cables_given;
 }
 
-/// Which cables of the pair some log stretches, more than encoders do that stand at zero.
-std::array<bool, 2> loaded_cables(const OwnBase& base, const RefineLogs& logs) {
-  constexpr double kLoaded = 0.01;  // of the other cable's longest elongation
-  std::vector<LogSurvey> all = logs.fitted();
-  all.insert(all.end(), logs.test.begin(), logs.test.end());
+/// Longest elongation of each cable of the pair in the logs to be fitted, m or rad.
+std::array<double, 2> longest_elongations(const OwnBase& base, const RefineLogs& logs) {
   const PartFilter every = [](const PartSurvey& /*part*/) { return true; };
   std::array<double, 2> longest{};
-  for (const Stretch& stretch : read_stretches(all, base.models, every)) {
+  for (const Stretch& stretch : read_stretches(logs.fitted(), base.models, every)) {
     const Transmission& pair = base.models[stretch.model].transmission;
     const Eigen::ArrayXd phi = pair.deflections(0, stretch.recording.q, stretch.recording.theta);
     longest[0] = std::max(longest[0], pair.cables[0].initial_elongation + phi.maxCoeff());
     longest[1] = std::max(longest[1], pair.cables[1].initial_elongation - phi.minCoeff());
   }
-  return {longest[0] > kLoaded * longest[1], longest[1] > kLoaded * longest[0]};
+  return longest;
 }
 
 /// The pair with one of its cables of order 1, or without it: 0.
@@ -56,8 +57,8 @@ SimplerBase with_order_of(const OwnBase& given, std::size_t which, int order,
       order == 0 ? fmt::format("no cable {}", name) : fmt::format("cable {} of order 1", name);
   simpler.base.decisions.push_back({kCablesChoice, what, why});
   simpler.warning = fmt::format(
-      "the base has {}, as {} it: load both cables in each third of the logs, or give a model",
-      what, order == 0 ? "no log loads" : "the training samples hardly load");
+      "the base has {}: {}; load both cables in each third of the logs, or give a model", what,
+      order == 0 ? "the training samples do not load it" : "the training samples hardly load it");
   return simpler;
 }
 
@@ -69,11 +70,13 @@ std::vector<SimplerBase> simpler_bases(const OwnBase& base, const RefineLogs& lo
   const Model& model = base.models.front();
   if (!has_cables(base) || model.joints.size() > 1) return simpler;
   if (is_plain_pair(model)) {
-    const std::array<bool, 2> loaded = loaded_cables(base, logs);
-    for (const int order : {1, 0})
-      for (std::size_t k = 0; k < loaded.size(); ++k)
-        if (model.transmission.cables[k].order > order && (order > 0 || !loaded[k]))
-          simpler.push_back(with_order_of(base, k, order, why));
+    const std::array<double, 2> longest = longest_elongations(base, logs);
+    const std::size_t less = longest[0] < longest[1] ? 0 : 1;
+    const double share = longest[less] / longest[1 - less];
+    if (share > kLoaded && share < kWellLoaded && model.transmission.cables[less].order > 1)
+      simpler.push_back(with_order_of(base, less, 1, why));
+    // It may be loaded in the part that is held out alone.
+    if (share < kWellLoaded) simpler.push_back(with_order_of(base, less, 0, why));
   }
   simpler.push_back(
       {with_spring(base, why),

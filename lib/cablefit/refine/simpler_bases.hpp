@@ -13,10 +13,10 @@ struct SimplerBase {
   std::string warning;  ///< what may come of it
 };
 
-/// Bases with less to determine, in the order in which to try them. Of a plain pair of cables (none
-/// in the rig file): either with one coefficient alone; without it, as long as no log loads it;
-/// then one straight spring. None without cables, and none of several joints: a spring per joint is
-/// not what cables do that pass several. The decisions say `why`.
+/// Bases with less to determine, in the order in which to try them. First, of a plain pair of
+/// cables (none in the rig file), the less loaded one with one coefficient, then without it; then
+/// one straight spring. None without cables, and none of several joints: a spring per joint is not
+/// what cables do that pass several. The decisions say `why`.
 std::vector<SimplerBase> simpler_bases(const OwnBase& base, const RefineLogs& logs,
                                        const std::string& why);
 

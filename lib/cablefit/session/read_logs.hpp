@@ -16,8 +16,8 @@ struct LogOptions {
   int threads = 1;
 };
 
-/// What all logs of a command are read with together: what weigh_logs() says of units, signs and
-/// samples, then the loads of rig files that differ in them alone (make_load_channels()).
+/// Checks units, signs and samples of all logs of a command together (weigh_logs()), then makes
+/// channels of their loads where rig files differ in these alone (make_load_channels()).
 void join_logs(std::vector<LogSurvey>& logs);
 
 /// All logs, in the order given; of rig files that differ in their load alone, each with its load

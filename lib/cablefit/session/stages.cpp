@@ -69,8 +69,8 @@ RefineResult refine_from(const OwnBase& base, const RefineLogs& logs, RefineOpti
   return refine(base.models, logs, options);
 }
 
-/// A part of the logs is held out, so that the others may not have every cable taut: then from the
-/// first base that they determine.
+/// Where the training part of the logs does not load every cable, from the first simpler base that
+/// it determines.
 RefineResult refine_own(OwnBase& base, const RefineLogs& logs, const RefineOptions& options) {
   std::string why;
   try {
@@ -90,14 +90,20 @@ RefineResult refine_own(OwnBase& base, const RefineLogs& logs, const RefineOptio
   throw Error(ErrorKind::not_identifiable, why);
 }
 
-/// Of a rig file that asks for it, or of a preload without cables in a rig file.
-bool has_searched_elongation(const Model& model) {
+/// Of a rig file that asks for it, or of a preload without cables in a rig file, and nothing is
+/// known of its error.
+bool has_unsure_elongation(const Model& model, const ElongationCovariance& known) {
   const std::vector<Cable>& cables = model.transmission.cables;
   const std::vector<bool>& asked = model.rig.search_elongation;
-  for (std::size_t c = 0; c < cables.size(); ++c)
-    if (cables[c].initial_elongation != 0 &&
-        (!model.rig.cables_given || (c < asked.size() && asked[c])))
-      return true;
+  for (std::size_t c = 0; c < cables.size(); ++c) {
+    const bool was_searched = cables[c].initial_elongation != 0 &&
+                              (!model.rig.cables_given || (c < asked.size() && asked[c]));
+    const bool is_known =
+        std::any_of(known.of.begin(), known.of.end(), [&](const ElongationCovariance::Of& of) {
+          return of.preload == model.preload && of.name == elongation_name(cables[c]);
+        });
+    if (was_searched && !is_known) return true;
+  }
   return false;
 }
 
@@ -114,11 +120,10 @@ RefineResult missing_effects(const RefineLogs& logs, std::vector<Model> models,
   RefineResult result =
       is_own ? refine_own(base, own_logs, options) : refine_from(base, own_logs, options);
   if (is_own) result.model_choice = "fitted to the logs";
-  if (base.elongations.empty() &&
-      std::any_of(base.models.begin(), base.models.end(), has_searched_elongation))
-    result.warnings.emplace_back(
-        "the sd of stiffness and inertia do not include the error of the searched l_o; 'cablefit "
-        "identify' gives intervals that do");
+  const bool is_unsure = std::any_of(
+      base.models.begin(), base.models.end(),
+      [&](const Model& model) { return has_unsure_elongation(model, base.elongations); });
+  if (is_unsure) result.warnings.emplace_back(kElongationsHeld);
   result.decisions.insert(result.decisions.begin(), base.decisions.begin(), base.decisions.end());
   return result;
 }

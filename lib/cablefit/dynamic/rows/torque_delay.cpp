@@ -166,8 +166,8 @@ TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFil
   delay.estimated = true;
   delay.seconds = fitted->seconds;
   delay.sd = fitted->sd;
-  const double hold = rows.signal.torque_period > 0 ? rows.signal.torque_period : period;
-  judge_delay(hold, delay);
+  delay.hold = rows.signal.torque_period > 0 ? rows.signal.torque_period : period;
+  judge_delay(delay.hold, delay);
   return delay;
 }
 

@@ -151,7 +151,7 @@ void add_derived(const PreloadJob& job, const JointEstimates& from, IdentifyPrel
   }
 }
 
-/// Correlated as in the fit, each with its own sd: that knows the method's floor too.
+/// Correlated as in the fit, scaled to the final sd, which include the method's floor.
 ElongationCovariance searched_elongations(const JointFit& fit, const JudgedPoint& judged,
                                           const std::vector<Estimate>& estimates) {
   const Eigen::MatrixXd& all = judged.covariance.covariance;

@@ -1,6 +1,9 @@
 // The "transmission" of a model file: cables or linear springs, with numbers.
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <functional>
+
 #include "cablefit/base/quote.hpp"
 #include "cablefit/model/file/parts.hpp"
 #include "cablefit/model/json_reading.hpp"
@@ -92,8 +95,19 @@ const JsonNode& cable_named(const JsonNode& list, const std::string& name) {
                    "give one entry per cable of the rig, by its name");
 }
 
+bool is_listed(const JsonNode& list, const Cable& cable) {
+  const std::vector<JsonNode>& items = some_items(list);
+  return std::any_of(items.begin(), items.end(),
+                     [&](const JsonNode& item) { return item.at("name").text() == cable.name; });
+}
+
 void read_cables(const JsonNode& list, Model* model) {
   std::vector<Cable>& cables = model->transmission.cables;
+  // refine leaves out a cable of a plain pair that the logs do not load.
+  const auto has_entry = [&](const Cable& cable) { return is_listed(list, cable); };
+  if (!model->rig.cables_given && some_items(list).size() < cables.size() &&
+      std::any_of(cables.begin(), cables.end(), has_entry))
+    std::erase_if(cables, std::not_fn(has_entry));
   for (Cable& cable : cables) read_cable(cable_named(list, cable.name), &cable, model);
   for (Cable& cable : cables) read_elongation(cable_named(list, cable.name), &cable, model);
   if (list.items.size() != cables.size()) {

@@ -70,7 +70,7 @@ std::string why_not_confirmed(const RefineBench& bench, const Chain& chain,
                              0,
                              kUnbounded,
                              name_of_test(bench)};
-  const std::string reason = why_not_added(change);
+  std::string reason = why_not_added(change);
   if (!reason.empty() || variant.effect->is_event) return reason;
   const std::string simulated =
       why_not_simulated(readings[from].simulated, readings[to].simulated, bench.simulation_floor);
@@ -88,6 +88,8 @@ RefineStep& last_accepted(RefineResult& result) {
                        [](const RefineStep& step) { return step.accepted; });
 }
 
+}  // namespace
+
 void drop_last(const std::string& reason, Chain& chain, RefineResult& result) {
   RefineStep& step = last_accepted(result);
   step.accepted = false;
@@ -95,6 +97,8 @@ void drop_last(const std::string& reason, Chain& chain, RefineResult& result) {
   result.effects.pop_back();
   chain.pop_back();
 }
+
+namespace {
 
 void drop_all(const std::string& reason, Chain& chain, RefineResult& result) {
   while (!result.effects.empty()) drop_last(reason, chain, result);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "cablefit/refine/steps/refine_bench.hpp"
@@ -43,6 +44,9 @@ struct Confirmed {
 /// equations or the closed loop fit worse, or all effects together close less than half of the gap.
 /// Effects that were judged together go together.
 Confirmed confirm_on_test(const RefineBench& bench, Chain& chain, RefineResult& result);
+
+/// Takes the last effect away; its step says why.
+void drop_last(const std::string& reason, Chain& chain, RefineResult& result);
 
 /// Takes all effects away when together they close less than half of the gap on held-out blocks of
 /// the training logs. They are a hint then.

@@ -141,11 +141,11 @@ std::string contradiction_by_test(const RefineResult& result) {
     if (e.at_least >= e.material && (result.material_given || e.above > kLikeNoise * e.noise))
       return fmt::format(
           "the residual of {} is {:.3g} {} beyond the noise of {:.2g} ({} equation), and the {} "
-          "show what is missing: train with {} too",
+          "show what is missing: {}",
           of_logs ? "the test logs" : "the last third of the logs", e.above,
           result.linear_motion ? "N" : "N m", e.noise, e.equation,
           of_logs ? "training logs do not" : "samples before it do not",
-          of_logs ? "logs like these" : "longer or more logs");
+          of_logs ? "train with logs like these too" : "record longer, or train with more logs");
   return "";
 }
 

@@ -10,7 +10,14 @@
 namespace cablefit {
 namespace {
 
-using namespace settings_parts;
+using settings_parts::begin_settings;
+using settings_parts::choose_decimation;
+using settings_parts::choose_edges;
+using settings_parts::choose_rest_margin;
+using settings_parts::decide;
+using settings_parts::kByOption;
+using settings_parts::kMaxShareOfRate;
+using settings_parts::worst_noise;
 
 constexpr double kBlockedCutoff = 10;  // Hz; sweeps of a blocked link are slower than 1 Hz
 constexpr double kSlowShare = 0.25;    // of the sweep speed that noise may reach, at four sd
@@ -109,7 +116,8 @@ ChosenSettings blocked_settings(std::span<const LogSurvey> logs, const PartFilte
   choose_rest_margin(chosen, rate);
   choose_rest_speed(chosen, options, sweep, 4 * velocity_noise(noise, band, rate));
   const Rig& rig = first_log_with(logs, wanted).plan.rig;
-  // A delay looks like viscous friction, which stage 1 estimates anyway: auto need not decide.
+  // Blocked logs do not show a hold: it looks like viscous friction, and in a sweep of one speed
+  // like f_sm. identify() takes it from moving logs.
   chosen.rows.signal.torque_held = options.torque_hold.value_or(rig.torque_hold) == TorqueHold::zoh;
   chosen.rows.signal.torque_period = rig.torque_period;
   chosen.rows.signal.quasi_static = true;
