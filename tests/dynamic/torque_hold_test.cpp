@@ -104,4 +104,28 @@ TEST_CASE("a torque that is the mean centred on t is not shifted", "[dynamic]") 
   CHECK(std::abs(damping_error(shifted)) > 0.15);
 }
 
+/// Every fourth row of a log: the drive holds each torque for a quarter of the log's period.
+TEST_CASE("a hold that is not the log's period is told", "[dynamic]") {
+  Bench bench;
+  truth::MovingOptions options;
+  options.seed = 2001;
+  options.duration = 20;
+  options.load = 30;
+  truth::Log log = truth::simulate_moving(truth::Rig::low(), options);
+  for (auto* column : {&log.t, &log.q, &log.theta, &log.tau, &log.tau_load, &log.theta_ref})
+    for (std::size_t i = 0; i < column->size(); ++i) {
+      if (4 * i < column->size())
+        (*column)[i] = (*column)[4 * i];
+      else
+        column->resize(i);
+    }
+  bench.add(log);
+  const DynamicPreload found = fit(bench, stage1_of(truth::Rig::low()), TorqueHold::automatic);
+  INFO(found.delay.reason);
+  CHECK(std::abs(found.delay.seconds - 0.5e-3) < 0.2e-3);
+  CHECK(found.delay.warning.find("neither a hold of 4 ms nor none explains that") !=
+        std::string::npos);
+  CHECK(found.delay.warning.find("\"torque_period\"") != std::string::npos);
+}
+
 }  // namespace

@@ -16,7 +16,7 @@ namespace cablefit {
 namespace {
 
 constexpr int kDelayWindows = 8;
-constexpr double kDelayMisfit = 0.15;  // of the hold; less hardly moves any parameter
+constexpr double kDelayMisfit = 0.1;  // of the hold; less hardly moves any parameter
 
 Eigen::ArrayXd slope(const Eigen::ArrayXd& x, double h) {
   Eigen::ArrayXd d = Eigen::ArrayXd::Zero(x.size());
@@ -77,8 +77,9 @@ void judge_delay(double hold, TorqueDelay& delay) {
   const double left = std::abs(delay.seconds - (delay.held ? hold / 2 : 0));
   if (left > std::max(3 * delay.sd, kDelayMisfit * hold))
     delay.warning = fmt::format(
-        "{}; neither a hold of {:.3g} ms nor none explains that: look for a delay in "
-        "the drive or the log; inertia and friction may be biased",
+        "{}; neither a hold of {:.3g} ms nor none explains that, and inertia and friction may be "
+        "biased: give the drive's period, \"torque_period\", in the rig file, or look for a delay "
+        "in the drive or the log",
         found, ms * hold);
 }
 
