@@ -123,7 +123,8 @@ std::optional<DelayFit> fit_delay(const RowStatistics& rows, const DynamicColumn
   const Eigen::MatrixXd series =
       series_over_time(rows.cells(), 1, [&](const GramCell& cell) -> Eigen::RowVectorXd {
         const Eigen::VectorXd all = cell.gram * residual;
-        return last * all(z);
+        const Eigen::VectorXd scores = all(z);
+        return last * scores;
       });
   const LongRunCovariance spread = long_run_covariance(series);
   return DelayFit{solution(p - 1), scale(p - 1) * std::sqrt(spread.covariance(0, 0))};
