@@ -105,7 +105,7 @@ TEST_CASE("a torque that is the mean centred on t is not shifted", "[dynamic]") 
 }
 
 /// Every fourth row of a log: the drive holds each torque for a quarter of the log's period.
-TEST_CASE("a hold that is not the log's period is told", "[dynamic]") {
+TEST_CASE("a hold that is not the log's period is warned about", "[dynamic]") {
   Bench bench;
   truth::MovingOptions options;
   options.seed = 2001;

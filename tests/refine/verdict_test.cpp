@@ -172,7 +172,7 @@ TEST_CASE("look-alikes are listed, and the simplest of equals is the headline", 
 }
 
 /// At one load a torque scale closes 3 % more of the gap than the wrong zero that made it.
-TEST_CASE("what closes nearly as much is listed though all blocks know better", "[refine]") {
+TEST_CASE("what closes nearly as much is listed even where all blocks prefer another", "[refine]") {
   const auto is_listed = [](double apart) {  // share of the gap
     const double less = apart * (kGap.total - kGap.floor) / kGap.total;
     const std::vector<Candidate> found = {candidate("torque_gain", Site::drive, 0.4),

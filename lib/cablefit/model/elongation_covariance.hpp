@@ -20,7 +20,7 @@ struct ElongationCovariance {
   bool empty() const { return of.empty(); }
 };
 
-/// These beside those of another search, of which they are independent.
+/// Appends the result of another, independent search.
 void add_independent(const ElongationCovariance& more, ElongationCovariance& all);
 
 /// Of every model that has the covariance of its l_o, with the sd that the model gives them. Those

@@ -117,7 +117,7 @@ ElasticResult shared_stage1(std::span<const LogSurvey> logs, int threads) {
   options.order = std::min(highest, kPlainOrder);
   ElasticResult plain = stage1_of(logs, options);
   if (!plain.elongations.empty() || !is_worse(plain, result)) return plain;
-  // A high order may have bent where both cables are taut: only a search of l_o tells.
+  // A high order can imitate a preload, where both cables are taut; then only l_o explains order 2.
   try {
     options.honest_sd = true;
     ElasticResult searched = fit_elastic_stage(logs, options, ElongationMode::search);

@@ -46,11 +46,12 @@ SimplerBase with_order_of(const OwnBase& given, std::size_t which, int order,
     std::erase_if(model.elastic,
                   [&](const Estimate& e) { return e.name.starts_with(fmt::format("K{}_", name)); });
     std::vector<Cable>& cables = model.transmission.cables;
-    cables[which].order = order;
-    if (order == 0)
+    if (order == 0) {
       cables.erase(cables.begin() + static_cast<std::ptrdiff_t>(which));
-    else
-      cables[which].coefficients.resize(static_cast<std::size_t>(cables[which].n_coefficients()));
+      continue;
+    }
+    cables[which].order = order;
+    cables[which].coefficients.resize(static_cast<std::size_t>(cables[which].n_coefficients()));
   }
   std::erase_if(simpler.base.decisions, [](const Decision& d) { return d.name == kCablesChoice; });
   const std::string what =

@@ -6,6 +6,7 @@
 #include "cablefit/simulate/experiment.hpp"
 
 namespace cablefit {
+
 std::optional<Decision> replayed_torque(const RefineLogs& logs) {
   for (const LogSurvey& log : logs.test.empty() ? logs.train : logs.test) {
     const std::string obstacle = has_phase(log, Phase::moving) ? no_closed_loop(log.plan) : "";

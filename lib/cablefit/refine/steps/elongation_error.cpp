@@ -79,7 +79,7 @@ void require_more_than_elongations(const RefineBench& bench, Chain& chain, Refin
     if (std::all_of(named.end() - static_cast<std::ptrdiff_t>(result.effects.size()), named.end(),
                     has_sure_size))
       return;
-    // The later ones were found beside those before them.
+    // Later effects were found with the earlier ones in the model.
     const bool goes_with_others = last.is_joint || has_sure_size(named.back());
     constexpr const char* kReason = "the error of the searched l_o is as large as its coefficients";
     drop_last(kReason, chain, result);

@@ -12,13 +12,14 @@ namespace cablefit {
 /// that the values are off together.
 void add_systematic(const ValueChange& error, FinalFit& fit);
 
-/// Adds how the values of a design, fitted with 1/level^2, change with l_o one sd away along each
-/// axis of their covariance. False: such a design has no fit, and what could be added was.
+/// Adds the error of l_o to the covariance of the fit: the values are fitted again, rows weighted
+/// by 1/level^2, with l_o one sd away along each axis of its covariance (m^2 or rad^2). False: one
+/// of these fits does not exist, and its part is missing.
 bool add_elongation_errors(const Design& design, const Eigen::VectorXd& x, const KindLevels& levels,
                            const RefineBench& bench, FinalFit& fit);
 
-/// Takes effects away of which no coefficient is 2 sd with the error of l_o, and what was found
-/// beside them: a slip between preloads corrects l_o of one of them that are a little wrong.
+/// Removes every effect without a coefficient of at least 2 sd (the sd with the error of l_o), and
+/// the effects found after it. A small error in l_o of one preload looks like a slip between them.
 void require_more_than_elongations(const RefineBench& bench, Chain& chain, RefineResult& result);
 
 }  // namespace cablefit

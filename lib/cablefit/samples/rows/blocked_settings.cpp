@@ -10,15 +10,6 @@
 namespace cablefit {
 namespace {
 
-using settings_parts::begin_settings;
-using settings_parts::choose_decimation;
-using settings_parts::choose_edges;
-using settings_parts::choose_rest_margin;
-using settings_parts::decide;
-using settings_parts::kByOption;
-using settings_parts::kMaxShareOfRate;
-using settings_parts::worst_noise;
-
 constexpr double kBlockedCutoff = 10;  // Hz; sweeps of a blocked link are slower than 1 Hz
 constexpr double kSlowShare = 0.25;    // of the sweep speed that noise may reach, at four sd
 constexpr double kRestShare = 0.05;    // of the sweep speed: slower is a reversal

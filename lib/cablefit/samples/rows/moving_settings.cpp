@@ -11,15 +11,6 @@
 namespace cablefit {
 namespace {
 
-using settings_parts::begin_settings;
-using settings_parts::choose_decimation;
-using settings_parts::choose_edges;
-using settings_parts::choose_rest_margin;
-using settings_parts::decide;
-using settings_parts::kByOption;
-using settings_parts::kMaxShareOfRate;
-using settings_parts::worst_noise;
-
 constexpr double kRigidShareOfRate = 0.1;
 constexpr double kResonanceFactor = 2.5;  // the elastic torque's band: J_motor within 0.5 %
 constexpr double kNoiseBias = 0.0025;     // largest share of noise in the acceleration's variance

@@ -7,7 +7,7 @@
 
 #include "cablefit/samples/survey/noise.hpp"
 
-namespace cablefit::settings_parts {
+namespace cablefit {
 namespace {
 
 constexpr double kSamplesPerPeriod = 2.5;  // rows per period of the cut-off after decimation
@@ -139,4 +139,4 @@ void choose_edges(ChosenSettings& chosen, const SampleOptions& options, const Ra
          cutoff > 0 ? "two periods of the cut-off" : "rows that differences do not reach");
 }
 
-}  // namespace cablefit::settings_parts
+}  // namespace cablefit

@@ -5,7 +5,7 @@
 #include "cablefit/samples/rows/agreement.hpp"
 #include "cablefit/samples/rows/settings.hpp"
 
-namespace cablefit::settings_parts {
+namespace cablefit {
 
 inline constexpr double kMaxShareOfRate = 0.2;  // beyond it a five-point difference is off by 1 %
 inline constexpr const char* kByOption = "given";
@@ -25,4 +25,4 @@ void choose_decimation(ChosenSettings& chosen, const SampleOptions& options, dou
 void choose_rest_margin(ChosenSettings& chosen, double rate);
 void choose_edges(ChosenSettings& chosen, const SampleOptions& options, const RateRange& rates);
 
-}  // namespace cablefit::settings_parts
+}  // namespace cablefit
