@@ -149,7 +149,10 @@ Design with_variants(Design design, const std::vector<Variant>& variants,
     else
       design = with_variant(design, variant, values);
   }
-  return design;
+  const bool has_values = values.size() == design.n_columns();
+  return has_values && std::any_of(design.added.begin(), design.added.end(), is_linearised)
+             ? rebuilt(design, values)
+             : design;
 }
 
 Design design_like(const Design& design, const Eigen::VectorXd& x, std::span<const Model> bases,

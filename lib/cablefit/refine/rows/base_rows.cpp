@@ -226,6 +226,7 @@ std::vector<ReplacedColumns> columns_of_torque(const StretchRows& kept, const Re
     response.columns =
         apply_at(filter, response_of(k.kind, motion, model).matrix(), thinned(k.at, every));
     if (k.given.size() > 0) response.columns -= k.given;
+    if (k.linearised.size() > 0) response.columns += k.linearised;
   }
   return replaced;
 }

@@ -48,6 +48,9 @@ struct KindRows {
   Eigen::MatrixXd base;          ///< n_rows x layout.n()
   Eigen::VectorXd response;      ///< n_rows, N m; without the torque of given inertias
   Eigen::VectorXd given;         ///< that torque, N m; empty: none is given
+  /// In the response, N m: what linearised corrections have at the values where they are taken, so
+  /// that value times column is all of them; empty: there are none.
+  Eigen::VectorXd linearised;
 };
 
 /// What a stretch gives: at most a link and a motor (or blocked) equation.

@@ -225,6 +225,7 @@ Design make_design(std::span<const Model> models, std::vector<Stretch> stretches
   Design design;
   design.models.assign(models.begin(), models.end());
   design.layout = base_layout(models.front());
+  design.recorded = std::make_shared<const std::vector<Stretch>>(stretches);
   design.stretches = std::move(stretches);
   if (!(smoothing.least_speed_theta > 0)) set_least_speeds(design.stretches, smoothing);
   design.smoothing = smoothing;
@@ -248,8 +249,12 @@ std::vector<ReplacedColumns> corrected_columns(const Design& design, std::size_t
   Stretch changed = recorded;
   const Model& model = design.models[changed.model];
   if (row.correct != nullptr) row.correct(parameters.data(), changed.recording);
-  if (!same_positions(changed.recording, recorded.recording))
-    return all_columns(base_rows(changed, model, design.layout, design.smoothing, &rows));
+  if (!same_positions(changed.recording, recorded.recording)) {
+    StretchRows own = base_rows(changed, model, design.layout, design.smoothing, &rows);
+    for (std::size_t i = 0; i < own.kinds.size(); ++i)
+      if (rows.kinds[i].linearised.size() > 0) own.kinds[i].response += rows.kinds[i].linearised;
+    return all_columns(own);
+  }
   return columns_of_torque(rows, changed.recording, model, design.smoothing, evaluation);
 }
 
@@ -331,14 +336,63 @@ Design with_variant(const Design& design, const Variant& variant, const Eigen::V
   return out;
 }
 
+namespace {
+
+/// Its linear parameters, 0 where `values` has none, and its shape.
+std::vector<double> parameters_at(const Variant& variant, const Eigen::VectorXd& values,
+                                  Eigen::Index first) {
+  std::vector<double> all;
+  for (Eigen::Index k = first; k < first + n_linear(variant); ++k)
+    all.push_back(k < values.size() ? values(k) : 0);
+  all.insert(all.end(), variant.shape.begin(), variant.shape.end());
+  return all;
+}
+
+/// The recordings as logged, with all corrections.
+void correct_recordings(const Eigen::VectorXd& values, Design& design) {
+  design.stretches = *design.recorded;
+  Eigen::Index first = design.layout.n();
+  for (const Variant& variant : design.added) {
+    if (variant.effect->correct != nullptr)
+      for (Stretch& stretch : design.stretches)
+        variant.effect->correct(parameters_at(variant, values, first).data(), stretch.recording);
+    first += n_linear(variant);
+  }
+}
+
+/// Its column, where the recordings are corrected with its value.
+void append_linearised(const Variant& variant, const Eigen::VectorXd& values, Design& design) {
+  const double value = parameters_at(variant, values, design.n_columns()).front();
+  const VariantColumns columns = variant_columns(design, variant, values);
+  for (std::size_t s = 0; s < design.rows.size(); ++s)
+    for (std::size_t k = 0; k < design.rows[s].kinds.size(); ++k) {
+      KindRows& kind = design.rows[s].kinds[k];
+      const Eigen::VectorXd there = value * columns[s][k].col(0);
+      kind.response += there;
+      if (kind.linearised.size() == 0) kind.linearised.setZero(there.size());
+      kind.linearised += there;
+    }
+  append(design.rows, columns);
+  design.added.push_back(variant);
+}
+
+}  // namespace
+
+bool is_linearised(const Variant& variant) {
+  return variant.effect->correct != nullptr && n_linear(variant) > 0;
+}
+
 Design rebuilt(const Design& design, const Eigen::VectorXd& values) {
   Design out = design;
+  correct_recordings(values, out);
   fill_rows(out, &design.rows);
   out.added.clear();
   for (const Variant& variant : design.added) {
     // Cables and recordings are those of the effect already.
     const Effect& row = *variant.effect;
-    if (row.change != nullptr || (row.correct != nullptr && replaces_rows(variant)))
+    if (is_linearised(variant))
+      append_linearised(variant, values, out);
+    else if (row.change != nullptr || row.correct != nullptr)
       out.added.push_back(variant);
     else
       out = with_variant(out, variant, values);

@@ -36,9 +36,10 @@ struct Design {
   std::vector<Model> models;  ///< per preload, with the coefficients that states were made with
   BaseLayout layout;
   Smoothing smoothing;
-  std::vector<Stretch> stretches;
-  std::vector<StretchRows> rows;                ///< per stretch; `base` has all columns
-  std::vector<std::vector<JointState>> states;  ///< per stretch
+  std::shared_ptr<const std::vector<Stretch>> recorded;  ///< as logged
+  std::vector<Stretch> stretches;                        ///< with what was added that corrects them
+  std::vector<StretchRows> rows;                         ///< per stretch; `base` has all columns
+  std::vector<std::vector<JointState>> states;           ///< per stretch
   /// Those at multiples of the stride, side by side: a coarse evaluation waits for memory else.
   std::vector<std::vector<JointState>> coarse_states;
   std::vector<Variant> added;
@@ -86,6 +87,9 @@ std::vector<ReplacedColumns> corrected_columns(const Design& design, std::size_t
                                                const std::vector<double>& parameters,
                                                Evaluation evaluation);
 
+/// Whether a variant corrects recordings by as much as a parameter says, see rebuilt().
+bool is_linearised(const Variant& variant);
+
 /// Whether a variant has no columns but other base columns or responses (other cables, a clipped
 /// torque), these per stretch and kind of row, and the rows with them. Empty: it makes no sense for
 /// this model.
@@ -103,12 +107,13 @@ bool applies(const Design& design, const Variant& variant);
 /// Gives cables that have the variant already what follows from other coefficients.
 void change_again(const Variant& variant, Transmission& transmission);
 
-/// The design with a variant in it, which applies. `values`: of the columns so far. Throws
-/// Error(not_identifiable) for one that does not.
+/// The design with a variant in it, which applies. `values`: of the columns so far, and of the
+/// variant's own where they are known. Throws Error(not_identifiable) for one that does not.
 Design with_variant(const Design& design, const Variant& variant, const Eigen::VectorXd& values);
 
 /// All rows and columns anew from its models, for the same samples; nonlinear columns with `values`
-/// of those before them.
+/// of those before them. Corrections with a parameter (a late encoder) are made with its value and
+/// linearised there (Gauss-Newton): over some milliseconds they are not proportional to it.
 Design rebuilt(const Design& design, const Eigen::VectorXd& values);
 
 /// All of it anew with other coefficients in the models: states and nonlinear columns follow them.

@@ -20,15 +20,17 @@ struct Values {
 std::optional<ValueChange> bias_at(const RefineBench& bench, const Values& values,
                                    const KindLevels& levels) {
   const std::vector<Model> models = recorded_models(models_with(values.design, values.x));
+  Eigen::VectorXd recorded = values.x;
+  forget_unrecorded(values.design, recorded);
   const int threads = bench.options.threads;
   try {
     NullBench twin(models, bench.logs, bench.wanted, values.design.smoothing, threads);
     twin.hold_back(bench.held_back);
     twin.silence_torque();  // its noise has no bias to give; without it one draw is enough
     const Design design =
-        design_like(values.design, values.x, models, twin.draw(bench.seed, threads));
-    if (design.n_columns() != values.x.size()) return {};
-    auto bias = change_to_fit(design, values.x, levels, bench.scan.block_seconds, is_unrecorded);
+        design_like(values.design, recorded, models, twin.draw(bench.seed, threads));
+    if (design.n_columns() != recorded.size()) return {};
+    auto bias = change_to_fit(design, recorded, levels, bench.scan.block_seconds, is_unrecorded);
     if (bias) forget_unrecorded(values.design, bias->x);
     return bias;
   } catch (const Error&) {

@@ -78,7 +78,7 @@ Design with_dense_rows(const Design& design, const Eigen::VectorXd& x) {
   Smoothing dense = design.smoothing;
   dense.every = std::max<Eigen::Index>(1, dense.every / 2);
   dense.stride = stride_for(dense.columns / 2, dense.period, dense.every);
-  return with_variants(make_design(design.models, design.stretches, dense), design.added, x);
+  return with_variants(make_design(design.models, *design.recorded, dense), design.added, x);
 }
 
 /// What there is of one equation beyond its floor, (N m)^2 summed over its rows.
