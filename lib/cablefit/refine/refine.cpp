@@ -23,6 +23,7 @@
 #include "cablefit/refine/steps/refine_bench.hpp"
 #include "cablefit/refine/steps/test_reading.hpp"
 #include "cablefit/refine/verdict/conclusion.hpp"
+#include "cablefit/refine/verdict/inseparable_rivals.hpp"
 #include "cablefit/refine/verdict/regimes.hpp"
 #include "cablefit/refine/verdict/separability.hpp"
 #include "cablefit/refine/verdict/unexplained.hpp"
@@ -212,6 +213,7 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
   result.rho_before = first.rho;
   result.rho_after = state.rho;
   tell_gaps(bench, chain, readings, result);
+  add_inseparable_rivals(result);
   conclude(result);
   if (result.verdict == Verdict::unexplained && !result.unexplained)
     result.unexplained =

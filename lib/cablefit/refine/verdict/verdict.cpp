@@ -275,6 +275,8 @@ Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGa
   judgement.chance = significance.tail(*judgement.best);
   judgement.inclusion = share[*best];
   judgement.rivals = rivals_of(*judgement.best, able, share, gap);
+  for (std::size_t k = 0; k < able.size(); ++k)  // the league begins with these
+    judgement.league[k].difference = paired(able[k]->error, judgement.best->error).in_sd();
   return judgement;
 }
 
