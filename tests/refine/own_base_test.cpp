@@ -150,12 +150,14 @@ TEST_CASE("a cable that no log loads is left out of the base", "[refine]") {
   CHECK(result.verdict == Verdict::none);
   REQUIRE(!result.warnings.empty());
   CHECK(result.warnings.back() ==
-        "the base has no cable 2: the training samples do not load it; load both cables in each "
-        "third of the logs, or give a model");
+        "the base has no cable 2: it is seldom or never taut, and samples in which it is are left "
+        "out; load both cables in each third of the logs, or give a model");
   std::string choice;
   const Model again = parse_model(parse_json(model_json(result.models.at(0)), "refined.json"), "",
                                   "", choice, Completeness::as_it_is);
   REQUIRE(again.transmission.cables.size() == 1);
+  REQUIRE(again.transmission.idle_cables.size() == 1);
+  CHECK(again.transmission.idle_cables[0].name == "2");
   CHECK(again.transmission.cables[0].coefficients ==
         result.models.at(0).transmission.cables[0].coefficients);
 }

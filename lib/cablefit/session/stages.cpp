@@ -1,6 +1,7 @@
 #include "cablefit/session/stages.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/dynamic/dynamic_fit.hpp"
@@ -69,9 +70,25 @@ RefineResult refine_from(const OwnBase& base, const RefineLogs& logs, RefineOpti
   return refine(base.models, logs, options);
 }
 
-/// Where the training part of the logs does not load every cable, from the first simpler base that
-/// it determines.
+/// From a simpler base, which is the base from now on; nothing where the logs do not determine it.
+std::optional<RefineResult> refine_simpler(SimplerBase simpler, const RefineLogs& logs,
+                                           const RefineOptions& options, OwnBase& base) {
+  try {
+    RefineResult result = refine_from(simpler.base, logs, options);
+    base = std::move(simpler.base);
+    result.warnings.push_back(std::move(simpler.warning));
+    return result;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::not_identifiable) throw;
+    return {};
+  }
+}
+
+/// Where the logs hardly load a cable, or their training part does not determine the base, from the
+/// first simpler one that it determines.
 RefineResult refine_own(OwnBase& base, const RefineLogs& logs, const RefineOptions& options) {
+  if (auto simpler = base_without_idle_cable(base, logs))
+    if (auto result = refine_simpler(*std::move(simpler), logs, options, base)) return *result;
   std::string why;
   try {
     return refine_from(base, logs, options);
@@ -79,14 +96,8 @@ RefineResult refine_own(OwnBase& base, const RefineLogs& logs, const RefineOptio
     if (error.kind() != ErrorKind::not_identifiable) throw;
     why = error.what();
   }
-  for (SimplerBase& simpler : simpler_bases(base, logs, why)) try {
-      RefineResult result = refine_from(simpler.base, logs, options);
-      base = std::move(simpler.base);
-      result.warnings.push_back(std::move(simpler.warning));
-      return result;
-    } catch (const Error& error) {
-      if (error.kind() != ErrorKind::not_identifiable) throw;
-    }
+  for (SimplerBase& simpler : simpler_bases(base, logs, why))
+    if (auto result = refine_simpler(std::move(simpler), logs, options, base)) return *result;
   throw Error(ErrorKind::not_identifiable, why);
 }
 

@@ -80,8 +80,18 @@ bool stretch_pair(const Transmission& transmission, const std::vector<Cable*>& p
   return balancing.has_value();
 }
 
+/// The other cable has no law that could say what balances it.
+bool has_idle_partner(const Transmission& transmission) {
+  return transmission.cables.size() == 1 && transmission.idle_cables.size() == 1;
+}
+
 std::optional<Transmission> stretch(const Transmission& transmission, const double* shape) {
   std::optional<Transmission> changed = with_taut_cables(transmission);
+  if (changed && has_idle_partner(*changed)) {
+    Cable& cable = changed->cables.front();
+    cable.initial_elongation = shape[0] * std::abs(motor_radius(*changed, cable));
+    return changed;
+  }
   if (!changed || changed->cables.size() != 2 * static_cast<std::size_t>(changed->n_joints))
     return std::nullopt;
   for (int joint = 0; joint < changed->n_joints; ++joint)

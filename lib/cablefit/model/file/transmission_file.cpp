@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 
 #include "cablefit/base/quote.hpp"
 #include "cablefit/model/file/parts.hpp"
@@ -106,8 +107,11 @@ void read_cables(const JsonNode& list, Model* model) {
   // refine leaves out a cable of a plain pair that the logs do not load.
   const auto has_entry = [&](const Cable& cable) { return is_listed(list, cable); };
   if (!model->rig.cables_given && some_items(list).size() < cables.size() &&
-      std::any_of(cables.begin(), cables.end(), has_entry))
+      std::any_of(cables.begin(), cables.end(), has_entry)) {
+    std::copy_if(cables.begin(), cables.end(), std::back_inserter(model->transmission.idle_cables),
+                 std::not_fn(has_entry));
     std::erase_if(cables, std::not_fn(has_entry));
+  }
   for (Cable& cable : cables) read_cable(cable_named(list, cable.name), &cable, model);
   for (Cable& cable : cables) read_elongation(cable_named(list, cable.name), &cable, model);
   if (list.items.size() != cables.size()) {

@@ -86,6 +86,33 @@ Eigen::MatrixXd full_columns(RowKind kind, const SmoothMotion& m, const Model& m
   return all;
 }
 
+constexpr double kSlackMargin = 0.1;  // of the longest elongation of the other cables
+
+/// Samples at which an idle cable is taut, or near it: a late encoder shows it slack too long.
+Eigen::Array<bool, Eigen::Dynamic, 1> is_idle_cable_taut(const Transmission& transmission,
+                                                         const SmoothMotion& m) {
+  std::vector<JointSignals> joint(1);
+  joint.front().q = m.q;
+  joint.front().theta = m.theta;
+  double longest = 0;
+  for (const Cable& cable : transmission.cables)
+    longest = std::max(longest, elongation(transmission, cable, joint).maxCoeff());
+  Eigen::Array<bool, Eigen::Dynamic, 1> is_taut =
+      Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(m.size(), false);
+  for (const Cable& cable : transmission.idle_cables)
+    is_taut = is_taut || elongation(transmission, cable, joint) > -kSlackMargin * longest;
+  return is_taut;
+}
+
+/// Without those for which an idle cable is taut within reach of the kernel.
+void erase_unknown(const Transmission& transmission, const SmoothMotion& m, Eigen::Index reach,
+                   std::vector<Eigen::Index>& rows) {
+  if (transmission.idle_cables.empty()) return;
+  const auto is_taut = is_idle_cable_taut(transmission, m);
+  std::erase_if(rows,
+                [&](Eigen::Index i) { return is_taut.segment(i - reach, 2 * reach + 1).any(); });
+}
+
 std::vector<RowKind> kinds_of(const Stretch& stretch, const Model& model) {
   if (stretch.blocked) return {RowKind::blocked};
   if (model.rigid) return {RowKind::motor};
@@ -198,6 +225,7 @@ StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayo
                            : moving_rows(link ? rows.motion->qd : rows.motion->thetad, least,
                                          stretch.recording.period, smoothing);
     std::erase_if(k.at, [&](Eigen::Index i) { return i < stretch.rows_from; });
+    if (kept == nullptr) erase_unknown(model.transmission, *rows.motion, filter.reach(), k.at);
     const Eigen::MatrixXd all =
         apply_at(filter, full_columns(kind, *rows.motion, model, layout), k.at);
     k.base = all.leftCols(layout.n());
