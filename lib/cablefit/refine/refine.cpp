@@ -21,6 +21,7 @@
 #include "cablefit/refine/steps/materiality.hpp"
 #include "cablefit/refine/steps/next_run.hpp"
 #include "cablefit/refine/steps/refine_bench.hpp"
+#include "cablefit/refine/steps/sure_sizes.hpp"
 #include "cablefit/refine/steps/test_reading.hpp"
 #include "cablefit/refine/verdict/conclusion.hpp"
 #include "cablefit/refine/verdict/inseparable_rivals.hpp"
@@ -184,7 +185,7 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
   if (!is_immaterial(bench, first)) find_effects(bench, chain, result);
   require_half_explained(chain, result);
   require_one_law(bench, chain, result);
-  require_more_than_elongations(bench, chain, result);
+  require_sure_sizes(bench, chain, result);
   const Confirmed confirmed = confirm_on_test(bench, chain, result);
   const std::vector<TestReading>& readings = confirmed.readings;
   RefineState& state = chain.back();

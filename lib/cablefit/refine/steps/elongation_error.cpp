@@ -6,13 +6,11 @@
 
 #include "cablefit/refine/rows/recorded_effects.hpp"
 #include "cablefit/refine/rows/refined_model.hpp"
-#include "cablefit/refine/steps/test_reading.hpp"
 
 namespace cablefit {
 namespace {
 
 constexpr double kRounding = 1e-12;  // of the largest eigenvalue
-constexpr double kSureSd = 2;
 
 /// Makes each l_o longer by `step`; false: the design has none of these cables.
 bool lengthen(const ElongationCovariance& known, const Eigen::VectorXd& step, Design& design) {
@@ -27,13 +25,6 @@ bool lengthen(const ElongationCovariance& known, const Eigen::VectorXd& step, De
       }
     }
   return any;
-}
-
-bool has_sure_size(const NamedEffect& effect) {
-  const std::vector<Estimate>& all = effect.instance.parameters;
-  return std::any_of(all.begin(), all.end(), [](const Estimate& e) {
-    return e.sd > 0 && std::abs(e.value) > kSureSd * e.sd;
-  });
 }
 
 }  // namespace
@@ -66,26 +57,6 @@ bool add_elongation_errors(const Design& design, const Eigen::VectorXd& x, const
     add_systematic({there->x - here->x, there->shapes - here->shapes}, fit);
   }
   return true;
-}
-
-void require_more_than_elongations(const RefineBench& bench, Chain& chain, RefineResult& result) {
-  if (bench.options.elongations.empty()) return;
-  while (!result.effects.empty()) {
-    const RefineState& last = chain.back();
-    const Design& undone = bench.n_kept == 0 ? chain.front().design : bench.bare;
-    FinalFit fit = final_fit(undone, last.design, last.levels, bench.scan.block_seconds);
-    add_elongation_errors(last.design, fit.x, last.levels, bench, fit);
-    const std::vector<NamedEffect> named = named_effects(last.design, fit);
-    if (std::all_of(named.end() - static_cast<std::ptrdiff_t>(result.effects.size()), named.end(),
-                    has_sure_size))
-      return;
-    // Later effects were found with the earlier ones in the model.
-    const bool goes_with_others = last.is_joint || has_sure_size(named.back());
-    constexpr const char* kReason = "the error of the searched l_o is as large as its coefficients";
-    drop_last(kReason, chain, result);
-    while (goes_with_others && !result.effects.empty()) drop_last(kReason, chain, result);
-    require_half_explained(chain, result);
-  }
 }
 
 }  // namespace cablefit

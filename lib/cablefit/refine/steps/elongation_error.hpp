@@ -18,8 +18,4 @@ void add_systematic(const ValueChange& error, FinalFit& fit);
 bool add_elongation_errors(const Design& design, const Eigen::VectorXd& x, const KindLevels& levels,
                            const RefineBench& bench, FinalFit& fit);
 
-/// Removes every effect without a coefficient of at least 2 sd (the sd with the error of l_o), and
-/// the effects found after it. A small error in l_o of one preload looks like a slip between them.
-void require_more_than_elongations(const RefineBench& bench, Chain& chain, RefineResult& result);
-
 }  // namespace cablefit

@@ -1,0 +1,13 @@
+// An effect is named with a size: coefficients that may as well be nothing are no find. Internal to
+// refine/.
+#pragma once
+
+#include "cablefit/refine/steps/refine_bench.hpp"
+
+namespace cablefit {
+
+/// Removes every effect without a coefficient of at least 2 sd (the sd with the error of l_o), and
+/// the effects found after it. A small error in l_o of one preload looks like a slip between them.
+void require_sure_sizes(const RefineBench& bench, Chain& chain, RefineResult& result);
+
+}  // namespace cablefit
