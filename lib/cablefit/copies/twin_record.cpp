@@ -202,15 +202,28 @@ std::vector<LogSurvey> record_twin(const Twin& twin, const std::vector<Simulatio
   return logs;
 }
 
+namespace {
+
+/// Of a log with both a moving one: the link's encoder shows its steps only where it moves.
+std::vector<TwinStretch>::const_iterator telling_stretch(const Twin& twin, std::size_t log) {
+  const auto first = [&](bool moving) {
+    return std::find_if(twin.stretches.begin(), twin.stretches.end(), [&](const TwinStretch& s) {
+      return s.log == log && !(moving && s.link_blocked);
+    });
+  };
+  const auto moving = first(true);
+  return moving != twin.stretches.end() ? moving : first(false);
+}
+
+}  // namespace
+
 void choose_sensors(Twin& twin, const std::vector<SimulationResult>& motions) {
   twin.sensors.clear();
   twin.jitter.assign(twin.plans.size(), 0);
   for (std::size_t log = 0; log < twin.plans.size(); ++log) {
     const LogPlan& plan = twin.plans[log];
     std::vector<TwinSensor>& sensors = twin.sensors.emplace_back(plan.slots.size());
-    const auto first =
-        std::find_if(twin.stretches.begin(), twin.stretches.end(),
-                     [log](const TwinStretch& stretch) { return stretch.log == log; });
+    const auto first = telling_stretch(twin, log);
     if (first == twin.stretches.end()) continue;
     const auto& motion = motions[static_cast<std::size_t>(first - twin.stretches.begin())];
     const PartSurvey& part = twin.parts[log][first->part];
