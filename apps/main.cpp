@@ -25,7 +25,9 @@ int run(apps::Arguments arguments) {
   const std::string name = arguments.front();
   arguments.erase(arguments.begin());
   const bool wants_help = name == "help" || name == "--help" || name == "-h";
-  if (name == "help" && !arguments.empty())  // 'help X' is 'X --help'
+  const bool names_command =
+      !arguments.empty() && arguments.front() != "--help" && arguments.front() != "-h";
+  if (name == "help" && names_command)  // 'help X' is 'X --help'
     return apps::find_command(arguments.front()).run({"--help"});
   if (wants_help) {
     write_whole("-", apps::overview());

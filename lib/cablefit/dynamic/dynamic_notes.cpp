@@ -125,8 +125,9 @@ void note_load(const DynamicJob& job, DynamicPreload& preload) {
     return;
   }
   if (job.rigid) return;
-  for (std::string& warning : unloaded_warnings(job.logs, job.wanted))
-    preload.warnings.push_back(std::move(warning));
+  // First: most other warnings follow from it.
+  const std::vector<std::string> unloaded = unloaded_warnings(job.logs, job.wanted);
+  preload.warnings.insert(preload.warnings.begin(), unloaded.begin(), unloaded.end());
 }
 
 void note_free_fall(const Load& load, const std::vector<EquationRows>& equations,

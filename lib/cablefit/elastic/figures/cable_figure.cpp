@@ -47,7 +47,11 @@ void add_zones(const Transmission& transmission, const Trace& all, Figure& figur
     if (zone.high - zone.low > kNoteWidth * (high - low))
       figure.notes.push_back(zone_note(transmission, zone, *least, *most));
   }
-  if (!area.x.empty()) figure.traces.push_back(std::move(area));
+  if (area.x.empty()) return;
+  figure.traces.push_back(std::move(area));
+  figure.caption +=
+      " Grey box: all cables are taut (force closure); outside it one is slack (force "
+      "disclosure).";
 }
 
 template <typename Torque>
@@ -66,8 +70,7 @@ Figure cable_figure(const Transmission& transmission, double low, double high, b
   figure.title = "Elastic torque of each cable";
   figure.caption =
       "The fitted cables without friction and offset. Dotted line: there the cable "
-      "of that name goes slack. Grey box: all cables are taut (force closure); "
-      "outside it one is slack (force disclosure).";
+      "of that name goes slack.";
   figure.wide = true;
   figure.x = {"deflection theta - q", linear_motion ? "m" : "rad"};
   figure.y = {"elastic torque on the motor", linear_motion ? "N" : "N m"};

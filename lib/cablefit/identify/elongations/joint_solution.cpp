@@ -29,7 +29,7 @@ std::string different_inertias(const JointFit& fit, const JudgedPoint& judged) {
       const double distance =
           std::abs(judged.point.solution.x(i) - judged.point.solution.x(k)) / sd;
       if (!(distance > kDifferenceSd)) continue;
-      text += fmt::format("{}{} {:.4g} ({:.40}) and {:.4g} ({:.40}), {:.1f} sd apart",
+      text += fmt::format("{}{} {:.4g} ({:.40}) and {:.4g} ({:.40}), {:.0f} sd apart",
                           text.empty() ? "" : "; ", p[a].name, judged.point.solution.x(i),
                           fit.jobs[static_cast<std::size_t>(p[a].preload)].name,
                           judged.point.solution.x(k),

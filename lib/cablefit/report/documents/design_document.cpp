@@ -268,11 +268,10 @@ void add_tidy_rows(const Words& words, Document& document) {
 Table excitation_table(const ExcitationPlan& plan) {
   Table table;
   table.title = "Expected uncertainty from this motion";
-  table.columns = {{"", "equation", "", true}, {"", "parameter", "", true},
-                   {"", "unit", "", true},     {"", "value", ""},
-                   {"to expect", "error", ""}, {"to expect", "", "%"},
-                   {"of which", "sd", ""},     {"of which", "floor", ""},
-                   {"", "(25) will say", ""},  {"plain sine", "error", ""}};
+  table.columns = {{"", "equation", "", true}, {"", "parameter", "", true}, {"", "unit", "", true},
+                   {"", "value", ""},          {"to expect", "error", ""},  {"to expect", "", "%"},
+                   {"of which", "sd", ""},     {"of which", "floor", ""},   {"", "sd (25)", ""},
+                   {"plain sine", "error", ""}};
   for (std::size_t k = 0; k < plan.fit.parameters.size(); ++k) {
     const PlannedParameter& p = plan.fit.parameters[k];
     table.rows.push_back(

@@ -291,12 +291,12 @@ void add_answer(const DynamicPreload& preload, Document& document) {
   const std::string use = preload.fits.size() > 1 ? "use " + best->model + "; " : "";
   document.summary.push_back(
       {preload.name, fmt::format("{}residual: {}", use, residual_text(*best, unit))});
+  if (const std::string depends = dependence_text(preload, best->model); !depends.empty())
+    document.summary.push_back({"", "residual against motion and load: " + depends});
   for (const DynamicFit& fit : preload.fits)
     if (&fit != best)
       document.summary.push_back(
           {"  " + fit.model, fmt::format("residual: {}", residual_text(fit, unit))});
-  if (const std::string depends = dependence_text(preload, best->model); !depends.empty())
-    document.summary.push_back({"", "residual against motion and load: " + depends});
 }
 
 /// Share of the squared torque of an equation that the best model of every preload explains.

@@ -194,10 +194,11 @@ std::vector<std::string> validation_warnings(const DynamicPreload& preload) {
     const ConditionError* worst = worst_of(e);
     if (worst == nullptr) continue;
     warnings.push_back(fmt::format(
-        "{}, {} equation: fails on held-out logs: {} instead of {} {} rms; worst: "
+        "{}, {} equation: {} on held-out logs: {} instead of {} {} rms; worst: "
         "{}{}, {} instead of {} {}",
-        e.model, e.equation, number(e.conditions.front().rms), number(e.conditions.front().fitted),
-        unit, worst->condition, worst->value.empty() ? "" : " " + worst->value, number(worst->rms),
+        e.model, e.equation, e.conditions.front().fails ? "fails" : "is worse in places",
+        number(e.conditions.front().rms), number(e.conditions.front().fitted), unit,
+        worst->condition, worst->value.empty() ? "" : " " + worst->value, number(worst->rms),
         number(worst->fitted), unit));
   }
   return warnings;

@@ -1,6 +1,7 @@
 #include "cablefit/samples/rows/agreement.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -95,20 +96,31 @@ void require_agreement(std::span<const LogSurvey> logs, const PartFilter& wanted
 
 std::vector<std::string> unloaded_warnings(std::span<const LogSurvey> logs,
                                            const PartFilter& wanted) {
-  std::vector<std::string> warnings;
+  std::vector<std::string> names;  // of the missing columns
+  std::string first;
+  int more = -1;
   for (const LogSurvey& log : logs) {
     const int n = log.plan.rig.n_joints();
     if (log.plan.rig.load.law != nullptr ||
         std::none_of(log.parts.begin(), log.parts.end(), wanted))
       continue;
-    for (int joint = 0; joint < n; ++joint)
-      if (!log.plan.has(Channel::tau_load, joint))
-        warnings.push_back(fmt::format(
-            "{}: no tau_load{} column and no load law in the rig file: the load torque is taken as "
-            "0",
-            log.plan.path, n > 1 ? std::to_string(joint + 1) : ""));
+    bool any = false;
+    for (int joint = 0; joint < n; ++joint) {
+      if (log.plan.has(Channel::tau_load, joint)) continue;
+      any = true;
+      std::string name = "tau_load" + (n > 1 ? std::to_string(joint + 1) : "");
+      if (std::find(names.begin(), names.end(), name) == names.end())
+        names.push_back(std::move(name));
+    }
+    if (any && ++more == 0) first = log.plan.path;
   }
-  return warnings;
+  if (names.empty()) return {};
+  const std::string others =
+      more > 0 ? fmt::format(" (and {} more log{})", more, more > 1 ? "s" : "") : "";
+  return {
+      fmt::format("{}{}: no {} column and no load law in the rig file: the load torque is taken "
+                  "as 0; give \"load\" in the rig file, {{\"type\": \"none\"}} where there is none",
+                  first, others, fmt::join(names, ", "))};
 }
 
 bool has_trusted_finding(std::span<const LogSurvey> logs, const PartFilter& wanted) {
