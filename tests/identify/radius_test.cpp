@@ -1,4 +1,7 @@
 // Motor radii that the rig file does not know: what finds them, how sure, and which logs cannot.
+#include <random>
+#include <sstream>
+
 #include "cablefit/identify/elastic_search.hpp"
 #include "cablefit/identify/elastic_stage.hpp"
 #include "cablefit/identify/identify.hpp"
@@ -105,24 +108,60 @@ TEST_CASE("a link blocked in several positions shows the motor radii", "[identif
         Approx(estimate(fit.parameters, "r_m[a]").value).epsilon(1e-12));
 }
 
-TEST_CASE("a link blocked in one position does not show the motor radii", "[identify]") {
-  for (const double l_o : {0.0, 1e-3}) {
-    const PlainRig rig = pulley_pair(l_o);
-    Bench bench = bench_of(radius_rig_text(rig, 0.031, -0.031, l_o > 0));
-    bench.add_text(blocked_log(rig, {0}, 60, 97));
-    const IdentifyResult r = identify(bench.logs(), {});
-    for (const char* name : {"r_m[a]", "r_m[b]", "k[a]_0", "k[b]_1"}) {
-      INFO(name << " " << estimate(r.parameters, name).not_identifiable);
-      CHECK(estimate(r.parameters, name).not_identifiable.starts_with("is not separable from "));
-    }
-    CHECK(message_of([&] { fit_elastic_stage(bench.logs(), {}, ElongationMode::automatic); }) ==
-          (l_o > 0 ? "r_m[a] is not separable from k[a]_0, k[a]_1, k[b]_0, k[b]_1, l_o[a], l_o[b], "
-                     "r_m[b] in these logs"
-                   : "r_m[a] is not separable from k[a]_0, k[a]_1 in these logs") +
-              std::string("; a link blocked in one position shows motor_radius^2 k_0 alone: record "
-                          "moving logs for `cablefit identify`, or block the link in several "
-                          "positions"));
+/// The log with this noise on q, the second column.
+std::string with_noise(const std::string& log, double sd) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal(0, sd);
+  std::istringstream lines(log);
+  std::string line, noisy;
+  std::getline(lines, noisy);
+  while (std::getline(lines, line)) {
+    const auto first = line.find(','), second = line.find(',', first + 1);
+    noisy +=
+        fmt::format("\n{},{:.9f}{}", line.substr(0, first), normal(random), line.substr(second));
   }
+  return noisy + '\n';
+}
+
+// Noise of q would pass for a motion to which no torque answers: a radius that is far too large.
+TEST_CASE("a link blocked in one position does not show the motor radii", "[identify]") {
+  for (const bool noisy : {false, true})
+    for (const double l_o : {0.0, 1e-3}) {
+      const PlainRig rig = pulley_pair(l_o);
+      Bench bench = bench_of(radius_rig_text(rig, 0.031, -0.031, l_o > 0));
+      const std::string log = blocked_log(rig, {0}, 40, 97);
+      bench.add_text(noisy ? with_noise(log, 1e-4) : log);
+      const std::string one = message_of([&] { identify(bench.logs(), {}); });
+      CHECK(one == (noisy
+                        ? "r_m[a] is not separable from the stiffness: the link is blocked in one "
+                          "position (q differs by 0 rad between logs, by 0.00069 rad within one)"
+                        : "r_m[a] is not separable from the stiffness: the link is blocked in one "
+                          "position (q differs by 0 rad between logs, by 0 rad within one)") +
+                       std::string(", which shows motor_radius^2 k_0 alone; record moving logs for "
+                                   "`cablefit identify`, block the link in several positions, or "
+                                   "give the radius"));
+      CHECK(message_of([&] { fit_elastic_stage(bench.logs(), {}, ElongationMode::automatic); }) ==
+            one);
+    }
+}
+
+TEST_CASE("a known initial elongation shows the motor radii", "[identify][recover]") {
+  const PlainRig rig = pulley_pair(2e-3);
+  Bench bench = bench_of(radius_rig_text(rig, 0.033, -0.033, false));
+  bench.add_text(blocked_log(rig, {0}, 60, 23));
+  check_recovered(identify(bench.logs(), {}).parameters,
+                  {{"r_m[a]", kRadius}, {"r_m[b]", -kRadius}, {"k[a]_0", 2e5}, {"k[a]_1", 1e7}}, 3);
+}
+
+// Both cables always taut: k and l_o stay open, and the pulleys show all the same.
+TEST_CASE("motor radii are found where the stiffness of each cable is not", "[identify]") {
+  const PlainRig rig = pulley_pair(1e-3);
+  Bench bench = bench_of(radius_rig_text(rig, 0.036, -0.036, true));
+  bench.add_text(moving_log(rig, 20, 12));
+  const IdentifyResult r = identify(bench.logs(), {});
+  check_recovered(r.parameters, {{"r_m[a]", kRadius}, {"r_m[b]", -kRadius}}, 3);
+  for (const char* name : {"k[a]_0", "k[b]_1"})
+    CHECK(estimate(r.parameters, name).not_identifiable.starts_with("is not separable from k["));
 }
 
 TEST_CASE("radii of preloaded cables are searched together", "[identify]") {
@@ -140,6 +179,15 @@ TEST_CASE("radii of preloaded cables are searched together", "[identify]") {
   CHECK(message(replaced(both, R"({"search": -0.031})", R"({"search": -0.03})")) ==
         "rig.json: preload 'default': no cable forces balance with the motor radii to start from; "
         "start from radii of one motor_radius / link_radius, with their signs");
+}
+
+TEST_CASE("a motor radius of the wrong sign is refused", "[identify]") {
+  const PlainRig rig = pulley_pair(0);
+  Bench bench = bench_of(radius_rig_text(rig, -0.031, 0.031, false));
+  bench.add_text(moving_log(rig, 5, 99));
+  CHECK(message_of([&] { identify(bench.logs(), {}); }, bench.folder().path()) ==
+        "rig.json: the search of the motor radius of cable 'a' starts from -0.031 m, but theta "
+        "against q shows about 0.03 m; turn its sign, or that of link_radius");
 }
 
 TEST_CASE("stage 2 and refine take motor radii as known", "[identify]") {

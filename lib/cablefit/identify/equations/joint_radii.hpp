@@ -18,6 +18,8 @@ JointFit with_radii(JointFit fit, const Eigen::VectorXd& radii);
 
 /// The motor radii of the jobs where the logs show the reduction: theta runs through N q when q
 /// moves far, and a searched radius is link_radius / N. Else they stay as the rig file has them.
+/// Throws Error(input) for a radius of the wrong sign, and Error(not_identifiable) when no link
+/// moves from where it is blocked and no l_o is known: noise of q would pass for its motion.
 void start_radii(std::span<const LogSurvey> logs, std::vector<PreloadJob>& jobs);
 
 /// Of cables that pull against each other r_m / r_l is the same (8c), so that all r_m that are

@@ -114,9 +114,7 @@ std::string why_unexcited(const JointFit& fit, const JudgedPoint& judged, Eigen:
                      fit.jobs.front().transmission.cables[p.cable].name);
 }
 
-constexpr const char* kRadiusRemedy =
-    "; a link blocked in one position shows motor_radius^2 k_0 alone: record moving logs for "
-    "`cablefit identify`, or block the link in several positions";
+constexpr const char* kRadiusRemedy = "; move the link farther, or give the radius";
 
 /// Of a motor radius whose column is that of other parameters but for noise; empty: it is not.
 std::string why_open(const JointFit& fit, const JudgedPoint& judged, Eigen::Index k) {
