@@ -55,15 +55,17 @@ JointPoint point_at(JointFit& fit, const JointPoint& from, const RadiusStep& ste
 
 /// Moves fit and point to the first better place on the way; false: there is none.
 bool advance(JointFit& fit, JointPoint& point, const RadiusStep& step) {
-  for (double length = std::min(1.0, kLargestStep / step.largest()); length > kSmallestStep;
-       length /= 4) {
+  double length = std::min(1.0, kLargestStep / step.largest());
+  while (length > kSmallestStep) {
     JointFit next =
         with_radii(fit, searched_radii(fit).array() * (length * step.ln_radius.array()).exp());
     JointPoint at = point_at(next, point, step, length);
-    if (!(at.merit() < point.merit())) continue;
-    fit = std::move(next);
-    point = std::move(at);
-    return true;
+    if (at.merit() < point.merit()) {
+      fit = std::move(next);
+      point = std::move(at);
+      return true;
+    }
+    length /= 4;
   }
   return false;
 }

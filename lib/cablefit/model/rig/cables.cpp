@@ -34,7 +34,7 @@ DisplacementMap read_map(const JsonNode& node) {
   }
   const JsonNode& type = node.at("type");
   const MapKind* kind = at_place_of(type, [&] { return &find_map_kind(type.text()); });
-  const DisplacementMap map{kind, kind->read(node)};
+  DisplacementMap map{kind, kind->read(node)};
   for (const double angle : {-1.0, 0.0, 1.0}) sane(node, "a radius", map.radius(angle));
   return map;
 }
