@@ -201,7 +201,7 @@ TEST_CASE("stage 2 and refine take motor radii as known", "[identify]") {
   CHECK(message([&] { fit_dynamic(bench.logs(), {}, {}); }) == "rig.json: stage 2" + rest);
   CHECK(message([&] { fit_elastic(bench.logs(), {}); }) == "rig.json: this fit" + rest);
   CHECK(message([&] {
-          own_base({.train = {bench.logs().begin(), bench.logs().end()}}, 1);
+          own_base({{bench.logs().begin(), bench.logs().end()}, {}, {}}, 1);
         }) == "rig.json: refine" + rest);
 }
 
