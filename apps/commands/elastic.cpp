@@ -202,8 +202,10 @@ int run_elastic(const Arguments& arguments) {
   elastic.honest_sd = options.honest_sd;
   elastic.figures = wants_figures(options);
   const std::vector<LogSurvey> blocked = elastic.still ? logs : logs_of(logs, Phase::blocked);
+  const bool of_elongations =
+      elongations != ElongationMode::known && (search || wants_search(blocked));
   const bool searches = !blocked.empty() && !elastic.still &&
-                        elongations != ElongationMode::known && (search || wants_search(blocked));
+                        (of_elongations || searches_radius(std::span<const LogSurvey>(blocked)));
   if (searches) require_searchable(elastic);
   if (searches && n_prove > 0)
     throw usage_error("--prove and a search of l_o cannot be combined",

@@ -106,6 +106,8 @@ TEST_CASE("the rig schema has every displacement map") {
     CHECK(properties(map) == known_to_rig_reader(start + type + R"(", "?": 0}}]})"));
   }
   CHECK(maps == known_to_rig_reader(start + R"(?"}}]})"));
+  CHECK(properties(root.at("$defs").at("searched")) ==
+        known_to_rig_reader(R"({"cables": [{"motor_radius": {"search": 1, "?": 0}}]})"));
 }
 
 TEST_CASE("the model schema has every effect with its parameters") {

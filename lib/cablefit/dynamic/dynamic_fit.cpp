@@ -23,6 +23,7 @@
 #include "cablefit/dynamic/rows/requirements.hpp"
 #include "cablefit/dynamic/rows/settled_effects.hpp"
 #include "cablefit/model/effects/effect_parameter.hpp"
+#include "cablefit/model/rig/searched_radius.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
 #include "cablefit/samples/rows/unused_rows.hpp"
 
@@ -275,6 +276,8 @@ DynamicResult fit_dynamic(std::span<const LogSurvey> logs, const ElasticResult& 
     for (const LogSurvey& log : logs)
       if (std::any_of(log.parts.begin(), log.parts.end(), wanted))
         require_channels(log.plan, rigid);
+    if (!rigid)
+      for (const LogSurvey& log : logs) refuse_searched_radius(log.plan.rig, "stage 2");
     if (!rigid)
       for (const std::string& model : options.models)
         job.elastic.push_back(&require_stage1(elastic, name, model));

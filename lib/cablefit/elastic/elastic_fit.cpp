@@ -17,6 +17,7 @@
 #include "cablefit/elastic/models/model_errors.hpp"
 #include "cablefit/elastic/zeros/log_zeros.hpp"
 #include "cablefit/elastic/zeros/standstill.hpp"
+#include "cablefit/model/rig/searched_radius.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
 #include "cablefit/samples/rows/unused_rows.hpp"
 
@@ -122,6 +123,7 @@ void refuse_search(const Rig& rig) {
                         fmt::format("the initial elongation of cable '{}' has to be searched first",
                                     rig.transmission.cables[c].name),
                         "run 'cablefit elastic' or 'cablefit identify', or give a number");
+  refuse_searched_radius(rig, "this fit");
 }
 
 /// What Fig. 4 compares the fitted cables with: the straight line, and cables of order 1.

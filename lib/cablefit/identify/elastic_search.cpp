@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "cablefit/identify/identify.hpp"
+#include "cablefit/model/rig/searched_radius.hpp"
+#include "cablefit/model/rig_facts.hpp"
 
 namespace cablefit {
 namespace {
@@ -13,7 +15,12 @@ constexpr int kDefaultOrder = 2;  // as in identify()
 
 bool is_elongation(const Estimate& e) { return e.name.starts_with("l_o["); }
 
+bool is_radius(const Estimate& e) { return e.name.starts_with("r_m["); }
+
 void require_determined(const IdentifyResult& joint) {
+  for (const Estimate& e : joint.parameters)
+    if (is_radius(e) && !e.not_identifiable.empty())
+      throw Error(ErrorKind::not_identifiable, fmt::format("{} {}", e.name, e.not_identifiable));
   for (const IdentifyPreload& preload : joint.preloads)
     for (const Estimate& e : preload.parameters)
       if (is_elongation(e) && !e.not_identifiable.empty())
@@ -22,7 +29,7 @@ void require_determined(const IdentifyResult& joint) {
             fmt::format("preload '{:.40}': {} {}", preload.name, e.name, e.not_identifiable));
 }
 
-/// The logs of one preload, with its l_o as known.
+/// The logs of one preload, with its l_o and motor radii as known.
 std::vector<LogSurvey> known_logs(std::span<const LogSurvey> logs, const IdentifyPreload& preload) {
   std::vector<LogSurvey> known;
   for (const LogSurvey& log : logs) {
@@ -31,12 +38,20 @@ std::vector<LogSurvey> known_logs(std::span<const LogSurvey> logs, const Identif
       continue;
     known.push_back(log);
     Rig& rig = known.back().plan.rig;
-    for (std::size_t c = 0; c < rig.transmission.cables.size(); ++c)
-      rig.transmission.cables[c].initial_elongation =
-          preload.transmission.cables[c].initial_elongation;
+    for (std::size_t c = 0; c < rig.transmission.cables.size(); ++c) {
+      const Cable& found = preload.transmission.cables[c];
+      rig.transmission.cables[c].initial_elongation = found.initial_elongation;
+      if (is_searched(rig.transmission.cables[c].motor_map.front()))
+        set_motor_radius(rig.transmission, c, found.motor_map.front().radius(0));
+    }
     rig.search_elongation.assign(rig.search_elongation.size(), false);
   }
   return known;
+}
+
+/// The first log of a preload, with its rig as the user gave it.
+const LogSurvey& log_of(std::span<const LogSurvey> logs, const std::string& preload) {
+  return first_log_with(logs, [&](const PartSurvey& part) { return part.preload == preload; });
 }
 
 /// The joint fit's numbers with their sd instead of those of this preload alone. Errors and figures
@@ -65,9 +80,14 @@ void describe_search(const IdentifyResult& joint, const IdentifyPreload& preload
   const char* unit = joint.cable_space || joint.linear_motion ? "mm" : "mrad";
   for (const Estimate& e : preload.parameters)
     if (is_elongation(e))
-      out.selection.push_back(fmt::format(
-          "{} = {:.5g} +- {:.2g} {}, 95 % within {:.5g} .. {:.5g} by profile likelihood", e.name,
-          scale * e.value, scale * e.sd, unit, scale * e.ci_low, scale * e.ci_high));
+      out.selection.push_back(
+          fmt::format("{} = {:.5g} +- {:.2g} {}, 95 % within {:.5g} .. {:.5g}{}", e.name,
+                      scale * e.value, scale * e.sd, unit, scale * e.ci_low, scale * e.ci_high,
+                      e.profiled ? " by profile likelihood" : ""));
+  for (const Estimate& e : joint.parameters)
+    if (is_radius(e))
+      out.selection.push_back(fmt::format("{} = {:.5g} +- {:.2g} {}, 95 % within {:.5g} .. {:.5g}",
+                                          e.name, e.value, e.sd, e.unit, e.ci_low, e.ci_high));
   const auto is_there = [&](const Figure& figure) {
     return std::any_of(out.figures.begin(), out.figures.end(),
                        [&](const Figure& other) { return other.title == figure.title; });
@@ -82,6 +102,12 @@ bool wants_search(std::span<const LogSurvey> logs) {
   return std::any_of(logs.begin(), logs.end(), [](const LogSurvey& log) {
     const std::vector<bool>& search = log.plan.rig.search_elongation;
     return std::find(search.begin(), search.end(), true) != search.end();
+  });
+}
+
+bool searches_radius(std::span<const LogSurvey> logs) {
+  return std::any_of(logs.begin(), logs.end(), [](const LogSurvey& log) {
+    return searches_radius(log.plan.rig.transmission);
   });
 }
 
@@ -117,6 +143,7 @@ ElasticResult fit_elastic_with_search(std::span<const LogSurvey> logs,
       for (ElasticFit& fit : stage1.fits)
         if (fit.model == "poly") take_joint(joint, preload, fit);
       describe_search(joint, preload, stage1);
+      stage1.rig_facts = elastic_facts(log_of(logs, preload.name).plan.rig);
       result.preloads.push_back(std::move(stage1));
     }
   }

@@ -105,7 +105,9 @@ Stage1 tried(std::span<const LogSurvey> logs, const ElasticOptions& options, Ela
 ElasticResult fit_elastic_stage(std::span<const LogSurvey> logs, const ElasticOptions& options,
                                 ElongationMode mode) {
   const bool search_all = mode == ElongationMode::search;
-  if (search_all || (mode == ElongationMode::automatic && wants_search(logs)))
+  // With l_o "search" in a rig file, --l-o known is refused as without a searched radius.
+  const bool is_known = mode == ElongationMode::known && wants_search(logs);
+  if (search_all || (!is_known && (wants_search(logs) || searches_radius(logs))))
     return fit_elastic_with_search(logs, options, search_all);
   ElasticResult result = fit_elastic(logs, options);
   if (mode == ElongationMode::known || options.still || options.unconstrained ||

@@ -9,6 +9,7 @@
 #include "cablefit/identify/aliased_inertias.hpp"
 #include "cablefit/identify/elastic_stage.hpp"
 #include "cablefit/identify/elongations/joint_solution.hpp"
+#include "cablefit/identify/equations/joint_radii.hpp"
 #include "cablefit/identify/identify_floor.hpp"
 #include "cablefit/identify/preload_records.hpp"
 #include "cablefit/identify/results/identify_checks.hpp"
@@ -127,6 +128,29 @@ JointPoint settled_fit(std::span<const LogSurvey> logs, const IdentifyOptions& o
   }
 }
 
+constexpr int kMostRadiusPasses = 5;
+constexpr double kStillRadius = 1e-4;  // relative: what settings are chosen by does not see it
+
+/// The full fit. Settings of moving logs go by the elastic side, and that by the motor radii: where
+/// these are searched and moved, they are chosen again.
+JointPoint fit_with_settings(std::span<const LogSurvey> logs, const IdentifyOptions& options,
+                             std::vector<PreloadJob> jobs, const std::vector<JointRecord>& blocked,
+                             std::vector<PreloadFacts>& facts, JointFit& fit) {
+  for (int pass = 1;; ++pass) {
+    std::vector<PreloadFacts> own = facts;
+    JointFit first;
+    const JointPoint start = fit_first(logs, options, own, blocked, jobs, first);
+    JointPoint point = settled_fit(logs, options, jobs, blocked, first, start, own, fit);
+    const Eigen::ArrayXd before = searched_radii(first), found = searched_radii(fit);
+    const bool moved = ((found - before).abs() > kStillRadius * before.abs()).any();
+    if (!moved || pass == kMostRadiusPasses) {
+      facts = std::move(own);
+      return point;
+    }
+    set_radii(found, jobs);
+  }
+}
+
 /// Whether the blocked logs of one preload, without cables in the rig file, show a curve of cables
 /// that are both taut at zero: only a search of l_o describes it.
 bool curve_wants_search(std::span<const LogSurvey> logs, const IdentifyOptions& options) {
@@ -171,10 +195,8 @@ IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& 
     if (facts[j].has_blocked)
       blocked[j] = blocked_record(logs, options, facts[j].has_moving, facts[j]);
 
-  JointFit first;
-  const JointPoint start = fit_first(logs, options, facts, blocked, jobs, first);
   JointFit fit;
-  JointPoint point = settled_fit(logs, options, jobs, blocked, first, start, facts, fit);
+  JointPoint point = fit_with_settings(logs, options, jobs, blocked, facts, fit);
   const bool apart =
       std::any_of(fit.layout.parameters.begin(), fit.layout.parameters.end(),
                   [](const JointParameter& p) { return p.inertia && p.preload != kShared; });

@@ -10,6 +10,7 @@
 #include "cablefit/dynamic/rows/requirements.hpp"
 #include "cablefit/elastic/rows/blocked_rows.hpp"
 #include "cablefit/model/model.hpp"
+#include "cablefit/model/rig/searched_radius.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
 
 namespace cablefit {
@@ -50,6 +51,7 @@ JointEquation equation_of(Side side, int joint, const DynamicJob& job, const Pre
   equation.response = columns.torque;
   equation.motor_side = side == Side::motor;
   equation.joint = joint;
+  equation.searches_radius = searches_radius(facts.rig.transmission);
   return equation;
 }
 
@@ -94,6 +96,7 @@ JointEquation blocked_equation_of(const ElasticJob& job, const BlockedRows& rows
   equation.response = columns.tau;
   equation.blocked = true;
   equation.joint = joint;
+  equation.searches_radius = searches_radius(facts.rig.transmission);
   return equation;
 }
 

@@ -11,6 +11,7 @@
 #include "cablefit/identify/elastic_stage.hpp"
 #include "cablefit/identify/identify.hpp"
 #include "cablefit/model/model_parameters.hpp"
+#include "cablefit/model/rig/searched_radius.hpp"
 #include "cablefit/prove/model_to_simulate.hpp"
 #include "cablefit/refine/rows/base_rows.hpp"
 #include "cablefit/samples/survey/phases.hpp"
@@ -261,6 +262,7 @@ OwnBase own_base(const RefineLogs& logs, int threads) {
     const Rig& rig = first_log_with(fitted, [&](const PartSurvey& part) {
                        return part.preload == name;
                      }).plan.rig;
+    if (!rigid) refuse_searched_radius(rig, "refine");
     base.models.push_back(blank_model(name, rig, rigid));
     all_blocked = all_blocked && any_part(fitted, name, Phase::blocked);
   }

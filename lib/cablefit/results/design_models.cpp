@@ -7,6 +7,7 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/json/json_document.hpp"
 #include "cablefit/base/quote.hpp"
+#include "cablefit/model/rig/searched_radius.hpp"
 #include "cablefit/results/read_model.hpp"
 
 namespace cablefit {
@@ -32,6 +33,12 @@ Model model_of_rig(const JsonNode& root, std::string& choice) {
                         fmt::format("cable {} has no coefficients",
                                     cablefit::quoted(model.transmission.cables[k].name)),
                         "give \"coefficients\": [N/m, N/m^2, ...], or a fitted model");
+  for (std::size_t k = 0; k < model.transmission.cables.size(); ++k)
+    if (is_searched(model.transmission.cables[k].motor_map.front()))
+      throw input_error(root.at("cables").items[k].at("motor_radius").place,
+                        fmt::format("the motor radius of cable {} is searched",
+                                    cablefit::quoted(model.transmission.cables[k].name)),
+                        "give it in m, or the result of 'cablefit identify'");
   choice = fmt::format("the cables of rig {}", root.place.file);
   return model;
 }

@@ -50,7 +50,14 @@ void append_row(Eigen::MatrixXd& rows, const Eigen::RowVectorXd& row) {
   rows.row(rows.rows() - 1) = row;
 }
 
-/// All parameters, l_o as its change.
+/// The places, and those of every r_m: a descent moves the elongations alone.
+std::vector<Eigen::Index> and_radii(const JointFit& fit, std::vector<Eigen::Index> held) {
+  const auto n = static_cast<Eigen::Index>(fit.layout.parameters.size());
+  for (Eigen::Index k = fit.layout.first_radius(); k < n; ++k) held.push_back(k);
+  return held;
+}
+
+/// All parameters, l_o and r_m as their changes.
 JointProblem about(const JointFit& fit, const JointPoint& point, const Pivot& pivot,
                    const std::vector<Eigen::Index>& held) {
   JointProblem problem = joint_problem(fit.jobs, fit.layout, point.input(), fit.weights,
@@ -104,13 +111,15 @@ std::vector<Eigen::Index> blocked_by_slack(const JointFit& fit, const JointPoint
 void look_ahead(const JointFit& fit, Descent& descent) {
   const Pivot pivot = pivot_of(fit, descent.point);
   JointSolution s = solve(about(fit, descent.point, pivot, descent.held));
-  const Eigen::Index n_searched = s.x.size() - fit.layout.n_linear;
-  std::vector<Eigen::Index> held = blocked_by_slack(fit, descent.point, s.x.tail(n_searched));
+  const auto step_of = [&](const JointSolution& solution) -> Eigen::VectorXd {
+    return solution.x.segment(fit.layout.n_linear, fit.layout.n_elongations);
+  };
+  std::vector<Eigen::Index> held = blocked_by_slack(fit, descent.point, step_of(s));
   if (!held.empty()) {
     held.insert(held.end(), descent.held.begin(), descent.held.end());
     s = solve(about(fit, descent.point, pivot, held));
   }
-  descent.step = s.x.tail(n_searched);
+  descent.step = step_of(s);
   descent.x = s.x.head(fit.layout.n_linear);
   descent.length = 1;
   double relative = 0;
@@ -166,6 +175,10 @@ JointProblem linearised(const JointFit& fit, const JointPoint& point) {
   return about(fit, point, {point.solution.x, true}, {});
 }
 
+JointProblem next_step(const JointFit& fit, const JointPoint& point) {
+  return about(fit, point, pivot_of(fit, point), {});
+}
+
 Eigen::Index n_undetermined(const JointFit& fit, const JointPoint& point) {
   return solve(linearised(fit, point)).null_directions.cols();
 }
@@ -184,7 +197,7 @@ std::vector<JointPoint> descend(JointFit& fit, const std::vector<ElongationStart
   }
   std::vector<JointPoint> points = evaluate(fit, first);
   for (std::size_t d = 0; d < starts.size(); ++d) {
-    descents.push_back({std::move(points[d]), starts[d].held, {}, {}});
+    descents.push_back({std::move(points[d]), and_radii(fit, starts[d].held), {}, {}});
     look_ahead(fit, descents.back());
   }
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {

@@ -15,14 +15,17 @@ struct ElongationStart {
 };
 
 /// The points that Gauss-Newton with step halving reaches; all descents share their passes over the
-/// logs. Deterministic.
+/// logs. Motor radii that are searched stand still. Deterministic.
 std::vector<JointPoint> descend(JointFit& fit, const std::vector<ElongationStart>& starts);
 
-/// The problem of all parameters about a point, l_o as its change; what holds the point's solution
-/// (equilibrium, active bounds) as equalities.
+/// The problem of all parameters about a point, l_o and r_m as their changes; what holds the
+/// point's solution (equilibrium, active bounds) as equalities.
 JointProblem linearised(const JointFit& fit, const JointPoint& point);
 
-/// Directions of all parameters, l_o included, that the data do not determine there.
+/// The same for a step of all of l_o and r_m: far from equilibrium about coefficients without it.
+JointProblem next_step(const JointFit& fit, const JointPoint& point);
+
+/// Directions of all parameters, l_o and r_m included, that the data do not determine there.
 Eigen::Index n_undetermined(const JointFit& fit, const JointPoint& point);
 
 /// Largest |l_o| looked at: twice the way that the logs stretch or slacken the cable.

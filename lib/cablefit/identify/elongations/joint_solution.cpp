@@ -7,6 +7,7 @@
 
 #include "cablefit/estimate/spread/long_run.hpp"
 #include "cablefit/identify/elongations/elongation_search.hpp"
+#include "cablefit/identify/elongations/radius_search.hpp"
 
 namespace cablefit {
 namespace {
@@ -38,7 +39,10 @@ std::string different_inertias(const JointFit& fit, const JudgedPoint& judged) {
   return text;
 }
 
+/// None beside a searched r_m, which a profile would hold where it is: intervals are then those of
+/// the joint covariance.
 ElongationProfiles profiles_of(JointFit& fit, const JudgedPoint& judged) {
+  if (fit.layout.searches_radius()) return {};
   std::vector<Eigen::Index> which;
   std::vector<double> t, scale;
   const Eigen::MatrixXd& honest = judged.covariance.covariance;
@@ -68,18 +72,22 @@ JointPoint settle(JointFit& fit, JointPoint point) {
     point = fit.searches()
                 ? least_certain(fit, {polish(fit, point), evaluate(fit, {point.l_o}).front()})
                 : polish(fit, point);
+    point = search_radii(fit, std::move(point));
     if (change < kSettled) break;
   }
   return point;
 }
 
 JointPoint fit_all(JointFit& fit, const JointFit& first, const JointPoint& start) {
-  if (n_undetermined(first, start) > 0) return settle(fit, search_elongations(fit));
+  if (n_undetermined(first, start) > 0) {
+    JointPoint point = search_elongations(fit);
+    return settle(fit, search_radii(fit, std::move(point)));
+  }
   const JointPoint begin = evaluate(fit, {start.l_o}).front();
   const std::vector<double> variances = own_variances(fit, begin);
   for (std::size_t e = 0; e < variances.size(); ++e)
     if (variances[e] > 0) fit.weights[e] = 1 / variances[e];
-  return settle(fit, descend(fit, {{start.l_o}}).front());
+  return settle(fit, search_radii(fit, descend(fit, {{start.l_o}}).front()));
 }
 
 JointPoint share_inertias(JointFit& fit, JointPoint point, IdentifyResult& result) {

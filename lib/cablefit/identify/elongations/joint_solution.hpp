@@ -1,4 +1,4 @@
-// The best point of the whole problem: weights, l_o and everything that judges them.
+// The best point of the whole problem: weights, l_o, r_m and everything that judges them.
 #pragma once
 
 #include <vector>

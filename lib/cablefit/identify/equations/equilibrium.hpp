@@ -14,7 +14,8 @@ Eigen::MatrixXd reference_coupling(const Transmission& transmission);
 
 /// S f and P f as rows over the parameters of the layout, for these l_o; none where all cables are
 /// slack, which balances by itself. `coefficients`: those about which l_o is linearised, then the
-/// parameters go on with the changes of l_o. `place`: of the job.
+/// parameters go on with the changes of l_o, and of r_m: tied radii (joint_radii.hpp) stay in
+/// balance. `place`: of the job.
 Eigen::MatrixXd equilibrium_rows(const PreloadJob& job, int place, const Eigen::VectorXd& l_o,
                                  const JointLayout& layout,
                                  const std::optional<Eigen::VectorXd>& coefficients);

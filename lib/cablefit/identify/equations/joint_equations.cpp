@@ -13,14 +13,21 @@ Eigen::Index n_coefficients(const Transmission& transmission) {
   return n;
 }
 
-/// Torque of a joint (from 0) per unit coefficient, and its derivative with respect to l; rows x
-/// coefficients each. Cables that do not act on the joint leave zeros.
+/// d l / d ln r_m of a round motor pulley: the way that it winds up from the reference pose.
+Eigen::ArrayXd wound_up(const Transmission& transmission, const Cable& cable,
+                        const Eigen::ArrayXd& turned) {
+  return cable.motor_map.front().radius(0) * (turned - transmission.reference_theta()(0));
+}
+
+/// Torque of a joint (from 0) per unit coefficient, and its derivatives with respect to l and,
+/// where `turn` has columns, to ln r_m (one joint); rows x coefficients each. Cables that do not
+/// act on the joint leave zeros.
 void fill_elastic(const Transmission& transmission, std::span<const JointSignals> joints, int joint,
                   bool motor_side, Eigen::Ref<Eigen::MatrixXd> basis,
-                  Eigen::Ref<Eigen::MatrixXd> slope) {
+                  Eigen::Ref<Eigen::MatrixXd> slope, Eigen::Ref<Eigen::MatrixXd> turn) {
   const auto own = static_cast<std::size_t>(joint);
-  const Eigen::ArrayXd at = motor_side ? joints[own].theta - transmission.encoder_zero()(joint)
-                                       : Eigen::ArrayXd(joints[own].q);
+  const Eigen::ArrayXd turned = joints[own].theta - transmission.encoder_zero()(joint);
+  const Eigen::ArrayXd at = motor_side ? turned : Eigen::ArrayXd(joints[own].q);
   std::array<double, kMaxCableOrder> value{}, rise{};
   Eigen::Index first = 0;
   for (const Cable& cable : transmission.cables) {
@@ -43,19 +50,37 @@ void fill_elastic(const Transmission& transmission, std::span<const JointSignals
       }
     }
   }
+  if (turn.cols() == 0) return;
+  first = 0;
+  for (const Cable& cable : transmission.cables) {
+    const int n = cable.n_coefficients();
+    const Eigen::ArrayXd wound = wound_up(transmission, cable, turned);
+    for (Eigen::Index k = first; k < first + n; ++k) {
+      turn.col(k) = slope.col(k).array() * wound;
+      if (motor_side) turn.col(k) += basis.col(k);  // r_m is the lever of the force as well
+    }
+    first += n;
+  }
+}
+
+/// Columns of one choice of l_o.
+Eigen::Index n_of_trial(const JointEquation& equation, Eigen::Index n_coefficients) {
+  const JointColumns c = joint_columns(equation, n_coefficients);
+  return c.count - c.basis;
 }
 
 /// Columns of `base`, the deflection, then those of every trial.
 Equation widened(const JointEquation& equation, const std::vector<Transmission>& trials) {
   const Eigen::Index n_base = equation.n_base();
   const Eigen::Index n = n_coefficients(trials.front());
+  const Eigen::Index n_own = n_of_trial(equation, n);
   Equation wide = equation.base;
-  const auto extra = static_cast<std::size_t>(1 + 2 * n * static_cast<Eigen::Index>(trials.size()));
+  const auto extra = static_cast<std::size_t>(1 + n_own * static_cast<Eigen::Index>(trials.size()));
   // Averaged like the other columns of the same equation: see Decimation.
   const bool averaged = equation.base.averaged.empty() || equation.base.averaged.front();
   wide.columns.resize(wide.columns.size() + extra);
   wide.averaged.resize(wide.columns.size(), averaged);
-  wide.fill = [base = equation.base, n_base, n, trials, motor_side = equation.motor_side,
+  wide.fill = [base = equation.base, n_base, n, n_own, trials, motor_side = equation.motor_side,
                joint = equation.joint](const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
     base.fill(signals, out.leftCols(n_base));
     const JointSignals& s = signals.joints[static_cast<std::size_t>(joint)];
@@ -63,8 +88,8 @@ Equation widened(const JointEquation& equation, const std::vector<Transmission>&
     Eigen::Index first = n_base + 1;
     for (const Transmission& trial : trials) {
       fill_elastic(trial, signals.joints, joint, motor_side, out.middleCols(first, n),
-                   out.middleCols(first + n, n));
-      first += 2 * n;
+                   out.middleCols(first + n, n), out.middleCols(first + 2 * n, n_own - 2 * n));
+      first += n_own;
     }
   };
   return wide;
@@ -118,7 +143,8 @@ Share share_of(const EquationBatch& batch, Eigen::Index n_shared, Eigen::Index n
 void collect_record(std::span<const LogSurvey> logs, const JointRecord& record,
                     const std::vector<Transmission>& trials, bool with_cells, int threads,
                     JointRows& out) {
-  const Eigen::Index n_own = 2 * n_coefficients(trials.front());
+  // The equations of a record are of one rig, so that they all have the columns of r_m or none.
+  const Eigen::Index n_own = n_of_trial(record.equations.front(), n_coefficients(trials.front()));
   const Eigen::Index expected = expected_rows(logs, record.wanted, record.settings);
   std::vector<Equation> wide;
   std::vector<RowStatistics> blank;
@@ -160,11 +186,17 @@ EquationFacts& EquationFacts::operator+=(const EquationFacts& other) {
 
 JointColumns joint_columns(const JointEquation& equation, Eigen::Index n) {
   const Eigen::Index basis = equation.n_base() + 1;
-  return {equation.n_base(), basis, basis + n, basis + 2 * n};
+  const Eigen::Index turn = basis + 2 * n;
+  return {equation.n_base(), basis, basis + n, turn, turn + (equation.searches_radius ? n : 0)};
 }
 
 Equation equation_at(const JointEquation& equation, const Transmission& cables) {
   return widened(equation, {cables});
+}
+
+bool searches_radius(const PreloadJob& job) {
+  const std::vector<bool>& searched = job.searched_radius;
+  return std::find(searched.begin(), searched.end(), true) != searched.end();
 }
 
 Transmission with_elongations(Transmission transmission, const Eigen::VectorXd& l_o) {

@@ -36,6 +36,7 @@ struct JointEquation {
   bool motor_side = true;                    ///< S Phi with sign +1, else P Phi with sign -1
   bool blocked = false;                      ///< of logs in which the links are held
   int joint = 0;                             ///< whose torques balance, from 0
+  bool searches_radius = false;              ///< has the columns JointColumns::turn
 
   Eigen::Index n_base() const { return static_cast<Eigen::Index>(base.columns.size()); }
   double sign() const { return motor_side ? 1.0 : -1.0; }
@@ -47,9 +48,10 @@ inline constexpr const char* kBlockedFriction = "f_sm_blocked";  ///< beside the
 inline constexpr const char* kCreep = "f_vm_blocked";            ///< not reported
 
 /// Place of the columns of one choice of l_o in its RowStatistics: those of `base`, the deflection,
-/// a basis column per coefficient, and its derivative with respect to l.
+/// a basis column per coefficient, its derivative with respect to l, and, where a motor radius r_m
+/// is searched, with respect to ln r_m of its cable.
 struct JointColumns {
-  Eigen::Index deflection = 0, basis = 0, slope = 0, count = 0;
+  Eigen::Index deflection = 0, basis = 0, slope = 0, turn = 0, count = 0;
 };
 JointColumns joint_columns(const JointEquation& equation, Eigen::Index n_coefficients);
 
@@ -66,9 +68,10 @@ struct JointRecord {
 /// One preload on its way through the fit.
 struct PreloadJob {
   std::string name;
-  Transmission transmission;   ///< l_o as known or as a first guess
-  std::vector<bool> searched;  ///< per cable: l_o is not known
-  bool cable_space = false;    ///< coefficients are those of cables, not of the joint
+  Transmission transmission;               ///< l_o as known or as a first guess
+  std::vector<bool> searched;              ///< per cable: l_o is not known
+  std::vector<bool> searched_radius = {};  ///< per cable: the transmission has r_m as found so far
+  bool cable_space = false;                ///< coefficients are those of cables, not of the joint
   bool linear_motion = false;
   double load_inertia = 0;   ///< rides on the link, kg m^2; known, beside the J_link looked for
   const Arm* arm = nullptr;  ///< of several joints; nullptr: the links do not move each other
@@ -95,6 +98,9 @@ struct JointRows {
 /// One pass over the logs of the preload. `elongations`: per trial l_o of every cable.
 JointRows collect(std::span<const LogSurvey> logs, const PreloadJob& job,
                   const std::vector<Eigen::VectorXd>& elongations, bool with_cells, int threads);
+
+/// Some motor radius is not known.
+bool searches_radius(const PreloadJob& job);
 
 /// The transmission with these initial elongations.
 Transmission with_elongations(Transmission transmission, const Eigen::VectorXd& l_o);

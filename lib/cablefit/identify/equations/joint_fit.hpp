@@ -27,9 +27,7 @@ struct JointFit {
   std::vector<std::map<std::vector<double>, Rows>> known = {};  ///< per job, by l_o
   std::vector<std::vector<EquationFacts>> facts = {};           ///< per job, per equation
 
-  bool searches() const {
-    return layout.n_linear < static_cast<Eigen::Index>(layout.parameters.size());
-  }
+  bool searches() const { return layout.n_elongations > 0; }
   /// l - l_o of a cable in all equations of the job.
   ElongationRange displacements(std::size_t job, std::size_t cable) const;
   /// Elongations that the cables of a job reach with these l_o.

@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include "cablefit/identify/equations/equilibrium.hpp"
+#include "cablefit/identify/equations/joint_radii.hpp"
 #include "cablefit/model/effects.hpp"
 #include "cablefit/model/model.hpp"
+#include "cablefit/model/rig/searched_radius.hpp"
 
 namespace cablefit {
 namespace {
@@ -105,6 +107,16 @@ void add_elongations(const std::vector<PreloadJob>& jobs, JointLayout& layout) {
     }
 }
 
+/// The pulleys are those of all preloads.
+void add_radii(const PreloadJob& job, JointLayout& layout) {
+  for (std::size_t c = 0; c < job.searched_radius.size(); ++c) {
+    if (!job.searched_radius[c]) continue;
+    const std::string name = radius_name(job.transmission.cables[c]);
+    layout.parameters.push_back(
+        {name, name, job.linear_motion ? "1" : "m", -kUnbounded, kShared, c});
+  }
+}
+
 /// The link's inertia of a preload, or of all when the same load rides on it; shared under several
 /// loads it stays that of the link alone.
 void add_loads(const std::vector<PreloadJob>& jobs, JointLayout& layout) {
@@ -150,10 +162,13 @@ JointBlock block_of(const JointEquation& equation, const PreloadJob& job, int pl
   if (!form.coefficients) return block;
   Eigen::Index first = 0;
   for (const Cable& cable : job.transmission.cables) {
-    const Eigen::Index column = layout.find(elongation_name(cable), place);
-    for (int k = 0; column >= 0 && k < cable.n_coefficients(); ++k)
-      block.regressors(c.slope + first + k, column) =
-          equation.sign() * (*form.coefficients)(first + k);
+    const Eigen::VectorXd force =
+        equation.sign() * form.coefficients->segment(first, cable.n_coefficients());
+    if (const Eigen::Index l_o = layout.find(elongation_name(cable), place); l_o >= 0)
+      block.regressors.col(l_o).segment(c.slope + first, force.size()) = force;
+    if (const Eigen::Index r_m = layout.find(radius_name(cable), place); r_m >= 0)
+      block.regressors.col(r_m).segment(c.turn + first, force.size()) =
+          force / cable.motor_map.front().radius(0);
     first += cable.n_coefficients();
   }
   return block;
@@ -178,8 +193,10 @@ JointLayout joint_layout(const std::vector<PreloadJob>& jobs, bool inertias_apar
   add_blocked(jobs, layout);
   layout.n_linear = static_cast<Eigen::Index>(layout.parameters.size());
   add_elongations(jobs, layout);
+  layout.n_elongations = static_cast<Eigen::Index>(layout.parameters.size()) - layout.n_linear;
   use_units_of_axis(jobs.front(), layout);
   add_loads(jobs, layout);
+  add_radii(jobs.front(), layout);
   return layout;
 }
 
@@ -204,6 +221,11 @@ JointProblem joint_problem(const std::vector<PreloadJob>& jobs, const JointLayou
         problem.blocks.back().record = record_number;
       }
       ++record_number;
+    }
+    if (form.coefficients) {
+      const Eigen::MatrixXd ties = tie_rows(jobs[j], layout);
+      problem.equalities.conservativeResize(problem.equalities.rows() + ties.rows(), n_params);
+      problem.equalities.bottomRows(ties.rows()) = ties;
     }
     if (!form.equilibrium) continue;
     const Eigen::MatrixXd rows =

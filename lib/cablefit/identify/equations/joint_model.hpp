@@ -21,7 +21,7 @@ struct JointParameter {
   std::string unit;    ///< of the rig's axis
   double lower = -kUnbounded;
   int preload = kShared;  ///< place among the jobs
-  std::size_t cable = 0;  ///< of a coefficient or l_o
+  std::size_t cable = 0;  ///< of a coefficient, l_o or r_m
   bool inertia = false;   ///< or another base parameter of an arm
   /// Part of it that is known and belongs to it in results: a load's inertia, or where a nonlinear
   /// parameter was linearised.
@@ -29,9 +29,17 @@ struct JointParameter {
 };
 
 struct JointLayout {
-  std::vector<JointParameter> parameters;  ///< coefficients, inertias, the rest, then l_o
-  Eigen::Index n_coefficients = 0;         ///< of all cables, first
-  Eigen::Index n_linear = 0;               ///< all but l_o
+  /// Coefficients, inertias, the rest, then l_o, then r_m.
+  std::vector<JointParameter> parameters;
+  Eigen::Index n_coefficients = 0;  ///< of all cables, first
+  Eigen::Index n_linear = 0;        ///< all but l_o and r_m
+  Eigen::Index n_elongations = 0;   ///< searched
+
+  /// Place of the first r_m that is searched.
+  Eigen::Index first_radius() const { return n_linear + n_elongations; }
+  bool searches_radius() const {
+    return first_radius() < static_cast<Eigen::Index>(parameters.size());
+  }
 
   /// Of the preload, or shared; -1 when there is none.
   Eigen::Index find(std::string_view name, int preload) const;
@@ -47,8 +55,8 @@ struct JointInput {
 
 struct JointForm {
   bool equilibrium = true;  ///< impose P f = S f = 0 in the reference pose, (8c)/(19e)
-  /// Coefficients about which l_o is linearised: a column per searched l_o, whose parameter is the
-  /// change of l_o. None: l_o stands still, parameters are the n_linear first ones.
+  /// Coefficients about which l_o and r_m are linearised: a column per searched one, whose
+  /// parameter is its change. None: they stand still, parameters are the n_linear first ones.
   std::optional<Eigen::VectorXd> coefficients = {};
 };
 

@@ -6,6 +6,8 @@
 
 #include "cablefit/elastic/rows/blocked_rows.hpp"
 #include "cablefit/identify/equations/equilibrium.hpp"
+#include "cablefit/identify/equations/joint_radii.hpp"
+#include "cablefit/model/rig/searched_radius.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
 
 namespace cablefit {
@@ -84,6 +86,7 @@ void decide_elongations(PreloadJob& job, bool several, const IdentifyOptions& op
                     job.searched[c] ? "searched" : fmt::format("= {:g}", cable.initial_elongation));
   }
   facts.decisions.push_back({"l_o", value, reason});
+  require_tied_radii(job, facts.rig.path);
   const bool any = std::find(job.searched.begin(), job.searched.end(), true) != job.searched.end();
   if (!any && !can_balance(job.transmission, elongations_of(job.transmission)))
     throw input_error(
@@ -93,6 +96,21 @@ void decide_elongations(PreloadJob& job, bool several, const IdentifyOptions& op
                     job.name),
         "give every cable its elongation, or \"search\"; check the signs of the radii, and that "
         "motor_radius / link_radius is the same for cables that pull against each other");
+}
+
+void note_radii(const PreloadJob& job, PreloadFacts& facts) {
+  std::string value;
+  bool moved = false;
+  for (std::size_t c = 0; c < job.searched_radius.size(); ++c) {
+    if (!job.searched_radius[c]) continue;
+    const Cable& cable = job.transmission.cables[c];
+    const double start = cable.motor_map.front().radius(0);
+    value += fmt::format("{}{} searched from {:.3g} m", value.empty() ? "" : ", ",
+                         radius_name(cable), start);
+    moved = moved || start != facts.rig.transmission.cables[c].motor_map.front().radius(0);
+  }
+  facts.decisions.push_back(
+      {"r_m", value, moved ? "the reduction that theta against q shows" : "by the rig file"});
 }
 
 /// Without any torque.
@@ -143,12 +161,17 @@ std::vector<PreloadJob> begin_jobs(std::span<const LogSurvey> logs, const Identi
     job.linear_motion = f.rig.linear_motion;
     job.load_inertia = f.load_inertia;
     job.arm = f.arm;
+    job.searched_radius = searched_radii(f.rig.transmission);
+    for (std::size_t c = 0; c < job.searched_radius.size(); ++c)
+      if (job.searched_radius[c])
+        set_motor_radius(job.transmission, c, job.transmission.cables[c].motor_map[0].radius(0));
     jobs.push_back(std::move(job));
   }
   for (std::size_t j = 1; j < jobs.size(); ++j)
     if (!same_cables(jobs[0].transmission, jobs[j].transmission) ||
         jobs[0].cable_space != jobs[j].cable_space ||
-        jobs[0].linear_motion != jobs[j].linear_motion)
+        jobs[0].linear_motion != jobs[j].linear_motion ||
+        jobs[0].searched_radius != jobs[j].searched_radius)
       throw input_error(
           {first_log_with(logs, parts_of(jobs[j].name)).plan.path, 0, 0},
           fmt::format("preloads '{:.40}' and '{:.40}' have rigs with different cables",
@@ -164,6 +187,9 @@ std::vector<PreloadJob> begin_jobs(std::span<const LogSurvey> logs, const Identi
           "--preload");
   for (std::size_t j = 0; j < jobs.size(); ++j)
     decide_elongations(jobs[j], jobs.size() > 1, options, facts[j]);
+  start_radii(logs, jobs);
+  if (searches_radius(jobs.front()))
+    for (std::size_t j = 0; j < jobs.size(); ++j) note_radii(jobs[j], facts[j]);
   result.linear_motion = jobs[0].linear_motion;
   result.cable_space = jobs[0].cable_space;
   return jobs;

@@ -7,6 +7,9 @@
 #include <cmath>
 #include <optional>
 
+#include "cablefit/identify/elongations/radius_search.hpp"
+#include "cablefit/identify/equations/joint_radii.hpp"
+
 namespace cablefit {
 namespace {
 
@@ -111,10 +114,23 @@ std::string why_unexcited(const JointFit& fit, const JudgedPoint& judged, Eigen:
                      fit.jobs.front().transmission.cables[p.cable].name);
 }
 
+constexpr const char* kRadiusRemedy = "; move the link farther, or give the radius";
+
+/// Of a motor radius whose column is that of other parameters but for noise; empty: it is not.
+std::string why_open(const JointFit& fit, const JudgedPoint& judged, Eigen::Index k) {
+  if (k < fit.layout.first_radius()) return "";
+  const double radius = searched_radii(fit)(k - fit.layout.first_radius());
+  const double sd = std::sqrt(std::max(0.0, judged.covariance.covariance(k, k)));
+  if (sd < kOpenRadius * std::abs(radius)) return "";
+  return fmt::format(
+      "is not separable from the stiffness in these logs: its sd would be {:.0f} %{}",
+      100 * sd / std::abs(radius), kRadiusRemedy);
+}
+
 }  // namespace
 
 std::string why_undetermined(const JointFit& fit, const JudgedPoint& judged, Eigen::Index k) {
-  if (judged.linearised.determines(unit(judged, k))) return "";
+  if (judged.linearised.determines(unit(judged, k))) return why_open(fit, judged, k);
   const std::string others = partners(fit, judged, k);
   if (others.empty()) return why_unexcited(fit, judged, k);
   std::string text = fmt::format("is not separable from {} in these logs", others);
@@ -122,6 +138,7 @@ std::string why_undetermined(const JointFit& fit, const JudgedPoint& judged, Eig
   const bool elastic = k < fit.layout.n_coefficients || k >= fit.layout.n_linear;
   if (const std::string sums = elastic ? determined_sums(fit, judged) : ""; !sums.empty())
     text += "; determined is " + sums;
+  if (k >= fit.layout.first_radius()) return text + kRadiusRemedy;
   if (k >= fit.layout.n_linear)
     text += fmt::format(
         "; move until cable {} goes slack",

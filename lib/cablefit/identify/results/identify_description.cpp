@@ -158,7 +158,7 @@ ElongationCovariance searched_elongations(const JointFit& fit, const JudgedPoint
   ElongationCovariance searched;
   std::vector<Eigen::Index> kept;
   std::vector<double> scale;
-  for (Eigen::Index k = fit.layout.n_linear; k < all.rows(); ++k) {
+  for (Eigen::Index k = fit.layout.n_linear; k < fit.layout.first_radius(); ++k) {
     const Estimate& e = estimates[static_cast<std::size_t>(k)];
     if (!e.not_identifiable.empty() || !(e.sd > 0) || !(all(k, k) > 0)) continue;
     const int job = fit.layout.parameters[static_cast<std::size_t>(k)].preload;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "cablefit/estimate/fit/parameter_estimate.hpp"
+#include "cablefit/identify/equations/joint_radii.hpp"
 #include "cablefit/identify/results/determined.hpp"
 
 namespace cablefit {
@@ -63,6 +64,13 @@ void take_profile(const JudgedPoint& judged, Eigen::Index k, bool honest, double
   if (honest && at < judged.profile.size()) set_profile(e, judged.profile[at], 0, lower);
 }
 
+double value_at(const JointFit& fit, const JudgedPoint& judged, Eigen::Index k) {
+  if (k < fit.layout.n_linear) return judged.point.solution.x(k);
+  if (k >= fit.layout.first_radius()) return searched_radii(fit)(k - fit.layout.first_radius());
+  const JointParameter& p = fit.layout.parameters[static_cast<std::size_t>(k)];
+  return judged.point.l_o[static_cast<std::size_t>(p.preload)](static_cast<Eigen::Index>(p.cable));
+}
+
 Estimate estimate_at(const JointFit& fit, const JudgedPoint& judged,
                      const ElongationProfile* profile, Eigen::Index k, bool honest) {
   const JointParameter& p = fit.layout.parameters[static_cast<std::size_t>(k)];
@@ -84,9 +92,7 @@ Estimate estimate_at(const JointFit& fit, const JudgedPoint& judged,
     add_known(p.known, e);
     return e;
   }
-  e.value = k < fit.layout.n_linear ? judged.point.solution.x(k)
-                                    : judged.point.l_o[static_cast<std::size_t>(p.preload)](
-                                          static_cast<Eigen::Index>(p.cable));
+  e.value = value_at(fit, judged, k);
   e.sd = sd_at(chosen(judged.covariance, honest), k);
   e.sd_white = sd_at(judged.covariance.white, k);
   set_interval(e, degrees_of_freedom, p.lower);

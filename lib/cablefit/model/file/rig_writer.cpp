@@ -3,6 +3,7 @@
 
 #include "cablefit/model/file/controller_text.hpp"
 #include "cablefit/model/file/writer.hpp"
+#include "cablefit/model/rig/searched_radius.hpp"
 
 namespace cablefit::model_file {
 namespace {
@@ -60,6 +61,7 @@ Json vector_json(const Eigen::VectorXd& values) {
 }
 
 Json map_json(const DisplacementMap& map) {
+  if (is_searched(map)) return {{"search", map.radius(0)}};
   if (map.kind->constant_radius) return map.radius(0);
   Json json{{"type", map.kind->name}};
   for (const auto& [key, value] : map.kind->entries(map.parameters)) {

@@ -8,6 +8,7 @@
 #include "cablefit/base/quote.hpp"
 #include "cablefit/model/file/parts.hpp"
 #include "cablefit/model/json_reading.hpp"
+#include "cablefit/model/rig/searched_radius.hpp"
 
 namespace cablefit::model_file {
 namespace {
@@ -125,6 +126,10 @@ void read_cables(const JsonNode& list, Model* model) {
 void read_transmission(const JsonNode& node, Model* model) {
   node.allow_only({"linear", "cables", "theta_0"});
   model->transmission = model->rig.transmission;
+  if (searches_radius(model->transmission)) {
+    throw node.error("the rig of this model searches a motor radius",
+                     "give \"motor_radius\" in m: a model knows it");
+  }
   const JsonNode* linear = node.find("linear");
   if (linear && node.find("cables")) {
     throw node.error("both \"linear\" and \"cables\"", "keep one of them");

@@ -7,6 +7,7 @@
 #include "cablefit/model/effects.hpp"
 #include "cablefit/model/json_reading.hpp"
 #include "cablefit/model/rig/parts.hpp"
+#include "cablefit/model/rig/searched_radius.hpp"
 
 namespace cablefit::rig_parts {
 namespace {
@@ -24,6 +25,7 @@ std::vector<std::string> parameter_names(const Rig& rig) {
       names.push_back(coefficient_name(cable, j, rig.cables_given));
     }
     names.push_back(elongation_name(cable));
+    names.push_back(radius_name(cable));
   }
   return names;
 }

@@ -8,6 +8,7 @@
 
 #include "cablefit/model/json_reading.hpp"
 #include "cablefit/model/rig/parts.hpp"
+#include "cablefit/model/rig/searched_radius.hpp"
 
 namespace cablefit::rig_parts {
 namespace {
@@ -23,13 +24,17 @@ double sane(const JsonNode& node, std::string_view what, double length) {
 /// A number is the radius of a round pulley, an object any kind of map.
 DisplacementMap read_map(const JsonNode& node) {
   if (node.is_number()) return round_pulley(sane(node, "a radius", node.number()));
+  if (node.is_object() && node.find("search")) {
+    throw node.error("this radius cannot be searched",
+                     "search \"motor_radius\" on a rig of one joint, and give this one in m");
+  }
   if (!node.is_object()) {
     throw node.error("neither a radius nor a displacement map",
                      "give the signed radius in m, or {\"type\": \"polynomial\", ...}");
   }
   const JsonNode& type = node.at("type");
   const MapKind* kind = at_place_of(type, [&] { return &find_map_kind(type.text()); });
-  const DisplacementMap map{kind, kind->read(node)};
+  DisplacementMap map{kind, kind->read(node)};
   for (const double angle : {-1.0, 0.0, 1.0}) sane(node, "a radius", map.radius(angle));
   return map;
 }
@@ -52,6 +57,29 @@ std::vector<DisplacementMap> read_maps(const JsonNode& node, int n_joints) {
                      "cable");
   }
   return maps;
+}
+
+/// As read_maps(), of one joint also {"search": r}.
+std::vector<DisplacementMap> read_motor_maps(const JsonNode& node, int n_joints) {
+  if (n_joints == 1 && node.is_array() && node.items.size() == 1)
+    return read_motor_maps(node.items.front(), n_joints);
+  if (node.is_string() && node.text() == "search") {
+    throw node.error("a search of a radius needs a value to start from",
+                     "give {\"search\": r} with the signed nominal radius r in m");
+  }
+  const JsonNode* start = node.is_object() && n_joints == 1 ? node.find("search") : nullptr;
+  if (!start) return read_maps(node, n_joints);
+  if (node.find("type")) {
+    throw node.error("only the radius of a round pulley can be searched",
+                     "give {\"search\": r} alone, or this map as it is");
+  }
+  node.allow_only({"search"});
+  const double radius = sane(*start, "a radius", start->number());
+  if (radius == 0) {
+    throw start->error("a search of a radius cannot start from 0",
+                       "give the signed nominal radius in m");
+  }
+  return {searched_pulley(radius)};
 }
 
 /// "toe", which only laws with a toe have.
@@ -116,7 +144,7 @@ Cable read_cable(const JsonNode& node, int n_joints, bool* search) {
   node.allow_only({"name", "motor_radius", "link_radius", "law", "order", "toe", "coefficients",
                    "initial_elongation"});
   Cable cable;
-  cable.motor_map = read_maps(node.at("motor_radius"), n_joints);
+  cable.motor_map = read_motor_maps(node.at("motor_radius"), n_joints);
   cable.link_map = read_maps(node.at("link_radius"), n_joints);
   cable.law = &read_law(node);
   cable.order = read_order(node, *cable.law);

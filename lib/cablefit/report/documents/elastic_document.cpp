@@ -280,7 +280,8 @@ Headline headline_of(const ElasticResult& result) {
   return headline;
 }
 
-/// Initial elongations that were searched, and how often all cables are taut; no lines without.
+/// Initial elongations and motor radii that were searched, and how often all cables are taut; no
+/// lines without.
 void add_elongations(const ElasticPreload& preload, Document& document) {
   if (preload.fits.empty()) return;
   const ElasticFit& cables =
@@ -290,6 +291,10 @@ void add_elongations(const ElasticPreload& preload, Document& document) {
     if (e.name.starts_with("l_o[") && e.not_identifiable.empty())
       found += fmt::format("{}{} = {} {}", found.empty() ? "" : ", ", e.name,
                            value_with_sd(1e3 * e.value, 1e3 * e.sd), "m" + e.unit);
+  for (const Estimate& e : cables.parameters)
+    if (e.name.starts_with("r_m["))
+      found += fmt::format("{}{} = {} {}", found.empty() ? "" : ", ", e.name,
+                           value_with_sd(e.value, e.sd), e.unit);
   if (!found.empty()) document.summary.push_back({"", found});
   if (is_preloaded(cables.transmission)) document.summary.push_back({"", modes_text(preload)});
 }

@@ -82,6 +82,12 @@ std::string interval_text(const Estimate& e) {
   return end(e.ci_low) + " .. " + end(e.ci_high);
 }
 
+/// Intervals of l_o are then those of the joint covariance.
+bool searches_radius(const IdentifyResult& result) {
+  return std::any_of(result.parameters.begin(), result.parameters.end(),
+                     [](const Estimate& e) { return e.name.starts_with("r_m["); });
+}
+
 /// l_o of every cable: found, or as given.
 Table elongation_table(const IdentifyResult& result) {
   Table table;
@@ -92,7 +98,7 @@ Table elongation_table(const IdentifyResult& result) {
                    {"", "cable", "", true},
                    {"", "l_o", length ? "mm" : "mrad"},
                    {"", "sd", length ? "mm" : "mrad"},
-                   {"", "95 % interval", "profile likelihood"},
+                   {"", "95 % interval", searches_radius(result) ? "" : "profile likelihood"},
                    {"", "tension", length && !result.cable_space ? "N" : "N m"}};
   if (result.cable_space) table.columns.back().unit = "N";
   for (const IdentifyPreload& preload : result.preloads)

@@ -1,0 +1,84 @@
+#include "cablefit/identify/elongations/radius_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/identify/equations/joint_radii.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr int kMaxIterations = 40;
+constexpr double kConverged = 1e-8;     // relative, far below any sd
+constexpr double kSmallestStep = 2e-3;  // of the Gauss-Newton step
+constexpr double kLargestStep = 0.1;    // relative
+
+/// What Gauss-Newton changes: ln r_m of every searched radius, and l_o.
+struct RadiusStep {
+  Eigen::VectorXd ln_radius;
+  Eigen::VectorXd l_o;  ///< of all that are searched
+
+  double largest() const { return ln_radius.cwiseAbs().maxCoeff(); }
+};
+
+RadiusStep step_from(const JointFit& fit, const JointPoint& point) {
+  JointProblem problem = next_step(fit, point);
+  JointSolution s = solve(problem);
+  const Eigen::VectorXd radius = searched_radii(fit);
+  const Eigen::Index first = fit.layout.first_radius();
+  Eigen::Index n_held = 0;
+  for (Eigen::Index k = 0; k < radius.size(); ++k) {
+    const Eigen::VectorXd unit = Eigen::VectorXd::Unit(problem.n_params(), first + k);
+    const double sd = std::sqrt(std::max(0.0, s.solve_operator(first + k, first + k)));
+    if (s.determines(unit) && sd < kOpenRadius * std::abs(radius(k))) continue;
+    problem.equalities.conservativeResize(problem.equalities.rows() + 1, problem.n_params());
+    problem.equalities.bottomRows(1) = unit.transpose();
+    ++n_held;
+  }
+  if (n_held == radius.size()) return {Eigen::VectorXd::Zero(radius.size()), {}};
+  if (n_held > 0) s = solve(problem);
+  return {s.x.tail(radius.size()).cwiseQuotient(radius),
+          s.x.segment(fit.layout.n_linear, fit.layout.n_elongations)};
+}
+
+/// A descent of the elongations at radii along the step.
+JointPoint point_at(JointFit& fit, const JointPoint& from, const RadiusStep& step, double length) {
+  Elongations l_o = from.l_o;
+  for (Eigen::Index k = 0; k < step.l_o.size(); ++k) {
+    const JointParameter& p =
+        fit.layout.parameters[static_cast<std::size_t>(fit.layout.n_linear + k)];
+    l_o[static_cast<std::size_t>(p.preload)](static_cast<Eigen::Index>(p.cable)) +=
+        length * step.l_o(k);
+  }
+  return descend(fit, {{std::move(l_o)}}).front();
+}
+
+/// Moves fit and point to the first better place on the way; false: there is none.
+bool advance(JointFit& fit, JointPoint& point, const RadiusStep& step) {
+  double length = std::min(1.0, kLargestStep / step.largest());
+  while (length > kSmallestStep) {
+    JointFit next =
+        with_radii(fit, searched_radii(fit).array() * (length * step.ln_radius.array()).exp());
+    JointPoint at = point_at(next, point, step, length);
+    if (at.merit() < point.merit()) {
+      fit = std::move(next);
+      point = std::move(at);
+      return true;
+    }
+    length /= 4;
+  }
+  return false;
+}
+
+}  // namespace
+
+JointPoint search_radii(JointFit& fit, JointPoint point) {
+  if (!fit.layout.searches_radius()) return point;
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    const RadiusStep step = step_from(fit, point);
+    if (!(step.largest() > kConverged) || !advance(fit, point, step)) break;
+  }
+  return point;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,34 @@
+// Motor radii that are searched: where they stand in the jobs of a fit, and where to start.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cablefit/identify/equations/joint_fit.hpp"
+
+namespace cablefit {
+
+/// Of the fit's jobs, in the order of the layout; m, signed.
+Eigen::VectorXd searched_radii(const JointFit& fit);
+
+void set_radii(const Eigen::VectorXd& radii, std::vector<PreloadJob>& jobs);
+
+/// The fit with these radii instead; it knows no rows.
+JointFit with_radii(JointFit fit, const Eigen::VectorXd& radii);
+
+/// The motor radii of the jobs where the logs show the reduction: theta runs through N q when q
+/// moves far, and a searched radius is link_radius / N. Else they stay as the rig file has them.
+/// Throws Error(input) for a radius of the wrong sign, and Error(not_identifiable) when no link
+/// moves from where it is blocked and no l_o is known: noise of q would pass for its motion.
+void start_radii(std::span<const LogSurvey> logs, std::vector<PreloadJob>& jobs);
+
+/// Of cables that pull against each other r_m / r_l is the same (8c), so that all r_m that are
+/// searched change by one factor: rows over all parameters of the layout, l_o and r_m by their
+/// changes. None where every l_o of such cables is known to be 0 or less.
+Eigen::MatrixXd tie_rows(const PreloadJob& job, const JointLayout& layout);
+
+/// Throws Error(input) where equilibrium ties a searched radius to one that is given, or the radii
+/// to start from cannot balance.
+void require_tied_radii(const PreloadJob& job, const std::string& rig_path);
+
+}  // namespace cablefit

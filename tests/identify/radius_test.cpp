@@ -1,0 +1,277 @@
+// Motor radii that the rig file does not know: what finds them, how sure, and which logs cannot.
+#include <random>
+#include <sstream>
+
+#include "cablefit/identify/elastic_search.hpp"
+#include "cablefit/identify/elastic_stage.hpp"
+#include "cablefit/identify/identify.hpp"
+#include "cablefit/model/rig_facts.hpp"
+#include "cablefit/refine/own_base.hpp"
+#include "cablefit/results/elastic_models.hpp"
+#include "cablefit/results/write/elastic_json.hpp"
+#include "tests/support/message.hpp"
+#include "tests/support/monte_carlo.hpp"
+#include "tests/support/plain_rigs.hpp"
+#include "tests/support/recover.hpp"
+
+namespace {
+
+using namespace cablefit;
+using namespace cablefit::test;
+
+constexpr double kRadius = 0.03, kLinkRadius = 0.05;
+
+/// Pulleys of 3 cm on the motor and 5 cm on the link.
+PlainRig pulley_pair(double l_o) {
+  PlainRig rig;
+  rig.joints = {PlainJoint{}};
+  rig.joints[0].sweep = 0.12;
+  rig.joints[0].swing = 1.2;
+  rig.cables = {{"a", {round_map(kRadius)}, {round_map(kLinkRadius)}, {2e5, 1e7}, l_o},
+                {"b", {round_map(-kRadius)}, {round_map(-kLinkRadius)}, {2e5, 1e7}, l_o}};
+  return rig;
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& with) {
+  const auto at = text.find(what);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, what.size(), with);
+}
+
+/// Its rig file with searches from these radii.
+std::string radius_rig_text(const PlainRig& rig, double start_a, double start_b, bool search_l_o) {
+  std::string text = rig_text(rig, "", search_l_o);
+  text = replaced(text, R"("motor_radius": [0.03])",
+                  fmt::format(R"("motor_radius": {{"search": {}}})", start_a));
+  return replaced(text, R"("motor_radius": [-0.03])",
+                  fmt::format(R"("motor_radius": {{"search": {}}})", start_b));
+}
+
+Bench bench_of(const std::string& rig) {
+  Bench bench;
+  bench.rig = read_rig(bench.folder().write("rig.json", rig));
+  return bench;
+}
+
+TEST_CASE("motor radii are found from moving logs", "[identify][recover]") {
+  const PlainRig rig = pulley_pair(0);
+  Bench bench = bench_of(radius_rig_text(rig, 0.033, -0.028, false));
+  bench.add_text(blocked_log(rig, {0}, 60, 91));
+  bench.add_text(moving_log(rig, 20, 92));
+  const IdentifyResult r = identify(bench.logs(), {});
+  check_recovered(r.parameters,
+                  {{"r_m[a]", kRadius},
+                   {"r_m[b]", -kRadius},
+                   {"k[a]_0", 2e5},
+                   {"k[a]_1", 1e7},
+                   {"k[b]_0", 2e5},
+                   {"J_link", 0.05},
+                   {"J_motor", 0.005}},
+                  3);
+  CHECK(estimate(r.parameters, "r_m[a]").unit == "m");
+  CHECK(estimate(r.parameters, "r_m[a]").rsd_percent() < 1);
+}
+
+TEST_CASE("motor radii and initial elongations are found together", "[identify][recover]") {
+  const PlainRig rig = pulley_pair(1e-3);
+  Bench bench = bench_of(radius_rig_text(rig, 0.036, -0.036, true));
+  bench.add_text(blocked_log(rig, {0}, 60, 93));
+  bench.add_text(moving_log(rig, 20, 94));
+  const IdentifyResult r = identify(bench.logs(), {});
+  check_recovered(r.parameters,
+                  {{"r_m[a]", kRadius}, {"r_m[b]", -kRadius}, {"k[a]_0", 2e5}, {"k[b]_0", 2e5}}, 3);
+  const IdentifyPreload& p = r.preloads.at(0);
+  check_recovered(p.parameters, {{"l_o[a]", 1e-3}, {"l_o[b]", 1e-3}}, 3);
+  // What the model is used for later takes the radius that was found.
+  REQUIRE(p.model.has_value());
+  const double found = estimate(r.parameters, "r_m[a]").value;
+  CHECK(p.model->rig.transmission.cables[0].motor_map[0].radius(0) == found);
+  CHECK(model_json(*p.model).find("search\": 0.0") == std::string::npos);
+}
+
+TEST_CASE("a link blocked in several positions shows the motor radii", "[identify][recover]") {
+  const PlainRig rig = pulley_pair(1e-3);
+  Bench bench = bench_of(radius_rig_text(rig, 0.031, -0.031, true));
+  for (const double q : {-0.3, 0.0, 0.3})
+    bench.add_text(blocked_log(rig, {q}, 60, 95 + static_cast<unsigned>(10 * (q + 1)), 200,
+                               q * (kLinkRadius / kRadius - 1)));
+  const ElasticResult r = fit_elastic_stage(bench.logs(), {}, ElongationMode::automatic);
+  const ElasticFit& fit = r.preloads.at(0).fits.back();
+  check_recovered(fit.parameters,
+                  {{"k[a]_0", 2e5}, {"r_m[a]", kRadius}, {"r_m[b]", -kRadius}, {"l_o[a]", 1e-3}},
+                  3);
+  CHECK(changed_fact(r.preloads[0].rig_facts, elastic_facts(bench.rig)).empty());
+  const std::string path = bench.folder().write("elastic.json", elastic_json(r));
+  std::string choice;
+  const std::vector<Model> models = read_elastic_models(path, "", "", choice);
+  CHECK(models.at(0).transmission.cables[0].motor_map[0].radius(0) ==
+        Approx(estimate(fit.parameters, "r_m[a]").value).epsilon(1e-12));
+}
+
+/// The log with this noise on q, the second column.
+std::string with_noise(const std::string& log, double sd) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal(0, sd);
+  std::istringstream lines(log);
+  std::string line, noisy;
+  std::getline(lines, noisy);
+  while (std::getline(lines, line)) {
+    const auto first = line.find(','), second = line.find(',', first + 1);
+    noisy +=
+        fmt::format("\n{},{:.9f}{}", line.substr(0, first), normal(random), line.substr(second));
+  }
+  return noisy + '\n';
+}
+
+// Noise of q would pass for a motion to which no torque answers: a radius that is far too large.
+TEST_CASE("a link blocked in one position does not show the motor radii", "[identify]") {
+  for (const bool noisy : {false, true})
+    for (const double l_o : {0.0, 1e-3}) {
+      const PlainRig rig = pulley_pair(l_o);
+      Bench bench = bench_of(radius_rig_text(rig, 0.031, -0.031, l_o > 0));
+      const std::string log = blocked_log(rig, {0}, 40, 97);
+      bench.add_text(noisy ? with_noise(log, 1e-4) : log);
+      const std::string one = message_of([&] { identify(bench.logs(), {}); });
+      CHECK(one == (noisy
+                        ? "r_m[a] is not separable from the stiffness: the link is blocked in one "
+                          "position (q differs by 0 rad between logs, by 0.00069 rad within one)"
+                        : "r_m[a] is not separable from the stiffness: the link is blocked in one "
+                          "position (q differs by 0 rad between logs, by 0 rad within one)") +
+                       std::string(", which shows motor_radius^2 k_0 alone; record moving logs for "
+                                   "`cablefit identify`, block the link in several positions, or "
+                                   "give the radius"));
+      CHECK(message_of([&] { fit_elastic_stage(bench.logs(), {}, ElongationMode::automatic); }) ==
+            one);
+    }
+}
+
+TEST_CASE("a known initial elongation shows the motor radii", "[identify][recover]") {
+  const PlainRig rig = pulley_pair(2e-3);
+  Bench bench = bench_of(radius_rig_text(rig, 0.033, -0.033, false));
+  bench.add_text(blocked_log(rig, {0}, 60, 23));
+  check_recovered(identify(bench.logs(), {}).parameters,
+                  {{"r_m[a]", kRadius}, {"r_m[b]", -kRadius}, {"k[a]_0", 2e5}, {"k[a]_1", 1e7}}, 3);
+}
+
+// Both cables always taut: k and l_o stay open, and the pulleys show all the same.
+TEST_CASE("motor radii are found where the stiffness of each cable is not", "[identify]") {
+  const PlainRig rig = pulley_pair(1e-3);
+  Bench bench = bench_of(radius_rig_text(rig, 0.036, -0.036, true));
+  bench.add_text(moving_log(rig, 20, 12));
+  const IdentifyResult r = identify(bench.logs(), {});
+  check_recovered(r.parameters, {{"r_m[a]", kRadius}, {"r_m[b]", -kRadius}}, 3);
+  for (const char* name : {"k[a]_0", "k[b]_1"})
+    CHECK(estimate(r.parameters, name).not_identifiable.starts_with("is not separable from k["));
+}
+
+TEST_CASE("radii of preloaded cables are searched together", "[identify]") {
+  const PlainRig rig = pulley_pair(1e-3);
+  const std::string both = radius_rig_text(rig, 0.031, -0.031, false);
+  const auto message = [&](const std::string& text) {
+    Bench bench = bench_of(text);
+    bench.add_text(blocked_log(rig, {0}, 10, 98));
+    return message_of([&] { identify(bench.logs(), {}); }, bench.folder().path());
+  };
+  CHECK(message(replaced(both, R"({"search": -0.031})", "-0.03")) ==
+        "rig.json: preload 'default': the motor radius of cable 'b' is given, but cables that pull "
+        "against each other have one motor_radius / link_radius; search the motor radii of all of "
+        "them, or give them all");
+  CHECK(message(replaced(both, R"({"search": -0.031})", R"({"search": -0.03})")) ==
+        "rig.json: preload 'default': no cable forces balance with the motor radii to start from; "
+        "start from radii of one motor_radius / link_radius, with their signs");
+}
+
+TEST_CASE("a motor radius of the wrong sign is refused", "[identify]") {
+  const PlainRig rig = pulley_pair(0);
+  Bench bench = bench_of(radius_rig_text(rig, -0.031, 0.031, false));
+  bench.add_text(moving_log(rig, 5, 99));
+  CHECK(message_of([&] { identify(bench.logs(), {}); }, bench.folder().path()) ==
+        "rig.json: the search of the motor radius of cable 'a' starts from -0.031 m, but theta "
+        "against q shows about 0.03 m; turn its sign, or that of link_radius");
+}
+
+TEST_CASE("stage 2 and refine take motor radii as known", "[identify]") {
+  const PlainRig rig = pulley_pair(0);
+  Bench bench = bench_of(radius_rig_text(rig, 0.031, -0.031, false));
+  bench.add_text(moving_log(rig, 3, 99));
+  const auto message = [&](auto action) { return message_of(action, bench.folder().path()); };
+  const std::string rest =
+      " does not search the motor radius of cable 'a'; run 'cablefit identify' and take its model, "
+      "or give the radius that it found";
+  CHECK(message([&] { fit_dynamic(bench.logs(), {}, {}); }) == "rig.json: stage 2" + rest);
+  CHECK(message([&] { fit_elastic(bench.logs(), {}); }) == "rig.json: this fit" + rest);
+  CHECK(message([&] {
+          own_base({{bench.logs().begin(), bench.logs().end()}, {}, {}}, 1);
+        }) == "rig.json: refine" + rest);
+}
+
+/// Runs over seeds, and what became of the parameters.
+class RadiusRuns {
+ public:
+  explicit RadiusRuns(const NamedValues& truth) {
+    for (const auto& [name, value] : truth) tables_.push_back({name, value, {}, {}, 0, 0});
+  }
+  void add(const std::vector<Estimate>& found) {
+    for (RunTable& table : tables_) table.add(estimate(found, table.name));
+  }
+  /// Of n runs, 95 % intervals hold the truth in 95 % but for three standard errors, and the mean
+  /// is that of the truth but for three, or for an error of the method that is part of the sd.
+  void check(const char* title, bool has_floor) const {
+    RunTable::print_header(title);
+    for (const RunTable& t : tables_) {
+      t.print();
+      INFO(t.name << ": mean " << t.mean() << " +- " << t.standard_error());
+      CHECK(std::abs(t.bias()) < 3 * t.standard_error() + (has_floor ? t.mean_sd() : 0.0));
+      const double covered = static_cast<double>(t.inside_interval) / t.n();
+      CHECK(covered > 0.95 - 3 * std::sqrt(0.95 * 0.05 / t.n()));
+    }
+  }
+
+ private:
+  std::vector<RunTable> tables_;
+};
+
+int n_runs() { return full_monte_carlo() ? 100 : 5; }
+
+// The motion determines r_m to some 10 ppm even with this much noise: its sd is mostly the method's
+// own error, so that its intervals are too wide rather than too narrow.
+TEST_CASE("intervals of motor radii hold the truth", "[identify][recover][monte-carlo]") {
+  PlainRig rig = pulley_pair(1e-3);
+  rig.joints[0].swing = 0.1;
+  rig.torque_noise = 0.5;
+  RadiusRuns runs({{"r_m[a]", kRadius},
+                   {"r_m[b]", -kRadius},
+                   {"k[a]_0", 2e5},
+                   {"k[a]_1", 1e7},
+                   {"J_link", 0.05},
+                   {"J_motor", 0.005}});
+  for (int run = 0; run < n_runs(); ++run) {
+    const unsigned seed = 1000 + 2 * static_cast<unsigned>(run);
+    Bench bench = bench_of(radius_rig_text(rig, 0.031, -0.031, true));
+    bench.add_text(blocked_log(rig, {0}, 40, seed));
+    bench.add_text(moving_log(rig, 10, seed + 1));
+    runs.add(identify(bench.logs(), {}).parameters);
+  }
+  runs.check("motor radii, 40 s blocked and 10 s moving", true);
+}
+
+TEST_CASE("intervals of stage 1 with motor radii hold the truth",
+          "[identify][recover][monte-carlo]") {
+  PlainRig rig = pulley_pair(1e-3);
+  rig.torque_noise = 0.5;
+  RadiusRuns runs({{"r_m[a]", kRadius}, {"k[a]_0", 2e5}, {"k[a]_1", 1e7}, {"k[b]_0", 2e5}});
+  for (int run = 0; run < n_runs(); ++run) {
+    Bench bench = bench_of(radius_rig_text(rig, 0.031, -0.031, true));
+    unsigned seed = 5000 + 3 * static_cast<unsigned>(run);
+    // On whole steps of the encoder, which no sd knows of.
+    for (const double q : {-0.096, 0.0, 0.096})
+      bench.add_text(blocked_log(rig, {q}, 40, seed++, 200, q * (kLinkRadius / kRadius - 1)));
+    runs.add(fit_elastic_stage(bench.logs(), {}, ElongationMode::automatic)
+                 .preloads.at(0)
+                 .fits.back()
+                 .parameters);
+  }
+  runs.check("motor radii, 3 x 40 s blocked", false);
+}
+
+}  // namespace
