@@ -5,6 +5,7 @@
 #include "cablefit/identify/elastic_search.hpp"
 #include "cablefit/identify/elastic_stage.hpp"
 #include "cablefit/identify/identify.hpp"
+#include "cablefit/model/rig/searched_radius.hpp"
 #include "cablefit/model/rig_facts.hpp"
 #include "cablefit/refine/own_base.hpp"
 #include "cablefit/results/elastic_models.hpp"
@@ -106,6 +107,10 @@ TEST_CASE("a link blocked in several positions shows the motor radii", "[identif
   const std::vector<Model> models = read_elastic_models(path, "", "", choice);
   CHECK(models.at(0).transmission.cables[0].motor_map[0].radius(0) ==
         Approx(estimate(fit.parameters, "r_m[a]").value).epsilon(1e-12));
+  // The classical spring has no cables, but its reduction is that of the radii found.
+  const Model linear = read_elastic_models(path, "", "linear", choice).at(0);
+  CHECK(!searches_radius(linear.rig.transmission));
+  CHECK(linear.transmission.reductions()(0) == Approx(kLinkRadius / kRadius).epsilon(1e-3));
 }
 
 /// The log with this noise on q, the second column.

@@ -150,8 +150,8 @@ TEST_CASE("a cable that no log loads is left out of the base", "[refine]") {
   CHECK(result.verdict == Verdict::none);
   REQUIRE(!result.warnings.empty());
   CHECK(result.warnings.back() ==
-        "the base has no cable 2: it is seldom or never taut, and samples in which it is are left "
-        "out; load both cables in each third of the logs, or give a model");
+        "the base has no cable 2: the training samples hardly load it; all samples in which it is "
+        "taut are left out; load both cables in each third of the logs, or give a model");
   std::string choice;
   const Model again = parse_model(parse_json(model_json(result.models.at(0)), "refined.json"), "",
                                   "", choice, Completeness::as_it_is);

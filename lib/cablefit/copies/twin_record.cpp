@@ -204,8 +204,8 @@ std::vector<LogSurvey> record_twin(const Twin& twin, const std::vector<Simulatio
 
 namespace {
 
-/// Of a log with both a moving one: the link's encoder shows its steps only where it moves.
-std::vector<TwinStretch>::const_iterator telling_stretch(const Twin& twin, std::size_t log) {
+/// Prefers a moving stretch: the encoder of a blocked link shows no steps.
+std::vector<TwinStretch>::const_iterator stretch_for_sensors(const Twin& twin, std::size_t log) {
   const auto first = [&](bool moving) {
     return std::find_if(twin.stretches.begin(), twin.stretches.end(), [&](const TwinStretch& s) {
       return s.log == log && !(moving && s.link_blocked);
@@ -223,7 +223,7 @@ void choose_sensors(Twin& twin, const std::vector<SimulationResult>& motions) {
   for (std::size_t log = 0; log < twin.plans.size(); ++log) {
     const LogPlan& plan = twin.plans[log];
     std::vector<TwinSensor>& sensors = twin.sensors.emplace_back(plan.slots.size());
-    const auto first = telling_stretch(twin, log);
+    const auto first = stretch_for_sensors(twin, log);
     if (first == twin.stretches.end()) continue;
     const auto& motion = motions[static_cast<std::size_t>(first - twin.stretches.begin())];
     const PartSurvey& part = twin.parts[log][first->part];

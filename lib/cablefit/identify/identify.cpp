@@ -144,6 +144,9 @@ JointPoint fit_with_settings(std::span<const LogSurvey> logs, const IdentifyOpti
     const Eigen::ArrayXd before = searched_radii(first), found = searched_radii(fit);
     const bool moved = ((found - before).abs() > kStillRadius * before.abs()).any();
     if (!moved || pass == kMostRadiusPasses) {
+      if (moved)
+        own.front().warnings.emplace_back(
+            "the motor radii did not converge: the logs hardly determine them");
       facts = std::move(own);
       return point;
     }

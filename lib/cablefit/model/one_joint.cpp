@@ -29,12 +29,17 @@ Eigen::VectorXd only(const Eigen::VectorXd& all, int joint) {
 Transmission one_joint(const Transmission& whole, int joint) {
   Transmission one = whole;
   one.n_joints = 1;
-  one.cables.clear();
-  for (const std::size_t i : passing(whole, place(joint))) {
-    Cable& cable = one.cables.emplace_back(whole.cables[i]);
+  const auto own = [&](Cable cable) {
     cable.motor_map = {cable.motor_map[place(joint)]};
     cable.link_map = {cable.link_map[place(joint)]};
-  }
+    return cable;
+  };
+  one.cables.clear();
+  for (const std::size_t i : passing(whole, place(joint)))
+    one.cables.push_back(own(whole.cables[i]));
+  one.idle_cables.clear();
+  for (const Cable& cable : whole.idle_cables)
+    if (cable.passes(place(joint))) one.idle_cables.push_back(own(cable));
   for (Eigen::VectorXd Transmission::*values :
        {&Transmission::linear_stiffness, &Transmission::linear_reduction, &Transmission::theta_0})
     one.*values = only(whole.*values, joint);

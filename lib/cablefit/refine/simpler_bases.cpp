@@ -14,8 +14,8 @@ namespace {
 // Of the other cable's longest elongation. Less than the first is the noise of encoders that stand
 // at zero; with more than the second a cable is loaded, and something else is wrong.
 constexpr double kLoaded = 0.01, kWellLoaded = 0.5;
-// Rows of the equations that tell the two coefficients of a cable; one that is taut in fewer is
-// idle. With 10 of them its coefficients took in half of the effects of twice the noise.
+// Rows that determine the two coefficients of a cable; one that is taut in fewer is idle. With 10
+// of them its coefficients took in half of the effects of twice the noise.
 constexpr double kLeastRows = 12;
 
 bool has_cables(const OwnBase& base) {
@@ -80,8 +80,9 @@ SimplerBase with_order_of(const OwnBase& given, std::size_t which, int order,
   simpler.base.decisions.push_back({kCablesChoice, what, why});
   simpler.warning = fmt::format(
       "the base has {}: {}; load both cables in each third of the logs, or give a model", what,
-      order == 0 ? "it is seldom or never taut, and samples in which it is are left out"
-                 : "the training samples hardly load it");
+      order == 0
+          ? "the training samples hardly load it; all samples in which it is taut are left out"
+          : "the training samples hardly load it");
   return simpler;
 }
 
@@ -91,7 +92,7 @@ std::optional<SimplerBase> base_without_idle_cable(const OwnBase& base, const Re
   if (base.models.front().joints.size() > 1 || !is_plain_pair(base.models.front())) return {};
   const PairLoads loads = pair_loads(base, logs);
   const std::size_t less = loads.less();
-  if (loads.share() >= kWellLoaded || loads.rows[less] > kLeastRows) return {};
+  if (loads.share() >= kWellLoaded || loads.rows[less] >= kLeastRows) return {};
   return with_order_of(base, less, 0,
                        fmt::format("it is taut for {:.2g} s of the logs", loads.taut[less]));
 }

@@ -15,7 +15,7 @@ struct SimplerBase {
 };
 
 /// Of a plain pair of cables (none in the rig file) one of which is taut so rarely that the logs
-/// tell its law badly: the base without it. Few samples would otherwise decide over its
+/// hardly determine its law: the base without it. Few samples would otherwise decide over its
 /// coefficients, and these over the rest.
 std::optional<SimplerBase> base_without_idle_cable(const OwnBase& base, const RefineLogs& logs);
 

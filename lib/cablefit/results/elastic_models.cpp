@@ -31,8 +31,9 @@ Model model_of(const ElasticPreload& preload, const ElasticFit& fit, const Rig& 
   model.rig = rig;
   model.transmission = fit.transmission;
   // What is written from the model has the radii as found.
-  for (std::size_t c = 0; c < fit.transmission.cables.size(); ++c)
-    model.rig.transmission.cables[c].motor_map = fit.transmission.cables[c].motor_map;
+  for (const ElasticFit& other : preload.fits)
+    for (std::size_t c = 0; c < other.transmission.cables.size(); ++c)
+      model.rig.transmission.cables[c].motor_map = other.transmission.cables[c].motor_map;
   model.elastic = fit.parameters;
   for (Eigen::Index k = 0; k < fit.covariance.rows(); ++k)
     model.covariance.parameters.push_back(fit.parameters[static_cast<std::size_t>(k)].name);

@@ -79,7 +79,8 @@ std::optional<RefineResult> refine_simpler(SimplerBase simpler, const RefineLogs
     result.warnings.push_back(std::move(simpler.warning));
     return result;
   } catch (const Error& error) {
-    if (error.kind() != ErrorKind::not_identifiable) throw;
+    // Too few rows may be left to judge by; another base keeps them.
+    if (error.kind() != ErrorKind::not_identifiable && error.kind() != ErrorKind::input) throw;
     return {};
   }
 }

@@ -105,8 +105,8 @@ void note_radii(const PreloadJob& job, PreloadFacts& facts) {
     if (!job.searched_radius[c]) continue;
     const Cable& cable = job.transmission.cables[c];
     const double start = cable.motor_map.front().radius(0);
-    value += fmt::format("{}{} searched from {:.3g} m", value.empty() ? "" : ", ",
-                         radius_name(cable), start);
+    value += fmt::format("{}{} searched from {:.3g}{}", value.empty() ? "" : ", ",
+                         radius_name(cable), start, facts.rig.linear_motion ? "" : " m");
     moved = moved || start != facts.rig.transmission.cables[c].motor_map.front().radius(0);
   }
   facts.decisions.push_back(

@@ -80,7 +80,7 @@ bool stretch_pair(const Transmission& transmission, const std::vector<Cable*>& p
   return balancing.has_value();
 }
 
-/// The other cable has no law that could say what balances it.
+/// The law of the other cable is unknown, so nothing is balanced.
 bool has_idle_partner(const Transmission& transmission) {
   return transmission.cables.size() == 1 && transmission.idle_cables.size() == 1;
 }

@@ -86,7 +86,8 @@ Eigen::MatrixXd full_columns(RowKind kind, const SmoothMotion& m, const Model& m
   return all;
 }
 
-constexpr double kSlackMargin = 0.1;  // of the longest elongation of the other cables
+// Of the longest way of the other cables from the reference pose, which no effect changes.
+constexpr double kSlackMargin = 0.1;
 
 /// Samples at which an idle cable is taut, or near it: a late encoder shows it slack too long.
 Eigen::Array<bool, Eigen::Dynamic, 1> is_idle_cable_taut(const Transmission& transmission,
@@ -96,7 +97,8 @@ Eigen::Array<bool, Eigen::Dynamic, 1> is_idle_cable_taut(const Transmission& tra
   joint.front().theta = m.theta;
   double longest = 0;
   for (const Cable& cable : transmission.cables)
-    longest = std::max(longest, elongation(transmission, cable, joint).maxCoeff());
+    longest = std::max(
+        longest, elongation(transmission, cable, joint).maxCoeff() - cable.initial_elongation);
   Eigen::Array<bool, Eigen::Dynamic, 1> is_taut =
       Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(m.size(), false);
   for (const Cable& cable : transmission.idle_cables)

@@ -14,11 +14,17 @@ constexpr double kSureSd = 2;
 
 bool is_sure(const Estimate& e) { return e.sd > 0 && std::abs(e.value) > kSureSd * e.sd; }
 
-/// By its linear coefficients; where and how fast it acts says nothing of how large it is. Of what
-/// passes one block tells the size, and no sd over blocks.
+/// Other cables, whose coefficients are those of the base.
+bool has_no_size(const Effect& row) {
+  return row.n_linear() == 0 && std::all_of(row.shape.begin(), row.shape.end(),
+                                            [](const ShapeGrid& grid) { return grid.is_whole; });
+}
+
+/// By its linear coefficients: at which place and speed an effect acts is not its size. One block
+/// determines the size of an effect that passes, and there is no sd over blocks.
 bool has_sure_size(const NamedEffect& effect) {
   const Effect& row = *effect.instance.effect;
-  if (row.passes()) return true;
+  if (row.passes() || has_no_size(row)) return true;
   const std::vector<Estimate>& all = effect.instance.parameters;
   const bool has_linear = row.n_linear() > 0 && !row.takes_dry_friction;
   const auto end =
@@ -34,6 +40,7 @@ void require_sure_sizes(const RefineBench& bench, Chain& chain, RefineResult& re
     const RefineState& last = chain.back();
     const Design& undone = bench.n_kept == 0 ? chain.front().design : bench.bare;
     FinalFit fit = final_fit(undone, last.design, last.levels, bench.scan.block_seconds);
+    const std::vector<NamedEffect> alone = named_effects(last.design, fit);
     add_elongation_errors(last.design, fit.x, last.levels, bench, fit);
     const std::vector<NamedEffect> named = named_effects(last.design, fit);
     if (std::all_of(named.end() - static_cast<std::ptrdiff_t>(result.effects.size()), named.end(),
@@ -41,10 +48,9 @@ void require_sure_sizes(const RefineBench& bench, Chain& chain, RefineResult& re
       return;
     // Later effects were found with the earlier ones in the model.
     const bool goes_with_others = last.is_joint || has_sure_size(named.back());
-    const char* const reason =
-        bench.options.elongations.empty()
-            ? "none of its coefficients is at least 2 sd"
-            : "the error of the searched l_o is as large as its coefficients";
+    const char* const reason = has_sure_size(alone.back())
+                                   ? "the error of the searched l_o is as large as its coefficients"
+                                   : "none of its coefficients is at least 2 sd";
     drop_last(reason, chain, result);
     while (goes_with_others && !result.effects.empty()) drop_last(reason, chain, result);
     require_half_explained(chain, result);

@@ -1,5 +1,4 @@
-// An effect is named with a size: coefficients that may as well be nothing are no find. Internal to
-// refine/.
+// Effects whose size is not significant are not identified. Internal to refine/.
 #pragma once
 
 #include "cablefit/refine/steps/refine_bench.hpp"

@@ -1,4 +1,4 @@
-// Effects that the logs cannot tell from the one that was named, whatever the blocks prefer.
+// Effects that the logs do not separate from the identified one, whatever the blocks prefer.
 // Internal to refine/.
 #pragma once
 

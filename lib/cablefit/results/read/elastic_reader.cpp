@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cablefit/model/file/parts.hpp"
+#include "cablefit/model/rig/searched_radius.hpp"
 #include "cablefit/results/read/fit_reader.hpp"
 #include "cablefit/results/read/reader_parts.hpp"
 
@@ -66,12 +67,24 @@ void read_joints(const JsonNode& node, ElasticPreload& preload) {
   }
 }
 
+/// The fit with cables has them; the spring needs them for its reduction.
+void take_found_radii(const JsonNode& fits, Transmission& transmission) {
+  for (const JsonNode& item : fits.items)
+    for (const Estimate& e : read_estimates(item.at("parameters")))
+      for (std::size_t c = 0; c < transmission.cables.size(); ++c)
+        if (e.name == radius_name(transmission.cables[c]) && e.not_identifiable.empty())
+          set_motor_radius(transmission, c, e.value);
+}
+
 void read_fits(const JsonNode& node, const Rig* rig, ElasticPreload& preload) {
   const JsonNode& fits = node.at("fits");
   if (!fits.is_array() || fits.items.empty()) {
     throw fits.error("no fits", "run `cablefit elastic` again");
   }
-  for (const JsonNode& item : fits.items) preload.fits.push_back(read_elastic_fit(item, rig));
+  std::optional<Rig> known = rig != nullptr ? std::optional(*rig) : std::nullopt;
+  if (known) take_found_radii(fits, known->transmission);
+  for (const JsonNode& item : fits.items)
+    preload.fits.push_back(read_elastic_fit(item, known ? &*known : nullptr));
 }
 
 void read_selection(const JsonNode& node, ElasticPreload& preload) {

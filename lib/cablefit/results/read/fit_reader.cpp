@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "cablefit/model/model.hpp"
-#include "cablefit/model/rig/searched_radius.hpp"
 #include "cablefit/results/read/proof_reader.hpp"
 #include "cablefit/results/read/reader_parts.hpp"
 
@@ -41,14 +40,6 @@ void take_cable(const ElasticFit& fit, const MissingCoefficient& missing, bool c
   }
 }
 
-void take_radii(ElasticFit& fit) {
-  for (std::size_t c = 0; c < fit.transmission.cables.size(); ++c) {
-    const Estimate* r_m = find_estimate(fit.parameters, radius_name(fit.transmission.cables[c]));
-    if (r_m != nullptr && r_m->not_identifiable.empty())
-      set_motor_radius(fit.transmission, c, r_m->value);
-  }
-}
-
 void take_transmission(const Rig& rig, const MissingCoefficient& missing, ElasticFit& fit) {
   fit.transmission = rig.transmission;
   const int n = rig.n_joints();
@@ -61,7 +52,6 @@ void take_transmission(const Rig& rig, const MissingCoefficient& missing, Elasti
     return;
   }
   for (Cable& cable : fit.transmission.cables) take_cable(fit, missing, rig.cables_given, cable);
-  take_radii(fit);
 }
 
 void take_theta_0(const JsonNode& node, ElasticFit& fit) {
