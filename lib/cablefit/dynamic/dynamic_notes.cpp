@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "cablefit/samples/rows/agreement.hpp"
@@ -94,6 +95,29 @@ void note_extrapolations(const DynamicJob& job, const std::vector<EquationRows>&
     if (!warning.empty()) warnings.push_back(std::move(warning));
   }
   preload.warnings.insert(preload.warnings.begin(), warnings.begin(), warnings.end());
+}
+
+void note_blocked_friction(const DynamicJob& job, const ElasticResult& elastic,
+                           DynamicPreload& preload) {
+  constexpr double kFar = 5;      // sd
+  constexpr double kMuch = 0.03;  // of the friction in motion
+  const ElasticPreload* const stage1 = stage1_of(job, elastic);
+  if (stage1 == nullptr) return;
+  for (const DynamicFit& fit : preload.fits) {
+    const ElasticFit* const same = stage1->find(fit.model);
+    if (same == nullptr) continue;
+    for (const Estimate& moving : fit.parameters) {
+      const Estimate* const blocked = find_estimate(same->parameters, moving.name);
+      if (!moving.name.starts_with("f_sm") || blocked == nullptr) continue;
+      const double apart = std::abs(moving.value - blocked->value);
+      if (!(apart > kFar * std::hypot(moving.sd, blocked->sd) && apart > kMuch * moving.value))
+        continue;
+      preload.warnings.push_back(fmt::format(
+          "{} is {:.4g} {} while the link is blocked and {:.4g} {} in motion: a blocked motor that "
+          "sticks and slips has less friction on average; sweep faster or log faster",
+          moving.name, blocked->value, moving.unit, moving.value, moving.unit));
+    }
+  }
 }
 
 void keep_causes(const DynamicJob& job, const std::vector<EquationRows>& equations,

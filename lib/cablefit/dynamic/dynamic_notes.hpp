@@ -9,6 +9,10 @@ namespace cablefit {
 void note_extrapolations(const DynamicJob& job, const std::vector<EquationRows>& equations,
                          const ElasticResult& elastic, DynamicPreload& preload);
 
+/// Dry friction of the motor that differs from that of stage 1.
+void note_blocked_friction(const DynamicJob& job, const ElasticResult& elastic,
+                           DynamicPreload& preload);
+
 /// The load's inertia, and logs without any load. Throws Error(input) for a load that depends on a
 /// position that the log lacks.
 void note_load(const DynamicJob& job, DynamicPreload& preload);
