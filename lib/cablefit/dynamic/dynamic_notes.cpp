@@ -112,10 +112,13 @@ void note_blocked_friction(const DynamicJob& job, const ElasticResult& elastic,
       const double apart = std::abs(moving.value - blocked->value);
       if (!(apart > kFar * std::hypot(moving.sd, blocked->sd) && apart > kMuch * moving.value))
         continue;
-      preload.warnings.push_back(fmt::format(
-          "{} is {:.4g} {} while the link is blocked and {:.4g} {} in motion: a blocked motor that "
-          "sticks and slips has less friction on average; sweep faster or log faster",
-          moving.name, blocked->value, moving.unit, moving.value, moving.unit));
+      const char* const cause = blocked->value < moving.value
+                                    ? "a blocked motor that sticks and slips has less friction on "
+                                      "average; sweep faster or log faster"
+                                    : "check the torque hold; friction may also depend on speed";
+      preload.warnings.push_back(
+          fmt::format("{} is {:.4g} {} while the link is blocked and {:.4g} {} in motion: {}",
+                      moving.name, blocked->value, moving.unit, moving.value, moving.unit, cause));
     }
   }
 }
