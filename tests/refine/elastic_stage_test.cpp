@@ -89,7 +89,7 @@ TEST_CASE("an encoder zero that moved between two blocked logs is a slip",
 
 TEST_CASE("blocked logs name nothing of what they cannot show", "[refine][elastic-stage]") {
   const RefineResult result = refined(blocked_only({"cable_hysteresis.transmission=1"}, 2));
-  for (const Rival& row : result.league) {
+  for (const Rival& row : result.ranking) {
     INFO(row.name << " " << row.side);
     CHECK(row.side != "link");
     CHECK(row.name != "presliding");  // of the motor: the same law on a blocked link

@@ -60,7 +60,7 @@ TEST_CASE("nothing hidden: nothing named", "[refine][slow]") {
   CHECK(result.effects.empty());
   // Floors of four draws scatter by some per cent.
   CHECK(result.rho_before == Approx(1).margin(0.1));
-  CHECK(result.league.size() > 20);
+  CHECK(result.ranking.size() > 20);
 }
 
 TEST_CASE("what is smaller than the size that was asked for is not named", "[refine][slow]") {

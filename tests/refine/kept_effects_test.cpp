@@ -244,7 +244,7 @@ TEST_CASE("a refined model is refined again: the second effect, then none",
   CHECK(none.effects.empty());
   REQUIRE(none.kept.size() == 2);
   CHECK(none.rho_before == Approx(1).margin(0.1));
-  for (const Rival& rival : none.league) {
+  for (const Rival& rival : none.ranking) {
     const bool is_kept = (rival.name == "stribeck" && rival.side == "motor") ||
                          (rival.name == "quadratic_drag" && rival.side == "link");
     CHECK_FALSE(is_kept);
@@ -351,7 +351,7 @@ TEST_CASE("what a kept effect leaves is named no more than what a first one does
   INFO(result.reason);
   CHECK(result.verdict == Verdict::none);
   CHECK(result.effects.empty());
-  REQUIRE_FALSE(result.league.empty());
+  REQUIRE_FALSE(result.ranking.empty());
 }
 
 /// A blocked link's draws are made without a simulator, see blocked_twin.cpp.

@@ -56,7 +56,7 @@ TEST_CASE("the largest gain beyond chance is named", "[refine]") {
   CHECK(j.is_named);
   CHECK(best_name(j) == "stribeck");
   CHECK(j.rivals.empty());
-  CHECK(j.league.at(0).gain == Approx(0.8));  // of the gap, not of the total
+  CHECK(j.ranking.at(0).gain == Approx(0.8));  // of the gap, not of the total
 }
 
 TEST_CASE("what chance finds, and what is immaterial, is not named", "[refine]") {
@@ -152,7 +152,7 @@ TEST_CASE("a physical bound is not negotiable", "[refine]") {
   const Judgement j = judge_search(candidates, kGap, draws(), {}, true);
   CHECK(best_name(j) == "quadratic_drag");
   CHECK_FALSE(lists(j.rivals, "stribeck"));
-  CHECK(j.league.back().refused == "beyond its physical bound");
+  CHECK(j.ranking.back().refused == "beyond its physical bound");
 }
 
 TEST_CASE("look-alikes are listed, and the simplest of equals is the headline", "[refine]") {

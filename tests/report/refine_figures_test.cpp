@@ -87,7 +87,7 @@ RefineResult result_of() {
   best.side = "motor";
   best.gain = 0.9;
   refused.refused = "a negative friction";
-  result.league = {best, refused};
+  result.ranking = {best, refused};
   result.shifts = {{"f_s", "N m", 2.2, 2, 0.1}, {"f_v", "N m s/rad", 0.5, 0.5, NAN}};
   return result;
 }
@@ -177,13 +177,13 @@ TEST_CASE("without an effect there is no before and after") {
 TEST_CASE("candidates that remove nothing have no bar") {
   const Fitted before = base();
   RefineResult result = result_of();
-  Rival nothing = result.league.front();
+  Rival nothing = result.ranking.front();
   nothing.gain = 0.004;
-  result.league.insert(result.league.begin() + 1, nothing);
+  result.ranking.insert(result.ranking.begin() + 1, nothing);
   CHECK(titled(figures_of(before, before, result), "Candidates for the first effect")
             .traces.front()
             .y.size() == 1);
-  result.league.erase(result.league.begin());
+  result.ranking.erase(result.ranking.begin());
   for (const Figure& figure : figures_of(before, before, result))
     CHECK(figure.title != "Candidates for the first effect");
 }

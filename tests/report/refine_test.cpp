@@ -55,9 +55,9 @@ RefineResult named() {
              {"motor", "position", "theta", -0.3862, 0.2081, 0.76, 0.41, 0.117, 0.0854},
              {"link", "direction", "sgn(qd)", -1, 0, 0.9, 0.5, 0.05, 0.036}};
   r.effects = {stribeck()};
-  r.league = {rival("stribeck", "motor", 0.89, 1), rival("quadratic_drag", "motor", 0.44, 0),
-              rival("stribeck", "link", -0.1, 0)};
-  r.league.back().refused = "a negative friction";
+  r.ranking = {rival("stribeck", "motor", 0.89, 1), rival("quadratic_drag", "motor", 0.44, 0),
+               rival("stribeck", "link", -0.1, 0)};
+  r.ranking.back().refused = "a negative friction";
   r.not_separable = {{{"asymmetric_coulomb (motor)"}, true, false, "", -1, {}},
                      {{"torque_delay (sensor)", "cable_damping (transmission)"},
                       false,

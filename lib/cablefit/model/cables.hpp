@@ -109,8 +109,9 @@ std::string_view elongation_unit(bool cable_space);
 struct Transmission {
   int n_joints = 1;
   std::vector<Cable> cables;
-  /// Cables whose law no log tells, as they hardly ever load them: the torque is unknown where one
-  /// of them is taut. refine leaves those samples out; everything else takes them as slack.
+  /// Cables whose law the logs do not determine, as they hardly load them: the torque is unknown
+  /// where one of them is taut. refine leaves those samples out; all other commands take such a
+  /// cable as slack. A model file does not have their l_o.
   std::vector<Cable> idle_cables = {};
   /// Linear model: stiffness per joint (N m/rad, on the motor); used when `cables` is empty.
   Eigen::VectorXd linear_stiffness;

@@ -53,7 +53,7 @@ void tell_joint(RefineResult& r) {
     for (Rival& rival : effect.rivals) rival.joint = r.joint;
   }
   for (KeptEffect& kept : r.kept) kept.now.joint = r.joint;
-  for (Rival& row : r.league) row.joint = r.joint;
+  for (Rival& row : r.ranking) row.joint = r.joint;
   for (RefineStep& step : r.steps) step.joint = r.joint;
   for (ParameterShift& shift : r.shifts) shift.name = name_in_whole(r.models.front(), shift.name);
   if (r.unexplained) r.unexplained->equation = of_joint(r.unexplained->equation, r.joint);
@@ -77,7 +77,7 @@ void append_lists(const RefineResult& r, RefineResult& all) {
   append(all.where, r.where);
   append(all.effects, r.effects);
   append(all.kept, r.kept);
-  append(all.league, r.league);
+  append(all.ranking, r.ranking);
   append(all.not_separable, r.not_separable);
   append(all.remainders, r.remainders);
   append(all.steps, r.steps);

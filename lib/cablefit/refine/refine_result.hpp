@@ -139,7 +139,7 @@ struct RefineResult {
   std::vector<Regime> where;
   std::vector<NamedEffect> effects;
   std::vector<KeptEffect> kept;
-  std::vector<Rival> league;  ///< of the first step
+  std::vector<Rival> ranking;  ///< of the first step
   /// P that a search where nothing is missing gains as much as the first step's best, and of how
   /// many simulated data sets it is known.
   double search_p = 1;

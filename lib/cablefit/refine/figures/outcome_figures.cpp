@@ -14,7 +14,7 @@ std::string effect_name(const Rival& rival) {
   return fmt::format("{} ({})", rival.name, rival.side);
 }
 
-Figure league_figure(const RefineResult& result) {
+Figure ranking_figure(const RefineResult& result) {
   constexpr std::size_t kMostBars = 10;
   constexpr double kVisible = 0.005;  // of the gap: less is printed as 0 %
   Figure figure;
@@ -27,7 +27,7 @@ Figure league_figure(const RefineResult& result) {
   figure.y = {"removed", "%"};
   figure.wide = true;
   Trace bars = new_trace("candidates", TraceStyle::interval, kBefore);
-  for (const Rival& row : result.league) {
+  for (const Rival& row : result.ranking) {
     if (!row.refused.empty() || bars.y.size() == kMostBars) break;
     if (row.gain < kVisible) continue;
     bars.labels.push_back(effect_name(row));
@@ -66,7 +66,7 @@ Figure shift_figure(const RefineResult& result) {
 
 std::vector<Figure> outcome_figures(const RefineResult& result) {
   std::vector<Figure> figures;
-  for (Figure figure : {league_figure(result), shift_figure(result)})
+  for (Figure figure : {ranking_figure(result), shift_figure(result)})
     if (!figure.traces.empty()) figures.push_back(std::move(figure));
   return figures;
 }

@@ -176,7 +176,7 @@ bool add_next_effect(RefineBench& bench, Chain& chain, RefineResult& result) {
   Trials trials(bench, state, is_first);
   auto best = trials.best();
   if (is_first) {
-    result.league = trials.league();
+    result.ranking = trials.ranking();
     result.search_p = trials.chance().p;
     result.search_p_is_fitted = trials.chance().is_fitted;
     result.n_draws = bench.draws.size();

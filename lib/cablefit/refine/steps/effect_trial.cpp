@@ -96,7 +96,7 @@ Judgement Trials::judged() const {
 
 std::optional<Trial> Trials::best() {
   Judgement judgement = judged();
-  league_ = judgement.league;
+  ranking_ = judgement.ranking;
   chance_ = judgement.search;
   if (!judgement.is_named || is_at_floor(bench_, state_)) return {};
   last_ = judgement.best->variant.effect;

@@ -29,7 +29,7 @@ class Trials {
   std::optional<Trial> next_alike(const std::string& refusal);
 
   const Search& found() const { return found_; }
-  const std::vector<Rival>& league() const { return league_; }
+  const std::vector<Rival>& ranking() const { return ranking_; }
   /// Of the largest gain that the search found.
   const ChanceTail& chance() const { return chance_; }
 
@@ -41,7 +41,7 @@ class Trials {
   const RefineState& state_;
   bool is_first_;
   Search found_;
-  std::vector<Rival> league_;
+  std::vector<Rival> ranking_;
   ChanceTail chance_;
   const Effect* last_ = nullptr;  ///< tried
   std::vector<Rival> alike_;      ///< of the best

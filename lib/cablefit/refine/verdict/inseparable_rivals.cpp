@@ -30,12 +30,12 @@ void add_inseparable_rivals(RefineResult& result) {
   NamedEffect& first = result.effects.front();
   const Effect& row = *first.instance.effect;
   const std::string named = name_of(std::string(row.name), to_string(row.site));
-  const auto own = std::find_if(result.league.begin(), result.league.end(),
+  const auto own = std::find_if(result.ranking.begin(), result.ranking.end(),
                                 [&](const Rival& c) { return name_of(c.name, c.side) == named; });
-  if (own == result.league.end()) return;
+  if (own == result.ranking.end()) return;
   const double gap = first.evidence.rho_before - 1;  // in squared floors
   const double nearly = gap > 0 ? kNearly * std::max(1.0, 1 / gap) : 0;
-  for (const Rival& candidate : result.league) {
+  for (const Rival& candidate : result.ranking) {
     const std::string name = name_of(candidate.name, candidate.side);
     if (!candidate.refused.empty() || name == named || is_listed(first, candidate) ||
         candidate.gain < own->gain - nearly)

@@ -238,17 +238,17 @@ std::vector<Rival> rivals_of(const Candidate& best, const std::vector<const Cand
 }
 
 /// All rows, those that were refused last.
-std::vector<Rival> league_of(const std::vector<Candidate>& candidates,
-                             const std::vector<const Candidate*>& able,
-                             const std::vector<double>& share, const SquaredGap& gap) {
-  std::vector<Rival> league;
+std::vector<Rival> ranking_of(const std::vector<Candidate>& candidates,
+                              const std::vector<const Candidate*>& able,
+                              const std::vector<double>& share, const SquaredGap& gap) {
+  std::vector<Rival> ranking;
   for (std::size_t k = 0; k < able.size(); ++k) {
-    league.push_back(rival_of(*able[k], gap));
-    league.back().inclusion = share[k];
+    ranking.push_back(rival_of(*able[k], gap));
+    ranking.back().inclusion = share[k];
   }
   for (const Candidate& c : candidates)
-    if (!may_be_named(c)) league.push_back(rival_of(c, gap));
-  return league;
+    if (!may_be_named(c)) ranking.push_back(rival_of(c, gap));
+  return ranking;
 }
 
 }  // namespace
@@ -259,7 +259,7 @@ Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGa
   const std::vector<const Candidate*> able = ranked(candidates);
   const std::vector<double> share = inclusions(able);
   Judgement judgement;
-  judgement.league = league_of(candidates, able, share, gap);
+  judgement.ranking = ranking_of(candidates, able, share, gap);
   const Significance significance(draws, gap, options, is_first);
   const auto first = std::find_if(able.begin(), able.end(),
                                   [](const Candidate* c) { return !c->variant.effect->is_event; });
@@ -275,8 +275,8 @@ Judgement judge_search(const std::vector<Candidate>& candidates, const SquaredGa
   judgement.chance = significance.tail(*judgement.best);
   judgement.inclusion = share[*best];
   judgement.rivals = rivals_of(*judgement.best, able, share, gap);
-  for (std::size_t k = 0; k < able.size(); ++k)  // the league begins with these
-    judgement.league[k].difference = paired(able[k]->error, judgement.best->error).in_sd();
+  for (std::size_t k = 0; k < able.size(); ++k)  // the ranking begins with these
+    judgement.ranking[k].difference = paired(able[k]->error, judgement.best->error).in_sd();
   return judgement;
 }
 

@@ -17,8 +17,8 @@ struct Judgement {
   ChanceTail search;                ///< of the largest gain of what is always there, named or not
   bool is_settled = true;  ///< more draws would hardly change whether something is named, and what
   bool is_named = false;
-  std::vector<Rival> rivals;  ///< effects similar to the best, likeliest first
-  std::vector<Rival> league;  ///< all rows, by gain
+  std::vector<Rival> rivals;   ///< effects similar to the best, likeliest first
+  std::vector<Rival> ranking;  ///< all rows, by gain
   double inclusion = 0;
 };
 

@@ -13,7 +13,7 @@ namespace cablefit {
 namespace {
 
 constexpr int kDigits = 3;
-constexpr std::size_t kLeagueRows = 8;
+constexpr std::size_t kRankedRows = 8;
 
 std::string number(double value) { return significant(value, kDigits); }
 std::string percent(double share) {
@@ -84,15 +84,15 @@ Table candidate_table(const RefineResult& result) {
                    {"removes of the", "squared gap", "%"},
                    {"best in", "resamples", "%"},
                    {"", "why not", "", true}};
-  const std::size_t n = std::min(kLeagueRows, result.league.size());
+  const std::size_t n = std::min(kRankedRows, result.ranking.size());
   for (std::size_t k = 0; k < n; ++k) {
-    const Rival& row = result.league[k];
+    const Rival& row = result.ranking[k];
     table.rows.push_back({row.name, side_text(row.side, row.joint, result), percent(row.gain),
                           percent(row.inclusion), row.refused});
   }
-  if (result.league.size() > n)
+  if (result.ranking.size() > n)
     table.notes.push_back(
-        fmt::format("{} more candidates did no better", result.league.size() - n));
+        fmt::format("{} more candidates did no better", result.ranking.size() - n));
   return table;
 }
 

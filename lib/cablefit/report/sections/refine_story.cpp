@@ -143,12 +143,12 @@ SummaryLine rivals_line(const NamedEffect& effect, const RefineResult& result, b
     text += (text.empty() ? "" : "; ") + rival_text(rival, result);
   if (!text.empty()) return {"rivals", text};
   const Effect& row = *effect.instance.effect;
-  const std::vector<Rival>& league = result.league;
-  const auto next = std::find_if(league.begin(), league.end(), [&](const Rival& r) {
+  const std::vector<Rival>& ranking = result.ranking;
+  const auto next = std::find_if(ranking.begin(), ranking.end(), [&](const Rival& r) {
     return r.refused.empty() && r.joint == effect.joint &&
            (r.name != row.name || r.side != to_string(row.site));
   });
-  if (!is_first || next == league.end() || !(next->gain > 0)) return {"rivals", "none"};
+  if (!is_first || next == ranking.end() || !(next->gain > 0)) return {"rivals", "none"};
   return {"rivals", fmt::format("none; the next best, {}, removes {} alone",
                                 effect_text(next->name, next->side, next->joint, result),
                                 percent(next->gain))};

@@ -37,7 +37,7 @@ Json rival_json(const Rival& rival) {
       {"experiment", text_or_null(rival.experiment)}};
 }
 
-Json league_json(const Rival& row) {
+Json ranking_json(const Rival& row) {
   return Json{{"name", row.name},           {"side", row.side},
               {"joint", row.joint},         {"gain", row.gain},
               {"inclusion", row.inclusion}, {"refused", text_or_null(row.refused)}};
@@ -224,7 +224,7 @@ std::string refine_json(const RefineResult& result, std::span<const std::string>
   json["search"] = {{"p_value", result.search_p},
                     {"p_is_fitted", result.search_p_is_fitted},
                     {"draws", result.n_draws}};
-  json["league"] = list_of(result.league, league_json);
+  json["league"] = list_of(result.ranking, ranking_json);
   json["not_separable"] = list_of(result.not_separable, not_separable_json);
   json["parameter_shifts"] = list_of(result.shifts, shift_json);
   json["next_experiment"] = text_or_null(result.next_experiment);
