@@ -18,6 +18,7 @@ constexpr double kLargestGain = 0.3;  // kd period / J_motor; a sampled loop is 
 // Of a torque that is not held: commands in a row of the log, an even number, at least this often.
 constexpr int kLeastCommands = 4;
 constexpr double kCommandPeriod = 1e-3;  // s
+constexpr double kSame = 0.95;           // of a row: a command that is held about as long as it
 
 /// A PD controller of kBandwidth, as damped as the motor's inertia allows.
 Controller surrogate(const LeastInertias& inertias, double period) {
@@ -78,7 +79,10 @@ void take_load(const LogPlan& plan, TwinStretch& stretch) {
 
 void follow_measured(const Model& model, const LogPlan& plan, const TwinDrive& drive,
                      TwinStretch& stretch) {
-  stretch.fine = commands_per_row(stretch.period, drive.torque_held);
+  const bool is_held_shorter =
+      drive.torque_held && drive.torque_period > 0 && drive.torque_period < kSame * stretch.period;
+  stretch.fine = commands_per_row(stretch.period, drive.torque_held && !is_held_shorter);
+  stretch.late = is_held_shorter ? 0.5 * drive.torque_period : 0;
   const double period = stretch.input.period = stretch.period / stretch.fine;
   const Controller controller = surrogate(least_inertias(model, stretch.link_blocked), period);
   const int n_joints = plan.rig.n_joints();

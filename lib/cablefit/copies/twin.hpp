@@ -23,6 +23,7 @@ struct TwinStretch {
   /// Rows of `input` for each row of the log. More than one: the log's torque is a mean over its
   /// row, centred, of commands that change `fine` times as often.
   int fine = 1;
+  double late = 0;        ///< s, `fine` > 1: the log's torque acts so much after its time stamp
   SimulationInput input;  ///< reference or command, load and initial state
   Rig rig;  ///< the log's, with the controller that is simulated; none: the torque is a command
   bool link_blocked = false;
@@ -53,6 +54,7 @@ struct Twin {
 /// What decides about the controller of a twin.
 struct TwinDrive {
   bool torque_held = true;
+  double torque_period = 0;  ///< s, of a held torque; 0: the log's
   double cutoff = 0;     ///< Hz, of the low-pass on what a surrogate controller follows; 0: none
   bool follows = false;  ///< a surrogate controller, also where the rig's controller is known
   double step = SimulationOptions{}.step;  ///< s, at most, of the simulation

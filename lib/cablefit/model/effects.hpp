@@ -168,6 +168,8 @@ struct Effect {
   void (*correct)(const double* parameters, Recording& recording) = nullptr;
   /// Size of the linear parameter for a difference quotient; `correct` only.
   double step = 0;
+  /// The only parameter is how late the torque acts (s), as that of a held torque does.
+  bool delays_torque = false;
 
   /// Other cables: the transmission with this effect, given the shape. Nothing where the effect
   /// makes no sense for it or is there already. Coefficients are then fitted anew.

@@ -117,7 +117,8 @@ Plan make_plan(std::span<const LogSurvey> logs, const ProveStage1& stage1,
   plan.options.samples.threads = 1;
   plan.stage1 = &stage1;
   if (fit.elastic) plan.elastic = &*fit.elastic;
-  const TwinDrive drive{preload.delay.held, cutoff_of(preload, logs, options)};
+  const TwinDrive drive{.torque_held = preload.delay.held,
+                        .cutoff = cutoff_of(preload, logs, options)};
   plan.moving = make_twin(model, logs, parts_of(Phase::moving, preload.name), drive);
   for (std::string& note : plan.moving.notes) note = "controller: " + note;
   const ElasticResult none;

@@ -100,9 +100,9 @@ bool is_worse(const ElasticResult& one, const ElasticResult& other) {
   });
 }
 
-/// Coefficients are shared between preloads, and a cable of a lower order than its neighbour would
-/// be an effect to be found (stiffness_order): of different orders the highest for all. At most the
-/// second order of the paper: a higher one is such an effect. Those of a rig file stand.
+/// All cables have the second order of the paper: coefficients are shared between preloads, a
+/// higher order is an effect to be found (stiffness_order), and a lower one may only say that the
+/// blocked sweep was short. Those of a rig file stand, and what the blocked logs alone determine.
 ElasticResult shared_stage1(std::span<const LogSurvey> logs, int threads) {
   ElasticOptions options;
   options.samples.threads = threads;
@@ -114,9 +114,15 @@ ElasticResult shared_stage1(std::span<const LogSurvey> logs, int threads) {
     lowest = std::min(lowest, least);
     highest = std::max(highest, most);
   }
-  if (lowest == highest && highest <= kPlainOrder) return result;
-  options.order = std::min(highest, kPlainOrder);
-  ElasticResult plain = stage1_of(logs, options);
+  if (lowest == kPlainOrder && highest == kPlainOrder) return result;
+  options.order = kPlainOrder;
+  ElasticResult plain;
+  try {
+    plain = stage1_of(logs, options);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::not_identifiable || highest > kPlainOrder) throw;
+    return result;
+  }
   if (!plain.elongations.empty() || !is_worse(plain, result)) return plain;
   // A high order can imitate a preload, where both cables are taut; then only l_o explains order 2.
   try {

@@ -11,6 +11,7 @@
 #include "cablefit/refine/simpler_bases.hpp"
 #include "cablefit/samples/survey/phases.hpp"
 #include "cablefit/session/found_controller.hpp"
+#include "cablefit/session/found_hold.hpp"
 #include "cablefit/session/replayed_torque.hpp"
 
 namespace cablefit {
@@ -129,8 +130,17 @@ RefineResult missing_effects(const RefineLogs& logs, std::vector<Model> models,
   if (auto controller = take_found_controller(own_logs, base.models))
     base.decisions.push_back(*std::move(controller));
   if (auto replay = replayed_torque(own_logs)) base.decisions.push_back(*std::move(replay));
-  RefineResult result =
-      is_own ? refine_own(base, own_logs, options) : refine_from(base, own_logs, options);
+  const bool hold_is_open = is_hold_open(own_logs, base.models);
+  auto hold = hold_is_open ? take_fitted_hold(own_logs, base.models) : std::nullopt;
+  const auto refined = [&] {
+    return is_own ? refine_own(base, own_logs, options) : refine_from(base, own_logs, options);
+  };
+  RefineResult result = refined();
+  if (auto other = hold_is_open ? take_found_hold(result, own_logs, base.models) : std::nullopt) {
+    hold = std::move(other);
+    result = refined();
+  }
+  if (hold) base.decisions.push_back(*std::move(hold));
   if (is_own) result.model_choice = "fitted to the logs";
   const bool is_unsure = std::any_of(
       base.models.begin(), base.models.end(),

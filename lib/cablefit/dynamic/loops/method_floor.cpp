@@ -119,8 +119,8 @@ CopyDraws::CopyDraws(const DynamicJob& job, const Model& model, bool exact, bool
   const CopiedLogs copied = logs_to_copy(job);
   share_ = copied.share;
   const SignalSettings& signal = job.settings.rows.signal;
-  twin_ =
-      make_twin(model, copied.logs, job.wanted, {signal.torque_held, signal.cutoff, true, kStep});
+  twin_ = make_twin(model, copied.logs, job.wanted,
+                    {signal.torque_held, signal.torque_period, signal.cutoff, true, kStep});
   motions_ = run_twin(twin_, {}, random_, job.options.samples.threads);
 }
 

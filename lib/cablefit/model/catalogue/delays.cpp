@@ -66,7 +66,8 @@ Effect torque_delay() {
           .source = "a held command, the current controller",
           .parameters = kTorque,
           .correct = delay_tau,
-          .step = kStep};
+          .step = kStep,
+          .delays_torque = true};
 }
 
 }  // namespace cablefit::rows

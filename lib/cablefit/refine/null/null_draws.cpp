@@ -112,8 +112,9 @@ PreloadTwin make_preload_twin(const TwinLogs& of, std::size_t m, bool* follows) 
   twin.model = m;
   const bool held = model.rig.torque_hold != TorqueHold::none;
   const auto run = [&](bool surrogate) {
-    twin.twin = make_twin(whole_of(model), of.logs, of_model,
-                          {held, kFollowCutoff, surrogate, kDrawStep, kDitherCutoff});
+    twin.twin = make_twin(
+        whole_of(model), of.logs, of_model,
+        {held, model.rig.torque_period, kFollowCutoff, surrogate, kDrawStep, kDitherCutoff});
     Random calibration(1, kCalibration);
     return run_twin(twin.twin, {}, calibration, of.threads);
   };

@@ -1,0 +1,101 @@
+#include "cablefit/session/found_hold.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cablefit/refine/rows/motion.hpp"
+#include "cablefit/refine/steps/torque_lateness.hpp"
+#include "cablefit/samples/rows/agreement.hpp"
+
+namespace cablefit {
+namespace {
+
+// Rows of a drive in one of the log; 0: the torque is not held. Others are within kNear of these.
+constexpr std::array kDriveRows{0, 1, 2, 4};
+constexpr double kNear = 0.06;  // of a row of the log, about as much as clocks of logs are off
+constexpr double kSure = 4;     // sd in half a row, below which the motion does not show a hold
+
+double late_by(int drive_rows) { return drive_rows == 0 ? 0 : 0.5 / drive_rows; }
+
+/// The nearest, where it explains the time at which the torque acts.
+std::optional<int> drive_rows(const TorqueLateness& late, double row) {
+  if (!(late.sd < 0.5 * row / kSure)) return std::nullopt;
+  const double share = late.seconds / row;
+  const int nearest = *std::min_element(kDriveRows.begin(), kDriveRows.end(), [&](int a, int b) {
+    return std::abs(late_by(a) - share) < std::abs(late_by(b) - share);
+  });
+  if (std::abs(late_by(nearest) - share) > std::max(kNear, 3 * late.sd / row)) return std::nullopt;
+  return nearest;
+}
+
+/// s, of the moving training logs; nothing where they differ.
+std::optional<double> moving_row(const RefineLogs& logs) {
+  constexpr double kSame = 1.01;
+  const RateRange rates =
+      sample_rates(logs.train, [](const PartSurvey& part) { return part.phase == Phase::moving; });
+  if (!(rates.highest > 0) || rates.highest > kSame * rates.lowest) return std::nullopt;
+  return 1 / rates.highest;
+}
+
+void take(int rows, double row, Rig& rig) {
+  rig.torque_hold = rows == 0 ? TorqueHold::none : TorqueHold::zoh;
+  if (rows > 1) rig.torque_period = row / rows;
+}
+
+std::optional<Decision> take_hold(const TorqueLateness& late, double row, RefineLogs& logs,
+                                  std::vector<Model>& models) {
+  const std::optional<int> rows = drive_rows(late, row);
+  if (!rows) return std::nullopt;
+  for (Model& model : models) take(*rows, row, model.rig);
+  for (auto* some : {&logs.train, &logs.test, &logs.blocked})
+    for (LogSurvey& log : *some) take(*rows, row, log.plan.rig);
+  const std::string value = *rows == 0 ? "none" : fmt::format("zoh, {:.3g} ms", 1e3 * row / *rows);
+  return Decision{"torque hold", value,
+                  fmt::format("the torque acts {:.2g} +- {:.1g} ms after its time stamp; the rig "
+                              "file has no \"torque_hold\"",
+                              1e3 * late.seconds, 1e3 * late.sd)};
+}
+
+const Estimate* found_delay(const RefineResult& result) {
+  for (const NamedEffect& effect : result.effects)
+    if (effect.instance.effect->delays_torque) return &effect.instance.parameters.front();
+  return nullptr;
+}
+
+}  // namespace
+
+bool is_hold_open(const RefineLogs& logs, const std::vector<Model>& models) {
+  const auto is_automatic = [](const Rig& rig) {
+    return rig.torque_hold == TorqueHold::automatic && !(rig.torque_period > 0);
+  };
+  for (const Model& model : models)
+    if (!is_automatic(model.rig)) return false;
+  for (const auto* some : {&logs.train, &logs.test, &logs.blocked})
+    for (const LogSurvey& log : *some)
+      if (!is_automatic(log.plan.rig)) return false;
+  return true;
+}
+
+std::optional<Decision> take_fitted_hold(RefineLogs& logs, std::vector<Model>& models) {
+  const std::optional<double> row = moving_row(logs);
+  if (!row || models.front().joints.size() > 1) return std::nullopt;
+  const auto late = fit_torque_lateness(models, logs.fitted(), *row);
+  return late ? take_hold(*late, *row, logs, models) : std::nullopt;
+}
+
+std::optional<Decision> take_found_hold(const RefineResult& result, RefineLogs& logs,
+                                        std::vector<Model>& models) {
+  const Estimate* delay = found_delay(result);
+  const std::optional<double> row = moving_row(logs);
+  if (delay == nullptr || !row) return std::nullopt;
+  const double now = torque_lateness(models.front().rig, *row);
+  const TorqueLateness late{now * *row + delay->value, delay->sd};
+  const std::optional<int> rows = drive_rows(late, *row);
+  if (!rows || late_by(*rows) == now) return std::nullopt;
+  return take_hold(late, *row, logs, models);
+}
+
+}  // namespace cablefit
