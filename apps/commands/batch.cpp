@@ -193,7 +193,7 @@ std::vector<ResultFile> files_of(const BatchCommand& command, const BatchResult&
   return files;
 }
 
-void tell_kept(const BatchCommand& command, const BatchResult& result) {
+void add_kept(const BatchCommand& command, const BatchResult& result) {
   const CommonOptions& options = command.common;
   if (result.n_kept == 0 || options.quiet || options.json == "-") return;
   write_whole("-", fmt::format("{} of {} cells taken from {}\n\n", result.n_kept,
@@ -226,7 +226,7 @@ int run_batch(const Arguments& arguments) {
   BatchOptions& batch = command.batch;
   batch.reading = options.reading;
   batch.samples = options.samples;
-  batch.honest_sd = options.honest_sd;
+  batch.robust_sd = options.robust_sd;
   batch.seed = options.seed;
   batch.folder = (std::filesystem::path(options.out) / "cells").string();
   if (command.lists_cells) {
@@ -239,7 +239,7 @@ int run_batch(const Arguments& arguments) {
   refuse_collisions(options, files_of(command, BatchResult{}));
   const BatchResult result = fit_all(command, campaign);
   Problems problems;
-  problems.collect([&] { tell_kept(command, result); });
+  problems.collect([&] { add_kept(command, result); });
   problems.collect([&] { deliver(options, batch_document(result), files_of(command, result)); });
   complain_about(result);
   problems.throw_if_any();

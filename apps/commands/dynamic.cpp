@@ -401,8 +401,8 @@ int run_dynamic(const Arguments& arguments) {
         "name one or more logs in which the link moves");
   command.fit.samples = options.samples;
   command.fit.preload = options.preload;
-  command.fit.honest_sd = options.honest_sd;
-  command.fit.residual_tests = options.honest_sd;
+  command.fit.robust_sd = options.robust_sd;
+  command.fit.residual_tests = options.robust_sd;
   command.fit.figures = wants_figures(options);
   Stage1 stage1;
   const bool takes_stage1 = is_elastic(command) && !moving.empty() && have_torque(moving);

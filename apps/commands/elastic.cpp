@@ -199,7 +199,7 @@ int run_elastic(const Arguments& arguments) {
   elastic.lines.test = test;
   elastic.samples = options.samples;
   elastic.preload = options.preload;
-  elastic.honest_sd = options.honest_sd;
+  elastic.robust_sd = options.robust_sd;
   elastic.figures = wants_figures(options);
   const std::vector<LogSurvey> blocked = elastic.still ? logs : logs_of(logs, Phase::blocked);
   const bool of_elongations =

@@ -50,7 +50,7 @@ int run_identify(const Arguments& arguments) {
   const std::vector<LogSurvey> logs = start ? read_logs_of(*start, options) : read_logs(options);
   fit.samples = options.samples;
   fit.preload = options.preload;
-  fit.honest_sd = options.honest_sd;
+  fit.robust_sd = options.robust_sd;
   fit.figures = wants_figures(options);
   const IdentifyResult result = or_why(logs, [&] {
     const Progress progress(options.quiet, "identifying");

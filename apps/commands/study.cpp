@@ -47,7 +47,7 @@ std::vector<LogSurvey> read_test(StudyCommand& command) {
 StudyOptions options_of(const StudyCommand& command) {
   StudyOptions options;
   options.samples = command.common.samples;
-  options.honest_sd = command.common.honest_sd;
+  options.robust_sd = command.common.robust_sd;
   options.preload = command.common.preload;
   options.figures = wants_figures(command.common);
   options.refine = command.refine;

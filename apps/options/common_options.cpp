@@ -150,7 +150,7 @@ void add_choice_of_fit(CLI::App& app, std::string& model, std::string& preload,
 void add_sd_option(CLI::App& app, CommonOptions& options) {
   add_choice(
       app, "--sd", "kind of sd", {"honest", "white"},
-      [&options](const std::string& kind) { options.honest_sd = kind == "honest"; },
+      [&options](const std::string& kind) { options.robust_sd = kind == "honest"; },
       "white: the paper's (25) alone, the fastest");
 }
 

@@ -143,7 +143,7 @@ TEST_CASE("a key tells contents and options apart, not folders, threads or dates
   options.samples.cutoff = 50;
   CHECK(key(here, options) != first);
   options = {};
-  options.honest_sd = false;
+  options.robust_sd = false;
   CHECK(key(here, options) != first);
   Campaign other = here;
   other.estimator = "ols";

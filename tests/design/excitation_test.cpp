@@ -126,7 +126,7 @@ TEST_CASE("the planned sd is met on simulated logs, and a plain sine is beaten",
     Random random(9301);
     std::vector<double> squares(plan.fit.parameters.size()), mean(squares.size());
     DynamicOptions options;
-    options.honest_sd = false;
+    options.robust_sd = false;
     options.residual_tests = false;
     // The floor is planned without noise. wls has what encoder noise in the accelerations does on
     // top (J_link -0.009 %), which `auto` lets stand below half an sd; iv has not.

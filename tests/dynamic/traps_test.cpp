@@ -62,7 +62,7 @@ TEST_CASE("the covariance of stage 1 adds to that of stage 2", "[dynamic]") {
 TEST_CASE("white sd is asked for by option and is the paper's (25)", "[dynamic]") {
   const ElasticResult elastic = stage1();
   DynamicOptions white;
-  white.honest_sd = false;
+  white.robust_sd = false;
   const DynamicFit a = stage2(elastic, {});
   const DynamicFit b = stage2(elastic, white);
   for (std::size_t k = 0; k < a.parameters.size(); ++k) {

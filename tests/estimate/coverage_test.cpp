@@ -19,7 +19,7 @@ using cablefit::test::Normal;
 constexpr Eigen::Index kRows = 2000;
 
 struct Coverage {
-  double honest[2] = {0, 0}, white[2] = {0, 0};  // constant, sine
+  double robust[2] = {0, 0}, white[2] = {0, 0};  // constant, sine
 };
 
 /// y = 0.5 + 2 sin(5 periods over the log) + AR(1) of unit variance.
@@ -44,7 +44,7 @@ Coverage coverage(double rho, int n_runs, std::uint64_t base_seed) {
     for (Eigen::Index k = 0; k < 2; ++k) {
       const double error = std::abs(s.x(k) - truth[k]);
       const double t = t_quantile_975(s.degrees_of_freedom);
-      result.honest[k] += (error < t * std::sqrt(s.covariance(k, k))) / static_cast<double>(n_runs);
+      result.robust[k] += (error < t * std::sqrt(s.covariance(k, k))) / static_cast<double>(n_runs);
       result.white[k] +=
           (error < 1.96 * std::sqrt(s.covariance_white(k, k))) / static_cast<double>(n_runs);
     }
@@ -62,10 +62,10 @@ TEST_CASE("honest intervals cover with coloured residuals, white ones do not", "
   const Coverage c = coverage(0.9, n_runs(), 6200);
   std::printf(
       "  coverage at rho 0.9: honest %.1f %% (constant), %.1f %% (sine); white %.1f, %.1f\n",
-      100 * c.honest[0], 100 * c.honest[1], 100 * c.white[0], 100 * c.white[1]);
+      100 * c.robust[0], 100 * c.robust[1], 100 * c.white[0], 100 * c.white[1]);
   for (int k = 0; k < 2; ++k) {
-    CHECK(c.honest[k] > 0.95 - band - 0.02);
-    CHECK(c.honest[k] < 0.95 + band);
+    CHECK(c.robust[k] > 0.95 - band - 0.02);
+    CHECK(c.robust[k] < 0.95 + band);
     // The trap: without HAC the interval is sqrt((1 + rho)/(1 - rho)) = 4.4 times too short and
     // covers 2 Phi(1.96/4.36) - 1 = 35 %.
     CHECK(c.white[k] < 0.60);
@@ -75,12 +75,12 @@ TEST_CASE("honest intervals cover with coloured residuals, white ones do not", "
 TEST_CASE("honest intervals cover with white residuals", "[estimate]") {
   const double band = 3.29 * std::sqrt(0.95 * 0.05 / n_runs());
   const Coverage c = coverage(0, n_runs(), 16200);
-  std::printf("  coverage at rho 0: honest %.1f %%, %.1f %%; white %.1f, %.1f\n", 100 * c.honest[0],
-              100 * c.honest[1], 100 * c.white[0], 100 * c.white[1]);
+  std::printf("  coverage at rho 0: honest %.1f %%, %.1f %%; white %.1f, %.1f\n", 100 * c.robust[0],
+              100 * c.robust[1], 100 * c.white[0], 100 * c.white[1]);
   for (int k = 0; k < 2; ++k) {
-    CHECK(c.honest[k] > 0.95 - band);
+    CHECK(c.robust[k] > 0.95 - band);
     // sd is never below the white one: a little over nominal is meant.
-    CHECK(c.honest[k] < 0.95 + band + 0.01);
+    CHECK(c.robust[k] < 0.95 + band + 0.01);
     CHECK(c.white[k] > 0.95 - band);
   }
 }

@@ -1,5 +1,5 @@
 // Several equations in one problem: numbers of Octave, equalities met to rounding, what no row
-// determines, and honest variances by Monte Carlo.
+// determines, and robust variances by Monte Carlo.
 #include "cablefit/estimate/fit/joint_least_squares.hpp"
 
 #include <catch2/catch.hpp>
@@ -135,13 +135,13 @@ struct Simulated {
 
 /// Mean square distance of the slope from the truth, and what the covariances say of it.
 struct Spread {
-  double seen = 0, honest = 0, white = 0;
+  double seen = 0, robust = 0, white = 0;
 
   void add(const JointProblem& problem, double share) {
     const JointSolution s = solve(problem);
     const JointCovariance c = joint_covariance(problem, s);
     seen += share * (s.x(0) - 2) * (s.x(0) - 2);
-    honest += share * c.covariance(0, 0);
+    robust += share * c.covariance(0, 0);
     white += share * c.white(0, 0);
   }
 };
@@ -171,8 +171,8 @@ TEST_CASE("joint variances and weights are honest about correlated blocks",
     reweigh(problem, s);
     weighted.add(problem, 1.0 / kRuns);
   }
-  CHECK_THAT(equal.honest / equal.seen, Catch::WithinAbs(1, 0.25));
-  CHECK_THAT(weighted.honest / weighted.seen, Catch::WithinAbs(1, 0.25));
+  CHECK_THAT(equal.robust / equal.seen, Catch::WithinAbs(1, 0.25));
+  CHECK_THAT(weighted.robust / weighted.seen, Catch::WithinAbs(1, 0.25));
   CHECK_THAT(equal.white / equal.seen, Catch::WithinAbs(2 / 8.9, 0.06));
   CHECK_THAT(weighted.seen / equal.seen, Catch::WithinAbs(4 * 7.9 / 8.9 / 8.9, 0.1));
   CHECK_THAT(inflation, Catch::WithinAbs(8.4, 2));

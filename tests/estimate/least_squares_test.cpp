@@ -58,7 +58,7 @@ TEST_CASE("the white covariance is the closed form sigma^2 (W'W)^-1", "[estimate
   CHECK_THAT(s.rms(), Catch::WithinRel(std::sqrt(rss / 400), 1e-10));
   CHECK((s.covariance_white - rss / 397 * inverse).norm() < 1e-10 * s.covariance_white.norm());
   CHECK(s.n_params == 3);
-  // White residuals: the honest sd is not far off, and never below.
+  // White residuals: the robust sd is not far off, and never below.
   for (Eigen::Index k = 0; k < 3; ++k) {
     CHECK(s.covariance(k, k) >= s.covariance_white(k, k) * (1 - 1e-12));
     CHECK(s.covariance(k, k) < 1.5 * s.covariance_white(k, k));

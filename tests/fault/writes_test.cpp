@@ -10,7 +10,7 @@ namespace {
 
 using namespace cablefit::test;
 
-bool is_told(const Ended& ended, const Writer& writer) {
+bool is_given(const Ended& ended, const Writer& writer) {
   for (const std::string& target : writer.targets) {
     if (ended.err.find("cannot write out/" + target + ": ") != std::string::npos) return true;
   }
@@ -33,7 +33,7 @@ int fail_each(const FaultBench& bench, const Writer& writer, const std::string& 
                      << ended.err);
     if (how == "ENOSPC" || how == "EIO") {
       REQUIRE(ended.exit_code == 5);
-      REQUIRE(is_told(ended, writer));
+      REQUIRE(is_given(ended, writer));
     } else {
       REQUIRE(ended.exit_code == 0);
       REQUIRE(bench.files() == whole);

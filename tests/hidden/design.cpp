@@ -165,8 +165,8 @@ class Laboratory {
     return wish.row->make(draw_of(wish, spec_, runs_, peak_tau_), run, bench_);
   }
 
-  /// Runs of the given roles; twin: with a noise of its own.
-  std::vector<Recording> record(const std::vector<Wish>& wishes, double clutter, bool twin,
+  /// Runs of the given roles; copy: with a noise of its own.
+  std::vector<Recording> record(const std::vector<Wish>& wishes, double clutter, bool copy,
                                 bool with_test) const {
     std::vector<Recording> out;
     for (Run run : runs_) {
@@ -177,7 +177,7 @@ class Laboratory {
         const Row& wander = row_of("wander.link");
         hooks.push_back(plant({&wander, clutter / wander.size}, run).hooks);
       }
-      run.noise = 2 * spec_.seed + (twin ? 1 : 0);
+      run.noise = 2 * spec_.seed + (copy ? 1 : 0);
       out.push_back(simulate(bench_, hooks, run));
     }
     return out;
@@ -213,8 +213,8 @@ double peak_of(const std::vector<Recording>& recordings) {
   return peak;
 }
 
-/// What an effect-free twin knows: the floor, and how to measure rho against it.
-struct Twin {
+/// What an effect-free copy knows: the floor, and how to measure rho against it.
+struct SimulatedCopy {
   const Laboratory& laboratory;
   const std::vector<Run>& runs;
   Equations exact;
@@ -230,10 +230,10 @@ struct Twin {
 
 /// The gap grows about as the square of the size, so a step of a secant in log-log mostly does;
 /// where it leaves what is known to lie between too small and too large, the middle of that.
-double size_for(double target, Wish wish, const Twin& twin) {
+double size_for(double target, Wish wish, const SimulatedCopy& copy) {
   double small = 1e-4, large = 50;
   for (int i = 0; i < 14; ++i) {
-    const double rho = twin.rho({wish}, 0).all;
+    const double rho = copy.rho({wish}, 0).all;
     if (std::abs(rho - target) < 0.02 * (target - 1)) break;
     (rho < target ? small : large) = wish.m;
     const double step = std::sqrt((target - 1) / std::max(rho - 1, 1e-6));
@@ -277,22 +277,22 @@ Case make_case(const CaseSpec& spec) {
   if (spec.extra) out.runs.push_back(extra_run(spec, out.bench, out.runs));
 
   Laboratory laboratory(spec, out.bench, out.runs);
-  const auto twin_runs = laboratory.record({}, 0, true, false);
-  laboratory.set_peak(peak_of(twin_runs));
-  const Twin twin{laboratory, out.runs, rows_of(twin_runs, out.runs, true),
-                  floor_of(rows_of(twin_runs, out.runs, false))};
-  out.floor = twin.floor;
+  const auto copy_runs = laboratory.record({}, 0, true, false);
+  laboratory.set_peak(peak_of(copy_runs));
+  const SimulatedCopy copy{laboratory, out.runs, rows_of(copy_runs, out.runs, true),
+                           floor_of(rows_of(copy_runs, out.runs, false))};
+  out.floor = copy.floor;
 
   std::vector<Wish>& wishes = out.spec.effects;
   if (spec.rho)
-    for (Wish& wish : wishes) wish.m = size_for(*spec.rho, wish, twin);
+    for (Wish& wish : wishes) wish.m = size_for(*spec.rho, wish, copy);
   out.recordings = laboratory.record(wishes, spec.clutter, false, true);
-  out.rho = twin.rho(out.recordings);
-  if (spec.clutter > 0) out.background = twin.rho({}, spec.clutter);
+  out.rho = copy.rho(out.recordings);
+  if (spec.clutter > 0) out.background = copy.rho({}, spec.clutter);
   const bool alone = wishes.size() == 1 && spec.clutter == 0;
   for (const Wish& wish : wishes)
     out.effects.push_back({wish.row, wish.m, laboratory.plant(wish, out.runs[0]).coefficients,
-                           alone ? out.rho : twin.rho({wish}, 0)});
+                           alone ? out.rho : copy.rho({wish}, 0)});
   return out;
 }
 

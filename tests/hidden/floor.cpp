@@ -160,16 +160,16 @@ PerEquation mean_square(const Equations& rows, const Base& base) {
   return out;
 }
 
-PerEquation floor_of(const Equations& logged_twin) {
+PerEquation floor_of(const Equations& logged_copy) {
   PerEquation sd = PerEquation::Ones();
   for (int pass = 0; pass < 2; ++pass)
-    sd = mean_square(logged_twin, fit(logged_twin, sd)).sqrt().max(1e-12);
+    sd = mean_square(logged_copy, fit(logged_copy, sd)).sqrt().max(1e-12);
   return sd;
 }
 
-Rho rho_of(const Equations& exact_case, const Equations& exact_twin, const PerEquation& floor) {
+Rho rho_of(const Equations& exact_case, const Equations& exact_copy, const PerEquation& floor) {
   const PerEquation with = mean_square(exact_case, fit(exact_case, floor));
-  const PerEquation without = mean_square(exact_twin, fit(exact_twin, floor));
+  const PerEquation without = mean_square(exact_copy, fit(exact_copy, floor));
   Rho rho;
   rho.each = 1 + (with - without) / floor.square();
   double n = 0, sum = 0;

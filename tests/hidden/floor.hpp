@@ -7,10 +7,10 @@
 // equation weighted by its own floor.
 //
 //   floor_e  rms residual of that fit to the *logged* signals (counts, noise) of the effect-free
-//   twin:
+//   copy:
 //            same rig, references and controller, no effect
 //   gap_e    mean squared residual of that fit to the *exact* signals of the case, less that of the
-//            exact signals of the twin (what filtering alone leaves)
+//            exact signals of the copy (what filtering alone leaves)
 //   rho_e = 1 + gap_e / floor_e^2,  rho = mean of rho_e over all rows
 #pragma once
 
@@ -48,12 +48,12 @@ Base fit(const Equations& rows, const PerEquation& sd);
 PerEquation mean_square(const Equations& rows, const Base& base);
 
 /// rms residual per equation of a fit whose weights are its own residuals (two passes), N m.
-PerEquation floor_of(const Equations& logged_twin);
+PerEquation floor_of(const Equations& logged_copy);
 
 struct Rho {
   double all = 1;
   PerEquation each = PerEquation::Ones();
 };
-Rho rho_of(const Equations& exact_case, const Equations& exact_twin, const PerEquation& floor);
+Rho rho_of(const Equations& exact_case, const Equations& exact_copy, const PerEquation& floor);
 
 }  // namespace hidden

@@ -21,7 +21,7 @@ std::vector<LogSurvey> shipped_logs(const std::vector<std::string>& preloads) {
   return logs;
 }
 
-// With honest sd a parameter leaves the band of 3 sd once in 370 tries; 24 are looked at.
+// With robust sd a parameter leaves the band of 3 sd once in 370 tries; 24 are looked at.
 TEST_CASE("one pair of cables and two preloads in the shipped logs", "[identify][recover]") {
   const std::vector<LogSurvey> logs = shipped_logs({"low", "high"});
   const IdentifyResult r = identify(logs, {});

@@ -96,20 +96,20 @@ TEST_CASE("a coefficient that its bound holds has an interval", "[identify]") {
   bench.add("odd", blocked_log(rig, 25));
   IdentifyOptions options;
   options.order = 1;
-  for (const bool honest : {true, false}) {
-    options.honest_sd = honest;
+  for (const bool robust : {true, false}) {
+    options.robust_sd = robust;
     const IdentifyResult r = identify(bench.logs(), options);
     const Estimate& e = estimate(r.parameters, "K2_0");
     CHECK(e.active_bound == "cable 2 only pulls");
     CHECK(e.value == 0);
     CHECK(e.sd > 0);
     CHECK(e.sd_white > 0);
-    CHECK((honest ? e.sd >= e.sd_white : e.sd == e.sd_white));
+    CHECK((robust ? e.sd >= e.sd_white : e.sd == e.sd_white));
     CHECK(e.ci_low == 0);
     // Honest: by profile, the shorter the further beyond the bound the free estimate lies. White:
     // t of many degrees of freedom is 1.96.
-    CHECK(e.profiled == honest);
-    CHECK(e.ci_high > (honest ? 0 : 1.9 * e.sd));
+    CHECK(e.profiled == robust);
+    CHECK(e.ci_high > (robust ? 0 : 1.9 * e.sd));
     CHECK(e.ci_high < 2.1 * e.sd);
     REQUIRE(r.active_bounds.size() == 1);
     CHECK(r.active_bounds[0].starts_with("cable 2: k(l) >= 0 at l = "));

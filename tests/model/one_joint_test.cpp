@@ -131,11 +131,12 @@ TEST_CASE("alone, a link of an arm turns its M_kk", "[model]") {
 
 TEST_CASE("an equation has columns for the base parameters that it can tell", "[model]") {
   // Those of link 1 turn axis 1 alone; all that turns axis 2 is of link 2.
-  CHECK(told_arm_columns(one_joint(planar(), 0)) == std::vector<Eigen::Index>{0, 1, 2, 3, 4, 5});
-  CHECK(told_arm_columns(one_joint(planar(), 1)) == std::vector<Eigen::Index>{1, 2, 3});
+  CHECK(determined_arm_columns(one_joint(planar(), 0)) ==
+        std::vector<Eigen::Index>{0, 1, 2, 3, 4, 5});
+  CHECK(determined_arm_columns(one_joint(planar(), 1)) == std::vector<Eigen::Index>{1, 2, 3});
   Model vague = planar();
   vague.arm[2].sd = 2 * vague.arm[2].value;  // not known to within its size
-  CHECK(told_arm_columns(one_joint(vague, 1)) == std::vector<Eigen::Index>{1, 3});
+  CHECK(determined_arm_columns(one_joint(vague, 1)) == std::vector<Eigen::Index>{1, 3});
 }
 
 TEST_CASE("the arm's base parameters come from the joint that knows each best", "[model]") {

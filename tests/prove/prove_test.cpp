@@ -29,14 +29,14 @@ struct Proved {
   }
 };
 
-Proved prove_drive(bool honest, bool with_controller, std::size_t n_runs, int threads = 2) {
+Proved prove_drive(bool robust, bool with_controller, std::size_t n_runs, int threads = 2) {
   truth::DriveOptions options;
   options.duration = 10;
   const std::vector<LogSurvey> logs = {survey_of(
       truth::simulate_drive({}, options), with_controller ? drive_rig(options) : bare_rig())};
   DynamicOptions fit;
   fit.models = {"rigid"};
-  fit.honest_sd = honest;
+  fit.robust_sd = robust;
   Proved proved{fit_dynamic(logs, {}, fit)};
   ProveOptions prove;
   prove.n_runs = n_runs;
@@ -71,11 +71,11 @@ TEST_CASE("the proof finds the sd of (25) too small, and widens it") {
 }
 
 TEST_CASE("the honest sd passes where that of (25) fails") {
-  const Proved honest = prove_drive(true, true, 40);
-  print(honest.proof());
-  CHECK(honest.proof().n_failed == 0);
+  const Proved robust = prove_drive(true, true, 40);
+  print(robust.proof());
+  CHECK(robust.proof().n_failed == 0);
   // f_s: at 95 % two of 40 miss; less than 33 inside has a chance of 1e-3.
-  const ProvedParameter& f_s = honest.proof().parameters[2];
+  const ProvedParameter& f_s = robust.proof().parameters[2];
   CHECK(f_s.n_runs == 40);
   CHECK(f_s.n_covered >= 33);
 }
@@ -148,11 +148,11 @@ TEST_CASE("both stages are proved, stage 1 rerun or drawn") {
   }
 }
 
-FitProof prove_blocked(bool honest, std::size_t n_runs, int threads) {
+FitProof prove_blocked(bool robust, std::size_t n_runs, int threads) {
   const std::vector<LogSurvey> logs = {shipped("low/blocked.csv")};
   ElasticOptions options;
   options.order = 2;
-  options.honest_sd = honest;
+  options.robust_sd = robust;
   ElasticResult result = fit_elastic(logs, options);
   ProveOptions prove;
   prove.n_runs = n_runs;
@@ -163,7 +163,7 @@ FitProof prove_blocked(bool honest, std::size_t n_runs, int threads) {
   return *fit.proof;
 }
 
-// The twin follows the log's motion with the fit's torque: what it finds lies about the fit itself.
+// The copy follows the log's motion with the fit's torque: what it finds lies about the fit itself.
 // 40 runs at 95 % miss two; fewer than 33 inside has a chance of 1e-3 per parameter, a mean beyond
 // 4 standard errors one of 6e-5 but for what the filter leaves, which is allowed half an sd.
 TEST_CASE("stage 1 is proved on its own motion") {
@@ -176,7 +176,7 @@ TEST_CASE("stage 1 is proved on its own motion") {
     INFO(p.name);
     CHECK(p.n_covered >= 33);
     CHECK(std::abs(p.bias) < 4 * p.standard_error + 0.5 * p.mean_sd);
-    // The honest sd is never below the white one, and noise of positions is not white after the
+    // The robust sd is never below the white one, and noise of positions is not white after the
     // low-pass: it may be twice too wide, not too narrow (40 runs: a scatter within 11 % of its
     // own).
     CHECK(p.scatter > 0.3 * p.mean_sd);

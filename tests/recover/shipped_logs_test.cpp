@@ -1,5 +1,5 @@
 // The shipped logs, whose true parameters are known (data/README.md): every estimate within three
-// of its own sd. With honest sd a parameter leaves that band once in 370 tries; 37 are looked at
+// of its own sd. With robust sd a parameter leaves that band once in 370 tries; 37 are looked at
 // here, on fixed logs, so a failure is a bias or an sd that is too small.
 #include "cablefit/identify/elastic_stage.hpp"
 #include "tests/support/recover.hpp"

@@ -124,7 +124,7 @@ TEST_CASE("EMPS: ols, iv and output error side by side with the published estima
                 c.value, c.sd, c.sd_white);
     INFO(p.name);
     // The position sensor is fine and the motion slow against the band: what instruments change is
-    // far below an honest sd.
+    // far below an robust sd.
     CHECK(std::abs(b.value - p.value) < b.sd);
     CHECK(std::abs(b.value - a.value) < 0.2 * b.sd);
     // Another criterion, of positions instead of forces, on the same drive.

@@ -354,7 +354,7 @@ TEST_CASE("what a kept effect leaves is named no more than what a first one does
   REQUIRE_FALSE(result.ranking.empty());
 }
 
-/// A blocked link's draws are made without a simulator, see blocked_twin.cpp.
+/// A blocked link's draws are made without a simulator, see blocked_copy.cpp.
 TEST_CASE("a model refined from blocked logs alone is refined again", "[refine][kept]") {
   const std::string effect = GENERATE("cable_hysteresis.transmission=1", "creep.transmission=2",
                                       "tension_friction.motor=1");

@@ -39,7 +39,7 @@ TEST_CASE("draws wander as the logs do, not as logs and noise together", "[refin
   const KindMemory better = corrected(guess, left, drawn_with(guess));
   for (const Eigen::Index lag : {0, 1, 40})
     CHECK(better[kLink].covariance(lag) == Approx(memory(kWander, 0)[kLink].covariance(lag)));
-  const TwinDisturbance torque = as_disturbance(better, true);
+  const CopyDisturbance torque = as_disturbance(better, true);
   CHECK(torque.link.front().sd == Approx(std::sqrt(kWander)));
   CHECK(torque.motor.front().sd == 0);
 }

@@ -1,4 +1,4 @@
-// Logs and rig files that are plausible and wrong: the first message names the cause, and the twin
+// Logs and rig files that are plausible and wrong: the first message names the cause, and the copy
 // that is right passes without a word. The rows are in rows.txt.
 #include <catch2/catch.hpp>
 

@@ -81,7 +81,7 @@ struct BatchOptions {
   Reading reading;
   SampleOptions samples;   ///< its `threads` are for one cell
   ElasticOptions elastic;  ///< its `samples` and `preload` are replaced
-  bool honest_sd = true;
+  bool robust_sd = true;
   unsigned long seed = 1;  ///< of refine
   int jobs = 1;            ///< cells at a time
   std::string folder;      ///< of the cells' files; empty: none are kept

@@ -79,7 +79,7 @@ Eigen::MatrixXd smooth(const Eigen::MatrixXd& columns, double period, double cut
   return out;
 }
 
-FastMotion fast_motion(const Model& model, const LogPlan& plan, const TwinStretch& stretch,
+FastMotion fast_motion(const Model& model, const LogPlan& plan, const CopyStretch& stretch,
                        int joint, const FrequencyBand& band, bool torque_held) {
   const double period = stretch.period;
   const Eigen::Index n = stretch.measured.rows();

@@ -2,7 +2,7 @@
 // controller has to let through. Internal to copies/.
 #pragma once
 
-#include "cablefit/copies/twin.hpp"
+#include "cablefit/copies/simulated_copy.hpp"
 
 namespace cablefit {
 
@@ -21,7 +21,7 @@ struct FastMotion {
 /// What a band of the measured torque did, as far as it acted: what moved the motor is what the
 /// model's motion asks for, what a torque sensor adds is not.
 /// `joint`: from 0.
-FastMotion fast_motion(const Model& model, const LogPlan& plan, const TwinStretch& stretch,
+FastMotion fast_motion(const Model& model, const LogPlan& plan, const CopyStretch& stretch,
                        int joint, const FrequencyBand& band, bool torque_held);
 
 }  // namespace cablefit

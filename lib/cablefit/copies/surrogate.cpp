@@ -68,7 +68,7 @@ Eigen::MatrixXd refined(const Eigen::MatrixXd& columns, int n) {
   return fine;
 }
 
-void take_load(const LogPlan& plan, TwinStretch& stretch) {
+void take_load(const LogPlan& plan, CopyStretch& stretch) {
   const int n_joints = plan.rig.n_joints();
   if (!plan.has_for_all(Channel::tau_load)) return;
   Eigen::MatrixXd load(stretch.measured.rows(), n_joints);
@@ -77,8 +77,8 @@ void take_load(const LogPlan& plan, TwinStretch& stretch) {
   stretch.input.tau_load = refined(load, stretch.fine).array();
 }
 
-void follow_measured(const Model& model, const LogPlan& plan, const TwinDrive& drive,
-                     TwinStretch& stretch) {
+void follow_measured(const Model& model, const LogPlan& plan, const CopyDrive& drive,
+                     CopyStretch& stretch) {
   const bool is_held_shorter =
       drive.torque_held && drive.torque_period > 0 && drive.torque_period < kSame * stretch.period;
   stretch.fine = commands_per_row(stretch.period, drive.torque_held && !is_held_shorter);
@@ -107,7 +107,7 @@ void follow_measured(const Model& model, const LogPlan& plan, const TwinDrive& d
 }
 
 /// A channel of every joint, as it was measured.
-void take_inputs(const LogPlan& plan, Channel channel, const TwinStretch& stretch,
+void take_inputs(const LogPlan& plan, Channel channel, const CopyStretch& stretch,
                  Eigen::ArrayXXd& inputs) {
   inputs.resize(stretch.measured.rows(), plan.rig.n_joints());
   for (int joint = 0; joint < plan.rig.n_joints(); ++joint)
@@ -124,8 +124,8 @@ bool has_reference(const LogPlan& plan) {
 
 namespace {
 
-std::string choose(const Model& model, const LogSurvey& log, const TwinDrive& drive,
-                   TwinStretch& stretch) {
+std::string choose(const Model& model, const LogSurvey& log, const CopyDrive& drive,
+                   CopyStretch& stretch) {
   const LogPlan& plan = log.plan;
   stretch.rig = plan.rig;
   if (plan.rig.open_loop) {
@@ -154,8 +154,8 @@ std::string choose(const Model& model, const LogSurvey& log, const TwinDrive& dr
 
 }  // namespace
 
-std::string choose_controller(const Model& model, const LogSurvey& log, const TwinDrive& drive,
-                              TwinStretch& stretch) {
+std::string choose_controller(const Model& model, const LogSurvey& log, const CopyDrive& drive,
+                              CopyStretch& stretch) {
   std::string which = choose(model, log, drive, stretch);
   take_load(log.plan, stretch);
   return which;

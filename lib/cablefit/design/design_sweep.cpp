@@ -207,7 +207,7 @@ void require_joints_of(const Model& model, const std::vector<Model>& fitted) {
   }
 }
 
-void tell_needed(const DesignResult& result, std::vector<std::string>& warnings) {
+void add_needed(const DesignResult& result, std::vector<std::string>& warnings) {
   for (const NeededPreload& needed : result.needed)
     if (!std::isfinite(needed.l_o))
       warnings.push_back(fmt::format(
@@ -279,7 +279,7 @@ DesignResult sweep_design(const Model& model, const DesignOptions& given) {
     }
   }
   describe_fitted(options, result);
-  tell_needed(result, result.warnings);
+  add_needed(result, result.warnings);
   if (options.figures) finish_figures(options, result);
   add_preload_figures(model, copies, options, result);
   return result;

@@ -44,7 +44,7 @@ RowStatistics collect(std::span<const LogSurvey> logs, const PartFilter& wanted,
                       const DynamicOptions& options, const RowSettings& settings,
                       const Equation& equation, DynamicPreload& preload) {
   const RowStatistics blank(kResponse + 1, expected_rows(logs, wanted, settings),
-                            options.honest_sd);
+                            options.robust_sd);
   RowStatistics rows = blank;
   RowCounts& counts = preload.counts[equation.name];
   preload.windows = stream_rows(
@@ -98,7 +98,7 @@ DynamicFit make_fit(const LinearSolution& s, const DynamicOptions& options, bool
   fit.estimator = options.estimator;
   for (std::size_t k = 0; k < 3; ++k)
     fit.parameters.push_back(estimate_of(kRatios[k], linear_motion, s, static_cast<Eigen::Index>(k),
-                                         {options.honest_sd}));
+                                         {options.robust_sd}));
   refuse_absolute(has_torque, fit);
   fit.effective_rows["link"] = s.effective_rows;
   fit.condition["link"] = s.condition;

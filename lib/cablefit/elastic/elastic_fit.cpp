@@ -36,11 +36,12 @@ struct Stage1 {
   std::span<const Nuisance> nuisances() const { return {&nuisance, 1}; }
 };
 
-constexpr int kPilotOrder = 2;
+constexpr int kPreliminaryOrder = 2;
 
-std::vector<int> pilot_orders(const Stage1& stage) {
+std::vector<int> preliminary_orders(const Stage1& stage) {
   const ElasticJob& job = stage.job;
-  return job.orders.empty() ? std::vector<int>(job.basis.cables.size(), kPilotOrder) : job.orders;
+  return job.orders.empty() ? std::vector<int>(job.basis.cables.size(), kPreliminaryOrder)
+                            : job.orders;
 }
 
 /// The torque at zero deflection, by the constant of the straight line, is an encoder's zero rather
@@ -59,7 +60,7 @@ bool zero_is_arbitrary(const Stage1& stage, const LinearSolution& line) {
   };
   if (!is_large(line.x(1))) return false;
   const ElasticCandidate curve =
-      poly_candidate(stage.job, stage.rows, pilot_orders(stage), stage.nuisances());
+      poly_candidate(stage.job, stage.rows, preliminary_orders(stage), stage.nuisances());
   return is_large(solve_plain(stage.rows, curve).x(static_cast<Eigen::Index>(curve.n_elastic)));
 }
 
@@ -69,16 +70,16 @@ void find_zero(Stage1& stage, const LinearSolution& line) {
   const double stiffness = line.x(0);
   const double width = line.rms() / std::abs(stiffness);  // of the noise, in deflection
   double zero = stage.rows.transmission.theta_0(0) - line.x(1) / stiffness;
-  Transmission pilot = classical_spring(stage.job.basis);
-  pilot.linear_stiffness.setConstant(stiffness);
+  Transmission preliminary = classical_spring(stage.job.basis);
+  preliminary.linear_stiffness.setConstant(stiffness);
   for (int iteration = 0; iteration < kZeroIterations; ++iteration) {
-    pilot.theta_0 = Eigen::VectorXd::Constant(pilot.n_joints, zero);
-    stage.rows = collect_blocked(stage.job, zero, &pilot);
+    preliminary.theta_0 = Eigen::VectorXd::Constant(preliminary.n_joints, zero);
+    stage.rows = collect_blocked(stage.job, zero, &preliminary);
     const ElasticCandidate curve =
-        poly_candidate(stage.job, stage.rows, pilot_orders(stage), stage.nuisances());
+        poly_candidate(stage.job, stage.rows, preliminary_orders(stage), stage.nuisances());
     const LinearSolution s = solve_plain(stage.rows, curve);
     const double step = s.x(static_cast<Eigen::Index>(curve.n_elastic));
-    pilot = fitted_transmission(curve, s.x);
+    preliminary = fitted_transmission(curve, s.x);
     if (!std::isfinite(step) || std::abs(step) < 1e-3 * width) return;
     zero += std::clamp(step, -5 * width, 5 * width);
   }
@@ -161,7 +162,7 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
                             ? solve_candidate(stage.rows, candidate)
                             : solve_given(stage.rows, candidate, given));
     if (candidate.model == "linear" || given.empty())
-      add_profiles(stage.rows, candidate, stage.job.options.honest_sd, solutions.back());
+      add_profiles(stage.rows, candidate, stage.job.options.robust_sd, solutions.back());
     preload.fits.push_back(
         make_fit(stage.job, candidate, solutions.back(), stage.rows, stage.nuisances()));
     if (!preload.both_branches)

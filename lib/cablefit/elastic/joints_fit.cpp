@@ -18,7 +18,7 @@ namespace {
 constexpr double kArbitraryZero = 0.05;  // of the torque's spread: a larger offset is told
 constexpr double kLeastVariance =
     1e-12;  // of the torque's mean square: residuals that are rounding
-constexpr int kJointsPilotOrder = 2;
+constexpr int kJointsPreliminaryOrder = 2;
 constexpr int kJointsZeroIterations = 10;
 constexpr double kZeroFound = 1e-3;  // of the noise, in deflection
 
@@ -102,26 +102,26 @@ std::vector<Eigen::Index> places_of(const Stage1& stage, const ElasticCandidate&
   return places;
 }
 
-std::vector<int> pilot_orders(const Stage1& stage) {
+std::vector<int> preliminary_orders(const Stage1& stage) {
   const ElasticJob& job = stage.job;
-  return job.orders.empty() ? std::vector<int>(job.basis.cables.size(), kJointsPilotOrder)
+  return job.orders.empty() ? std::vector<int>(job.basis.cables.size(), kJointsPreliminaryOrder)
                             : job.orders;
 }
 
 /// Gauss-Newton on the encoder zeros of all joints, as of one: every zero with its own column.
 /// Leaves `stage` with the rows about the last zeros; returns the logarithm of the joints' residual
 /// variances, infinite where there is none.
-double settle_zeros(Stage1& stage, Transmission pilot, const Eigen::VectorXd& width,
+double settle_zeros(Stage1& stage, Transmission preliminary, const Eigen::VectorXd& width,
                     Eigen::VectorXd& zeros) {
   for (int iteration = 0; iteration < kJointsZeroIterations && zeros.allFinite(); ++iteration) {
-    pilot.theta_0 = zeros;
-    stage.joints = collect_joints(stage.job, zeros, &pilot);
+    preliminary.theta_0 = zeros;
+    stage.joints = collect_joints(stage.job, zeros, &preliminary);
     weigh(stage);
     const ElasticCandidate curve =
-        poly_candidate(stage.job, stage.all, pilot_orders(stage), stage.nuisance);
+        poly_candidate(stage.job, stage.all, preliminary_orders(stage), stage.nuisance);
     const LinearSolution s = solve_plain(stage.all, curve);
     const Eigen::VectorXd step = s.x(places_of(stage, curve, "theta_0"));
-    pilot = fitted_transmission(curve, s.x);
+    preliminary = fitted_transmission(curve, s.x);
     if (!step.allFinite() || (step.cwiseAbs().array() < kZeroFound * width.array()).all()) break;
     zeros += step.cwiseMin(5 * width).cwiseMax(-5 * width);
   }
@@ -138,13 +138,13 @@ void find_zeros(Stage1& stage) {
   const Eigen::VectorXd stiffness = straight.x.head(stage.n_joints());
   const Eigen::VectorXd constant = straight.x(places_of(stage, line, "offset"));
   const Eigen::VectorXd width = straight.rms() * stiffness.cwiseAbs().cwiseInverse();
-  Transmission pilot = classical_spring(stage.job.basis);
-  pilot.linear_stiffness = stiffness;
+  Transmission preliminary = classical_spring(stage.job.basis);
+  preliminary.linear_stiffness = stiffness;
   Eigen::VectorXd from_lines = -constant.cwiseQuotient(stiffness);
   Eigen::VectorXd from_own = Eigen::VectorXd::Zero(stage.n_joints());
-  const double of_lines = settle_zeros(stage, pilot, width, from_lines);
-  const double of_own = settle_zeros(stage, pilot, width, from_own);
-  if (of_lines <= of_own) settle_zeros(stage, pilot, width, from_lines);
+  const double of_lines = settle_zeros(stage, preliminary, width, from_lines);
+  const double of_own = settle_zeros(stage, preliminary, width, from_own);
+  if (of_lines <= of_own) settle_zeros(stage, preliminary, width, from_lines);
 }
 
 /// --zero theta_0: of every joint its encoder's zero instead of the drive's offset.
@@ -239,7 +239,7 @@ ElasticPreload fit_joints(ElasticJob job, const std::string& name) {
     const bool fitted = candidate.model == "linear" || given.empty();
     solutions.push_back(fitted ? solve_candidate(stage.all, candidate)
                                : solve_given(stage.all, candidate, given));
-    if (fitted) add_profiles(stage.all, candidate, stage.job.options.honest_sd, solutions.back());
+    if (fitted) add_profiles(stage.all, candidate, stage.job.options.robust_sd, solutions.back());
     ElasticFit& fit = preload.fits.emplace_back(
         make_fit(stage.job, candidate, solutions.back(), stage.all, stage.nuisance));
     for (int joint = 0; joint < stage.n_joints(); ++joint)

@@ -118,7 +118,7 @@ ElasticResult fit_elastic_with_search(std::span<const LogSurvey> logs,
   joint_options.order = options.order;
   joint_options.elongations = search_all ? ElongationMode::search : ElongationMode::automatic;
   joint_options.unconstrained = options.unconstrained;
-  joint_options.honest_sd = options.honest_sd;
+  joint_options.robust_sd = options.robust_sd;
   joint_options.preload = options.preload;
   joint_options.figures = options.figures;
   const IdentifyResult joint = identify(logs, joint_options);

@@ -207,10 +207,10 @@ IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& 
   Profiled found = judge_with_profiles(fit, std::move(point));
   const JudgedPoint& judged = found.judged;
   for (std::size_t j = 0; j < fit.jobs.size(); ++j) require_explained(fit, judged, j);
-  std::vector<Estimate> estimates = joint_estimates(fit, judged, found.profiles, options.honest_sd);
+  std::vector<Estimate> estimates = joint_estimates(fit, judged, found.profiles, options.robust_sd);
   for (const PreloadFacts& f : facts) refuse_dependent(f.added, estimates);
   add_method_floor(logs, options, fit, judged, facts, estimates);
-  if (options.honest_sd) widen_aliased_inertias(logs, options, fit, judged, facts, estimates);
+  if (options.robust_sd) widen_aliased_inertias(logs, options, fit, judged, facts, estimates);
   describe(fit, judged, estimates, facts, options, result);
   result.profiles = std::move(found.profiles);
   if (options.recursive) result.trace = recursive_trace(fit, judged.point, estimates);

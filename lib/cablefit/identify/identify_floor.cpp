@@ -105,7 +105,7 @@ void note_low_cutoffs(const Estimate& j_motor, double error, std::vector<Preload
 void add_method_floor(std::span<const LogSurvey> logs, const IdentifyOptions& options,
                       const JointFit& fit, const JudgedPoint& judged,
                       std::vector<PreloadFacts>& facts, std::vector<Estimate>& estimates) {
-  if (!options.honest_sd) return;
+  if (!options.robust_sd) return;
   Eigen::VectorXd shift = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(estimates.size()));
   for (std::size_t j = 0; j < fit.jobs.size(); ++j)
     if (facts[j].has_moving)

@@ -186,7 +186,7 @@ bool is_coefficient(const Model& one, const std::string& name) {
 
 /// Base parameters whose columns in the equation of a joint are not made of earlier ones. Modified
 /// Gram-Schmidt over columns of unit norm.
-std::vector<Eigen::Index> told_arm_columns(const Model& whole, int joint) {
+std::vector<Eigen::Index> determined_arm_columns(const Model& whole, int joint) {
   constexpr Eigen::Index kSamples = 200;
   constexpr double kOwnPart = 1e-6;  // rounding is 1e-15, a true part at random motions 0.1
   const auto n = static_cast<Eigen::Index>(whole.joints.size());
@@ -223,7 +223,7 @@ std::vector<const Model*> best_of_arm(std::span<const Model> joints) {
   std::vector<const Model*> best(joints.front().arm.size(), nullptr);
   if (best.empty()) return best;
   for (const Model& one : joints) {
-    const std::vector<Eigen::Index> told = told_arm_columns(*one.whole, one.joint);
+    const std::vector<Eigen::Index> told = determined_arm_columns(*one.whole, one.joint);
     for (const Eigen::Index k : told) {
       const auto at = static_cast<std::size_t>(k);
       const double before = best[at] != nullptr ? relative_sd(best[at]->arm[at]) : kUnbounded;
@@ -338,9 +338,9 @@ Eigen::MatrixXd arm_columns(const Model& one, const Eigen::ArrayXXd& q, const Ei
   return columns;
 }
 
-std::vector<Eigen::Index> told_arm_columns(const Model& one) {
+std::vector<Eigen::Index> determined_arm_columns(const Model& one) {
   std::vector<Eigen::Index> told;
-  for (const Eigen::Index k : told_arm_columns(*one.whole, one.joint))
+  for (const Eigen::Index k : determined_arm_columns(*one.whole, one.joint))
     if (is_known(one.whole->arm[static_cast<std::size_t>(k)])) told.push_back(k);
   return told;
 }

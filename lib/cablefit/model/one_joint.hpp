@@ -29,7 +29,7 @@ Eigen::MatrixXd arm_columns(const Model& one, const Eigen::ArrayXXd& q, const Ei
 /// Base parameters that the joint's own equation can tell apart: those whose columns are not made
 /// of earlier ones, for any motion (QR of random ones), and that the model knows to within their
 /// size, or knows no sd of.
-std::vector<Eigen::Index> told_arm_columns(const Model& one);
+std::vector<Eigen::Index> determined_arm_columns(const Model& one);
 
 /// The model that `model` was taken from, with its axes and cables in their places; itself, when it
 /// was not taken from any.

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/copies/twin.hpp"
+#include "cablefit/copies/simulated_copy.hpp"
 #include "cablefit/prove/model_to_simulate.hpp"
 #include "cablefit/prove/proof_runs.hpp"
 #include "cablefit/prove/residual_colour.hpp"
@@ -19,19 +19,19 @@ constexpr std::uint64_t kDisturbances = 1, kSensors = 2, kStage1 = 3, kCalibrati
 
 /// Everything that the runs of one fit share.
 struct Plan {
-  Twin moving;
-  std::optional<Twin> blocked;  ///< none: stage 1 is drawn
-  TwinDisturbance disturbance;
+  SimulatedCopy moving;
+  std::optional<SimulatedCopy> blocked;  ///< none: stage 1 is drawn
+  CopyDisturbance disturbance;
   DynamicOptions options;  ///< of the fit in each run
   const ProveStage1* stage1 = nullptr;
   const ElasticFit* elastic = nullptr;
 };
 
 /// What noise and rounding do not explain of the residuals is a disturbance.
-TwinDisturbance disturbances_of(const std::map<std::string, ResidualColour>& measured,
+CopyDisturbance disturbances_of(const std::map<std::string, ResidualColour>& measured,
                                 const std::map<std::string, ResidualColour>& by_noise, int n_joints,
                                 std::vector<std::string>& notes) {
-  TwinDisturbance disturbance;
+  CopyDisturbance disturbance;
   disturbance.motor.resize(static_cast<std::size_t>(n_joints));
   disturbance.link.resize(static_cast<std::size_t>(n_joints));
   for (const auto& [name, colour] : measured) {
@@ -58,13 +58,13 @@ ProofRun run_once(const Plan& plan, std::uint64_t seed) {
     Random disturbances(seed, kDisturbances), sensors(seed, kSensors), draws(seed, kStage1);
     ElasticResult elastic;
     if (plan.blocked) {
-      const auto motions = run_twin(*plan.blocked, plan.disturbance, disturbances);
-      elastic = fit_elastic(record_twin(*plan.blocked, motions, sensors), plan.stage1->options);
+      const auto motions = run_copy(*plan.blocked, plan.disturbance, disturbances);
+      elastic = fit_elastic(record_copy(*plan.blocked, motions, sensors), plan.stage1->options);
     } else if (plan.elastic != nullptr) {
       elastic = draw_stage1(*plan.stage1->result, plan.options.preload, *plan.elastic, draws);
     }
-    const auto motions = run_twin(plan.moving, plan.disturbance, disturbances);
-    const std::vector<LogSurvey> logs = record_twin(plan.moving, motions, sensors);
+    const auto motions = run_copy(plan.moving, plan.disturbance, disturbances);
+    const std::vector<LogSurvey> logs = record_copy(plan.moving, motions, sensors);
     run.parameters = fit_dynamic(logs, elastic, plan.options).preloads.at(0).fits.at(0).parameters;
   } catch (const Error& error) {
     run.failure = error.what();
@@ -93,15 +93,15 @@ double cutoff_of(const DynamicPreload& preload, std::span<const LogSurvey> logs,
 }
 
 void add_blocked(const ProveStage1& stage1, const DynamicPreload& preload, const Model& model,
-                 const TwinDrive& drive, Plan& plan) {
+                 const CopyDrive& drive, Plan& plan) {
   const PartFilter wanted = parts_of(Phase::blocked, preload.name);
   if (stage1.logs.empty() || !has_part(stage1.logs, wanted)) {
     plan.moving.notes.emplace_back("stage 1 drawn from its covariance");
     return;
   }
-  plan.blocked = make_twin(model, stage1.logs, wanted, drive);
+  plan.blocked = make_copy(model, stage1.logs, wanted, drive);
   Random unused(0);
-  choose_sensors(*plan.blocked, run_twin(*plan.blocked, {}, unused));
+  choose_sensors(*plan.blocked, run_copy(*plan.blocked, {}, unused));
   plan.moving.notes.emplace_back("stage 1 rerun on simulated blocked logs");
 }
 
@@ -117,18 +117,18 @@ Plan make_plan(std::span<const LogSurvey> logs, const ProveStage1& stage1,
   plan.options.samples.threads = 1;
   plan.stage1 = &stage1;
   if (fit.elastic) plan.elastic = &*fit.elastic;
-  const TwinDrive drive{.torque_held = preload.delay.held,
+  const CopyDrive drive{.torque_held = preload.delay.held,
                         .cutoff = cutoff_of(preload, logs, options)};
-  plan.moving = make_twin(model, logs, parts_of(Phase::moving, preload.name), drive);
+  plan.moving = make_copy(model, logs, parts_of(Phase::moving, preload.name), drive);
   for (std::string& note : plan.moving.notes) note = "controller: " + note;
   const ElasticResult none;
   const ElasticResult& elastic = stage1.result != nullptr ? *stage1.result : none;
   Random calibration(prove.seed, kCalibration);
-  const auto quiet = run_twin(plan.moving, {}, calibration);
+  const auto quiet = run_copy(plan.moving, {}, calibration);
   choose_sensors(plan.moving, quiet);
   DynamicOptions colours = options;
   colours.samples.threads = prove.threads;
-  const auto by_noise = residual_colours(record_twin(plan.moving, quiet, calibration), preload.name,
+  const auto by_noise = residual_colours(record_copy(plan.moving, quiet, calibration), preload.name,
                                          elastic, fit, colours);
   plan.disturbance = disturbances_of(residual_colours(logs, preload.name, elastic, fit, colours),
                                      by_noise, model.rig.n_joints(), plan.moving.notes);

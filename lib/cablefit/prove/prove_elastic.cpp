@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/copies/twin.hpp"
+#include "cablefit/copies/simulated_copy.hpp"
 #include "cablefit/elastic/rows/blocked_rows.hpp"
 #include "cablefit/prove/proof_runs.hpp"
 #include "cablefit/prove/residual_colour.hpp"
@@ -58,11 +58,11 @@ void add_friction(const Eigen::ArrayXd& speed, const Eigen::ArrayXd& measured, d
 }
 
 /// What the blocked drive does: the logs' motion with the fit's torque. `rest_speed`: of stage 1.
-std::vector<SimulationResult> follow(const Twin& twin, const ElasticFit& fit,
+std::vector<SimulationResult> follow(const SimulatedCopy& copy, const ElasticFit& fit,
                                      const Friction& friction, double cutoff, double rest_speed) {
   std::vector<SimulationResult> motions;
-  for (const TwinStretch& stretch : twin.stretches) {
-    const LogPlan& plan = twin.plans[stretch.log];
+  for (const CopyStretch& stretch : copy.stretches) {
+    const LogPlan& plan = copy.plans[stretch.log];
     const double period = stretch.period;
     const auto column = [&](Channel channel) {
       return smooth(stretch.measured.col(plan.find(channel, 0)), period, cutoff);
@@ -88,11 +88,11 @@ std::vector<SimulationResult> follow(const Twin& twin, const ElasticFit& fit,
   return motions;
 }
 
-void disturb(const Twin& twin, const ArModel& colour, Random& random,
+void disturb(const SimulatedCopy& copy, const ArModel& colour, Random& random,
              std::vector<SimulationResult>& motions) {
   if (!(colour.sd > 0)) return;
   for (std::size_t k = 0; k < motions.size(); ++k)
-    motions[k].tau.col(0) += draw(colour, motions[k].tau.rows(), twin.stretches[k].period, random);
+    motions[k].tau.col(0) += draw(colour, motions[k].tau.rows(), copy.stretches[k].period, random);
 }
 
 /// rows * this = residual of the fit.
@@ -159,7 +159,7 @@ ElasticOptions options_of_runs(const ElasticOptions& options, const ElasticPrelo
 }
 
 struct Plan {
-  Twin twin;
+  SimulatedCopy copy;
   std::vector<SimulationResult> motions;  ///< without a disturbance
   ArModel disturbance;
   ElasticOptions options;
@@ -171,28 +171,28 @@ Plan make_plan(std::span<const LogSurvey> logs, const ElasticOptions& options,
   plan.options = options_of_runs(options, preload, fit);
   const ElasticJob job = make_job(logs, plan.options, preload.name);
   for (std::size_t k = 0; k < logs.size(); ++k) {
-    plan.twin.plans.push_back(logs[k].plan);
-    plan.twin.parts.push_back(logs[k].parts);
-    for (TwinStretch& stretch : read_stretches(logs[k], k, job.wanted)) {
+    plan.copy.plans.push_back(logs[k].plan);
+    plan.copy.parts.push_back(logs[k].parts);
+    for (CopyStretch& stretch : read_stretches(logs[k], k, job.wanted)) {
       stretch.link_blocked = true;
-      plan.twin.stretches.push_back(std::move(stretch));
+      plan.copy.stretches.push_back(std::move(stretch));
     }
   }
-  plan.twin.notes.emplace_back(
+  plan.copy.notes.emplace_back(
       "the motion of the logs, the torque of the fit; f_sm is not tested: the "
       "simulated logs have no stiction");
   const Colour measured = colour_of(logs, plan.options, preload.name, fit);
   const Friction friction{fit.offset, value_of(fit, "f_sm"), measured.f_vm};
-  plan.motions = follow(plan.twin, fit, friction, kFollowedBand * job.settings.rows.signal.cutoff,
+  plan.motions = follow(plan.copy, fit, friction, kFollowedBand * job.settings.rows.signal.cutoff,
                         kRestShare * job.rest_speeds.front());
-  choose_sensors(plan.twin, plan.motions);
+  choose_sensors(plan.copy, plan.motions);
   Random calibration(prove.seed, kCalibration);
-  const std::vector<LogSurvey> quiet = record_twin(plan.twin, plan.motions, calibration);
+  const std::vector<LogSurvey> quiet = record_copy(plan.copy, plan.motions, calibration);
   const Colour by_noise = colour_of(quiet, plan.options, preload.name, fit);
   Eigen::VectorXd left = measured.autocovariance;
   if (is_same_grid(by_noise.period, measured.period)) left -= by_noise.autocovariance;
   plan.disturbance = fit_ar(left, measured.period, measured.n_values);
-  plan.twin.notes.push_back(fmt::format(
+  plan.copy.notes.push_back(fmt::format(
       "residual {:.3g} rms, of which {:.3g} are simulated as a disturbance, autoregressive of "
       "order {}",
       std::sqrt(measured.autocovariance(0)), plan.disturbance.sd,
@@ -205,8 +205,8 @@ ProofRun run_once(const Plan& plan, const std::string& model, std::uint64_t seed
   try {
     Random disturbances(seed, kDisturbances), sensors(seed, kSensors);
     std::vector<SimulationResult> motions = plan.motions;
-    disturb(plan.twin, plan.disturbance, disturbances, motions);
-    const ElasticResult found = fit_elastic(record_twin(plan.twin, motions, sensors), plan.options);
+    disturb(plan.copy, plan.disturbance, disturbances, motions);
+    const ElasticResult found = fit_elastic(record_copy(plan.copy, motions, sensors), plan.options);
     run.parameters = found.preloads.at(0).find(model)->parameters;
   } catch (const Error& error) {
     run.failure = error.what();
@@ -214,8 +214,8 @@ ProofRun run_once(const Plan& plan, const std::string& model, std::uint64_t seed
   return run;
 }
 
-/// All but f_sm, which comes out 1.1 % lower from a twin than from a simulated log with the same
-/// value: the twin may have less of it near reversals, where the log's noise hides how friction
+/// All but f_sm, which comes out 1.1 % lower from a copy than from a simulated log with the same
+/// value: the copy may have less of it near reversals, where the log's noise hides how friction
 /// passes from one side to the other, or the fit may have a bias. Told as the fit's bias it would
 /// claim what is not known.
 std::vector<Estimate> proved(const ElasticFit& fit) {
@@ -246,7 +246,7 @@ void prove_elastic(std::span<const LogSurvey> logs, const ElasticOptions& option
         continue;
       }
       const Plan plan = make_plan(logs, options, prove, preload, fit);
-      fit.proof = prove_by_runs(proved(fit), prove, plan.twin.notes, [&](std::uint64_t seed) {
+      fit.proof = prove_by_runs(proved(fit), prove, plan.copy.notes, [&](std::uint64_t seed) {
         return run_once(plan, fit.model, seed);
       });
       widen(fit.parameters, *fit.proof);

@@ -20,7 +20,7 @@ struct ResidualColour {
   std::size_t n_values = 0;
 };
 
-/// Whether two periods are one: those of a twin's clock are made anew.
+/// Whether two periods are one: those of a copy's clock are made anew.
 inline bool is_same_grid(double period, double other) {
   return std::abs(period - other) < 1e-6 * other;
 }

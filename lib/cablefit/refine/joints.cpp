@@ -45,7 +45,7 @@ std::string with_number(const std::string& effect, int joint) {
 }
 
 /// What the result of one joint says, as that of one among several.
-void tell_joint(RefineResult& r) {
+void set_joint(RefineResult& r) {
   for (Regime& regime : r.where) regime.equation = of_joint(regime.equation, r.joint);
   for (EquationRemainder& e : r.remainders) e.equation = of_joint(e.equation, r.joint);
   for (NamedEffect& effect : r.effects) {
@@ -185,7 +185,7 @@ std::vector<Model> joined_models(std::span<const Model> models,
 RefineResult merged(std::span<const Model> models, std::vector<RefineResult> joints) {
   RefineResult all;
   all.models = joined_models(models, joints);
-  for (RefineResult& r : joints) tell_joint(r);
+  for (RefineResult& r : joints) set_joint(r);
   for (const RefineResult& r : joints) append_lists(r, all);
   all.joints = std::move(joints);
   all.verdict = verdict_of(all.joints);

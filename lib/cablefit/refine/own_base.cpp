@@ -81,10 +81,10 @@ std::pair<int, int> orders_of(const ElasticFit& fit) {
 
 /// With the sd of l_o as they are where one was searched: refine adds them to its own.
 ElasticResult stage1_of(std::span<const LogSurvey> logs, ElasticOptions options) {
-  options.honest_sd = false;
+  options.robust_sd = false;
   ElasticResult result = fit_elastic_stage(logs, options, ElongationMode::automatic);
   if (result.elongations.empty()) return result;
-  options.honest_sd = true;
+  options.robust_sd = true;
   return fit_elastic_stage(logs, options, ElongationMode::automatic);
 }
 
@@ -126,7 +126,7 @@ ElasticResult shared_stage1(std::span<const LogSurvey> logs, int threads) {
   if (!plain.elongations.empty() || !is_worse(plain, result)) return plain;
   // A high order can imitate a preload, where both cables are taut; then only l_o explains order 2.
   try {
-    options.honest_sd = true;
+    options.robust_sd = true;
     ElasticResult searched = fit_elastic_stage(logs, options, ElongationMode::search);
     if (is_worse(plain, searched)) return searched;
   } catch (const Error& error) {
@@ -157,7 +157,7 @@ void take_arm(std::span<const LogSurvey> logs, const ElasticResult& stage1, int 
   DynamicOptions options;
   options.samples.threads = threads;
   options.estimator = "wls";
-  options.honest_sd = false;
+  options.robust_sd = false;
   for (const DynamicPreload& preload : fit_dynamic(moving, stage1, options).preloads)
     for (Model& model : models) {
       if (preload.name != model.preload) continue;
@@ -212,10 +212,10 @@ void use_spring(OwnBase& base, const std::string& why) {
 void take_one_step(std::span<const LogSurvey> logs, int threads, OwnBase& base) {
   IdentifyOptions options;
   options.samples.threads = threads;
-  options.honest_sd = false;
+  options.robust_sd = false;
   IdentifyResult found = identify(logs, options);
   if (!found.elongations.empty()) {
-    options.honest_sd = true;
+    options.robust_sd = true;
     found = identify(logs, options);
   }
   base.elongations = found.elongations;

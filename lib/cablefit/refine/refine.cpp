@@ -40,8 +40,8 @@ bool simulates_an_event(const RefineResult& result) {
                      [](const NamedEffect& effect) { return effect.instance.effect->is_event; });
 }
 
-void tell_gaps(const RefineBench& bench, const Chain& chain,
-               const std::vector<TestReading>& readings, RefineResult& result) {
+void set_gaps(const RefineBench& bench, const Chain& chain,
+              const std::vector<TestReading>& readings, RefineResult& result) {
   const TestReading &first = readings.front(), &last = readings.back();
   const double unit = bench.test_unit();
   GapStory& torque = result.torque;
@@ -75,7 +75,7 @@ void tell_gaps(const RefineBench& bench, const Chain& chain,
   }
 }
 
-void tell_remainder(const KindLevels& rms, const KindLevels& floor, RefineResult& result) {
+void set_remainder(const KindLevels& rms, const KindLevels& floor, RefineResult& result) {
   const auto above = [&](RowKind kind) {
     const auto k = static_cast<std::size_t>(kind);
     return std::sqrt(std::max(0.0, rms[k] * rms[k] - floor[k] * floor[k]));
@@ -92,8 +92,8 @@ void tell_remainder(const KindLevels& rms, const KindLevels& floor, RefineResult
 }
 
 /// The values of what stands in the design, kept effects first.
-void tell_effects(std::span<const Model> models, const std::vector<NamedEffect>& named,
-                  RefineResult& result) {
+void set_effects(std::span<const Model> models, const std::vector<NamedEffect>& named,
+                 RefineResult& result) {
   const std::size_t n_kept = named.size() - result.effects.size();
   for (std::size_t k = 0; k < n_kept; ++k) {
     KeptEffect& kept = result.kept.emplace_back();
@@ -109,7 +109,7 @@ void tell_effects(std::span<const Model> models, const std::vector<NamedEffect>&
   }
 }
 
-void tell_inputs(std::span<const Model> models, const RefineLogs& logs, RefineResult& result) {
+void set_inputs(std::span<const Model> models, const RefineLogs& logs, RefineResult& result) {
   for (const auto* some : {&logs.blocked, &logs.train, &logs.test})
     for (const LogSurvey& log : *some)
       result.inputs.push_back({log.plan.path, log.sha256, log.n_rows});
@@ -164,7 +164,7 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
   RefineResult result;
   const RefineStage stage = stage_of(given, logs);
   const std::span<const Model> models = stage.models;
-  tell_inputs(models, logs, result);
+  set_inputs(models, logs, result);
   result.elastic_only = stage.elastic_only;
   result.warnings = stage.warnings;
   RefineBench bench{options, stage.wanted, stage.elastic_only};
@@ -177,7 +177,7 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
                         find_bands(first.design, first.x, bench.noise.design, bench.noise.fit.x),
                         first.design, first.x, bench.floor);
   const std::vector<TrialRun> runs = trial_runs(first.design);
-  tell(options, "which effects are separable", 0);
+  report_progress(options, "which effects are separable", 0);
   result.not_separable =
       find_not_separable(first.design, first.x, bench.floor, runs, options.threads);
 
@@ -194,7 +194,7 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
   if (state.rho > kRemainder)
     result.unexplained =
         describe_remainder(state.design, fit.x, bench.floor, bench.scan.block_seconds);
-  tell_remainder(fit.rms, bench.floor, result);
+  set_remainder(fit.rms, bench.floor, result);
   result.remainders =
       remainders_of(state.design, fit.x, bench.floor, bench.scan.block_seconds, options.material);
   result.material_given = options.material.has_value();
@@ -208,12 +208,12 @@ RefineResult refine_once(std::span<const Model> given, const RefineLogs& logs,
   if (confirmed.values.left()) add_systematic(*confirmed.values.left(), fit);
   if (!add_elongation_errors(after.design, after.x, state.levels, bench, fit))
     result.warnings.emplace_back(kElongationsHeld);
-  tell_effects(models, named_effects(after.design, fit), result);
+  set_effects(models, named_effects(after.design, fit), result);
   result.shifts = parameter_shifts(first.design, before.x, after.design, fit);
   result.models = refined_models(after.design, fit);
   result.rho_before = first.rho;
   result.rho_after = state.rho;
-  tell_gaps(bench, chain, readings, result);
+  set_gaps(bench, chain, readings, result);
   add_inseparable_rivals(result);
   conclude(result);
   if (result.verdict == Verdict::unexplained && !result.unexplained)

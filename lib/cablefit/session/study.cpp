@@ -82,7 +82,7 @@ template <typename Options>
 Options stage_options(const StudyOptions& given) {
   Options options;
   options.samples = given.samples;
-  options.honest_sd = given.honest_sd;
+  options.robust_sd = given.robust_sd;
   options.preload = given.preload;
   options.figures = given.figures;
   return options;
@@ -90,7 +90,7 @@ Options stage_options(const StudyOptions& given) {
 
 DynamicOptions dynamic_options(const StudyOptions& given, bool is_elastic) {
   auto options = stage_options<DynamicOptions>(given);
-  options.residual_tests = given.honest_sd;
+  options.residual_tests = given.robust_sd;
   options.models =
       is_elastic ? std::vector<std::string>{"linear", "poly"} : std::vector<std::string>{"rigid"};
   return options;

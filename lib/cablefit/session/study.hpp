@@ -18,7 +18,7 @@ namespace cablefit {
 
 struct StudyOptions {
   SampleOptions samples;
-  bool honest_sd = true;
+  bool robust_sd = true;
   std::string preload;  ///< only logs that have it; empty: all
   RefineOptions refine;
   bool figures = false;

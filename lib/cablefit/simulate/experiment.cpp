@@ -84,7 +84,7 @@ void choose_step(const ReplayOptions& options, Experiment& experiment) {
                    mode / (2 * std::numbers::pi))});
 }
 
-void tell_refinements(const Model& model, Experiment& experiment) {
+void add_refinements(const Model& model, Experiment& experiment) {
   std::string names;
   for (std::size_t k = 0; k < model.joints.size(); ++k)
     for (const EffectInstance& instance : model.joints[k].added) {
@@ -170,7 +170,7 @@ Experiment plan_experiment(const Model& model, const LogSurvey& log, const PartS
   choose_step(options, experiment);
   if (options.compared < 1)
     experiment.compared_from = part.t_last - options.compared * (part.t_last - part.t_first);
-  tell_refinements(model, experiment);
+  add_refinements(model, experiment);
   require_channels(model, log.plan, part, experiment);
   return experiment;
 }

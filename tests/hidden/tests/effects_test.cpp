@@ -131,8 +131,8 @@ TEST_CASE("every name and side of the reference is there, and no other") {
 
 TEST_CASE("an effect shows in the rows of its side and in no others") {
   const Base base = base_of(paper().rig);
-  static const Equations twin = exact_rows(nullptr);
-  const PerEquation none = mean_square(twin, base);
+  static const Equations copy = exact_rows(nullptr);
+  const PerEquation none = mean_square(copy, base);
   for (const Row& row : all_rows()) {
     DYNAMIC_SECTION(id_of(row)) {
       const Equations rows = exact_rows(&row);
@@ -146,7 +146,7 @@ TEST_CASE("an effect shows in the rows of its side and in no others") {
                    << none[kMotorRows]);
       if (row.shows == Shows::nothing) {
         const PerEquation sd = PerEquation::Constant(0.05);
-        CHECK(std::abs(rho_of(rows, twin, sd).all - 1) < 0.05);
+        CHECK(std::abs(rho_of(rows, copy, sd).all - 1) < 0.05);
         continue;
       }
       CHECK((link > link_limit) == (row.shows != Shows::motor));

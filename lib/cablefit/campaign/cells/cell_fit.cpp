@@ -31,7 +31,7 @@ void require_unchanged(const std::vector<LogSurvey>& logs, const CellKey& key) {
 ElasticOptions stage1_options(const CampaignCell& cell, const BatchOptions& options, bool figures) {
   ElasticOptions elastic = options.elastic;
   elastic.samples = options.samples;
-  elastic.honest_sd = options.honest_sd;
+  elastic.robust_sd = options.robust_sd;
   elastic.preload = cell.preload;
   elastic.figures = figures;
   return elastic;
@@ -44,7 +44,7 @@ DynamicOptions stage2_options(const Campaign& campaign, const CampaignCell& cell
   dynamic.models = campaign.models;
   dynamic.estimator = campaign.estimator;
   dynamic.effects = blank_effects(campaign.effects);
-  dynamic.honest_sd = options.honest_sd;
+  dynamic.robust_sd = options.robust_sd;
   dynamic.preload = cell.preload;
   dynamic.figures = with_figures(campaign);
   return dynamic;

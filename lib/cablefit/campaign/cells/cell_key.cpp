@@ -42,7 +42,7 @@ std::string options_text(const Campaign& campaign, const CampaignCell& cell,
   std::string text =
       fmt::format("cablefit {} {}\npreload {}\nmodels {}\nestimator {}\nhonest {}\nplots {}\n",
                   kVersion, kFormat, cell.preload, fmt::join(campaign.models, " "),
-                  campaign.estimator, options.honest_sd, with_figures(campaign));
+                  campaign.estimator, options.robust_sd, with_figures(campaign));
   if (!campaign.effects.empty())
     text += fmt::format("effects {}\n", fmt::join(campaign.effects, " "));
   const ElasticOptions& elastic = options.elastic;

@@ -91,17 +91,17 @@ std::size_t n_logs(const RecordedResult& result) {
 }
 
 /// "estimator: iv, then wls"
-void tell_change(std::string_view what, const std::set<std::string>& first,
-                 const std::set<std::string>& second, std::vector<std::string>& out) {
+void add_change(std::string_view what, const std::set<std::string>& first,
+                const std::set<std::string>& second, std::vector<std::string>& out) {
   if (first != second && !first.empty() && !second.empty())
     out.push_back(fmt::format("{}: {}, then {}", what, fmt::join(first, " and "),
                               fmt::join(second, " and ")));
 }
 
-void tell_settings(const std::vector<EstimatePair>& pairs, CompareResult& result) {
-  tell_change("made by", {"cablefit " + result.first.version},
-              {"cablefit " + result.second.version}, result.settings);
-  tell_change("command", {result.first.command}, {result.second.command}, result.settings);
+void add_settings(const std::vector<EstimatePair>& pairs, CompareResult& result) {
+  add_change("made by", {"cablefit " + result.first.version}, {"cablefit " + result.second.version},
+             result.settings);
+  add_change("command", {result.first.command}, {result.second.command}, result.settings);
   std::set<std::string> preloads[2], models[2], estimators[2];
   for (const EstimatePair& pair : pairs)
     for (const int i : {0, 1}) {
@@ -110,9 +110,9 @@ void tell_settings(const std::vector<EstimatePair>& pairs, CompareResult& result
       models[i].insert(set.model);
       if (!set.estimator.empty()) estimators[i].insert(set.estimator);
     }
-  tell_change("preload", preloads[0], preloads[1], result.settings);
-  tell_change("model", models[0], models[1], result.settings);
-  tell_change("estimator", estimators[0], estimators[1], result.settings);
+  add_change("preload", preloads[0], preloads[1], result.settings);
+  add_change("model", models[0], models[1], result.settings);
+  add_change("estimator", estimators[0], estimators[1], result.settings);
 }
 
 /// Paths of what was fitted in both: the logs, or the earlier results.
@@ -228,7 +228,7 @@ CompareResult compare(RecordedResult first, RecordedResult second, const Compare
                       "names two preloads");
   result.first = first;
   result.second = second;
-  tell_settings(pairs, result);
+  add_settings(pairs, result);
   const bool same_preloads = are_same_preloads(pairs);
   const bool same_logs = same_preloads && !first.inputs.empty() && hashes(first) == hashes(second);
   if (same_logs)

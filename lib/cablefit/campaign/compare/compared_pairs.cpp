@@ -76,8 +76,8 @@ void pair_up(const EstimateSet& first, const EstimateSet& second, std::vector<Es
 }
 
 /// Preloads and stages that only one of the results has.
-void tell_alone(const Sets& sets, const Sets& done, std::string_view which,
-                std::vector<Uncompared>& alone) {
+void add_unpaired(const Sets& sets, const Sets& done, std::string_view which,
+                  std::vector<Uncompared>& alone) {
   for (const EstimateSet* set : sets) {
     const bool met = std::any_of(done.begin(), done.end(), [&](const EstimateSet* other) {
       return other->stage == set->stage && other->preload == set->preload;
@@ -122,8 +122,8 @@ std::vector<EstimatePair> estimate_pairs(const RecordedResult& first, const Reco
     met_b.push_back(right);
     pair_up(*left, *right, pairs, alone);
   }
-  tell_alone(a, met_a, "first", alone);
-  tell_alone(b, met_b, "second", alone);
+  add_unpaired(a, met_a, "first", alone);
+  add_unpaired(b, met_b, "second", alone);
   return pairs;
 }
 

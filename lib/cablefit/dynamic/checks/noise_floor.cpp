@@ -6,7 +6,7 @@
 #include <random>
 
 #include "cablefit/samples/rows/agreement.hpp"
-#include "cablefit/samples/rows/pilot.hpp"
+#include "cablefit/samples/rows/preliminary.hpp"
 #include "cablefit/samples/survey/noise.hpp"
 
 namespace cablefit {
@@ -106,8 +106,8 @@ std::vector<double> sensor_floor(const DynamicJob& job, const std::vector<Equati
   Normal normal;
   const RowSettings& settings = job.settings.rows;
   const double rate = sample_rates(logs, job.wanted).highest;
-  for (const PilotWindow& p :
-       pilot_windows(logs, job.wanted, settings.signal, row_halo(settings, rate), kWindows)) {
+  for (const PreliminaryWindow& p :
+       preliminary_windows(logs, job.wanted, settings.signal, row_halo(settings, rate), kWindows)) {
     Window noisy = p.window;
     add_noise(noisy, logs[p.log], normal);
     const RowBatch before = make_rows(p.window, logs[p.log], 0, settings, plain);

@@ -199,17 +199,17 @@ std::string inertia_alias(const RowStatistics& rows, const DynamicColumns& c, Ei
 }
 
 void add_estimates(const RowStatistics& rows, const DynamicColumns& c, const LinearSolution& s,
-                   const ElasticFit* stage1, std::size_t which, bool linear_motion, bool honest,
+                   const ElasticFit* stage1, std::size_t which, bool linear_motion, bool robust,
                    DynamicFit& fit) {
   Eigen::MatrixXd extra = Eigen::MatrixXd::Zero(s.x.size(), s.x.size());
-  if (stage1 != nullptr && honest) extra = stage1_covariance(rows, c, s, *stage1, which);
-  if (stage1 != nullptr && honest) fit.stage1_misfit.merge(misfit_sd(rows, c, s, which));
-  const std::optional<ChosenSd> chosen = honest ? std::optional(choose_sd(rows, s)) : std::nullopt;
+  if (stage1 != nullptr && robust) extra = stage1_covariance(rows, c, s, *stage1, which);
+  if (stage1 != nullptr && robust) fit.stage1_misfit.merge(misfit_sd(rows, c, s, which));
+  const std::optional<ChosenSd> chosen = robust ? std::optional(choose_sd(rows, s)) : std::nullopt;
   for (Eigen::Index k = 0; k < c.n_effects; ++k) {
     const DynamicParameter& parameter = c.parameters[static_cast<std::size_t>(k)];
     Estimate e = parameter.given
                      ? given_estimate(parameter, linear_motion)
-                     : estimate_of(parameter.info, linear_motion, s, k, {honest, extra(k, k)});
+                     : estimate_of(parameter.info, linear_motion, s, k, {robust, extra(k, k)});
     if (chosen && !parameter.given)
       take_chosen(*chosen, s, k, extra(k, k), parameter.info.lower, e);
     e.name = parameter.name;

@@ -16,7 +16,7 @@ namespace cablefit {
 /// columns.
 void add_estimates(const RowStatistics& rows, const DynamicColumns& columns,
                    const LinearSolution& solution, const ElasticFit* stage1, std::size_t which,
-                   bool linear_motion, bool honest, DynamicFit& fit);
+                   bool linear_motion, bool robust, DynamicFit& fit);
 
 /// By how much the parameters move when one of the rows' columns from `first` on is added to
 /// the response: p x n. `rows`: those that `solution` was fitted to.

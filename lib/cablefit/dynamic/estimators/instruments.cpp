@@ -102,9 +102,9 @@ void add_equation(const EstimationTask& task, std::size_t k, const RowStatistics
   const LinearProblem problem = solution.instruments.empty()
                                     ? problem_of(e.columns, task.job.elastic, task.model)
                                     : instrumented_problem(task.job, e, task.model);
-  solution.profile = profile_intervals(rows, problem, solution, task.job.options.honest_sd);
+  solution.profile = profile_intervals(rows, problem, solution, task.job.options.robust_sd);
   add_estimates(rows, e.columns, solution, task.stage1(), task.model, task.job.rig().linear_motion,
-                task.job.options.honest_sd, out.fit);
+                task.job.options.robust_sd, out.fit);
   influences.push_back(influence_of(rows, e.columns, solution, task.stage1(), task.model));
   out.fit.sd_reason[e.equation.name] = reason_for_sd(task, rows, e.columns, solution);
   LinearSolution own =

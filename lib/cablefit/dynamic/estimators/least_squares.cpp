@@ -11,7 +11,7 @@ namespace cablefit::estimation {
 std::string reason_for_sd(const EstimationTask& task, const RowStatistics& rows,
                           const DynamicColumns& columns, const LinearSolution& solution) {
   const DynamicJob& job = task.job;
-  if (!job.options.honest_sd) return "white: as asked for, the paper's (25)";
+  if (!job.options.robust_sd) return "white: as asked for, the paper's (25)";
   return sd_reason(rows, columns, solution, job.settings.rows.decimate * job.first_part().period);
 }
 
@@ -29,9 +29,9 @@ Estimation least_squares_fit(const EstimationTask& task, Weighting weighting) {
     const LinearProblem problem =
         problem_of(first.columns, job.elastic, task.model, job.rig().linear_motion);
     LinearSolution solution = solve(rows, problem);
-    solution.profile = profile_intervals(rows, problem, solution, job.options.honest_sd);
+    solution.profile = profile_intervals(rows, problem, solution, job.options.robust_sd);
     add_estimates(rows, first.columns, solution, task.stage1(), task.model, job.rig().linear_motion,
-                  job.options.honest_sd, out.fit);
+                  job.options.robust_sd, out.fit);
     influences.push_back(influence_of(rows, first.columns, solution, task.stage1(), task.model));
     const std::string reason = reason_for_sd(task, rows, first.columns, solution);
     for (const std::size_t k : system) {

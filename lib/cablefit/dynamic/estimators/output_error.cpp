@@ -163,7 +163,7 @@ Estimate estimate_of(const EstimationTask& task, const EquationRows& equation, E
                      const OutputErrorFit& oe) {
   const std::string& name = equation.columns.parameters[static_cast<std::size_t>(k)].name;
   Estimate e = *find_estimate(oe.parameters, name);
-  if (!task.job.options.honest_sd && std::isfinite(e.sd)) {
+  if (!task.job.options.robust_sd && std::isfinite(e.sd)) {
     e.sd = e.sd_white;
     if (e.active_bound.empty())
       cablefit::set_interval(e, oe.degrees_of_freedom, lower_of(equation, k));
@@ -199,7 +199,7 @@ LinearSolution solution_of(const EstimationTask& task, const EquationRows& e,
 }
 
 std::string sd_reason_of(const EstimationTask& task, const OutputErrorFit& oe) {
-  if (!task.job.options.honest_sd) return "white: as asked for";
+  if (!task.job.options.robust_sd) return "white: as asked for";
   return fmt::format(
       "HAC of the scores: whitened residuals are correlated {:.2f} from row to row, effective rows "
       "{:.0f} of {}",
@@ -275,9 +275,9 @@ void note_stage1(const EstimationTask& task, const OutputErrorOptions& options,
 /// Everything but decisions and notes.
 void fill(const EstimationTask& task, const OutputErrorFit& oe, const Estimation& start,
           Estimation& out) {
-  const bool honest = task.job.options.honest_sd;
+  const bool robust = task.job.options.robust_sd;
   if (const ElasticFit* stage1 = task.stage1())
-    out.fit.elastic = refined_stage1(*stage1, oe, honest);
+    out.fit.elastic = refined_stage1(*stage1, oe, robust);
   const ElasticFit* elastic = out.fit.elastic ? &*out.fit.elastic : nullptr;
   for (std::size_t k = 0; k < task.equations.size(); ++k) {
     const EquationRows& e = task.equations[k];

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "cablefit/copies/twin.hpp"
+#include "cablefit/copies/simulated_copy.hpp"
 #include "cablefit/estimate/solve/row_statistics.hpp"
 
 namespace cablefit {
@@ -43,7 +43,7 @@ const std::array<Law, 6> kLaws = {{
 
 /// Rows of one stretch, the last column the torque; each column about its mean, so that an offset
 /// and what an integral began with do not matter.
-Eigen::MatrixXd law_rows(const LogPlan& plan, const TwinStretch& stretch, double lag) {
+Eigen::MatrixXd law_rows(const LogPlan& plan, const CopyStretch& stretch, double lag) {
   const auto column = [&](Channel channel) -> Eigen::VectorXd {
     return stretch.measured.col(plan.find(channel, 0));
   };
@@ -92,7 +92,7 @@ std::optional<LawRows> rows_of(std::span<const LogSurvey> logs, const PartFilter
       if (wanted(part))
         all.noise = std::max(
             all.noise, part.channels[static_cast<std::size_t>(log.plan.find(Channel::tau))].noise);
-    for (const TwinStretch& stretch : read_stretches(log, k, wanted))
+    for (const CopyStretch& stretch : read_stretches(log, k, wanted))
       for (std::size_t lag = 0; lag < kLags.size(); ++lag) {
         const Eigen::MatrixXd rows = law_rows(log.plan, stretch, kLags[lag]);
         if (rows.rows() == 0) continue;

@@ -22,17 +22,17 @@ Equation with_instruments(const EquationRows& e, int n_joints, LoopKind loop) {
   const Eigen::Index own = e.columns.count, extra = e.columns.n_effects;
   more.columns.resize(static_cast<std::size_t>(own + extra));
   more.averaged.resize(more.columns.size(), true);
-  const auto twin = static_cast<std::size_t>(n_joints + e.columns.place.joint);
-  more.fill = [fill = e.equation.fill, columns = e.columns, own, extra, n_joints, twin](
+  const auto copy = static_cast<std::size_t>(n_joints + e.columns.place.joint);
+  more.fill = [fill = e.equation.fill, columns = e.columns, own, extra, n_joints, copy](
                   const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
     fill(measured(signals, n_joints), out.leftCols(own));
-    effect_columns(columns, signals, twin, out.rightCols(extra));
+    effect_columns(columns, signals, copy, out.rightCols(extra));
   };
   const Side side = e.columns.side;
   const bool by_either = side == Side::motor || !keeps_disturbances_out(loop);
-  more.speed = [side, by_either, twin, n_joints](const Signals& signals) -> Eigen::ArrayXd {
-    const JointSignals& simulated = signals.joints[twin];
-    const JointSignals& seen = signals.joints[twin - static_cast<std::size_t>(n_joints)];
+  more.speed = [side, by_either, copy, n_joints](const Signals& signals) -> Eigen::ArrayXd {
+    const JointSignals& simulated = signals.joints[copy];
+    const JointSignals& seen = signals.joints[copy - static_cast<std::size_t>(n_joints)];
     const auto& speed = speed_of(side, simulated);
     if (!by_either) return speed;
     return speed.abs().min(speed_of(side, seen).abs());
@@ -50,7 +50,7 @@ std::vector<InstrumentedRows> collect_instrumented(const DynamicJob& job,
   for (const EquationRows& e : equations) {
     with.push_back(with_instruments(e, job.n_joints(), loop));
     all.push_back(
-        {RowStatistics(e.columns.count + e.columns.n_effects, expected, job.options.honest_sd),
+        {RowStatistics(e.columns.count + e.columns.n_effects, expected, job.options.robust_sd),
          {}});
   }
   const std::vector<InstrumentedRows> blank = all;

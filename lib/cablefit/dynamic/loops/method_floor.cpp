@@ -39,12 +39,12 @@ CopiedLogs logs_to_copy(const DynamicJob& job) {
 }
 
 /// Positions as the encoders show them, torques as they are.
-void choose_encoders(Twin& twin, const std::vector<SimulationResult>& motions) {
-  choose_sensors(twin, motions);
-  for (std::size_t log = 0; log < twin.plans.size(); ++log)
-    for (std::size_t k = 0; k < twin.plans[log].slots.size(); ++k) {
-      const Channel channel = twin.plans[log].slots[k].channel;
-      if (channel != Channel::q && channel != Channel::theta) twin.sensors[log][k] = {};
+void choose_encoders(SimulatedCopy& copy, const std::vector<SimulationResult>& motions) {
+  choose_sensors(copy, motions);
+  for (std::size_t log = 0; log < copy.plans.size(); ++log)
+    for (std::size_t k = 0; k < copy.plans[log].slots.size(); ++k) {
+      const Channel channel = copy.plans[log].slots[k].channel;
+      if (channel != Channel::q && channel != Channel::theta) copy.sensors[log][k] = {};
     }
 }
 
@@ -75,12 +75,12 @@ Turn free_turn(const Model& model) {
 }
 
 /// All joints turned, so that the encoders round otherwise and the cables do not notice.
-std::vector<SimulationResult> moved_aside(const Twin& twin, std::vector<SimulationResult> motions,
-                                          Random& random) {
-  const Turn turn = free_turn(twin.model);
+std::vector<SimulationResult> moved_aside(const SimulatedCopy& copy,
+                                          std::vector<SimulationResult> motions, Random& random) {
+  const Turn turn = free_turn(copy.model);
   for (std::size_t k = 0; k < motions.size(); ++k) {
     double quantum = 0;
-    for (const TwinSensor& sensor : twin.sensors[twin.stretches[k].log])
+    for (const CopySensor& sensor : copy.sensors[copy.stretches[k].log])
       quantum = std::max(quantum, sensor.quantum);
     const double aside = kAside * quantum * random.uniform();
     motions[k].q.rowwise() += aside * turn.links.transpose().array();
@@ -93,7 +93,7 @@ std::vector<SimulationResult> moved_aside(const Twin& twin, std::vector<Simulati
 std::vector<LinearSolution> fit_copy(const DynamicJob& job, const std::vector<LogSurvey>& copy,
                                      std::size_t which) {
   DynamicOptions options = job.options;
-  options.honest_sd = false;
+  options.robust_sd = false;
   const DynamicJob own{copy,       options,   job.preload,  job.wanted,         job.elastic,
                        job.models, job.rigid, job.settings, job.joint_settings, job.links_alone,
                        job.added};
@@ -119,17 +119,17 @@ CopyDraws::CopyDraws(const DynamicJob& job, const Model& model, bool exact, bool
   const CopiedLogs copied = logs_to_copy(job);
   share_ = copied.share;
   const SignalSettings& signal = job.settings.rows.signal;
-  twin_ = make_twin(model, copied.logs, job.wanted,
+  copy_ = make_copy(model, copied.logs, job.wanted,
                     {signal.torque_held, signal.torque_period, signal.cutoff, true, kStep});
-  motions_ = run_twin(twin_, {}, random_, job.options.samples.threads);
+  motions_ = run_copy(copy_, {}, random_, job.options.samples.threads);
 }
 
 void CopyDraws::for_each(const std::function<void(const CopyDraw&)>& use) {
-  if (exact_) use({record_twin(twin_, motions_, random_), true, 1, share_});
+  if (exact_) use({record_copy(copy_, motions_, random_), true, 1, share_});
   if (!rounded_) return;
-  choose_encoders(twin_, motions_);
+  choose_encoders(copy_, motions_);
   for (int draw = 0; draw < kFloorDraws; ++draw)
-    use({record_twin(twin_, moved_aside(twin_, motions_, random_), random_), false,
+    use({record_copy(copy_, moved_aside(copy_, motions_, random_), random_), false,
          1.0 / kFloorDraws, share_});
 }
 

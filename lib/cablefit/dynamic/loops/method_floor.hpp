@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cablefit/copies/twin.hpp"
+#include "cablefit/copies/simulated_copy.hpp"
 #include "cablefit/dynamic/rows/dynamic_job.hpp"
 
 namespace cablefit {
@@ -31,7 +31,7 @@ class CopyDraws {
   bool rounded_, exact_;
   double share_ = 1;
   Random random_;
-  Twin twin_;
+  SimulatedCopy copy_;
   std::vector<SimulationResult> motions_;
 };
 

@@ -37,11 +37,11 @@ void fill_covariance(const FinalRows& last, OutputErrorFit& fit) {
   fit.degrees_of_freedom = hac.degrees_of_freedom;
   double ratio = 0, n = 0;
   for (Eigen::Index k = 0; k < p; ++k) {  // no credit for anti-correlated residuals
-    const double white = fit.covariance_white(k, k), honest = fit.covariance(k, k);
+    const double white = fit.covariance_white(k, k), robust = fit.covariance(k, k);
     if (!(white > 0)) continue;
-    if (honest < white) {
-      fit.covariance.row(k) *= honest > 0 ? std::sqrt(white / honest) : 0;
-      fit.covariance.col(k) *= honest > 0 ? std::sqrt(white / honest) : 0;
+    if (robust < white) {
+      fit.covariance.row(k) *= robust > 0 ? std::sqrt(white / robust) : 0;
+      fit.covariance.col(k) *= robust > 0 ? std::sqrt(white / robust) : 0;
       fit.covariance(k, k) = white;
     }
     ratio += fit.covariance(k, k) / white;

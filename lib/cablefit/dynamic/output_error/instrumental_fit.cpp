@@ -81,7 +81,7 @@ void fill_covariance(const Step& step, const InstrumentedSums& sums, Eigen::Inde
                                     (step.z.transpose() * step.z - prior_rows) *
                                     step.influence.transpose() +
                                 of_prior;
-  Eigen::MatrixXd honest = white;
+  Eigen::MatrixXd robust = white;
   fit.effective_rows = static_cast<double>(sums.rows.n_rows());
   fit.degrees_of_freedom = std::max(1.0, fit.effective_rows - static_cast<double>(n));
   const auto n_cells = static_cast<Eigen::Index>(sums.rows.cells().size());
@@ -92,22 +92,22 @@ void fill_covariance(const Step& step, const InstrumentedSums& sums, Eigen::Inde
           return (step.influence * scores(step.free)).transpose();
         });
     const LongRunCovariance hac = interval_covariance(series);
-    honest = hac.covariance + of_prior;
+    robust = hac.covariance + of_prior;
     fit.degrees_of_freedom = hac.degrees_of_freedom;
     double ratio = 0;
     for (Eigen::Index k = 0; k < n; ++k) {  // no credit for anti-correlated residuals
-      if (honest(k, k) < white(k, k)) {
-        const double grow = honest(k, k) > 0 ? std::sqrt(white(k, k) / honest(k, k)) : 0;
-        honest.row(k) *= grow;
-        honest.col(k) *= grow;
-        honest(k, k) = white(k, k);
+      if (robust(k, k) < white(k, k)) {
+        const double grow = robust(k, k) > 0 ? std::sqrt(white(k, k) / robust(k, k)) : 0;
+        robust.row(k) *= grow;
+        robust.col(k) *= grow;
+        robust(k, k) = white(k, k);
       }
-      ratio += honest(k, k) / white(k, k) / static_cast<double>(n);
+      ratio += robust(k, k) / white(k, k) / static_cast<double>(n);
     }
     fit.effective_rows /= ratio;
   }
   fit.covariance = fit.covariance_white = Eigen::MatrixXd::Zero(p, p);
-  fit.covariance(step.free, step.free) = honest;
+  fit.covariance(step.free, step.free) = robust;
   fit.covariance_white(step.free, step.free) = white;
 }
 

@@ -27,13 +27,13 @@ Eigen::Index place_of(const std::vector<Estimate>& estimates, const std::string&
   return found == estimates.end() ? -1 : found - estimates.begin();
 }
 
-void take_estimate(const Estimate& from, bool honest, Estimate& to) {
+void take_estimate(const Estimate& from, bool robust, Estimate& to) {
   const double cad = to.cad;
   const std::string unit = to.unit;
   to = from;
   to.unit = unit;
   to.cad = cad;
-  if (!honest) to.sd = to.sd_white;
+  if (!robust) to.sd = to.sd_white;
 }
 
 }  // namespace
@@ -63,15 +63,15 @@ Stage1Prior stage1_prior(const Model& model, const ElasticFit& stage1) {
   return out;
 }
 
-ElasticFit refined_stage1(const ElasticFit& stage1, const OutputErrorFit& fit, bool honest) {
+ElasticFit refined_stage1(const ElasticFit& stage1, const OutputErrorFit& fit, bool robust) {
   ElasticFit refined = stage1;
   refined.transmission = fit.model.transmission;
   for (Estimate& e : refined.parameters) {
     const Estimate* found = find_estimate(fit.parameters, e.name);
-    if (found != nullptr && found->not_identifiable.empty()) take_estimate(*found, honest, e);
+    if (found != nullptr && found->not_identifiable.empty()) take_estimate(*found, robust, e);
   }
   const std::vector<ModelParameter> coefficients = coefficients_of(fit.model);
-  const Eigen::MatrixXd& covariance = honest ? fit.covariance : fit.covariance_white;
+  const Eigen::MatrixXd& covariance = robust ? fit.covariance : fit.covariance_white;
   for (std::size_t i = 0; i < coefficients.size(); ++i)
     for (std::size_t j = 0; j < coefficients.size(); ++j) {
       const Eigen::Index a = place_of(fit.parameters, coefficients[i].name),

@@ -19,8 +19,8 @@ struct Stage1Prior {
 Stage1Prior stage1_prior(const Model& model, const ElasticFit& stage1);
 
 /// `stage1` with the coefficients, sd and covariance of an output-error fit that began with it.
-/// `honest`: its sd, else the white one.
-ElasticFit refined_stage1(const ElasticFit& stage1, const OutputErrorFit& fit, bool honest);
+/// `robust`: its sd, else the white one.
+ElasticFit refined_stage1(const ElasticFit& stage1, const OutputErrorFit& fit, bool robust);
 
 /// How far the moving logs pull the coefficients away from stage 1.
 struct Stage1Shift {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "cablefit/samples/rows/agreement.hpp"
-#include "cablefit/samples/rows/pilot.hpp"
+#include "cablefit/samples/rows/preliminary.hpp"
 
 namespace cablefit {
 namespace {
@@ -57,7 +57,7 @@ EquationRows make_equation(const DynamicJob& job, ElasticDetail detail, Side sid
 
 std::vector<EquationRows> make_equations(const DynamicJob& job) {
   return make_equations(
-      job, job.options.honest_sd ? ElasticDetail::coefficients : ElasticDetail::torque);
+      job, job.options.robust_sd ? ElasticDetail::coefficients : ElasticDetail::torque);
 }
 
 std::vector<EquationRows> make_equations(const DynamicJob& job, ElasticDetail detail) {
@@ -84,23 +84,23 @@ std::vector<std::vector<std::size_t>> systems_of(const std::vector<EquationRows>
   return systems;
 }
 
-std::vector<EquationRows> pilot_equations(const DynamicJob& job, int n_windows) {
-  std::vector<EquationRows> pilot = make_equations(job);
+std::vector<EquationRows> preliminary_equations(const DynamicJob& job, int n_windows) {
+  std::vector<EquationRows> preliminary = make_equations(job);
   const RowSettings& settings = job.settings.rows;
   const Eigen::Index expected = expected_rows(job.logs, job.wanted, settings);
-  for (EquationRows& e : pilot) e.rows.emplace(e.columns.count, expected);
+  for (EquationRows& e : preliminary) e.rows.emplace(e.columns.count, expected);
   const double rate = sample_rates(job.logs, job.wanted).highest;
   std::vector<Equation> plain;
-  for (const EquationRows& e : pilot) plain.push_back(e.equation);
-  for (const PilotWindow& p :
-       pilot_windows(job.logs, job.wanted, settings.signal, row_halo(settings, rate), n_windows)) {
+  for (const EquationRows& e : preliminary) plain.push_back(e.equation);
+  for (const PreliminaryWindow& p : preliminary_windows(job.logs, job.wanted, settings.signal,
+                                                        row_halo(settings, rate), n_windows)) {
     const RowBatch batch = make_rows(p.window, job.logs[p.log], 0, settings, plain);
-    for (std::size_t k = 0; k < pilot.size(); ++k) {
-      pilot[k].rows->add(batch.equations[k].rows, batch.equations[k].numbers);
-      widen(batch.equations[k].rows, pilot[k]);
+    for (std::size_t k = 0; k < preliminary.size(); ++k) {
+      preliminary[k].rows->add(batch.equations[k].rows, batch.equations[k].numbers);
+      widen(batch.equations[k].rows, preliminary[k]);
     }
   }
-  return pilot;
+  return preliminary;
 }
 
 namespace {
@@ -109,11 +109,11 @@ namespace {
 /// windows tell them.
 std::vector<Eigen::MatrixXd> guess(const DynamicJob& job) {
   std::vector<Eigen::MatrixXd> all;
-  for (const EquationRows& pilot : pilot_equations(job, kGuessWindows)) {
-    Eigen::MatrixXd& guesses = all.emplace_back(pilot.columns.count, job.models.size());
+  for (const EquationRows& preliminary : preliminary_equations(job, kGuessWindows)) {
+    Eigen::MatrixXd& guesses = all.emplace_back(preliminary.columns.count, job.models.size());
     for (std::size_t m = 0; m < job.models.size(); ++m)
       guesses.col(static_cast<Eigen::Index>(m)) =
-          solve_equation(pilot, job.elastic, m).residual_combination;
+          solve_equation(preliminary, job.elastic, m).residual_combination;
   }
   return all;
 }
@@ -162,7 +162,7 @@ WindowCounts collect_rows(const DynamicJob& job, std::vector<EquationRows>& equa
   for (std::size_t k = 0; k < equations.size(); ++k) {
     EquationRows& e = equations[k];
     plain.push_back(e.equation);
-    blank.emplace_back(e.columns.count, expected, job.options.honest_sd);
+    blank.emplace_back(e.columns.count, expected, job.options.robust_sd);
     e.rows = blank.back();
     e.peaks.emplace(std::move(guesses[k]));
   }

@@ -62,7 +62,7 @@ std::vector<EquationRows> make_equations(const DynamicJob& job, ElasticDetail de
 std::vector<std::vector<std::size_t>> systems_of(const std::vector<EquationRows>& equations);
 
 /// The equations with the rows of the first `n_windows` windows of every log only.
-std::vector<EquationRows> pilot_equations(const DynamicJob& job, int n_windows);
+std::vector<EquationRows> preliminary_equations(const DynamicJob& job, int n_windows);
 
 /// Whether the largest residuals of a fit to the rows will be wanted.
 enum class Peaks { unwanted, kept };

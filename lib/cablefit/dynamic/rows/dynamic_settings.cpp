@@ -15,7 +15,7 @@ namespace cablefit {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kPilotWindows = 8;
+constexpr int kPreliminaryWindows = 8;
 constexpr double kWideBand = 0.15;  // of the rate: the widest band the differences allow
 
 // f0 of the elastic drive needs inertias, which are what is looked for. A first fit with a generous
@@ -48,19 +48,19 @@ SampleOptions wide_band(const DynamicJob& job, double rate) {
 
 /// Free resonance of every joint by a preliminary fit with the job's settings; 0: it lies beyond
 /// half the rate, or no inertia comes out.
-std::vector<double> pilot_resonances(DynamicJob& job, const ElasticResult& elastic) {
+std::vector<double> preliminary_resonances(DynamicJob& job, const ElasticResult& elastic) {
   const double rate = sample_rates(job.logs, job.wanted).lowest;
   const int n = job.n_joints();
   job.links_alone = true;  // near enough
-  const std::vector<EquationRows> pilot = pilot_equations(job, kPilotWindows);
+  const std::vector<EquationRows> preliminary = preliminary_equations(job, kPreliminaryWindows);
   job.links_alone = false;
   const std::size_t last = job.elastic.size() - 1;
   const ElasticPreload* stage1 = stage1_of(elastic, job.preload);
   std::vector<double> resonances;
   for (int joint = 0; joint < n; ++joint) {
     const std::size_t link = 2 * static_cast<std::size_t>(joint);
-    const double j_link = solve_equation(pilot[link], job.elastic, last).x(0);
-    const double j_motor = solve_equation(pilot[link + 1], job.elastic, last).x(0);
+    const double j_link = solve_equation(preliminary[link], job.elastic, last).x(0);
+    const double j_motor = solve_equation(preliminary[link + 1], job.elastic, last).x(0);
     const ElasticFit& fit = *job.elastic[last];
     const double stiffness = stage1 == nullptr ? 0
                              : n == 1          ? typical_stiffness(fit, *stage1, joint)
@@ -87,10 +87,10 @@ std::vector<double> choose_by_resonances(DynamicJob& job, const ElasticResult& e
   const double rate = sample_rates(job.logs, job.wanted).lowest;
   choose_joint_settings(job, wide_band(job, rate),
                         std::vector<double>(static_cast<std::size_t>(job.n_joints())));
-  std::vector<double> resonances = pilot_resonances(job, elastic);
+  std::vector<double> resonances = preliminary_resonances(job, elastic);
   choose_joint_settings(job, job.options.samples, resonances);
   if (job.options.samples.cutoff || !is_noise_limited(job)) return resonances;
-  const std::vector<double> second = pilot_resonances(job, elastic);
+  const std::vector<double> second = preliminary_resonances(job, elastic);
   for (std::size_t k = 0; k < second.size(); ++k)
     if (second[k] > 0) resonances[k] = second[k];
   choose_joint_settings(job, job.options.samples, resonances);

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "cablefit/samples/rows/agreement.hpp"
-#include "cablefit/samples/rows/pilot.hpp"
+#include "cablefit/samples/rows/preliminary.hpp"
 
 namespace cablefit {
 namespace {
@@ -37,7 +37,8 @@ LogScale scale_of(const DynamicJob& job) {
   double low = kUnbounded, high = -kUnbounded;
   const SignalSettings& settings = job.settings.rows.signal;
   const Eigen::Index halo = row_halo(job.settings.rows, sample_rates(job.logs, job.wanted).highest);
-  for (const PilotWindow& p : pilot_windows(job.logs, job.wanted, settings, halo, kWindows)) {
+  for (const PreliminaryWindow& p :
+       preliminary_windows(job.logs, job.wanted, settings, halo, kWindows)) {
     const JointSignals s = make_signals(p.window, job.logs[p.log].plan, settings).joints.front();
     append(speeds, s.thetad);
     append(torques, s.tau);
@@ -90,7 +91,7 @@ void set_free(EffectInstance& effect) {
 /// Sum over the equations of the logarithm of what least squares leaves: each counts alike.
 double misfit(const DynamicJob& job) {
   double sum = 0;
-  for (const EquationRows& e : pilot_equations(job, kWindows))
+  for (const EquationRows& e : preliminary_equations(job, kWindows))
     sum += std::log(
         std::max(solve_equation(e, job.elastic, 0).rss, std::numeric_limits<double>::min()));
   return sum;
@@ -117,7 +118,7 @@ void find_first_shapes(DynamicJob& job) {
     set_values(job.added.back(), best);
   }
   std::vector<EffectInstance> found = job.added;
-  for (const EquationRows& e : pilot_equations(job, kWindows))
+  for (const EquationRows& e : preliminary_equations(job, kWindows))
     take_values(e.columns, solve_equation(e, job.elastic, 0).x, found);
   for (std::size_t k = 0; k < wanted.size(); ++k)
     if (is_blank(wanted[k])) {

@@ -40,8 +40,8 @@ std::string value_taken(const std::string& choice, const RowSettings& all) {
 }
 
 /// Choices that all joints share, then those that differ, by joint.
-std::vector<Decision> told_by_joint(const std::vector<ChosenSettings>& joints,
-                                    const RowSettings& all) {
+std::vector<Decision> decisions_by_joint(const std::vector<ChosenSettings>& joints,
+                                         const RowSettings& all) {
   std::vector<Decision> told;
   const int n = static_cast<int>(joints.size());
   for (int joint = 0; joint < n; ++joint)
@@ -64,7 +64,7 @@ ChosenSettings merged(const std::vector<ChosenSettings>& joints) {
     all.rows.lowest_cutoff = lower_cutoff(all.rows.lowest_cutoff,
                                           lower_cutoff(joint.rows.signal.cutoff, joint.cutoff_q));
   }
-  all.decisions = told_by_joint(joints, all.rows);
+  all.decisions = decisions_by_joint(joints, all.rows);
   all.warnings.clear();
   for (std::size_t k = 0; k < joints.size(); ++k)
     for (const std::string& warning : joints[k].warnings)

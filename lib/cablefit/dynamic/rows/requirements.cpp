@@ -9,7 +9,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
-#include "cablefit/samples/rows/pilot.hpp"
+#include "cablefit/samples/rows/preliminary.hpp"
 #include "cablefit/samples/survey/noise.hpp"
 
 namespace cablefit {
@@ -36,9 +36,9 @@ std::vector<double> calm_speeds(const DynamicJob& job, const Equation& equation,
                                 const RateRange& rates) {
   const SignalSettings settings = calm_settings(rates.lowest);
   std::vector<double> speeds;
-  for (const PilotWindow& p :
-       pilot_windows(job.logs, job.wanted, settings, signal_halo(settings, rates.highest),
-                     kSettingsWindows)) {
+  for (const PreliminaryWindow& p :
+       preliminary_windows(job.logs, job.wanted, settings, signal_halo(settings, rates.highest),
+                           kSettingsWindows)) {
     const Signals signals = make_signals(p.window, job.logs[p.log].plan, settings);
     const Eigen::ArrayXd speed = equation.speed(signals).abs();
     const Eigen::Index from = p.window.begin - p.window.first;

@@ -10,7 +10,7 @@
 namespace cablefit {
 namespace {
 
-constexpr int kPilotWindows = 8;
+constexpr int kPreliminaryWindows = 8;
 constexpr double kWideBand = 0.15;  // of the rate: the widest band the differences allow
 
 ElasticFit blank_fit(const Rig& rig) {
@@ -24,10 +24,10 @@ ElasticFit blank_fit(const Rig& rig) {
   return fit;
 }
 
-/// The motors' equations of the pilot, link before motor of every joint.
-std::vector<const EquationRows*> motors_of(const std::vector<EquationRows>& pilot) {
+/// The motors' equations of the preliminary, link before motor of every joint.
+std::vector<const EquationRows*> motors_of(const std::vector<EquationRows>& preliminary) {
   std::vector<const EquationRows*> motors;
-  for (const EquationRows& e : pilot)
+  for (const EquationRows& e : preliminary)
     if (e.columns.side == Side::motor) motors.push_back(&e);
   return motors;
 }
@@ -85,8 +85,8 @@ ElasticResult rough_stage1(DynamicJob& job) {
   if (!wide.cutoff) wide.cutoff = kWideBand * sample_rates(job.logs, job.wanted).lowest;
   choose_joint_settings(job, wide, std::vector<double>(static_cast<std::size_t>(job.n_joints())));
   job.settings.rows.signal.torque_held = job.rig().torque_hold == TorqueHold::zoh;
-  const std::vector<EquationRows> pilot = pilot_equations(job, kPilotWindows);
-  const std::vector<const EquationRows*> motors = motors_of(pilot);
+  const std::vector<EquationRows> preliminary = preliminary_equations(job, kPreliminaryWindows);
+  const std::vector<const EquationRows*> motors = motors_of(preliminary);
   require_rows(job, motors);
   const Eigen::VectorXd coefficients = shared_coefficients(motors);
   Eigen::Index next = 0;

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "cablefit/samples/rows/agreement.hpp"
-#include "cablefit/samples/rows/pilot.hpp"
+#include "cablefit/samples/rows/preliminary.hpp"
 #include "cablefit/samples/survey/noise.hpp"
 
 namespace cablefit {
@@ -53,8 +53,8 @@ std::vector<double> sensor_noise(const DynamicJob& job, const std::vector<Equati
   const RowSettings& settings = job.settings.rows;
   const double rate = sample_rates(job.logs, job.wanted).highest;
   std::mt19937_64 engine(kSeed);
-  for (const PilotWindow& p :
-       pilot_windows(job.logs, job.wanted, settings.signal, row_halo(settings, rate), kWindows)) {
+  for (const PreliminaryWindow& p : preliminary_windows(job.logs, job.wanted, settings.signal,
+                                                        row_halo(settings, rate), kWindows)) {
     const LogSurvey& log = job.logs[p.log];
     const RowBatch clean = make_rows(p.window, log, 0, settings, plain);
     const RowBatch noisy = make_rows(with_noise(p.window, log, engine), log, 0, settings, plain);

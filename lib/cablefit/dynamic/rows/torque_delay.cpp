@@ -10,7 +10,7 @@
 #include "cablefit/estimate/fit/least_squares.hpp"
 #include "cablefit/estimate/spread/long_run.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
-#include "cablefit/samples/rows/pilot.hpp"
+#include "cablefit/samples/rows/preliminary.hpp"
 
 namespace cablefit {
 namespace {
@@ -38,15 +38,16 @@ Equation with_slopes(const Equation& base, const DynamicColumns& c, const Eigen:
   return equation;
 }
 
-RowStatistics pilot_rows(std::span<const LogSurvey> logs, const std::vector<PilotWindow>& pilot,
-                         const RowSettings& rows, const Equation& equation) {
+RowStatistics preliminary_rows(std::span<const LogSurvey> logs,
+                               const std::vector<PreliminaryWindow>& preliminary,
+                               const RowSettings& rows, const Equation& equation) {
   Eigen::Index expected = 0;
-  for (const PilotWindow& p : pilot)
+  for (const PreliminaryWindow& p : preliminary)
     expected += (p.window.end - p.window.begin) / rows.decimate + 1;
   RowStatistics statistics(static_cast<Eigen::Index>(equation.columns.size()), expected);
   Eigen::Index offset = 0;
   std::size_t log = 0;
-  for (const PilotWindow& p : pilot) {
+  for (const PreliminaryWindow& p : preliminary) {
     if (p.log != log) offset += static_cast<Eigen::Index>(logs[log].n_rows) / rows.decimate + 1;
     log = p.log;
     const RowBatch batch = make_rows(p.window, logs[p.log], offset, rows, {&equation, 1});
@@ -144,13 +145,14 @@ TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFil
   const Equation base = dynamic_equation(c, fits, false, rest_speed);
   const double rate = sample_rates(logs, wanted).highest;
   const double period = 1 / rate;
-  const auto pilot = pilot_windows(logs, wanted, rows.signal, row_halo(rows, rate), kDelayWindows);
+  const auto preliminary =
+      preliminary_windows(logs, wanted, rows.signal, row_halo(rows, rate), kDelayWindows);
 
   LinearProblem problem;
   for (Eigen::Index k = 0; k < c.n_effects; ++k) problem.regressors.push_back(k);
   problem.names.assign(problem.regressors.size(), "");
   problem.response = dynamic_response(c, fits, 0);
-  const RowStatistics plain = pilot_rows(logs, pilot, rows, base);
+  const RowStatistics plain = preliminary_rows(logs, preliminary, rows, base);
   if (plain.n_rows() < 50) {
     delay.reason = "too few rows in motion to estimate a torque delay";
     return delay;
@@ -158,7 +160,8 @@ TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFil
   const LinearSolution start = solve(plain, problem);
   // The model's torque: effects plus elastic torque, i.e. the torque column less the residual.
   Eigen::VectorXd model = Eigen::VectorXd::Unit(c.count, c.torque) - start.residual_combination;
-  const RowStatistics with_slope_rows = pilot_rows(logs, pilot, rows, with_slopes(base, c, model));
+  const RowStatistics with_slope_rows =
+      preliminary_rows(logs, preliminary, rows, with_slopes(base, c, model));
 
   const auto fitted = fit_delay(with_slope_rows, c, problem.response);
   if (!fitted) {

@@ -10,7 +10,7 @@ namespace cablefit {
 
 /// Motor-side (or rigid) equation with tau(t - d) = tau - d dtau/dt. d is estimated by instrumental
 /// variables: the derivative of the MODEL's torque is the instrument for that of the measured one,
-/// whose noise would otherwise pull d towards 0. Uses the first windows of every log (pilot).
+/// whose noise would otherwise pull d towards 0. Uses the first windows of every log (preliminary).
 TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFilter& wanted,
                                   const RowSettings& settings, double rest_speed, Side side,
                                   const ElasticFit* elastic, const JointPlace& place = {});

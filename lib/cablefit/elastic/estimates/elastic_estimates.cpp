@@ -50,7 +50,7 @@ int joint_of(const std::string& name) {
 /// Linear spring with an arbitrary encoder zero: K phi + c = K (phi - theta_0), theta_0 = -c/K, by
 /// the delta method. `k`, `constant`: places of K and c.
 Estimate zero_of_line(const LinearSolution& s, Eigen::Index k, Eigen::Index constant, double zero,
-                      bool linear_motion, bool honest) {
+                      bool linear_motion, bool robust) {
   const double stiffness = s.x(k);
   const double by_stiffness = s.x(constant) / (stiffness * stiffness);
   const double by_constant = -1 / stiffness;
@@ -64,7 +64,7 @@ Estimate zero_of_line(const LinearSolution& s, Eigen::Index k, Eigen::Index cons
   e.unit = linear_motion ? "m" : "rad";
   e.value = zero - s.x(constant) / stiffness;
   e.sd_white = sd(s.covariance_white);
-  e.sd = honest ? sd(s.covariance) : e.sd_white;
+  e.sd = robust ? sd(s.covariance) : e.sd_white;
   set_interval(e, s.degrees_of_freedom);
   return e;
 }
@@ -192,7 +192,7 @@ ElasticFit make_fit(const ElasticJob& job, const ElasticCandidate& candidate,
   fit.rms_error = s.rms();
   fit.offset = rows.offset.value_or(0);
   fit.transmission = fitted_transmission(candidate, s.x);
-  fit.covariance = (job.options.honest_sd ? s.covariance : s.covariance_white).topLeftCorner(n, n);
+  fit.covariance = (job.options.robust_sd ? s.covariance : s.covariance_white).topLeftCorner(n, n);
   fit.warnings = worth_saying(s.warnings, candidate);
   for (std::size_t k = 0; k < candidate.names.size(); ++k) {
     const std::string& name = candidate.names[k];
@@ -200,14 +200,14 @@ ElasticFit make_fit(const ElasticJob& job, const ElasticCandidate& candidate,
     const auto index = static_cast<Eigen::Index>(k);
     const std::string unit = unit_of(candidate, k, rig.cables_given);
     Estimate e = estimate_of({name, name, unit, "", candidate.lower[k]}, rig.linear_motion, s,
-                             index, {job.options.honest_sd});
+                             index, {job.options.robust_sd});
     const bool is_nuisance = k >= candidate.n_elastic;
     const int joint = is_nuisance ? joint_of(name) : 0;
     const double zero = rows.transmission.theta_0(joint);
     const bool is_zero = is_nuisance && without_index(name) == "theta_0";
     if (is_nuisance && without_index(name) == "offset" &&
         nuisance[static_cast<std::size_t>(joint)].theta_0) {
-      e = zero_of_line(s, joint, index, zero, rig.linear_motion, job.options.honest_sd);
+      e = zero_of_line(s, joint, index, zero, rig.linear_motion, job.options.robust_sd);
       e.name = e.symbol = joint_parameter_name("theta_0", joint + 1, job.basis.n_joints);
     } else if (is_zero) {
       e.value += zero;

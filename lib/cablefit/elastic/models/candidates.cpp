@@ -118,12 +118,12 @@ LinearSolution solve_candidate(const BlockedRows& rows, const ElasticCandidate& 
                             rows.torque_response(), candidate.held, constraint_rows(candidate)});
 }
 
-void add_profiles(const BlockedRows& rows, const ElasticCandidate& candidate, bool honest,
+void add_profiles(const BlockedRows& rows, const ElasticCandidate& candidate, bool robust,
                   LinearSolution& solution) {
   LinearProblem problem{candidate.regressors, candidate.names, candidate.lower,
                         rows.torque_response(), candidate.held};
   if (!solution.active_constraints.empty()) problem.constraints = constraint_rows(candidate);
-  solution.profile = profile_intervals(*rows.rows, problem, solution, honest);
+  solution.profile = profile_intervals(*rows.rows, problem, solution, robust);
 }
 
 LinearSolution solve_given(const BlockedRows& rows, const ElasticCandidate& candidate,

@@ -43,7 +43,7 @@ bool breaks_constraints(const ElasticCandidate& candidate, const Eigen::VectorXd
 /// Plain least squares where every cable only pulls by itself, constrained where one would push.
 LinearSolution solve_candidate(const BlockedRows& rows, const ElasticCandidate& candidate);
 /// Fills solution.profile where bounds or constraints hold it.
-void add_profiles(const BlockedRows& rows, const ElasticCandidate& candidate, bool honest,
+void add_profiles(const BlockedRows& rows, const ElasticCandidate& candidate, bool robust,
                   LinearSolution& solution);
 /// With these elastic coefficients, all of the candidate's; the rest is fitted.
 LinearSolution solve_given(const BlockedRows& rows, const ElasticCandidate& candidate,

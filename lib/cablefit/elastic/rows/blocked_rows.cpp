@@ -125,12 +125,12 @@ struct Collected {
 };
 
 Collected collect(const ElasticJob& job, const Transmission& transmission,
-                  const Transmission* pilot) {
+                  const Transmission* preliminary) {
   Collected all;
   for (int joint = 0; joint < transmission.n_joints; ++joint)
     for (const bool sliding : {true, false})
       all.equations.push_back(blocked_equation(
-          transmission, pilot, sliding, job.rest_speeds[static_cast<std::size_t>(joint)],
+          transmission, preliminary, sliding, job.rest_speeds[static_cast<std::size_t>(joint)],
           job.still_speeds[static_cast<std::size_t>(joint)], joint));
   const Eigen::Index expected = expected_rows(job.logs, job.wanted, job.settings.rows);
   const RowStatistics blank(blocked_columns(transmission).count, expected);
@@ -218,10 +218,10 @@ BlockedRows rows_of_joint(const Collected& all, const Transmission& transmission
 }  // namespace
 
 std::vector<BlockedRows> collect_joints(const ElasticJob& job, const Eigen::VectorXd& theta_0,
-                                        const Transmission* pilot) {
+                                        const Transmission* preliminary) {
   Transmission transmission = job.basis;
   transmission.theta_0 = theta_0;
-  const Collected all = collect(job, transmission, pilot);
+  const Collected all = collect(job, transmission, preliminary);
   std::vector<BlockedRows> joints;
   for (int joint = 0; joint < transmission.n_joints; ++joint) {
     joints.push_back(rows_of_joint(all, transmission, joint));
@@ -230,9 +230,10 @@ std::vector<BlockedRows> collect_joints(const ElasticJob& job, const Eigen::Vect
   return joints;
 }
 
-BlockedRows collect_blocked(const ElasticJob& job, double theta_0, const Transmission* pilot) {
+BlockedRows collect_blocked(const ElasticJob& job, double theta_0,
+                            const Transmission* preliminary) {
   const Eigen::VectorXd zeros = Eigen::VectorXd::Constant(job.basis.n_joints, theta_0);
-  return collect_joints(job, zeros, pilot).front();
+  return collect_joints(job, zeros, preliminary).front();
 }
 
 BlockedRows stack(const std::vector<BlockedRows>& joints, const std::vector<double>& weights) {

@@ -54,11 +54,11 @@ struct BlockedRows {
   Eigen::VectorXd torque_response() const;
 };
 
-/// `pilot`: a first curve, whose slope gives the column of theta_0; may be null.
-BlockedRows collect_blocked(const ElasticJob& job, double theta_0, const Transmission* pilot);
+/// `preliminary`: a first curve, whose slope gives the column of theta_0; may be null.
+BlockedRows collect_blocked(const ElasticJob& job, double theta_0, const Transmission* preliminary);
 /// The same for every joint of the rig, in one pass. `theta_0`: n_joints.
 std::vector<BlockedRows> collect_joints(const ElasticJob& job, const Eigen::VectorXd& theta_0,
-                                        const Transmission* pilot);
+                                        const Transmission* preliminary);
 /// The rows of all joints under each other, each joint's with its weight. Neither equations nor an
 /// archive.
 BlockedRows stack(const std::vector<BlockedRows>& joints, const std::vector<double>& weights);

@@ -174,8 +174,8 @@ void fill_zeros(const Transmission& curve, std::span<const JointSignals> joints,
 
 }  // namespace
 
-Equation blocked_equation(const Transmission& transmission, const Transmission* pilot, bool sliding,
-                          double rest_speed, double still_speed, int joint) {
+Equation blocked_equation(const Transmission& transmission, const Transmission* preliminary,
+                          bool sliding, double rest_speed, double still_speed, int joint) {
   const BlockedColumns c = blocked_columns(transmission).of_joint(joint);
   const auto own = static_cast<std::size_t>(joint);
   Equation equation;
@@ -183,7 +183,8 @@ Equation blocked_equation(const Transmission& transmission, const Transmission* 
   equation.columns.assign(static_cast<std::size_t>(c.count), "");
   equation.averaged.assign(static_cast<std::size_t>(c.count),
                            false);  // quasi-static: no difference
-  const std::optional<Transmission> curve = pilot ? std::optional(*pilot) : std::nullopt;
+  const std::optional<Transmission> curve =
+      preliminary ? std::optional(*preliminary) : std::nullopt;
   // The direction is decimated as the torque is: beside a reversal both pass through zero.
   equation.prepare = [rest_speed, own](Signals& signals) {
     JointSignals& s = signals.joints[own];

@@ -48,11 +48,11 @@ struct BlockedColumns {
 BlockedColumns blocked_columns(const Transmission& transmission);
 
 /// tau = tau_elas_m(theta - theta_0, q) + offset + f_sm * direction + f_vm * thetad, with
-/// direction -1 or 1 of the last motion. `pilot` (may be null): a first curve, whose d tau/d
+/// direction -1 or 1 of the last motion. `preliminary` (may be null): a first curve, whose d tau/d
 /// theta_0 are the columns from `zero` on, of the motors of all joints. `sliding`: rows in motion
 /// only, else rows at rest only (plateaus). `still_speed` > 0: only rows in which the link is
 /// slower than this (--still). `joint`: whose equation, from 0.
-Equation blocked_equation(const Transmission& transmission, const Transmission* pilot, bool sliding,
-                          double rest_speed, double still_speed, int joint = 0);
+Equation blocked_equation(const Transmission& transmission, const Transmission* preliminary,
+                          bool sliding, double rest_speed, double still_speed, int joint = 0);
 
 }  // namespace cablefit

@@ -82,7 +82,7 @@ Eigen::MatrixXd white_of(const JointProblem& problem, const JointSolution& s, in
   return s.solve_operator * middle * s.solve_operator;
 }
 
-LongRunCovariance honest_of(const JointProblem& problem, const JointSolution& s, int record) {
+LongRunCovariance robust_of(const JointProblem& problem, const JointSolution& s, int record) {
   const auto cells = cells_of(problem, s, record);
   if (cells.size() < kMinCells) return {white_of(problem, s, record), 1, 1e6};
   const Eigen::Index first = cells.begin()->first, n = cells.rbegin()->first - first + 1;
@@ -120,13 +120,13 @@ double residual_inflation(const JointBlock& block, const Eigen::VectorXd& combin
       block.rows->cells(), inverse.cols(), [&](const GramCell& cell) -> Eigen::RowVectorXd {
         return cell_score(block, cell, combination) * inverse;
       });
-  const Eigen::MatrixXd honest = long_run_covariance(influence).covariance;
+  const Eigen::MatrixXd robust = long_run_covariance(influence).covariance;
   const double variance = variance_of(block, rss);
   double sum = 0;
   int counted = 0;
   for (Eigen::Index k = 0; k < inverse.rows(); ++k) {
     if (!(inverse(k, k) > 0)) continue;
-    sum += honest(k, k) / (variance * inverse(k, k));
+    sum += robust(k, k) / (variance * inverse(k, k));
     ++counted;
   }
   return std::max(1.0, sum / counted);
@@ -151,11 +151,11 @@ JointCovariance joint_covariance(const JointProblem& problem, const JointSolutio
   Eigen::VectorXd spread = Eigen::VectorXd::Zero(p);
   for (const int record : records) {
     Eigen::MatrixXd white = white_of(problem, s, record);
-    LongRunCovariance honest = honest_of(problem, s, record);
-    grow_to(white, honest.covariance);
-    out.covariance += honest.covariance;
+    LongRunCovariance robust = robust_of(problem, s, record);
+    grow_to(white, robust.covariance);
+    out.covariance += robust.covariance;
     out.white += white;
-    spread += honest.covariance.diagonal().cwiseAbs2() / honest.degrees_of_freedom;
+    spread += robust.covariance.diagonal().cwiseAbs2() / robust.degrees_of_freedom;
   }
   const double n = static_cast<double>(s.n_rows);
   const double small_sample = n / std::max(1.0, n - static_cast<double>(s.n_params));

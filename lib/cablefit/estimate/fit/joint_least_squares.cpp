@@ -139,11 +139,11 @@ std::vector<ProfileInterval> joint_profiles(const JointProblem& problem) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::vector<ProfileInterval> all(static_cast<std::size_t>(problem.n_params()), {kNone, kNone});
   for (Eigen::Index k = 0; k < problem.n_params(); ++k) {
-    const double plain = s.solve_operator(k, k), honest = covariance.covariance(k, k);
+    const double plain = s.solve_operator(k, k), robust = covariance.covariance(k, k);
     if (!s.determines(Eigen::VectorXd::Unit(problem.n_params(), k)) || !(plain > 0)) continue;
     const double t = t_quantile_975(covariance.degrees_of_freedom(k));
     ProfileInterval& interval = all[static_cast<std::size_t>(k)];
-    interval = profile_interval(a, stack.b, g, z.row(k), t * t * honest / plain);
+    interval = profile_interval(a, stack.b, g, z.row(k), t * t * robust / plain);
     interval.low /= stack.norm(k);
     interval.high /= stack.norm(k);
   }

@@ -74,7 +74,7 @@ void name_null_directions(const FreeFit& fit, const Words& words, LinearSolution
 
 /// Of two parameters that only show together the sum that does, with its value: "; offset + f_s =
 /// 3.05 +- 0.02 is determined".
-void tell_determined_sums(const FreeFit& fit, const Words& words, LinearSolution& out) {
+void add_determined_sums(const FreeFit& fit, const Words& words, LinearSolution& out) {
   const Eigen::MatrixXd directions = sparse_directions(fit.solve.null_directions);
   for (Eigen::Index d = 0; d < directions.cols(); ++d) {
     std::vector<Eigen::Index> members;
@@ -207,14 +207,14 @@ LinearSolution solve(const RowStatistics& rows, const LinearProblem& problem) {
   out.rss = (rows.r() * out.residual_combination).squaredNorm();
   const double dof = static_cast<double>(std::max<Eigen::Index>(1, out.n_rows - out.n_params));
   out.covariance_white = out.rss / dof * out.solve_operator;
-  honest_covariance(rows, out);
-  tell_determined_sums(unbounded, words, out);
+  robust_covariance(rows, out);
+  add_determined_sums(unbounded, words, out);
   out.unbounded_x = Eigen::VectorXd::Zero(p);
   for (std::size_t k = 0; k < unbounded.free.size(); ++k)
     out.unbounded_x(unbounded.free[k]) = unbounded.solve.x(static_cast<Eigen::Index>(k));
   // Same noise level and the same ratio of robust to white sd as the bounded fit.
-  const double honesty = std::sqrt(static_cast<double>(out.n_rows) / out.effective_rows);
-  out.unbounded_sd = honesty * (out.rss / dof * expand(unbounded, p).diagonal()).cwiseSqrt();
+  const double widening = std::sqrt(static_cast<double>(out.n_rows) / out.effective_rows);
+  out.unbounded_sd = widening * (out.rss / dof * expand(unbounded, p).diagonal()).cwiseSqrt();
   if (out.active_constraints.empty()) widen_beside_bounds(out);
   note_correlations(unbounded, words, out);
   note_first_stage(rows, problem, unbounded, out);

@@ -60,10 +60,10 @@ Estimate estimate_of(const ParameterInfo& info, bool linear_motion, const Linear
     return e;
   }
   e.sd_white = std::sqrt(s.covariance_white(k, k));
-  e.sd = choice.honest ? std::sqrt(s.covariance(k, k) + choice.extra_variance) : e.sd_white;
+  e.sd = choice.robust ? std::sqrt(s.covariance(k, k) + choice.extra_variance) : e.sd_white;
   set_interval(e, s.degrees_of_freedom, info.lower);
   if (!s.profile.empty())
-    set_profile(e, s.profile[at], choice.honest ? choice.extra_variance / s.covariance(k, k) : 0,
+    set_profile(e, s.profile[at], choice.robust ? choice.extra_variance / s.covariance(k, k) : 0,
                 info.lower);
   return e;
 }

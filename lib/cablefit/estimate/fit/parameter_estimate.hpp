@@ -8,7 +8,7 @@ namespace cablefit {
 
 /// Which sd to report, and what else is uncertain.
 struct SdChoice {
-  bool honest = true;         ///< else the white one, the paper's (25)
+  bool robust = true;         ///< else the white one, the paper's (25)
   double extra_variance = 0;  ///< from an earlier stage, added to the robust one
 };
 

@@ -102,7 +102,7 @@ ProfileInterval profile_interval(const Eigen::MatrixXd& a, const Eigen::VectorXd
 
 std::vector<ProfileInterval> profile_intervals(const RowStatistics& rows,
                                                const LinearProblem& problem,
-                                               const LinearSolution& s, bool honest) {
+                                               const LinearSolution& s, bool robust) {
   const bool held = !s.active_constraints.empty() ||
                     std::find(s.at_bound.begin(), s.at_bound.end(), true) != s.at_bound.end();
   if (!held) return {};
@@ -124,7 +124,7 @@ std::vector<ProfileInterval> profile_intervals(const RowStatistics& rows,
   plain.lower.clear();
   plain.constraints.resize(0, 0);
   const LinearSolution unheld = solve(rows, plain);
-  const Eigen::MatrixXd& covariance = honest ? unheld.covariance : unheld.covariance_white;
+  const Eigen::MatrixXd& covariance = robust ? unheld.covariance : unheld.covariance_white;
   const double t = t_quantile_975(unheld.degrees_of_freedom);
   for (std::size_t i = 0; i < free.size(); ++i) {
     const Eigen::Index k = free[i];

@@ -22,10 +22,10 @@ ProfileInterval profile_interval(const Eigen::MatrixXd& a, const Eigen::VectorXd
 
 /// 95 % intervals of the parameters of a solution that bounds or constraints hold, for
 /// LinearSolution::profile; empty where none does. The threshold is t^2 times the robust variance
-/// (the white one unless `honest`) that the parameter has without them, in units of its (W'W)^-1.
+/// (the white one unless `robust`) that the parameter has without them, in units of its (W'W)^-1.
 /// NaN: not determined.
 std::vector<ProfileInterval> profile_intervals(const RowStatistics& rows,
                                                const LinearProblem& problem,
-                                               const LinearSolution& solution, bool honest);
+                                               const LinearSolution& solution, bool robust);
 
 }  // namespace cablefit

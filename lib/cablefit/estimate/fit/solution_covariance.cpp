@@ -9,7 +9,7 @@
 
 namespace cablefit {
 
-void honest_covariance(const RowStatistics& rows, LinearSolution& out) {
+void robust_covariance(const RowStatistics& rows, LinearSolution& out) {
   const Eigen::Index p = out.x.size();
   const auto n_cells = static_cast<Eigen::Index>(rows.cells().size());
   if (n_cells < 8) {

@@ -8,7 +8,7 @@ namespace cablefit {
 /// Fills covariance, degrees_of_freedom and effective_rows: the sandwich (W'W)^-1 S (W'W)^-1 with S
 /// the long-run covariance of the cells' scores W' rho. Needs x, n_rows, n_params,
 /// residual_combination, solve_operator, score_columns and covariance_white.
-void honest_covariance(const RowStatistics& rows, LinearSolution& solution);
+void robust_covariance(const RowStatistics& rows, LinearSolution& solution);
 
 /// With one parameter on its bound the others look better determined than they are: what they trade
 /// with it is still unknown. Their variance becomes at least that of the fit without bounds.

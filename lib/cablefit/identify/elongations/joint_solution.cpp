@@ -45,15 +45,15 @@ ElongationProfiles profiles_of(JointFit& fit, const JudgedPoint& judged) {
   if (fit.layout.searches_radius()) return {};
   std::vector<Eigen::Index> which;
   std::vector<double> t, scale;
-  const Eigen::MatrixXd& honest = judged.covariance.covariance;
+  const Eigen::MatrixXd& robust = judged.covariance.covariance;
   for (Eigen::Index k = fit.layout.n_linear; k < judged.linearised.x.size(); ++k) {
     const Eigen::VectorXd unit = Eigen::VectorXd::Unit(judged.linearised.x.size(), k);
     if (!judged.linearised.determines(unit)) continue;
     which.push_back(k);
-    scale.push_back(judged.linearised.solve_operator(k, k) / honest(k, k));
+    scale.push_back(judged.linearised.solve_operator(k, k) / robust(k, k));
     t.push_back(t_quantile_975(judged.covariance.degrees_of_freedom(k)));
   }
-  return profile_elongations(fit, judged.point, which, honest, t, scale);
+  return profile_elongations(fit, judged.point, which, robust, t, scale);
 }
 
 }  // namespace

@@ -116,7 +116,7 @@ void note_active_bounds(const JointFit& fit, const JointPoint& point, IdentifyRe
 /// What the preload's linear and shared parameters are known together as.
 JointEstimates known_together(const JointFit& fit, const JudgedPoint& judged,
                               const std::vector<Estimate>& estimates, std::size_t job,
-                              bool honest) {
+                              bool robust) {
   JointEstimates from;
   std::vector<Eigen::Index> kept;
   std::vector<double> values;
@@ -133,7 +133,7 @@ JointEstimates known_together(const JointFit& fit, const JudgedPoint& judged,
   }
   from.value =
       Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-  from.covariance = (honest ? judged.covariance.covariance : judged.covariance.white)(kept, kept);
+  from.covariance = (robust ? judged.covariance.covariance : judged.covariance.white)(kept, kept);
   if (!kept.empty())
     from.degrees_of_freedom = judged.covariance.degrees_of_freedom(kept).minCoeff();
   return from;
@@ -195,7 +195,7 @@ void describe(const JointFit& fit, const JudgedPoint& judged,
     IdentifyPreload& preload = result.preloads[j];
     add_cad(facts[j].rig, preload.parameters);
     add_slack_points(preload);
-    const JointEstimates known = known_together(fit, judged, estimates, j, options.honest_sd);
+    const JointEstimates known = known_together(fit, judged, estimates, j, options.robust_sd);
     if (preload.knows_elongations()) add_derived(fit.jobs[j], known, preload);
     add_model(facts[j], known, result, preload);
     note_pushing(fit, preload, result);
@@ -206,7 +206,7 @@ void describe(const JointFit& fit, const JudgedPoint& judged,
   result.condition = judged.linearised.condition_scaled;
   const Eigen::Index n = fit.layout.n_coefficients;
   result.coefficient_covariance =
-      (options.honest_sd ? judged.covariance.covariance : judged.covariance.white)
+      (options.robust_sd ? judged.covariance.covariance : judged.covariance.white)
           .topLeftCorner(n, n);
   result.elongations = searched_elongations(fit, judged, estimates);
   const std::vector<std::string> correlated = correlation_warnings(fit, judged);

@@ -20,8 +20,8 @@ double sd_at(const Eigen::MatrixXd& covariance, Eigen::Index k) {
   return std::sqrt(std::max(0.0, covariance(k, k)));
 }
 
-const Eigen::MatrixXd& chosen(const JointCovariance& covariance, bool honest) {
-  return honest ? covariance.covariance : covariance.white;
+const Eigen::MatrixXd& chosen(const JointCovariance& covariance, bool robust) {
+  return robust ? covariance.covariance : covariance.white;
 }
 
 /// The bound that holds a parameter at 0; empty when none does. A coefficient may be held by
@@ -58,10 +58,10 @@ void add_known(double part, Estimate& e) {
 }
 
 /// Of a linear parameter, where bounds hold the solution.
-void take_profile(const JudgedPoint& judged, Eigen::Index k, bool honest, double lower,
+void take_profile(const JudgedPoint& judged, Eigen::Index k, bool robust, double lower,
                   Estimate& e) {
   const auto at = static_cast<std::size_t>(k);
-  if (honest && at < judged.profile.size()) set_profile(e, judged.profile[at], 0, lower);
+  if (robust && at < judged.profile.size()) set_profile(e, judged.profile[at], 0, lower);
 }
 
 double value_at(const JointFit& fit, const JudgedPoint& judged, Eigen::Index k) {
@@ -72,7 +72,7 @@ double value_at(const JointFit& fit, const JudgedPoint& judged, Eigen::Index k) 
 }
 
 Estimate estimate_at(const JointFit& fit, const JudgedPoint& judged,
-                     const ElongationProfile* profile, Eigen::Index k, bool honest) {
+                     const ElongationProfile* profile, Eigen::Index k, bool robust) {
   const JointParameter& p = fit.layout.parameters[static_cast<std::size_t>(k)];
   Estimate e;
   e.name = p.name;
@@ -85,18 +85,18 @@ Estimate estimate_at(const JointFit& fit, const JudgedPoint& judged,
   const double degrees_of_freedom = judged.covariance.degrees_of_freedom(k);
   e.active_bound = bound_of(fit, judged, k);
   if (!e.active_bound.empty()) {
-    e.sd = sd_at(chosen(judged.unbounded->covariance, honest), k);
+    e.sd = sd_at(chosen(judged.unbounded->covariance, robust), k);
     e.sd_white = sd_at(judged.unbounded->covariance.white, k);
     set_on_bound(e, judged.unbounded->x(k), degrees_of_freedom);
-    take_profile(judged, k, honest, 0, e);  // at its bound, 0: one-sided
+    take_profile(judged, k, robust, 0, e);  // at its bound, 0: one-sided
     add_known(p.known, e);
     return e;
   }
   e.value = value_at(fit, judged, k);
-  e.sd = sd_at(chosen(judged.covariance, honest), k);
+  e.sd = sd_at(chosen(judged.covariance, robust), k);
   e.sd_white = sd_at(judged.covariance.white, k);
   set_interval(e, degrees_of_freedom, p.lower);
-  take_profile(judged, k, honest, p.lower, e);
+  take_profile(judged, k, robust, p.lower, e);
   if (profile != nullptr) {
     e.ci_low = known(profile->low);
     e.ci_high = known(profile->high);
@@ -109,12 +109,12 @@ Estimate estimate_at(const JointFit& fit, const JudgedPoint& judged,
 }  // namespace
 
 std::vector<Estimate> joint_estimates(const JointFit& fit, const JudgedPoint& judged,
-                                      const std::vector<ElongationProfile>& profiles, bool honest) {
+                                      const std::vector<ElongationProfile>& profiles, bool robust) {
   std::vector<Estimate> estimates;
   for (std::size_t k = 0; k < fit.layout.parameters.size(); ++k)
     estimates.push_back(estimate_at(fit, judged,
                                     profile_of(fit, fit.layout.parameters[k], profiles),
-                                    static_cast<Eigen::Index>(k), honest));
+                                    static_cast<Eigen::Index>(k), robust));
   return estimates;
 }
 

@@ -9,6 +9,6 @@ namespace cablefit {
 
 /// Every parameter of the layout, in its order; intervals of l_o are those of the profiles.
 std::vector<Estimate> joint_estimates(const JointFit& fit, const JudgedPoint& judged,
-                                      const std::vector<ElongationProfile>& profiles, bool honest);
+                                      const std::vector<ElongationProfile>& profiles, bool robust);
 
 }  // namespace cablefit

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/copies/simulated_copy.hpp"
 #include "cablefit/copies/surrogate.hpp"
-#include "cablefit/copies/twin.hpp"
 #include "cablefit/model/one_joint.hpp"
-#include "cablefit/refine/null/blocked_twin.hpp"
+#include "cablefit/refine/null/blocked_copy.hpp"
 #include "cablefit/refine/rows/kernel.hpp"
 #include "cablefit/refine/rows/levels.hpp"
 
@@ -24,11 +24,11 @@ constexpr double kFollowCutoff = 10, kDitherCutoff = 150;
 constexpr double kDrawStep = 1e-4;
 
 /// The same motion a little aside, so that its rounding is another.
-void move_aside(Twin& twin, Random& random) {
+void move_aside(SimulatedCopy& copy, Random& random) {
   constexpr double kQuanta = 16, kLeast = 1e-4;  // rad
-  for (TwinStretch& stretch : twin.stretches) {
+  for (CopyStretch& stretch : copy.stretches) {
     double quantum = 0;
-    for (const TwinSensor& sensor : twin.sensors[stretch.log])
+    for (const CopySensor& sensor : copy.sensors[stretch.log])
       quantum = std::max(quantum, sensor.quantum);
     const double aside = std::max(kLeast, kQuanta * quantum) * (random.uniform() - 0.5);
     stretch.input.theta_ref += aside;
@@ -46,13 +46,13 @@ double rms_acceleration(const Eigen::ArrayXd& theta, double period, const Smooth
 }
 
 /// Whether a joint's moving stretches are as lively as the measured ones.
-bool move_alike(const Twin& twin, const std::vector<SimulationResult>& motions, int joint,
+bool move_alike(const SimulatedCopy& copy, const std::vector<SimulationResult>& motions, int joint,
                 const Smoothing& smoothing) {
   constexpr double kAlike = 1.25;
   for (std::size_t k = 0; k < motions.size(); ++k) {
-    const TwinStretch& stretch = twin.stretches[k];
+    const CopyStretch& stretch = copy.stretches[k];
     if (stretch.link_blocked) continue;
-    const int slot = twin.plans[stretch.log].find(Channel::theta, joint);
+    const int slot = copy.plans[stretch.log].find(Channel::theta, joint);
     const double period = stretch.period;
     const double measured = rms_acceleration(stretch.measured.col(slot).array(), period, smoothing);
     const double simulated = rms_acceleration(motions[k].theta.col(joint), period, smoothing);
@@ -61,8 +61,8 @@ bool move_alike(const Twin& twin, const std::vector<SimulationResult>& motions, 
   return true;
 }
 
-/// That of one joint among all that the model's twin has.
-TwinDisturbance on_joint(const TwinDisturbance& one, const Model& model) {
+/// That of one joint among all that the model's copy has.
+CopyDisturbance on_joint(const CopyDisturbance& one, const Model& model) {
   if (model.whole == nullptr) return one;
   const auto among_all = [&](const std::vector<ArModel>& own) {
     std::vector<ArModel> all(own.empty() ? 0 : model.whole->joints.size());
@@ -72,10 +72,10 @@ TwinDisturbance on_joint(const TwinDisturbance& one, const Model& model) {
   return {among_all(one.motor), among_all(one.link)};
 }
 
-/// Twins of the logs of one preload.
-struct PreloadTwin {
+/// Copies of the logs of one preload.
+struct PreloadCopy {
   std::size_t model = 0;
-  Twin twin;
+  SimulatedCopy copy;
   std::vector<std::size_t> logs;  ///< number of each recorded log among those given
 };
 
@@ -83,18 +83,18 @@ struct PreloadTwin {
 
 struct NullBench::Parts {
   std::vector<Model> models;
-  std::vector<PreloadTwin> twins;
-  BlockedTwin blocked;  ///< of logs that are all blocked, and where no loop of theirs is stable
+  std::vector<PreloadCopy> copies;
+  BlockedCopy blocked;  ///< of logs that are all blocked, and where no loop of theirs is stable
   Smoothing smoothing;
-  TwinDisturbance disturbance;
+  CopyDisturbance disturbance;
   double held_back = 0;
   bool follows = false;
 };
 
 namespace {
 
-/// The logs as a twin of one preload sees them.
-struct TwinLogs {
+/// The logs as a copy of one preload sees them.
+struct CopiedLogs {
   std::span<const Model> models;
   std::span<const LogSurvey> logs;
   const PartFilter& wanted;
@@ -102,42 +102,42 @@ struct TwinLogs {
   int threads;
 };
 
-/// The twin follows the measured motion where the rig's controller does not move it so: `follows`.
-PreloadTwin make_preload_twin(const TwinLogs& of, std::size_t m, bool* follows) {
+/// The copy follows the measured motion where the rig's controller does not move it so: `follows`.
+PreloadCopy make_preload_copy(const CopiedLogs& of, std::size_t m, bool* follows) {
   const Model& model = of.models[m];
   const PartFilter of_model = [&](const PartSurvey& part) {
     return of.wanted(part) && (of.models.size() == 1 || part.preload == model.preload);
   };
-  PreloadTwin twin;
-  twin.model = m;
+  PreloadCopy copy;
+  copy.model = m;
   const bool held = model.rig.torque_hold != TorqueHold::none;
   const auto run = [&](bool surrogate) {
-    twin.twin = make_twin(
+    copy.copy = make_copy(
         whole_of(model), of.logs, of_model,
         {held, model.rig.torque_period, kFollowCutoff, surrogate, kDrawStep, kDitherCutoff});
     Random calibration(1, kCalibration);
-    return run_twin(twin.twin, {}, calibration, of.threads);
+    return run_copy(copy.copy, {}, calibration, of.threads);
   };
   auto motions = run(false);
-  const std::vector<LogPlan>& plans = twin.twin.plans;
+  const std::vector<LogPlan>& plans = copy.copy.plans;
   const bool has_controller = std::any_of(plans.begin(), plans.end(), has_reference);
-  if (has_controller && !move_alike(twin.twin, motions, model.joint, of.smoothing)) {
+  if (has_controller && !move_alike(copy.copy, motions, model.joint, of.smoothing)) {
     motions = run(true);
     *follows = true;
   }
-  choose_sensors(twin.twin, motions);
+  choose_sensors(copy.copy, motions);
   for (std::size_t k = 0; k < of.logs.size(); ++k)
-    if (std::any_of(twin.twin.stretches.begin(), twin.twin.stretches.end(),
-                    [k](const TwinStretch& stretch) { return stretch.log == k; }))
-      twin.logs.push_back(k);
-  return twin;
+    if (std::any_of(copy.copy.stretches.begin(), copy.copy.stretches.end(),
+                    [k](const CopyStretch& stretch) { return stretch.log == k; }))
+      copy.logs.push_back(k);
+  return copy;
 }
 
-std::vector<PreloadTwin> make_twins(const TwinLogs& of, bool* follows) {
-  std::vector<PreloadTwin> twins;
+std::vector<PreloadCopy> make_copies(const CopiedLogs& of, bool* follows) {
+  std::vector<PreloadCopy> copies;
   for (std::size_t m = 0; m < of.models.size(); ++m)
-    twins.push_back(make_preload_twin(of, m, follows));
-  return twins;
+    copies.push_back(make_preload_copy(of, m, follows));
+  return copies;
 }
 
 }  // namespace
@@ -149,20 +149,20 @@ NullBench::NullBench(std::span<const Model> models, std::span<const LogSurvey> l
   parts_->smoothing = smoothing;
   std::vector<Stretch> all = read_stretches(logs, models, wanted);
   if (is_blocked_only(all)) {
-    parts_->blocked = make_blocked_twin(parts_->models, std::move(all), smoothing);
+    parts_->blocked = make_blocked_copy(parts_->models, std::move(all), smoothing);
     return;
   }
   try {
-    parts_->twins = make_twins({models, logs, wanted, smoothing, threads}, &parts_->follows);
+    parts_->copies = make_copies({models, logs, wanted, smoothing, threads}, &parts_->follows);
   } catch (const Error& error) {
     // A loop at the rate of a slow blocked log need not be stable. What is left moves.
     std::erase_if(all, [](const Stretch& stretch) { return !stretch.blocked; });
     if (error.kind() != ErrorKind::not_identifiable || all.empty()) throw;
-    parts_->blocked = make_blocked_twin(parts_->models, std::move(all), smoothing);
+    parts_->blocked = make_blocked_copy(parts_->models, std::move(all), smoothing);
     const PartFilter moving = [&](const PartSurvey& part) {
       return wanted(part) && part.phase != Phase::blocked;
     };
-    parts_->twins = make_twins({models, logs, moving, smoothing, threads}, &parts_->follows);
+    parts_->copies = make_copies({models, logs, moving, smoothing, threads}, &parts_->follows);
   }
 }
 
@@ -170,29 +170,29 @@ NullBench::~NullBench() = default;
 
 bool NullBench::follows() const { return parts_->follows; }
 
-void NullBench::disturb(const TwinDisturbance& disturbance) { parts_->disturbance = disturbance; }
+void NullBench::disturb(const CopyDisturbance& disturbance) { parts_->disturbance = disturbance; }
 
 void NullBench::silence_torque() {
-  for (BlockedTwin::Sensors& sensors : parts_->blocked.sensors) sensors.noise_tau = 0;
-  for (PreloadTwin& preload : parts_->twins)
-    for (std::size_t log = 0; log < preload.twin.plans.size(); ++log)
-      for (std::size_t k = 0; k < preload.twin.sensors[log].size(); ++k)
-        if (preload.twin.plans[log].slots[k].channel == Channel::tau)
-          preload.twin.sensors[log][k].noise = 0;
+  for (BlockedCopy::Sensors& sensors : parts_->blocked.sensors) sensors.noise_tau = 0;
+  for (PreloadCopy& preload : parts_->copies)
+    for (std::size_t log = 0; log < preload.copy.plans.size(); ++log)
+      for (std::size_t k = 0; k < preload.copy.sensors[log].size(); ++k)
+        if (preload.copy.plans[log].slots[k].channel == Channel::tau)
+          preload.copy.sensors[log][k].noise = 0;
 }
 
 void NullBench::hold_back(double share) { parts_->held_back = share; }
 
 std::vector<NullBench::Recorded> NullBench::record(std::uint64_t seed, int threads) const {
   std::vector<Recorded> all;
-  for (const PreloadTwin& twin : parts_->twins) {
-    Random random(seed, kSensors + 2 * twin.model);
-    Twin aside = twin.twin;
+  for (const PreloadCopy& copy : parts_->copies) {
+    Random random(seed, kSensors + 2 * copy.model);
+    SimulatedCopy aside = copy.copy;
     move_aside(aside, random);
     all.push_back(
-        {twin.model,
-         record_twin(aside,
-                     run_twin(aside, on_joint(parts_->disturbance, parts_->models[twin.model]),
+        {copy.model,
+         record_copy(aside,
+                     run_copy(aside, on_joint(parts_->disturbance, parts_->models[copy.model]),
                               random, threads),
                      random)});
   }
@@ -203,7 +203,7 @@ std::vector<Stretch> NullBench::draw(std::uint64_t seed, int threads) const {
   const auto& motor = parts_->disturbance.motor;
   std::vector<Stretch> all =
       cablefit::record(parts_->blocked, motor.empty() ? ArModel{} : motor.front(), seed);
-  if (parts_->twins.empty()) {
+  if (parts_->copies.empty()) {
     if (parts_->held_back > 0) hold_out(all, parts_->held_back, HoldOut::all);
     return all;
   }
@@ -212,11 +212,11 @@ std::vector<Stretch> NullBench::draw(std::uint64_t seed, int threads) const {
     const std::span<const Model> model(&parts_->models[recorded[k].model], 1);
     for (Stretch& stretch :
          read_stretches(recorded[k].logs, model, [](const PartSurvey&) { return true; })) {
-      const PreloadTwin& twin = parts_->twins[k];
-      const std::size_t log = twin.logs[stretch.log];
+      const PreloadCopy& copy = parts_->copies[k];
+      const std::size_t log = copy.logs[stretch.log];
       // Of the log only the parts of this preload were recorded: time counts from its beginning.
       const double late = recorded[k].logs[stretch.log].parts.front().t_first -
-                          twin.twin.parts[log].front().t_first;
+                          copy.copy.parts[log].front().t_first;
       for (double Stretch::*t : {&Stretch::t0, &Stretch::part_begin, &Stretch::part_end})
         stretch.*t += late;
       stretch.log = log;

@@ -9,7 +9,7 @@
 #include <memory>
 #include <span>
 
-#include "cablefit/copies/twin.hpp"
+#include "cablefit/copies/simulated_copy.hpp"
 #include "cablefit/refine/search/scan.hpp"
 
 namespace cablefit {
@@ -41,7 +41,7 @@ class NullBench {
   NullBench& operator=(const NullBench&) = delete;
 
   /// Torques that the draws from now on have beside the model, see remainder.hpp.
-  void disturb(const TwinDisturbance& disturbance);
+  void disturb(const CopyDisturbance& disturbance);
 
   /// Of every draw from now on this share (0..1) is kept from the search, as it is of the logs:
   /// gains under the null grow as rows are fewer.

@@ -51,14 +51,14 @@ KindMemory corrected(KindMemory guess, const KindMemory& left, const KindMemory&
   return guess;
 }
 
-TwinDisturbance as_disturbance(const KindMemory& remainder, bool moves) {
+CopyDisturbance as_disturbance(const KindMemory& remainder, bool moves) {
   const auto of = [&](RowKind kind) {
     return colour_of(remainder[static_cast<std::size_t>(kind)]);
   };
   return {{of(moves ? RowKind::motor : RowKind::blocked)}, {of(RowKind::link)}};
 }
 
-bool is_quiet(const TwinDisturbance& disturbance) {
+bool is_quiet(const CopyDisturbance& disturbance) {
   for (const auto* models : {&disturbance.motor, &disturbance.link})
     for (const ArModel& model : *models)
       if (model.sd > 0) return false;

@@ -3,7 +3,7 @@
 // refine/.
 #pragma once
 
-#include "cablefit/copies/twin.hpp"
+#include "cablefit/copies/simulated_copy.hpp"
 #include "cablefit/refine/rows/residual_spectrum.hpp"
 
 namespace cablefit {
@@ -25,8 +25,8 @@ KindMemory corrected(KindMemory guess, const KindMemory& left, const KindMemory&
 
 /// As torques of one joint, autoregressive. `moves`: any row is in motion, else the motor's torque
 /// is that of blocked rows.
-TwinDisturbance as_disturbance(const KindMemory& remainder, bool moves);
+CopyDisturbance as_disturbance(const KindMemory& remainder, bool moves);
 
-bool is_quiet(const TwinDisturbance& disturbance);
+bool is_quiet(const CopyDisturbance& disturbance);
 
 }  // namespace cablefit

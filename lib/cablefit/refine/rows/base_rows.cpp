@@ -153,7 +153,7 @@ std::optional<double> given_link_inertia(const Model& model) {
 BaseLayout base_layout(const Model& model) {
   BaseLayout layout;
   const JointModel& axes = model.joints.front();
-  if (model.is_coupled()) layout.arm = told_arm_columns(model);
+  if (model.is_coupled()) layout.arm = determined_arm_columns(model);
   layout.n_link = static_cast<Eigen::Index>(layout.arm.size() + axes.link.size());
   layout.has_given = model.is_coupled();
   layout.n_motor = static_cast<Eigen::Index>(axes.motor.size());

@@ -205,8 +205,8 @@ BlockGrams with_columns(const BlockGrams& grams, const std::vector<Eigen::Index>
   return some;
 }
 
-std::vector<Eigen::Index> told_columns(const BlockGrams& grams, const KindLevels& levels,
-                                       Eigen::Index n, double least) {
+std::vector<Eigen::Index> determined_columns(const BlockGrams& grams, const KindLevels& levels,
+                                             Eigen::Index n, double least) {
   const Eigen::MatrixXd total = weighted_sum(grams, levels);
   std::vector<Eigen::Index> told, at = {0};
   for (Eigen::Index column = 0; column < grams.n_columns; ++column) {

@@ -50,8 +50,8 @@ BlockGrams with_columns(const BlockGrams& grams, const std::vector<Eigen::Index>
 
 /// The first n columns, and of those after them the ones that the rows can tell from all before,
 /// with a squared part of their own (of unit norm) of at least `least`.
-std::vector<Eigen::Index> told_columns(const BlockGrams& grams, const KindLevels& levels,
-                                       Eigen::Index n, double least = 0);
+std::vector<Eigen::Index> determined_columns(const BlockGrams& grams, const KindLevels& levels,
+                                             Eigen::Index n, double least = 0);
 
 /// All blocks and kinds of rows in one, rows weighted by 1/level^2 of their kind.
 Eigen::MatrixXd weighted_sum(const BlockGrams& grams, const KindLevels& levels);

@@ -86,9 +86,9 @@ double rows_per_value(const Smoothing& smoothing) {
 
 /// Of all columns; not a number for what the rows do not tell, such as the share of its load under
 /// which a log begins settled that begins without load.
-Eigen::MatrixXd told_covariance(const BlockGrams& grams, const KindLevels& levels,
-                                Eigen::Index n_linear, double rows_per_value) {
-  const std::vector<Eigen::Index> told = told_columns(grams, levels, n_linear);
+Eigen::MatrixXd determined_covariance(const BlockGrams& grams, const KindLevels& levels,
+                                      Eigen::Index n_linear, double rows_per_value) {
+  const std::vector<Eigen::Index> told = determined_columns(grams, levels, n_linear);
   const BlockGrams some = with_columns(grams, told);
   const auto jackknife = jackknife_covariance(some, levels);
   Eigen::MatrixXd all = Eigen::MatrixXd::Constant(grams.n_columns, grams.n_columns,
@@ -126,7 +126,7 @@ FinalFit final_fit(const Design& undone, const Design& design, const KindLevels&
   fit.x = solve_scaled(a, b).x;
   fit.rms = rms_of(block_grams(design.rows, design.stretches, block_seconds), fit.x);
   const BlockGrams grams = with_shape_columns(undone, design, fit.x, block_seconds);
-  fit.covariance = told_covariance(grams, levels, p, rows_per_value(design.smoothing));
+  fit.covariance = determined_covariance(grams, levels, p, rows_per_value(design.smoothing));
   fit.degrees_of_freedom = std::max(
       1.0, static_cast<double>(count_blocks(grams)) - static_cast<double>(grams.n_columns));
   return fit;

@@ -91,7 +91,7 @@ std::optional<ValueChange> change_to_fit(const Design& design, const Eigen::Vect
   }
   const BlockGrams grams = block_grams(rows, design.stretches, block_seconds);
   if (grams.n_columns < x.size()) return {};
-  const std::vector<Eigen::Index> told = told_columns(grams, levels, x.size(), kOwnPart);
+  const std::vector<Eigen::Index> told = determined_columns(grams, levels, x.size(), kOwnPart);
   const auto fit = fit_blocks(with_columns(grams, told), levels, false);
   if (!fit) return {};
   change.x = fit->x.head(x.size()) - x;

@@ -28,7 +28,7 @@ std::vector<Model> with_determined_effects(std::vector<Model> models,
   const Design design = make_design(without_kept(models), stretches, smoothing);
   const BlockGrams grams = block_grams(design, block_seconds);
   if (fit_blocks(grams, kAlike, false)) return models;
-  const std::vector<Eigen::Index> told = told_columns(grams, kAlike, 0);
+  const std::vector<Eigen::Index> told = determined_columns(grams, kAlike, 0);
   std::vector<Model> fewer = models;
   std::vector<std::string> held;
   const JointModel& axes = models.front().joints.front();

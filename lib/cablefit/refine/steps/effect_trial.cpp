@@ -79,7 +79,7 @@ std::optional<RefineState> with_candidate(const RefineBench& bench, const Refine
 
 Trials::Trials(RefineBench& bench, const RefineState& state, bool is_first)
     : bench_(bench), state_(state), is_first_(is_first) {
-  tell(bench.options, "search", 0);
+  report_progress(bench.options, "search", 0);
   found_ = search(state.design, bench.floor, bench.scan);
   // Draws end where more would hardly change the answer (Besag & Clifford 1991).
   if (bench.draws.empty()) draw_more(bench, state, found_);

@@ -24,11 +24,11 @@ std::optional<ValueChange> bias_at(const RefineBench& bench, const Values& value
   forget_unrecorded(values.design, recorded);
   const int threads = bench.options.threads;
   try {
-    NullBench twin(models, bench.logs, bench.wanted, values.design.smoothing, threads);
-    twin.hold_back(bench.held_back);
-    twin.silence_torque();  // its noise has no bias to give; without it one draw is enough
+    NullBench copy(models, bench.logs, bench.wanted, values.design.smoothing, threads);
+    copy.hold_back(bench.held_back);
+    copy.silence_torque();  // its noise has no bias to give; without it one draw is enough
     const Design design =
-        design_like(values.design, recorded, models, twin.draw(bench.seed, threads));
+        design_like(values.design, recorded, models, copy.draw(bench.seed, threads));
     if (design.n_columns() != recorded.size()) return {};
     auto bias = change_to_fit(design, recorded, levels, bench.scan.block_seconds, is_unrecorded);
     if (bias) forget_unrecorded(values.design, bias->x);

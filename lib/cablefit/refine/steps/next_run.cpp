@@ -116,7 +116,7 @@ std::string times(double ratio) {
 }
 
 /// The rivals of the first effect that a run could tell from it.
-void tell_rivals_apart(const NextRunInput& input, RefineResult& result) {
+void separate_rivals(const NextRunInput& input, RefineResult& result) {
   const NamedEffect& named = result.effects.front();
   const Effect& row = *named.instance.effect;
   const Candidate* best = find(input.candidates, row.name, to_string(row.site));
@@ -138,7 +138,7 @@ void tell_rivals_apart(const NextRunInput& input, RefineResult& result) {
 }
 
 /// "a, b from c, d", or "a, b".
-std::string told_apart(const NotSeparable& group) {
+std::string separated(const NotSeparable& group) {
   const auto is_left = [&](const std::string& name) {
     return std::find(group.still_together.begin(), group.still_together.end(), name) !=
            group.still_together.end();
@@ -150,7 +150,7 @@ std::string told_apart(const NotSeparable& group) {
 }
 
 /// The run that most groups ask for, the cheapest of those.
-void tell_groups_apart(const NextRunInput& input, RefineResult& result) {
+void separate_groups(const NextRunInput& input, RefineResult& result) {
   std::vector<int> votes(input.runs.size(), 0);
   for (const NotSeparable& group : result.not_separable)
     if (group.run >= 0) ++votes[static_cast<std::size_t>(group.run)];
@@ -164,7 +164,7 @@ void tell_groups_apart(const NextRunInput& input, RefineResult& result) {
                    [number](const NotSeparable& group) { return group.run == number; });
   if (!result.next_experiment.empty()) result.next_experiment += "; then ";
   result.next_experiment += fmt::format(
-      "{}: it separates {}{}", text_of(run, result.linear_motion), told_apart(*asked),
+      "{}: it separates {}{}", text_of(run, result.linear_motion), separated(*asked),
       *most > 1 ? fmt::format(" ({} of {} groups of that kind)", *most, result.not_separable.size())
                 : "");
 }
@@ -187,8 +187,8 @@ void choose_next_run(const NextRunInput& input, RefineResult& result) {
     result.next_experiment =
         "a moving log: a blocked link does not separate losses of the cables from "
         "presliding friction of the motor";
-  if (!result.effects.empty()) tell_rivals_apart(input, result);
-  if (!result.next_run) tell_groups_apart(input, result);
+  if (!result.effects.empty()) separate_rivals(input, result);
+  if (!result.next_run) separate_groups(input, result);
 }
 
 }  // namespace cablefit

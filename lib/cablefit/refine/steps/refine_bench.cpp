@@ -38,7 +38,8 @@ auto run_draws(const RefineBench& bench, std::size_t n, std::uint64_t first, std
       draw,
       [&](auto one) {
         draws.push_back(std::move(one));
-        tell(bench.options, what, static_cast<double>(draws.size()) / static_cast<double>(n));
+        report_progress(bench.options, what,
+                        static_cast<double>(draws.size()) / static_cast<double>(n));
       });
   return draws;
 }
@@ -138,7 +139,7 @@ void disturb_null(RefineBench& bench, const RefineState& state, const Search& fo
   const double block_seconds = bench.scan.block_seconds;
   const KindMemory left = memory_with(state.design, found.fit, best, found.levels, block_seconds);
   const KindMemory guess = remainder_of(left, bench.floor);
-  const TwinDisturbance first = as_disturbance(guess, !bench.elastic_only);
+  const CopyDisturbance first = as_disturbance(guess, !bench.elastic_only);
   if (is_quiet(first)) return;
   bench.null->logs().disturb(first);
   const std::vector<KindMemory> drawn =
@@ -177,8 +178,8 @@ Smoothing smoothing_of(const RefineBench& bench, std::span<const Model> models,
 
 /// Whether the test rows, judged by the least speeds of the training logs, have more rows than the
 /// models have columns.
-bool tell_enough(std::span<const Model> models, const std::vector<Stretch>& train,
-                 const std::vector<Stretch>& test, const Smoothing& wanted) {
+bool are_enough(std::span<const Model> models, const std::vector<Stretch>& train,
+                const std::vector<Stretch>& test, const Smoothing& wanted) {
   if (test.empty()) return false;
   const Design design = make_design(models, test, make_design(models, train, wanted).smoothing);
   return count_rows(design.rows) > design.n_columns();
@@ -186,7 +187,7 @@ bool tell_enough(std::span<const Model> models, const std::vector<Stretch>& trai
 
 }  // namespace
 
-void tell(const RefineOptions& options, std::string_view what, double share) {
+void report_progress(const RefineOptions& options, std::string_view what, double share) {
   if (options.progress) options.progress(what, share);
 }
 
@@ -229,7 +230,7 @@ RefineState prepare(RefineBench& bench, std::span<const Model> models, const Ref
   std::vector<Stretch> test = read_stretches(logs.test, models, bench.wanted);
   for (Stretch& stretch : test) stretch.log += bench.logs.size();  // recorded after what they test
   const Smoothing wanted = smoothing_of(bench, models, train, test);
-  if (!logs.test.empty() && !tell_enough(models, train, test, wanted)) {
+  if (!logs.test.empty() && !are_enough(models, train, test, wanted)) {
     result.warnings.emplace_back(
         "the test logs move too little to be judged; the last third of the others is "
         "held out");
@@ -238,7 +239,7 @@ RefineState prepare(RefineBench& bench, std::span<const Model> models, const Ref
   result.held_out_blocks = test.empty();
   if (test.empty()) {
     test = hold_out(train, kHeldOutShare, bench.elastic_only ? HoldOut::all : HoldOut::moving);
-    if (train.empty() || !tell_enough(models, train, test, wanted))
+    if (train.empty() || !are_enough(models, train, test, wanted))
       throw input_error({}, "the last third of the logs, held out, has too few rows to judge by",
                         "record longer, or give other logs with --test");
   }

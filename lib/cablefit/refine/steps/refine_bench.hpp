@@ -79,6 +79,6 @@ RefineState prepare(RefineBench& bench, std::span<const Model> models, const Ref
 /// `found` leaves.
 bool draw_more(RefineBench& bench, const RefineState& state, const Search& found);
 
-void tell(const RefineOptions& options, std::string_view what, double share);
+void report_progress(const RefineOptions& options, std::string_view what, double share);
 
 }  // namespace cablefit

@@ -114,15 +114,15 @@ std::string too_little(const Gaps& gaps, std::size_t n_effects, std::string_view
 }
 
 /// What the readings show of accepted steps and of the effects that are left.
-void tell_steps(const RefineBench& bench, const std::vector<TestReading>& readings,
-                RefineResult& result) {
+void add_steps(const RefineBench& bench, const std::vector<TestReading>& readings,
+               RefineResult& result) {
   std::size_t at = 0;
   for (RefineStep& step : result.steps)
     if (step.accepted) step.gap_test = bench.test_unit() * std::sqrt(readings[++at].gap.rho);
 }
 
-void tell_gains(const RefineBench& bench, const Chain& chain,
-                const std::vector<TestReading>& readings, RefineResult& result) {
+void add_gains(const RefineBench& bench, const Chain& chain,
+               const std::vector<TestReading>& readings, RefineResult& result) {
   for (std::size_t k = 0; k < result.effects.size(); ++k) {
     const Variant& variant = chain[k + 1].design.added.back();
     const bool is_shown = !variant.effect->is_event || can_show(bench, variant);
@@ -193,7 +193,7 @@ Confirmed confirm_on_test(const RefineBench& bench, Chain& chain, RefineResult& 
     Confirmed now{ReportedValues(bench, chain), {}};
     for (std::size_t k = 0; k < chain.size(); ++k)
       now.readings.push_back(read_test(bench, now.values.of(chain, k)));
-    tell_steps(bench, now.readings, result);
+    add_steps(bench, now.readings, result);
     const std::size_t n = result.effects.size();
     if (n == 0) return now;
     const std::string reason = why_not_last(bench, chain, now.readings);
@@ -209,7 +209,7 @@ Confirmed confirm_on_test(const RefineBench& bench, Chain& chain, RefineResult& 
                     now.readings.back().gap.rho, has_event(chain.back(), n)},
                    n, name_of_test(bench));
     if (little.empty()) {
-      tell_gains(bench, chain, now.readings, result);
+      add_gains(bench, chain, now.readings, result);
       return now;
     }
     drop_all(little, chain, result);

@@ -31,7 +31,7 @@ std::string percent(double share) {
 
 /// Whether it says nothing new: the same kind of variable, or (theta, and theta - q of a blocked
 /// link) the same stretch.
-bool is_told(const Regime& regime, const std::vector<Regime>& told) {
+bool is_given(const Regime& regime, const std::vector<Regime>& told) {
   return std::any_of(told.begin(), told.end(), [&](const Regime& other) {
     constexpr double kSame = 1e-3;
     const double slack = kSame * (regime.to - regime.from);
@@ -47,7 +47,7 @@ std::vector<SummaryLine> where_lines(const RefineResult& result) {
   std::vector<Regime> told;
   for (const Regime& r : result.where) {
     if (told.size() == kPlaces) break;
-    if (is_told(r, told)) continue;
+    if (is_given(r, told)) continue;
     told.push_back(r);
     lines.push_back(
         {lines.empty() ? "where" : "and",

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/samples/rows/pilot.hpp"
+#include "cablefit/samples/rows/preliminary.hpp"
 #include "cablefit/samples/rows/settings_parts.hpp"
 #include "cablefit/samples/survey/noise.hpp"
 
@@ -21,7 +21,7 @@ constexpr double kSweepLag = 0.25;     // s over which a sweep's speed is measur
 double sweep_speed(std::span<const LogSurvey> logs, const PartFilter& wanted, Channel channel,
                    int joint, double noise) {
   std::vector<double> speeds;
-  for (const PilotWindow& p : pilot_windows(logs, wanted, {}, 0, kSettingsWindows)) {
+  for (const PreliminaryWindow& p : preliminary_windows(logs, wanted, {}, 0, kSettingsWindows)) {
     const int k = logs[p.log].plan.find(channel, joint);
     if (k < 0) continue;
     const auto theta = p.window.data.col(k);

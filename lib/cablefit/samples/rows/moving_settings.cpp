@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "cablefit/samples/rows/pilot.hpp"
+#include "cablefit/samples/rows/preliminary.hpp"
 #include "cablefit/samples/rows/settings_parts.hpp"
 #include "cablefit/samples/survey/noise.hpp"
 
@@ -19,7 +19,8 @@ constexpr double kLowestCutoff = 1;       // Hz
 // The filter blurs a reversal over about 1/(2 pi cut-off): slower than the speed gained in that
 // time the sign of the velocity is not known, however good the encoder.
 double rest_speed(std::span<const LogSurvey> logs, const PartFilter& wanted,
-                  const RowSettings& rows, PilotMotion& motion, Channel channel, double rate) {
+                  const RowSettings& rows, PreliminaryMotion& motion, Channel channel,
+                  double rate) {
   const double band = rows.signal.cutoff > 0 ? rows.signal.cutoff : rate / 2;
   const double noise =
       velocity_noise(worst_noise(logs, wanted, channel, motion.joint()), band, rate);
@@ -31,8 +32,8 @@ double rest_speed(std::span<const LogSurvey> logs, const PartFilter& wanted,
 }
 
 void choose_rest_speed(ChosenSettings& chosen, std::span<const LogSurvey> logs,
-                       const PartFilter& wanted, const SampleOptions& options, PilotMotion& motion,
-                       double rate) {
+                       const PartFilter& wanted, const SampleOptions& options,
+                       PreliminaryMotion& motion, double rate) {
   RowSettings& rows = chosen.rows;
   if (options.rest_speed) {
     chosen.rest_speed_theta = chosen.rest_speed_q = *options.rest_speed;
@@ -53,8 +54,8 @@ void choose_rest_speed(ChosenSettings& chosen, std::span<const LogSurvey> logs,
 // Lowers the cut-off until position noise is a negligible part of the acceleration: noise in a
 // regressor shrinks its coefficient by that share (errors in variables).
 double quiet_cutoff(std::span<const LogSurvey> logs, const PartFilter& wanted,
-                    const RowSettings& rows, PilotMotion& motion, Channel channel, double cutoff,
-                    double rate) {
+                    const RowSettings& rows, PreliminaryMotion& motion, Channel channel,
+                    double cutoff, double rate) {
   const double noise = worst_noise(logs, wanted, channel, motion.joint());
   RowSettings trial = rows;
   for (;; cutoff *= 0.8) {
@@ -69,8 +70,8 @@ double quiet_cutoff(std::span<const LogSurvey> logs, const PartFilter& wanted,
 // The link's encoder may be coarser than the motor's: its equation then gets a lower cut-off of its
 // own, all its columns alike.
 void choose_link_cutoff(ChosenSettings& chosen, std::span<const LogSurvey> logs,
-                        const PartFilter& wanted, const SampleOptions& options, PilotMotion& motion,
-                        double rate) {
+                        const PartFilter& wanted, const SampleOptions& options,
+                        PreliminaryMotion& motion, double rate) {
   chosen.cutoff_q = chosen.rows.signal.cutoff;
   if (options.cutoff || !first_log_with(logs, wanted).plan.has(Channel::q, motion.joint())) return;
   chosen.cutoff_q =
@@ -83,7 +84,7 @@ void choose_link_cutoff(ChosenSettings& chosen, std::span<const LogSurvey> logs,
 
 void choose_moving_cutoff(ChosenSettings& chosen, std::span<const LogSurvey> logs,
                           const PartFilter& wanted, const SampleOptions& options,
-                          PilotMotion& motion, double resonance, double rate) {
+                          PreliminaryMotion& motion, double resonance, double rate) {
   double& cutoff = chosen.rows.signal.cutoff;
   if (options.cutoff) {
     cutoff = *options.cutoff;
@@ -113,7 +114,7 @@ ChosenSettings moving_settings(std::span<const LogSurvey> logs, const PartFilter
   const double rate = rates.lowest;  // what the slowest log can carry, all others can
   ChosenSettings chosen = begin_settings(logs, wanted, options, rates);
   chosen.resonance = resonance;
-  PilotMotion motion(logs, wanted, joint);
+  PreliminaryMotion motion(logs, wanted, joint);
   choose_moving_cutoff(chosen, logs, wanted, options, motion, resonance, rate);
   choose_decimation(chosen, options, rate);
   choose_edges(chosen, options, rates);

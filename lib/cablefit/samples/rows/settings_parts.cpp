@@ -50,8 +50,8 @@ void choose_filter_order(ChosenSettings& chosen, const SampleOptions& options) {
 }
 
 /// What the logs are read as, once for all that are read alike.
-void tell_reading(std::span<const LogSurvey> logs, const PartFilter& wanted,
-                  ChosenSettings& chosen) {
+void add_reading(std::span<const LogSurvey> logs, const PartFilter& wanted,
+                 ChosenSettings& chosen) {
   for (const LogSurvey& log : logs) {
     if (std::none_of(log.parts.begin(), log.parts.end(), wanted)) continue;
     for (const Decision& decision : log.plan.decisions) {
@@ -90,7 +90,7 @@ ChosenSettings begin_settings(std::span<const LogSurvey> logs, const PartFilter&
                     "all",
                     rates.lowest, rates.highest));
   check_options(logs, wanted, options, rates.lowest);
-  tell_reading(logs, wanted, chosen);
+  add_reading(logs, wanted, chosen);
   choose_filter_order(chosen, options);
   return chosen;
 }

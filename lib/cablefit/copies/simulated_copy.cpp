@@ -1,4 +1,4 @@
-#include "cablefit/copies/twin.hpp"
+#include "cablefit/copies/simulated_copy.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -20,7 +20,7 @@ void require_channels(const LogPlan& plan, bool rigid) {
   if (!rigid) require_channel(plan, Channel::q, "the simulated logs of --prove");
 }
 
-void set_start(const LogSurvey& log, TwinStretch& stretch) {
+void set_start(const LogSurvey& log, CopyStretch& stretch) {
   const PartSurvey& part = log.parts[stretch.part];
   const int n_joints = log.plan.rig.n_joints();
   SimulationInput& input = stretch.input;
@@ -42,11 +42,11 @@ void set_start(const LogSurvey& log, TwinStretch& stretch) {
 
 }  // namespace
 
-std::vector<TwinStretch> read_stretches(const LogSurvey& log, std::size_t number,
+std::vector<CopyStretch> read_stretches(const LogSurvey& log, std::size_t number,
                                         const PartFilter& wanted) {
-  std::vector<TwinStretch> stretches;
+  std::vector<CopyStretch> stretches;
   for_each_run(log, wanted, kLeastRows, 0, [&](GaplessRows&& run) {
-    TwinStretch& stretch = stretches.emplace_back();
+    CopyStretch& stretch = stretches.emplace_back();
     stretch.log = number;
     stretch.part = run.part;
     stretch.t0 = run.t0;
@@ -57,27 +57,27 @@ std::vector<TwinStretch> read_stretches(const LogSurvey& log, std::size_t number
   return stretches;
 }
 
-Twin make_twin(const Model& model, std::span<const LogSurvey> logs, const PartFilter& wanted,
-               const TwinDrive& drive) {
-  Twin twin;
-  twin.model = model;
-  twin.step = drive.step;
+SimulatedCopy make_copy(const Model& model, std::span<const LogSurvey> logs,
+                        const PartFilter& wanted, const CopyDrive& drive) {
+  SimulatedCopy copy;
+  copy.model = model;
+  copy.step = drive.step;
   for (std::size_t k = 0; k < logs.size(); ++k) {
     const LogSurvey& log = logs[k];
-    twin.plans.push_back(log.plan);
-    twin.parts.push_back(log.parts);
+    copy.plans.push_back(log.plan);
+    copy.parts.push_back(log.parts);
     if (std::none_of(log.parts.begin(), log.parts.end(), wanted)) continue;
     require_channels(log.plan, model.rigid);
-    for (TwinStretch& stretch : read_stretches(log, k, wanted)) {
+    for (CopyStretch& stretch : read_stretches(log, k, wanted)) {
       stretch.link_blocked = log.parts[stretch.part].phase == Phase::blocked;
       set_start(log, stretch);
       const std::string which = choose_controller(model, log, drive, stretch);
-      if (std::find(twin.notes.begin(), twin.notes.end(), which) == twin.notes.end())
-        twin.notes.push_back(which);
-      twin.stretches.push_back(std::move(stretch));
+      if (std::find(copy.notes.begin(), copy.notes.end(), which) == copy.notes.end())
+        copy.notes.push_back(which);
+      copy.stretches.push_back(std::move(stretch));
     }
   }
-  return twin;
+  return copy;
 }
 
 }  // namespace cablefit

@@ -6,16 +6,16 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/parallel.hpp"
 #include "cablefit/copies/clock_jitter.hpp"
-#include "cablefit/copies/twin.hpp"
+#include "cablefit/copies/simulated_copy.hpp"
 
 namespace cablefit {
 namespace {
 
-Eigen::Index rows_of_input(const TwinStretch& stretch) {
+Eigen::Index rows_of_input(const CopyStretch& stretch) {
   return (stretch.measured.rows() - 1) * stretch.fine + 1;
 }
 
-Eigen::ArrayXXd disturbances(const std::vector<ArModel>& models, const TwinStretch& stretch,
+Eigen::ArrayXXd disturbances(const std::vector<ArModel>& models, const CopyStretch& stretch,
                              Random& random) {
   bool any = false;
   for (const ArModel& model : models) any |= model.sd > 0;
@@ -45,7 +45,7 @@ const Eigen::ArrayXXd* truth_of(const SimulationResult& motion, Channel channel)
   return nullptr;
 }
 
-Eigen::ArrayXd measure(const Eigen::ArrayXd& truth, const TwinSensor& sensor, Random& random) {
+Eigen::ArrayXd measure(const Eigen::ArrayXd& truth, const CopySensor& sensor, Random& random) {
   Eigen::ArrayXd out = truth;
   for (Eigen::Index i = 0; i < out.size(); ++i) {
     if (sensor.noise > 0) out(i) += sensor.noise * random.normal();
@@ -65,8 +65,8 @@ SimulationResult read_late(SimulationResult motion, double jitter, Random& rando
 }
 
 /// [t, slots] of a stretch.
-Eigen::MatrixXd recorded_rows(const TwinStretch& stretch, const SimulationResult& motion,
-                              const LogPlan& plan, const std::vector<TwinSensor>& sensors,
+Eigen::MatrixXd recorded_rows(const CopyStretch& stretch, const SimulationResult& motion,
+                              const LogPlan& plan, const std::vector<CopySensor>& sensors,
                               Random& random) {
   Eigen::MatrixXd rows(stretch.measured.rows(), stretch.measured.cols() + 1);
   rows.rightCols(stretch.measured.cols()) = stretch.measured;
@@ -78,7 +78,7 @@ Eigen::MatrixXd recorded_rows(const TwinStretch& stretch, const SimulationResult
     if (truth == nullptr) continue;
     if (stretch.link_blocked && slot.channel == Channel::q) continue;
     rows.col(static_cast<Eigen::Index>(k) + 1) =
-        measure(truth->col(slot.joint), sensors.empty() ? TwinSensor{} : sensors[k], random);
+        measure(truth->col(slot.joint), sensors.empty() ? CopySensor{} : sensors[k], random);
   }
   return rows;
 }
@@ -95,7 +95,7 @@ Eigen::ArrayXXd mean_from(const SimulationResult& fine, Eigen::Index first, Eige
 /// Of a finer simulation the rows of the log. A command is held over a fine row, so that a mean
 /// over the log's row, centred, is one of as many commands, half of them from before. A log that is
 /// early has what acts later.
-SimulationResult on_rows_of_log(SimulationResult fine, const TwinStretch& stretch) {
+SimulationResult on_rows_of_log(SimulationResult fine, const CopyStretch& stretch) {
   if (stretch.fine == 1) return fine;
   const Eigen::Index n = stretch.fine, rows = stretch.measured.rows();
   const auto every = Eigen::seqN(Eigen::Index{0}, rows, n);
@@ -132,7 +132,7 @@ const SensorInfo* sensor_of(const LogPlan& plan, const Slot& slot) {
 
 /// A stretch with the disturbances that it is simulated with.
 struct StretchRun {
-  const TwinStretch* stretch;
+  const CopyStretch* stretch;
   SimulationInput input;
 };
 
@@ -146,7 +146,7 @@ double noise_left(const ChannelSurvey& measured, const ChannelSurvey& simulated,
   return more > 0 ? std::sqrt(more) : 0;
 }
 
-double jitter_of(const LogPlan& plan, const TwinStretch& stretch, const SimulationResult& motion) {
+double jitter_of(const LogPlan& plan, const CopyStretch& stretch, const SimulationResult& motion) {
   const int q = plan.find(Channel::q), theta = plan.find(Channel::theta);
   if (q < 0 || theta < 0 || stretch.link_blocked) return 0;
   return clock_jitter({stretch.measured.col(q), stretch.measured.col(theta)},
@@ -163,54 +163,55 @@ double jitter_noise(const SimulationResult& motion, const Slot& slot, double jit
 
 }  // namespace
 
-std::vector<SimulationResult> run_twin(const Twin& twin, const TwinDisturbance& disturbance,
-                                       Random& random, int threads) {
+std::vector<SimulationResult> run_copy(const SimulatedCopy& copy,
+                                       const CopyDisturbance& disturbance, Random& random,
+                                       int threads) {
   std::vector<StretchRun> runs;
-  for (const TwinStretch& stretch : twin.stretches) {
+  for (const CopyStretch& stretch : copy.stretches) {
     StretchRun& run = runs.emplace_back(StretchRun{&stretch, stretch.input});
     run.input.motor_disturbance = disturbances(disturbance.motor, stretch, random);
     if (!stretch.link_blocked)
       run.input.link_disturbance = disturbances(disturbance.link, stretch, random);
   }
   return parallel_map(threads, runs, [&](const StretchRun& run) {
-    Model model = twin.model;
+    Model model = copy.model;
     model.rig = run.stretch->rig;
     SimulationOptions options;
-    options.step = twin.step;
+    options.step = copy.step;
     options.closed_loop = run.stretch->rig.controller.has_value();
     options.hold_torque = run.stretch->hold_torque;
     options.link_blocked = run.stretch->link_blocked;
     SimulationResult motion = simulate(model, run.input, options);
     if (motion.diverged_at)
       throw Error(ErrorKind::not_identifiable, fmt::format("the simulated loop of {} diverged",
-                                                           twin.plans[run.stretch->log].path));
+                                                           copy.plans[run.stretch->log].path));
     return on_rows_of_log(std::move(motion), *run.stretch);
   });
 }
 
-std::vector<LogSurvey> record_twin(const Twin& twin, const std::vector<SimulationResult>& motions,
-                                   Random& random) {
+std::vector<LogSurvey> record_copy(const SimulatedCopy& copy,
+                                   const std::vector<SimulationResult>& motions, Random& random) {
   std::vector<LogSurvey> logs;
-  for (std::size_t log = 0; log < twin.plans.size(); ++log) {
+  for (std::size_t log = 0; log < copy.plans.size(); ++log) {
     std::vector<RecordedPart> parts;
-    std::size_t last = twin.parts[log].size();
-    for (std::size_t k = 0; k < twin.stretches.size(); ++k) {
-      const TwinStretch& stretch = twin.stretches[k];
+    std::size_t last = copy.parts[log].size();
+    for (std::size_t k = 0; k < copy.stretches.size(); ++k) {
+      const CopyStretch& stretch = copy.stretches[k];
       if (stretch.log != log) continue;
-      if (stretch.part != last) parts.push_back(begin_part(twin.parts[log][stretch.part]));
+      if (stretch.part != last) parts.push_back(begin_part(copy.parts[log][stretch.part]));
       last = stretch.part;
-      const std::vector<TwinSensor> sensors =
-          twin.sensors.empty() ? std::vector<TwinSensor>{} : twin.sensors[log];
-      const double jitter = twin.jitter.empty() ? 0 : twin.jitter[log];
+      const std::vector<CopySensor> sensors =
+          copy.sensors.empty() ? std::vector<CopySensor>{} : copy.sensors[log];
+      const double jitter = copy.jitter.empty() ? 0 : copy.jitter[log];
       const Eigen::MatrixXd rows =
           jitter > 0 ? recorded_rows(stretch, read_late(motions[k], jitter, random),
-                                     twin.plans[log], sensors, random)
-                     : recorded_rows(stretch, motions[k], twin.plans[log], sensors, random);
+                                     copy.plans[log], sensors, random)
+                     : recorded_rows(stretch, motions[k], copy.plans[log], sensors, random);
       Eigen::MatrixXd& all = parts.back().rows;
       all.conservativeResize(all.rows() + rows.rows(), rows.cols());
       all.bottomRows(rows.rows()) = rows;
     }
-    if (!parts.empty()) logs.push_back(survey_recorded(twin.plans[log], parts));
+    if (!parts.empty()) logs.push_back(survey_recorded(copy.plans[log], parts));
   }
   return logs;
 }
@@ -218,44 +219,45 @@ std::vector<LogSurvey> record_twin(const Twin& twin, const std::vector<Simulatio
 namespace {
 
 /// Prefers a moving stretch: the encoder of a blocked link shows no steps.
-std::vector<TwinStretch>::const_iterator stretch_for_sensors(const Twin& twin, std::size_t log) {
+std::vector<CopyStretch>::const_iterator stretch_for_sensors(const SimulatedCopy& copy,
+                                                             std::size_t log) {
   const auto first = [&](bool moving) {
-    return std::find_if(twin.stretches.begin(), twin.stretches.end(), [&](const TwinStretch& s) {
+    return std::find_if(copy.stretches.begin(), copy.stretches.end(), [&](const CopyStretch& s) {
       return s.log == log && !(moving && s.link_blocked);
     });
   };
   const auto moving = first(true);
-  return moving != twin.stretches.end() ? moving : first(false);
+  return moving != copy.stretches.end() ? moving : first(false);
 }
 
 }  // namespace
 
-void choose_sensors(Twin& twin, const std::vector<SimulationResult>& motions) {
-  twin.sensors.clear();
-  twin.jitter.assign(twin.plans.size(), 0);
-  for (std::size_t log = 0; log < twin.plans.size(); ++log) {
-    const LogPlan& plan = twin.plans[log];
-    std::vector<TwinSensor>& sensors = twin.sensors.emplace_back(plan.slots.size());
-    const auto first = stretch_for_sensors(twin, log);
-    if (first == twin.stretches.end()) continue;
-    const auto& motion = motions[static_cast<std::size_t>(first - twin.stretches.begin())];
-    const PartSurvey& part = twin.parts[log][first->part];
-    twin.jitter[log] = jitter_of(plan, *first, motion);
+void choose_sensors(SimulatedCopy& copy, const std::vector<SimulationResult>& motions) {
+  copy.sensors.clear();
+  copy.jitter.assign(copy.plans.size(), 0);
+  for (std::size_t log = 0; log < copy.plans.size(); ++log) {
+    const LogPlan& plan = copy.plans[log];
+    std::vector<CopySensor>& sensors = copy.sensors.emplace_back(plan.slots.size());
+    const auto first = stretch_for_sensors(copy, log);
+    if (first == copy.stretches.end()) continue;
+    const auto& motion = motions[static_cast<std::size_t>(first - copy.stretches.begin())];
+    const PartSurvey& part = copy.parts[log][first->part];
+    copy.jitter[log] = jitter_of(plan, *first, motion);
     for (std::size_t k = 0; k < plan.slots.size(); ++k) {
       const SensorInfo* info = sensor_of(plan, plan.slots[k]);
       const bool position = is_position(plan.slots[k].channel);
       sensors[k].quantum = info != nullptr && info->quantum ? *info->quantum
                            : position                       ? part.channels[k].quantum
                                                             : 0;
-      const bool is_told = info != nullptr && (info->noise || (position && info->quantum));
-      if (is_told) sensors[k].noise = info->noise.value_or(0);
+      const bool is_given = info != nullptr && (info->noise || (position && info->quantum));
+      if (is_given) sensors[k].noise = info->noise.value_or(0);
       const Eigen::ArrayXXd* truth = truth_of(motion, plan.slots[k].channel);
-      if (is_told || truth == nullptr) continue;
+      if (is_given || truth == nullptr) continue;
       Random none(0);
       ChannelScan scan;
       scan.add(measure(truth->col(plan.slots[k].joint), sensors[k], none));
       sensors[k].noise = noise_left(part.channels[k], scan.result(),
-                                    jitter_noise(motion, plan.slots[k], twin.jitter[log]));
+                                    jitter_noise(motion, plan.slots[k], copy.jitter[log]));
     }
   }
 }

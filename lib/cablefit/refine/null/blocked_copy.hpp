@@ -10,7 +10,7 @@
 
 namespace cablefit {
 
-struct BlockedTwin {
+struct BlockedCopy {
   std::vector<Stretch> stretches;  ///< with the true theta and tau
   struct Sensors {
     double quantum = 0, noise_theta = 0;  ///< rad
@@ -20,11 +20,11 @@ struct BlockedTwin {
 };
 
 /// `models`: by Stretch::model. Sensors as the rig files have them, else as the recordings look.
-BlockedTwin make_blocked_twin(const std::vector<Model>& models, std::vector<Stretch> stretches,
+BlockedCopy make_blocked_copy(const std::vector<Model>& models, std::vector<Stretch> stretches,
                               const Smoothing& wanted);
 
 /// One recording of it. `disturbance`: a torque beside the model; sd 0: none.
-std::vector<Stretch> record(const BlockedTwin& twin, const ArModel& disturbance,
+std::vector<Stretch> record(const BlockedCopy& copy, const ArModel& disturbance,
                             std::uint64_t seed);
 
 }  // namespace cablefit

@@ -10,22 +10,23 @@
 namespace cablefit {
 
 /// Up to the first `max_windows` wanted windows of every log, for choosing and for small tests.
-struct PilotWindow {
+struct PreliminaryWindow {
   std::size_t log = 0;
   Window window;
 };
-std::vector<PilotWindow> pilot_windows(std::span<const LogSurvey> logs, const PartFilter& wanted,
-                                       const SignalSettings& settings, Eigen::Index halo,
-                                       int max_windows);
+std::vector<PreliminaryWindow> preliminary_windows(std::span<const LogSurvey> logs,
+                                                   const PartFilter& wanted,
+                                                   const SignalSettings& settings,
+                                                   Eigen::Index halo, int max_windows);
 
 /// Windows that settings are chosen by.
 inline constexpr int kSettingsWindows = 4;
 
 /// Accelerations over the first windows, by cut-off.
-class PilotMotion {
+class PreliminaryMotion {
  public:
   /// Both must outlive this. `joint`: whose motion, from 0.
-  PilotMotion(std::span<const LogSurvey> logs, const PartFilter& wanted, int joint = 0);
+  PreliminaryMotion(std::span<const LogSurvey> logs, const PartFilter& wanted, int joint = 0);
 
   int joint() const { return static_cast<int>(joint_); }
   /// Root mean square of qdd or thetadd, rad/s^2; 0 when the logs do not have it.

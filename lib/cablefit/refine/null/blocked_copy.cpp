@@ -1,4 +1,4 @@
-#include "cablefit/refine/null/blocked_twin.hpp"
+#include "cablefit/refine/null/blocked_copy.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -69,14 +69,14 @@ ChannelSurvey look_at(const Eigen::ArrayXd& x) {
   return scan.result();
 }
 
-BlockedTwin::Sensors sensors_of(const Rig& rig, const Recording& r) {
+BlockedCopy::Sensors sensors_of(const Rig& rig, const Recording& r) {
   const auto find = [&](const char* name) {
     const auto found = rig.sensors.find(name);
     return found != rig.sensors.end() ? found->second : SensorInfo{};
   };
   const SensorInfo theta = find("theta"), tau = find("tau");
   const ChannelSurvey seen = look_at(r.theta);
-  BlockedTwin::Sensors sensors;
+  BlockedCopy::Sensors sensors;
   sensors.quantum = theta.quantum.value_or(seen.quantum);
   const double rounding = sensors.quantum * sensors.quantum / 12;
   sensors.noise_theta = theta.noise ? *theta.noise
@@ -89,30 +89,30 @@ BlockedTwin::Sensors sensors_of(const Rig& rig, const Recording& r) {
 
 }  // namespace
 
-BlockedTwin make_blocked_twin(const std::vector<Model>& models, std::vector<Stretch> stretches,
+BlockedCopy make_blocked_copy(const std::vector<Model>& models, std::vector<Stretch> stretches,
                               const Smoothing& wanted) {
-  BlockedTwin twin;
+  BlockedCopy copy;
   for (Stretch& stretch : stretches) {
     const Smoothing smoothing = suited(wanted, stretch.recording.period);
     const Model& model = models[stretch.model];
-    twin.sensors.push_back(sensors_of(model.rig, stretch.recording));
+    copy.sensors.push_back(sensors_of(model.rig, stretch.recording));
     const double late = torque_lateness(model.rig, stretch.recording.period);
     const SmoothMotion m = smooth_motion_of(stretch.recording, stretch.t0, late, smoothing);
     stretch.recording.theta = m.theta;
     stretch.recording.tau = as_logged(torque_of(model, m, smoothing.least_speed_blocked), late);
   }
-  twin.stretches = std::move(stretches);
-  return twin;
+  copy.stretches = std::move(stretches);
+  return copy;
 }
 
-std::vector<Stretch> record(const BlockedTwin& twin, const ArModel& disturbance,
+std::vector<Stretch> record(const BlockedCopy& copy, const ArModel& disturbance,
                             std::uint64_t seed) {
-  std::vector<Stretch> out = twin.stretches;
+  std::vector<Stretch> out = copy.stretches;
   Random random(seed, kStream);
   for (std::size_t k = 0; k < out.size(); ++k) {
     Recording& r = out[k].recording;
     if (disturbance.sd > 0) r.tau += draw(disturbance, r.tau.size(), r.period, random);
-    const BlockedTwin::Sensors& sensors = twin.sensors[k];
+    const BlockedCopy::Sensors& sensors = copy.sensors[k];
     for (double& tau : r.tau) tau += sensors.noise_tau * random.normal();
     if (sensors.noise_theta > 0)
       for (double& theta : r.theta) theta += sensors.noise_theta * random.normal();

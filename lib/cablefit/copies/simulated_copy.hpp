@@ -1,4 +1,4 @@
-// A twin of an experiment: the same motion, sensors and clock as the logs have, with a model in
+// A copy of an experiment: the same motion, sensors and clock as the logs have, with a model in
 // place of the bench.
 #pragma once
 
@@ -15,7 +15,7 @@
 namespace cablefit {
 
 /// Evenly spaced rows without a gap, of one part of one log.
-struct TwinStretch {
+struct CopyStretch {
   std::size_t log = 0, part = 0;
   double t0 = 0;             ///< s
   double period = 0;         ///< s, of the log's rows
@@ -31,28 +31,28 @@ struct TwinStretch {
 };
 
 /// How a log's channels are measured: rounded to `quantum` after noise of `noise` was added.
-struct TwinSensor {
+struct CopySensor {
   double quantum = 0, noise = 0;
 };
 
 /// Disturbance torques, per joint; sd 0: none.
-struct TwinDisturbance {
+struct CopyDisturbance {
   std::vector<ArModel> motor, link;
 };
 
-struct Twin {
+struct SimulatedCopy {
   Model model;
   std::vector<LogPlan> plans;  ///< as those of the logs
   std::vector<std::vector<PartSurvey>> parts;
-  std::vector<TwinStretch> stretches;
-  std::vector<std::vector<TwinSensor>> sensors;  ///< by log and slot
+  std::vector<CopyStretch> stretches;
+  std::vector<std::vector<CopySensor>> sensors;  ///< by log and slot
   std::vector<double> jitter;  ///< s, sd of the time error of a row, by log (clock_jitter.hpp)
   double step = SimulationOptions{}.step;  ///< s, at most
   std::vector<std::string> notes;          ///< what is simulated, in words
 };
 
-/// What decides about the controller of a twin.
-struct TwinDrive {
+/// What decides about the controller of a copy.
+struct CopyDrive {
   bool torque_held = true;
   double torque_period = 0;  ///< s, of a held torque; 0: the log's
   double cutoff = 0;     ///< Hz, of the low-pass on what a surrogate controller follows; 0: none
@@ -68,25 +68,26 @@ struct TwinDrive {
 /// it and its reference are known, else a surrogate controller that follows the measured theta with
 /// the measured torque as feed-forward. Blocked parts have their link held. Throws Error(input) for
 /// a missing channel.
-Twin make_twin(const Model& model, std::span<const LogSurvey> logs, const PartFilter& wanted,
-               const TwinDrive& drive);
+SimulatedCopy make_copy(const Model& model, std::span<const LogSurvey> logs,
+                        const PartFilter& wanted, const CopyDrive& drive);
 
 /// Stretches of the wanted parts of one log with what was measured, without a controller.
 /// `number`: of the log.
-std::vector<TwinStretch> read_stretches(const LogSurvey& log, std::size_t number,
+std::vector<CopyStretch> read_stretches(const LogSurvey& log, std::size_t number,
                                         const PartFilter& wanted);
 
 /// The true motion of every stretch on the rows of its log. Throws Error(not_identifiable) when it
 /// diverges.
-std::vector<SimulationResult> run_twin(const Twin& twin, const TwinDisturbance& disturbance,
-                                       Random& random, int threads = 1);
+std::vector<SimulationResult> run_copy(const SimulatedCopy& copy,
+                                       const CopyDisturbance& disturbance, Random& random,
+                                       int threads = 1);
 
-/// Motions as a recorder with the twin's sensors sees them.
-std::vector<LogSurvey> record_twin(const Twin& twin, const std::vector<SimulationResult>& motions,
-                                   Random& random);
+/// Motions as a recorder with the copy's sensors sees them.
+std::vector<LogSurvey> record_copy(const SimulatedCopy& copy,
+                                   const std::vector<SimulationResult>& motions, Random& random);
 
-/// Fills `sensors` from the rig files, and where they say nothing so that the twin's logs look as
+/// Fills `sensors` from the rig files, and where they say nothing so that the copy's logs look as
 /// noisy as the measured ones, and `jitter`: `motions` are those without disturbances.
-void choose_sensors(Twin& twin, const std::vector<SimulationResult>& motions);
+void choose_sensors(SimulatedCopy& copy, const std::vector<SimulationResult>& motions);
 
 }  // namespace cablefit
