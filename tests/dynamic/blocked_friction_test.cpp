@@ -22,7 +22,8 @@ std::vector<std::string> warnings_with(double factor) {
   const std::vector<LogSurvey> moving = {shipped("low/moving_load30.csv"),
                                          shipped("low/moving_load-40.csv")};
   std::vector<std::string> found;
-  for (const std::string& warning : fit_dynamic(moving, stage1, options).preloads.at(0).warnings)
+  const DynamicResult result = fit_dynamic(moving, stage1, options);
+  for (const std::string& warning : result.preloads.at(0).warnings)
     if (warning.starts_with("f_sm is")) found.push_back(warning);
   return found;
 }

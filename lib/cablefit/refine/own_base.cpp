@@ -100,9 +100,10 @@ bool is_worse(const ElasticResult& one, const ElasticResult& other) {
   });
 }
 
-/// All cables have the second order of the paper: coefficients are shared between preloads, a
-/// higher order is an effect to be found (stiffness_order), and a lower one may only say that the
-/// blocked sweep was short. Those of a rig file stand, and what the blocked logs alone determine.
+/// Coefficients are shared between preloads, and a cable of a lower order than its neighbour would
+/// be an effect to be found (stiffness_order): of different orders the highest for all. At most the
+/// second order of the paper: a higher one is such an effect. Beside moving logs not less either: a
+/// lower one may only say that the blocked sweep was short. Those of a rig file stand.
 ElasticResult shared_stage1(std::span<const LogSurvey> logs, int threads) {
   ElasticOptions options;
   options.samples.threads = threads;
@@ -114,8 +115,11 @@ ElasticResult shared_stage1(std::span<const LogSurvey> logs, int threads) {
     lowest = std::min(lowest, least);
     highest = std::max(highest, most);
   }
-  if (lowest == kPlainOrder && highest == kPlainOrder) return result;
-  options.order = kPlainOrder;
+  const bool any_moving = std::any_of(
+      logs.begin(), logs.end(), [](const LogSurvey& log) { return has_phase(log, Phase::moving); });
+  const int least = any_moving ? kPlainOrder : 1;
+  if (lowest == highest && highest >= least && highest <= kPlainOrder) return result;
+  options.order = std::clamp(highest, least, kPlainOrder);
   ElasticResult plain;
   try {
     plain = stage1_of(logs, options);
