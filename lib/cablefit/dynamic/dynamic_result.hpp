@@ -85,6 +85,7 @@ struct TorqueDelay {
   double hold = 0;  ///< s, the hold that it was compared with; 0: not estimated
   bool estimated = false;
   bool held = false;
+  double period = 0;       ///< s, found: held for less than a row of the log; 0: no
   bool undecided = false;  ///< the motion does not show whether it is held
   std::string reason;
   std::string warning = {};  ///< when neither convention explains the delay; may be empty

@@ -118,6 +118,7 @@ Plan make_plan(std::span<const LogSurvey> logs, const ProveStage1& stage1,
   plan.stage1 = &stage1;
   if (fit.elastic) plan.elastic = &*fit.elastic;
   const CopyDrive drive{.torque_held = preload.delay.held,
+                        .torque_period = preload.delay.period,
                         .cutoff = cutoff_of(preload, logs, options)};
   plan.moving = make_copy(model, logs, parts_of(Phase::moving, preload.name), drive);
   for (std::string& note : plan.moving.notes) note = "controller: " + note;

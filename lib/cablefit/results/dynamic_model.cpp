@@ -3,6 +3,7 @@
 
 #include "cablefit/base/quote.hpp"
 #include "cablefit/dynamic/fit_model.hpp"
+#include "cablefit/dynamic/rows/torque_delay.hpp"
 #include "cablefit/model/assembled_model.hpp"
 #include "cablefit/model/effects/effect_parameter.hpp"
 #include "cablefit/results/read/dynamic_reader.hpp"
@@ -18,7 +19,7 @@ constexpr std::string_view kPreferredModel = "poly";  // the paper's own; docs/r
 Rig rig_of(const JsonNode& node, const DynamicPreload& preload) {
   Rig rig = model_file::read_rig_reference(node.find("rig"));
   if (node.find("torque_delay") != nullptr && rig.torque_hold == TorqueHold::automatic)
-    rig.torque_hold = preload.delay.held ? TorqueHold::zoh : TorqueHold::none;
+    set_torque_hold(preload.delay, rig);
   return rig;
 }
 

@@ -2,34 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "cablefit/refine/rows/motion.hpp"
 #include "cablefit/refine/steps/torque_lateness.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
+#include "cablefit/samples/rows/torque_hold.hpp"
 
 namespace cablefit {
 namespace {
-
-// Rows of a drive in one of the log; 0: the torque is not held. Others are within kNear of these.
-constexpr std::array kDriveRows{0, 1, 2, 4};
-constexpr double kNear = 0.06;  // of a row of the log, about as much as clocks of logs are off
-constexpr double kSure = 4;     // sd in half a row, below which the motion does not show a hold
-
-double late_by(int drive_rows) { return drive_rows == 0 ? 0 : 0.5 / drive_rows; }
-
-/// The nearest, where it explains the time at which the torque acts.
-std::optional<int> drive_rows(const TorqueLateness& late, double row) {
-  if (!(late.sd < 0.5 * row / kSure)) return std::nullopt;
-  const double share = late.seconds / row;
-  const int nearest = *std::min_element(kDriveRows.begin(), kDriveRows.end(), [&](int a, int b) {
-    return std::abs(late_by(a) - share) < std::abs(late_by(b) - share);
-  });
-  if (std::abs(late_by(nearest) - share) > std::max(kNear, 3 * late.sd / row)) return std::nullopt;
-  return nearest;
-}
 
 /// s, of the moving training logs; nothing where they differ.
 std::optional<double> moving_row(const RefineLogs& logs) {
@@ -40,19 +19,20 @@ std::optional<double> moving_row(const RefineLogs& logs) {
   return 1 / rates.highest;
 }
 
-void take(int rows, double row, Rig& rig) {
-  rig.torque_hold = rows == 0 ? TorqueHold::none : TorqueHold::zoh;
-  if (rows > 1) rig.torque_period = row / rows;
+void take(int periods, double row, Rig& rig) {
+  rig.torque_hold = periods == 0 ? TorqueHold::none : TorqueHold::zoh;
+  if (periods > 1) rig.torque_period = row / periods;
 }
 
 std::optional<Decision> take_hold(const TorqueLateness& late, double row, RefineLogs& logs,
                                   std::vector<Model>& models) {
-  const std::optional<int> rows = drive_rows(late, row);
-  if (!rows) return std::nullopt;
-  for (Model& model : models) take(*rows, row, model.rig);
+  const std::optional<int> periods = drive_periods(late, row);
+  if (!periods) return std::nullopt;
+  for (Model& model : models) take(*periods, row, model.rig);
   for (auto* some : {&logs.train, &logs.test, &logs.blocked})
-    for (LogSurvey& log : *some) take(*rows, row, log.plan.rig);
-  const std::string value = *rows == 0 ? "none" : fmt::format("zoh, {:.3g} ms", 1e3 * row / *rows);
+    for (LogSurvey& log : *some) take(*periods, row, log.plan.rig);
+  const std::string value =
+      *periods == 0 ? "none" : fmt::format("zoh, {:.3g} ms", 1e3 * row / *periods);
   return Decision{"torque hold", value,
                   fmt::format("the torque acts {:.2g} +- {:.1g} ms after its time stamp; the rig "
                               "file has no \"torque_hold\"",
@@ -93,8 +73,8 @@ std::optional<Decision> take_found_hold(const RefineResult& result, RefineLogs& 
   if (delay == nullptr || !row) return std::nullopt;
   const double now = torque_lateness(models.front().rig, *row);
   const TorqueLateness late{now * *row + delay->value, delay->sd};
-  const std::optional<int> rows = drive_rows(late, *row);
-  if (!rows || late_by(*rows) == now) return std::nullopt;
+  const std::optional<int> periods = drive_periods(late, *row);
+  if (!periods || lateness_of(*periods, 1) == now) return std::nullopt;
   return take_hold(late, *row, logs, models);
 }
 

@@ -115,6 +115,11 @@ TorqueDelay find_delay(const DynamicJob& job) {
   return *best;
 }
 
+std::string hold_name(const TorqueDelay& delay) {
+  if (!delay.held) return "none";
+  return delay.period > 0 ? fmt::format("zoh, {:.3g} ms", 1e3 * delay.period) : "zoh";
+}
+
 }  // namespace
 
 void choose_settings(DynamicJob& job, DynamicPreload& preload, const ElasticResult& elastic) {
@@ -132,13 +137,16 @@ void choose_settings(DynamicJob& job, DynamicPreload& preload, const ElasticResu
     const bool held = hold == TorqueHold::zoh;
     if (preload.delay.undecided)
       preload.delay.warning.clear();
-    else if (preload.delay.estimated && held != preload.delay.held && preload.delay.warning.empty())
+    else if (preload.delay.estimated && preload.delay.warning.empty() &&
+             (held != preload.delay.held || preload.delay.period > 0))
       preload.delay.warning = fmt::format("torque hold {} was given, but {}", held ? "zoh" : "none",
                                           preload.delay.reason);
     preload.delay.held = held;
+    preload.delay.period = 0;
     reason = "given; " + reason;
   }
-  job.settings.decisions.push_back({"torque hold", preload.delay.held ? "zoh" : "none", reason});
+  if (preload.delay.period > 0) job.settings.rows.signal.torque_period = preload.delay.period;
+  job.settings.decisions.push_back({"torque hold", hold_name(preload.delay), reason});
   if (!preload.delay.warning.empty()) preload.warnings.push_back(preload.delay.warning);
   job.settings.rows.signal.torque_held = preload.delay.held;
 }

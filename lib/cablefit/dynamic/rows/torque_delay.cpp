@@ -11,6 +11,7 @@
 #include "cablefit/estimate/spread/long_run.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
 #include "cablefit/samples/rows/preliminary.hpp"
+#include "cablefit/samples/rows/torque_hold.hpp"
 
 namespace cablefit {
 namespace {
@@ -56,9 +57,19 @@ RowStatistics preliminary_rows(std::span<const LogSurvey> logs,
   return statistics;
 }
 
+std::string hold_text(double hold, bool held) {
+  return held ? fmt::format("half a hold of {:.3g} ms (zoh)", 1e3 * hold) : "0 (none)";
+}
+
+/// A hold that the rig file does not limit may be shorter than the row of the log.
+void take_shorter_hold(double row, TorqueDelay& delay) {
+  const std::optional<int> periods = drive_periods({delay.seconds, delay.sd}, row);
+  if (periods && *periods > 1) delay.hold = delay.period = row / *periods;
+}
+
 /// Which convention is nearer, and whether either is near enough.
-void judge_delay(double hold, TorqueDelay& delay) {
-  const double ms = 1e3;
+void judge_delay(TorqueDelay& delay) {
+  const double ms = 1e3, hold = delay.hold;
   const std::string found =
       fmt::format("the torque acts {:.3g} +- {:.2g} ms after its time stamp (1 sd)",
                   ms * delay.seconds, ms * delay.sd);
@@ -72,9 +83,11 @@ void judge_delay(double hold, TorqueDelay& delay) {
     return;
   }
   delay.held = std::abs(delay.seconds - hold / 2) < std::abs(delay.seconds);
-  delay.reason = fmt::format(
-      "{}: nearer to {}", found,
-      delay.held ? fmt::format("half a hold of {:.3g} ms (zoh)", ms * hold) : "0 (none)");
+  delay.reason = fmt::format("{}: nearer to {}", found, hold_text(hold, delay.held));
+  if (delay.period > 0) {
+    delay.reason += ", less than a row of the log";
+    return;
+  }
   const double left = std::abs(delay.seconds - (delay.held ? hold / 2 : 0));
   if (left > std::max(3 * delay.sd, kDelayMisfit * hold))
     delay.warning = fmt::format(
@@ -172,8 +185,14 @@ TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFil
   delay.seconds = fitted->seconds;
   delay.sd = fitted->sd;
   delay.hold = rows.signal.torque_period > 0 ? rows.signal.torque_period : period;
-  judge_delay(delay.hold, delay);
+  if (!(rows.signal.torque_period > 0)) take_shorter_hold(period, delay);
+  judge_delay(delay);
   return delay;
+}
+
+void set_torque_hold(const TorqueDelay& found, Rig& rig) {
+  rig.torque_hold = found.held ? TorqueHold::zoh : TorqueHold::none;
+  if (found.held && found.period > 0) rig.torque_period = found.period;
 }
 
 }  // namespace cablefit

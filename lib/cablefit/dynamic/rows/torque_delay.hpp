@@ -15,4 +15,7 @@ TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFil
                                   const RowSettings& settings, double rest_speed, Side side,
                                   const ElasticFit* elastic, const JointPlace& place = {});
 
+/// Of a rig whose file leaves it open.
+void set_torque_hold(const TorqueDelay& found, Rig& rig);
+
 }  // namespace cablefit

@@ -1,4 +1,5 @@
 #include "cablefit/identify/results/identify_model.hpp"
+#include "cablefit/dynamic/rows/torque_delay.hpp"
 
 #include <fmt/format.h>
 
@@ -68,8 +69,7 @@ std::optional<Model> model_of(const IdentifyResult& result, const IdentifyPreloa
   Parameters parameters(result, preload);
   Rig rig = facts.rig;
   rig.transmission = preload.transmission;
-  if (rig.torque_hold == TorqueHold::automatic)
-    rig.torque_hold = facts.delay.held ? TorqueHold::zoh : TorqueHold::none;
+  if (rig.torque_hold == TorqueHold::automatic) set_torque_hold(facts.delay, rig);
   const auto find = [&](const Estimate& blank) { return parameters.find(blank.name); };
   Model model = assembled_model(rig, false, find);
   model.name = "poly";

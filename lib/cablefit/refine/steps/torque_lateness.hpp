@@ -5,17 +5,14 @@
 #include <span>
 
 #include "cablefit/model/model.hpp"
+#include "cablefit/samples/rows/torque_hold.hpp"
 #include "cablefit/samples/survey/survey.hpp"
 
 namespace cablefit {
 
-/// s after the time stamp, with its sd.
-struct TorqueLateness {
-  double seconds = 0, sd = 0;
-};
-
-/// Fitted together with all that is linear in the models (one per preload, of one joint). `row`: s,
-/// of the moving logs. Nothing where the logs do not determine them.
+/// The lateness of the torque, fitted together with all that is linear in the models (one per
+/// preload, of one joint). `row`: s, of the moving logs. Nothing where the logs do not determine
+/// them.
 std::optional<TorqueLateness> fit_torque_lateness(std::span<const Model> models,
                                                   std::span<const LogSurvey> logs, double row);
 

@@ -69,6 +69,7 @@ TorqueDelay read_delay(const JsonNode& node) {
   if (given == nullptr) return delay;
   delay.held = given->at("held").boolean();
   delay.reason = text_or_none(*given, "reason");
+  if (const JsonNode* period = given->find("period")) delay.period = period->positive();
   delay.estimated = given->find("seconds") != nullptr && !given->at("seconds").is_null();
   if (!delay.estimated) return delay;
   delay.seconds = number_or_nan(*given, "seconds");

@@ -118,6 +118,7 @@ Json fit_json(const DynamicFit& fit) {
 
 Json delay_json(const TorqueDelay& delay) {
   Json json{{"seconds", nullptr}, {"sd", nullptr}, {"held", delay.held}, {"reason", delay.reason}};
+  if (delay.period > 0) json["period"] = delay.period;
   if (!delay.estimated) return json;
   json["seconds"] = delay.seconds;
   json["sd"] = delay.sd;

@@ -1,0 +1,22 @@
+// How long a drive holds its torque, by when the torque acts. Internal.
+#pragma once
+
+#include <optional>
+
+namespace cablefit {
+
+/// s after the time stamp of the logged torque, with its sd.
+struct TorqueLateness {
+  double seconds = 0, sd = 0;
+};
+
+/// Periods of the drive in a row of the log: a torque that is held acts half a period late. 0: the
+/// torque is not held (a mean, centred); 1: over the row; 2, 4: the log keeps every second or
+/// fourth command. `row`: s. Nothing where none of them explains the time, or where it is not
+/// known well enough.
+std::optional<int> drive_periods(const TorqueLateness& late, double row);
+
+/// s, of a torque that is held over this share of a row; 0: it is not held.
+double lateness_of(int periods, double row);
+
+}  // namespace cablefit
