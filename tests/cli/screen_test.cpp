@@ -26,6 +26,8 @@ Outcome run(const std::string& command) {
 TEST_CASE("what a terminal shows of the shipped examples fits on it") {
   for (const char* command :
        {"cablefit study data/low/*.csv --draws 4", "cablefit check data/low/*.csv",
+        "cablefit check data/low/*.csv data/high/*.csv",
+        "cablefit identify data/low/*.csv data/high/*.csv",
         "cablefit elastic data/low/blocked.csv data/high/blocked.csv",
         "cablefit dynamic data/low/moving*.csv data/high/moving*.csv",
         "cablefit dynamic data/low/moving_load30.csv --validate data/low/moving_load-40.csv",
@@ -35,7 +37,8 @@ TEST_CASE("what a terminal shows of the shipped examples fits on it") {
         "cablefit simulate cablefit-out/dynamic.json data/low/moving_load30.csv",
         "cablefit dynamic data/low/moving*.csv --quiet 2> log; "
         "cablefit design cablefit-out/dynamic.json --model poly --torque 20",
-        "cablefit batch data/campaign.json", "cablefit --help"}) {
+        "cablefit batch data/campaign.json", "cablefit init data/low --dry-run",
+        "cablefit --help"}) {
     INFO(command);
     const Outcome outcome = run(command);
     CHECK(outcome.exit_code == 0);

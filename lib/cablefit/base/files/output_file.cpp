@@ -18,7 +18,9 @@ namespace {
 void write_stdout(std::string_view content) {
   // By stdio, so that the order with what was printed before is kept.
   const bool all = std::fwrite(content.data(), 1, content.size(), stdout) == content.size();
-  if (!all || std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category());
+  if (all && std::fflush(stdout) == 0) return;
+  if (errno == EPIPE) return;  // the reader has seen enough, as `head` has
+  throw std::system_error(errno, std::generic_category());
 }
 
 void write_in_place(const std::string& path, std::string_view content) {

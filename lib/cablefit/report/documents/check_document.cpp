@@ -260,24 +260,24 @@ std::string short_verdict(Determined determined) {
                                                       : std::string(to_string(determined));
 }
 
-/// A row per joint, a column per parameter; of a rig of one joint no row.
-Table joint_matrix(const Prediction& p) {
+struct NamedVerdict {
+  std::string row, parameter, verdict;
+};
+
+/// A row per joint or preload (`what`), a column per parameter; of one alone no row.
+Table verdict_matrix(const std::string& what, const std::vector<NamedVerdict>& all) {
   Table table;
-  table.title = fmt::format("{}: what stage 2 will determine of each joint (predicted)", p.preload);
-  std::vector<std::string> joints, names;
+  std::vector<std::string> rows, names;
   std::map<std::pair<std::size_t, std::size_t>, std::string> verdicts;
-  for (const PredictedEquation& e : p.equations)
-    for (const PredictedParameter& parameter : e.parameters) {
-      const JointParameter own = split(parameter.name);
-      if (own.joint.empty()) continue;
-      const std::size_t joint = place_in(joints, own.joint), name = place_in(names, own.name);
-      verdicts[{joint, name}] = short_verdict(parameter.determined);
-    }
-  if (joints.size() < 2) return table;
-  table.columns = {{"", "joint", "", true}};
+  for (const NamedVerdict& one : all) {
+    const std::size_t row = place_in(rows, one.row), name = place_in(names, one.parameter);
+    verdicts[{row, name}] = one.verdict;
+  }
+  if (rows.size() < 2) return table;
+  table.columns = {{"", what, "", true}};
   for (const std::string& name : names) table.columns.push_back({"", name, "", true});
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    std::vector<std::string>& row = table.rows.emplace_back(1, joints[j]);
+  for (std::size_t j = 0; j < rows.size(); ++j) {
+    std::vector<std::string>& row = table.rows.emplace_back(1, rows[j]);
     for (std::size_t k = 0; k < names.size(); ++k) {
       const auto found = verdicts.find({j, k});
       row.push_back(found != verdicts.end() ? found->second : kNoNumber);
@@ -286,13 +286,44 @@ Table joint_matrix(const Prediction& p) {
   return table;
 }
 
-void add_prediction(const Prediction& p, Document& document) {
+template <typename Add>
+void for_each_parameter(const Prediction& p, Add add) {
+  for (const PredictedEquation& e : p.equations)
+    for (const PredictedParameter& parameter : e.parameters) add(parameter);
+}
+
+Table joint_matrix(const Prediction& p) {
+  std::vector<NamedVerdict> all;
+  for_each_parameter(p, [&](const PredictedParameter& parameter) {
+    const JointParameter own = split(parameter.name);
+    if (!own.joint.empty())
+      all.push_back({own.joint, own.name, short_verdict(parameter.determined)});
+  });
+  Table table = verdict_matrix("joint", all);
+  table.title = fmt::format("{}: what stage 2 will determine of each joint (predicted)", p.preload);
+  return table;
+}
+
+/// Of drives of one joint: those of several have a matrix each.
+Table preload_matrix(const std::vector<Prediction>& predictions) {
+  std::vector<NamedVerdict> all;
+  for (const Prediction& p : predictions)
+    for_each_parameter(p, [&](const PredictedParameter& parameter) {
+      if (split(parameter.name).joint.empty())
+        all.push_back({p.preload, parameter.name, short_verdict(parameter.determined)});
+    });
+  Table table = verdict_matrix("preload", all);
+  table.title = "What stage 2 will determine of each preload (predicted)";
+  return table;
+}
+
+void add_prediction(const Prediction& p, bool is_in_matrix, Document& document) {
   if (!p.none.empty()) {
     document.paragraphs.push_back(p.preload + ": no prediction of stage 2: " + p.none);
     return;
   }
   Table joints = joint_matrix(p), parameters = prediction_table(p);
-  parameters.detail = !joints.rows.empty();
+  parameters.detail = is_in_matrix || !joints.rows.empty();
   if (!joints.rows.empty()) document.tables.push_back(std::move(joints));
   document.tables.push_back(std::move(parameters));
   for (const PredictedEquation& e : p.equations)
@@ -356,8 +387,11 @@ Document check_document(const CheckResult& result, const std::vector<Prediction>
       for (const std::string& warning : part.warnings) document.warnings.push_back(where + warning);
     }
   }
+  Table preloads = preload_matrix(predictions);
+  const bool has_matrix = !preloads.rows.empty();
+  if (has_matrix) document.tables.push_back(std::move(preloads));
   for (const Prediction& p : predictions) {
-    add_prediction(p, document);
+    add_prediction(p, has_matrix, document);
     add_tidy_rows(document.tidy, p);
   }
   const bool any = std::any_of(predictions.begin(), predictions.end(),
