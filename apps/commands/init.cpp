@@ -50,6 +50,30 @@ std::string campaign_name(const InitCommand& command) {
   return folder.filename().string();
 }
 
+/// What is wrong, from the file's name on.
+std::string_view reason_of(const UnreadLog& log) {
+  const std::string_view problem = log.problem;
+  const std::size_t at = problem.find(log.path);
+  return at == problem.npos ? problem : problem.substr(at + log.path.size());
+}
+
+/// Each reason once, with the first log that it is of.
+std::string unread_text(const std::vector<UnreadLog>& logs) {
+  std::string text;
+  std::vector<std::string_view> seen;
+  for (const UnreadLog& log : logs) {
+    const std::string_view reason = reason_of(log);
+    if (std::find(seen.begin(), seen.end(), reason) != seen.end()) continue;
+    seen.push_back(reason);
+    text += fmt::format("not read: {}\n", printable(log.problem));
+    const auto n = std::count_if(logs.begin(), logs.end(), [&](const UnreadLog& other) {
+      return reason_of(other) == reason;
+    });
+    if (n > 1) text += fmt::format("not read for the same reason: {} more\n", n - 1);
+  }
+  return text;
+}
+
 std::string found_text(const FoundLogs& found) {
   std::string text;
   for (const FoundCell& cell : found.cells)
@@ -57,9 +81,7 @@ std::string found_text(const FoundLogs& found) {
                         cell.date.empty() ? "" : ", " + cell.date + " by the folder's name",
                         cell.blocked.size(), cell.moving.size(),
                         is_complete(cell) ? "" : "; left out: stage 1 needs a blocked log");
-  for (const UnreadLog& log : found.unread)
-    text += fmt::format("not read: {}\n", printable(log.problem));
-  return text;
+  return text + unread_text(found.unread);
 }
 
 void say(const InitCommand& command, const std::string& text) {

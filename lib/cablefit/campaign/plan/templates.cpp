@@ -58,14 +58,16 @@ std::string campaign_template(const std::string& name, const FoundLogs& found) {
       left_out += left_out_text(cell);
   }
   return fmt::format(R"({{
-  // What 'cablefit batch' fits and what must hold. Comments are allowed; paths are relative to this file.
+  // What 'cablefit batch' fits and what must hold. Comments are allowed. Paths are relative to
+  // this file.
   "schema": "cablefit/campaign/1",
   "name": {},
-  // A cell is one preload of one robot at one date. Logs may be patterns: ["low/moving*.csv"]. More keys:
-  //   "date": "2026-03-14", "robot": "arm 7"   when there are several; parameters are then shown against them
-  //   "name": "low, new cable"                 what the cell is called; else by preload, robot and date
-  //   "validation": ["low/check*.csv"]         logs that are not fitted, to judge the fit on
-  //   "refine": true                           look for a missing effect (minutes per cell)
+  // A cell is one preload of one robot at one date. Logs may be patterns: ["low/moving*.csv"].
+  // More keys:
+  //   "date": "2026-03-14", "robot": "arm 7"   where there are several: parameters against them
+  //   "name": "low, new cable"                 of the cell; else preload, robot and date
+  //   "validation": ["low/check*.csv"]         logs that are not fitted: they judge the fit
+  //   "refine": true                           search for a missing effect
   "cells": [
 {}{}
   ],
@@ -74,9 +76,9 @@ std::string campaign_template(const std::string& name, const FoundLogs& found) {
   // Gates for CI: exit code 1 when one fails.
   "limits": {{
     "rsd_percent": 25                // largest relative sd of a parameter, %
-    // , "torque_error": 1.5         // largest rms of what a model leaves, N m
-    // , "drift": {{"baseline": "baseline.json", "percent": 15}}   // against the batch.json of an earlier run
-    // , "new_effect": false         // cells with "refine": no missing effect may be named
+    // , "torque_error": 1.5         // largest residual, N m rms
+    // , "drift": {{"baseline": "baseline.json", "percent": 15}}   // batch.json of an earlier run
+    // , "new_effect": false         // cells with "refine": no effect may be missing
   }}
 }}
 )",
@@ -88,18 +90,22 @@ std::string rig_template(const FolderWithoutRig& folder) {
                                   ? "  // \"preload\": \"low\","
                                   : "  \"preload\": " + json(folder.preload) + ",";
   return fmt::format(R"({{
-  // What the logs in this folder mean and what the bench is made of. All keys: data/schema/rig.schema.json
+  // What the logs in this folder mean and what the bench is made of. All keys:
+  // data/schema/rig.schema.json
   "schema": "cablefit/rig/1",
   "name": "",
 {}
   // Columns here: {}.
-  // Wanted: t, q (link), theta (motor after the reduction), tau (its torque), tau_load; SI, or a unit in the header.
-  // Others are mapped, with scale and unit where the header has none:
-  // "columns": {{"t": "time", "theta": {{"column": "motor", "unit": "deg"}}, "tau": {{"column": "i_q", "scale": 0.083, "unit": "N m"}}}},
-  "torque_hold": "auto"              // "zoh": tau is commanded and held; "none": a mean measured around t
-  // The load is the column tau_load, where a log has one; else a law says it:
-  // , "load": {{"type": "hanging_mass", "mass": 40, "radius": 0.1, "direction": -1}}   // "constant", "pendulum", "table", "none"
-  // , "controller": {{"type": "pd", "kp": 800, "kd": 6, "limit": 250, "reference": "theta_ref"}}   // simulations run closed loop; "open_loop": tau is a command of its own
+  // Wanted: t, q (link), theta (motor after the reduction), tau (its torque), tau_load; SI, or a
+  // unit in the header. Others are mapped, with scale and unit where the header has none:
+  // "columns": {{"t": "time", "theta": {{"column": "motor", "unit": "deg"}},
+  //             "tau": {{"column": "i_q", "scale": 0.083, "unit": "N m"}}}},
+  "torque_hold": "auto"              // "zoh": a command that is held; "none": a mean around t
+  // The load is the column tau_load, where a log has one; else a law: "constant", "pendulum",
+  // "table", "none", or
+  // , "load": {{"type": "hanging_mass", "mass": 40, "radius": 0.1, "direction": -1}}
+  // Simulations run closed loop with a controller; type "open_loop": tau is a command by itself.
+  // , "controller": {{"type": "pd", "kp": 800, "kd": 6, "limit": 250, "reference": "theta_ref"}}
   // , "cad": {{"J_link": 0.3}}        // printed beside, never fitted to
 }}
 )",
