@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cablefit/model/one_joint.hpp"
 #include "cablefit/refine/rows/motion.hpp"
 #include "cablefit/refine/steps/torque_lateness.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
@@ -39,6 +40,22 @@ std::optional<Decision> take_hold(const TorqueLateness& late, double row, Refine
                               1e3 * late.seconds, 1e3 * late.sd)};
 }
 
+/// Of the joint that shows it best: all drives are taken to be of one kind.
+std::optional<TorqueLateness> lateness_of(const RefineLogs& logs, const std::vector<Model>& models,
+                                          double row) {
+  const std::vector<LogSurvey> fitted = logs.fitted();
+  const int n = static_cast<int>(models.front().joints.size());
+  if (n == 1) return fit_torque_lateness(models, fitted, row);
+  std::optional<TorqueLateness> best;
+  for (int joint = 0; joint < n; ++joint) {
+    std::vector<Model> alone;
+    for (const Model& model : models) alone.push_back(one_joint(model, joint));
+    const auto late = fit_torque_lateness(alone, fitted, row);
+    if (late && (!best || late->sd < best->sd)) best = late;
+  }
+  return best;
+}
+
 const Estimate* found_delay(const RefineResult& result) {
   for (const NamedEffect& effect : result.effects)
     if (effect.instance.effect->delays_torque) return &effect.instance.parameters.front();
@@ -61,8 +78,8 @@ bool is_hold_open(const RefineLogs& logs, const std::vector<Model>& models) {
 
 std::optional<Decision> take_fitted_hold(RefineLogs& logs, std::vector<Model>& models) {
   const std::optional<double> row = moving_row(logs);
-  if (!row || models.front().joints.size() > 1) return std::nullopt;
-  const auto late = fit_torque_lateness(models, logs.fitted(), *row);
+  if (!row) return std::nullopt;
+  const auto late = lateness_of(logs, models, *row);
   return late ? take_hold(*late, *row, logs, models) : std::nullopt;
 }
 

@@ -17,7 +17,7 @@ bool is_hold_open(const RefineLogs& logs, const std::vector<Model>& models);
 
 /// How the torque is held by the time at which it acts: not at all, over a row of the log, or over
 /// a part of it, as where the log keeps every second or fourth row of a drive. Logs and models get
-/// that. One joint. Nothing where the torque acts at another time.
+/// that. Nothing where the torque acts at another time.
 std::optional<Decision> take_fitted_hold(RefineLogs& logs, std::vector<Model>& models);
 
 /// The same by a delay of the torque that refine identified, where that means another hold: refine
