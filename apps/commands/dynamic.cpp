@@ -168,7 +168,7 @@ Stage1 fit_stage1(const DynamicCommand& command, const std::vector<LogSurvey>& b
 }
 
 /// A result of stage 1 that is there already: a small file, read before any log, so that a mistake
-/// in it does not wait for them. None: the logs have to tell.
+/// in it does not wait for them. None: the logs have to show it.
 std::optional<Stage1> earlier_stage1(const DynamicCommand& command) {
   if (!is_elastic(command)) return std::nullopt;
   if (!command.elastic_file.empty()) return read_stage1(command.elastic_file);

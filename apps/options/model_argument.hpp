@@ -17,7 +17,8 @@ std::string take_model_path(CommonOptions& options, const std::string& command);
 void add_model_options(CLI::App& app, CommonOptions& options, std::string& model,
                        const std::string& results);
 
-/// The logs as the model sees them, weighed. All that is wrong with any of them is told at once.
+/// The logs as the model sees them, weighed. All that is wrong with any of them is reported at
+/// once.
 std::vector<LogSurvey> survey_for_model(const Model& model, const std::vector<std::string>& paths,
                                         const CommonOptions& options);
 

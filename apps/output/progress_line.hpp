@@ -10,7 +10,7 @@
 namespace cablefit::apps {
 
 /// Follows one piece of work. A log is read several times, how often is not known beforehand: so
-/// what is told is how far the present pass over the present file is.
+/// what is shown is how far the present pass over the present file is.
 class ProgressLine {
  public:
   /// Work that begins at `start`, s on the clock of read_progress.hpp.

@@ -1,4 +1,4 @@
-// Several things can be wrong at once: all are told, and the gravest decides on the exit code.
+// Several things can be wrong at once: all are reported, and the gravest decides on the exit code.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Smallest collision torque that a model's residual can tell from nothing.
+// Smallest collision torque that a model's residual shows.
 //
 // The detector: the residual of the link's equation, r = J_link qdd + friction - tau_elas(phi) -
 // tau_load (minus the contact's torque when model and sensors are perfect), is averaged over

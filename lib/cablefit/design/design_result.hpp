@@ -29,7 +29,7 @@ struct ModelCost {
   double rms_error = 0;              ///< N m
   double at = 0;                     ///< rad, deflection of the largest error
   double static_error = 0;           ///< rad, error of the joint's position under load
-  /// Hz, what the model tells of the resonance on the range; NaN without inertias.
+  /// Hz, resonance of the model on the range; NaN without inertias.
   double resonance_low = kNotKnown, resonance_high = kNotKnown;
   std::optional<CollisionThreshold> collision;  ///< nothing without a noise of the torque
 };
@@ -78,7 +78,7 @@ struct DesignJoint {
   std::vector<TensionRange> tensions;
   std::vector<ModelCost> models;           ///< linear, piecewise linear, ..., cables
   std::optional<DesignFriction> friction;  ///< nothing where it is not known
-  std::optional<DesignSpread> sd;          ///< nothing when the model knows no covariance
+  std::optional<DesignSpread> sd;          ///< nothing when the model has no covariance
   const ModelCost& model(const std::string& which) const;
 };
 

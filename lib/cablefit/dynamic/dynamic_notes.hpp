@@ -21,9 +21,9 @@ void note_load(const DynamicJob& job, DynamicPreload& preload);
 void note_free_fall(const Load& load, const std::vector<EquationRows>& equations,
                     DynamicPreload& preload);
 
-/// One cause, one message. Of every fit that explains little its worst equation is told, and not
+/// One cause, one message. Of every fit that explains little its worst equation is named, and not
 /// what follows from that; nothing of both where the logs are read in units that cannot be right
-/// (--trust-units), or where stage 1 saw less than half of the deflections: these are told first.
+/// (--trust-units), or where stage 1 saw less than half of the deflections: these come first.
 void keep_causes(const DynamicJob& job, const std::vector<EquationRows>& equations,
                  const ElasticResult& elastic, DynamicPreload& preload);
 

@@ -1,4 +1,4 @@
-// What the rows of one equation tell of each parameter. Internal to prediction.cpp.
+// What the rows of one equation determine of each parameter. Internal to prediction.cpp.
 #pragma once
 
 #include "cablefit/dynamic/dynamic_result.hpp"

@@ -15,7 +15,7 @@
 namespace cablefit {
 namespace {
 
-constexpr double kArbitraryZero = 0.05;  // of the torque's spread: a larger offset is told
+constexpr double kArbitraryZero = 0.05;  // of the torque's spread: a larger offset is reported
 constexpr double kLeastVariance =
     1e-12;  // of the torque's mean square: residuals that are rounding
 constexpr int kJointsPreliminaryOrder = 2;
@@ -83,8 +83,8 @@ void collect_rows(Stage1& stage, ElasticPreload& preload) {
   for (int joint = 0; joint < stage.n_joints(); ++joint) {
     const BlockedRows& rows = stage.joints[static_cast<std::size_t>(joint)];
     require_rows(rows, stage.job, preload.name, joint);
-    ElasticJoint& told = preload.joints.emplace_back();
-    told.name = stage.job.rig().joints[static_cast<std::size_t>(joint)];
+    ElasticJoint& own = preload.joints.emplace_back();
+    own.name = stage.job.rig().joints[static_cast<std::size_t>(joint)];
     look_at_branches(stage, joint, preload);
   }
   weigh(stage);
@@ -176,7 +176,7 @@ double offset_of(const ElasticFit& fit, int joint, int n_joints) {
   return e != nullptr && e->not_identifiable.empty() ? e->value : 0;
 }
 
-/// An encoder's zero is looked for when asked; what looks like one is told.
+/// An encoder's zero is looked for when asked; what looks like one is reported.
 void note_zero(const Stage1& stage, int joint, ElasticPreload& preload) {
   const BlockedRows& rows = stage.joints[static_cast<std::size_t>(joint)];
   const BlockedColumns c = rows.columns.of_joint(joint);
@@ -195,13 +195,13 @@ void note_joints(const Stage1& stage, ElasticPreload& preload) {
   const ElasticFit& best = *preload.find(preload.selected);
   for (int joint = 0; joint < stage.n_joints(); ++joint) {
     const auto k = static_cast<std::size_t>(joint);
-    ElasticJoint& told = preload.joints[k];
+    ElasticJoint& own = preload.joints[k];
     const Estimate* friction =
         find_estimate(best.parameters, joint_parameter_name("f_sm", joint + 1, stage.n_joints()));
-    told.loop_half_width =
+    own.loop_half_width =
         friction != nullptr && friction->not_identifiable.empty() ? friction->value : 0;
-    preload.loop_half_width = std::max(preload.loop_half_width, told.loop_half_width);
-    const LoopSeen loop{told.loop_half_width, told.peak_torque, best.joints[k].rms_error,
+    preload.loop_half_width = std::max(preload.loop_half_width, own.loop_half_width);
+    const LoopSeen loop{own.loop_half_width, own.peak_torque, best.joints[k].rms_error,
                         stage.joints[k].plateaus};
     for (const std::string& warning : loop_warnings(loop, preload.linear_motion))
       preload.warnings.push_back(fmt::format("joint {}: {}", joint + 1, warning));

@@ -29,7 +29,7 @@ std::string temporary_folder() {
 }
 
 int open_unlinked_file() {
-  // Never has a name; where the file system knows no such files, it loses its name at once.
+  // Never has a name; where the file system has no such files, it loses its name at once.
   const int nameless = ::open(temporary_folder().c_str(), O_TMPFILE | O_EXCL | O_RDWR | O_CLOEXEC,
                               S_IRUSR | S_IWUSR);
   if (nameless >= 0) return nameless;

@@ -92,7 +92,7 @@ void name_for(const Rig& rig, int joint, JointModel& axes) {
     }
 }
 
-/// What the fit of one joint tells of a cable, at its place on the other joints.
+/// What the fit of one joint gives of a cable, at its place on the other joints.
 void take_cable(const Cable& from, std::size_t joint, Cable& to) {
   to.law = from.law;
   to.order = from.order;
@@ -199,18 +199,18 @@ std::vector<Eigen::Index> determined_arm_columns(const Model& whole, int joint) 
   Model one = whole;
   one.joint = joint;
   Eigen::MatrixXd columns = arm_columns(one, motion[0], motion[1], motion[2]);
-  std::vector<Eigen::Index> told;
+  std::vector<Eigen::Index> determined;
   for (Eigen::Index k = 0; k < columns.cols(); ++k) {
     const double size = columns.col(k).norm();
     if (!(size > 0)) continue;
     columns.col(k) /= size;
-    for (const Eigen::Index before : told)
+    for (const Eigen::Index before : determined)
       columns.col(k) -= columns.col(before).dot(columns.col(k)) * columns.col(before);
     if (columns.col(k).norm() < kOwnPart) continue;
     columns.col(k).normalize();
-    told.push_back(k);
+    determined.push_back(k);
   }
-  return told;
+  return determined;
 }
 
 bool is_of_arm(const Model& one, const std::string& name) {
@@ -223,8 +223,8 @@ std::vector<const Model*> best_of_arm(std::span<const Model> joints) {
   std::vector<const Model*> best(joints.front().arm.size(), nullptr);
   if (best.empty()) return best;
   for (const Model& one : joints) {
-    const std::vector<Eigen::Index> told = determined_arm_columns(*one.whole, one.joint);
-    for (const Eigen::Index k : told) {
+    const std::vector<Eigen::Index> determined = determined_arm_columns(*one.whole, one.joint);
+    for (const Eigen::Index k : determined) {
       const auto at = static_cast<std::size_t>(k);
       const double before = best[at] != nullptr ? relative_sd(best[at]->arm[at]) : kUnbounded;
       if (relative_sd(one.arm[at]) < before) best[at] = &one;
@@ -339,10 +339,10 @@ Eigen::MatrixXd arm_columns(const Model& one, const Eigen::ArrayXXd& q, const Ei
 }
 
 std::vector<Eigen::Index> determined_arm_columns(const Model& one) {
-  std::vector<Eigen::Index> told;
+  std::vector<Eigen::Index> determined;
   for (const Eigen::Index k : determined_arm_columns(*one.whole, one.joint))
-    if (is_known(one.whole->arm[static_cast<std::size_t>(k)])) told.push_back(k);
-  return told;
+    if (is_known(one.whole->arm[static_cast<std::size_t>(k)])) determined.push_back(k);
+  return determined;
 }
 
 Model standing_alone(const Model& one) {

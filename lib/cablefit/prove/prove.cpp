@@ -14,7 +14,7 @@
 namespace cablefit {
 namespace {
 
-/// Streams of random numbers of one run, and of the run that tells what noise alone leaves.
+/// Streams of random numbers of one run, and of the run with noise alone.
 constexpr std::uint64_t kDisturbances = 1, kSensors = 2, kStage1 = 3, kCalibration = 4;
 
 /// Everything that the runs of one fit share.

@@ -33,7 +33,8 @@
 namespace cablefit {
 namespace {
 
-/// The model knows no date, so it simulates the log of an event as if nothing had happened.
+/// The model does not have the time of an event, so it simulates its log as if nothing had
+/// happened.
 bool simulates_an_event(const RefineResult& result) {
   return result.held_out_blocks &&
          std::any_of(result.effects.begin(), result.effects.end(),

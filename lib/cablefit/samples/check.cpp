@@ -44,7 +44,7 @@ std::vector<CheckedChannel> channels_of(const LogSurvey& log, const PartSurvey& 
   return channels;
 }
 
-/// The channel that tells best how one joint moves.
+/// The channel that shows best how one joint moves.
 std::optional<Channel> motion_channel(const LogPlan& plan, int joint) {
   std::optional<Channel> best;
   for (const Channel channel : {Channel::q, Channel::w, Channel::theta}) {

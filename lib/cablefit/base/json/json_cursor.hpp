@@ -1,5 +1,5 @@
 // An input iterator over blocks of JSON text that remembers where the latest tokens started, which
-// the parser itself does not tell.
+// the parser itself does not say.
 #pragma once
 
 #include <array>

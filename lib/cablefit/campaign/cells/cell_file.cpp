@@ -20,7 +20,7 @@ constexpr std::size_t kMostBytes = std::size_t{1} << 28;
 constexpr std::size_t kBlockBytes = std::size_t{1} << 16;
 constexpr std::string_view kEnd = "}\n";
 
-/// What stands before the results. The digest tells a file that was damaged from one that was not:
+/// What stands before the results. The digest shows whether the file was damaged:
 /// nothing else would, where a number lost a digit.
 std::string head_of(std::string_view results, const CellKey& key) {
   return fmt::format(

@@ -6,7 +6,7 @@
 namespace cablefit {
 
 /// Throws as the fits do, and Error(input) for a log whose content is no longer that of `key`. What
-/// keeps refine from a verdict is told in its `error`.
+/// keeps refine from a verdict stands in its `error`.
 CellResults fit_cell(const Campaign& campaign, const CampaignCell& cell, const CellKey& key,
                      const BatchOptions& options);
 

@@ -1,4 +1,4 @@
-// Results as JSON that reads back bit for bit. Which members a struct has is told by a function
+// Results as JSON that reads back bit for bit. A function lists the members of a struct
 // fields(archive, value) (result_fields.hpp), the same for writing and for reading. Internal to
 // campaign/.
 #pragma once

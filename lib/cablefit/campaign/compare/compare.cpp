@@ -119,10 +119,10 @@ void add_settings(const std::vector<EstimatePair>& pairs, CompareResult& result)
 std::vector<std::string> fitted_in_both(const RecordedResult& first, const RecordedResult& second,
                                         bool logs) {
   const std::set<std::string> there = hashes(second);
-  std::set<std::string> told;
+  std::set<std::string> seen;
   std::vector<std::string> both;
   for (const InputFile& input : first.inputs)
-    if (is_log(input) == logs && there.contains(input.sha256) && told.insert(input.sha256).second)
+    if (is_log(input) == logs && there.contains(input.sha256) && seen.insert(input.sha256).second)
       both.push_back(input.path);
   return both;
 }

@@ -82,10 +82,10 @@ void add_unpaired(const Sets& sets, const Sets& done, std::string_view which,
     const bool met = std::any_of(done.begin(), done.end(), [&](const EstimateSet* other) {
       return other->stage == set->stage && other->preload == set->preload;
     });
-    const bool told = std::any_of(alone.begin(), alone.end(), [&](const Uncompared& one) {
+    const bool is_listed = std::any_of(alone.begin(), alone.end(), [&](const Uncompared& one) {
       return one.preload == set->preload && one.name == set->stage;
     });
-    if (!met && !told)
+    if (!met && !is_listed)
       alone.push_back({set->preload, set->stage, fmt::format("only in the {} result", which)});
   }
 }

@@ -32,7 +32,7 @@ bool has_schema(const fs::path& path) {
   try {
     const JsonNode root = read_json_file(path.string(), kMostSchemaBytes);
     return root.find("schema") != nullptr || root.find("$schema") != nullptr;
-  } catch (const Error&) {  // too long, or no object: the reader of logs tells
+  } catch (const Error&) {  // too long, or no object: the reader of logs says so
     return false;
   }
 }
@@ -68,7 +68,7 @@ std::vector<std::string> column_names(const std::string& path) {
     const auto log = open_log(path);
     for (const ColumnHeader& column : log->header().columns)
       names.push_back(column.unit.empty() ? column.name : column.name + " [" + column.unit + "]");
-  } catch (const Error&) {  // its problem is told already
+  } catch (const Error&) {  // its problem is reported already
   }
   return names;
 }

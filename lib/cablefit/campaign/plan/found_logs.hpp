@@ -24,7 +24,7 @@ struct UnreadLog {
 /// A folder with logs and without a rig file.
 struct FolderWithoutRig {
   std::string path;                  ///< relative, "." for the folder that was searched
-  std::string preload;               ///< its logs'; empty: several, told by a column
+  std::string preload;               ///< its logs'; empty: several, by a column
   std::vector<std::string> columns;  ///< of all its logs
 };
 
@@ -37,7 +37,7 @@ struct FoundLogs {
 /// Looks at every .csv, .tsv, .txt and .json (also .gz, .zst) in the folder and up to three levels
 /// below; JSON files with a "schema" are no logs, nor are the folders of cablefit's results. The
 /// preload is that of a column, else of the rig file, else the folder's name; a folder called by a
-/// date tells that, and the one above it the preload. Throws Error(input)
+/// date gives the date, and the one above it the preload. Throws Error(input)
 /// for a folder that cannot be listed.
 FoundLogs find_logs(const std::string& folder, int threads);
 

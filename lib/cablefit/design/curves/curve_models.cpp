@@ -74,9 +74,9 @@ double static_error_at(const CurveModel& model, const JointCurve& curve, double 
   const double torque = curve.torque(phi);
   const double sign = phi < 0 ? -1 : 1;
   if (torque == 0) return 0;
-  const auto told = root_outward([&](double at) { return sign * (model.torque(at) - torque); },
-                                 sign * 1e-9, sign * kFarthest);
-  return told ? std::abs(*told - phi) : std::abs(phi);
+  const auto found = root_outward([&](double at) { return sign * (model.torque(at) - torque); },
+                                  sign * 1e-9, sign * kFarthest);
+  return found ? std::abs(*found - phi) : std::abs(phi);
 }
 
 void measure_errors(const JointCurve& curve, const WorkingRange& range, CurveModel& model) {

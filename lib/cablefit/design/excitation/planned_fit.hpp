@@ -1,4 +1,4 @@
-// What `cablefit dynamic` would tell of every parameter from a motion that is planned: the white sd
+// What `cablefit dynamic` would find of every parameter from a planned motion: the white sd
 // that the sensors' noise leaves, through its own filters, decimation and rows.
 #pragma once
 

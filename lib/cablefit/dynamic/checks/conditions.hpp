@@ -17,7 +17,7 @@ struct Condition {
   double sign = 0;            ///< of the column; 0: its magnitude counts
   std::vector<double> edges;  ///< inner edges, ascending
   std::vector<std::string> labels;
-  bool is_comparable = true;  ///< fitted rows of the same bin tell what to expect
+  bool is_comparable = true;  ///< fitted rows of the same bin show what to expect
 };
 
 /// What holds for these rows; speeds are divided by the quartiles of the rows that were fitted.

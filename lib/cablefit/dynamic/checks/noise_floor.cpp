@@ -16,7 +16,7 @@ constexpr int kWindows = 2;                  // of every log
 constexpr double kFewRows = 20;              // fewer pairs say nothing
 constexpr std::uint64_t kSeed = 1;           // of the noise that is added
 constexpr double kSameReference = 1e-6;      // of its range: what formatting loses
-constexpr Eigen::Index kReferenceStep = 16;  // rows: enough to tell two references apart
+constexpr Eigen::Index kReferenceStep = 16;  // rows: enough to distinguish two references
 constexpr double kShortest = 0.5;            // of the longer log: less is no repeat
 
 /// Marsaglia's polar method: the same numbers everywhere, unlike std::normal_distribution.

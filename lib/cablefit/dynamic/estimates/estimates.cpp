@@ -16,7 +16,7 @@ namespace cablefit {
 namespace {
 
 // An inertia whose column is explained to more than this by position and the other columns cannot
-// be told from a torque that depends on position: stiffness, gravity, a wrong elastic stage.
+// be separated from a torque that depends on position: stiffness, gravity, a wrong elastic stage.
 constexpr double kPositionAlias = 0.98;
 // Relative change of an inertia when torques of position are allowed beside it.
 constexpr double kShiftNoted = 0.2;

@@ -1,4 +1,4 @@
-// From the solution of one equation to parameters one can stand behind.
+// From the solution of one equation to parameters with robust sd.
 #pragma once
 
 #include <span>
@@ -33,7 +33,7 @@ void refuse(Estimate& e, const std::string& why);
 /// effects beyond (31) of which a nonlinear one is not determined.
 void refuse_dependent(std::span<const EffectInstance> effects, std::vector<Estimate>& parameters);
 
-/// Why the motion of these rows cannot tell the inertia of column `k` from a torque that depends on
+/// Why these rows cannot separate the inertia of column `k` from a torque that depends on
 /// position, whatever the estimator; empty when it can.
 std::string inertia_alias(const RowStatistics& rows, const DynamicColumns& columns, Eigen::Index k,
                           bool linear_motion);

@@ -139,7 +139,7 @@ double lower_of(const EquationRows& e, Eigen::Index k) {
   return e.columns.parameters[static_cast<std::size_t>(k)].info.lower;
 }
 
-/// Why this estimate is none that one can stand behind; empty when it is.
+/// Why this estimate is not reliable; empty when it is.
 std::string doubt(const EstimationTask& task, const EquationRows& e, Eigen::Index k,
                   const OutputErrorFit& oe, const Estimate& found) {
   if (!found.not_identifiable.empty()) return found.not_identifiable;
@@ -304,9 +304,9 @@ JointEstimates joint_estimates_of(const OutputErrorFit& oe, const DynamicFit& fi
   std::vector<Eigen::Index> kept;
   for (std::size_t k = 0; k < oe.parameters.size(); ++k) {
     const Estimate& e = oe.parameters[k];
-    const Estimate* told = find_estimate(fit.parameters, e.name);
+    const Estimate* start = find_estimate(fit.parameters, e.name);
     if (!e.not_identifiable.empty() || !e.active_bound.empty()) continue;
-    if (told != nullptr && !told->not_identifiable.empty()) continue;
+    if (start != nullptr && !start->not_identifiable.empty()) continue;
     joint.names.push_back(e.name);
     kept.push_back(static_cast<Eigen::Index>(k));
   }

@@ -34,7 +34,7 @@ struct OutputErrorOptions {
   Eigen::VectorXd force_sd;
   double window = 2;  ///< s
   /// s, upper limit; divided so that a row is a whole number of steps. Twice as long ones leave
-  /// J_motor of the paper's rig 0.12 % too high, which 30 s of its logs can tell.
+  /// J_motor of the paper's rig 0.12 % too high, which 30 s of its logs show.
   double step = 125e-6;
   double first_step = 500e-6;  ///< until the fit has settled, and to smooth motions
   /// Rows, see FilterSettings: until the fit has settled, and at last.

@@ -70,7 +70,7 @@ struct RowModel {
   typename Of<N>::PerAxis force_sd;  ///< N m
 };
 
-/// Dry friction tells of an axis at rest, or turning round, nothing but an inequality, which the
+/// Of an axis at rest, or turning round, dry friction gives an inequality only, which the
 /// noise of the force breaks one way only: there friction counts as unknown.
 template <int N, typename Before>
 void loosen_at_rest(const SensitivePlant& plant, const OutputErrorWindow& window,

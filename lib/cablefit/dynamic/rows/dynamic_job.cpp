@@ -106,7 +106,7 @@ std::vector<EquationRows> preliminary_equations(const DynamicJob& job, int n_win
 namespace {
 
 /// Per equation the residual combinations of all models, one per column, as far as the first
-/// windows tell them.
+/// windows show them.
 std::vector<Eigen::MatrixXd> guess(const DynamicJob& job) {
   std::vector<Eigen::MatrixXd> all;
   for (const EquationRows& preliminary : preliminary_equations(job, kGuessWindows)) {

@@ -97,7 +97,7 @@ std::vector<double> choose_by_resonances(DynamicJob& job, const ElasticResult& e
   return resonances;
 }
 
-/// Of the joint that tells it best: all drives are taken to be of one kind.
+/// Of the joint that shows it best: all drives are taken to be of one kind.
 TorqueDelay find_delay(const DynamicJob& job) {
   std::optional<TorqueDelay> best;
   const int n = job.n_joints();

@@ -42,7 +42,7 @@ std::string value_taken(const std::string& choice, const RowSettings& all) {
 /// Choices that all joints share, then those that differ, by joint.
 std::vector<Decision> decisions_by_joint(const std::vector<ChosenSettings>& joints,
                                          const RowSettings& all) {
-  std::vector<Decision> told;
+  std::vector<Decision> decisions;
   const int n = static_cast<int>(joints.size());
   for (int joint = 0; joint < n; ++joint)
     for (Decision one : joints[static_cast<std::size_t>(joint)].decisions) {
@@ -52,9 +52,9 @@ std::vector<Decision> decisions_by_joint(const std::vector<ChosenSettings>& join
       const std::string taken = value_taken(one.name, all);
       if (!taken.empty() && one.value != taken) continue;
       if (!is_common && taken.empty()) one.name = joint_parameter_name(one.name, joint + 1, n);
-      if (!has(told, one)) told.push_back(std::move(one));
+      if (!has(decisions, one)) decisions.push_back(std::move(one));
     }
-  return told;
+  return decisions;
 }
 
 ChosenSettings merged(const std::vector<ChosenSettings>& joints) {

@@ -16,7 +16,7 @@ std::vector<double> sensor_noise(const DynamicJob& job, const std::vector<Equati
                                  const std::vector<Eigen::VectorXd>& combinations);
 
 /// A combination of an equation's columns without the torques of a direction: what sgn does with
-/// noise at a reversal is not told.
+/// noise at a reversal is not known.
 Eigen::VectorXd without_directions(Eigen::VectorXd combination, const DynamicColumns& columns);
 
 }  // namespace cablefit

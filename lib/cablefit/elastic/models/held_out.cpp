@@ -48,9 +48,9 @@ Eigen::VectorXd solve_constrained(const NormalEquations& n, const Eigen::MatrixX
   const double smallest = kRounding * eigen.eigenvalues().maxCoeff();
   Eigen::VectorXd root = eigen.eigenvalues(), inverse = root;
   for (Eigen::Index k = 0; k < root.size(); ++k) {
-    const bool told = root(k) > smallest;
-    root(k) = told ? std::sqrt(root(k)) : 0;
-    inverse(k) = told ? 1 / root(k) : 0;
+    const bool is_determined = root(k) > smallest;
+    root(k) = is_determined ? std::sqrt(root(k)) : 0;
+    inverse(k) = is_determined ? 1 / root(k) : 0;
   }
   const Eigen::MatrixXd v = eigen.eigenvectors().transpose();
   return n.scale.cwiseProduct(constrained_least_squares(root.asDiagonal() * v,

@@ -70,7 +70,7 @@ BlockedRows rows_where(const BlockedRows& rows, const KeepRow& keep);
 /// Motion of the joint (from 0) in both directions: the direction column is not (nearly) a
 /// constant.
 bool has_both_branches(const BlockedRows& rows, int joint = 0);
-/// Speeds vary enough to tell viscous from static friction of the motor.
+/// Speeds vary enough to separate viscous from static friction of the motor.
 bool speed_tells_more(const BlockedRows& rows, int joint = 0);
 
 /// The same cables with these orders, one per cable (as far as their laws go).

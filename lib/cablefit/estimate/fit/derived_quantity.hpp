@@ -32,7 +32,7 @@ struct DerivedQuantity {
 
 /// The quantity by the delta method, sd^2 = g' covariance g (Fisher 1922; Oehlert 1992), with the
 /// gradient g by central differences of a hundredth of an sd: what is curved over less than an sd
-/// has no such sd. sd_white is left out: covariance is that of the estimates one stands behind.
+/// has no such sd. sd_white is left out: covariance is the robust one.
 Estimate derive(const DerivedQuantity& quantity, const JointEstimates& from);
 
 }  // namespace cablefit

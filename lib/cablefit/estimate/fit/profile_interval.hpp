@@ -1,6 +1,6 @@
 // The interval of a quantity where bounds and constraints take part, by its profile likelihood:
-// there the covariance, which knows no inequality, says little (Venzon & Moolgavkar 1988; Raue et
-// al. 2009, Bioinformatics 25:1923).
+// there the covariance, which has no inequality in it, says little (Venzon & Moolgavkar 1988; Raue
+// et al. 2009, Bioinformatics 25:1923).
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// One standard deviation to stand behind, chosen among white, HAC and block bootstrap by a rule.
+// One standard deviation, chosen among white, HAC and block bootstrap by a rule.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// What the rows of an equation can tell apart, before and whatever the response: scaled condition
+// What the rows of an equation can separate, before and whatever the response: scaled condition
 // number, singular directions and correlations, in words.
 #pragma once
 
@@ -45,7 +45,7 @@ Identifiability identifiability(const Eigen::MatrixXd& columns, Eigen::Index n_r
 /// of the columns.
 std::string hardly_apart(const NamedColumn& a, double rms_a, const NamedColumn& b, double rms_b,
                          double correlation);
-/// Estimates that correlate by more than this are told.
+/// Estimates that correlate by more than this are reported.
 inline constexpr double kCorrelationTold = 0.95;  // estimation-rules: warn above
 
 /// Why the parameter `self` alone is not determined, of a direction (scaled parameters) that the

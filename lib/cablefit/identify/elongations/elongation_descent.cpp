@@ -32,7 +32,7 @@ std::vector<bool> movable(const JointFit& fit, std::size_t job,
   return moves;
 }
 
-/// Coefficients about which to linearise: far from equilibrium those that keep it tell nothing.
+/// Coefficients about which to linearise: far from equilibrium those that keep it show nothing.
 struct Pivot {
   Eigen::VectorXd x;
   bool near = false;

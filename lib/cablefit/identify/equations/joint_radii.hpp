@@ -13,7 +13,7 @@ Eigen::VectorXd searched_radii(const JointFit& fit);
 
 void set_radii(const Eigen::VectorXd& radii, std::vector<PreloadJob>& jobs);
 
-/// The fit with these radii instead; it knows no rows.
+/// The fit with these radii instead; it has no rows.
 JointFit with_radii(JointFit fit, const Eigen::VectorXd& radii);
 
 /// The motor radii of the jobs where the logs show the reduction: theta runs through N q when q

@@ -21,7 +21,7 @@ class ChanceGains {
   ChanceTail tail_of_search(double gain) const;
 
   /// The same of one row's gain. Of what is always there two ways, and twice the smaller
-  /// (Bonferroni; not where no draws could tell less): as it is, and in units of what its own row
+  /// (Bonferroni; not where no draws could show less): as it is, and in units of what its own row
   /// gains under the null, as rows that act where one equation has a disturbance gain much and the
   /// others do not (studentized maximum; Westfall & Young 1993). Events compete with events.
   ChanceTail tail(const Effect& row, double share) const;

@@ -41,7 +41,7 @@ struct KeptBase {
 std::string taken_out(const Effect& row);
 
 /// Nonlinear parameters of the effects follow the rows. What is beyond its physical bound in these
-/// is taken out, with a warning. Throws Error(not_identifiable) where the rows do not tell an
+/// is taken out, with a warning. Throws Error(not_identifiable) where the rows do not determine an
 /// effect from the other columns.
 KeptBase fit_kept_base(std::span<const Model> models, std::vector<Stretch> stretches,
                        const Smoothing& smoothing, const ScanSettings& settings);

@@ -208,15 +208,15 @@ BlockGrams with_columns(const BlockGrams& grams, const std::vector<Eigen::Index>
 std::vector<Eigen::Index> determined_columns(const BlockGrams& grams, const KindLevels& levels,
                                              Eigen::Index n, double least) {
   const Eigen::MatrixXd total = weighted_sum(grams, levels);
-  std::vector<Eigen::Index> told, at = {0};
+  std::vector<Eigen::Index> determined, at = {0};
   for (Eigen::Index column = 0; column < grams.n_columns; ++column) {
     at.push_back(1 + column);
     if (column >= n && !solve_normal(total(at, at), false, {least, 1}))
       at.pop_back();
     else
-      told.push_back(column);
+      determined.push_back(column);
   }
-  return told;
+  return determined;
 }
 
 Eigen::MatrixXd weighted_sum(const BlockGrams& grams, const KindLevels& levels) {

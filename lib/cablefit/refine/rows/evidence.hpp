@@ -48,7 +48,7 @@ BlockGrams replaced(const BlockGrams& base, const std::vector<StretchRows>& rows
 /// The columns of these numbers, in this order.
 BlockGrams with_columns(const BlockGrams& grams, const std::vector<Eigen::Index>& which);
 
-/// The first n columns, and of those after them the ones that the rows can tell from all before,
+/// The first n columns, and of those after them the ones that the rows separate from all before,
 /// with a squared part of their own (of unit norm) of at least `least`.
 std::vector<Eigen::Index> determined_columns(const BlockGrams& grams, const KindLevels& levels,
                                              Eigen::Index n, double least = 0);
@@ -78,7 +78,7 @@ struct OwnPart {
   Eigen::Index n_last = 0;
 };
 
-/// None where the columns cannot be told apart.
+/// None where the columns are not separable.
 std::optional<BlockFit> fit_blocks(const BlockGrams& grams, const KindLevels& levels,
                                    bool with_held_out = true, const OwnPart& own = {});
 

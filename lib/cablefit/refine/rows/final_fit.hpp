@@ -10,7 +10,7 @@ namespace cablefit {
 /// what was added that was looked for on a range, in order; then of the dates of events.
 struct FinalFit {
   Eigen::VectorXd x;              ///< linear columns
-  Eigen::MatrixXd covariance;     ///< jackknife over blocks; NaN for what rows do not tell
+  Eigen::MatrixXd covariance;     ///< jackknife over blocks; NaN for what rows do not determine
   double degrees_of_freedom = 1;  ///< blocks less parameters, for t quantiles
   KindLevels rms{};
 };

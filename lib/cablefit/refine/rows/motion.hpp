@@ -24,8 +24,8 @@ struct Smoothing {
   double least_speed_blocked = 0;                   ///< of theta, while the link is blocked
 };
 
-/// In widths of the columns' kernel. Rows at this distance tell of slow signals what denser ones
-/// tell, and of the edges of fast ones nearly that. A candidate is evaluated more often than the
+/// In widths of the columns' kernel. Rows at this distance show of slow signals what denser ones
+/// show, and of the edges of fast ones nearly that. A candidate is evaluated more often than the
 /// kernel alone needs: noise of accelerations would fold into its columns.
 inline constexpr double kRowSpacing = 1.6, kEvaluationSpacing = 0.5;
 

@@ -76,7 +76,7 @@ void set_effect_estimates(const Design& design, const FinalFit& fit, Model& mode
   }
 }
 
-/// The coefficients that the file tells of stage 1, as far as there are; a cable that got a higher
+/// The coefficients that the file has of stage 1, as far as there are; a cable that got a higher
 /// order has more than stage 1 knew.
 void set_elastic_estimates(const Design& design, const FinalFit& fit, Model& model) {
   if (model.rigid) return;
@@ -129,7 +129,7 @@ std::optional<EffectInstance> as_state(EffectInstance instance) {
   return instance;
 }
 
-/// Names of what FinalFit tells, in its order; empty: a parameter that no model file has.
+/// Names of the values of FinalFit, in its order; empty: a parameter that no model file has.
 std::vector<std::string> fitted_names(const Design& design) {
   std::vector<std::string> names;
   for (const ModelParameter& p : design.layout.parameters) names.push_back(p.name);

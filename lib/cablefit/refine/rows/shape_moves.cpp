@@ -91,12 +91,14 @@ std::optional<ValueChange> change_to_fit(const Design& design, const Eigen::Vect
   }
   const BlockGrams grams = block_grams(rows, design.stretches, block_seconds);
   if (grams.n_columns < x.size()) return {};
-  const std::vector<Eigen::Index> told = determined_columns(grams, levels, x.size(), kOwnPart);
-  const auto fit = fit_blocks(with_columns(grams, told), levels, false);
+  const std::vector<Eigen::Index> determined =
+      determined_columns(grams, levels, x.size(), kOwnPart);
+  const auto fit = fit_blocks(with_columns(grams, determined), levels, false);
   if (!fit) return {};
   change.x = fit->x.head(x.size()) - x;
-  for (std::size_t i = static_cast<std::size_t>(x.size()); i < told.size(); ++i)
-    change.shapes(static_cast<Eigen::Index>(moving[static_cast<std::size_t>(told[i] - x.size())])) =
+  for (std::size_t i = static_cast<std::size_t>(x.size()); i < determined.size(); ++i)
+    change.shapes(
+        static_cast<Eigen::Index>(moving[static_cast<std::size_t>(determined[i] - x.size())])) =
         fit->x(static_cast<Eigen::Index>(i));
   return change;
 }

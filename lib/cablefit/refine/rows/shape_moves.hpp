@@ -35,8 +35,8 @@ struct ValueChange {
 };
 
 /// From x and the design's shapes to what fits its rows best, weighted by 1/level^2: one step of
-/// Gauss & Newton in the shapes. Those that cannot be told from the columns stay, as do those of
-/// `fixed`. Nothing where the columns cannot be told apart.
+/// Gauss & Newton in the shapes. Those that are not separable from the columns stay, as do those of
+/// `fixed`. Nothing where the columns are not separable.
 std::optional<ValueChange> change_to_fit(const Design& design, const Eigen::VectorXd& x,
                                          const KindLevels& levels, double block_seconds,
                                          bool (*fixed)(const Effect& row));

@@ -6,7 +6,7 @@
 namespace cablefit {
 
 /// Whether a row of the catalogue may be named from these rows: any with moving logs, else those
-/// that a blocked link can tell apart.
+/// that a blocked link can separate.
 bool is_candidate(const Effect& effect, const Design& design);
 
 }  // namespace cablefit

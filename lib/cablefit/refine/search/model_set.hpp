@@ -14,7 +14,7 @@ namespace cablefit {
 /// refine added to one; other effects of that are part of it.
 void require_model_set(std::span<const Model> models);
 
-/// Those whose preload is in the logs; all of them when none is, so that the mismatch is told.
+/// Those whose preload is in the logs; all of them when none is, so that the mismatch is reported.
 std::vector<Model> models_with_logs(std::vector<Model> models, std::span<const LogSurvey> logs);
 
 }  // namespace cablefit

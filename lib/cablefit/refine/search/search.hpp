@@ -5,7 +5,7 @@
 
 namespace cablefit {
 
-/// Whether two rows are of one alias class, which no data tell apart. The same law on the link and
+/// Whether two rows are of one alias class, which no data separate. The same law on the link and
 /// on the motor is two.
 bool same_class(const Effect& a, const Effect& b);
 
@@ -20,7 +20,7 @@ struct Search {
 };
 
 /// Every row but those already named and their aliases. Rows are weighted by the floor first, then
-/// by what the best candidate leaves: a large unexplained part of one equation would drown the
+/// by what the best candidate leaves: a large unexplained part of one equation would hide the
 /// other.
 /// Throws Error(not_identifiable) when the design itself is singular.
 Search search(const Design& design, const KindLevels& floor, const ScanSettings& settings);

@@ -28,12 +28,13 @@ std::vector<Model> with_determined_effects(std::vector<Model> models,
   const Design design = make_design(without_kept(models), stretches, smoothing);
   const BlockGrams grams = block_grams(design, block_seconds);
   if (fit_blocks(grams, kAlike, false)) return models;
-  const std::vector<Eigen::Index> told = determined_columns(grams, kAlike, 0);
+  const std::vector<Eigen::Index> determined = determined_columns(grams, kAlike, 0);
   std::vector<Model> fewer = models;
   std::vector<std::string> held;
   const JointModel& axes = models.front().joints.front();
   for (std::size_t k = 0; k < design.layout.parameters.size(); ++k) {
-    if (std::binary_search(told.begin(), told.end(), static_cast<Eigen::Index>(k))) continue;
+    if (std::binary_search(determined.begin(), determined.end(), static_cast<Eigen::Index>(k)))
+      continue;
     const ModelParameter& p = design.layout.parameters[k];
     if (p.kind != ParameterKind::effect || is_inertia(models.front(), p)) return models;
     remove_effect(*(p.on_link ? axes.link : axes.motor)[p.effect].effect, p.on_link, fewer);

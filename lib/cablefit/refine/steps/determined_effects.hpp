@@ -7,7 +7,7 @@
 namespace cablefit {
 
 /// The models without the friction and offset of the base that the rows do not separate from what
-/// stands before them (inertia, viscous and dry friction, offset, in this order); `warnings` tells
+/// stands before them (inertia, viscous and dry friction, offset, in this order); `warnings` says
 /// each. The models themselves where all is determined, or where that does not help.
 std::vector<Model> with_determined_effects(std::vector<Model> models,
                                            const std::vector<Stretch>& stretches,

@@ -52,8 +52,9 @@ double sd_better(const RefineBench& bench, const RefineState& before, const Refi
   return paired(both.select(a.squares, 0), both.select(b.squares, 0)).in_sd();
 }
 
-/// Of the last effect's coefficients, with the sandwich over the blocks, whose residuals may wander
-/// (White 1980), and as few as there are (Hotelling 1931). 0 for what has none.
+/// Of the last effect's coefficients, with the sandwich over the blocks, whose residuals may have a
+/// low-frequency disturbance (White 1980), and as few as there are (Hotelling 1931). 0 for what has
+/// none.
 double chance_of_size(const RefineBench& bench, const RefineState& after) {
   const Eigen::Index n = n_linear(after.design.added.back());
   if (n == 0) return 0;
@@ -216,14 +217,13 @@ void name_first_again(RefineBench& bench, Chain& chain, RefineResult& result) {
     return;
   }
   const Effect& row = *trial->winner.variant.effect;
-  if (&row == state.design.added[bench.n_kept].effect) {
-    // Fewer: the second no longer blurs it.
-    result.effects.front().rivals = trial->judgement.rivals;
-    return;
-  }
-  if (is_tie(trial->after) &&
+  const bool is_same = &row == state.design.added[bench.n_kept].effect;
+  const bool explains_more = alone.after.rho < chain[chain.size() - 2].rho;
+  if ((!is_same || explains_more) && is_tie(trial->after) &&
       why_not_added(change_of(bench, row, alone.after, trial->after)).empty())
     take_both(bench, std::move(alone), std::move(*trial), chain, result);
+  else if (is_same)  // fewer: the second no longer blurs it
+    result.effects.front().rivals = trial->judgement.rivals;
 }
 
 void begin_otherwise(RefineBench& bench, Chain& chain, RefineResult& result) {

@@ -29,8 +29,8 @@ RefineStage stage_of(std::span<const Model> models, const RefineLogs& logs);
 /// motion to stand out of the encoder's noise.
 Smoothing blocked_smoothing(std::span<const Model> models, const std::vector<Stretch>& stretches);
 
-/// The models without the motor's effects that these logs do not show: columns that cannot be told
-/// from the others, and inertias and frictions that are negative or lost in their sd.
+/// The models without the motor's effects that these logs do not show: columns that cannot be
+/// separated from the others, and inertias and frictions that are negative or lost in their sd.
 std::vector<Model> with_visible_effects(std::vector<Model> models,
                                         const std::vector<Stretch>& stretches,
                                         const Smoothing& smoothing, double block_seconds);

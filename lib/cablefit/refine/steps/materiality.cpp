@@ -60,8 +60,8 @@ MeanSquare mean_square(const BlockGrams& grams, const Eigen::VectorXd& x, std::s
 double noise_of(const Design& design, RowKind kind, double floor) {
   const auto& sensors = design.models.front().rig.sensors;
   const auto tau = sensors.find("tau");
-  const bool told = kind != RowKind::link && tau != sensors.end() && tau->second.noise;
-  return told ? *tau->second.noise : floor;
+  const bool is_given = kind != RowKind::link && tau != sensors.end() && tau->second.noise;
+  return is_given ? *tau->second.noise : floor;
 }
 
 }  // namespace

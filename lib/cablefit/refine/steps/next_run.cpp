@@ -32,7 +32,7 @@ BlockGrams grams_of(const Design& design) {
   return block_grams(design.rows, design.stretches, kBlockSeconds);
 }
 
-/// The rival fitted to its logs and the run together: what it cannot bend to is what tells it
+/// The rival fitted to its logs and the run together: what it cannot bend to is what separates it
 /// apart. Its first values where that is singular.
 Eigen::VectorXd refitted(const Fitted& fitted, const Design& trial, const KindLevels& floor) {
   BlockGrams both = grams_of(trial);
@@ -115,7 +115,7 @@ std::string times(double ratio) {
   return ratio < 10 ? fmt::format("{:.1f} times", ratio) : fmt::format("{:.0f} times", ratio);
 }
 
-/// The rivals of the first effect that a run could tell from it.
+/// The rivals of the first effect that a run could separate from it.
 void separate_rivals(const NextRunInput& input, RefineResult& result) {
   const NamedEffect& named = result.effects.front();
   const Effect& row = *named.instance.effect;
@@ -143,10 +143,10 @@ std::string separated(const NotSeparable& group) {
     return std::find(group.still_together.begin(), group.still_together.end(), name) !=
            group.still_together.end();
   };
-  std::vector<std::string> told, left;
-  for (const std::string& name : group.effects) (is_left(name) ? left : told).push_back(name);
-  if (told.empty() || left.empty()) return fmt::format("{}", fmt::join(group.effects, ", "));
-  return fmt::format("{} from {}", fmt::join(told, ", "), fmt::join(left, ", "));
+  std::vector<std::string> separate, left;
+  for (const std::string& name : group.effects) (is_left(name) ? left : separate).push_back(name);
+  if (separate.empty() || left.empty()) return fmt::format("{}", fmt::join(group.effects, ", "));
+  return fmt::format("{} from {}", fmt::join(separate, ", "), fmt::join(left, ", "));
 }
 
 /// The run that most groups ask for, the cheapest of those.

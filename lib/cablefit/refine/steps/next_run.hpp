@@ -1,4 +1,4 @@
-// The run that would tell a named effect from its rivals. Internal to refine/.
+// The run that would separate an identified effect from its rivals. Internal to refine/.
 #pragma once
 
 #include <optional>
@@ -36,8 +36,8 @@ struct NextRunInput {
   const std::vector<TrialRun>& runs;
 };
 
-/// Fills next_experiment and next_run: the run that tells the first effect from its rivals, with
-/// numbers; without rivals the one that tells apart most of what these logs cannot.
+/// Fills next_experiment and next_run: the run that separates the first effect from its rivals,
+/// with numbers; without rivals the one that separates most of what these logs cannot.
 void choose_next_run(const NextRunInput& input, RefineResult& result);
 
 }  // namespace cablefit

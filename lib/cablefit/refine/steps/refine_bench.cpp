@@ -117,8 +117,9 @@ KindMemory memory_with(const Design& design, const BlockFit& fit, const Candidat
   return both ? memory_of(with, both->x) : memory_of(design, fit.x);
 }
 
-/// The candidate whose remainder is that of the logs. Some date explains a little of whatever
-/// wanders; an event counts where it explains most of a gap, and more than what is always there.
+/// The candidate whose remainder is that of the logs. Some date explains a little of any
+/// low-frequency disturbance; an event counts where it explains most of a gap, and more than what
+/// is always there.
 const Candidate* best_explaining(const Search& found, const KindLevels& floor) {
   constexpr double kMost = 0.5;
   const Candidate* best = best_lasting(found.candidates);
@@ -151,7 +152,7 @@ void disturb_null(RefineBench& bench, const RefineState& state, const Search& fo
       as_disturbance(corrected(guess, left, mean_of(drawn)), !bench.elastic_only));
 }
 
-/// What one block alone tells no other block can confirm: it does not judge.
+/// What one block alone determines no other block can confirm: it does not judge.
 void check_blocks(const BaseFit& base, double block_seconds, RefineResult& result) {
   const Eigen::Index alone = base.fit.alone.count();
   if (alone == 0) return;

@@ -43,7 +43,7 @@ bool is_stray_event(const HeldOutChange& change) {
 }
 
 /// Little of a visible gap, most of which stays, and sure neither here nor there. Where most of it
-/// goes a few blocks may carry that, and an sd over blocks tells nothing.
+/// goes a few blocks may carry that, and an sd over blocks means nothing.
 bool is_small_gain(const HeldOutChange& change) {
   const double gone = change.rho_before - change.rho_after;
   return change.leaves_remainder && change.rho_before > kVisibleGap &&

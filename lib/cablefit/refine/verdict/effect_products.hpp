@@ -1,5 +1,5 @@
 // What the effects of the catalogue do to the rows of a design: products of their columns with each
-// other and with the base's, of which everything that can be told apart follows. Internal to
+// other and with the base's, from which it follows what is separable. Internal to
 // refine/.
 #pragma once
 

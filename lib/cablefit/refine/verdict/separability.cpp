@@ -63,7 +63,7 @@ std::vector<Group> groups_of(const Distances& distances, const std::vector<std::
   return groups;
 }
 
-/// Whether any log of the usual kind could tell any two of them apart.
+/// Whether any log of the usual kind could separate any two of them.
 bool are_aliases(const std::vector<Family>& families, const Group& group) {
   const std::string_view name = families[group.front()].row->alias_class;
   return !name.empty() && std::all_of(group.begin(), group.end(), [&](std::size_t f) {
@@ -75,7 +75,7 @@ std::string name_of(const Effect& row) {
   return fmt::format("{} ({})", row.name, to_string(row.site));
 }
 
-/// One group, and whether it is from the base or from each other that it cannot be told.
+/// One group, and whether it is from the base or from each other that it is not separable.
 struct Open {
   Group group;  ///< of families
   bool from_base = false;
@@ -170,10 +170,10 @@ std::vector<NotSeparable> find_not_separable(const Design& design, const Eigen::
   for (Group& group : groups_of(distances, able, least)) open.push_back({std::move(group), false});
   std::vector<NotSeparable> out;
   for (const Open& one : open) {
-    NotSeparable& told = out.emplace_back();
-    for (const std::size_t f : one.group) told.effects.push_back(name_of(*families[f].row));
-    told.from_base = one.from_base;
-    told.is_alias = are_aliases(families, one.group);
+    NotSeparable& group = out.emplace_back();
+    for (const std::size_t f : one.group) group.effects.push_back(name_of(*families[f].row));
+    group.from_base = one.from_base;
+    group.is_alias = are_aliases(families, one.group);
   }
   advise(std::move(open), families, design, values, floor, least, runs, threads, out);
   return out;

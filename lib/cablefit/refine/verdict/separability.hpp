@@ -1,4 +1,4 @@
-// Which effects these logs could tell apart at all, from the equations' columns alone, before the
+// Which effects these logs could separate at all, from the equations' columns alone, before the
 // residual is looked at: an effect of a size that matters, fitted by the model's own parameters or
 // by another effect, must leave more than noise does. Internal to refine/.
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace cablefit {
 
-/// Groups that cannot be told apart, and for each the cheapest run (of trial_runs) that would.
+/// Groups that are not separable, and for each the cheapest run (of trial_runs) that would.
 /// `x`: values of the design's columns. `floor`: per kind of row.
 std::vector<NotSeparable> find_not_separable(const Design& design, const Eigen::VectorXd& x,
                                              const KindLevels& floor,

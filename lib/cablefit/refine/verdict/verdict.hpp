@@ -10,7 +10,7 @@
 
 namespace cablefit {
 
-/// What one search tells.
+/// Result of one search.
 struct Judgement {
   const Candidate* best = nullptr;  ///< the largest gain of all that may be named; nullptr: none
   ChanceTail chance;                ///< of the best

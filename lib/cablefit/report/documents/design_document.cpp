@@ -167,7 +167,7 @@ Table friction_table(const Words& words) {
   return table;
 }
 
-/// Nothing where the model knows no covariance.
+/// Nothing where the model has no covariance.
 Table spread_table(const Words& words) {
   Table table = table_of(words, "Standard deviations of the design",
                          {{"closure torque", "", words.torque},

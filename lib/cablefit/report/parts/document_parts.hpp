@@ -67,7 +67,7 @@ void add_counts(Table& table, const std::string& preload, const std::string& equ
                 const RowCounts& rows, const WindowCounts& windows);
 
 /// Columns and rows of the table of both sd. `where`: titles, and then cells, of what the fits are
-/// told apart by. Parameters that are not identifiable have no row.
+/// distinguished by. Parameters that are not identifiable have no row.
 Table both_sd_table(const std::vector<std::string>& where);
 void add_sd_rows(Table& table, const std::vector<std::string>& where,
                  const std::vector<Estimate>& parameters);

@@ -31,8 +31,8 @@ std::string percent(double share) {
 
 /// Whether it says nothing new: the same kind of variable, or (theta, and theta - q of a blocked
 /// link) the same stretch.
-bool is_given(const Regime& regime, const std::vector<Regime>& told) {
-  return std::any_of(told.begin(), told.end(), [&](const Regime& other) {
+bool is_listed(const Regime& regime, const std::vector<Regime>& listed) {
+  return std::any_of(listed.begin(), listed.end(), [&](const Regime& other) {
     constexpr double kSame = 1e-3;
     const double slack = kSame * (regime.to - regime.from);
     return other.regime == regime.regime ||
@@ -44,11 +44,11 @@ bool is_given(const Regime& regime, const std::vector<Regime>& told) {
 /// The places that stand out most, each by another kind of variable.
 std::vector<SummaryLine> where_lines(const RefineResult& result) {
   std::vector<SummaryLine> lines;
-  std::vector<Regime> told;
+  std::vector<Regime> listed;
   for (const Regime& r : result.where) {
-    if (told.size() == kPlaces) break;
-    if (is_given(r, told)) continue;
-    told.push_back(r);
+    if (listed.size() == kPlaces) break;
+    if (is_listed(r, listed)) continue;
+    listed.push_back(r);
     lines.push_back(
         {lines.empty() ? "where" : "and",
          fmt::format("{} equation, {}: {} of its squared gap in {} of its {}; {} {} rms "

@@ -8,7 +8,7 @@
 
 namespace cablefit::result_json {
 
-/// What `item_json` makes of each item; a pointer, so that one of several overloads can be told.
+/// What `item_json` makes of each item; a pointer, so that one of several overloads can be chosen.
 /// `List` is Json, which is only declared here.
 template <typename Item, typename List = Json>
 List list_of(const std::vector<Item>& items,

@@ -64,7 +64,7 @@ void choose_rest_speed(ChosenSettings& chosen, const SampleOptions& options, dou
     chosen.rest_speed_theta = *options.rest_speed;
     decide(chosen, "rest speed", fmt::format("{:.3g}", chosen.rest_speed_theta), kByOption);
   } else if (unseen > kSlowShare * sweep) {
-    // Too slow for the encoder to tell motion from rest row by row: the direction of the last
+    // Too slow for the encoder to separate motion from rest row by row: the direction of the last
     // motion is all there is, and it is enough for the branch.
     chosen.rest_speed_theta = 0;
     decide(

@@ -314,10 +314,10 @@ std::vector<std::string> mending_warnings(const LogPlan& plan, const MendedCount
 /// "'tau', 'q'": the columns without a single number.
 std::string empty_columns(const LogPlan& plan, const MendedCounts& counts) {
   const std::vector<std::size_t> columns = plan.numeric_columns();
-  std::set<std::size_t> told;  // two channels may be read from one column
+  std::set<std::size_t> counted;  // two channels may be read from one column
   std::string names;
   for (std::size_t k = 0; k < columns.size(); ++k)
-    if (counts.cells_missing[k] == counts.n_rows() && told.insert(columns[k]).second)
+    if (counts.cells_missing[k] == counts.n_rows() && counted.insert(columns[k]).second)
       names += (names.empty() ? "" : ", ") + cablefit::quoted(plan.header.columns[columns[k]].name);
   return names;
 }

@@ -34,41 +34,42 @@ constexpr std::array<WeighingRow, 14> kWeighings = {{{weighing::clock, true, tru
                                                      {weighing::duplicates, false, false},
                                                      {weighing::overlaps, true, false}}};
 
-/// One rig file's mistake shows in each of its logs; it is told of the first.
+/// One rig file's mistake shows in each of its logs; it is reported of the first.
 std::string with_count(const std::string& what, std::size_t others) {
   if (others == 0) return what;
   return fmt::format("{} (and {} more log{})", what, others, others == 1 ? "" : "s");
 }
 
 /// Whether another log with the same rig file and the same kind of parts is right as it is.
-bool others_are_right(const std::vector<LogSurvey>& logs, const std::set<std::size_t>& told,
+bool others_are_right(const std::vector<LogSurvey>& logs, const std::set<std::size_t>& reported,
                       const Finding& finding) {
   if (finding.whole_rig) return false;
   const LogSurvey& wrong = logs[finding.log];
   for (std::size_t k = 0; k < logs.size(); ++k)
-    if (!told.contains(k) && logs[k].plan.rig.path == wrong.plan.rig.path &&
+    if (!reported.contains(k) && logs[k].plan.rig.path == wrong.plan.rig.path &&
         has_phase(logs[k], Phase::moving) == has_phase(wrong, Phase::moving))
       return true;
   return false;
 }
 
-std::string remedy_of(const std::vector<LogSurvey>& logs, const std::set<std::size_t>& told,
+std::string remedy_of(const std::vector<LogSurvey>& logs, const std::set<std::size_t>& reported,
                       const Finding& finding) {
-  if (finding.row || !finding.wrong || !others_are_right(logs, told, finding))
+  if (finding.row || !finding.wrong || !others_are_right(logs, reported, finding))
     return finding.remedy;
   return finding.remedy + "; of this log alone: give it a folder and a rig.json of its own";
 }
 
 void take(std::vector<LogSurvey>& logs, const weighing::Findings& findings, bool only_first) {
-  std::set<std::size_t> told, warned;  // one odd thing of each log is enough
-  for (const Finding& finding : findings) told.insert(finding.log);
+  std::set<std::size_t> reported, warned;  // one odd thing of each log is enough
+  for (const Finding& finding : findings) reported.insert(finding.log);
   for (const Finding& finding : findings) {
     LogSurvey& log = logs[finding.log];
     if (!finding.wrong && !warned.insert(finding.log).second) continue;
     const std::string what =
-        with_count(finding.what, only_first && finding.wrong ? told.size() - 1 : 0);
+        with_count(finding.what, only_first && finding.wrong ? reported.size() - 1 : 0);
     const std::uint64_t line = finding.row ? line_of_row(log.plan, *finding.row) : 0;
-    const Error error = input_error({log.plan.path, line, 0}, what, remedy_of(logs, told, finding));
+    const Error error =
+        input_error({log.plan.path, line, 0}, what, remedy_of(logs, reported, finding));
     if (finding.always_refused || (finding.wrong && !log.plan.reading.trust_units)) throw error;
     log.warnings.emplace_back(error.what());
     log.has_trusted_finding = log.has_trusted_finding || (finding.wrong && only_first);
