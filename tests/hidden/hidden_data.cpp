@@ -10,6 +10,7 @@
 
 #include "real.hpp"
 #include "user_log.hpp"
+#include "varied_rig.hpp"
 #include "write.hpp"
 
 namespace {
@@ -131,6 +132,12 @@ int main(int argc, char** argv) try {
       user.quantum_q = user.quantum_theta = bits > 0 ? 2 * std::numbers::pi / std::exp2(bits) : 0;
     write_user_rig(out, user);
   });
+
+  std::uint64_t varied_seed = 1;
+  auto& varied = *app.add_subcommand("varied", "an effect-free rig of any size, logged in any way");
+  varied.add_option("--out", out, "folder")->required();
+  varied.add_option("--seed", varied_seed, "rig, motion, noise");
+  varied.callback([&] { write_varied_rig(out, varied_seed); });
 
   CLI11_PARSE(app, argc, argv);
   return 0;

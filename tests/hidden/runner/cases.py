@@ -4,7 +4,7 @@ import random
 import subprocess
 import zlib
 
-SETS = ("controls", "poor", "slow", "effects", "outside", "pairs", "clutter", "one_load", "preloads",
+SETS = ("controls", "varied", "poor", "slow", "effects", "outside", "pairs", "clutter", "one_load", "preloads",
         "real")
 FLAGSHIP = "tension_friction.link=5"  # mu 0.2: Table 2's link friction, 3.3 to 7.0 N m with preload
 
@@ -112,6 +112,8 @@ def all_cases(options):
         design, options.seeds, options.controls, options.sizes = "short", 1, 8, "1"
     makers = {
         "controls": lambda: controls(options, rows, design),
+        "varied": lambda: (case("varied", seed, design="varied")
+                           for seed in range(1, max(1, options.controls // 4) + 1)),
         "poor": lambda: free("poor", options, design, poor_sensors=True),
         "slow": lambda: free("slow", options, design, slow_noise=0.08),
         "effects": lambda: per_size("effects", options, named, design),
@@ -124,6 +126,6 @@ def all_cases(options):
         "real": lambda: real(options, table) if options.shared else (),
     }
     wanted = options.sets.split(",")
-    chosen = [list(makers[name]() if name == "real" else half_without_controller(makers[name]()))
+    chosen = [list(makers[name]() if name in ("real", "varied") else half_without_controller(makers[name]()))
               for name in SETS if name in wanted]
     return [one for some in chosen for one in (spread(some, REDUCED) if options.reduced else some)]

@@ -23,6 +23,8 @@ def make(case, options, folder, extra=()):
     if case["kind"] == "real":
         words = ["plant", "--data", options.shared, "--set", case["set"], "--effect", case["effect"],
                  "--ratio", str(case["ratio"])]
+    elif case["kind"] == "varied":
+        words = ["varied"]
     else:
         words = ["case", "--design", case["design"]]
         for effect in case["effects"]:
