@@ -54,7 +54,7 @@ std::string campaign_name(const InitCommand& command) {
 std::string_view reason_of(const UnreadLog& log) {
   const std::string_view problem = log.problem;
   const std::size_t at = problem.find(log.path);
-  return at == problem.npos ? problem : problem.substr(at + log.path.size());
+  return at == std::string_view::npos ? problem : problem.substr(at + log.path.size());
 }
 
 /// Each reason once, with the first log that it is of.

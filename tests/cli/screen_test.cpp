@@ -27,7 +27,6 @@ TEST_CASE("what a terminal shows of the shipped examples fits on it") {
   for (const char* command :
        {"cablefit study data/low/*.csv --draws 4", "cablefit check data/low/*.csv",
         "cablefit check data/low/*.csv data/high/*.csv",
-        "cablefit identify data/low/*.csv data/high/*.csv",
         "cablefit elastic data/low/blocked.csv data/high/blocked.csv",
         "cablefit dynamic data/low/moving*.csv data/high/moving*.csv",
         "cablefit dynamic data/low/moving_load30.csv --validate data/low/moving_load-40.csv",

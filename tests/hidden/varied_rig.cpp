@@ -213,7 +213,8 @@ void write_varied_rig(const std::filesystem::path& folder, std::uint64_t seed) {
   std::ofstream(folder / "rig.json") << R"({"schema": "cablefit/rig/1"})" << '\n';
   const nlohmann::ordered_json truth{{"schema", "hidden/truth/1"},
                                      {"effects", nlohmann::json::array()},
-                                     {"expected", "none"},
+                                     {"clutter", 0},
+      {"expected", "none"},
                                      {"logs",
                                       {{"blocked", {"blocked.csv"}},
                                        {"train", {"up.csv", "down.csv", "free.csv"}},

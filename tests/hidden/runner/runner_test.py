@@ -216,7 +216,7 @@ class Whole(unittest.TestCase):
     def test_usage(self):
         done = self.run_stub("x", "none", sets="control")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("no set control; there are: controls, poor, slow, effects, outside", done.stderr)
+        self.assertIn("no set control; there are: controls, varied, poor, slow, effects, outside", done.stderr)
 
 
 if __name__ == "__main__":
