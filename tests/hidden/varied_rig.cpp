@@ -214,7 +214,7 @@ void write_varied_rig(const std::filesystem::path& folder, std::uint64_t seed) {
   const nlohmann::ordered_json truth{{"schema", "hidden/truth/1"},
                                      {"effects", nlohmann::json::array()},
                                      {"clutter", 0},
-      {"expected", "none"},
+                                     {"expected", "none"},
                                      {"logs",
                                       {{"blocked", {"blocked.csv"}},
                                        {"train", {"up.csv", "down.csv", "free.csv"}},
