@@ -217,13 +217,14 @@ void name_first_again(RefineBench& bench, Chain& chain, RefineResult& result) {
     return;
   }
   const Effect& row = *trial->winner.variant.effect;
-  const bool is_same = &row == state.design.added[bench.n_kept].effect;
-  const bool explains_more = alone.after.rho < chain[chain.size() - 2].rho;
-  if ((!is_same || explains_more) && is_tie(trial->after) &&
+  if (&row == state.design.added[bench.n_kept].effect) {
+    // Fewer: the second no longer blurs it.
+    result.effects.front().rivals = trial->judgement.rivals;
+    return;
+  }
+  if (is_tie(trial->after) &&
       why_not_added(change_of(bench, row, alone.after, trial->after)).empty())
     take_both(bench, std::move(alone), std::move(*trial), chain, result);
-  else if (is_same)  // fewer: the second no longer blurs it
-    result.effects.front().rivals = trial->judgement.rivals;
 }
 
 void begin_otherwise(RefineBench& bench, Chain& chain, RefineResult& result) {
