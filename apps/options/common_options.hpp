@@ -39,7 +39,7 @@ void add_choice_of_fit(CLI::App& app, std::string& model, std::string& preload,
 void add_output_options(CLI::App& app, CommonOptions& options);
 /// --torque-hold, --cutoff, --filter-order, --decimate, --drop-edge, --rest-speed.
 void add_sample_options(CLI::App& app, CommonOptions& options);
-/// --sd robust|white.
+/// --sd honest|white.
 void add_sd_option(CLI::App& app, CommonOptions& options);
 
 /// Whether a --report shows plots, so that figures are worth a pass over the logs.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "cablefit/samples/rows/torque_hold.hpp"
 #include "cablefit/samples/survey/recorded.hpp"
 #include "cablefit/session/stages.hpp"
 #include "tests/refine/hidden_logs.hpp"
@@ -105,6 +106,21 @@ TEST_CASE("the hold of a torque is found from when it acts", "[refine]") {
   CHECK(decimated.period == Approx(1e-3));
   // A delay that no hold explains is refine's to find.
   CHECK(fitted(early_by(1)).hold == TorqueHold::automatic);
+}
+
+TEST_CASE("a hold that is found takes the place of another", "[refine]") {
+  Rig rig = default_rig();
+  set_torque_hold(hold_of(4, 4e-3), rig);
+  CHECK(rig.torque_hold == TorqueHold::zoh);
+  CHECK(rig.torque_period == Approx(1e-3));
+  CHECK(name_of(hold_of(4, 4e-3)) == "zoh, 1 ms");
+  set_torque_hold(hold_of(1, 4e-3), rig);
+  CHECK(rig.torque_period == 0);  // the log's
+  CHECK(name_of(hold_of(1, 4e-3)) == "zoh");
+  set_torque_hold(hold_of(4, 4e-3), rig);
+  set_torque_hold(hold_of(0, 4e-3), rig);  // no rig file may give a period without a hold
+  CHECK(rig.torque_hold == TorqueHold::none);
+  CHECK(rig.torque_period == 0);
 }
 
 TEST_CASE("a hold that a rig file gives stands", "[refine]") {

@@ -83,15 +83,6 @@ Eigen::MatrixXd recorded_rows(const CopyStretch& stretch, const SimulationResult
   return rows;
 }
 
-/// Mean torque over a row of the log, from the fine row `first` on.
-Eigen::ArrayXXd mean_from(const SimulationResult& fine, Eigen::Index first, Eigen::Index n) {
-  const Eigen::Index last = fine.tau.rows() - 1;
-  Eigen::ArrayXXd sum = Eigen::ArrayXXd::Zero(1, fine.tau.cols());
-  for (Eigen::Index k = 0; k < n; ++k)
-    sum += fine.tau.row(std::clamp<Eigen::Index>(first + k, 0, last));
-  return sum / static_cast<double>(n);
-}
-
 /// Of a finer simulation the rows of the log. A command is held over a fine row, so that a mean
 /// over the log's row, centred, is one of as many commands, half of them from before. A log that is
 /// early has what acts later.
@@ -105,15 +96,17 @@ SimulationResult on_rows_of_log(SimulationResult fine, const CopyStretch& stretc
                              &SimulationResult::thetad, &SimulationResult::tension})
     if ((fine.*channel).rows() > 0)
       out.*channel = Eigen::ArrayXXd((fine.*channel)(every, Eigen::all));
-  out.tau.resize(rows, fine.tau.cols());
-  const double later = stretch.late / stretch.input.period;
-  const auto whole = static_cast<Eigen::Index>(std::floor(later));
-  const double rest = later - std::floor(later);
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    const Eigen::Index first = i * n - n / 2 + whole;
-    out.tau.row(i) = (1 - rest) * mean_from(fine, first, n);
-    if (rest > 0) out.tau.row(i) += rest * mean_from(fine, first + 1, n);
-  }
+  out.tau = Eigen::ArrayXXd::Zero(rows, fine.tau.cols());
+  const double later = stretch.late / stretch.input.period, whole = std::floor(later);
+  const double rest = later - whole;  // of a fine row: that much of the last one, not of the first
+  const Eigen::Index last = fine.tau.rows() - 1;
+  for (Eigen::Index i = 0; i < rows; ++i)
+    for (Eigen::Index k = 0; k <= n; ++k) {
+      const double share = k == 0 ? 1 - rest : k == n ? rest : 1;
+      const Eigen::Index at = i * n - n / 2 + static_cast<Eigen::Index>(whole) + k;
+      out.tau.row(i) +=
+          share * fine.tau.row(std::clamp<Eigen::Index>(at, 0, last)) / static_cast<double>(n);
+    }
   return out;
 }
 

@@ -27,7 +27,7 @@ struct DynamicOptions {
   SampleOptions samples;
   std::vector<std::string> models = {"poly"};  ///< names of the table
   std::string estimator = "auto";              ///< name of the table (estimators.hpp)
-  bool robust_sd = true;                       ///< --sd robust | white
+  bool robust_sd = true;                       ///< --sd honest | white
   std::string preload;                         ///< only this one; empty: all
   /// What the joint has beyond the paper's (31), with values to start from; one model then.
   std::vector<EffectInstance> effects = {};

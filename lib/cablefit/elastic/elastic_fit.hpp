@@ -42,7 +42,7 @@ struct ElasticOptions {
   std::optional<double> offset = {};
   /// Allows a negative cable stiffness, as the paper's plain fit; warned about.
   bool unconstrained = false;
-  bool robust_sd = true;     ///< --sd robust | white
+  bool robust_sd = true;     ///< --sd honest | white
   std::string preload;       ///< only this one; empty: all
   ComparedLines lines = {};  ///< straight lines to score beside the fits
   bool figures = false;      ///< one more pass, for reports with plots

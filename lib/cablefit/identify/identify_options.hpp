@@ -20,7 +20,7 @@ struct IdentifyOptions {
   ElongationMode elongations = ElongationMode::automatic;
   std::string search_reason = "given";  ///< why all are searched, when they are
   bool unconstrained = false;           ///< a negative cable stiffness is allowed
-  bool robust_sd = true;                ///< --sd robust | white
+  bool robust_sd = true;                ///< --sd honest | white
   std::string preload;                  ///< only this one; empty: all
   bool recursive = false;               ///< R-LSA beside the direct fit: its trace
   bool figures = false;

@@ -20,21 +20,15 @@ std::optional<double> moving_row(const RefineLogs& logs) {
   return 1 / rates.highest;
 }
 
-void take(int periods, double row, Rig& rig) {
-  rig.torque_hold = periods == 0 ? TorqueHold::none : TorqueHold::zoh;
-  if (periods > 1) rig.torque_period = row / periods;
-}
-
 std::optional<Decision> take_hold(const TorqueLateness& late, double row, RefineLogs& logs,
                                   std::vector<Model>& models) {
   const std::optional<int> periods = drive_periods(late, row);
   if (!periods) return std::nullopt;
-  for (Model& model : models) take(*periods, row, model.rig);
+  const FoundHold hold = hold_of(*periods, row);
+  for (Model& model : models) set_torque_hold(hold, model.rig);
   for (auto* some : {&logs.train, &logs.test, &logs.blocked})
-    for (LogSurvey& log : *some) take(*periods, row, log.plan.rig);
-  const std::string value =
-      *periods == 0 ? "none" : fmt::format("zoh, {:.3g} ms", 1e3 * row / *periods);
-  return Decision{"torque hold", value,
+    for (LogSurvey& log : *some) set_torque_hold(hold, log.plan.rig);
+  return Decision{"torque hold", name_of(hold),
                   fmt::format("the torque acts {:.2g} +- {:.1g} ms after its time stamp; the rig "
                               "file has no \"torque_hold\"",
                               1e3 * late.seconds, 1e3 * late.sd)};

@@ -115,11 +115,6 @@ TorqueDelay find_delay(const DynamicJob& job) {
   return *best;
 }
 
-std::string hold_name(const TorqueDelay& delay) {
-  if (!delay.held) return "none";
-  return delay.period > 0 ? fmt::format("zoh, {:.3g} ms", 1e3 * delay.period) : "zoh";
-}
-
 }  // namespace
 
 void choose_settings(DynamicJob& job, DynamicPreload& preload, const ElasticResult& elastic) {
@@ -146,7 +141,7 @@ void choose_settings(DynamicJob& job, DynamicPreload& preload, const ElasticResu
     reason = "given; " + reason;
   }
   if (preload.delay.period > 0) job.settings.rows.signal.torque_period = preload.delay.period;
-  job.settings.decisions.push_back({"torque hold", hold_name(preload.delay), reason});
+  job.settings.decisions.push_back({"torque hold", name_of(hold_of(preload.delay)), reason});
   if (!preload.delay.warning.empty()) preload.warnings.push_back(preload.delay.warning);
   job.settings.rows.signal.torque_held = preload.delay.held;
 }

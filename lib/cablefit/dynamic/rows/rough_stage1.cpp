@@ -24,7 +24,7 @@ ElasticFit blank_fit(const Rig& rig) {
   return fit;
 }
 
-/// The motors' equations of the preliminary, link before motor of every joint.
+/// The motors' equations, of which each follows that of its link.
 std::vector<const EquationRows*> motors_of(const std::vector<EquationRows>& preliminary) {
   std::vector<const EquationRows*> motors;
   for (const EquationRows& e : preliminary)

@@ -75,6 +75,7 @@ void judge_delay(TorqueDelay& delay) {
                   ms * delay.seconds, ms * delay.sd);
   if (!(delay.sd < hold / 4)) {
     delay.held = false;
+    delay.period = 0;
     delay.undecided = true;
     delay.reason = found + ": the motion does not show whether it is held";
     delay.warning =
@@ -190,9 +191,12 @@ TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFil
   return delay;
 }
 
+FoundHold hold_of(const TorqueDelay& found) { return {found.held, found.period}; }
+
 void set_torque_hold(const TorqueDelay& found, Rig& rig) {
-  rig.torque_hold = found.held ? TorqueHold::zoh : TorqueHold::none;
-  if (found.held && found.period > 0) rig.torque_period = found.period;
+  FoundHold hold = hold_of(found);
+  if (!(hold.period > 0)) hold.period = rig.torque_period;
+  set_torque_hold(hold, rig);
 }
 
 }  // namespace cablefit

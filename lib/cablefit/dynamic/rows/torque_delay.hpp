@@ -5,17 +5,19 @@
 
 #include "cablefit/dynamic/dynamic_result.hpp"
 #include "cablefit/dynamic/rows/dynamic_columns.hpp"
+#include "cablefit/samples/rows/torque_hold.hpp"
 
 namespace cablefit {
 
 /// Motor-side (or rigid) equation with tau(t - d) = tau - d dtau/dt. d is estimated by instrumental
 /// variables: the derivative of the MODEL's torque is the instrument for that of the measured one,
-/// whose noise would otherwise pull d towards 0. Uses the first windows of every log (preliminary).
+/// whose noise would otherwise pull d towards 0. Uses the first windows of every log.
 TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFilter& wanted,
                                   const RowSettings& settings, double rest_speed, Side side,
                                   const ElasticFit* elastic, const JointPlace& place = {});
 
-/// Of a rig whose file leaves it open.
+FoundHold hold_of(const TorqueDelay& found);
+/// Of a rig whose file leaves the hold open. A period that it gives stays.
 void set_torque_hold(const TorqueDelay& found, Rig& rig);
 
 }  // namespace cablefit

@@ -1,5 +1,7 @@
 #include "cablefit/samples/rows/torque_hold.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,6 +24,20 @@ std::optional<int> drive_periods(const TorqueLateness& late, double row) {
                                         [&](int a, int b) { return off(a) < off(b); });
   if (off(nearest) > std::max(kNear * row, 3 * late.sd)) return std::nullopt;
   return nearest;
+}
+
+FoundHold hold_of(int periods, double row) {
+  return {periods > 0, periods > 1 ? row / periods : 0};
+}
+
+std::string name_of(const FoundHold& hold) {
+  if (!hold.held) return "none";
+  return hold.period > 0 ? fmt::format("zoh, {:.3g} ms", 1e3 * hold.period) : "zoh";
+}
+
+void set_torque_hold(const FoundHold& hold, Rig& rig) {
+  rig.torque_hold = hold.held ? TorqueHold::zoh : TorqueHold::none;
+  rig.torque_period = hold.held ? hold.period : 0;
 }
 
 }  // namespace cablefit

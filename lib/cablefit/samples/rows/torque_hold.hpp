@@ -2,6 +2,9 @@
 #pragma once
 
 #include <optional>
+#include <string>
+
+#include "cablefit/model/rig.hpp"
 
 namespace cablefit {
 
@@ -18,5 +21,16 @@ std::optional<int> drive_periods(const TorqueLateness& late, double row);
 
 /// s, of a torque that is held over this share of a row; 0: it is not held.
 double lateness_of(int periods, double row);
+
+/// A hold that was found. `period`: s, where it is shorter than a row of the log; else 0.
+struct FoundHold {
+  bool held = false;
+  double period = 0;
+};
+FoundHold hold_of(int periods, double row);
+/// "none", "zoh", "zoh, 1 ms".
+std::string name_of(const FoundHold& hold);
+/// In place of what the rig has.
+void set_torque_hold(const FoundHold& hold, Rig& rig);
 
 }  // namespace cablefit
