@@ -144,7 +144,12 @@ DynamicPreload dynamic_preload(const std::string& name) {
   DynamicPreload preload;
   preload.name = name;
   preload.resonance = 76.2;
-  preload.delay = {0.0005, 2e-6, 0.001, true, true, false, "half a hold"};
+  preload.delay.seconds = 0.0005;
+  preload.delay.sd = 2e-6;
+  preload.delay.hold = 0.001;
+  preload.delay.estimated = true;
+  preload.delay.held = true;
+  preload.delay.reason = "half a hold";
   preload.counts["link"] = {12634, 3344, 0, 44};
   preload.counts["motor"] = {8055, 7923, 0, 44};
   preload.windows = {32000, 0, 0, 2};
