@@ -37,8 +37,8 @@ void handle(int signal) {
   ::sigaction(signal, &ours, nullptr);
 }
 
-// Windows of samples come and go by the megabyte. The C library would hand each of them back to the
-// kernel and ask for fresh, zeroed pages again: a fifth of the run time.
+// Windows of samples are allocated and freed by the megabyte. The C library would return each of
+// them to the kernel and then request fresh, zeroed pages: a fifth of the run time.
 void keep_memory() {
 #ifdef __GLIBC__
   constexpr int kKeep = 64 << 20;

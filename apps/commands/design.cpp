@@ -230,7 +230,7 @@ void check_limits(const DesignCommand& command) {
                     "give --max-position, --max-speed and --max-torque of the joint");
 }
 
-/// Of a reference: fewer rows show nothing, more take minutes.
+/// Rows of a reference: fewer determine nothing, more make the search take minutes.
 void check_rows(const DesignCommand& command) {
   constexpr double kFewest = 200, kMost = 200000;
   const double rows = command.design.rate * command.excitation.limits.duration;

@@ -167,8 +167,8 @@ Stage1 fit_stage1(const DynamicCommand& command, const std::vector<LogSurvey>& b
   return stage1;
 }
 
-/// A result of stage 1 that is there already: a small file, read before any log, so that a mistake
-/// in it does not wait for them. None: the logs have to show it.
+/// A given result of stage 1. It is a small file and read before any log, so that a mistake in it
+/// is reported at once. None: stage 1 comes from the logs.
 std::optional<Stage1> earlier_stage1(const DynamicCommand& command) {
   if (!is_elastic(command)) return std::nullopt;
   if (!command.elastic_file.empty()) return read_stage1(command.elastic_file);

@@ -205,7 +205,7 @@ bool is_given(const std::string& path, const CommonOptions& common) {
   });
 }
 
-/// What a result was made from and cannot be used again; said once.
+/// Warns, once each, of inputs of a result that cannot be used again.
 void add_gone(const Stage1Logs& logs, RefineInput& input) {
   for (const std::string& gone : logs.gone) {
     std::string warning = fmt::format("{}: {}; it is left out", logs.source, gone);

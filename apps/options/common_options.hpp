@@ -1,4 +1,4 @@
-// Options that all commands share, reading the logs they name, and writing what they ask for.
+// Options that all commands share: they name the logs to read and the files to write.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -45,8 +45,8 @@ void add_sd_option(CLI::App& app, CommonOptions& options);
 /// Whether a --report shows plots, so that figures are worth a pass over the logs.
 bool wants_figures(const CommonOptions& options);
 
-/// Surveys every log, each with its rig. All that is wrong with any of them is reported at once.
-/// Throws Error(usage) without logs, for one given twice and for a --preload that none of them has.
+/// Surveys every log, each with its rig. All problems of all logs are reported at once. Throws
+/// Error(usage) without logs, for one given twice and for a --preload that none of them has.
 std::vector<LogSurvey> read_logs(const CommonOptions& options);
 
 }  // namespace cablefit::apps

@@ -17,15 +17,14 @@ std::string take_model_path(CommonOptions& options, const std::string& command);
 void add_model_options(CLI::App& app, CommonOptions& options, std::string& model,
                        const std::string& results);
 
-/// The logs as the model sees them, weighed. All that is wrong with any of them is reported at
-/// once.
+/// The logs as the model sees them, weighed. All problems of all logs are reported at once.
 std::vector<LogSurvey> survey_for_model(const Model& model, const std::vector<std::string>& paths,
                                         const CommonOptions& options);
 
 /// The path of a result file below --out.
 std::string below_out(const CommonOptions& options, const std::string& file);
 
-/// A file of rows that an option asks for.
+/// A file of rows that an option writes.
 struct RowFile {
   std::string option;  ///< "--trajectories"
   std::string rows;    ///< "trajectories"

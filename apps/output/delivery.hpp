@@ -25,7 +25,8 @@ void refuse_collisions(const CommonOptions& options, const std::vector<ResultFil
 /// What is odd about logs, to stderr.
 void complain_of(std::span<const LogSurvey> logs);
 
-/// What `fit` returns. Where it fails, what is odd about its logs comes first: it may be the cause.
+/// The result of `fit`. Where it fails, warnings about its logs are printed first: they may give
+/// the cause.
 template <typename Fit>
 auto or_why(std::span<const LogSurvey> logs, const Fit& fit) {
   try {

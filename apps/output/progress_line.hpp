@@ -9,8 +9,8 @@
 
 namespace cablefit::apps {
 
-/// Follows one piece of work. A log is read several times, how often is not known beforehand: so
-/// what is shown is how far the present pass over the present file is.
+/// Follows one piece of work. A log is read several times, and the number is not known beforehand.
+/// So the line shows the progress of the present pass over the present file.
 class ProgressLine {
  public:
   /// Work that begins at `start`, s on the clock of read_progress.hpp.

@@ -8,9 +8,9 @@
 //   model     read_model(), model_json(); add_effect() for an effect of your own
 //   simulate  simulate()
 //
-// All quantities are SI on the joint side. Wrong input is thrown as Error
-// (base/error.hpp). A parameter that a fit cannot determine is a result with its reason.
-// Results are the same to the last bit for any number of threads.
+// All quantities are SI on the joint side. Wrong input throws Error (base/error.hpp). A parameter
+// that a fit cannot determine is a result with its reason. Results are the same to the last bit for
+// any number of threads.
 #pragma once
 
 #include "cablefit/base/error.hpp"

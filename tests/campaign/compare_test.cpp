@@ -1,4 +1,5 @@
-// The rule that tells two estimates apart, and which of two results' estimates it is given.
+// The rule that decides whether two estimates differ, and which estimates of two results are
+// compared.
 #include "cablefit/campaign/compare/compare.hpp"
 
 #include <catch2/catch.hpp>

@@ -121,7 +121,7 @@ TEST_CASE("the planned sd is met on simulated logs, and a plain sine is beaten",
         seconds.count());
     check_limits(plan);
     CHECK(plan.fit.refused.empty());
-    CHECK_FALSE(plan.plain.fit.refused.empty());  // one sine does not tell an inertia
+    CHECK_FALSE(plan.plain.fit.refused.empty());  // one sine does not determine an inertia
     if (shape.starts != nullptr) CHECK(plan.factor() > 1.2);
     Random random(9301);
     std::vector<double> squares(plan.fit.parameters.size()), mean(squares.size());

@@ -197,8 +197,8 @@ TEST_CASE("every estimator of the table fits the shipped logs", "[dynamic]") {
   for (const Estimator& row : estimators()) {
     INFO(row.name);
     const DynamicFit f = fit(moving(), std::string(row.name)).fits.at(0);
-    // Of 7 parameters by each of 6 estimators one lies beyond 3 sd by chance in 11 % of such data
-    // (7 times 6 times 0.0027), beyond 3.5 sd in 2 %; output error's J_link is at 3.05.
+    // With 7 parameters by each of 6 estimators, one is beyond 3 sd under the null in 11 % of such
+    // data (7 times 6 times 0.0027), beyond 3.5 sd in 2 %. The J_link of output error is at 3.05.
     check_recovered(f.parameters, dynamic_truth(truth::Rig::low()), 3.5);
     CHECK_FALSE(f.estimator.empty());
   }

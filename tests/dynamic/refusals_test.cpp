@@ -1,4 +1,4 @@
-// What a log cannot tell is refused by name, without a number.
+// A parameter that a log does not determine is refused by name, without a number.
 #include "tests/support/columns.hpp"
 #include "tests/support/message.hpp"
 #include "tests/support/recover.hpp"

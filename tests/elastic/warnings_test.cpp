@@ -87,8 +87,8 @@ TEST_CASE("an arbitrary encoder zero is found", "[elastic]") {
   const double shift = 0.008;
   for (double& theta : log.theta) theta += shift;
   const ElasticPreload found = fit(log);
-  // What the drive's offset of 0.0286 N m looks like: -offset / K of zero, 0.02 mrad at 1470 N
-  // m/rad; it is part of theta_0, which only a kink could tell from it.
+  // The drive's offset of 0.0286 N m looks like a zero of -offset / K, 0.02 mrad at 1470 N m/rad.
+  // It is part of theta_0: only a kink would separate the two.
   NamedValues truth = elastic_truth(rig);
   std::printf("  encoder zero at 8 mrad\n");
   check_recovered(found.find("poly")->parameters, truth, 3);

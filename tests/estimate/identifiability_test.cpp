@@ -1,4 +1,4 @@
-// What rows can tell apart, in words: every direction is one that the test makes itself.
+// Which parameters rows separate, in words. The test makes every direction itself.
 #include "cablefit/estimate/solve/identifiability.hpp"
 
 #include <Eigen/LU>

@@ -1,5 +1,5 @@
-// Instrumental variables and the test that tells whether they are needed. Numbers in the first
-// cases are R 4.2.2's: lm() in two stages, anova() of the augmented regression, pf().
+// Instrumental variables, and the test for whether they are needed. Numbers in the first cases are
+// R 4.2.2's: lm() in two stages, anova() of the augmented regression, pf().
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
@@ -184,8 +184,8 @@ LinearSolution solution_at(double x, double sd) {
   return s;
 }
 
-// However small p is: below half an sd least squares stands, above it but below half a per cent
-// the difference is told as small.
+// For any p: below half an sd the least-squares estimate is kept. Above it but below half a per
+// cent, the difference is reported as small.
 TEST_CASE("what instruments change is judged by its size too", "[estimate]") {
   const auto judged = [](double plain, double with, double sd) {
     return judge_difference(largest_difference(solution_at(plain, sd), solution_at(with, sd)));

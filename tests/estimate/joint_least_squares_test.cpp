@@ -90,7 +90,7 @@ TEST_CASE("a joint problem with inequalities agrees with Octave's qp", "[estimat
   const Eigen::Vector4d x(1.120778251130924, 0.3735927503769745, -0.3735927503769744, 0);
   CHECK((s.x - x).norm() < 1e-12);
   CHECK(s.active == std::vector<Eigen::Index>{0, 1});
-  problem.inequalities *= -1;  // d <= 0 asks for what the data do not say: d = 0; b + c <= 0 is met
+  problem.inequalities *= -1;  // d <= 0 contradicts the data: d = 0; b + c <= 0 is met
   CHECK(solve(problem).active == std::vector<Eigen::Index>{1});
 }
 
@@ -111,7 +111,7 @@ TEST_CASE("a joint problem says which combinations the data determine", "[estima
   CHECK(s.determines(Eigen::Vector3d(1, 1, 0)));
   CHECK(s.determines(Eigen::Vector3d(0, 0, 1)));
   CHECK(std::abs(s.x(0) + s.x(1) - 3) < 1e-12);
-  problem.equalities = Eigen::RowVector3d(1, -2, 0);  // tells them apart
+  problem.equalities = Eigen::RowVector3d(1, -2, 0);  // separates the two
   const JointSolution tied = solve(problem);
   CHECK(tied.determines(Eigen::Vector3d(1, 0, 0)));
   CHECK(std::abs(tied.x(0) - 2) < 1e-12);

@@ -62,7 +62,7 @@ TEST_CASE("rows with weights at once are rows forgotten one by one", "[estimate]
   Eigen::VectorXd weights(300);
   for (Eigen::Index i = 0; i < 300; ++i) weights(i) = std::pow(kForgetting, 299 - i);
   at_once.add(plain_block(2), rows, weights);
-  // Weighted least squares by the normal equations, two parameters of no condition to speak of.
+  // Weighted least squares by the normal equations, two well-conditioned parameters.
   const Eigen::MatrixXd w = rows.leftCols(2), lw = weights.asDiagonal() * w;
   const Eigen::MatrixXd p = (w.transpose() * lw).inverse();
   const Eigen::VectorXd x = p * (lw.transpose() * rows.col(2));

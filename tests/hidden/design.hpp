@@ -28,7 +28,7 @@ struct CaseSpec {
   std::string design = "full";
   std::uint64_t seed = 1;
   std::vector<Wish> effects;
-  double clutter = 0;         ///< N m, sd of a wandering torque on the link
+  double clutter = 0;         ///< N m, sd of a low-frequency disturbance on the link
   bool controller = true;     ///< written down, with its reference
   bool poor_sensors = false;  ///< 14 bit encoders, 1 N m of torque noise
   double slow_noise = 0;      ///< N m, sd of what the torque signal has with 0.2 s

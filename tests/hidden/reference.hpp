@@ -10,7 +10,7 @@ namespace hidden {
 
 using Reference = std::vector<double>;  ///< rad, one entry per ms
 
-/// What a moving run asks for.
+/// The reference of a moving run.
 struct Multisine {
   double seconds = 20;
   double lowest = 0.05, highest = 0.5;  ///< Hz

@@ -1,4 +1,5 @@
-// Logs and rigs that contradict each other: told, or refused, instead of fitted with small sd.
+// Logs and rigs that contradict each other are reported or refused, instead of fitted with a small
+// sd.
 #include "cablefit/samples/weigh/weigh.hpp"
 #include "tests/identify/simulated_rigs.hpp"
 #include "tests/support/message.hpp"

@@ -95,7 +95,7 @@ TEST_CASE("a curve that is not that of the cables gives no intervals", "[identif
                                   "both sides of zero") == 0);
 }
 
-// What a stage says of its errors is of the coefficients it tells, not of a fit to one preload.
+// The errors of a stage are those of the coefficients that it reports, not of a fit to one preload.
 TEST_CASE("errors of a search are those of its cables", "[identify]") {
   PreloadedBench bench;
   bench.add("low", blocked_log(truth::Rig::low(), 17));

@@ -1,5 +1,5 @@
-// Where theta - q does not tell how far cables are stretched: pulleys of two radii on a link that
-// moves, and a cam whose radius is 0 in the reference pose.
+// Cases in which theta - q does not determine the elongation of cables: pulleys of two radii on a
+// link that moves, and a cam whose radius is 0 in the reference pose.
 #include "cablefit/identify/identify.hpp"
 #include "tests/support/plain_rigs.hpp"
 #include "tests/support/recover.hpp"

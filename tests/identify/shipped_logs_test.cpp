@@ -64,8 +64,8 @@ TEST_CASE("any number of threads gives the same bits", "[identify]") {
 
 // Each estimate of the two stages is one of the joint fit's equations alone: they differ by what
 // the others add, which is less than 2 joint sd plus those of the stage. The joint sd are not
-// larger: stage 2 knows no more of the cables than stage 1, here both preloads do. J and frictions
-// of the link rest on the same rows either way, and both sd come from one kernel
+// larger: stage 2 has the cables of stage 1 alone, here both preloads determine them. J and
+// frictions of the link rest on the same rows either way, and both sd come from one kernel
 // (interval_covariance): 1 % for the weights.
 TEST_CASE("one step agrees with the two stages and has smaller sd", "[identify]") {
   const std::vector<LogSurvey> logs = shipped_logs({"low"});

@@ -8,7 +8,7 @@
 
 namespace cablefit::test {
 
-/// Logs of several preloads, without rig files: the names alone tell them apart.
+/// Logs of several preloads, without rig files: only their names distinguish them.
 class PreloadedBench {
  public:
   void add(const std::string& preload, const truth::Log& log) {

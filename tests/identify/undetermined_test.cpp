@@ -1,5 +1,5 @@
-// What the logs do not tell is told as that everywhere: parameters, result file, trace and model
-// file say the same of each number.
+// Parameters that the logs do not determine are marked so everywhere: parameters, result file,
+// trace and model file agree on each number.
 #include <nlohmann/json.hpp>
 
 #include "cablefit/identify/identify.hpp"
@@ -47,7 +47,8 @@ TEST_CASE("what is not identifiable is so in every file", "[identify]") {
   for (const Figure& figure : r.figures) CHECK(figure.group != "cables");
 }
 
-// Reweighing must not drift to where one row at the end of the sweep tells the cables apart.
+// Reweighing must not drift to weights for which one row at the end of the sweep separates the
+// cables.
 TEST_CASE("cables in closure stay open however often they are weighed", "[identify]") {
   for (unsigned seed = 1; seed <= 4; ++seed) {
     PlainRig rig;

@@ -1,4 +1,4 @@
-// `compare` on campaigns that differ by chance only, and by one real change.
+// `compare` on campaigns that differ by noise only, and by one real change.
 #include "cablefit/campaign/compare/compare.hpp"
 
 #include "tests/recover/both_stages.hpp"

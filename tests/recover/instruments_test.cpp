@@ -30,7 +30,7 @@ ElasticResult true_stage1() {
 struct Cell {
   double kp, kd;                 // of the loop
   std::optional<double> cutoff;  // Hz
-  bool known_controller = true;  // told to the fit
+  bool known_controller = true;  // the fit has it
 };
 
 /// 60 s in two loads, 1.5 N m of disturbance with a correlation time of 0.1 s, 16-bit encoders.

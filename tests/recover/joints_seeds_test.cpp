@@ -52,8 +52,8 @@ TEST_CASE("intervals of coupled joints cover the truth", "[recover][monte-carlo]
   }
   const double share = inside / n;
   std::printf("    inside their 95 %% interval: %.1f %%\n", 100 * share);
-  // 95 % less 3.3 standard errors of a binomial. Parameters of one run lean on each other: three
-  // count as one.
+  // 95 % less 3.3 standard errors of a binomial. Parameters of one run are correlated: three count
+  // as one.
   CHECK(share > 0.95 - 3.3 * std::sqrt(0.95 * 0.05 / (n / 3)));
 }
 

@@ -164,8 +164,8 @@ TEST_CASE("output error that cannot be simulated says so and has no estimates", 
   CHECK(fit.message == "the simulation diverges where the fit starts");
 }
 
-/// Where the last rounds begin must not be where they end: all rows tell more than those that the
-/// first rounds look at.
+/// The end must not depend on the start of the last rounds: all rows determine more than those of
+/// the first rounds.
 TEST_CASE("output error ends at the same estimates wherever it begins", "[recover]") {
   const Model truth = true_model("low");
   const std::vector<MeasuredStretch> logs = low_logs(1);
@@ -177,7 +177,7 @@ TEST_CASE("output error ends at the same estimates wherever it begins", "[recove
   for (std::size_t k = 0; k < a.parameters.size(); ++k) {
     const Estimate &x = a.parameters[k], &y = b.parameters[k];
     INFO(x.name << " " << x.value << " and " << y.value << " +- " << x.sd);
-    // A round may end 0.2 sd from its minimum, and the noise levels are told from it.
+    // A round may end 0.2 sd from its minimum, and the noise levels are estimated there.
     CHECK(std::abs(x.value - y.value) < 0.3 * x.sd);
     CHECK_THAT(x.sd, Catch::WithinRel(y.sd, 0.1));
   }

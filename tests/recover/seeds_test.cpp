@@ -25,7 +25,7 @@ std::vector<RunTable> many_runs(const truth::Rig& rig, const NamedValues& truth,
 int n_runs() { return full_monte_carlo() ? 200 : 20; }
 
 /// A mean within 1 % of the truth, or within three standard errors of it (the offset is a tenth of
-/// the torque's noise: no log tells it to one per cent), or within `floor`.
+/// the torque's noise: no log determines it to one per cent), or within `floor`.
 void check_mean(const RunTable& t, double floor = 0) {
   INFO(t.name << ": mean " << t.mean() << " +- " << t.standard_error() << ", true " << t.truth);
   CHECK(std::abs(t.bias()) < std::max({0.01 * std::abs(t.truth), 3 * t.standard_error(), floor}));

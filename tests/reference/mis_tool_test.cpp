@@ -1,6 +1,6 @@
 // One jaw of a surgical tool on a cable and a long shaft (O'Neill, Stephens, Kowalewski, RA-L
-// 2018): slow sines against resistance. The inertias drown, and the torque depends on the path:
-// cablefit must say both and print no inertia.
+// 2018): slow sines against resistance. The inertial torques are smaller than the residual, and the
+// torque depends on the path. cablefit must report both and print no inertia.
 #include "tests/reference/shared_data.hpp"
 #include "tests/support/message.hpp"
 

@@ -30,7 +30,8 @@ TEST_CASE("a closed loop has to be simulated better", "[refine]") {
   CHECK_FALSE(why_not_simulated(floor, before, floor).empty());
 }
 
-/// The trap: in a wandering torque the best of a search gains a little on other logs by chance.
+/// The trap: with a low-frequency disturbance, the best of a search gains a little on other logs
+/// under the null.
 TEST_CASE("beside a remainder a gain on held-out data has to be clear", "[refine]") {
   const Effect& row = find_candidate("friction_drift", Site::link);
   CHECK(why_not_added({row, 7, 6.9, true, 3}).empty());
@@ -39,14 +40,16 @@ TEST_CASE("beside a remainder a gain on held-out data has to be clear", "[refine
   CHECK(why_not_added({row, 7, 6.9, true, 0.8, false, 1, 1e-4}) ==
         "with the unexplained remainder, the equations of held-out blocks are not "
         "significantly better with it (0.8 sd)");
-  // The sum over all rows is that of the equation that wanders; rows weighted by what they leave.
+  // The sum over all rows is dominated by the equation with the low-frequency disturbance; rows are
+  // weighted by their residual.
   CHECK(why_not_added({row, 7, 7.01, true, 1.2}).empty());
   CHECK_FALSE(why_not_added({row, 7, 7.01, true, -1.2}).empty());
   CHECK_FALSE(why_not_added({row, 7, 7.01, false, 1.2}).empty());
   CHECK_FALSE(why_not_added({row, 7, 9, true, 1.2}).empty());
 }
 
-/// The trap: a wandering torque has a slope, a mean, a period; of forty rows one fits by chance.
+/// The trap: a low-frequency disturbance has a slope, a mean, a period. Under the null one of forty
+/// rows fits it.
 TEST_CASE("beside a remainder a size has to be beyond chance", "[refine]") {
   const Effect& row = find_candidate("gravity_imbalance", Site::link);
   const auto why = [&](bool beside_remainder, double sd_better, double chance,

@@ -1,5 +1,5 @@
-// The error of a searched l_o in what refine writes: data of the second simulator, whose stiffness
-// nobody told.
+// The error of a searched l_o in the output of refine: data of the second simulator, whose
+// stiffness is not given.
 #include <catch2/catch.hpp>
 
 #include "cablefit/session/stages.hpp"

@@ -249,8 +249,8 @@ TEST_CASE("two effects that look like a third are named", "[refine][slow]") {
   check_two(refined(hidden), "drive_efficiency", "drive_dead_band", 1.1);
 }
 
-/// The same of longer runs, in which the third is named alone and leaves something: half a minute,
-/// which CABLEFIT_MONTE_CARLO=full asks for.
+/// The same of longer runs, in which the third effect is identified alone and leaves a residual. It
+/// takes half a minute and runs with CABLEFIT_MONTE_CARLO=full only.
 TEST_CASE("two effects behind one name are found", "[refine][slow]") {
   if (!full_monte_carlo()) {
     WARN("skipped: CABLEFIT_MONTE_CARLO is not full");

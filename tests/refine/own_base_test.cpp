@@ -43,7 +43,7 @@ TEST_CASE("a base of its own has the cables of stage 1 and the effects of stage 
         Approx(truth::Rig::low().cable_1.stiffness[0]).epsilon(0.01));
   CHECK(model.joints.at(0).link.size() == base_effects(Side::link).size());
   CHECK(model.joints.at(0).motor.size() == base_effects(Side::motor).size());
-  CHECK(value_of(model, "J_link") == 0.3);  // the rig's "cad", until the rows have told
+  CHECK(value_of(model, "J_link") == 0.3);  // the rig's "cad", until the rows determine it
 }
 
 struct Orders {

@@ -1,4 +1,4 @@
-// What wanders in the logs wanders alike in the draws that chance is known from.
+// A low-frequency disturbance of the logs is the same in the draws of the null distribution.
 #include "cablefit/refine/null/remainder.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-// What these logs could tell apart, and which run would: said from the columns alone.
+// Which effects these logs could separate, and which run would, from the columns alone.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -77,7 +77,7 @@ TEST_CASE("aliases are never told apart, and no run is promised", "[refine][sepa
   CHECK(group_with(groups, "stribeck (motor)", "cogging (motor)") == nullptr);
 }
 
-/// What a rival could still bend to tells nothing: what values it was given does not matter.
+/// The part that a rival can still fit determines nothing: its given values do not matter.
 TEST_CASE("a run tells rivals apart by what they cannot bend to", "[refine][separability]") {
   const HiddenLogs hidden = hidden_logs({"constant_torque.link=1"}, 1, "one_load");
   const BaseFit base = base_of(hidden, all_training(hidden.logs));

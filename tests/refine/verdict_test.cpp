@@ -70,7 +70,8 @@ TEST_CASE("what chance finds, and what is immaterial, is not named", "[refine]")
   CHECK_FALSE(judge_search(clear, kGap, {}, options, true).is_named);  // without a null
 }
 
-/// What wanders on the link lets the rows of the link gain by chance, and not those of the motor.
+/// Under the null, a low-frequency disturbance on the link gives gains to the rows of the link, not
+/// to those of the motor.
 TEST_CASE("a gain is counted in what its own row gains by chance", "[refine]") {
   std::vector<NullDraw> wandering;
   for (int k = 0; k < 20; ++k) {
@@ -119,7 +120,8 @@ TEST_CASE("an event has to beat its own null", "[refine]") {
   CHECK_FALSE(judge_search(candidates, kGap, draws(0.08), {}, true).is_named);
 }
 
-/// The trap: what wanders or hums has dates as good as the best one all over the logs.
+/// The trap: for a low-frequency disturbance or a tone, times all over the logs are as good as the
+/// best one.
 TEST_CASE("what passes has to stand out of other dates", "[refine]") {
   std::vector<Candidate> candidates = {candidate("contact", Site::link, 0.09)};
   candidates[0].elsewhere = 0.02;

@@ -6,8 +6,8 @@
 
 namespace cablefit::test {
 
-/// A controller that is known, a torque that is a command, and neither where the disturbance is one
-/// of the sensor: as DriveOptions tell.
+/// The controller is known, or the torque is a command, or neither where the disturbance is one of
+/// the sensor: as in DriveOptions.
 inline Rig drive_rig(const truth::DriveOptions& options) {
   Rig rig = default_rig();
   rig.torque_hold = TorqueHold::zoh;

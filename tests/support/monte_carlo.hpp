@@ -11,7 +11,7 @@
 
 namespace cablefit::test {
 
-/// CABLEFIT_MONTE_CARLO=full asks for the long forms.
+/// CABLEFIT_MONTE_CARLO=full selects the long forms.
 inline bool full_monte_carlo() {
   const char* value = std::getenv("CABLEFIT_MONTE_CARLO");
   return value != nullptr && std::string(value) == "full";

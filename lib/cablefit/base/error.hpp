@@ -1,6 +1,6 @@
-// The one exception class of cablefit. User mistakes throw it, it is caught once in main, and its
-// kind is the exit code (docs/reference/exit-codes.md: 2 usage, 3 bad input, 4 not identifiable, 5
-// could not write).
+// The one exception class of cablefit. A user's mistake throws it, and main catches it once. Its
+// kind is the exit code (docs/reference/exit-codes.md): 2 usage, 3 bad input, 4 not identifiable, 5
+// could not write.
 #pragma once
 
 #include <cstddef>
@@ -11,18 +11,18 @@ namespace cablefit {
 
 enum class ErrorKind { usage = 2, input = 3, not_identifiable = 4, output = 5 };
 
-/// A place in a text file; line and column count from 1, 0 means "not known" and is not printed.
+/// A place in a text file. Line and column count from 1; 0 means "not known" and is not printed.
 struct Place {
   std::string file;
   std::size_t line = 0;
   std::size_t column = 0;
 };
 
-/// "file:line:column", leaving out what is not known.
+/// "file:line:column", without the parts that are not known.
 std::string to_string(const Place& place);
 
-/// Its message is printable, whatever names from files it quotes; only line breaks stay, as several
-/// messages may stand below each other.
+/// Its message is printable: control characters in names from files are escaped. Only line breaks
+/// stay, because an Error may hold several messages, one below the other.
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& message);

@@ -1,4 +1,4 @@
-// Work in parallel with results in order: the same bits whatever the number of threads.
+// Parallel work with results in order: the same bits for any number of threads.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +12,10 @@
 namespace cablefit {
 
 /// `produce(emit)` runs on the calling thread and hands items to emit(item) -> bool (false: stop).
-/// `map(item)` runs on up to `threads` other threads (inline when threads <= 1) and must not
-/// touch shared state; `reduce(result)` runs on the calling thread in the order of production. An
-/// exception from any of them comes out here, after the running tasks have ended; of several the
-/// one that a single thread would have met first.
+/// `map(item)` runs on up to `threads` other threads (inline when threads <= 1) and must not touch
+/// shared state. `reduce(result)` runs on the calling thread in the order of production. An
+/// exception from any of them is thrown here after the running tasks have ended. Of several
+/// exceptions, the one that a single thread would meet first is thrown.
 template <class Item, class Produce, class Map, class Reduce>
 void ordered_pipeline(int threads, Produce produce, Map map, Reduce reduce) {
   using Result = decltype(map(std::declval<Item>()));
@@ -46,16 +46,16 @@ void ordered_pipeline(int threads, Produce produce, Map map, Reduce reduce) {
       return true;
     });
   } catch (...) {
-    // Items produced before come first, and may have an error of their own.
+    // Items produced earlier come first. They may throw an error of their own.
     while (!in_reduce && !running.empty()) reduce_first();
     throw;
   }
   while (!running.empty()) reduce_first();
 }
 
-/// {map(items[0]), map(items[1]), ...} of up to `threads` threads at once (inline when threads <=
-/// 1), each of which takes the next item when it is free: for items that differ in how long they
-/// take. Of several exceptions the first item's comes out, after all threads have ended.
+/// {map(items[0]), map(items[1]), ...} on up to `threads` threads (inline when threads <= 1). Each
+/// thread takes the next item when it is free, so items may differ in duration. Of several
+/// exceptions, that of the first item is thrown after all threads have ended.
 template <class Item, class Map>
 auto parallel_map(int threads, const std::vector<Item>& items, Map map) {
   using Result = decltype(map(items.front()));

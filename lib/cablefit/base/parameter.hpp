@@ -1,4 +1,4 @@
-// What a parameter is, and what was estimated for it.
+// A parameter: its name, unit and bounds, and its estimate.
 #pragma once
 
 #include <limits>
@@ -34,11 +34,11 @@ struct Estimate {
   double sd_white = std::numeric_limits<double>::quiet_NaN();  ///< the paper's (25)
   double ci_low = std::numeric_limits<double>::quiet_NaN();    ///< 95 % interval
   double ci_high = std::numeric_limits<double>::quiet_NaN();
-  double cad = std::numeric_limits<double>::quiet_NaN();  ///< information, never fitted to
+  double cad = std::numeric_limits<double>::quiet_NaN();  ///< for comparison only, never fitted to
   std::string not_identifiable;  ///< why there is no sd; empty when there is one
-  std::string active_bound;      ///< "f_sm >= 0" when the fit is at it
-  /// The interval is that of the profile likelihood, which need not be symmetric about the value;
-  /// else it is value -+ t sd.
+  std::string active_bound;      ///< "f_sm >= 0" when that bound holds the estimate
+  /// The interval is that of the profile likelihood and need not be symmetric about the value.
+  /// Otherwise it is value -+ t sd.
   bool profiled = false;
 
   /// 100 sd / |value|, NaN when either is missing or the value is 0.

@@ -14,7 +14,7 @@ struct ParameterCovariance {
   Eigen::MatrixXd matrix;
 
   bool empty() const { return parameters.empty(); }
-  /// That of some parameters, in their order; nothing when one is not in it.
+  /// The covariance of these parameters, in their order; nothing when one is missing here.
   std::optional<Eigen::MatrixXd> of(const std::vector<std::string>& some) const;
 };
 

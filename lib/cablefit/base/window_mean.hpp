@@ -1,5 +1,5 @@
-// How far the mean of a residual over a window of time is from zero: the noise of a detector that
-// averages, for noise of any colour.
+// Sd of the mean of a residual over a window of time. It is the noise of a detector that averages,
+// and holds for noise of any colour.
 #pragma once
 
 #include <span>
@@ -11,9 +11,9 @@ struct WindowMean {
   double sd = 0;       ///< of the mean over it, in the residual's unit
 };
 
-/// sd for windows of that length: between two lengths linear in the logarithms, below the shortest
-/// that of the shortest, beyond the longest as white noise would go on. `all`: ascending, not
-/// empty.
+/// The sd for windows of that length. Between two lengths it is linear in the logarithms. Below the
+/// shortest length it is constant; above the longest it falls as for white noise. `all`: ascending,
+/// not empty.
 double sd_of_mean(std::span<const WindowMean> all, double seconds);
 
 }  // namespace cablefit

@@ -88,12 +88,12 @@ struct BatchOptions {
   std::function<void(const BatchProgress&)> progress = {};  ///< from any thread, one at a time
 };
 
-/// A cell that fails has an `error`; the others go on. The result does not depend on the
-/// number of jobs, nor on which cells were there already.
+/// A cell that fails has the reason in its `error`; the others go on. The result does not depend on
+/// the number of jobs, nor on which cells existed already.
 BatchResult run_batch(const Campaign& campaign, const BatchOptions& options);
 
-/// The one cell of that name: fitted unless its file is there. Throws Error(usage) for an unknown
-/// name; other errors stand in the cell.
+/// The one cell of that name: fitted unless its file exists. Throws Error(usage) for an unknown
+/// name; other errors are in the cell's `error`.
 BatchCell run_cell(const Campaign& campaign, const std::string& name, const BatchOptions& options);
 
 /// The baseline of a drift limit is there and a batch result. Throws Error(input); before any log

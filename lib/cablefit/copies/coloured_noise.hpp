@@ -1,5 +1,5 @@
-// Coloured noise like a residual: its autocovariance, an autoregressive model of it, and new noise
-// of that colour.
+// Coloured noise like a residual: the residual's autocovariance, an autoregressive model of it, and
+// new noise from that model.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,15 +10,15 @@
 
 namespace cablefit {
 
-/// Autocovariance of a series with holes; only pairs that are both there count.
+/// Autocovariance of a series with holes. Only pairs with both values count.
 class Autocovariance {
  public:
   explicit Autocovariance(std::size_t n_lags) : products_(n_lags), n_pairs_(n_lags) {}
-  /// Next values with their places on the grid, ascending over all calls.
+  /// Adds the next values with their places on the grid, ascending over all calls.
   void add(std::span<const Eigen::Index> numbers, const Eigen::Ref<const Eigen::VectorXd>& values);
 
-  /// Lag 0, 1, ...; 0 where no pair was there. About zero, not about the mean: a residual has none,
-  /// and what is left of one is part of what it is off by.
+  /// Lag 0, 1, ...; 0 where there was no pair. It is about zero, not about the mean: the mean of a
+  /// residual is part of its error.
   Eigen::VectorXd values() const;
   std::size_t n_values() const { return n_pairs_.empty() ? 0 : n_pairs_.front(); }
 
@@ -29,7 +29,7 @@ class Autocovariance {
   };
   std::vector<double> products_;
   std::vector<std::size_t> n_pairs_;
-  std::vector<Value> recent_;  // ring of as many values as there are lags
+  std::vector<Value> recent_;  // ring with one value per lag
   std::size_t next_ = 0;
 };
 
@@ -41,11 +41,12 @@ struct ArModel {
   double sd = 0;  ///< of x
 };
 
-/// fit_autoregression() of a series with that period. Autocovariance that is not positive at lag 0:
-/// no noise, sd 0.
+/// fit_autoregression() of a series with that period. An autocovariance that is not positive at lag
+/// 0 gives no noise, sd 0.
 ArModel fit_ar(const Eigen::VectorXd& autocovariance, double period, std::size_t n_values);
 
-/// n_rows values `period` s apart, linear between the model's own, from its stationary state.
+/// n_rows values `period` s apart, interpolated linearly between the model's own values, from its
+/// stationary state.
 Eigen::ArrayXd draw(const ArModel& model, Eigen::Index n_rows, double period, Random& random);
 
 }  // namespace cablefit

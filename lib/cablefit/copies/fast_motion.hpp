@@ -1,12 +1,12 @@
-// Which fast part of a measured torque moved the motor, and that motion: what a surrogate
-// controller has to let through. Internal to copies/.
+// The fast part of a measured torque that moved the motor, and that motion. A surrogate controller
+// must pass it. Internal to copies/.
 #pragma once
 
 #include "cablefit/copies/simulated_copy.hpp"
 
 namespace cablefit {
 
-/// Columns through a zero-phase low-pass (Hz); as they are where it is 0 or beyond the rate.
+/// Columns after a zero-phase low-pass (Hz); unchanged where it is 0 or above half the rate.
 Eigen::MatrixXd smooth(const Eigen::MatrixXd& columns, double period, double cutoff);
 
 struct FrequencyBand {
@@ -18,9 +18,8 @@ struct FastMotion {
   Eigen::VectorXd theta, tau;  ///< rad; N m
 };
 
-/// What a band of the measured torque did, as far as it acted: what moved the motor is what the
-/// model's motion asks for, what a torque sensor adds is not.
-/// `joint`: from 0.
+/// The part of a band of the measured torque that acted. The torque that the model's motion
+/// requires acted; noise of a torque sensor did not. `joint`: from 0.
 FastMotion fast_motion(const Model& model, const LogPlan& plan, const CopyStretch& stretch,
                        int joint, const FrequencyBand& band, bool torque_held);
 

@@ -1,5 +1,5 @@
-// A copy of an experiment: the same motion, sensors and clock as the logs have, with a model in
-// place of the bench.
+// A copy of an experiment: the motion, sensors and clock of the logs, with a model instead of the
+// bench.
 #pragma once
 
 #include <span>
@@ -20,17 +20,18 @@ struct CopyStretch {
   double t0 = 0;             ///< s
   double period = 0;         ///< s, of the log's rows
   Eigen::MatrixXd measured;  ///< rows x slots of the log's plan
-  /// Rows of `input` for each row of the log. More than one: the log's torque is a mean over its
-  /// row, centred, of commands that change `fine` times as often.
+  /// Rows of `input` for each row of the log. More than one: the commands change `fine` times as
+  /// often as the log has rows, and the log's torque is their centred mean over its row.
   int fine = 1;
-  double late = 0;        ///< s, `fine` > 1: the log's torque acts so much after its time stamp
+  double late = 0;        ///< s, with `fine` > 1: delay of the log's torque after its time stamp
   SimulationInput input;  ///< reference or command, load and initial state
-  Rig rig;  ///< the log's, with the controller that is simulated; none: the torque is a command
+  Rig rig;                ///< the log's, with the simulated controller; none: tau is a command
   bool link_blocked = false;
   bool hold_torque = true;  ///< of a command
 };
 
-/// How a log's channels are measured: rounded to `quantum` after noise of `noise` was added.
+/// How a log's channels are measured: noise of sd `noise` is added, then values are rounded to
+/// `quantum`.
 struct CopySensor {
   double quantum = 0, noise = 0;
 };
@@ -47,31 +48,31 @@ struct SimulatedCopy {
   std::vector<CopyStretch> stretches;
   std::vector<std::vector<CopySensor>> sensors;  ///< by log and slot
   std::vector<double> jitter;  ///< s, sd of the time error of a row, by log (clock_jitter.hpp)
-  double step = SimulationOptions{}.step;  ///< s, at most
-  std::vector<std::string> notes;          ///< what is simulated, in words
+  double step = SimulationOptions{}.step;  ///< s, upper limit
+  std::vector<std::string> notes;          ///< what the copy simulates, in words
 };
 
-/// What decides about the controller of a copy.
+/// The data that decide on the controller of a copy.
 struct CopyDrive {
   bool torque_held = true;
   double torque_period = 0;  ///< s, of a held torque; 0: the log's
-  double cutoff = 0;     ///< Hz, of the low-pass on what a surrogate controller follows; 0: none
-  bool follows = false;  ///< a surrogate controller, also where the rig's controller is known
-  double step = SimulationOptions{}.step;  ///< s, at most, of the simulation
-  /// Hz: up to here a surrogate controller's feed-forward holds what the measured torque does
-  /// faster than `cutoff`, as far as the measured motion confirms that it acted (encoder steps
-  /// through a controller do, noise of the torque sensor does not); 0: none of it.
+  double cutoff = 0;  ///< Hz, low-pass on the signals that a surrogate controller follows; 0: none
+  bool follows = false;  ///< use a surrogate controller, even where the rig's controller is known
+  double step = SimulationOptions{}.step;  ///< s, upper limit, of the simulation
+  /// Hz. Between `cutoff` and this frequency, the feed-forward of a surrogate controller contains
+  /// the measured torque as far as the measured motion confirms that it acted. Encoder steps that
+  /// pass a controller act; noise of the torque sensor does not. 0: no such part.
   double dither_cutoff = 0;
 };
 
-/// The parts of the logs for which `wanted` says true, in closed loop: the rig's controller where
-/// it and its reference are known, else a surrogate controller that follows the measured theta with
-/// the measured torque as feed-forward. Blocked parts have their link held. Throws Error(input) for
-/// a missing channel.
+/// Copies the parts of the logs for which `wanted` is true, in closed loop. The controller is the
+/// rig's where it and its reference are known. Otherwise a surrogate controller follows the
+/// measured theta, with the measured torque as feed-forward. Blocked parts have a blocked link.
+/// Throws Error(input) for a missing channel.
 SimulatedCopy make_copy(const Model& model, std::span<const LogSurvey> logs,
                         const PartFilter& wanted, const CopyDrive& drive);
 
-/// Stretches of the wanted parts of one log with what was measured, without a controller.
+/// Stretches of the wanted parts of one log with the measured signals, without a controller.
 /// `number`: of the log.
 std::vector<CopyStretch> read_stretches(const LogSurvey& log, std::size_t number,
                                         const PartFilter& wanted);
@@ -82,12 +83,12 @@ std::vector<SimulationResult> run_copy(const SimulatedCopy& copy,
                                        const CopyDisturbance& disturbance, Random& random,
                                        int threads = 1);
 
-/// Motions as a recorder with the copy's sensors sees them.
+/// Logs of these motions, as recorded with the copy's sensors.
 std::vector<LogSurvey> record_copy(const SimulatedCopy& copy,
                                    const std::vector<SimulationResult>& motions, Random& random);
 
-/// Fills `sensors` from the rig files, and where they say nothing so that the copy's logs look as
-/// noisy as the measured ones, and `jitter`: `motions` are those without disturbances.
+/// Fills `sensors` from the rig files. Where these give none, the copy's logs get the noise of the
+/// measured ones. Also fills `jitter`. `motions`: those without disturbances.
 void choose_sensors(SimulatedCopy& copy, const std::vector<SimulationResult>& motions);
 
 }  // namespace cablefit

@@ -1,15 +1,16 @@
-// Smallest collision torque that a model's residual shows.
+// Smallest collision torque that a model's residual can detect.
 //
-// The detector: the residual of the link's equation, r = J_link qdd + friction - tau_elas(phi) -
-// tau_load (minus the contact's torque when model and sensors are perfect), is averaged over
-// windows of n = rate * window rows, one after the other; a window with |mean r| above a threshold
-// is a collision (generalised momentum and direct residuals: De Luca & Mattone 2003, Haddadin, De
-// Luca & Albu-Schaeffer 2017; window and threshold: likelihood ratio of a mean, Kay 1998, ch. 3).
+// The detector averages the residual of the link's equation over windows of n = rate * window rows,
+// one after the other. The residual is r = J_link qdd + friction - tau_elas(phi) - tau_load; with a
+// perfect model and perfect sensors it is minus the contact's torque. A window with |mean r| above
+// a threshold is a collision (generalised momentum and direct residuals: De Luca & Mattone 2003,
+// Haddadin, De Luca & Albu-Schaeffer 2017; window and threshold: likelihood ratio of a mean, Kay
+// 1998, ch. 3).
 //
-// What the mean consists of: noise, of sd s over the window as it was measured, or white with sd
-// `noise` from row to row, s = noise / sqrt(n) (slow noise hardly averages: 7 % of the variance
-// over 0.2 s turned one alarm an hour into 2150); an error of
-// which only a bound is known, the model's, |e| <= model_error; and the contact's torque, of either
+// The mean has three parts. The first is noise, with sd s over the window as it was measured. White
+// noise with sd `noise` from row to row has s = noise / sqrt(n). Slow noise hardly averages: 7 % of
+// the variance over 0.2 s turned one alarm an hour into 2150. The second is the model's error, of
+// which only a bound is known, |e| <= model_error. The third is the contact's torque, of either
 // sign, constant over at least one whole window. Rates are guaranteed for the worst e within its
 // bound: e = +-model_error against false alarms, and against the contact for detection.
 #pragma once

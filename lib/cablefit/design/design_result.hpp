@@ -29,7 +29,7 @@ struct ModelCost {
   double rms_error = 0;              ///< N m
   double at = 0;                     ///< rad, deflection of the largest error
   double static_error = 0;           ///< rad, error of the joint's position under load
-  /// Hz, resonance of the model on the range; NaN without inertias.
+  /// Hz, the model's resonance over the range; NaN without inertias.
   double resonance_low = kNotKnown, resonance_high = kNotKnown;
   std::optional<CollisionThreshold> collision;  ///< nothing without a noise of the torque
 };

@@ -10,7 +10,7 @@
 namespace cablefit {
 namespace {
 
-/// What has an sd, in the order of DesignSpread's members.
+/// Quantities with an sd, in the order of DesignSpread's members.
 constexpr std::array<double DesignSpread::*, 5> kMembers = {
     &DesignSpread::closure_torque, &DesignSpread::stiffness_zero, &DesignSpread::stiffness_low,
     &DesignSpread::stiffness_high, &DesignSpread::efficiency_driving};

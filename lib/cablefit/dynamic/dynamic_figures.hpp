@@ -1,5 +1,5 @@
-// Stage 2 as plots: measured and predicted torque, torque error (the paper's Figs. 8 and 9), and
-// the residuals from all sides, per equation and model.
+// Plots of stage 2 per equation and model: measured and predicted torque, torque error (the paper's
+// Figs. 8 and 9), and residuals against each variable.
 #pragma once
 
 #include <vector>
@@ -10,14 +10,15 @@
 
 namespace cablefit {
 
-/// Streams the rows once more. solutions[model][equation] as fitted, models as in `preload.fits`.
+/// Needs one more pass over the rows. solutions[model][equation] as fitted, models as in
+/// `preload.fits`.
 std::vector<Figure> dynamic_figures(const DynamicJob& job,
                                     const std::vector<EquationRows>& equations,
                                     const std::vector<std::vector<LinearSolution>>& solutions,
                                     const DynamicPreload& preload);
 
-/// The same for a single equation that has no torque in it (ratios.hpp): `residual` and `measured`
-/// are combinations of its columns.
+/// As above, for a single equation without a torque (ratios.hpp). `residual` and `measured` are
+/// combinations of its columns.
 struct RatioRows {
   std::span<const LogSurvey> logs;
   const PartFilter& wanted;

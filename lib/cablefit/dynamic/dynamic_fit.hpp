@@ -12,8 +12,8 @@
 namespace cablefit {
 
 /// Fits every preload of the moving logs. `elastic`: stage 1, may be empty for rigid drives. Throws
-/// Error(input) for missing channels or stage-1 results, Error(not_identifiable) when nothing could
-/// be determined at all.
+/// Error(input) for missing channels or stage-1 results, and Error(not_identifiable) when the logs
+/// determine no parameter.
 DynamicResult fit_dynamic(std::span<const LogSurvey> logs, const ElasticResult& elastic,
                           const DynamicOptions& options);
 

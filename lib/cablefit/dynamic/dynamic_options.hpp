@@ -1,4 +1,4 @@
-// What stage 2 is asked for.
+// Options of stage 2.
 #pragma once
 
 #include <map>
@@ -28,17 +28,18 @@ struct DynamicOptions {
   std::vector<std::string> models = {"poly"};  ///< names of the table
   std::string estimator = "auto";              ///< name of the table (estimators.hpp)
   bool robust_sd = true;                       ///< --sd honest | white
-  std::string preload;                         ///< only this one; empty: all
-  /// What the joint has beyond the paper's (31), with values to start from; one model then.
+  std::string preload;                         ///< only this one; empty: all preloads
+  /// Effects of the joint beyond the paper's (31), with start values. They require exactly one
+  /// model.
   std::vector<EffectInstance> effects = {};
   bool figures = false;        ///< one more pass, for reports with plots
   bool residual_tests = true;  ///< tests of up to 40 windows of every log
-  bool sweep = false;          ///< fit again with other cut-offs and rest speeds
-  /// The method's floor where it is already known, by parameter; none: it is measured.
+  bool sweep = false;          ///< also fit with other cut-offs and rest speeds
+  /// The method's floor by parameter, where it is already known; none: it is measured.
   std::optional<std::map<std::string, double>> method_floor = {};
-  /// s, memory of the estimators `recursive` and `gradient`; 0: recursive forgets nothing.
+  /// s, memory of the estimators `recursive` and `gradient`; 0: `recursive` forgets nothing.
   double memory = 0;
-  std::vector<LogSurvey> validation = {};  ///< logs to judge the fit on, none of them fitted
+  std::vector<LogSurvey> validation = {};  ///< logs to judge the fit on; they are not fitted
 };
 
 }  // namespace cablefit

@@ -1,4 +1,4 @@
-// A fit of stage 2 as a model.
+// Converts a fit of stage 2 to a model.
 #pragma once
 
 #include "cablefit/dynamic/dynamic_result.hpp"
@@ -6,8 +6,8 @@
 
 namespace cablefit {
 
-/// Its effects, the cables of stage 1 and the joint covariance. What the data do not determine is
-/// as the fit has it, NaN or at its bound. Rigid without stage 1.
+/// Its effects, the cables of stage 1 and the joint covariance. Parameters that the data do not
+/// determine stay as in the fit, NaN or at a bound. Without stage 1 the model is rigid.
 Model model_of(const DynamicFit& fit, const DynamicPreload& preload, const Rig& rig);
 
 }  // namespace cablefit

@@ -80,7 +80,7 @@ Determined judge(const PredictedSystem& system, Eigen::Index k, const PredictedP
 void add_sentence(const PredictedSystem& system, Eigen::Index k, bool linear_motion,
                   const PredictedParameter& p, std::vector<std::string>& sentences) {
   const Estimate& e = system.fit.parameters[static_cast<std::size_t>(k)];
-  if (!std::isfinite(p.sd_best)) return;  // listed with those that it is not separable from
+  if (!std::isfinite(p.sd_best)) return;  // listed with those that it is inseparable from
   if (!e.not_identifiable.empty()) {
     sentences.push_back(fmt::format("{}: {}", p.name, e.not_identifiable));
     return;

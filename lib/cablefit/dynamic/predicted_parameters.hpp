@@ -1,4 +1,4 @@
-// What the rows of one equation determine of each parameter. Internal to prediction.cpp.
+// What the rows of one equation determine about each parameter. Internal to prediction.cpp.
 #pragma once
 
 #include "cablefit/dynamic/dynamic_result.hpp"
@@ -8,16 +8,16 @@
 
 namespace cablefit {
 
-/// The rows of one system of equations, and what the rough model makes of them.
+/// The rows of one system of equations, and the rough model's fit to them.
 struct PredictedSystem {
   const DynamicColumns& columns;
   const RowStatistics& rows;
   LinearSolution solution;
   DynamicFit fit;
-  double noise = 0;  ///< rms, as the rows are weighted
+  double noise = 0;  ///< rms, with the weights of the rows
 };
 
-/// Parameters, scaled condition number and sentences.
+/// Adds parameters, scaled condition number and sentences.
 void add_parameters(const PredictedSystem& system, bool linear_motion, PredictedEquation& out);
 
 }  // namespace cablefit

@@ -78,7 +78,7 @@ bool have_torque(std::span<const LogSurvey> logs, const PartFilter& wanted) {
   });
 }
 
-/// What only a torque would determine, by name.
+/// Lists by name the parameters that only a torque would determine.
 void refuse_absolute(bool has_torque, DynamicFit& fit) {
   for (const char* absolute : {"J_link", "J_motor", "f_v", "f_s", "f_vm", "f_sm", "offset"}) {
     Estimate e;

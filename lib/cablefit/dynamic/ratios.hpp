@@ -1,4 +1,5 @@
-// A flexible joint without torque measurement (free oscillation): only ratios to J_link show.
+// A flexible joint without torque measurement (free oscillation): the logs determine only ratios to
+// J_link.
 #pragma once
 
 #include <span>
@@ -7,8 +8,8 @@
 
 namespace cablefit {
 
-/// qdd = (K/J_link) (theta - q) - (f_v/J_link) qd - (f_s/J_link) sgn(qd) + constant, where the
-/// constant is an encoder zero times K/J_link and is not reported. Units s^-2, s^-1, rad/s^2.
+/// qdd = (K/J_link) (theta - q) - (f_v/J_link) qd - (f_s/J_link) sgn(qd) + constant. The constant
+/// is an encoder zero times K/J_link and is not reported. Units s^-2, s^-1, rad/s^2.
 DynamicPreload fit_ratios(std::span<const LogSurvey> logs, const std::string& name,
                           const PartFilter& wanted, const DynamicOptions& options);
 

@@ -17,18 +17,18 @@ struct ConditionError {
   std::string condition, value;  ///< "load", "-40 N m"
   std::size_t n_rows = 0;
   double rms = 0, mean = 0, max_abs = 0;
-  double relative = 0;        ///< rms of the error over rms of the torque to be explained
-  double zero = 0;            ///< rms of a model that predicts 0: of the torque to be explained
+  double relative = 0;  ///< rms of the error over rms of the torque to be explained
+  double zero = 0;      ///< rms of a model that predicts 0: that of the torque to be explained
   double linear = kNotThere;  ///< rms of the linear model; NaN: this is it, or there is none
-  double fitted = 0;  ///< rms on the rows that were fitted, of the same condition if they have it
-  double floor = kNotThere;  ///< rms of the best possible model; NaN: measured by log only
-  bool fails = false;        ///< significantly and materially worse than `fitted`
-  std::string verdict;       ///< "fails, 3.2 times": of `fitted`
+  double fitted = 0;          ///< rms on the fitted rows, of the same condition where they have it
+  double floor = kNotThere;   ///< rms of the best possible model; NaN: measured by log only
+  bool fails = false;         ///< significantly and materially worse than `fitted`
+  std::string verdict;        ///< "fails, 3.2 times" the rms in `fitted`
 
   double ratio() const { return fitted > 0 ? rms / fitted : 0; }
 };
 
-/// Result of a test of residuals; `material`: significant, and large enough to matter.
+/// Result of a test of residuals. `material`: significant, and large enough to matter.
 enum class Finding { nothing, immaterial, material, untestable };
 std::string_view to_string(Finding finding);
 
@@ -37,7 +37,7 @@ struct ResidualTest {
   std::string statistic;  ///< "Ljung-Box over 20 lags", "F(6, 212)"
   double value = 0;
   double p_value = 1;
-  double structure = 0;  ///< N m rms of what was found; of whiteness 0
+  double structure = 0;  ///< N m rms of the structure found; 0 for whiteness
   Finding finding = Finding::nothing;
   std::string verdict;  ///< in words
 };
@@ -51,12 +51,12 @@ struct JudgedEquation {
   std::vector<ResidualTest> tests;
   double relative = 0;            ///< rms of the residual over rms of the torque to be explained
   std::vector<WindowMean> means;  ///< of the residual, for detectors that average; may be empty
-  std::string headline;  ///< that the model explains little, and what the residual depends on
+  std::string headline;           ///< states that the model explains little, and the main cause
 };
 
 struct Validation {
   std::vector<std::string> logs;  ///< paths, as in the inputs of the result
-  std::string linear_name;        ///< what the linear baseline is
+  std::string linear_name;        ///< name of the linear baseline
   std::vector<JudgedEquation> equations;
 };
 

@@ -1,4 +1,4 @@
-// What the comparison of bases found, as plain data for reports (cable_bases.hpp).
+// The result of comparing bases, as plain data for reports (cable_bases.hpp).
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ struct BasisScore {
   std::vector<int> cable_terms;  ///< per cable
   double rms_error = 0;          ///< N m, over all rows
   double held_out_rms = 0;       ///< N m, over held-out blocks: path[n_terms - 1]
-  double lowest_secant = 0;      ///< least k(l) = f(l)/l of any cable in use, N/m (N m/rad)
+  double lowest_secant = 0;      ///< least k(l) = f(l)/l of any cable used, N/m (N m/rad)
   bool pulls = true;             ///< k(l) >= 0 over the range of every cable
   std::vector<BasisTerm> terms;
   BasisCurve curve;
@@ -36,12 +36,12 @@ struct BasisScore {
 
 struct BasisComparison {
   std::vector<BasisScore> scores;  ///< in the order of cable_bases(): polynomial first
-  /// N m rms about straight lines within narrow bins of deflection, each branch of the motion for
-  /// itself: what no curve explains. NaN: too few samples.
+  /// Residual that no curve explains, N m rms: about straight lines within narrow bins of
+  /// deflection, each branch of the motion for itself. NaN: too few samples.
   double floor = 0;
   std::size_t n_blocks = 0, n_folds = 0;  ///< of the cross-validation
 
-  /// Held-out rms of the best polynomial of so many terms; NaN: none was tried.
+  /// Held-out rms of the best polynomial with this number of terms; NaN: none was tried.
   double polynomial_rms(int n_terms) const;
 };
 

@@ -18,7 +18,7 @@ Estimate coefficient(const Model& model, std::string name, std::string unit, dou
   return e;
 }
 
-/// Every coefficient, whatever the model says of its sd.
+/// Every coefficient, with or without an sd in the model.
 std::vector<Estimate> coefficients_of(const Model& model) {
   std::vector<Estimate> all;
   const int n = model.rig.n_joints();

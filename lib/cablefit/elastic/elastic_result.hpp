@@ -1,4 +1,4 @@
-// What stage 1 found, as plain data for reports and for stage 2.
+// The results of stage 1, as plain data for reports and for stage 2.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +19,7 @@
 
 namespace cablefit {
 
-/// Errors of one joint's equation, N m; as the fields of ElasticFit of these names.
+/// Errors of one joint's equation, N m. The fields have the meaning of those in ElasticFit.
 struct ElasticJointErrors {
   double rms_error = 0, max_abs_error = 0, held_out_rms = 0, held_out_max = 0;
 };
@@ -30,7 +30,7 @@ struct MisfitPoint {
   double deflection = 0, torque = 0, half_width = 0;
 };
 struct ElasticMisfit {
-  std::vector<MisfitPoint> points;  ///< by deflection, ascending; empty: nothing that matters
+  std::vector<MisfitPoint> points;  ///< by deflection, ascending; empty: nothing material
 
   bool empty() const { return points.empty(); }
   /// Linear between points, constant beyond them.
@@ -42,12 +42,13 @@ struct ElasticFit {
   int order = 1;                     ///< of the force, per cable
   std::vector<Estimate> parameters;  ///< K, or K1_0 ...; then offset or theta_0, f_sm
   Transmission transmission;         ///< the fitted curve, coefficients and theta_0 filled in
-  double offset = 0;                 ///< N m, drive offset that went with it
-  /// Robust covariance of the elastic coefficients alone, in the order of the first parameters.
+  double offset = 0;                 ///< N m, drive offset of the same fit
+  /// Robust covariance of the elastic coefficients alone, which are the first parameters, in their
+  /// order.
   Eigen::MatrixXd covariance;
   double rms_error = 0, max_abs_error = 0;    ///< N m, over all rows used
   double held_out_rms = 0, held_out_max = 0;  ///< N m, over held-out blocks
-  std::vector<ElasticJointErrors> joints;     ///< of several joints, each for itself; else empty
+  std::vector<ElasticJointErrors> joints;     ///< with several joints: of each; else empty
   bool passive = true;  ///< every cable only pulls over the range it was used in
   /// Where a bound prevents a negative stiffness: "cable 1: k(l) >= 0 at l = 0 mrad".
   std::vector<std::string> active_bounds;
@@ -55,7 +56,7 @@ struct ElasticFit {
   double effective_rows = 0;
   std::vector<std::string> warnings;
   std::vector<Estimate> derived = {};  ///< stiffness at rest, ...: of the coefficients
-  std::optional<FitProof> proof = {};  ///< of a rerun on simulated logs, when it was asked for
+  std::optional<FitProof> proof = {};  ///< of refits to simulated logs; only when requested
   ElasticMisfit misfit = {};           ///< of the selected fit of one joint
 };
 
@@ -69,7 +70,7 @@ struct ModeCounts {
   std::vector<Slack> slack;  ///< per cable
 };
 
-/// What one of several joints showed; as the fields of ElasticPreload of these names.
+/// The data of one of several joints. The fields have the meaning of those in ElasticPreload.
 struct ElasticJoint {
   std::string name;
   double deflection_low = 0, deflection_high = 0;
@@ -79,8 +80,8 @@ struct ElasticJoint {
   RowCounts counts;
 };
 
-/// Errors of one model's elastic torque on one set of rows: measured, less the friction of the
-/// cables' fit and the model's own offset.
+/// Errors of one model's elastic torque on one set of rows: against the measured torque, less the
+/// friction of the cables' fit and the model's own offset.
 struct ElasticScore {
   std::string model;                 ///< "linear", "poly, order 2"
   std::string fitted;                ///< what K is: "all samples", "-13.8 .. 13.8 mrad", "given"
@@ -105,17 +106,17 @@ struct ElasticPreload {
   std::vector<ElasticFit> fits;        ///< linear first
   std::string selected;                ///< "linear" or "poly"
   std::vector<std::string> selection;  ///< both criteria, in words
-  std::vector<ElasticScore> scores;    ///< where asked for
+  std::vector<ElasticScore> scores;    ///< only when requested
   std::vector<Decision> decisions;
   std::vector<std::string> warnings;
-  /// Why the fitted curve is not that of the cables, and stage 2 must not use it; empty:
-  /// no doubt.
+  /// Why the fitted curve is not that of the cables, so that stage 2 must not use it. Empty: no
+  /// doubt.
   std::string shape_doubt;
   bool linear_motion = false;
   std::string rig_path;  ///< empty: the default rig
-  RigFacts rig_facts;    ///< what the fit takes from it; empty: an old result did not keep it
+  RigFacts rig_facts;    ///< facts of the rig file that the fit uses; empty: an old result has none
   std::vector<Figure> figures;
-  std::optional<BasisComparison> bases = {};  ///< where asked for
+  std::optional<BasisComparison> bases = {};  ///< only when requested
 
   const ElasticFit* find(const std::string& model) const;
 };
@@ -128,7 +129,7 @@ std::string model_text(const ElasticFit& fit);
 struct ElasticResult {
   std::vector<InputFile> inputs;
   std::vector<ElasticPreload> preloads;
-  ElongationCovariance elongations = {};  ///< of l_o that were searched
+  ElongationCovariance elongations = {};  ///< of the l_o that were searched
   std::vector<std::string> warnings = {};
 };
 

@@ -1,5 +1,5 @@
-// A plot as plain data: what is shown, not how it looks. Fits make figures when they are asked to,
-// report/ renders them; other programs can draw the same data.
+// A plot as plain data: its content, not its style. Fits make figures when requested, and report/
+// renders them. Other programs can draw the same data.
 #pragma once
 
 #include <string>
@@ -15,15 +15,16 @@ struct FigureAxis {
 
 enum class TraceStyle {
   line,      ///< points joined in order; a NaN breaks the line
-  broad,     ///< the same, wide, for measured data: its edges stay visible under other lines
-  dashed,    ///< the same, for what is a reference
+  broad,     ///< a wide line for measured data: its edges stay visible under other lines
+  dashed,    ///< a dashed line for a reference
   points,    ///< a cloud
   steps,     ///< a histogram's outline, x at the middle of the bins
   interval,  ///< points with a bar from low to high
-  area,      ///< filled outlines; a NaN begins the next
+  area,      ///< filled outlines; a NaN starts the next one
 };
 
-/// Whose colour a trace has. Models count from 1, the same number on every figure of a report.
+/// Decides the colour of a trace. Models count from 1, with the same number on every figure of a
+/// report.
 inline constexpr int kMeasured = 0;
 inline constexpr int kReference = -1;
 
@@ -50,21 +51,21 @@ struct Note {
 
 /// How soon a report shows a figure.
 enum class FigureRank {
-  main,    ///< first of all: what was measured against the model
+  main,    ///< first of all: measurement and model
   shown,   ///< with the results
-  detail,  ///< a diagnostic, folded until the reader asks for it
+  detail,  ///< a diagnostic, folded until the reader opens it
 };
 
 struct Figure {
   std::string section;  ///< heading above its figures: the preload, or the log
   std::string group;    ///< heading below that: "motor equation"; may be empty
   std::string title;
-  std::string caption;  ///< what to look for, and what was thinned
+  std::string caption;  ///< what to look for, and how points were thinned out
   FigureAxis x, y;
   std::vector<Trace> traces;
   std::vector<Mark> marks;
   std::vector<Note> notes;
-  bool wide = false;  ///< over the full width, as things over time are
+  bool wide = false;  ///< over the full width, as for signals over time
   FigureRank rank = FigureRank::shown;
 };
 

@@ -3,10 +3,9 @@
 //   blocked  tau_elas_m + f_vm_blocked thetad + f_sm_blocked sgn(thetad) + offset    = tau
 //   motor    J_motor thetadd + f_vm thetad + f_sm sgn(thetad) + offset + tau_elas_m  = tau
 //   link     J_link qdd + f_v qd + f_s sgn(qd) - tau_elas_l                          = tau_load
-// f_sm_blocked is called f_sm where there are no moving logs. With n joints every joint has these
-// equations, and its parameters the joint's index; a cable's coefficients and l_o are shared by the
-// equations of all joints that it passes. Links of an arm that move each other have its base
-// parameters instead of J_link.
+// Without moving logs f_sm_blocked is called f_sm. With n joints each joint has these equations,
+// and its parameters have the joint's index. The equations of all joints that a cable passes share
+// its coefficients and l_o. Links of a coupled arm have its base parameters instead of J_link.
 #pragma once
 
 #include <span>
@@ -17,9 +16,9 @@
 
 namespace cablefit {
 
-/// Throws Error(input) for missing channels, rigs that do not match and known l_o that cannot
-/// balance; Error(not_identifiable) when there are too few rows, or rows that these
-/// cables do not explain.
+/// Throws Error(input) for missing channels, rigs that do not match, and known l_o that are not in
+/// equilibrium. Throws Error(not_identifiable) for too few rows, and for rows that these cables do
+/// not explain.
 IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& given);
 
 }  // namespace cablefit

@@ -1,4 +1,4 @@
-// What the one step is asked for.
+// Options of the one-step identification.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace cablefit {
 
-/// Which initial elongations are searched. `automatic`: those for which the rig file says
-/// "search"; and without cables in the rig files, all of several preloads (one alone is taken as
-/// 0).
+/// Which initial elongations are searched. `automatic`: those for which the rig file says "search".
+/// Without cables in the rig files, all of several preloads; the l_o of a single preload is taken
+/// as 0.
 enum class ElongationMode { automatic, search, known };
 
 struct IdentifyOptions {
@@ -19,12 +19,12 @@ struct IdentifyOptions {
   int order = 0;  ///< of the cables' force; 0: the rig file's, else 2
   ElongationMode elongations = ElongationMode::automatic;
   std::string search_reason = "given";  ///< why all are searched, when they are
-  bool unconstrained = false;           ///< a negative cable stiffness is allowed
+  bool unconstrained = false;           ///< allows a negative cable stiffness
   bool robust_sd = true;                ///< --sd honest | white
-  std::string preload;                  ///< only this one; empty: all
-  bool recursive = false;               ///< R-LSA beside the direct fit: its trace
+  std::string preload;                  ///< only this one; empty: all preloads
+  bool recursive = false;               ///< also the trace of R-LSA, beside the direct fit
   bool figures = false;
-  /// What the joint has beyond the paper's (31), with values to start from.
+  /// Effects of the joint beyond the paper's (31), with start values.
   std::vector<EffectInstance> effects = {};
 };
 

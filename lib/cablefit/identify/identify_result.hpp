@@ -1,4 +1,4 @@
-// What the one-step identification found, as plain data for reports and for simulation.
+// The results of the one-step identification, as plain data for reports and for simulation.
 #pragma once
 
 #include <optional>
@@ -25,13 +25,13 @@ struct IdentifyEquation {
   double effective_rows = 0;  ///< independent rows with the same information
 };
 
-/// The slope of a straight line through the blocked rows of a joint: the linear model's K over
-/// their range.
+/// Slope of a straight line through the blocked rows of a joint: K of the linear model over the
+/// range of these rows.
 struct LineStiffness {
   std::string name;          ///< "K"; of several joints "K[2]"
   double low = 0, high = 0;  ///< of the deflection
   double measured = 0, sd = 0;
-  double model = 0;  ///< of the same line through the fitted elastic torque
+  double model = 0;  ///< slope of the same line through the fitted elastic torque
 };
 
 /// Minus twice the log likelihood ratio over one l_o, all else re-optimised.
@@ -50,8 +50,8 @@ struct IdentifyPreload {
   std::vector<Estimate> derived;             ///< stiffness, resonance, ...: of several parameters
   Transmission transmission;                 ///< fitted
   std::vector<ElongationRange> elongations;  ///< that each cable reached
-  /// Deflections that reach them with the link in its reference position; of several joints all
-  /// that their rows have.
+  /// Deflections that reach these elongations with the link in its reference position. With several
+  /// joints: all deflections of the rows.
   double deflection_low = 0, deflection_high = 0;
   double equilibrium = 0;            ///< N m, largest |P f|, |S f| in the reference pose
   std::vector<LineStiffness> lines;  ///< of every joint with blocked rows
@@ -64,7 +64,7 @@ struct IdentifyPreload {
   std::vector<std::string> warnings;
   std::optional<Model> model;  ///< for `simulate`, when the dynamics were identified
 
-  /// No l_o is left open: slack points and tensions mean something.
+  /// Every l_o is known or determined, so slack points and tensions have a meaning.
   bool knows_elongations() const;
 };
 
@@ -72,12 +72,13 @@ struct IdentifyResult {
   std::vector<InputFile> inputs;
   bool linear_motion = false, cable_space = false;
   std::vector<Estimate> parameters;  ///< shared by all preloads
-  /// Of the cable coefficients, the first parameters, in their order; l_o as uncertain as it is.
+  /// Of the cable coefficients, which are the first parameters, in their order. It includes the
+  /// uncertainty of l_o.
   Eigen::MatrixXd coefficient_covariance;
   ElongationCovariance elongations;  ///< of every l_o that was searched and determined
   std::vector<IdentifyPreload> preloads;
   std::vector<ElongationProfile> profiles;
-  std::optional<RecursiveTrace> trace;  ///< when asked for
+  std::optional<RecursiveTrace> trace;  ///< only when requested
   std::vector<std::string> active_bounds;
   double condition = 0;  ///< scaled condition number
   std::vector<Decision> decisions;

@@ -14,8 +14,7 @@ inline void resize_rows(LogChunk& chunk, std::size_t n_rows) {
   chunk.lines.resize(n_rows);
 }
 
-/// Makes room for row `row`. Room doubles, so that a caller may ask for far more rows than there
-/// are.
+/// Makes room for row `row`. Room doubles, so a caller may allow far more rows than there are.
 inline void make_room(LogChunk& chunk, std::size_t row, std::size_t max_rows) {
   constexpr std::size_t kFirstRows = 4096;
   if (row < chunk.lines.size()) return;

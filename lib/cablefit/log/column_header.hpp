@@ -16,8 +16,8 @@ ColumnHeader to_column_header(std::string_view text, const Place& place);
 /// of which there may be many.
 void check_name_length(std::string_view text, const Place& place);
 
-/// Throws Error(input) when two columns have one name, or when no column has any. Columns without
-/// a name (pandas writes its row numbers so) may be many: nobody can ask for them.
+/// Throws Error(input) when two columns have one name, or when no column has any. Several columns
+/// may lack a name (pandas writes its row numbers so): no one can select them.
 void check_names(const std::vector<ColumnHeader>& columns, const Place& header_place);
 
 }  // namespace cablefit

@@ -18,7 +18,7 @@ bool is_gzip(std::string_view head);
 std::unique_ptr<ByteSource> unpack_gzip(std::unique_ptr<ByteSource> packed, std::string path);
 
 bool is_zstd(std::string_view head);
-/// Any number of frames; a frame may not ask for a window of more than 128 MiB.
+/// Any number of frames; a frame may not require a window of more than 128 MiB.
 std::unique_ptr<ByteSource> unpack_zstd(std::unique_ptr<ByteSource> packed, std::string path);
 
 /// "log.csv.gz: gzip data ends early after 123 good bytes; ..": bytes count unpacked.

@@ -55,7 +55,7 @@ inline const char* read_number(const char* p, const char* end, double& value, ch
   return is_read && std::isfinite(value) ? rest : nullptr;
 }
 
-/// How cells are separated. Every function takes and returns places within one line.
+/// How a line is split into cells. Every function takes and returns places within one line.
 template <Delimiter kDelimiter>
 struct RowSyntax {
   static constexpr bool kBlanksDelimit = kDelimiter == Delimiter::blanks;

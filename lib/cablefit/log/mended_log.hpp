@@ -1,5 +1,5 @@
-// A log whose missing cells and repeated times are handled as the user asked for, every change
-// counted. Without such options it delivers what the log's reader does.
+// A log with rules for missing cells and repeated times. Every change is counted. Without rules it
+// delivers the log unchanged.
 #pragma once
 
 #include <memory>
@@ -14,20 +14,20 @@ namespace cablefit {
 enum class Missing {
   refuse,  ///< an error
   drop,    ///< the row is left out
-  hold     ///< the value before stays; a row is left out where there is none, or no time
+  hold  ///< the last value is repeated; a row is left out where there is no last value, or no time
 };
 
 struct MendingRules {
   Missing missing = Missing::refuse;
-  bool first_of_repeated = false;  ///< of rows with the same time only the first is kept
+  bool first_of_repeated = false;  ///< keeps only the first of rows with the same time
 };
 
 struct MendedCounts {
   std::size_t rows_missing = 0;   ///< left out
-  std::size_t cells_held = 0;     ///< filled by the value before
+  std::size_t cells_held = 0;     ///< filled with the last value
   std::size_t rows_repeated = 0;  ///< left out
   std::size_t rows_kept = 0;
-  std::vector<std::size_t> cells_missing = {};  ///< per selected number, before any is filled
+  std::vector<std::size_t> cells_missing = {};  ///< per selected number, before filling
 
   std::size_t n_rows() const { return rows_missing + rows_repeated + rows_kept; }
 };
@@ -44,7 +44,7 @@ class MendedLog final : public LogReader {
   void finish(LogPiece& piece, LogChunk& chunk) override;
   const std::vector<std::string>& words(std::size_t k) const override { return log_->words(k); }
 
-  /// So far; none where the rules are to refuse everything.
+  /// Counts so far; all 0 where the rules refuse everything.
   const MendedCounts& counts() const { return counts_; }
 
  private:

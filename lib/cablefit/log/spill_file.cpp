@@ -29,7 +29,8 @@ std::string temporary_folder() {
 }
 
 int open_unlinked_file() {
-  // Never has a name; where the file system has no such files, it loses its name at once.
+  // The file never has a name. Where the file system does not support that, its name is removed at
+  // once.
   const int nameless = ::open(temporary_folder().c_str(), O_TMPFILE | O_EXCL | O_RDWR | O_CLOEXEC,
                               S_IRUSR | S_IWUSR);
   if (nameless >= 0) return nameless;

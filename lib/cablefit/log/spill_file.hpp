@@ -1,5 +1,5 @@
-// Numbers stored outside memory: an unlinked temporary file, so that it is gone whatever happens to
-// the process.
+// Numbers stored outside memory, in an unlinked temporary file: it disappears with the process,
+// however that ends.
 #pragma once
 
 #include <cstddef>
@@ -23,8 +23,8 @@ class SpillFile {
     tail_.push_back(value);
   }
   void append(std::span<const double> values);
-  /// Copies the numbers from index `first` on; all of them must have been appended. Any number of
-  /// threads may read at a time.
+  /// Copies the numbers from index `first` on; all of them must have been appended. Several threads
+  /// may read at once.
   void read(std::size_t first, std::span<double> to) const;
 
  private:

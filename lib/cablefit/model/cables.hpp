@@ -1,5 +1,6 @@
-// Cable laws: force of one cable against its elongation. A cable only pulls: a slack cable (l <= 0)
-// gives no force (Fichera & Grossard 2017, (4)). To add a law: one file, one line in cables.cpp.
+// Cable laws: force of one cable as a function of its elongation. A cable only pulls: a slack cable
+// (l <= 0) gives no force (Fichera & Grossard 2017, (4)). To add a law: one file, one line in
+// cables.cpp.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,37 +13,38 @@
 
 namespace cablefit {
 
-/// Largest order of any law: a bound for small fixed arrays, far above what data can determine.
+/// Largest order of any law: a bound for small fixed arrays, far above the order that data can
+/// determine.
 inline constexpr int kMaxCableOrder = 9;
 
 /// Linear conditions under which a cable only pulls up to some elongation: rows * coefficients >= 0
 /// imply k(l) = f(l)/l >= 0 there, (5) and (16).
 struct PullConditions {
   Eigen::MatrixXd rows;  ///< conditions x coefficients
-  Eigen::VectorXd at;    ///< elongation that each one is about, or is closest to
+  Eigen::VectorXd at;    ///< elongation of each condition, or the nearest one
 };
 
-/// What a law needs to know besides the elongation, and what is never fitted linearly.
+/// The fixed data of a law besides the elongation: never fitted linearly.
 struct LawShape {
   int order = 2;
   double toe = 0;  ///< m (rad in joint space), > 0 for laws with a toe
 };
 
 /// A law that is linear in its coefficients: f(l) = sum_j coefficient_j * basis_j(l) for l > 0.
-/// Each basis_j is 0 at l = 0, not negative and never falls; it does not depend on the order, so
-/// that a law of a lower order is the same with its last coefficients 0.
+/// Each basis_j is 0 at l = 0, not negative and non-decreasing. It does not depend on the order: a
+/// law of lower order is the same law with its last coefficients 0.
 struct CableLaw {
   std::string_view name;
   std::string_view equation;
   std::string_view source;
-  std::string_view coefficients;  ///< what they are and which sign is safe
-  /// Largest order this law has, at most kMaxCableOrder. The order of a polynomial is that of its
-  /// force; of any law, what more data can raise.
+  std::string_view coefficients;  ///< their meaning, and the sign that is physical
+  /// Largest order of this law, at most kMaxCableOrder. The order of a polynomial is that of its
+  /// force. For any law, more data can support a higher order.
   int max_order;
   bool has_toe;  ///< needs LawShape::toe (rig file "toe")
   /// Number of coefficients of a law of this order (order >= 1), at most kMaxCableOrder.
   int (*n_coefficients)(int order);
-  /// Coefficient j is in force per length to this power.
+  /// The unit of coefficient j is force per length to this power.
   int (*length_power)(int index);
   /// basis_j(l) for one elongation, l > 0; writes n_coefficients(order) values.
   void (*basis)(const LawShape& shape, double l, double* values);
@@ -57,10 +59,9 @@ struct CableLaw {
 std::span<const CableLaw> cable_laws();
 const CableLaw& find_cable_law(std::string_view name);
 
-/// One cable: its law, coefficients and initial elongation, and how its elongation follows from the
-/// joints: l = sum_k g_k(theta_k) - h_k(q_k) + l_o, counted from the reference pose. In joint space
-/// (the paper's (30)) the maps are +1 for cable 1 and -1 for cable 2 and the coefficients are
-/// N m/rad^j.
+/// One cable: its law, coefficients, initial elongation and routing. l = sum_k g_k(theta_k) -
+/// h_k(q_k) + l_o, counted from the reference pose. In joint space (the paper's (30)) the maps are
+/// +1 for cable 1 and -1 for cable 2, and the coefficients are in N m/rad^j.
 struct Cable {
   std::string name;
   const CableLaw* law = nullptr;
@@ -72,12 +73,12 @@ struct Cable {
   std::vector<DisplacementMap> link_map;   ///< h_k, one per joint, of q_k
   double reference_displacement = 0;       ///< g - h in the reference pose, where l = l_o
 
-  /// l at these positions; `theta` without the encoder zero. n_joints each.
+  /// l at these positions, n_joints each; `theta` without the encoder zero.
   double elongation(const Eigen::VectorXd& q, const Eigen::VectorXd& theta) const;
   /// Column of S: dg/dtheta, m. Column of P: dh/dq, m.
   Eigen::VectorXd motor_radii(const Eigen::VectorXd& theta) const;
   Eigen::VectorXd link_radii(const Eigen::VectorXd& q) const;
-  /// l with every map at 0: what is added to g - h as the maps give them.
+  /// l with every map at 0: the constant added to g - h of the maps.
   double shift() const { return initial_elongation - reference_displacement; }
 
   /// Tension (N; joint space N m) at this elongation; 0 when slack.
@@ -89,7 +90,7 @@ struct Cable {
   /// Elastic energy (6), J; 0 when slack.
   double energy(double l) const;
 
-  /// The joint (from 0) moves the cable, be it by the motor or by the link.
+  /// Whether the joint (from 0) moves the cable, by its motor or its link.
   bool passes(std::size_t joint) const {
     return !motor_map[joint].is_zero() || !link_map[joint].is_zero();
   }
@@ -109,9 +110,9 @@ std::string_view elongation_unit(bool cable_space);
 struct Transmission {
   int n_joints = 1;
   std::vector<Cable> cables;
-  /// Cables whose law the logs do not determine, as they hardly load them: the torque is unknown
-  /// where one of them is taut. refine leaves those samples out; all other commands take such a
-  /// cable as slack. A model file does not have their l_o.
+  /// Cables whose law the logs do not determine because they hardly load them. The torque is
+  /// unknown where one of them is taut. refine leaves out those samples; all other commands treat
+  /// such a cable as slack. A model file does not have their l_o.
   std::vector<Cable> idle_cables = {};
   /// Linear model: stiffness per joint (N m/rad, on the motor); used when `cables` is empty.
   Eigen::VectorXd linear_stiffness;
@@ -120,21 +121,21 @@ struct Transmission {
   /// Encoder zero of the deflection per joint: l uses theta - theta_0 (rad). Stage 1 estimates it.
   /// Empty: 0.
   Eigen::VectorXd theta_0;
-  /// Where l = l_o; set it by set_reference.
+  /// The pose with l = l_o; set it by set_reference.
   ReferencePose reference;
 
   /// theta_0, n_joints long.
   Eigen::VectorXd encoder_zero() const;
-  /// q_o and theta_o, n_joints long; theta_o counts from the encoder zero.
+  /// q_o and theta_o, n_joints long; theta_o is counted from the encoder zero.
   Eigen::VectorXd reference_q() const;
   Eigen::VectorXd reference_theta() const;
 
-  /// N per joint: the motor turns by N q when the link turns by q and no cable stretches. From the
-  /// radii in the reference pose, sum(r_m r_l) / sum(r_m^2) over the joint's cables (least squares
-  /// where they differ); 1 where motor and link have pulleys of one radius.
+  /// N per joint: when the link turns by q and the motor by N q, no cable stretches. From the radii
+  /// in the reference pose, sum(r_m r_l) / sum(r_m^2) over the joint's cables (least squares where
+  /// they differ). 1 where motor and link have pulleys of one radius.
   Eigen::VectorXd reductions() const;
-  /// phi = theta - theta_0 - N q of a joint (from 0), rad, sample by sample; theta and q count from
-  /// the reference pose.
+  /// phi = theta - theta_0 - N q of a joint (from 0), rad, sample by sample; theta and q are
+  /// counted from the reference pose.
   Eigen::ArrayXd deflections(int joint, const Eigen::Ref<const Eigen::ArrayXd>& q,
                              const Eigen::Ref<const Eigen::ArrayXd>& theta) const;
 
@@ -146,19 +147,19 @@ struct Transmission {
   /// alone and h on q alone, P depends on q and S on theta.
   Eigen::MatrixXd link_coupling(const Eigen::VectorXd& q) const;
   Eigen::MatrixXd motor_coupling(const Eigen::VectorXd& theta) const;
-  /// tau_elas_l = P f and tau_elas_m = S f (8a)-(8b), n_joints each, N m. Of the linear model
-  /// N K phi and K phi, (2b)-(2c) with the reduction.
+  /// tau_elas_l = P f and tau_elas_m = S f (8a)-(8b), n_joints each, N m. Linear model: N K phi and
+  /// K phi, (2b)-(2c) with the reduction.
   void torques(const Eigen::VectorXd& q, const Eigen::VectorXd& theta, Eigen::VectorXd& link,
                Eigen::VectorXd& motor) const;
   /// Elastic energy U(q, theta) (6), (9), J: dU/dq = -tau_elas_l, dU/dtheta = tau_elas_m.
   double energy(const Eigen::VectorXd& q, const Eigen::VectorXd& theta) const;
 };
 
-/// The classical spring (2), (29) that stands for these cables, its stiffness 0:
-/// tau_elas_m = K phi, tau_elas_l = N K phi with phi = theta - theta_0 - N q.
+/// The classical spring (2), (29) in place of these cables, with stiffness 0: tau_elas_m = K phi,
+/// tau_elas_l = N K phi with phi = theta - theta_0 - N q.
 Transmission classical_spring(const Transmission& cables);
 
-/// Makes the pose the one where every l = l_o.
+/// Sets the pose in which every l = l_o.
 void set_reference(Transmission& transmission, const ReferencePose& pose);
 
 /// The paper's rig: one joint, two antagonist cables named "1" and "2" in joint space, same order.

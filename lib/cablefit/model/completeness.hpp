@@ -1,10 +1,10 @@
-// How much of a model a file has to have.
+// How complete the model in a file must be.
 #pragma once
 
 namespace cablefit {
 
-/// What a reader asks of a model: that it can be simulated, or no more than that it is well formed.
-/// Then values that a fit could not determine are NaN, those of inertias too.
+/// `can_move`: the model can be simulated. `as_it_is`: it is well formed, and values that a fit
+/// could not determine are NaN, inertias too.
 enum class Completeness { can_move, as_it_is };
 
 }  // namespace cablefit

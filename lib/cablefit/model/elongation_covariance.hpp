@@ -1,4 +1,4 @@
-// Joint covariance of initial elongations l_o that were searched.
+// Joint covariance of the initial elongations l_o that were searched.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,8 +23,8 @@ struct ElongationCovariance {
 /// Appends the result of another, independent search.
 void add_independent(const ElongationCovariance& more, ElongationCovariance& all);
 
-/// Of every model that has the covariance of its l_o, with the sd that the model gives them. Those
-/// of different models count as independent: a model file has no more.
+/// From every model that has the covariance of its l_o, with the sd that the model gives. The l_o
+/// of different models count as independent, because a model file has no covariance between models.
 ElongationCovariance elongation_covariance(std::span<const Model> models);
 
 }  // namespace cablefit

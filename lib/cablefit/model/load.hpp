@@ -12,7 +12,7 @@ namespace cablefit {
 
 class JsonNode;
 
-/// Parameters of any load law; each law uses what it needs. SI.
+/// Parameters of any load law; each law uses some of them. SI.
 struct LoadParameters {
   double torque = 0;                           ///< constant
   double mass = 0, radius = 0, direction = 1;  ///< hanging_mass
@@ -29,19 +29,19 @@ struct LoadLaw {
   std::string_view equation;
   bool from_column;  ///< the log's tau_load column is used
   LoadParameters (*read)(const JsonNode& node);
-  /// What `read` read besides "type", for writing it back.
+  /// The values that `read` returned, without "type", to write them back.
   std::vector<LoadEntry> (*entries)(const LoadParameters& parameters);
   double (*torque)(const LoadParameters& parameters, double q);
-  /// Inertia that rides on the link (m r^2, m L^2), part of J_link. 0 when none.
+  /// Inertia of the load (m r^2, m L^2), part of J_link; 0 without any.
   double (*inertia)(const LoadParameters& parameters);
-  /// Makes sense on a rig of several joints, where one law of one q does not.
+  /// Allowed on a rig of several joints. Most laws are not, because they depend on one q.
   bool any_joints = false;
-  /// Its torque needs a link that turns.
+  /// Its torque requires a link that turns.
   bool rotary_only = false;
-  /// Acceleration of the link, rad/s^2, at which the load no longer hangs on it (a slack rope).
-  /// nullptr: it always does.
+  /// Acceleration of the link, rad/s^2, above which the link no longer carries the load (a slack
+  /// rope). nullptr: it always does.
   double (*free_fall)(const LoadParameters& parameters) = nullptr;
-  /// d torque / dq, N m/rad. nullptr: it does not depend on q.
+  /// d torque / dq, N m/rad. nullptr: the torque does not depend on q.
   double (*slope)(const LoadParameters& parameters, double q) = nullptr;
 };
 

@@ -1,5 +1,5 @@
-// A model (cablefit/model/1): rig, effects per axis, cables, every parameter with value and sd.
-// What `simulate` runs and `refine` extends.
+// A model (cablefit/model/1): rig, effects per axis, cables, and every parameter with value and sd.
+// `simulate` runs it and `refine` extends it.
 #pragma once
 
 #include <functional>
@@ -22,9 +22,9 @@ std::string joint_parameter_name(std::string_view name, int joint, int n_joints)
 /// A base effect's parameter of joint `joint` (from 1) without a value: name, symbol and unit.
 Estimate blank_estimate(const ParameterInfo& parameter, int joint, const Rig& rig);
 
-/// The estimate of a parameter, found by its blank estimate; nothing: the model does not have it.
+/// Finds the estimate of a parameter by its blank estimate; nothing: the model does not have it.
 using FindEstimate = std::function<std::optional<Estimate>(const Estimate& blank)>;
-/// The base effects of one side of a joint (from 1) of which `find` has the parameter.
+/// The base effects of one side of a joint (from 1) whose parameter `find` finds.
 std::vector<EffectInstance> base_instances(Side side, int joint, const Rig& rig,
                                            const FindEstimate& find);
 
@@ -42,26 +42,27 @@ struct Model {
   std::vector<JointModel> joints;
   Transmission transmission;  ///< with coefficients; unused on a rigid drive
   /// Stage-1 parameters with their sd, for the file: the coefficients of every cable (or K), then
-  /// l_o and theta_0 if estimated, then what else stage 1 found (offset, f_sm).
+  /// l_o and theta_0 if estimated, then other results of stage 1 (offset, f_sm).
   std::vector<Estimate> elastic;
   bool rigid = false;
   /// Of the parameters of its effects and cables; empty: not known.
   ParameterCovariance covariance = {};
-  /// Means of the link equation's residual in the fit (window_mean.hpp), N m; empty: not known.
+  /// Window means of the link equation's residual in the fit (window_mean.hpp), N m; empty: not
+  /// known.
   std::vector<WindowMean> link_residual = {};
-  /// Base parameters of a coupled arm, in its order (arm.hpp): its links have no J_link of their
-  /// own. Empty: every link turns its own inertia, or the drive is rigid.
+  /// Base parameters of a coupled arm, in its order (arm.hpp). Its links have no J_link of their
+  /// own. Empty: every link moves its own inertia, or the drive is rigid.
   std::vector<Estimate> arm = {};
-  /// Of one joint taken out of several (one_joint.hpp): the model it comes from, and which of its
-  /// joints it is, from 0. nullptr: the model is whole.
+  /// For one joint taken from a model of several (one_joint.hpp): the original model, and the
+  /// joint's index from 0. nullptr: this model is the original.
   std::shared_ptr<const Model> whole = nullptr;
   int joint = 0;
 
-  /// Links move each other.
+  /// The links are coupled.
   bool is_coupled() const { return !arm.empty(); }
 };
 
-/// The model's name when no fit has given one: "rigid", "linear" or "poly".
+/// The model's name when no fit gave one: "rigid", "linear" or "poly".
 std::string_view default_model_name(const Model& model);
 
 /// The text of a cablefit/model/1 file.

@@ -1,7 +1,7 @@
 // Functioning modes of a transmission, Fichera & Grossard 2017, section 2.4: force closure (12),
-// all cables taut, and force disclosure (13), at least one slack; where one turns into the other;
-// and whether the preload alone is in equilibrium, (8c). A cable is taut where l > 0. Positions in
-// rad, theta as logged (theta_0 is taken off), torques in N m.
+// all cables taut; force disclosure (13), at least one slack. Also the points where the mode
+// changes, and whether the preload alone is in equilibrium, (8c). A cable is taut where l > 0.
+// Positions in rad, theta as logged (theta_0 is subtracted here), torques in N m.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,8 +27,8 @@ std::vector<Mode> modes(const TautTable& taut);
 /// the link in its reference position q_o.
 double elongation_at(const Transmission& transmission, const Cable& cable, double phi);
 
-/// Some cable has an initial elongation: l_o is known, and slack points mean more than that cables
-/// end at zero deflection.
+/// Some cable has an initial elongation, so l_o is known. Otherwise slack points only state that
+/// cables end at zero deflection.
 bool is_preloaded(const Transmission& transmission);
 
 /// Where a cable of a one-joint rig goes slack.
@@ -40,8 +40,9 @@ struct SlackPoint {
 };
 
 /// Every change between taut and slack at deflections from `low` to `high`, with the link blocked
-/// in its reference position: cable by cable, deflections ascending, exact to 1e-12 of the range.
-/// A cable that changes twice within 1/400 of the range may be missed (round pulleys change once).
+/// in its reference position: cable by cable, deflections ascending, exact to 1e-12 of the range. A
+/// cable that changes twice within 1/400 of the range may be missed (with round pulleys a cable
+/// changes once).
 std::vector<SlackPoint> slack_points(const Transmission& transmission, double low, double high);
 
 /// Modes over the positions of one joint, the others held.
@@ -55,7 +56,8 @@ struct ModeMap {
   Mode mode(Eigen::Index q_index, Eigen::Index theta_index) const;
 };
 
-/// The map of `joint` (from 0); `pose` holds the other joints, n_joints each, its theta as logged.
+/// The map of `joint` (from 0). `pose` gives the positions of the other joints, n_joints each, its
+/// theta as logged.
 ModeMap mode_map(const Transmission& transmission, int joint, const Eigen::VectorXd& q,
                  const Eigen::VectorXd& theta, const ReferencePose& pose);
 

@@ -1,5 +1,5 @@
-// The part of the motion that a torque follows. Two torques are separable in a motion in which the
-// parts they follow differ.
+// The part of the motion that a torque follows. A motion separates two torques when the parts that
+// they follow differ in it.
 #pragma once
 
 #include <string_view>
@@ -7,7 +7,7 @@
 namespace cablefit {
 
 enum class MotionPart {
-  several,  ///< more than one part, or none that has a name here
+  several,  ///< more than one part, or a part without a name here
   constant,
   direction,  ///< sgn(velocity)
   velocity,

@@ -92,7 +92,7 @@ void name_for(const Rig& rig, int joint, JointModel& axes) {
     }
 }
 
-/// What the fit of one joint gives of a cable, at its place on the other joints.
+/// Parameters of a cable from the fit of one joint, at their place among the other joints.
 void take_cable(const Cable& from, std::size_t joint, Cable& to) {
   to.law = from.law;
   to.order = from.order;

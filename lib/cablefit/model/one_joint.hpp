@@ -26,9 +26,9 @@ Model standing_alone(const Model& one);
 Eigen::MatrixXd arm_columns(const Model& one, const Eigen::ArrayXXd& q, const Eigen::ArrayXXd& qd,
                             const Eigen::ArrayXXd& qdd);
 
-/// Base parameters that the joint's own equation can separate: those whose columns are not made
-/// of earlier ones, for any motion (QR of random ones), and that the model knows to within their
-/// size, or has no sd of.
+/// Base parameters that the joint's own equation separates. Their columns are not combinations of
+/// earlier ones for any motion (QR of random ones), and in the model their sd is below their size,
+/// or missing.
 std::vector<Eigen::Index> determined_arm_columns(const Model& one);
 
 /// The model that `model` was taken from, with its axes and cables in their places; itself, when it

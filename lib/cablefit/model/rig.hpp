@@ -1,4 +1,4 @@
-// The rig file (cablefit/rig/1): meaning of a log's columns, and the parts of the bench.
+// The rig file (cablefit/rig/1): the meaning of a log's columns, and the parts of the bench.
 #pragma once
 
 #include <map>
@@ -14,25 +14,24 @@
 
 namespace cablefit {
 
-/// Where a channel comes from: a foreign column with a unit, sign and scale.
+/// Source of a channel: a column with its unit, sign and scale.
 struct ColumnMapping {
   std::string column;  ///< as in the log's header
   double scale = 1.0;  ///< SI value = (value as written) * scale * (unit's factor) + shift
-  double shift = 0.0;  ///< in the unit given, rarely needed
-  std::string unit;    ///< of value*scale; empty: the header's unit, else SI
+  double shift = 0.0;  ///< in `unit`; rarely needed
+  std::string unit;    ///< of value * scale; empty: the header's unit, else SI
 };
 
 enum class TorqueHold { automatic, zoh, none };
 
-/// tau = kp (ref - theta) + kd d(ref - theta)/dt by backward differences at its period, clipped.
-/// tau = kp e + ki (integral of e) + kd de/dt + feed-forward, e = reference - theta, derivatives by
-/// backward differences over the period. A velocity loop on the motor's speed alone is kd with
-/// feed_velocity = -kd; a cascade of P and PI is written as this law (rig/bench.cpp).
+/// tau = kp e + ki (integral of e) + kd de/dt + feed-forward, clipped, with e = reference - theta.
+/// Derivatives are backward differences over the period. A velocity loop on the motor's speed alone
+/// is kd with feed_velocity = -kd. A cascade of P and PI is written as this law (rig/bench.cpp).
 struct Controller {
   std::string type = "pd";
   double kp = 0, kd = 0;                ///< N m/rad, N m s/rad
   double ki = 0;                        ///< N m/(rad s)
-  double feed_position = 0;             ///< N m/rad, of the reference from its first value on
+  double feed_position = 0;             ///< N m/rad, of the reference less its first value
   double feed_velocity = 0;             ///< N m s/rad, of the reference's speed
   double feed_acceleration = 0;         ///< N m s^2/rad
   double limit = kUnbounded;            ///< |tau| <= limit, N m
@@ -50,7 +49,7 @@ struct SensorInfo {
 struct Rig {
   std::string path;  ///< empty: the default rig
   std::string name;
-  std::string preload;  ///< name of the preload setting, may be empty
+  std::string preload;  ///< name of the preload setting; may be empty
   std::map<std::string, ColumnMapping>
       columns;                 ///< by channel: "t", "q", "theta", "tau", "tau_load", "q1", ...
   double sample_rate = 0;      ///< Hz, of logs without a time column; 0: not given
@@ -60,28 +59,28 @@ struct Rig {
   Load load;
   Arm arm;  ///< of several joints
   std::optional<Controller> controller;
-  bool open_loop = false;  ///< tau is a command without feedback of measured signals
+  bool open_loop = false;  ///< tau is a command that does not depend on measured signals
   std::map<std::string, SensorInfo> sensors;  ///< by channel
   std::map<std::string, double> cad;          ///< by parameter name
   std::vector<std::string> joints = {"1"};
-  Transmission transmission;            ///< coefficients empty: to be fitted
-  bool cables_given = false;            ///< parameters live in cable space
+  Transmission transmission;  ///< coefficients empty: to be fitted
+  bool cables_given = false;  ///< the rig file gives cables, so parameters are in cable space
   std::vector<bool> search_elongation;  ///< per cable: "initial_elongation": "search"
 
   int n_joints() const { return static_cast<int>(joints.size()); }
 };
 
-/// A unit of the tables (of a rotary axis) on the rig's axes.
+/// A unit of the tables, which are for a rotary axis, converted to the rig's axes.
 std::string unit_on(const Rig& rig, std::string_view unit);
 
 /// The paper's rig: one joint, two antagonist cables in joint space.
 Rig default_rig();
 /// Throws Error(input) at file:line:column: unknown keys with "did you mean", negative masses, ...
 Rig read_rig(const std::string& path);
-/// The same from an object inside another file, e.g. a model file's "rig".
+/// As above, from an object inside another file, such as a model file's "rig".
 Rig parse_rig(const JsonNode& node);
-/// `rig_option` (--rig) when not empty, else rig.json beside the log when there is one, else the
-/// default rig.
+/// The rig by `rig_option` (--rig) when not empty, else by rig.json beside the log when there is
+/// one, else the default rig.
 Rig rig_for_log(const std::string& log_path, const std::string& rig_option);
 
 }  // namespace cablefit

@@ -1,6 +1,6 @@
-// Routing: how far each joint pulls a cable. The elongation of cable i is l_i = g_i - h_i + l_o
-// (Fichera & Grossard 2017, (3)-(4)) where g_i is a sum over joints of a map of theta_k, and h_i of
-// q_k. To add a kind of map: one file in routing/, one line in routing.cpp.
+// Routing: the displacement of each cable by each joint. The elongation of cable i is l_i = g_i -
+// h_i + l_o (Fichera & Grossard 2017, (3)-(4)) where g_i is a sum over joints of a map of theta_k,
+// and h_i of q_k. To add a kind of map: one file in routing/, one line in routing.cpp.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,8 +14,8 @@ namespace cablefit {
 
 class JsonNode;
 
-/// Parameters of any displacement map; each kind uses what it needs. SI; on a linear axis read m
-/// for rad, and radii have no unit.
+/// Parameters of any displacement map; each kind uses some of them. SI. On a linear axis m takes
+/// the place of rad, and radii have no unit.
 struct MapParameters {
   std::vector<double> coefficients;         ///< of the radius: r_0, r_1, ... (m, m/rad, ...)
   std::vector<double> angle, displacement;  ///< table: rad ascending, m
@@ -25,16 +25,16 @@ struct MapParameters {
 /// One key of a map in a rig file: a number or a list.
 using MapEntry = std::pair<std::string_view, std::variant<double, std::vector<double>>>;
 
-/// A row of the table of displacement maps (rig file "motor_radius", "link_radius":
-/// {"type": name, ...}). Signed: positive where a growing angle of the motor stretches the cable.
-/// The derivative of the displacement is continuous for every angle.
+/// A row of the table of displacement maps (rig file "motor_radius", "link_radius": {"type": name,
+/// ...}). The sign is positive where a growing angle of the motor stretches the cable. The
+/// derivative of the displacement is continuous for every angle.
 struct MapKind {
   std::string_view name;
   std::string_view equation;
   std::string_view source;
-  bool constant_radius;  ///< a round pulley; rig files give it as a bare number
+  bool constant_radius;  ///< a round pulley, which rig files give as a plain number
   MapParameters (*read)(const JsonNode& node);
-  /// What `read` read besides "type", for writing it back.
+  /// The values that `read` returned, without "type", to write them back.
   std::vector<MapEntry> (*entries)(const MapParameters& parameters);
   double (*displacement)(const MapParameters& parameters, double angle);  ///< m
   double (*radius)(const MapParameters& parameters, double angle);  ///< d displacement/d angle, m
@@ -45,7 +45,7 @@ std::span<const MapKind> map_kinds();
 /// Throws Error(input) with a suggestion.
 const MapKind& find_map_kind(std::string_view name);
 
-/// What one joint adds to the displacement of one cable.
+/// Displacement of one cable by one joint.
 struct DisplacementMap {
   const MapKind* kind = nullptr;
   MapParameters parameters;
@@ -54,11 +54,11 @@ struct DisplacementMap {
   double radius(double angle) const { return kind->radius(parameters, angle); }
   double radius_slope(double angle) const { return kind->radius_slope(parameters, angle); }
 
-  /// The same for many angles; a round pulley takes no call per angle.
+  /// As above, for many angles. A round pulley needs no call per angle.
   Eigen::ArrayXd displacements(const Eigen::Ref<const Eigen::ArrayXd>& angle) const;
   Eigen::ArrayXd radii(const Eigen::Ref<const Eigen::ArrayXd>& angle) const;
 
-  /// The joint does not move this cable at all.
+  /// The joint does not move this cable.
   bool is_zero() const { return kind->constant_radius && radius(0) == 0; }
 };
 
@@ -67,7 +67,7 @@ DisplacementMap round_pulley(double radius);
 /// One round pulley per joint.
 std::vector<DisplacementMap> round_pulleys(const Eigen::VectorXd& radius);
 
-/// Pose in which l = l_o; empty: 0 (paper: q_o, theta_o).
+/// The pose with l = l_o; empty: 0 (paper: q_o, theta_o).
 struct ReferencePose {
   Eigen::VectorXd q, theta;
 };

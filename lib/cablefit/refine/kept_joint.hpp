@@ -1,4 +1,4 @@
-// What is known of one of several joints that could not be refined. Internal to refine/.
+// Known values of one of several joints that could not be refined. Internal to refine/.
 #pragma once
 
 #include <span>
@@ -10,17 +10,17 @@
 
 namespace cablefit {
 
-/// The models of one joint with the base fit that its training logs give, without sd: start values
-/// of a search. Of blocked logs alone, and where there is none, as they are.
+/// The models of one joint with the values of the base fit to its training logs, without sd: start
+/// values of a search. Unchanged for blocked logs alone, and where there is no base fit.
 std::vector<Model> with_base_fit(const std::vector<Model>& models, const RefineLogs& logs);
 
 struct KeptJoint {
   std::vector<Model> models;  ///< of this joint, one per preload
-  std::string source;         ///< whose values these are, as the end of a sentence
+  std::string source;         ///< source of the values, as the end of a sentence
 };
 
-/// The values of the `given` models with their sd; where these have none, those of the base fit;
-/// where there is none either, no values. `started`: the models that the other joints begin with.
+/// The values of the `given` models with their sd. Where these have none, those of the base fit.
+/// Where that has none either, no values. `started`: the models that the other joints start from.
 /// `joint`: from 0.
 KeptJoint kept_joint(std::span<const Model> given, std::span<const Model> started, int joint,
                      const RefineLogs& logs);

@@ -22,7 +22,7 @@ namespace {
 // Not the straight line, even where it will do for stage 1: a gap to be explained is smaller.
 constexpr const char* kCables = "poly";
 constexpr int kPlainOrder = 2;
-constexpr double kAnyInertia = 1;  // kg m^2, until the rows have determined it
+constexpr double kAnyInertia = 1;  // kg m^2; a start value until the rows determine it
 
 std::vector<EffectInstance> blank_effects(Side side, int joint, const Rig& rig) {
   return base_instances(side, joint, rig,
@@ -151,7 +151,7 @@ std::vector<Estimate> arm_of(const DynamicFit& fit, const Rig& rig) {
   return arm;
 }
 
-/// Links that move each other are started from stage 2: no single joint determines their masses.
+/// Coupled links are started from stage 2: no single joint determines their masses.
 void take_arm(std::span<const LogSurvey> logs, const ElasticResult& stage1, int threads,
               std::vector<Model>& models, std::vector<Decision>& decisions) {
   std::vector<LogSurvey> moving;

@@ -33,8 +33,7 @@
 namespace cablefit {
 namespace {
 
-/// The model does not have the time of an event, so it simulates its log as if nothing had
-/// happened.
+/// The model does not contain the time of an event, so it simulates the log as if there were none.
 bool simulates_an_event(const RefineResult& result) {
   return result.held_out_blocks &&
          std::any_of(result.effects.begin(), result.effects.end(),

@@ -1,4 +1,4 @@
-// What refine begins with where the training samples do not determine its own base.
+// Bases for refine where the training samples do not determine its own base.
 #pragma once
 
 #include <optional>
@@ -11,18 +11,18 @@ namespace cablefit {
 
 struct SimplerBase {
   OwnBase base;
-  std::string warning;  ///< what may come of it
+  std::string warning;  ///< possible consequences
 };
 
-/// Of a plain pair of cables (none in the rig file) one of which is taut so rarely that the logs
-/// hardly determine its law: the base without it. Few samples would otherwise decide over its
-/// coefficients, and these over the rest.
+/// For a plain pair of cables (none in the rig file): the base without a cable that is taut so
+/// rarely that the logs hardly determine its law. Otherwise few samples would decide on its
+/// coefficients, and these would change all others.
 std::optional<SimplerBase> base_without_idle_cable(const OwnBase& base, const RefineLogs& logs);
 
-/// Bases with less to determine, in the order in which to try them. First, of a plain pair of
-/// cables, the less loaded one with one coefficient, then without it; then
-/// one straight spring. None without cables, and none of several joints: a spring per joint is not
-/// what cables do that pass several. The decisions say `why`.
+/// Bases with fewer parameters, in the order in which to try them. First, with a plain pair of
+/// cables, the less loaded one with one coefficient, then without that cable. Then one straight
+/// spring. None without cables, and none with several joints: a spring per joint does not describe
+/// cables that pass several joints. `why` is the reason in the decisions.
 std::vector<SimplerBase> simpler_bases(const OwnBase& base, const RefineLogs& logs,
                                        const std::string& why);
 

@@ -1,4 +1,4 @@
-// Models out of files: model files, and results that have the model of a fit.
+// Reads models from files: model files, and results that contain a fitted model.
 #pragma once
 
 #include <string>
@@ -11,16 +11,16 @@ namespace cablefit {
 
 class JsonNode;
 
-/// A model file, or a result file (cablefit/dynamic/1, cablefit/identify/1) plus the preload and
-/// model wanted; empty: the only one, else the first preload and "poly". `choice` says in words
-/// which was taken. Throws Error(input) with file:line:column.
+/// Reads a model file, or a result file (cablefit/dynamic/1, cablefit/identify/1) with the wanted
+/// preload and model. Empty: the only one, else the first preload and "poly". `choice` states in
+/// words which was taken. Throws Error(input) with file:line:column.
 Model read_model(const std::string& path, const std::string& preload, const std::string& model,
                  std::string& choice);
-/// The same from a document that is read already.
+/// As above, from a parsed document.
 Model parse_model(const JsonNode& root, const std::string& preload, const std::string& model,
                   std::string& choice, Completeness completeness = Completeness::can_move);
 
-/// As read_model(), but of a result all its preloads when none is wanted.
+/// As read_model(), but for a result all its preloads when `preload` is empty.
 std::vector<Model> read_models(const std::string& path, const std::string& preload,
                                const std::string& model, std::string& choice,
                                Completeness completeness = Completeness::can_move);

@@ -1,4 +1,4 @@
-// What is in a log and what can be identified from it, before any fit.
+// The content of a log and what can be identified from it, before any fit.
 #pragma once
 
 #include <span>
@@ -17,10 +17,10 @@ struct CheckedChannel {
   ChannelSurvey survey;
 };
 
-/// How the drive (theta or w, else q) was moved, first joint.
+/// Motion of the drive (theta or w, else q), first joint.
 struct CheckedExcitation {
-  std::string channel;       ///< empty: no channel shows it
-  double rest_speed = 0;     ///< rad/s, below this it counts as at rest
+  std::string channel;       ///< empty: no channel shows the motion
+  double rest_speed = 0;     ///< rad/s; slower rows are at rest
   double share_at_rest = 0;  ///< of the rows
   double fastest = 0;        ///< rad/s
   int speed_bands = 0;       ///< of ten equal bands up to `fastest`, those with 1 % of the motion
@@ -38,7 +38,7 @@ struct CheckedPart {
   std::vector<CheckedChannel> channels;
   CheckedExcitation excitation;
   CheckedDelay delay;
-  /// Among "elastic" (stage 1), "dynamic" (stage 2), "rigid", "ratios".
+  /// Subset of "elastic" (stage 1), "dynamic" (stage 2), "rigid", "ratios".
   std::vector<std::string> identifies;
   std::vector<std::string> warnings;
 };
@@ -49,8 +49,8 @@ struct CheckedLog {
   bool linear_motion = false;
   std::vector<std::string> unused_columns;
   std::vector<CheckedPart> parts;
-  std::vector<Decision> decisions = {};  ///< where reading differs from the text of the log
-  std::vector<Figure> figures = {};      ///< check_figures(), when asked for
+  std::vector<Decision> decisions = {};  ///< where the values used differ from the text of the log
+  std::vector<Figure> figures = {};      ///< check_figures(), only when requested
 
   /// Whether anything can be identified from any part.
   bool usable() const;
@@ -61,7 +61,7 @@ struct CheckResult {
   std::vector<std::string> warnings;
 };
 
-/// One more pass over each log, for the speeds.
+/// Needs one more pass over each log, for the speeds.
 CheckResult check_logs(std::span<const LogSurvey> logs, const SampleOptions& options);
 
 }  // namespace cablefit

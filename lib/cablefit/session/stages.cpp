@@ -103,8 +103,8 @@ RefineResult refine_own(OwnBase& base, const RefineLogs& logs, const RefineOptio
   throw Error(ErrorKind::not_identifiable, why);
 }
 
-/// Of a rig file that asks for it, or of a preload without cables in a rig file, and nothing is
-/// known of its error.
+/// Whether an l_o was searched (by the rig file, or for a preload without cables in a rig file) and
+/// its error is not known.
 bool has_unsure_elongation(const Model& model, const ElongationCovariance& known) {
   const std::vector<Cable>& cables = model.transmission.cables;
   const std::vector<bool>& asked = model.rig.search_elongation;

@@ -1,5 +1,5 @@
 // All stages in one run: content of the logs, stiffness, inertia and friction of the drive, and
-// what its model lacks.
+// effects that its model lacks.
 #pragma once
 
 #include <functional>
@@ -22,17 +22,18 @@ struct StudyOptions {
   std::string preload;  ///< only logs that have it; empty: all
   RefineOptions refine;
   bool figures = false;
-  /// Called as each stage begins, with its name.
+  /// Called with the name of each stage as it begins.
   std::function<void(std::string_view stage)> progress;
 };
 
 struct Study {
-  /// A stage without a result: its name, and why.
+  /// A stage without a result, and the reason.
   struct NotDone {
     std::string stage, reason;
     std::optional<ErrorKind> error = {};  ///< the stage failed; none: the logs do not allow it
   };
-  /// The answer of refine for one preload: each has its own friction.
+  /// The result of refine for one preload. Preloads are refined separately, because each has its
+  /// own friction.
   struct Missing {
     std::string preload;
     RefineResult result;
@@ -47,10 +48,10 @@ struct Study {
   std::vector<NotDone> not_done;
 };
 
-/// `test`: logs that only the last stage reads, once, in its end; none: the last third of every
-/// moving log. A stage that the logs do not allow is no error. A stage that fails does not stop the
-/// others. The reason of either is kept. Throws Error(input) for a test log of a preload that is
-/// not fitted, and Error(output).
+/// `test`: logs that only the last stage reads, once, at its end. None: the last third of every
+/// moving log. A stage that the logs do not allow is no error, and a stage that fails does not stop
+/// the others. The result keeps the reason of either. Throws Error(input) for a test log of a
+/// preload that is not fitted, and Error(output).
 Study study(std::span<const LogSurvey> logs, std::span<const LogSurvey> test,
             const StudyOptions& options);
 

@@ -15,7 +15,7 @@ struct Clock {
   double h;  ///< s
 };
 
-/// As many steps as `options.step` asks for; in closed loop a few more when only then the
+/// The steps for `options.step`. In closed loop there are a few more when only then the
 /// controller's period is a whole number of steps.
 Clock make_clock(const Model& model, const SimulationInput& input,
                  const SimulationOptions& options);

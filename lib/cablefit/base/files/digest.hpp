@@ -15,7 +15,7 @@ class Sha256 {
   Sha256& operator=(const Sha256&) = delete;
 
   void add(std::string_view bytes);
-  /// Of all bytes added; once, at the end.
+  /// Digest of all bytes added. Call it once, at the end.
   std::string hex();
 
  private:

@@ -7,10 +7,10 @@
 
 namespace cablefit {
 
-/// Shows whether a file is still the one that was read before.
+/// Identifies one state of a file: equal stamps mean that it was not changed between two reads.
 struct FileStamp {
   std::uint64_t device = 0, number = 0, size = 0;
-  std::int64_t seconds = 0, nanoseconds = 0;  ///< when it was last written to
+  std::int64_t seconds = 0, nanoseconds = 0;  ///< time of the last write
   bool operator==(const FileStamp&) const = default;
 };
 
@@ -25,7 +25,7 @@ class FileReader {
   FileReader& operator=(const FileReader&) = delete;
 
   const std::string& path() const { return path_; }
-  /// Up to `n_bytes` (> 0) bytes, fewer only near the end; 0 at the end.
+  /// Reads up to `n_bytes` (> 0) bytes: fewer only near the end of the file, 0 at its end.
   std::size_t read(char* to, std::size_t n_bytes);
 
  private:

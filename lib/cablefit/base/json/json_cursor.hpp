@@ -1,5 +1,5 @@
-// An input iterator over blocks of JSON text that remembers where the latest tokens started, which
-// the parser itself does not say.
+// An input iterator over blocks of JSON text. It remembers where the latest tokens started, because
+// the parser itself does not report that.
 #pragma once
 
 #include <array>

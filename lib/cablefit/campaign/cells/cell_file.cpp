@@ -20,8 +20,8 @@ constexpr std::size_t kMostBytes = std::size_t{1} << 28;
 constexpr std::size_t kBlockBytes = std::size_t{1} << 16;
 constexpr std::string_view kEnd = "}\n";
 
-/// What stands before the results. The digest shows whether the file was damaged:
-/// nothing else would, where a number lost a digit.
+/// The part before the results. The digest detects a damaged file: nothing else would, where a
+/// number lost a digit.
 std::string head_of(std::string_view results, const CellKey& key) {
   return fmt::format(
       "{{\"schema\": \"cablefit/cell/1\", \"cablefit_version\": \"{}\", \"key\": \"{}\",\n"

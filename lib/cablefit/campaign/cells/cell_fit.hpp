@@ -5,8 +5,8 @@
 
 namespace cablefit {
 
-/// Throws as the fits do, and Error(input) for a log whose content is no longer that of `key`. What
-/// keeps refine from a verdict stands in its `error`.
+/// Throws as the fits do, and Error(input) for a log whose content is no longer that of `key`.
+/// Where refine gives no verdict, `error` has the reason.
 CellResults fit_cell(const Campaign& campaign, const CampaignCell& cell, const CellKey& key,
                      const BatchOptions& options);
 

@@ -1,6 +1,5 @@
-// Results as JSON that reads back bit for bit. A function lists the members of a struct
-// fields(archive, value) (result_fields.hpp), the same for writing and for reading. Internal to
-// campaign/.
+// Results as JSON that reads back bit for bit. A function fields(archive, value) lists the members
+// of each struct (result_fields.hpp), the same for writing and for reading. Internal to campaign/.
 #pragma once
 
 #include <Eigen/Core>

@@ -32,7 +32,7 @@ bool has_schema(const fs::path& path) {
   try {
     const JsonNode root = read_json_file(path.string(), kMostSchemaBytes);
     return root.find("schema") != nullptr || root.find("$schema") != nullptr;
-  } catch (const Error&) {  // too long, or no object: the reader of logs says so
+  } catch (const Error&) {  // too long, or no object: the reader of logs reports that
     return false;
   }
 }

@@ -24,7 +24,7 @@ struct UnreadLog {
 /// A folder with logs and without a rig file.
 struct FolderWithoutRig {
   std::string path;                  ///< relative, "." for the folder that was searched
-  std::string preload;               ///< its logs'; empty: several, by a column
+  std::string preload;               ///< of its logs; empty: several, given by a column
   std::vector<std::string> columns;  ///< of all its logs
 };
 
@@ -34,10 +34,10 @@ struct FoundLogs {
   std::vector<FolderWithoutRig> without_rig;
 };
 
-/// Looks at every .csv, .tsv, .txt and .json (also .gz, .zst) in the folder and up to three levels
-/// below; JSON files with a "schema" are no logs, nor are the folders of cablefit's results. The
-/// preload is that of a column, else of the rig file, else the folder's name; a folder called by a
-/// date gives the date, and the one above it the preload. Throws Error(input)
+/// Searches every .csv, .tsv, .txt and .json (also .gz, .zst) in the folder and up to three levels
+/// below. JSON files with a "schema" are no logs, nor are the files in folders of cablefit's
+/// results. The preload is that of a column, else of the rig file, else the folder's name. A folder
+/// named by a date gives the date, and the folder above it gives the preload. Throws Error(input)
 /// for a folder that cannot be listed.
 FoundLogs find_logs(const std::string& folder, int threads);
 

@@ -28,7 +28,7 @@ struct CurveModel {
   double max_error = 0;              ///< N m (N), largest |model - cables| on the range
   double rms_error = 0;              ///< N m (N)
   double at = 0;                     ///< deflection of the largest error
-  double static_error = 0;  ///< rad (m), largest error of the deflection that it gives for a torque
+  double static_error = 0;           ///< rad (m), largest error of the deflection for a torque
 
   double torque(double phi) const;     ///< at a deflection
   double stiffness(double phi) const;  ///< its slope

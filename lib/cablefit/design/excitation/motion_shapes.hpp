@@ -22,8 +22,8 @@ struct MotionShape {
   std::string_view description;
   std::string_view source;
   Eigen::Index n_numbers;  ///< of one joint, each from 0 to 1
-  /// Position at every period from 0 to the duration, starting at 0 and at rest. Its scale is the
-  /// caller's to choose, but for `share` of it that the numbers ask for.
+  /// Position at every period from 0 to the duration, starting at 0 and at rest. The caller scales
+  /// it to `share` of the limits.
   Eigen::ArrayXd (*position)(const ShapeFrame& frame, const Eigen::ArrayXd& numbers);
   /// Share of the limits that is wanted, 0 to 1.
   double (*share)(const Eigen::ArrayXd& numbers);

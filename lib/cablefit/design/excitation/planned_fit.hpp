@@ -1,5 +1,5 @@
-// What `cablefit dynamic` would find of every parameter from a planned motion: the white sd
-// that the sensors' noise leaves, through its own filters, decimation and rows.
+// How well `cablefit dynamic` would determine every parameter from a planned motion: the white sd
+// from the sensors' noise, with its own filters, decimation and rows.
 #pragma once
 
 #include <memory>

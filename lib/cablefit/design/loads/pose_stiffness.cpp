@@ -12,7 +12,7 @@
 namespace cablefit {
 namespace {
 
-constexpr Eigen::Index kMostSamples = 20000;  // of a log; more show nothing new
+constexpr Eigen::Index kMostSamples = 20000;  // of a log; more add nothing
 
 /// Positions of all joints: q_1 .. q_n, theta_1 .. theta_n.
 Equation positions(Eigen::Index n) {

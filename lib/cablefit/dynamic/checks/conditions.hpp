@@ -17,22 +17,22 @@ struct Condition {
   double sign = 0;            ///< of the column; 0: its magnitude counts
   std::vector<double> edges;  ///< inner edges, ascending
   std::vector<std::string> labels;
-  bool is_comparable = true;  ///< fitted rows of the same bin show what to expect
+  bool is_comparable = true;  ///< fitted rows of the same bin show which error to expect
 };
 
-/// What holds for these rows; speeds are divided by the quartiles of the rows that were fitted.
+/// The conditions of these rows. Speeds are divided by the quartiles of the fitted rows.
 std::vector<Condition> conditions(const JudgedRows& unseen, const JudgedRows& fitted,
                                   const std::vector<std::string>& logs);
 
 /// Combinations of an equation's own columns.
 struct JudgedModel {
-  Eigen::VectorXd residual;  ///< what it leaves
-  Eigen::VectorXd torque;    ///< what is to be explained
-  Eigen::VectorXd linear;    ///< what the linear model leaves; empty: this is it
+  Eigen::VectorXd residual;  ///< model residual
+  Eigen::VectorXd torque;    ///< torque to be explained
+  Eigen::VectorXd linear;    ///< residual of the linear model; empty: this is the linear model
 };
 
 /// All rows, then every bin of every condition that has rows. A bin fails when its mean square
-/// error exceeds that of the fitted rows by more than 3 sd of it (HAC over stretches of time) and
+/// error exceeds that of the fitted rows by more than 3 of its sd (HAC over stretches of time), and
 /// its rms by more than a quarter.
 std::vector<ConditionError> condition_errors(const JudgedRows& unseen, const JudgedRows& fitted,
                                              const std::vector<Condition>& conditions,

@@ -1,4 +1,4 @@
-// Is an inertia that was found there at another cut-off too?
+// Does another cut-off confirm an identified inertia?
 #pragma once
 
 #include "cablefit/dynamic/estimates/estimation.hpp"
@@ -11,18 +11,18 @@ struct OtherCutoff {
   std::vector<EquationRows> equations;
 };
 
-/// With half and twice the cut-off, as far as the rate allows, for all models at once. None for
-/// links that share parameters.
+/// Rows with half and twice the cut-off, as far as the rate allows, for all models at once. None
+/// for links that share parameters.
 std::vector<OtherCutoff> rows_at_other_cutoffs(const DynamicJob& job,
                                                const std::vector<EquationRows>& equations);
 
-/// Fits every equation again by least squares at the other cut-offs, and refuses the
-/// inertias of `estimation` whose 95 % intervals there and here do not meet and that become more
-/// than kMovedInertia times as large or small: filtered noise of speeds and torques has an
-/// "inertia" of its own, that of a drive is the same in every band. One that moves less, but by
-/// more than kMovementNoted, has the movement in its sd; so has one of an elastic drive, which
-/// stiffness as well bends. Refused too: an inertia of a rigid drive whose acceleration, from a
-/// speed channel, is noise.
+/// Fits every equation again by least squares at the other cut-offs. It refuses an inertia of a
+/// rigid drive when the 95 % intervals at the two cut-offs do not overlap and the inertia changes
+/// by more than the factor kMovedInertia. The reason: filtered noise of speeds and torques has an
+/// apparent inertia, but that of a drive is the same in every band. A smaller change, but above
+/// kMovementNoted, becomes part of the sd. So does any larger change on an elastic drive, where an
+/// error of the stiffness causes one too. An inertia of a rigid drive is also refused when its
+/// acceleration comes from a speed channel and is too noisy.
 void refuse_moving_inertias(const EstimationTask& task, const std::vector<OtherCutoff>& others,
                             Estimation& estimation);
 inline constexpr double kMovedInertia = 2, kMovementNoted = 0.2;

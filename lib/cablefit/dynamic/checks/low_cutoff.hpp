@@ -1,4 +1,4 @@
-// What a cut-off near the resonance costs: filter and differences then put J_motor off.
+// Error of J_motor when the cut-off is near the resonance, caused by filter and differences.
 #pragma once
 
 #include <string>
@@ -7,17 +7,17 @@
 
 namespace cablefit {
 
-/// A cut-off from here on, in free resonances, leaves J_motor alone.
+/// From this cut-off on, in free resonances, the filter does not change J_motor.
 inline constexpr double kEnoughResonances = 2;
 
-/// A warning that names J_motor's error by the method (method_floor.hpp), where the cut-off is
-/// below twice the resonance and the error is more than half of the sd; else empty. `error`: in the
-/// unit of the estimate. `in_sd`: the sd holds it already.
+/// A warning with J_motor's error by the method (method_floor.hpp), where the cut-off is below
+/// twice the resonance and the error is more than half of the sd; else empty. `error`: in the unit
+/// of the estimate. `in_sd`: the sd includes it.
 std::string low_cutoff_warning(double cutoff, double resonance, const Estimate& j_motor,
                                double error, bool in_sd);
 
-/// The same for every joint of a fit, into its doubts. Measures the method's floor where the fit
-/// has none, as with white sd.
+/// Adds this warning for every joint of a fit to its doubts. Measures the method's floor where the
+/// fit has none, as with white sd.
 void note_low_cutoff(const EstimationTask& task, const Estimation& estimation, DynamicFit& fit);
 
 }  // namespace cablefit

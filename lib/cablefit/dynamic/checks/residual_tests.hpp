@@ -1,4 +1,4 @@
-// Is what a model leaves white, and does it depend on anything? Internal to dynamic/.
+// Is a model's residual white, and does it depend on any variable? Internal to dynamic/.
 #pragma once
 
 #include "cablefit/dynamic/checks/judged_rows.hpp"
@@ -6,17 +6,17 @@
 
 namespace cablefit {
 
-/// Which rows are tested, and how large things are there.
+/// The tested rows, and the scale of their torque.
 struct TestedRows {
   const JudgedRows& rows;
   bool fitted = false;      ///< the rows are those of the fit
   double row_seconds = 0;   ///< between rows
-  double torque_rms = 0;    ///< of what is to be explained, N m: 1 % of it is material
+  double torque_rms = 0;    ///< of the torque to be explained, N m; 1 % of it is material
   std::string torque_unit;  ///< "N m"
 };
 
-/// Whiteness, then every tested variable that moves. `solution` is of the rows' equation, whose
-/// relative error and headline are filled in.
+/// Whiteness first, then every tested variable that varies. `solution` is of the rows' equation;
+/// its relative error and headline are filled in.
 std::vector<ResidualTest> residual_tests(const TestedRows& tested, const LinearSolution& solution,
                                          JudgedEquation& equation);
 

@@ -1,4 +1,4 @@
-// Does the estimate depend on choices that should not matter? The same fit with other cut-offs and
+// Does the estimate depend on settings that should not matter? The same fit with other cut-offs and
 // rest speeds. Internal to dynamic/.
 #pragma once
 
@@ -6,10 +6,10 @@
 
 namespace cablefit {
 
-/// Fits model `model` again with the cut-off times 0.5 .. 2 (decimation and edges follow it) and,
-/// apart from that, with the rest speed times 0.5 .. 2, and compares with `fit`. A setting is flat
-/// when no parameter moves by more than 2 sd and 1 % over its range. Cut-offs that the rate cannot
-/// carry are left out.
+/// Fits model `model` again with the cut-off times 0.5 .. 2 (decimation and edges follow it), and
+/// separately with the rest speed times 0.5 .. 2, and compares with `fit`. A setting is flat when
+/// no parameter changes by more than 2 sd and 1 % over its range. Cut-offs that the rate does not
+/// allow are left out.
 Sweep sweep_settings(const DynamicJob& job, const Estimator& estimator, std::size_t model,
                      const DynamicFit& fit);
 

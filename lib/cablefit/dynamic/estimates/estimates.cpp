@@ -15,8 +15,8 @@
 namespace cablefit {
 namespace {
 
-// An inertia whose column is explained to more than this by position and the other columns cannot
-// be separated from a torque that depends on position: stiffness, gravity, a wrong elastic stage.
+// An inertia is not separable from a torque that depends on position (stiffness, gravity, a wrong
+// elastic stage) when position and the other columns explain more than this of its column.
 constexpr double kPositionAlias = 0.98;
 // Relative change of an inertia when torques of position are allowed beside it.
 constexpr double kShiftNoted = 0.2;
@@ -77,8 +77,8 @@ std::map<std::string, double> misfit_sd(const RowStatistics& rows, const Dynamic
   return sd;
 }
 
-/// "an inertial torque of 0.02 rms is too small ...; accelerate with ...". A size below its own sd
-/// is noise: the inertia may as well be as large as that.
+/// "an inertial torque of 0.02 rms is too small ...; accelerate with ...". A value below its own sd
+/// is noise: the inertia may be as large as its sd.
 std::string drowned_text(double torque, double left, double relative_sd, const MotionColumn& column,
                          double acceleration) {
   return fmt::format(

@@ -1,4 +1,4 @@
-// What every estimator of stage 2 works on, and what it gives.
+// Input and result of every estimator of stage 2.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace cablefit {
 
-/// What an estimator works on: one model of one preload.
+/// Input of an estimator: one model of one preload.
 struct EstimationTask {
   const DynamicJob& job;
   const std::vector<EquationRows>& equations;  ///< with their rows
@@ -21,10 +21,9 @@ struct EstimationTask {
 
 struct Estimation {
   DynamicFit fit;
-  /// Per equation: what rows * residual_combination = residual is needed for, largest errors and
-  /// plots.
+  /// Per equation: rows * residual_combination = residual, for the largest errors and plots.
   std::vector<LinearSolution> solutions;
-  std::vector<Decision> decisions;           ///< what was chosen on the way, with the reason
+  std::vector<Decision> decisions;           ///< choices of the estimator, with the reason
   std::optional<JointEstimates> joint = {};  ///< for derived quantities, where they are known
 };
 

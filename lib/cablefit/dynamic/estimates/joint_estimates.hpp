@@ -1,4 +1,4 @@
-// The parameters of both equations and of stage 1 as estimates that are known together.
+// The parameters of both equations and of stage 1 as estimates with a joint covariance.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace cablefit {
 
-/// What every stretch of time adds to the estimates of one equation, and what an error of stage 1
-/// does to them.
+/// Contribution of each stretch of time to the estimates of one equation, and their sensitivity to
+/// errors of stage 1.
 struct EquationInfluence {
   std::vector<std::string> names;   ///< of the columns of `influence`
   std::vector<Eigen::Index> cells;  ///< numbers of the stretches, ascending
@@ -21,23 +21,23 @@ struct EquationInfluence {
   double degrees_of_freedom = 1;
 };
 
-/// Of the solution for one equation's rows. `stage1` and `which`: see add_estimates().
+/// For the solution of one equation's rows. `stage1` and `which`: see add_estimates().
 EquationInfluence influence_of(const RowStatistics& rows, const DynamicColumns& columns,
                                const LinearSolution& solution, const ElasticFit* stage1,
                                std::size_t which);
 
-/// The elastic coefficients of stage 1, and the fit's parameters that have an sd and stand on no
-/// bound. Variances are those of the fit; residuals of equations at the same time are correlated as
-/// they are (HAC over the stretches), and both equations share the errors of stage 1 (Murphy &
-/// Topel 1985). Equations whose stretches differ are taken as uncorrelated beside that.
+/// The elastic coefficients of stage 1, and the fit's parameters that have an sd and are not at a
+/// bound. Variances are those of the fit. Residuals of equations at the same time may be correlated
+/// (HAC over the stretches), and both equations share the errors of stage 1 (Murphy & Topel 1985).
+/// Otherwise equations with different stretches count as uncorrelated.
 JointEstimates join_estimates(const DynamicFit& fit, const std::vector<EquationInfluence>& parts,
                               const ElasticFit* stage1);
 
-/// f_0 = sqrt(K (1/J_motor + 1/J_link)) / 2 pi with K = K_rest (Fichera & Grossard 2017, (14)
-/// without friction), zeta, the damping ratio of that mode (Meirovitch 2001, 7.7: f_v and f_vm
-/// projected on its shape), and f_dry = f_s + f_sm, what turns motor and link from rest; beside
-/// those of elastic_quantities(). Only what all its parameters are known for; nothing of several
-/// joints.
+/// The quantities f_0, zeta and f_dry, besides those of elastic_quantities(). f_0 = sqrt(K
+/// (1/J_motor + 1/J_link)) / 2 pi with K = K_rest (Fichera & Grossard 2017, (14) without friction).
+/// zeta is the damping ratio of that mode (Meirovitch 2001, 7.7: f_v and f_vm projected on its
+/// shape). f_dry = f_s + f_sm is the torque that turns motor and link from rest. A quantity is left
+/// out when one of its parameters is not known. None with several joints.
 std::vector<Estimate> drive_quantities(const JointEstimates& from, const Transmission* transmission,
                                        bool cable_space, bool linear_motion);
 

@@ -15,7 +15,7 @@ struct Estimator {
   std::string_view description;
   std::string_view source;
   Estimation (*estimate)(const EstimationTask& task);
-  bool by_filtered_rows = true;  ///< filter, differences and rounding bias it: method_floor.hpp
+  bool by_filtered_rows = true;  ///< filter, differences and rounding bias it (method_floor.hpp)
 };
 
 std::span<const Estimator> estimators();

@@ -1,5 +1,5 @@
-// The equations of one system on the way: rows of all of them in the order of time, into recursive
-// least squares or a gradient. Internal to dynamic/.
+// Online estimation of one system: the rows of all its equations, in the order of time, update
+// recursive least squares or a gradient. Internal to dynamic/.
 #pragma once
 
 #include <optional>
@@ -18,15 +18,15 @@ struct GridSpan {
 
 class OnlineSystem {
  public:
-  /// `direct`: the fit to all rows, whose bounds and given values hold here too. `samples`: the
+  /// `direct`: the fit to all rows; its bounds and given values hold here too. `samples`: the
   /// memory of the rule on the time grid, which sets the step of a gradient.
   OnlineSystem(const EstimationTask& task, const std::vector<std::size_t>& equations,
                const Estimation& direct, const OnlineRule& rule, double samples);
 
-  /// The rows of the span, from a batch of all equations of the task. Returns how many.
+  /// Takes the rows of the span from a batch of all equations of the task. Returns their number.
   Eigen::Index take(const RowBatch& batch, const GridSpan& span);
   TracePoint point(const std::string& record) const;
-  /// Of the gradient's slowest direction over one of average power; 1: recursive.
+  /// Power of the gradient's slowest direction over the average; 1: recursive.
   double slowest() const { return slowest_; }
   double step() const { return step_; }
 

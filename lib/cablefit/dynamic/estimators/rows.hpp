@@ -1,4 +1,4 @@
-// The rows of the table of estimators, and what several of them are made of. Internal to dynamic/.
+// The rows of the table of estimators. Internal to dynamic/.
 #pragma once
 
 #include "cablefit/dynamic/estimators/estimators.hpp"

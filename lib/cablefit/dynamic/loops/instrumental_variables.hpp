@@ -1,6 +1,7 @@
-// IDIM-IV (Janot, Vandanjon & Gautier 2014): instruments are the regressors of a simulated
-// noise-free closed loop with the current parameters, by the same filters and decimation as the
-// measured ones; simulated again with the estimates until these stand still.
+// IDIM-IV (Janot, Vandanjon & Gautier 2014). The instruments are the regressors of a noise-free
+// closed loop, simulated with the current parameters and processed by the same filters and
+// decimation as the measured ones. The simulation is repeated with the new estimates until they
+// converge.
 #pragma once
 
 #include <string>
@@ -13,9 +14,9 @@
 namespace cablefit {
 
 struct IvFit {
-  std::string failure;  ///< why there is no fit; empty: there is
+  std::string failure;  ///< why there is no fit; empty: there is one
   int n_simulations = 0;
-  double last_change = 0;                 ///< of any parameter in the last one, in its own sd
+  double last_change = 0;                 ///< of any parameter in the last iteration, in its own sd
   std::vector<InstrumentedRows> rows;     ///< per equation
   std::vector<LinearSolution> solutions;  ///< on these rows
   std::vector<ExogeneityTest> tests;      ///< Durbin-Wu-Hausman, by these instruments
@@ -27,7 +28,7 @@ struct IvFit {
 inline constexpr int kMostSimulations = 6;
 
 /// Fits model number `which` to the wanted parts of `logs`, which may be fewer than the job's.
-/// `start`: per equation the solution to simulate with first.
+/// `start`: per equation the solution for the first simulation.
 IvFit fit_by_instruments(const DynamicJob& job, std::span<const LogSurvey> logs,
                          const std::vector<EquationRows>& equations,
                          const std::vector<LinearSolution>& start, std::size_t which,

@@ -1,5 +1,5 @@
-// A log made of windows of another one, with more channels or fewer rows: what reads logs reads it
-// as well. Its rows are on the even grid of the windows.
+// A log made of windows of another one, with more channels or fewer rows. All code that reads logs
+// can read it. Its rows are on the even grid of the windows.
 #pragma once
 
 #include <memory>
@@ -10,12 +10,12 @@ namespace cablefit {
 
 class LogCopy {
  public:
-  /// `from` must outlive it. `with_simulated`: every channel q and theta once more, as joints
-  /// n, n + 1, ... 2 n - 1 of a rig that has n.
+  /// `from` must outlive it. `with_simulated`: every channel q and theta is there twice; the
+  /// simulated ones are joints n, n + 1, ... 2 n - 1 of a rig with n joints.
   LogCopy(const LogSurvey& from, bool with_simulated);
 
-  /// Rows [begin, end) of the window; the next one, or a later one. `q`, `theta`: simulated, rows x
-  /// joints; not looked at without simulated channels.
+  /// Adds rows [begin, end) of a window; windows must be in ascending order. `q`, `theta`:
+  /// simulated, rows x joints; ignored without simulated channels.
   void add(const Window& window, const Eigen::ArrayXXd& q = {}, const Eigen::ArrayXXd& theta = {});
   LogSurvey finish();
 
@@ -26,11 +26,11 @@ class LogCopy {
   std::vector<Slot> simulated_;
   std::shared_ptr<SampleStore> store_ = std::make_shared<SampleStore>();
   std::size_t segment_ = 0;
-  Eigen::Index end_ = -1;  ///< of the last window added, in its segment
+  Eigen::Index end_ = -1;  ///< end of the last window added, in its segment
 };
 
 /// About `share` (0..1) of the wanted rows: stretches of kStretchWindows windows each, evenly
-/// spaced over all logs together, every one as if a gap came before it. As many logs as were given.
+/// spaced over all logs together, each with a gap before it. Returns as many logs as were given.
 std::vector<LogSurvey> stretches_of(std::span<const LogSurvey> logs, const PartFilter& wanted,
                                     double share, double bridge);
 inline constexpr int kStretchWindows = 4;

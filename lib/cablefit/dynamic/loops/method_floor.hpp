@@ -1,5 +1,5 @@
-// What filter, differences, sampling and rounding do to the estimates when nothing disturbs the
-// drive: an error that no residual shows and no longer log removes.
+// Error of the estimates that filter, differences, sampling and rounding cause without any
+// disturbance. No residual shows it, and a longer log does not reduce it.
 #pragma once
 
 #include <functional>
@@ -14,13 +14,13 @@ namespace cablefit {
 /// Logs of the measured motion, simulated by a model without disturbances.
 struct CopyDraw {
   std::vector<LogSurvey> logs;
-  bool exact = false;  ///< positions as they are; else with the noise and steps of the sensors
+  bool exact = false;  ///< exact positions; else with the noise and steps of the sensors
   double weight = 1;   ///< among the draws of its kind
   double share = 1;    ///< of the rows of the job
 };
 
-/// The copies of a job's motion: at most kFloorRows rows, in stretches over all logs. One `exact`,
-/// kFloorDraws `rounded`, by fixed seeds.
+/// The copies of a job's motion: at most kFloorRows rows, in stretches over all logs. There is one
+/// `exact` copy and kFloorDraws `rounded` ones, with fixed seeds.
 class CopyDraws {
  public:
   /// Throws Error(not_identifiable) where the motion cannot be simulated. `job` must outlive it.
@@ -41,8 +41,8 @@ inline constexpr const char* kFloorNote =
     "fit of a simulated copy of the motion without disturbances";
 
 /// Squared mean error over the draws of every effect's parameters, per equation, in the square of
-/// their units: how they scatter about it is in the covariance of the residual already. Empty where
-/// the motion could not be simulated.
+/// their units. The scatter about that mean is not included: the covariance of the residual
+/// contains it. Empty where the motion could not be simulated.
 struct MethodFloor {
   std::vector<Eigen::VectorXd> variance;
   std::string note;  ///< how it was measured, or why it was not
@@ -50,11 +50,11 @@ struct MethodFloor {
   bool is_known() const { return !variance.empty(); }
 };
 
-/// Simulates the measured motion with the model that `solutions` (one per equation) make of model
-/// number `which`, without disturbances, with sensors that round as those of the logs do, and fits
-/// that copy by the same filter, decimation and masks: what comes out differs from what went in by
-/// the method alone. `with_instruments`, per equation: instruments keep rounding out, so that the
-/// positions of the copy are exact there. Not for arms whose links move each other.
+/// Simulates the measured motion with model number `which` and the values of `solutions` (one per
+/// equation), without disturbances, with sensors that round like those of the logs. It fits that
+/// copy with the same filter, decimation and masks. The estimates differ from the simulated values
+/// by the method alone. `with_instruments`, per equation: instruments exclude rounding, so the copy
+/// then has exact positions. Not for arms with coupled links.
 MethodFloor method_floor(const DynamicJob& job, const std::vector<EquationRows>& equations,
                          const std::vector<LinearSolution>& solutions,
                          const std::vector<bool>& with_instruments, std::size_t which);

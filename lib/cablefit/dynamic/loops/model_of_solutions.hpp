@@ -1,4 +1,4 @@
-// What stage 2 found as a model that can be simulated.
+// Converts the solutions of stage 2 to a model that can be simulated.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 namespace cablefit {
 
 /// Model number `which` of the job with the values of `solutions`, one per equation. A parameter
-/// that the rows do not determine is 0. Not for arms whose links move each other.
+/// that the rows do not determine is 0. Not for arms with coupled links.
 Model model_of_solutions(const DynamicJob& job, const std::vector<EquationRows>& equations,
                          const std::vector<LinearSolution>& solutions, std::size_t which);
 

@@ -1,5 +1,5 @@
-// The noise-free motion of a fitted model, in its loop or by a commanded torque: what the robot
-// would have done without disturbances and encoder noise. Instruments are made of it.
+// The noise-free motion of a fitted model, in closed loop or with the commanded torque: the motion
+// of the robot without disturbances and encoder noise. It gives the instruments.
 #pragma once
 
 #include <optional>
@@ -13,44 +13,48 @@
 
 namespace cablefit {
 
-/// Where the reference of the loop comes from.
+/// Source of the loop's reference.
 enum class LoopKind {
-  known,      ///< a controller follows the log's reference: the rig's, or one found from the logs
-  command,    ///< the rig says that the torque is a command: it is replayed, there is no loop
+  known,  ///< a controller, the rig's or one identified from the logs, follows the log's reference
+  command,    ///< the rig says that the torque is a command: it is replayed without a loop
   surrogate,  ///< a stiff PD controller follows the measured theta, smoothed
-  none        ///< nothing can be simulated
+  none        ///< no simulation is possible
 };
 
 struct LoopPlan {
   LoopKind kind = LoopKind::none;
-  std::string reason;    ///< why not the known one, or why none
+  std::string reason;    ///< why it is not the known loop, or why there is none
   double bandwidth = 0;  ///< Hz, of the smoothed theta
-  /// Of a known loop: found from the logs, where the rig file has none that made their torque.
+  /// The controller identified from the logs, for a known loop where the rig file has none that
+  /// explains their torque.
   std::optional<ControllerFit> fitted = {};
   std::vector<std::string> warnings = {};
 };
 
-/// Instruments of this loop keep out disturbances that moved the robot, not encoder noise alone.
+/// Whether instruments of this loop exclude disturbances that moved the robot, and not only encoder
+/// noise.
 inline bool keeps_disturbances_out(LoopKind kind) {
   return kind == LoopKind::known || kind == LoopKind::command;
 }
 
-/// One for all wanted logs of the job: known, or command, when every one of them allows it. A
-/// controller of the rig file that does not make the logs' torque is not used, with a warning; one
-/// that does is looked for then, and where there is none.
+/// One plan for all wanted logs of the job: known or command, when every log allows it. A
+/// controller of the rig file that does not explain the logs' torque is not used, with a warning.
+/// Then, and where the rig file has none, a controller is identified from the logs.
 LoopPlan plan_loop(const DynamicJob& job, std::span<const LogSurvey> logs);
 
-/// Where instruments come from and what they keep out, in words. Not of a plan for none.
+/// The source of the instruments and the disturbances that they exclude, in words. Not for a plan
+/// without a loop.
 std::string source_of_instruments(const LoopPlan& plan);
 
 struct SimulatedLogs {
-  std::vector<LogSurvey> logs;  ///< the wanted parts with q and theta of the loop, see LogCopy
-  std::string failure;          ///< where it diverged; empty: it did not
+  std::vector<LogSurvey> logs;  ///< the wanted parts, with q and theta of the loop (LogCopy)
+  std::string failure;          ///< where the simulation diverged; empty: it did not
 };
 
-/// Logs side by side on the job's threads, each in order and in constant memory: the same bits for
-/// any number of them. The step is coarse (kLoopStep): an instrument need not be exact, only free
-/// of noise, and 0.07 % of phase at 100 Hz costs nothing; where that diverges, the simulator's own.
+/// Simulates the logs on the job's threads, each in order and in constant memory, with the same
+/// bits for any number of threads. The step is coarse (kLoopStep): an instrument must be free of
+/// noise but need not be exact, and 0.07 % of phase at 100 Hz is negligible. Where that diverges,
+/// the simulator's own step is used.
 SimulatedLogs simulate_loops(const DynamicJob& job, std::span<const LogSurvey> logs,
                              const Model& model, const LoopPlan& plan);
 

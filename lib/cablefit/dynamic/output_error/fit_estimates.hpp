@@ -8,16 +8,16 @@
 
 namespace cablefit {
 
-/// Where a fit ended.
+/// The end point of a fit.
 struct FinalRows {
   const std::vector<ModelParameter>& parameters;
   const WindowPass& pass;        ///< at solution.x
-  const Eigen::MatrixXd& prior;  ///< whitened rows of the prior there, as those of the pass
+  const Eigen::MatrixXd& prior;  ///< whitened rows of the prior at solution.x
   const NonlinearSolution& solution;
 };
 
-/// Fills what `fit` says of residuals and parameters; `fit.model` has their values. There must be
-/// more rows than parameters.
+/// Fills the residuals and parameters of `fit`; `fit.model` has their values. There must be more
+/// rows than parameters.
 void fill_estimates(const FinalRows& last, OutputErrorFit& fit);
 
 }  // namespace cablefit

@@ -1,7 +1,7 @@
-// Output error where what disturbs the drive comes back through its controller: the disturbance
-// then moves the robot, so that the columns of the parameters are correlated with the residual,
-// and least squares of the whitened residual finds the inertia too small (J -0.5 % at 5 % of
-// disturbance). Z'r = 0 with the columns Z of a noise-free loop in place of J'r = 0 does not mind
+// Output error with instruments, for disturbances that return through the controller. Such a
+// disturbance moves the robot, so the columns of the parameters are correlated with the residual.
+// Least squares of the whitened residual then finds the inertia too small (J -0.5 % at 5 % of
+// disturbance). The remedy is Z'r = 0 with the columns Z of a noise-free loop in place of J'r = 0
 // (Soderstrom & Stoica 1983, ch. 4; Janot, Vandanjon & Gautier 2014). Internal to output_error/.
 #pragma once
 
@@ -21,15 +21,15 @@ struct InstrumentedSums {
 };
 
 struct InstrumentalFit {
-  std::string failure;  ///< why there is none; empty: there is
+  std::string failure;  ///< why there is no fit; empty: there is one
   Eigen::VectorXd x;
-  Eigen::MatrixXd covariance, covariance_white;  ///< p x p, 0 of those that stand still
+  Eigen::MatrixXd covariance, covariance_white;  ///< p x p, 0 for parameters that do not move
   double degrees_of_freedom = 0, effective_rows = 0;
   int n_passes = 0;
 };
 
-/// Newton's steps from `start` until they are short; only parameters with `moves` move.
-/// `sums`: at these parameters; no rows: it diverged.
+/// Newton steps from `start` until they are short. Only parameters with `moves` move. `sums`: at
+/// these parameters; no rows: the simulation diverged.
 InstrumentalFit solve_instrumental(
     const Eigen::VectorXd& start, const std::vector<bool>& moves,
     const std::function<InstrumentedSums(const Eigen::VectorXd&)>& sums);

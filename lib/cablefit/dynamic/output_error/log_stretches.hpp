@@ -1,4 +1,4 @@
-// The rows of logs as output error takes them: unfiltered, on an even grid, gap by gap.
+// The rows of logs for output error: unfiltered, on an even grid, one stretch between two gaps.
 #pragma once
 
 #include <span>
@@ -9,16 +9,16 @@
 
 namespace cablefit {
 
-/// Gapless rows of the wanted parts of `logs`, in their order, as they were measured: no filter, no
-/// decimation. The torque is held between rows or not as the job's settings say. Every wanted part
-/// must have theta, and q unless the drive is rigid. `simulated`: the positions of a simulated loop
-/// in place of the measured ones, of logs that carry them (LogCopy).
+/// Gapless rows of the wanted parts of `logs`, in their order, as measured: no filter, no
+/// decimation. The job's settings decide whether the torque is held between rows. Every wanted part
+/// must have theta, and q unless the drive is rigid. `simulated`: positions of the simulated loop
+/// in place of the measured ones, for logs that contain them (LogCopy).
 std::vector<MeasuredStretch> measured_stretches(const DynamicJob& job,
                                                 std::span<const LogSurvey> logs,
                                                 bool simulated = false);
 
 /// sd of the white noise on every axis' position (position_noise(), the largest of all wanted
-/// parts): links, then motors; of rigid drives one each. rad, > 0.
+/// parts): links, then motors; for rigid drives one each. rad, > 0.
 Eigen::VectorXd position_noise_of(const DynamicJob& job);
 
 }  // namespace cablefit

@@ -1,4 +1,4 @@
-// Uniform rows of a log as output error takes them, cut into windows.
+// Evenly spaced rows of a log for output error, cut into windows.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,7 @@
 
 namespace cablefit {
 
-/// Gapless rows, rows x joints, SI. What the model does not need may be empty.
+/// Gapless rows, rows x joints, SI. Signals that the model does not need may be empty.
 struct MeasuredStretch {
   double period = 0;              ///< s
   double t0 = 0;                  ///< s since the log began, of the first row
@@ -19,7 +19,7 @@ struct MeasuredStretch {
 };
 
 /// One window: positions and forces of every axis (links, then motors; rigid drives: one each), and
-/// where the simulation starts. Row r of axis a is at [r * n_axes + a].
+/// the start of the simulation. Row r of axis a is at [r * n_axes + a].
 struct OutputErrorWindow {
   double period = 0, t0 = 0;
   bool hold_torque = true;
@@ -30,7 +30,7 @@ struct OutputErrorWindow {
   std::vector<double> start_velocity;  ///< rad/s, per axis
 };
 
-/// Windows of about `seconds`, none shorter than half of it except where a stretch is; stretches of
+/// Windows of about `seconds`. None is shorter than half of it, unless its stretch is. Stretches of
 /// fewer than 16 rows are left out. `position_sd`: noise of the positions, per axis, rad.
 std::vector<OutputErrorWindow> cut_windows(const Model& model,
                                            const std::vector<MeasuredStretch>& stretches,

@@ -70,8 +70,8 @@ struct RowModel {
   typename Of<N>::PerAxis force_sd;  ///< N m
 };
 
-/// Of an axis at rest, or turning round, dry friction gives an inequality only, which the
-/// noise of the force breaks one way only: there friction counts as unknown.
+/// For an axis at rest or at a reversal, dry friction gives only an inequality. The noise of the
+/// force violates it in one direction only, so friction there counts as unknown.
 template <int N, typename Before>
 void loosen_at_rest(const SensitivePlant& plant, const OutputErrorWindow& window,
                     const NoiseLevels& noise, const Before& before, const SensitiveState& state,

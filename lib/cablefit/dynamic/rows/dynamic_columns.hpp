@@ -1,5 +1,5 @@
-// The equations of stage 2 as columns: effects of one side, elastic basis of every model in
-// question, position (to see what an inertia could be confused with) and torque.
+// The equations of stage 2 as columns: effects of one side, elastic basis of every model, position
+// (to see what an inertia could be confused with) and torque.
 #pragma once
 
 #include <memory>
@@ -17,19 +17,18 @@
 
 namespace cablefit {
 
-/// A column per coefficient of stage 1 and those of its misfit, which its error needs to be carried
-/// on; or one column with the elastic torque.
+/// A column per coefficient of stage 1 and those of its misfit, which are needed to propagate its
+/// error; or one column with the elastic torque.
 enum class ElasticDetail { coefficients, torque };
 
-/// Whose equation: of a joint (from 0) of an arm; no arm: the links do not move each other.
+/// The joint (from 0) of an equation, and its arm; nullptr: the links are not coupled.
 struct JointPlace {
   int joint = 0, n_joints = 1;
   const Arm* arm = nullptr;
 };
 
-/// The link equations of joints that move each other have the same columns, so that their rows can
-/// stand under each other: base parameters of the arm, then each joint's effects, 0 in the rows of
-/// the other joints.
+/// The link equations of coupled joints have the same columns, so that their rows can be stacked:
+/// base parameters of the arm, then each joint's effects, 0 in the rows of the other joints.
 struct DynamicColumns {
   Side side = Side::motor;
   JointPlace place;
@@ -37,13 +36,13 @@ struct DynamicColumns {
   std::vector<const Effect*> effects;        ///< of this joint
   Eigen::Index n_arm = 0;                    ///< base parameters of the arm, the first columns
   Eigen::Index first_effect = 0;             ///< of this joint
-  std::vector<AddedEffect> added;            ///< beyond (31), whose columns follow
-  std::shared_ptr<const Transmission> cables = {};  ///< that these go by; none: a rigid drive
-  Eigen::Index n_effects = 0;                       ///< all these columns, which come first
+  std::vector<AddedEffect> added;            ///< effects beyond (31); their columns follow
+  std::shared_ptr<const Transmission> cables = {};  ///< of these effects; none: a rigid drive
+  Eigen::Index n_effects = 0;  ///< number of all these columns, which come first
   ElasticDetail detail = ElasticDetail::coefficients;
   std::vector<Eigen::Index> elastic;  ///< first column of each elastic fit's basis, or its torque
   std::vector<Eigen::Index> n_elastic;
-  /// Of each elastic fit the first of two columns: torque and loop of its misfit; -1: it has none.
+  /// For each elastic fit the first of two columns, torque and loop of its misfit; -1: it has none.
   std::vector<Eigen::Index> misfit;
   Eigen::Index deflection = -1;  ///< theta - N q, for its range; -1 on a rigid drive
   Eigen::Index position = 0;     ///< q or theta
@@ -51,8 +50,8 @@ struct DynamicColumns {
   Eigen::Index count = 0;
 };
 
-/// What a joint has beyond (31), with the values about which nonlinear parameters are linearised,
-/// and the cables that it goes by; none: those of the first fit.
+/// Effects of a joint beyond (31), with the values at which nonlinear parameters are linearised,
+/// and the cables that they depend on. None: those of the first fit.
 struct AddedToJoint {
   std::span<const EffectInstance> effects = {};
   std::shared_ptr<const Transmission> cables = {};
@@ -63,7 +62,7 @@ DynamicColumns dynamic_columns(Side side, const std::vector<const ElasticFit*>& 
                                ElasticDetail detail = ElasticDetail::coefficients,
                                const JointPlace& place = {}, const AddedToJoint& added = {});
 
-/// `torque_held`: tau is then not averaged over the triangle. `has_load`: a tau_load signal exists.
+/// `torque_held`: tau is not averaged over the triangle.
 Equation dynamic_equation(const DynamicColumns& columns, const std::vector<const ElasticFit*>& fits,
                           bool torque_held, double rest_speed);
 
@@ -72,21 +71,20 @@ Equation dynamic_equation(const DynamicColumns& columns, const std::vector<const
 Eigen::VectorXd dynamic_response(const DynamicColumns& columns,
                                  const std::vector<const ElasticFit*>& fits, std::size_t which);
 
-/// What the column of a parameter follows. The rows of several joints are weighted when they stand
-/// under each other, so that their sizes say nothing.
+/// The part of the motion that the column of a parameter follows. Stacked rows of several joints
+/// are weighted, so their sizes do not describe the motion.
 MotionColumn motion_column(const DynamicColumns& columns, std::size_t parameter,
                            bool linear_motion);
 
-/// Values of the effects' columns, written into those of `added` that have them, where they are
-/// finite.
+/// Writes finite values of the effects' columns into the members of `added`.
 void take_values(const DynamicColumns& columns, const Eigen::VectorXd& x,
                  std::vector<EffectInstance>& added);
 
 /// Coefficients of a stage-1 fit in the order of its basis columns.
 Eigen::VectorXd elastic_coefficients(const ElasticFit& fit);
 
-/// The first n_effects columns over full-rate rows, by the motion of place `joint` of the signals:
-/// the equation's own joint, or a simulated copy of it.
+/// The first n_effects columns over full-rate rows, from the motion at place `joint` of the
+/// signals: the equation's own joint, or a simulated copy of it.
 void effect_columns(const DynamicColumns& columns, const Signals& signals, std::size_t joint,
                     Eigen::Ref<Eigen::MatrixXd> out);
 

@@ -105,8 +105,8 @@ std::vector<EquationRows> preliminary_equations(const DynamicJob& job, int n_win
 
 namespace {
 
-/// Per equation the residual combinations of all models, one per column, as far as the first
-/// windows show them.
+/// Per equation the residual combinations of all models, one per column, as estimated from the
+/// first windows.
 std::vector<Eigen::MatrixXd> guess(const DynamicJob& job) {
   std::vector<Eigen::MatrixXd> all;
   for (const EquationRows& preliminary : preliminary_equations(job, kGuessWindows)) {

@@ -1,4 +1,4 @@
-// One preload's stage 2 on its way: what is fitted to which rows, with which settings.
+// The data of one preload's stage 2: models, rows and settings.
 #pragma once
 
 #include <optional>
@@ -23,11 +23,11 @@ struct DynamicJob {
   std::vector<std::string> models;
   bool rigid = false;
   ChosenSettings settings;
-  std::vector<ChosenSettings> joint_settings;  ///< of several joints, what each would choose
-  bool links_alone = false;                    ///< each as if the others did not move it
-  /// Effects beyond (31), with the values about which the columns are made.
+  std::vector<ChosenSettings> joint_settings;  ///< with several joints: the choice of each
+  bool links_alone = false;  ///< every link is fitted as if the others did not move it
+  /// Effects beyond (31), with the values at which the columns are computed.
   std::vector<EffectInstance> added = {};
-  const Arm* other_arm = nullptr;  ///< in place of the rig's
+  const Arm* other_arm = nullptr;  ///< instead of the rig's
 
   int n_joints() const { return rig().n_joints(); }
   const ChosenSettings& settings_of(int joint) const;
@@ -35,7 +35,7 @@ struct DynamicJob {
   const LogSurvey& first_log() const;
   const PartSurvey& first_part() const;
   const Rig& rig() const { return first_log().plan.rig; }
-  /// nullptr: the links do not move each other.
+  /// nullptr: the links are not coupled.
   const Arm* arm() const;
   bool is_coupled() const { return arm() != nullptr && arm()->is_coupled(); }
 };
@@ -46,42 +46,42 @@ struct EquationRows {
   Equation equation;
   std::optional<RowStatistics> rows;
   RowCounts counts;
-  /// Largest residuals, per model; guessed at by a fit to the first windows.
+  /// Largest residuals per model; a fit to the first windows gives a first guess.
   std::optional<ResidualPeaks> peaks;
   double deflection_low = kUnbounded, deflection_high = -kUnbounded;
   double acceleration = 0;  ///< largest magnitude, of one joint's equation
 };
 
-/// Per joint link and motor, or the one equation of a rigid drive; no rows yet. `detail`: by
-/// default the coefficients of stage 1, where robust sd carry their error on.
+/// Link and motor equation per joint, or the one equation of a rigid drive, without rows. `detail`:
+/// by default the coefficients of stage 1, where robust sd propagate their error.
 std::vector<EquationRows> make_equations(const DynamicJob& job);
 std::vector<EquationRows> make_equations(const DynamicJob& job, ElasticDetail detail);
 
 /// Places of the equations that share parameters and are solved together: the links of an arm;
-/// else each alone.
+/// otherwise each alone.
 std::vector<std::vector<std::size_t>> systems_of(const std::vector<EquationRows>& equations);
 
-/// The equations with the rows of the first `n_windows` windows of every log only.
+/// The equations with the rows of only the first `n_windows` windows of every log.
 std::vector<EquationRows> preliminary_equations(const DynamicJob& job, int n_windows);
 
-/// Whether the largest residuals of a fit to the rows will be wanted.
+/// Whether the largest residuals of a fit to the rows are needed.
 enum class Peaks { unwanted, kept };
 
-/// Streams all wanted rows into the equations.
+/// Adds all wanted rows to the equations.
 WindowCounts collect_rows(const DynamicJob& job, std::vector<EquationRows>& equations,
                           Peaks peaks = Peaks::unwanted);
 
-/// How much the rows of an equation count beside those of the others.
+/// Weights of the equations relative to each other.
 enum class Weighting { none, by_residual };
 
-/// Rows of the equations of a system as one, each equation's of weight one or weighted with
-/// 1/variance of its own residual.
+/// Joins the rows of a system's equations. The weight of each equation is one or 1/variance of its
+/// own residual.
 RowStatistics stacked_rows(const std::vector<EquationRows>& equations,
                            const std::vector<std::size_t>& system,
                            const std::vector<const ElasticFit*>& elastic, std::size_t which,
                            Weighting weighting);
 
-/// What model number `which` fits to rows of these columns.
+/// The least-squares problem of model number `which` for rows of these columns.
 LinearProblem problem_of(const DynamicColumns& columns,
                          const std::vector<const ElasticFit*>& elastic, std::size_t which,
                          bool linear_motion = false);
@@ -95,7 +95,7 @@ LinearSolution solve_rows(const RowStatistics& rows, const DynamicColumns& colum
 LinearSolution solve_equation(const EquationRows& equation,
                               const std::vector<const ElasticFit*>& elastic, std::size_t which);
 
-/// The fit of model number `which` to each equation; of equations that share parameters the same
+/// The fit of model number `which` to each equation. Equations that share parameters have the same
 /// fit, to their rows weighted by their residuals.
 std::vector<LinearSolution> solve_equations(const std::vector<EquationRows>& equations,
                                             const std::vector<const ElasticFit*>& elastic,

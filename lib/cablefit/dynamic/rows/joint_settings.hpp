@@ -1,4 +1,4 @@
-// Filter, decimation and rest speeds where each of several joints would choose its own.
+// Filter, decimation and rest speeds where several joints need different ones.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// An elastic torque for where there is no stage 1 yet: good enough for the resonance, the filter
-// and the size of the noise.
+// An approximate elastic torque without stage 1. It is sufficient for the resonance, the filter and
+// the size of the noise.
 #pragma once
 
 #include "cablefit/dynamic/rows/dynamic_job.hpp"
@@ -7,9 +7,9 @@
 namespace cablefit {
 
 /// Fits the coefficients of the rig's cables together with all effects of the motors to the first
-/// windows of the job's moving logs: one preload with one "poly" fit. job.elastic and job.settings
-/// are used on the way and hold nothing useful afterwards. Throws Error(not_identifiable) when the
-/// motors hardly move.
+/// windows of the job's moving logs: one preload with one "poly" fit. It changes job.elastic and
+/// job.settings, which are not valid afterwards. Throws Error(not_identifiable) when the motors
+/// hardly move.
 ElasticResult rough_stage1(DynamicJob& job);
 
 }  // namespace cablefit

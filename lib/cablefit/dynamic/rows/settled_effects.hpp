@@ -9,8 +9,8 @@
 namespace cablefit {
 
 /// Makes the equations of the job and collects their rows. Nonlinear parameters move to the
-/// solution of least squares, and the columns are made again there, until no parameter moves by
-/// more than a tenth of its sd. `warning`: the iteration did not converge.
+/// solution of least squares, and the columns are computed again there. This repeats until no
+/// parameter moves by more than a tenth of its sd. `warning`: the iteration did not converge.
 WindowCounts collect_settled(DynamicJob& job, std::vector<EquationRows>& equations,
                              std::string& warning);
 

@@ -15,8 +15,8 @@ namespace cablefit {
 void check_passive(ElasticFit& fit, std::span<const double> longest, const ElongationUnit& unit);
 
 /// Fills `selected` and `selection`: the simplest model whose largest error on held-out blocks is
-/// within `materiality` (share of the peak torque) of the best one's; significance stands beside
-/// it.
+/// within `materiality` (share of the peak torque) of the best one's. Significance is reported
+/// beside it.
 void select_model(ElasticPreload& preload, double materiality);
 
 /// The same with several joints: the simplest model that will do for each of them.

@@ -10,7 +10,8 @@ namespace cablefit {
 ElasticFit make_fit(const ElasticJob& job, const ElasticCandidate& candidate,
                     const LinearSolution& solution, const BlockedRows& rows,
                     std::span<const Nuisance> nuisance);
-/// Of the motor's static friction that could not be determined, by name. `joint`: from 0.
+/// The motor's static friction without a value, where the logs do not determine it. `joint`: from
+/// 0.
 Estimate missing_friction(const ElasticJob& job, int joint);
 
 }  // namespace cablefit

@@ -37,10 +37,11 @@ ElasticCandidate poly_candidate(const ElasticJob& job, const BlockedRows& rows,
 
 /// candidate.pull with a column per regressor.
 Eigen::MatrixXd constraint_rows(const ElasticCandidate& candidate);
-/// A cable that may only pull pushes. The constraints are a little more than that asks for, so a
-/// fit that does not push stands as it is.
+/// Whether a cable that may only pull has a negative stiffness. The constraints are slightly
+/// stricter, so that a fit without a negative stiffness stays as it is.
 bool breaks_constraints(const ElasticCandidate& candidate, const Eigen::VectorXd& x);
-/// Plain least squares where every cable only pulls by itself, constrained where one would push.
+/// Plain least squares where every cable only pulls; constrained where a stiffness would be
+/// negative.
 LinearSolution solve_candidate(const BlockedRows& rows, const ElasticCandidate& candidate);
 /// Fills solution.profile where bounds or constraints hold it.
 void add_profiles(const BlockedRows& rows, const ElasticCandidate& candidate, bool robust,

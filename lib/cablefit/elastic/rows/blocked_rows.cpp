@@ -13,7 +13,7 @@ namespace cablefit {
 namespace {
 
 constexpr double kSlidingShare = 0.1;     // fewer rows in motion: the log is made of plateaus
-constexpr double kSpeedCollinear = 0.98;  // speed and direction are one column
+constexpr double kSpeedCollinear = 0.98;  // speed and direction are not separable
 
 /// The rest speed and the warnings of one of several joints (from 0) among those of all.
 void add_joint_rest(ChosenSettings& all, const ChosenSettings& own, int joint, int n_joints) {

@@ -15,8 +15,8 @@ double encoder_zero(const Transmission& transmission, std::size_t joint) {
                                          : 0.0;
 }
 
-// -1 or 1: the friction branch. In motion the velocity shows it at once; at rest, and where motion
-// does not stand out of the noise (rest_speed 0), the direction of the last motion does.
+// -1 or 1: the friction branch. In motion the velocity determines it at once. At rest, and where
+// motion does not exceed the noise (rest_speed 0), the direction of the last motion does.
 Eigen::ArrayXd branch(const JointSignals& s, double rest_speed) {
   if (!(rest_speed > 0)) return s.approach;
   return (s.thetad.abs() > rest_speed).select(s.thetad.sign(), s.approach);

@@ -9,7 +9,7 @@
 namespace cablefit {
 namespace {
 
-constexpr double kFirstStep = 1e-9;  // rad, less than any encoder shows
+constexpr double kFirstStep = 1e-9;  // rad, below the resolution of any encoder
 constexpr double kLargestTurn = 7;   // rad: a turn, for cables that no motor stretches
 constexpr int kBisections = 45;
 constexpr double kRounding = 1e-12;  // of a range

@@ -1,5 +1,5 @@
-// How far cables were stretched in the rows of a fit: measured cable by cable, since theta - q
-// gives it only where motor and link have pulleys of one radius.
+// Elongations of the cables in the rows of a fit. They are measured cable by cable: theta - q gives
+// them only where motor and link have pulleys of one radius.
 #pragma once
 
 #include <span>
@@ -20,7 +20,7 @@ struct ElongationRange {
   double reach() const;
 };
 
-/// The high end of each; <= 0: the cable is never taut.
+/// The high end of each range; <= 0: the cable is never taut.
 std::vector<double> longest_of(std::span<const ElongationRange> ranges);
 
 /// Deflections phi, Transmission::deflections.
@@ -28,8 +28,8 @@ struct DeflectionRange {
   double low = 0, high = 0;
 };
 
-/// How far the motor of one joint can turn with the link held in its reference position until some
-/// cable leaves its range; exact to 1e-12 of the way. `ranges`: per cable, of the transmission's
+/// How far the motor of one joint can turn until some cable leaves its range, with the link in its
+/// reference position. Exact to 1e-12 of the travel. `ranges`: per cable, with the transmission's
 /// l_o; the elongation of the reference pose counts as reached.
 DeflectionRange reference_deflections(const Transmission& transmission,
                                       std::span<const ElongationRange> ranges);

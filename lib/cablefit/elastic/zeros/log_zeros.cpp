@@ -51,8 +51,8 @@ std::optional<LogZeros> zeros_from(const ElasticJob& job, const BlockedRows& row
   }
   const auto n_logs = static_cast<Eigen::Index>(triangles.size());
   if (n_logs < 2) return {};
-  // The zero of each log in a column of its own, after those that all share. A drive's offset is
-  // part of it, which only a kink could separate from it.
+  // The zero of each log in a column of its own, after the shared ones. A drive's offset is part of
+  // it: only a kink in the curve would separate the two.
   std::vector<Eigen::Index> shared = candidate.regressors;
   std::erase(shared, rows.columns.offset);
   std::erase(shared, rows.columns.zero);
@@ -79,7 +79,7 @@ std::optional<LogZeros> zeros_from(const ElasticJob& job, const BlockedRows& row
 }
 
 /// One curve for all logs and a zero for each; nothing for a single log, or where the rows do not
-/// determine. `fitted`: with one zero for all.
+/// determine them. `fitted`: with one zero for all.
 std::optional<LogZeros> find_log_zeros(const ElasticJob& job, const BlockedRows& rows,
                                        const ElasticCandidate& candidate,
                                        const Transmission& fitted) {

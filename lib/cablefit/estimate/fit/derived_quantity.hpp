@@ -31,8 +31,8 @@ struct DerivedQuantity {
 };
 
 /// The quantity by the delta method, sd^2 = g' covariance g (Fisher 1922; Oehlert 1992), with the
-/// gradient g by central differences of a hundredth of an sd: what is curved over less than an sd
-/// has no such sd. sd_white is left out: covariance is the robust one.
+/// gradient g by central differences of a hundredth of an sd. A quantity that is curved over less
+/// than an sd has no such sd. sd_white is left out: `from` has the robust covariance only.
 Estimate derive(const DerivedQuantity& quantity, const JointEstimates& from);
 
 }  // namespace cablefit

@@ -10,7 +10,7 @@
 namespace cablefit {
 namespace {
 
-constexpr std::size_t kMinCells = 8;  // fewer show nothing of correlation
+constexpr std::size_t kMinCells = 8;  // fewer do not determine a correlation
 
 /// W'rho of a cell of a block.
 Eigen::RowVectorXd cell_score(const JointBlock& block, const GramCell& cell,

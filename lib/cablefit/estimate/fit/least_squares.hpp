@@ -1,5 +1,5 @@
-// Linear least squares on RowStatistics: scaled columns, QR, physical bounds, rank in words,
-// white and robust covariance; two-stage least squares when there are instruments.
+// Linear least squares on RowStatistics: scaled columns, QR, physical bounds, rank reported in
+// words, white and robust covariance. With instruments: two-stage least squares.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,32 +12,34 @@
 
 namespace cablefit {
 
-/// Minimise |rows * (response - sum_j regressors[j] x_j)|. Columns of the rows are addressed by
-/// index; the response is a combination of columns (tau + Z K, say), so `response` is n_columns
-/// long.
+/// Minimises |rows * (response - sum_j regressors[j] x_j)|. Columns of the rows are addressed by
+/// index. The response is a combination of columns (tau + Z K, say), so `response` has length
+/// n_columns.
 struct LinearProblem {
   std::vector<Eigen::Index> regressors;
   std::vector<std::string> names;  ///< one per regressor, for messages
   std::vector<double> lower;       ///< bound per regressor, 0 or -inf; empty: no bounds
   Eigen::VectorXd response;
-  /// Per regressor why it is held at 0 instead of estimated ("never taut"); empty: it is estimated.
+  /// Per regressor the reason why it is held at 0 ("never taut"); empty: it is estimated.
   std::vector<std::string> held = {};
   /// constraints * x >= 0, a column per regressor; no rows: none.
   Eigen::MatrixXd constraints = {};
-  /// Per regressor what it follows, for advice in messages; none is given for those beyond its end.
+  /// Per regressor the part of the motion that it follows, for advice in messages. Regressors
+  /// beyond the end get no advice.
   std::vector<MotionColumn> motion = {};
-  /// Share of the largest singular value (scaled columns) below which columns are not separable;
-  /// smaller for data that are exact by definition.
+  /// Share of the largest singular value (scaled columns) below which columns are not separable. It
+  /// is smaller for data that are exact by definition.
   double rank_tolerance = kMeasuredRankTolerance;
-  /// Columns Z, at least one per regressor that is estimated, for instrumental variables: then
-  /// |Q'rows * (response - ...)| is minimised with Q an orthonormal basis of Z, so that without
-  /// bounds x = (W'P W)^-1 W'P y, P = Z (Z'Z)^-1 Z', which is (Z'W)^-1 Z'y for as many instruments
-  /// as regressors (Wright 1928; Young & Jakeman 1979; Janot, Vandanjon & Gautier 2014). A
-  /// regressor without error is its own instrument. Empty: ordinary least squares.
+  /// Instruments: columns Z, at least one per estimated regressor. Then |Q'rows * (response - ...)|
+  /// is minimised, with Q an orthonormal basis of Z. Without bounds x = (W'P W)^-1 W'P y, P = Z
+  /// (Z'Z)^-1 Z'. With as many instruments as regressors this is (Z'W)^-1 Z'y (Wright 1928; Young &
+  /// Jakeman 1979; Janot, Vandanjon & Gautier 2014). A regressor without error is its own
+  /// instrument. Empty: ordinary least squares.
   std::vector<Eigen::Index> instruments = {};
 };
 
-/// Ends of an interval; infinite where the profile stays low, NaN where there is none.
+/// Ends of an interval: infinite where the profile never reaches the threshold, NaN where there is
+/// no interval.
 struct ProfileInterval {
   double low = 0, high = 0;
 };
@@ -45,19 +47,21 @@ struct ProfileInterval {
 struct LinearSolution {
   Eigen::VectorXd x;                 ///< estimates; 0 where not determined
   Eigen::MatrixXd covariance_white;  ///< the paper's (25), sigma^2 (W'W)^-1
-  /// Robust: HAC sandwich over the cells, never below the white one; the white one without cells.
+  /// Robust: HAC sandwich over the cells, never below the white one. Without cells the white one.
   Eigen::MatrixXd covariance;
   Eigen::MatrixXd solve_operator;  ///< (W'W)^-1, p x p; 0 rows for fixed or undetermined
-  /// n_columns x p: rows * this = What, the regressors, or what the instruments explain of them
-  /// (P W); x answers to the response by solve_operator What'. W'W above is What'What then.
+  /// n_columns x p: rows * this = What, the regressors W, or their projection P W on the
+  /// instruments. x depends on the response by solve_operator What'. With instruments W'W above
+  /// means What'What.
   Eigen::MatrixXd score_columns;
-  /// Per parameter the share (0..1) of what the other regressors leave of its column that the
-  /// instruments explain: partial R^2 (Shea 1997; Godfrey 1999). 1 without instruments.
+  /// Per parameter a share (0..1): of the part of its column that the other regressors do not
+  /// explain, the instruments explain so much. It is a partial R^2 (Shea 1997; Godfrey 1999). 1
+  /// without instruments.
   Eigen::VectorXd first_stage;
   std::vector<Eigen::Index> instruments;      ///< of the problem
   std::vector<std::string> not_identifiable;  ///< per parameter, empty text when it is determined
-  std::vector<bool> at_bound;  ///< at 0, by a bound or by constraints that leave no way out
-  /// Rows of problem.constraints that hold the solution. Then covariances are conditional on them:
+  std::vector<bool> at_bound;  ///< at 0, by a bound or by constraints that allow no other value
+  /// Rows of problem.constraints that hold the solution. Covariances are then conditional on them,
   /// as if constraints * x = 0 were known for these rows, with n_tied directions fewer.
   std::vector<Eigen::Index> active_constraints;
   Eigen::VectorXd unbounded_x, unbounded_sd;  ///< of the fit without bounds; robust
@@ -79,11 +83,11 @@ struct LinearSolution {
   double rms() const;
 };
 
-/// Throws nothing for rank deficiency or too few rows: that is a result, see not_identifiable.
+/// Rank deficiency and too few rows throw nothing: they are a result, see not_identifiable.
 LinearSolution solve(const RowStatistics& rows, const LinearProblem& problem);
 
-/// Largest change of a parameter from one solution to another of the same problem, in sd of `to`:
-/// the measure of convergence of an iteration. 0 where no parameter has an sd.
+/// Largest change of a parameter between two solutions of one problem, in sd of `to`. It measures
+/// the convergence of an iteration. 0 where no parameter has an sd.
 double largest_change_in_sd(const LinearSolution& from, const LinearSolution& to);
 
 }  // namespace cablefit

@@ -61,7 +61,8 @@ struct NonlinearSolution {
 };
 
 /// Levenberg-Marquardt in a trust region (Ceres; More 1978), parameters scaled, one thread, the
-/// same bits every time. Not to converge is a result, said in `message`. Throws nothing of its own.
+/// same bits every time. A solve that does not converge is a result, described in `message`. Throws
+/// nothing of its own.
 NonlinearSolution solve(const NonlinearProblem& problem, const NonlinearOptions& options = {});
 
 }  // namespace cablefit

@@ -1,4 +1,4 @@
-// One parameter of a solution as an estimate: value, sd, 95 % interval, bound.
+// One parameter of a solution as an estimate: value, robust sd, 95 % interval, bound.
 #pragma once
 
 #include "cablefit/base/parameter.hpp"

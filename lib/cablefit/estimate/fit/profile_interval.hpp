@@ -1,6 +1,6 @@
-// The interval of a quantity where bounds and constraints take part, by its profile likelihood:
-// there the covariance, which has no inequality in it, says little (Venzon & Moolgavkar 1988; Raue
-// et al. 2009, Bioinformatics 25:1923).
+// The interval of a quantity under bounds and constraints, by its profile likelihood. The
+// covariance does not include inequalities and says little there (Venzon & Moolgavkar 1988; Raue et
+// al. 2009, Bioinformatics 25:1923).
 #pragma once
 
 #include <Eigen/Core>

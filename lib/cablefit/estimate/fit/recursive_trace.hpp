@@ -1,8 +1,8 @@
 // Recursive least squares (R-LSA, [43] of Fichera & Grossard 2017) in square-root information form
-// (Bierman 1977, ch. V): rows are added one after the other by QR, and the rows read so far
-// are solved with the equalities of the direct fit (D-LSA), whose estimate is reached at the end.
-// With a forgetting factor lambda < 1 a row counts lambda^age (Ljung & Soderstrom 1983, 2.6): the
-// memory is 1/(1 - lambda) samples.
+// (Bierman 1977, ch. V). Rows are added one after the other by QR. The rows read so far are solved
+// with the equalities of the direct fit (D-LSA), so the last estimate is that of the direct fit.
+// With a forgetting factor lambda < 1 a row has the weight lambda^age (Ljung & Soderstrom 1983,
+// 2.6). The memory is 1/(1 - lambda) samples.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,15 +17,15 @@
 
 namespace cablefit {
 
-/// The linear parameters after so many rows.
+/// The linear parameters after n_rows rows.
 struct TracePoint {
   std::size_t n_rows = 0;         ///< of all equations
-  std::string record;             ///< "low, blocked": where the last of them comes from
+  std::string record;             ///< "low, blocked": source of the last row
   std::vector<double> value, sd;  ///< per parameter; NaN: not known yet
   double t = 0;                   ///< s, over all logs; 0 throughout: not known
 };
 
-/// How an estimate is updated with every row, and what it forgets.
+/// How each row updates an estimate, and how old rows lose weight.
 struct OnlineRule {
   std::string method = "recursive";  ///< "recursive", "gradient"
   double forgetting = 1;  ///< lambda: weight of a row after one sample; 1: forgets nothing
@@ -40,10 +40,10 @@ struct RecursiveTrace {
   OnlineRule rule = {};
 };
 
-/// lambda with a memory of so many samples: 1 - 1/samples; samples >= 1.
+/// lambda for a memory of this many samples: 1 - 1/samples; samples >= 1.
 double forgetting_factor(double memory_samples);
-/// Rows of one weight that give a mean as certain, (1 + lambda)/(1 - lambda), in the long run and
-/// for white noise.
+/// Number of rows of equal weight that give a mean with the same sd: (1 + lambda)/(1 - lambda), in
+/// the long run and for white noise.
 double equivalent_samples(double forgetting);
 
 /// The rows read so far: the triangular factor of [W y], weighted.
@@ -54,14 +54,15 @@ class RecursiveInformation {
 
   /// Rows of an equation with the columns, the response and the weight of `block`.
   void add(const JointBlock& block, const Eigen::Ref<const Eigen::MatrixXd>& rows);
-  /// Rows that count `weights` each, besides the weight of the block.
+  /// Rows with weights of their own, on top of the weight of the block.
   void add(const JointBlock& block, const Eigen::Ref<const Eigen::MatrixXd>& rows,
            const Eigen::Ref<const Eigen::VectorXd>& weights);
-  /// The rows read so far count `factor` times what they did.
+  /// Multiplies the weight of all rows read so far by `factor`.
   void forget(double factor);
 
-  /// Values, and sd for white noise of variance 1/weight. Where rows count differently:
-  /// (W'LW)^-1 W'L^2 W (W'LW)^-1, L the weights, so that old rows add no certainty they have not.
+  /// Values, and sd for white noise of variance 1/weight. For rows with different weights L the
+  /// covariance is (W'LW)^-1 W'L^2 W (W'LW)^-1, so that old rows do not count as more certain than
+  /// they are.
   TracePoint point(const std::string& record) const;
 
  private:
@@ -73,13 +74,13 @@ class RecursiveInformation {
   Eigen::VectorXd variances(const JointSolution& s) const;
 };
 
-/// Scales every parameter's band to end at the sd of the direct fit; on the way it keeps its ratio
-/// to that of the rows seen so far. What a bound holds has no band, what is not identifiable stays
-/// empty. `estimates`: as many as parameters, or more.
+/// Scales the band of every parameter to end at the sd of the direct fit. Before the end the band
+/// keeps its ratio to that of the rows read so far. A parameter held by a bound has no band; one
+/// that is not identifiable stays empty. `estimates`: as many as parameters, or more.
 void end_at(std::span<const Estimate> estimates, RecursiveTrace& trace);
 
-/// The same without that end: every band times the ratio of the direct fit's sd to its white-noise
-/// one, which the band has.
+/// Scales bands without fixing their end: every band times the ratio of the direct fit's sd to its
+/// white-noise sd. Before scaling, a band is white-noise.
 void scale_bands(std::span<const Estimate> estimates, RecursiveTrace& trace);
 
 /// Parameter `k` at the end of a trace; NaN where it is not known.
@@ -89,9 +90,10 @@ struct OnlineEnd {
 };
 OnlineEnd online_end(const RecursiveTrace& trace, std::size_t k, const Estimate& direct);
 
-/// A figure per parameter: the estimate with its band of +-2 sd, and where it ends.
+/// A figure per parameter: the estimate with its band of +-2 sd, and the direct estimate at its
+/// end.
 std::vector<Figure> trace_figures(const RecursiveTrace& trace);
-/// The same with several traces of the same parameters, `direct` the answer from all rows.
+/// As above, for several traces of the same parameters. `direct`: the estimates from all rows.
 std::vector<Figure> trace_figures(std::span<const RecursiveTrace> traces,
                                   std::span<const Estimate> direct);
 

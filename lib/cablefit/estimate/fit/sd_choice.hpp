@@ -1,4 +1,4 @@
-// One standard deviation, chosen among white, HAC and block bootstrap by a rule.
+// The standard deviation that is reported, chosen among white, HAC and block bootstrap by a rule.
 #pragma once
 
 #include <vector>

@@ -97,7 +97,7 @@ void add_pairs(const Columns& c, Identifiability& out) {
     }
 }
 
-/// Directions of three and more; those of two are shown by their correlation.
+/// Directions of three and more parameters; those of two are reported by their correlation.
 void add_groups(const Columns& c, const Eigen::MatrixXd& v, const Eigen::VectorXd& singular,
                 Eigen::Index rank, Identifiability& out) {
   const Eigen::MatrixXd share =

@@ -1,4 +1,4 @@
-// What the rows of an equation can separate, before and whatever the response: scaled condition
+// Which parameters the rows of an equation separate, before the response is used: scaled condition
 // number, singular directions and correlations, in words.
 #pragma once
 
@@ -45,11 +45,11 @@ Identifiability identifiability(const Eigen::MatrixXd& columns, Eigen::Index n_r
 /// of the columns.
 std::string hardly_apart(const NamedColumn& a, double rms_a, const NamedColumn& b, double rms_b,
                          double correlation);
-/// Estimates that correlate by more than this are reported.
+/// Estimates with a larger correlation are reported.
 inline constexpr double kCorrelationTold = 0.95;  // estimation-rules: warn above
 
-/// Why the parameter `self` alone is not determined, of a direction (scaled parameters) that the
-/// rows do not show: "cannot be told apart from f_s in these logs; ...".
+/// Why the parameter `self` alone is not determined, from a direction (scaled parameters) that the
+/// rows do not show: "is not separable from f_s in these logs; ...".
 std::string not_determined(const Eigen::VectorXd& direction, Eigen::Index self,
                            const Eigen::VectorXd& rms, std::span<const NamedColumn> names);
 /// Per parameter the same of all directions; empty where it is determined. `null_directions`:

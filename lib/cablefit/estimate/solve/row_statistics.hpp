@@ -1,7 +1,7 @@
-// Everything the estimators need of millions of rows, in constant memory: the triangular factor of
-// a streamed QR (for the estimates: it does not square the condition number) and the
-// Gram matrix of each of at most kMaxCells stretches of rows (for robust standard deviations and
-// for held-out blocks, where its precision is sufficient).
+// All that the estimators need of millions of rows, in constant memory. The triangular factor of a
+// streamed QR gives the estimates: it does not square the condition number. The Gram matrices of at
+// most kMaxCells stretches of rows give robust standard deviations and held-out blocks, for which
+// their precision is sufficient.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,8 +11,8 @@
 
 namespace cablefit {
 
-/// Rows hold all columns of an equation side by side, regressors and responses alike; which is
-/// which is decided when solving, so that one pass over a log serves every model fitted to it.
+/// Rows contain all columns of an equation side by side, regressors and responses alike. The solver
+/// decides which is which, so one pass over a log serves every model fitted to it.
 using Rows = Eigen::Ref<const Eigen::MatrixXd>;
 
 /// R of [rows] = Q R, n_columns x n_columns, upper triangular (Golub & Van Loan, ch. 5; TSQR of
@@ -37,9 +37,9 @@ struct GramCell {
   Eigen::MatrixXd gram;  ///< n_columns x n_columns, symmetric, full
 };
 
-/// What each cell adds to a sum, as a series in time: n x n_columns, one row for each stretch of
-/// time from the first cell to the last, zeros where no rows were used. Neighbours in the series
-/// are then neighbours in time, which its autocovariance supposes.
+/// The terms that cells add to a sum, as a series in time: n x n_columns, one row for each stretch
+/// of time from the first cell to the last, zeros where no rows were used. Neighbours in the series
+/// are then neighbours in time, as its autocovariance assumes.
 Eigen::MatrixXd series_over_time(const std::vector<GramCell>& cells, Eigen::Index n_columns,
                                  const std::function<Eigen::RowVectorXd(const GramCell&)>& of_cell);
 
@@ -47,20 +47,20 @@ class RowStatistics {
  public:
   static constexpr Eigen::Index kMaxCells = 2048;
 
-  /// `expected_rows` decides how long a cell is (at least one row); 0 cells when `with_cells` is
-  /// off.
+  /// `expected_rows` decides the length of a cell (at least one row). There are no cells when
+  /// `with_cells` is off.
   RowStatistics(Eigen::Index n_columns, Eigen::Index expected_rows, bool with_cells = true);
   /// An empty accumulator of the same layout, for another thread or window.
   RowStatistics empty_copy() const;
 
-  /// Rows with their numbers on the time grid (ascending, gaps where rows were dropped), so that a
-  /// cell is a stretch of time.
+  /// Rows with their numbers on the time grid (ascending, with gaps where rows were dropped), so
+  /// that each cell is a stretch of time.
   void add(const Rows& rows, std::span<const Eigen::Index> numbers);
   /// Adds the rows of another accumulator, after those of this one.
   void add(const RowStatistics& later);
 
-  /// Rows of several equations with the same columns and time grid as one: each row times the root
-  /// of its equation's weight, and rows of one stretch of time in one cell.
+  /// Joins rows of several equations with the same columns and time grid. Each row is multiplied by
+  /// the root of its equation's weight; rows of one stretch of time share a cell.
   static RowStatistics weighted(std::span<const RowStatistics* const> equations,
                                 std::span<const double> weights);
 

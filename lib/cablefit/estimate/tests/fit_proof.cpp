@@ -11,7 +11,7 @@ namespace cablefit {
 namespace {
 
 constexpr double kLevel = 0.95;
-constexpr double kBiasNoted = 0.5;  // sd; more, and three standard errors of it, is reported
+constexpr double kBiasNoted = 0.5;  // sd; a larger bias above three standard errors is reported
 constexpr double kStandardErrors = 3;
 
 bool has_numbers(const Estimate& e) {

@@ -32,7 +32,8 @@ std::vector<bool> movable(const JointFit& fit, std::size_t job,
   return moves;
 }
 
-/// Coefficients about which to linearise: far from equilibrium those that keep it show nothing.
+/// Coefficients about which to linearise. Far from equilibrium, those constrained to it are no
+/// guide, so unconstrained ones are used.
 struct Pivot {
   Eigen::VectorXd x;
   bool near = false;

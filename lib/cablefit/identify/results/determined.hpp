@@ -5,7 +5,7 @@
 
 namespace cablefit {
 
-/// Why parameter `k` of the layout is not determined; empty when it is. Of coefficients and l_o it
+/// Why parameter `k` of the layout is not determined; empty when it is. For coefficients and l_o it
 /// names a sum that is determined: "K1_0 + K2_0 = 3605 +- 4 N m/rad is".
 std::string why_undetermined(const JointFit& fit, const JudgedPoint& judged, Eigen::Index k);
 

@@ -50,8 +50,8 @@ void note_pushing(const JointFit& fit, const IdentifyPreload& preload, IdentifyR
   }
 }
 
-/// What depends on l_o is given only where l_o is known, and of one joint only: with several, a
-/// cable goes slack along a surface of poses.
+/// Results that depend on l_o are reported only where l_o is known, and for one joint only: with
+/// several, a cable goes slack along a surface of poses.
 void add_slack_points(IdentifyPreload& preload) {
   if (preload.knows_elongations() && preload.transmission.n_joints == 1)
     preload.slack =

@@ -1,5 +1,5 @@
 // The combinations of its links' inertial parameters on which the torques of a serial arm depend:
-// all that any log of q and torques can determine. Each stands for one column of the regressor.
+// all that a log of q and torques can determine. Each is one column of the regressor.
 #pragma once
 
 #include <string>
@@ -27,12 +27,12 @@ struct BaseParameter {
 };
 
 /// In ascending order of the kept parameters. The columns are sampled at random motions (a fixed
-/// seed) and scaled; a QR decomposition with pivoting shows their rank by the gap in its
-/// diagonal (Gautier 1991). Which columns are kept follows a fixed order rather than the size of
-/// the pivots, so that names do not hang on rounding: from the last link to the first the ones that
-/// Gautier & Khalil 1990 keep (for an axis along z: ZZ, XX, XY, XZ, YZ, MX, MY; along another axis
-/// the same with the letters moved on), then what is left. The factors solve W_left = W_kept F.
-/// Throws Error(input), without a place, where lengths are too large for floating point.
+/// seed) and scaled. A QR decomposition with pivoting shows their rank by the gap in its diagonal
+/// (Gautier 1991). Which columns are kept follows a fixed order rather than the size of the pivots,
+/// so that names do not depend on rounding: from the last link to the first those that Gautier &
+/// Khalil 1990 keep (for an axis along z: ZZ, XX, XY, XZ, YZ, MX, MY; along another axis the same
+/// with the letters permuted), then the others. The factors solve W_left = W_kept F. Throws
+/// Error(input), without a place, where lengths are too large for floating point.
 std::vector<BaseParameter> base_parameters_of(const SerialChain& chain);
 
 }  // namespace cablefit

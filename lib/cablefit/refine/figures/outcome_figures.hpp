@@ -1,4 +1,4 @@
-// What a refinement decided, as plots: candidates, and how far the parameters moved. Internal to
+// Plots of the outcome of a refinement: candidates, and changes of the parameters. Internal to
 // refine/.
 #pragma once
 
@@ -10,7 +10,7 @@ namespace cablefit {
 
 inline constexpr int kBefore = 1, kAfter = 2;  ///< series, the same colours everywhere
 
-/// Those with something to show.
+/// Only figures with content.
 std::vector<Figure> outcome_figures(const RefineResult& result);
 
 }  // namespace cablefit

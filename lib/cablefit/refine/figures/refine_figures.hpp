@@ -1,5 +1,5 @@
-// A refinement as plots: what the equations leave before and after, over time and against what
-// reveals the effect; candidates; how far the parameters moved.
+// Plots of a refinement: residuals before and after, over time and against the variable that shows
+// the effect; candidates; changes of the parameters.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace cablefit {
 
-/// The same rows before anything was added and in the end, with the values of all columns.
+/// The same rows before any effect was added and at the end, with the values of all columns.
 struct BeforeAfter {
   std::span<const LogSurvey> logs;  ///< by Stretch::log
   const Design& before;
@@ -21,8 +21,8 @@ struct BeforeAfter {
   KindLevels floor;  ///< N m, of these rows
 };
 
-/// The gap shrinking first: the residual against what reveals the effect, and a test log simulated.
-/// Then candidates and shifts, all about the residuals of the logs that were fitted, and those of
+/// First the residual against the variable that shows the effect, and a simulated test log. Then
+/// candidates and changes of parameters. At the end the residuals of the fitted logs, and those of
 /// the test logs over time.
 std::vector<Figure> refine_figures(const RefineResult& result, const BeforeAfter& train,
                                    const BeforeAfter& test, const TestLogs& simulated = {});

@@ -1,5 +1,5 @@
-// The rows of an equation as figures show them: when, at what speed and load, and what was left of
-// each. Internal to refine/.
+// The rows of an equation as figures show them: time, speed, load and residual of each. Internal to
+// refine/.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace cablefit {
 
-/// One row of an equation, as it is shown.
+/// One row of an equation for a figure.
 struct ShownRow {
   double t;                       ///< s, on the common axis
   std::vector<double> variables;  ///< of regime_variables.hpp
@@ -22,18 +22,18 @@ struct ShownRow {
 struct ShownRows {
   std::vector<ShownRow> rows;
   std::vector<Eigen::Index> numbers;
-  double row_period = 0;  ///< s, where they are furthest apart
+  double row_period = 0;  ///< s, the largest of all stretches
   double rms = 0;
 };
 
-/// Where each stretch begins on the common axis.
+/// Start of each stretch on the common axis.
 struct Timeline {
   std::vector<double> begins;
   double end = 0, spacing = 0;
   std::vector<Mark> marks;
 };
 
-/// Of the stretches that have rows of the equation `wanted`; others take no time. `logs`: by
+/// For the stretches that have rows of the equation `wanted`; others take no time. `logs`: by
 /// Stretch::log.
 Timeline timeline_of(const Design& design, std::span<const LogSurvey> logs, RowKind wanted);
 

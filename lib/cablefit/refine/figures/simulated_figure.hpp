@@ -1,5 +1,4 @@
-// A test log simulated by the models before and after, beside what was measured. Internal to
-// refine/.
+// A test log and its simulation by the models before and after. Internal to refine/.
 #pragma once
 
 #include <span>
@@ -11,14 +10,14 @@
 
 namespace cablefit {
 
-/// What was not fitted.
+/// Logs that were not fitted.
 struct TestLogs {
   std::span<const LogSurvey> logs = {};
-  double compared = 1;  ///< share of the time of every log, its end
+  double compared = 1;  ///< share of the time of every log, at its end
 };
 
-/// The deflection (theta of a rigid drive) of the first moving part that a model is of. Without
-/// traces where nothing can be simulated. `after` empty: nothing was added.
+/// The deflection (theta of a rigid drive) of the first moving part whose preload has a model.
+/// Without traces where no simulation is possible. `after` empty: no effect was added.
 Figure simulated_figure(const TestLogs& test, const std::vector<Model>& before,
                         const std::vector<Model>& after);
 

@@ -1,6 +1,6 @@
-// Blocked logs without any effect beyond the model: the same motion of the motor, the torque that
-// the model says, the same rounding and noise. A blocked motor is slow, its inertia often unknown:
-// its motion is taken as it was, and no controller is needed. Internal to refine/.
+// Blocked logs without any effect beyond the model: the same motion of the motor, the torque of the
+// model, the same rounding and noise. A blocked motor is slow and its inertia often unknown, so the
+// measured motion is used and no controller is needed. Internal to refine/.
 #pragma once
 
 #include <vector>
@@ -19,11 +19,11 @@ struct BlockedCopy {
   std::vector<Sensors> sensors;  ///< per stretch
 };
 
-/// `models`: by Stretch::model. Sensors as the rig files have them, else as the recordings look.
+/// `models`: by Stretch::model. Sensors as in the rig files, else as the recordings show.
 BlockedCopy make_blocked_copy(const std::vector<Model>& models, std::vector<Stretch> stretches,
                               const Smoothing& wanted);
 
-/// One recording of it. `disturbance`: a torque beside the model; sd 0: none.
+/// One recording of the copy. `disturbance`: a torque besides the model's; sd 0: none.
 std::vector<Stretch> record(const BlockedCopy& copy, const ArModel& disturbance,
                             std::uint64_t seed);
 

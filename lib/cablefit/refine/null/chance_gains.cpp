@@ -10,8 +10,8 @@ namespace {
 constexpr double kLeastUnit = 1e-9;
 constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 
-/// Of an event: what lasts, what passes. A search over dates finds more under the null, and what
-/// passes is judged in sample.
+/// Kind of an event: lasting or passing. A search over times gains more under the null, and a
+/// passing event is judged in sample.
 std::size_t occurrence_of(const Effect& row) { return row.lasts() ? 0 : 1; }
 
 /// A gain as a log ratio of squared errors, which is not bounded by 1 (Wilks 1938).

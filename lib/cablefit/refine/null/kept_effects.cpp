@@ -11,8 +11,9 @@
 namespace cablefit {
 namespace {
 
-// Of an effect's columns, scaled: the squared part that the others have to leave. A scan asks for
-// more, beside a base that the effect had bent; here the sd says what it is worth.
+// Of an effect's scaled columns: the least squared part that the other columns do not explain. A
+// scan requires more, because the missing effect has biased its base. Here the sd shows how well
+// the effect is determined.
 constexpr double kOwnPart = 1e-7;
 
 double value_at(const EffectInstance& instance, std::size_t parameter) {

@@ -1,5 +1,5 @@
-// Effects that the models have from an earlier refinement: part of the base, with columns that are
-// refitted with all others. Internal to refine/.
+// Effects that the models have from an earlier refinement. They are part of the base, and their
+// columns are refitted with all others. Internal to refine/.
 #pragma once
 
 #include <span>
@@ -10,39 +10,39 @@
 
 namespace cablefit {
 
-/// Those of a model as variants, in the plain form where the values are those of it. Other cables
-/// are in the transmission already and no variants.
+/// Kept effects of a model as variants, in the plain form where their values are those of the plain
+/// form. Changed cables are in the transmission already and give no variants.
 std::vector<Variant> kept_variants(const Model& model);
 
-/// The models without them, as designs hold them.
+/// The models without kept effects, as designs contain them.
 std::vector<Model> without_kept(std::span<const Model> models);
 
-/// The design with these in it, one after the other; its models have their cables already.
-/// `values`: of all columns, or as many of the first as there are.
+/// The design with these variants, added one after the other. Its models already have their cables.
+/// `values`: of all columns, or of the first ones.
 Design with_variants(Design design, const std::vector<Variant>& variants,
                      const Eigen::VectorXd& values);
 
-/// The same columns over other stretches. `bases`: the design's models with the values `x`.
+/// The same columns for other stretches. `bases`: the design's models with the values `x`.
 Design design_like(const Design& design, const Eigen::VectorXd& x, std::span<const Model> bases,
                    std::vector<Stretch> stretches);
 
-/// A design of models with all they have.
+/// A design of models with all their effects.
 Design design_of(std::span<const Model> models, std::vector<Stretch> stretches,
                  const Smoothing& smoothing);
 
-/// A base fit with what the models have, and the design as it is without.
+/// A base fit with the models' kept effects, and the design without them.
 struct KeptBase {
   BaseFit base;
   Design bare;
   std::vector<std::string> warnings;
 };
 
-/// A warning: an effect whose coefficient came out beyond its physical bound.
+/// The warning for an effect that was removed because its coefficient is beyond its physical bound.
 std::string taken_out(const Effect& row);
 
-/// Nonlinear parameters of the effects follow the rows. What is beyond its physical bound in these
-/// is taken out, with a warning. Throws Error(not_identifiable) where the rows do not determine an
-/// effect from the other columns.
+/// The nonlinear parameters of the effects are fitted too. An effect beyond its physical bound in
+/// these rows is removed, with a warning. Throws Error(not_identifiable) where the rows do not
+/// separate an effect from the other columns.
 KeptBase fit_kept_base(std::span<const Model> models, std::vector<Stretch> stretches,
                        const Smoothing& smoothing, const ScanSettings& settings);
 

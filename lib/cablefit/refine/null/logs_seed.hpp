@@ -1,4 +1,4 @@
-// A seed that goes with the logs. Internal to refine/.
+// A seed that depends on the logs. Internal to refine/.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,9 @@
 
 namespace cablefit {
 
-/// Of the random numbers of data sets simulated like these logs: another for other numbers in the
-/// logs, so that the p-values of several sets of logs are independent of each other. The same for
-/// the same rows, whatever the order of the logs and the name and format of a file.
+/// Seed for data sets simulated like these logs. Logs with other numbers have another seed, so that
+/// the p-values of several sets of logs are independent. The order of the logs and the name and
+/// format of a file do not change it.
 std::uint64_t seed_for(std::span<const LogSurvey> logs, std::uint64_t seed);
 
 }  // namespace cablefit

@@ -1,8 +1,7 @@
-// What the whole search finds where there is nothing to find: logs simulated from the fitted base
-// model, with the same reference, controller, clock, rounding and noise, go through the same
-// pipeline (parametric bootstrap; Efron & Tibshirani 1993). Noise models of the residual alone
-// under-state it: the gains of a search under the null are made by filters at reversals and by
-// rounding. Internal to refine/.
+// The search under the null. Logs simulated from the fitted base model, with the same reference,
+// controller, clock, rounding and noise, pass the same pipeline (parametric bootstrap; Efron &
+// Tibshirani 1993). Noise models of the residual alone are not sufficient: gains under the null
+// come from filters at reversals and from rounding. Internal to refine/.
 #pragma once
 
 #include <map>
@@ -16,11 +15,12 @@ namespace cablefit {
 
 /// One simulated data set, searched.
 struct NullDraw {
-  KindLevels floor{};                     ///< rms the base model leaves
+  KindLevels floor{};                     ///< rms of the base model's residual
   std::map<const Effect*, double> gains;  ///< best of each row; events in sample
 };
 
-/// A base fit iterated twice: weights from its own residual (or `levels`), states from its values.
+/// A base fit in two iterations: weights from its own residual (or `levels`), states from its
+/// values.
 struct BaseFit {
   Design design;
   BlockGrams grams;
@@ -31,27 +31,28 @@ BaseFit fit_base(Design design, double block_seconds, const KindLevels* levels);
 
 class NullBench {
  public:
-  /// `models`: fitted, one per preload. `logs`: as the search sees them. Throws
-  /// Error(not_identifiable) when the base cannot be simulated. `threads`: to simulate with, here
-  /// and below; the draws are the same whatever their number.
+  /// `models`: fitted, one per preload. `logs`: those of the search. `threads`: for the simulation,
+  /// here and below; the draws do not depend on it. Throws Error(not_identifiable) when the base
+  /// cannot be simulated.
   NullBench(std::span<const Model> models, std::span<const LogSurvey> logs,
             const PartFilter& wanted, const Smoothing& smoothing, int threads);
   ~NullBench();
   NullBench(const NullBench&) = delete;
   NullBench& operator=(const NullBench&) = delete;
 
-  /// Torques that the draws from now on have beside the model, see remainder.hpp.
+  /// Sets torques that later draws have besides the model's, see remainder.hpp.
   void disturb(const CopyDisturbance& disturbance);
 
-  /// Of every draw from now on this share (0..1) is kept from the search, as it is of the logs:
-  /// gains under the null grow as rows are fewer.
+  /// Later draws hold back this share (0..1) from the search, as is done with the logs: gains under
+  /// the null grow when rows are fewer.
   void hold_back(double share);
 
-  /// Torques are logged without noise from now on, which leaves what is not chance.
+  /// Later draws log torques without noise, to show errors that are not random.
   void silence_torque();
 
-  /// The rig's controller with the logs' reference does not move the model as the robot moved, as
-  /// where a torque was added to its command: the draws follow the measured motion instead.
+  /// Whether the draws follow the measured motion. They do where the rig's controller with the
+  /// logs' reference does not move the model as the robot moved, for example because a torque was
+  /// added to its command.
   bool follows() const;
 
   /// One draw as logs, by model.
@@ -60,7 +61,7 @@ class NullBench {
     std::vector<LogSurvey> logs;
   };
   std::vector<Recorded> record(std::uint64_t seed, int threads = 1) const;
-  /// The same as stretches, numbered as the logs that the bench was made from.
+  /// As above, as stretches, numbered as the logs that the bench was made from.
   std::vector<Stretch> draw(std::uint64_t seed, int threads = 1) const;
 
  private:

@@ -15,18 +15,19 @@ namespace cablefit {
 /// of the cables (or K). Rows of one axis have 0 in the columns of the other.
 ///   link     Phi_l x_l - P basis x_e = tau_load
 ///   motor    Phi_m x_m + S basis x_e = tau          (blocked: the same, the link stands)
-/// Several preloads share all of them (Fichera & Grossard 2017, (26)-(28)).
+/// All preloads share these columns (Fichera & Grossard 2017, (26)-(28)).
 struct BaseLayout {
-  /// An inertia of the link that the rig file gives: no column, its torque is in the response.
+  /// An inertia of the link that the rig file gives: it has no column, and its torque is in the
+  /// response.
   struct Given {
     Eigen::Index effect_column = 0;  ///< among those of the link's effects
     double inertia = 0;              ///< kg m^2
   };
   std::optional<Given> given;
-  /// Of links that move each other: which of the arm's base parameters the link's equation has
-  /// columns for, the first of the link's; the others keep the values of the model.
+  /// For coupled links: the arm's base parameters that have columns in the link's equation, which
+  /// are the first of the link's. The others keep the values of the model.
   std::vector<Eigen::Index> arm;
-  /// The link's equation has a torque that nothing is fitted to.
+  /// The link's equation has a torque without fitted parameters.
   bool has_given = false;
   Eigen::Index n_link = 0, n_motor = 0, n_elastic = 0;
   std::vector<ModelParameter> parameters;      ///< one per column
@@ -37,49 +38,49 @@ BaseLayout base_layout(const Model& model);
 /// Inertia of the link, kg m^2, where the rig file gives it; none on a rigid drive.
 std::optional<double> given_link_inertia(const Model& model);
 
-/// Values of the columns' parameters in a model, and back into it.
+/// Values of the columns' parameters in a model.
 Eigen::VectorXd base_values(const BaseLayout& layout, const Model& model);
 void set_base_values(const BaseLayout& layout, const Eigen::VectorXd& values, Model& model);
 
-/// Rows of one kind out of one stretch.
+/// Rows of one kind from one stretch.
 struct KindRows {
   RowKind kind = RowKind::motor;
   std::vector<Eigen::Index> at;  ///< samples of the stretch
   Eigen::MatrixXd base;          ///< n_rows x layout.n()
   Eigen::VectorXd response;      ///< n_rows, N m; without the torque of given inertias
-  Eigen::VectorXd given;         ///< that torque, N m; empty: none is given
-  /// In the response, N m: what linearised corrections have at the values where they are taken, so
-  /// that value times column is all of them; empty: there are none.
+  Eigen::VectorXd given;         ///< torque of given inertias, N m; empty: there are none
+  /// Part of the response, N m: the constant term of linearised corrections, so that value times
+  /// column is the whole correction. Empty: there are none.
   Eigen::VectorXd linearised;
 };
 
-/// What a stretch gives: at most a link and a motor (or blocked) equation.
+/// The rows of a stretch: at most a link and a motor (or blocked) equation.
 struct StretchRows {
   std::shared_ptr<const SmoothMotion> motion;  ///< never null; other columns share it
   std::vector<KindRows> kinds;
 };
 
-/// Of all kinds and stretches.
+/// Number over all kinds and stretches.
 Eigen::Index count_rows(const std::vector<StretchRows>& rows);
 
-/// `wanted`, here and below: made to suit the stretch.
+/// `wanted`, here and below, is adapted to the stretch.
 std::shared_ptr<const SmoothMotion> motion_of(const Stretch& stretch, const Model& model,
                                               const Smoothing& wanted);
 
-/// `kept`: take the rows of these instead of choosing, so that a changed recording can be compared
-/// row by row.
+/// `kept`: use the samples of these rows instead of choosing, so that a changed recording can be
+/// compared row by row.
 StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayout& layout,
                       const Smoothing& wanted, const StretchRows* kept = nullptr);
 
-/// Columns that take the place of `n` of [response, base] of one kind of row, from `first` on.
+/// Columns that replace `n` of [response, base] of one kind of row, from `first` on.
 struct ReplacedColumns {
   Eigen::Index first = 0, n = 0;
   Eigen::MatrixXd columns;  ///< n_rows x any number
 };
 
-/// What changes per kind of row where positions are as they were: the response by another torque,
-/// the elastic columns by other cables. `kept`: rows with the columns of `before`, and perhaps
-/// others behind them.
+/// Changes per kind of row where positions stay the same: another torque changes the response,
+/// other cables change the elastic columns. `kept`: rows with the columns of `before`, possibly
+/// followed by others.
 std::vector<ReplacedColumns> columns_of_torque(const StretchRows& kept, const Recording& changed,
                                                const Model& model, const Smoothing& wanted,
                                                Evaluation evaluation);
@@ -87,7 +88,7 @@ std::vector<ReplacedColumns> columns_of_cables(const StretchRows& kept, const Ba
                                                const Model& model, const BaseLayout& layout,
                                                const Smoothing& wanted, Evaluation evaluation);
 
-/// Puts them in their places.
+/// Writes the replaced columns into the rows.
 void put_in(StretchRows& rows, const std::vector<ReplacedColumns>& replaced);
 
 }  // namespace cablefit

@@ -29,8 +29,8 @@ std::optional<Design> with_other(const Design& undone, const Design& design,
   return out;
 }
 
-/// Derivative of the residuals by something nonlinear of one variant, central, from the variant
-/// with `step` more and less of it; 0, which shows nothing, where there is none of these.
+/// Derivative of the residuals by a nonlinear parameter of one variant: central, from the variants
+/// with `step` more and less. 0, which determines nothing, where one of these does not exist.
 VariantColumns derivative(const Design& undone, const Design& design, const Eigen::VectorXd& x,
                           std::size_t which, const std::array<Variant, 2>& less_more, double step) {
   const auto less = with_other(undone, design, x, which, less_more[0]);
@@ -64,7 +64,7 @@ BlockGrams with_shape_columns(const Design& undone, const Design& design, const 
   return block_grams(rows, design.stretches, block_seconds);
 }
 
-/// Of an event that lies in one block no other block shows anything: by the noise of its rows.
+/// For an event within one block the other blocks contain no information: by the noise of its rows.
 Eigen::MatrixXd noise_covariance(const BlockGrams& grams, const KindLevels& levels) {
   const Eigen::Index q = grams.n_columns;
   const Eigen::MatrixXd gram = weighted_sum(grams, levels).bottomRightCorner(q, q);
@@ -84,8 +84,8 @@ double rows_per_value(const Smoothing& smoothing) {
   return sum;
 }
 
-/// Of all columns; not a number for what the rows do not determine, such as the share of its load
-/// under which a log begins settled that begins without load.
+/// Of all columns; NaN for parameters that the rows do not determine, such as the share of the load
+/// at which a log starts settled when it starts without load.
 Eigen::MatrixXd determined_covariance(const BlockGrams& grams, const KindLevels& levels,
                                       Eigen::Index n_linear, double rows_per_value) {
   const std::vector<Eigen::Index> determined = determined_columns(grams, levels, n_linear);

@@ -1,4 +1,4 @@
-// Smoothing kernels of refine's rows: one and the same on every column, derivatives moved on to the
+// Smoothing kernels of refine's rows: every column has the same kernel, and derivatives act on the
 // kernel (weak form; Messenger & Bortz 2021). Internal to refine/.
 #pragma once
 
@@ -14,17 +14,17 @@ struct Kernel {
 };
 
 /// Gaussian of standard deviation `sd` (s) sampled every `period` (s) over +-4 sd, and its first
-/// two derivatives (per s, per s^2). The truncated samples are corrected so that they give exactly
-/// what they should of 1, t and t^2: an uncorrected second derivative makes an acceleration of
-/// every standing position.
+/// two derivatives (per s, per s^2). The truncated samples are corrected so that the results for 1,
+/// t and t^2 are exact. An uncorrected second derivative gives an acceleration for a constant
+/// position.
 Kernel gaussian(double sd, double period);
 Kernel gaussian_slope(double sd, double period);
 Kernel gaussian_curvature(double sd, double period);
 
-/// sum_j weights[j] x[i + j] for every i; at the ends the first and last value go on.
+/// sum_j weights[j] x[i + j] for every i; beyond the ends the first and last value are repeated.
 Eigen::ArrayXd apply(const Kernel& kernel, const Eigen::Ref<const Eigen::ArrayXd>& x);
 
-/// The same of every column, only at `rows`, all at least `reach` from the ends.
+/// As above, for every column and only at `rows`, all at least `reach` from the ends.
 Eigen::MatrixXd apply_at(const Kernel& kernel, const Eigen::Ref<const Eigen::MatrixXd>& x,
                          const std::vector<Eigen::Index>& rows);
 

@@ -5,7 +5,7 @@
 
 namespace cablefit {
 
-/// Levels that may be divided by: kinds without rows get 1.
+/// Levels that are safe divisors: kinds without rows get 1.
 KindLevels positive(KindLevels levels);
 KindLevels at_least(KindLevels levels, const KindLevels& floor);
 /// Root of the mean square over several.
@@ -18,9 +18,9 @@ struct Paired {
 };
 Paired paired(const Eigen::ArrayXd& a, const Eigen::ArrayXd& b);
 
-/// rho: mean over all rows of the squared residual in units of its floor.
+/// rho: mean over all rows of the squared residual over its squared floor.
 double rho_of(const BlockFit& fit, const KindLevels& floor);
-/// The same of given values on other rows; per block too, for a bootstrap.
+/// rho of given values on other rows; also per block, for a bootstrap.
 struct RowGap {
   double rho = 0;
   Eigen::ArrayXd squares, n_rows;                               ///< per block
@@ -30,11 +30,11 @@ RowGap gap_of(const Design& design, const Eigen::VectorXd& x, const KindLevels& 
               double block_seconds);
 RowGap gap_of(BlockGrams grams, const Eigen::VectorXd& x, const KindLevels& floor);
 
-/// Of the design's own rows, each block by a fit to the others with the weights of `levels`. Blocks
-/// that the others cannot predict count as without rows.
+/// For the design's own rows, each block by a fit to the others with the weights of `levels`.
+/// Blocks that the others cannot predict count as blocks without rows.
 RowGap held_out_gap(const BlockGrams& grams, const KindLevels& levels, const KindLevels& floor);
 
-/// What noise alone leaves of a weighted squared error of this fit.
+/// The weighted squared error of this fit from noise alone.
 double floor_error(const BlockFit& fit, const KindLevels& floor, const KindLevels& levels);
 
 }  // namespace cablefit

@@ -1,5 +1,5 @@
-// Which effects a recorder of the simulated model would see too: not what happened once, and not
-// what is wrong with the recorder. Internal to refine/.
+// Effects that a recorder of the simulated model would record too. Events and errors of the
+// recorder itself are not among them. Internal to refine/.
 #pragma once
 
 #include <vector>
@@ -8,14 +8,14 @@
 
 namespace cablefit {
 
-/// The models without those that it would not.
+/// The models with recorded effects only.
 std::vector<Model> recorded_models(std::vector<Model> models);
 
-/// Whether it would see this one.
+/// Whether a recorder records this effect.
 bool is_recorded(const Effect& row);
 inline bool is_unrecorded(const Effect& row) { return !is_recorded(row); }
 
-/// Sets what belongs to the columns of those to 0. `x`: of all columns.
+/// Sets the values of columns of unrecorded effects to 0. `x`: of all columns.
 void forget_unrecorded(const Design& design, Eigen::VectorXd& x);
 
 }  // namespace cablefit

@@ -76,8 +76,8 @@ void set_effect_estimates(const Design& design, const FinalFit& fit, Model& mode
   }
 }
 
-/// The coefficients that the file has of stage 1, as far as there are; a cable that got a higher
-/// order has more than stage 1 knew.
+/// The coefficients of stage 1 in the file, as far as there are any. A cable that got a higher
+/// order has more than stage 1 had.
 void set_elastic_estimates(const Design& design, const FinalFit& fit, Model& model) {
   if (model.rigid) return;
   std::vector<Estimate> elastic;
@@ -129,7 +129,7 @@ std::optional<EffectInstance> as_state(EffectInstance instance) {
   return instance;
 }
 
-/// Names of the values of FinalFit, in its order; empty: a parameter that no model file has.
+/// Names of the parameters of FinalFit, in its order; empty: a parameter that no model file has.
 std::vector<std::string> fitted_names(const Design& design) {
   std::vector<std::string> names;
   for (const ModelParameter& p : design.layout.parameters) names.push_back(p.name);

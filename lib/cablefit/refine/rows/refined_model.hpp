@@ -6,16 +6,16 @@
 
 namespace cablefit {
 
-/// What was added, in order, with values, sd and 95 % intervals (t quantile of the blocks).
+/// The added effects, in order, with values, sd and 95 % intervals (t quantile of the blocks).
 std::vector<NamedEffect> named_effects(const Design& design, const FinalFit& fit);
 
-/// Parameters of the base that both designs have, those of effects in it among them, before (values
-/// of `first`) and after.
+/// Parameters of the base that both designs have, including those of its kept effects: before
+/// (values of `first`) and after.
 std::vector<ParameterShift> parameter_shifts(const Design& first, const Eigen::VectorXd& before,
                                              const Design& design, const FinalFit& fit);
 
-/// The design's models with these values, and with what was added, as it is from now on: events
-/// that last have happened, those that pass are over. No sd.
+/// The design's models with these values and the added effects, as they are from now on: lasting
+/// events have happened, passing ones are over. No sd.
 std::vector<Model> models_with(const Design& design, const Eigen::VectorXd& x);
 /// The same with the sd of every parameter.
 std::vector<Model> refined_models(const Design& design, const FinalFit& fit);

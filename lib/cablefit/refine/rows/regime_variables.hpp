@@ -1,4 +1,4 @@
-// What a residual is looked at against. Internal to refine/ and report/.
+// Variables that residuals are plotted and binned against. Internal to refine/ and report/.
 #pragma once
 
 #include <span>
@@ -24,7 +24,7 @@ std::span<const RegimeVariable> regime_variables();
 double value_at(const RegimeVariable& variable, const Design& design, std::size_t stretch,
                 RowKind kind, Eigen::Index sample);
 
-/// The unit of a regime's variable, empty for none.
+/// The unit of a regime's variable; empty: none.
 std::string regime_unit(std::string_view regime, bool linear_motion);
 
 }  // namespace cablefit

@@ -5,8 +5,8 @@
 
 namespace cablefit {
 
-/// Where `error` is least over [low, high], by golden section (Kiefer 1953): to 0.618^steps of the
-/// range, 1 % of it.
+/// The minimum of `error` over [low, high], by golden section (Kiefer 1953), exact to 0.618^steps
+/// of the range, which is 1 %.
 template <typename Error>
 double golden(double low, double high, Error error) {
   constexpr int kSteps = 9;

@@ -1,6 +1,6 @@
-// How much of the squared error further columns would remove with everything refitted, from sums
-// over all rows: of the hundreds of values that a row's nonlinear parameters may have, which is
-// worth a fit block by block. Internal to refine/.
+// Reduction of the squared error by further columns with all parameters refitted, from sums over
+// all rows. A row's nonlinear parameters may have hundreds of values, and this selects those that
+// are worth a fit block by block. Internal to refine/.
 #pragma once
 
 #include "cablefit/refine/rows/evidence.hpp"
@@ -9,7 +9,8 @@ namespace cablefit {
 
 class QuickLook {
  public:
-  /// `grams`: of the design as it is. Throws Error(not_identifiable) when it is singular.
+  /// `grams`: of the design without further columns. Throws Error(not_identifiable) when it is
+  /// singular.
   QuickLook(const Design& design, const BlockGrams& grams, const KindLevels& levels);
 
   /// Weighted products of further columns C, in sample: [response, base]' C and
@@ -23,8 +24,8 @@ class QuickLook {
     double error = 0;   ///< weighted and squared, in sample
     Eigen::VectorXd x;  ///< of the further columns
   };
-  /// With the first `n` of the further columns. Nothing where less than `least` (squared, of unit
-  /// norm) of one of them is its own: see OwnPart.
+  /// With the first `n` of the further columns. Nothing where the own part of one of them (squared,
+  /// of unit norm) is below `least`, see OwnPart.
   std::optional<Glance> with(const Products& products, Eigen::Index n, double least) const;
 
  private:

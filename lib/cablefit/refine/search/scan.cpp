@@ -89,7 +89,7 @@ bool is_line(const Design& design, const Variant& variant) {
          variant.shape.front() > shape.front().grid_end(design.scale);
 }
 
-/// No candidate where the columns are not there or not separable from the others'.
+/// No candidate where the columns do not exist or are not separable from the others.
 std::optional<Candidate> try_variant(const Scanner& scanner, Variant variant,
                                      Evaluation evaluation = Evaluation::fine) {
   const ScanStart& start = scanner.start;
@@ -131,7 +131,7 @@ struct Looked {
   bool is_physical = false;
 };
 
-/// Nothing where it is not separable. `products`: of the columns of the variant, and perhaps
+/// Nothing where it is not separable. `products`: of the columns of the variant, and perhaps of
 /// more.
 std::optional<Looked> looked_at(const QuickLook& look, const QuickLook::Products& products,
                                 const Variant& variant) {

@@ -1,5 +1,5 @@
-// Runs that could be made next: references within the limits that the logs have seen, simulated
-// with the fitted model. Internal to refine/.
+// Possible next runs: references within the limits of the logs, simulated with the fitted model.
+// Internal to refine/.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@ namespace cablefit {
 struct TrialRun {
   double load = 0;        ///< N m, constant
   double speed = 0;       ///< rad/s, the largest of the reference
-  bool dithered = false;  ///< with a small shaking from 7 to 23 Hz
-  bool blocked = false;   ///< the link held: a slow ramp to both sides
+  bool dithered = false;  ///< with a small dither from 7 to 23 Hz
+  bool blocked = false;   ///< the link is blocked: a slow ramp to both sides
   double period = 0;      ///< s
   Eigen::ArrayXd theta_ref;
 };
@@ -22,12 +22,12 @@ struct TrialRun {
 /// "at a load of +30 N m, slow (up to 0.05 rad/s)".
 std::string text_of(const TrialRun& run, bool linear_motion);
 
-/// From the cheapest: the load that is on already, slow and fast, then other loads, then a blocked
-/// link (for models with cables). Empty for logs of blocked links alone.
+/// The cheapest first: the present load, slow and fast, then other loads, then a blocked link (for
+/// models with cables). Empty for logs of blocked links alone.
 std::vector<TrialRun> trial_runs(const Design& design);
 
-/// What would be measured, without noise; nothing where the simulation diverges. In closed loop
-/// with the rig's controller, else with one that is as stiff as the motor's inertia allows.
+/// The measured signals of a run, without noise; nothing where the simulation diverges. In closed
+/// loop with the rig's controller, else with a controller as stiff as the motor's inertia allows.
 std::optional<Stretch> simulated(const TrialRun& run, const Model& model);
 
 }  // namespace cablefit

@@ -1,4 +1,4 @@
-// The nonlinear parameters of what was named, moved to where all values fit together: a search
+// Fits the nonlinear parameters of identified effects together with all other values: a search
 // found them with coefficients of a model without the effect. Internal to refine/.
 #pragma once
 
@@ -6,8 +6,8 @@
 
 namespace cablefit {
 
-/// The state with the free shapes of its effects where its training rows fit best (Gauss & Newton,
-/// steps that do not fit better are not taken).
+/// The state with the free shapes of its effects that fit its training rows best (Gauss-Newton;
+/// steps that do not improve the fit are not taken).
 RefineState with_best_shapes(const RefineBench& bench, RefineState state);
 
 }  // namespace cablefit

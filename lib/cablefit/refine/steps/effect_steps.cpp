@@ -52,9 +52,9 @@ double sd_better(const RefineBench& bench, const RefineState& before, const Refi
   return paired(both.select(a.squares, 0), both.select(b.squares, 0)).in_sd();
 }
 
-/// Of the last effect's coefficients, with the sandwich over the blocks, whose residuals may have a
-/// low-frequency disturbance (White 1980), and as few as there are (Hotelling 1931). 0 for what has
-/// none.
+/// p-value of the last effect's coefficients, from the sandwich over the blocks, which allows
+/// low-frequency disturbances (White 1980), and with few blocks (Hotelling 1931). 0 for an effect
+/// without coefficients.
 double chance_of_size(const RefineBench& bench, const RefineState& after) {
   const Eigen::Index n = n_linear(after.design.added.back());
   if (n == 0) return 0;

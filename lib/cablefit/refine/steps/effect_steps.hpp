@@ -1,4 +1,4 @@
-// Effects one by one: searched for, judged by held-out blocks of the training logs, added. Test
+// Effects one by one: search, judgement by held-out blocks of the training logs, addition. Test
 // logs are read later, see test_reading.hpp. Internal to refine/.
 #pragma once
 
@@ -6,16 +6,16 @@
 
 namespace cablefit {
 
-/// One round: search, judge, add. False: nothing was added.
+/// One round: search, judge, add. False: no effect was added.
 bool add_next_effect(RefineBench& bench, Chain& chain, RefineResult& result);
 
-/// Of two effects. The first was named while the second was missing: named again beside it, it may
-/// be another.
+/// With two effects, identifies the first again: it was identified without the second, and beside
+/// the second another effect may fit better.
 void name_first_again(RefineBench& bench, Chain& chain, RefineResult& result);
 
-/// Two effects together may look like a third, and what is best alone is then neither. Where one or
-/// two leave something, other beginnings are tried: each with what is best beside it, and named
-/// again beside that.
+/// Tries other first effects where one or two effects leave a residual. Two effects together may
+/// look like a third one, which is then the best single effect although it is wrong. Each other
+/// first effect gets the best second one, and is then identified again beside that.
 void begin_otherwise(RefineBench& bench, Chain& chain, RefineResult& result);
 
 }  // namespace cablefit

@@ -53,9 +53,9 @@ std::optional<RefineState> with_own_coefficients(const RefineBench& bench, const
   return with_candidate(bench, there, found, winner);
 }
 
-/// Whether there is nothing to explain, whatever fits better under the null. Blocked rows alone are
-/// few, and their floor is known less well. An effect that the model had leaves a small residual,
-/// like one that was added.
+/// Whether there is nothing to explain, even if some effect fits better under the null. Blocked
+/// rows alone are few, and their floor is known less well. A kept effect of the model leaves a
+/// small residual, like an added one.
 bool is_at_floor(const RefineBench& bench, const RefineState& state) {
   if (bench.elastic_only) return state.rho < kNoGap && state.held_out.rho < kVisibleGap;
   const bool is_kept_base = bench.n_kept > 0 && state.design.added.size() == bench.n_kept;

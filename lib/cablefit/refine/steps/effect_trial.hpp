@@ -1,5 +1,5 @@
-// What a search names, added on trial: the state with it, before anything is decided. Internal to
-// refine/.
+// Adds an effect that a search identified on trial: the state with it, before any decision.
+// Internal to refine/.
 #pragma once
 
 #include <optional>
@@ -15,22 +15,23 @@ struct Trial {
   RefineState after;
 };
 
-/// Names what a search on one state found, one after the other. The state has to outlive it.
+/// Tries the effects that a search on one state found, one after the other. The state must outlive
+/// it.
 class Trials {
  public:
-  /// Searches. `is_first`: no effect was named before.
+  /// Searches. `is_first`: no effect was identified before.
   Trials(RefineBench& bench, const RefineState& state, bool is_first);
 
-  /// The best name; nothing: there is none, or there is nothing to explain.
+  /// The best effect; nothing: there is none, or there is nothing to explain.
   std::optional<Trial> best();
 
-  /// Where the last one was refused: the best of those that a search does not separate from it, as
-  /// a fit of all values may; nothing: there is none.
+  /// After a rejection: the best of the effects that the search does not separate from the last
+  /// one, because a fit of all values may separate them. Nothing: there is none.
   std::optional<Trial> next_alike(const std::string& refusal);
 
   const Search& found() const { return found_; }
   const std::vector<Rival>& ranking() const { return ranking_; }
-  /// Of the largest gain that the search found.
+  /// For the largest gain of the search.
   const ChanceTail& chance() const { return chance_; }
 
  private:
@@ -43,15 +44,15 @@ class Trials {
   Search found_;
   std::vector<Rival> ranking_;
   ChanceTail chance_;
-  const Effect* last_ = nullptr;  ///< tried
-  std::vector<Rival> alike_;      ///< of the best
+  const Effect* last_ = nullptr;  ///< the last one tried
+  std::vector<Rival> alike_;      ///< similar to the best
 };
 
-/// The best name that a search on this state finds for a further effect.
+/// The best further effect that a search on this state finds.
 std::optional<Trial> try_next(RefineBench& bench, const RefineState& state);
 
-/// The state with one more effect, fitted with what follows from its values; nothing when the rows
-/// become singular.
+/// The state with one more effect, fitted with all that depends on its values; nothing when the
+/// rows become singular.
 std::optional<RefineState> with_candidate(const RefineBench& bench, const RefineState& state,
                                           const Search& found, const Candidate& winner);
 

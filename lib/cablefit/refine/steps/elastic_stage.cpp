@@ -179,7 +179,7 @@ Smoothing blocked_smoothing(std::span<const Model> models, const std::vector<Str
   Smoothing best;
   double most = -1;
   while (width <= kWider * widest) {
-    // A row asks for the same sign of the speed all over its kernel: that does not happen at rest.
+    // A row requires the same sign of the speed all over its kernel, which does not occur at rest.
     constexpr double kOfUsual = 0.5;
     Smoothing tried = make_design(models, stretches, widened(narrowest, width, period)).smoothing;
     tried.least_speed_theta *= kOfUsual;

@@ -1,5 +1,5 @@
-// Refining stage 1 alone: blocked logs have no link equation, hardly a speed, and show only what
-// cables and the motor's dry friction do. Internal to refine/.
+// Refines stage 1 alone. Blocked logs have no link equation and hardly a speed, so they show only
+// effects of the cables and of the motor's dry friction. Internal to refine/.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace cablefit {
 
-/// What a refinement looks at.
+/// Models and parts of the logs for a refinement.
 struct RefineStage {
   bool elastic_only = false;
   std::vector<Model> models;
@@ -19,18 +19,19 @@ struct RefineStage {
   std::vector<std::string> warnings;
 };
 
-/// The elastic stage alone when the models know nothing of the link (stage 1's) or no log moves;
-/// the models then have the motor's effects that blocked logs may show, and no link. Throws
-/// Error(input) when stage 1's models meet no blocked part or have an effect that none shows, and
-/// for a log of another preload than that of a single model.
+/// The elastic stage alone when the models have no link (stage 1's) or no log moves. The models
+/// then have the motor's effects that blocked logs may show, and no link. Throws Error(input) when
+/// stage 1's models have no blocked part or an effect that none shows, and for a log of another
+/// preload than that of a single model.
 RefineStage stage_of(std::span<const Model> models, const RefineLogs& logs);
 
-/// Widths of the kernels that suit the slow motion of blocked logs: as wide as it takes for the
-/// motion to stand out of the encoder's noise.
+/// Widths of the kernels for the slow motion of blocked logs: as wide as is necessary for the
+/// motion to exceed the encoder's noise.
 Smoothing blocked_smoothing(std::span<const Model> models, const std::vector<Stretch>& stretches);
 
-/// The models without the motor's effects that these logs do not show: columns that cannot be
-/// separated from the others, and inertias and frictions that are negative or lost in their sd.
+/// The models without the motor's effects that these logs do not show: columns that are not
+/// separable from the others, and inertias and frictions that are negative or smaller than their
+/// sd.
 std::vector<Model> with_visible_effects(std::vector<Model> models,
                                         const std::vector<Stretch>& stretches,
                                         const Smoothing& smoothing, double block_seconds);

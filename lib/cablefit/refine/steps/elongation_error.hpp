@@ -1,5 +1,5 @@
-// What the error of searched l_o does to the values. refine holds l_o constant, so its fits do not
-// include it. Internal to refine/.
+// Influence of the error of searched l_o on the values. refine keeps l_o constant, so its fits do
+// not include it. Internal to refine/.
 #pragma once
 
 #include "cablefit/refine/rows/final_fit.hpp"
@@ -8,11 +8,11 @@
 
 namespace cablefit {
 
-/// An error that stays in the values widens their intervals. It is one vector, of one cause, so
-/// that the values are off together.
+/// Widens the intervals by an error that stays in the values. It is one vector with one cause, so
+/// the errors of the values are correlated.
 void add_systematic(const ValueChange& error, FinalFit& fit);
 
-/// Adds the error of l_o to the covariance of the fit: the values are fitted again, rows weighted
+/// Adds the error of l_o to the covariance of the fit. The values are fitted again, rows weighted
 /// by 1/level^2, with l_o one sd away along each axis of its covariance (m^2 or rad^2). False: one
 /// of these fits does not exist, and its part is missing.
 bool add_elongation_errors(const Design& design, const Eigen::VectorXd& x, const KindLevels& levels,

@@ -12,22 +12,22 @@
 namespace cablefit {
 
 struct RunChoice {
-  std::size_t run = 0;  ///< of those given
+  std::size_t run = 0;  ///< number among the given runs
   RowKind kind = RowKind::motor;
   double difference = 0;  ///< N m rms
   double floor = 0;       ///< N m rms
-  std::string rival;      ///< the one that is closest there
+  std::string rival;      ///< the closest rival there
 };
 
-/// The run on which the closest rival differs most from `best`, in floors of the equation where it
-/// shows, after the rival was fitted again to the logs and that run; nothing when no run can be
+/// The run on which the closest rival differs most from `best`, in floors of the equation that
+/// shows it, after the rival was fitted again to the logs and that run. Nothing when no run can be
 /// simulated. `x`: of the design's columns.
 std::optional<RunChoice> decisive_run(const Design& design, const Eigen::VectorXd& x,
                                       const Candidate& best,
                                       const std::vector<const Candidate*>& rivals,
                                       const KindLevels& floor, const std::vector<TrialRun>& runs);
 
-/// What the choice is made from: the base fit and the first search.
+/// The data of the choice: the base fit and the first search.
 struct NextRunInput {
   const Design& design;
   const Eigen::VectorXd& x;
@@ -37,7 +37,7 @@ struct NextRunInput {
 };
 
 /// Fills next_experiment and next_run: the run that separates the first effect from its rivals,
-/// with numbers; without rivals the one that separates most of what these logs cannot.
+/// with numbers. Without rivals: the run that separates most of the effects that these logs do not.
 void choose_next_run(const NextRunInput& input, RefineResult& result);
 
 }  // namespace cablefit

@@ -117,9 +117,9 @@ KindMemory memory_with(const Design& design, const BlockFit& fit, const Candidat
   return both ? memory_of(with, both->x) : memory_of(design, fit.x);
 }
 
-/// The candidate whose remainder is that of the logs. Some date explains a little of any
-/// low-frequency disturbance; an event counts where it explains most of a gap, and more than what
-/// is always there.
+/// The candidate whose residual is that of the logs. Some event explains a little of any
+/// low-frequency disturbance. So an event counts only where it explains most of a gap, and more
+/// than any effect that is no event.
 const Candidate* best_explaining(const Search& found, const KindLevels& floor) {
   constexpr double kMost = 0.5;
   const Candidate* best = best_lasting(found.candidates);
@@ -152,7 +152,8 @@ void disturb_null(RefineBench& bench, const RefineState& state, const Search& fo
       as_disturbance(corrected(guess, left, mean_of(drawn)), !bench.elastic_only));
 }
 
-/// What one block alone determines no other block can confirm: it does not judge.
+/// A parameter that only one block determines cannot be confirmed by the others: the block is not
+/// used to judge.
 void check_blocks(const BaseFit& base, double block_seconds, RefineResult& result) {
   const Eigen::Index alone = base.fit.alone.count();
   if (alone == 0) return;

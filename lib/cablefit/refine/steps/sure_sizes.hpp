@@ -6,7 +6,8 @@
 namespace cablefit {
 
 /// Removes every effect without a coefficient of at least 2 sd (the sd with the error of l_o), and
-/// the effects found after it. A small error in l_o of one preload looks like a slip between them.
+/// the effects found after it. A small error in the l_o of one preload looks like a slip between
+/// the preloads.
 void require_sure_sizes(const RefineBench& bench, Chain& chain, RefineResult& result);
 
 }  // namespace cablefit

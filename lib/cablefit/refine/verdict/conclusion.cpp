@@ -42,8 +42,8 @@ bool is_stray_event(const HeldOutChange& change) {
   return change.row.is_event && change.leaves_remainder && closed_by(change) < kLittle;
 }
 
-/// Little of a visible gap, most of which stays, and sure neither here nor there. Where most of it
-/// goes a few blocks may carry that, and an sd over blocks means nothing.
+/// A small gain on a visible gap, most of which stays, and clear neither way. Where most of the gap
+/// goes, a few blocks may contain it, and an sd over blocks has no meaning.
 bool is_small_gain(const HeldOutChange& change) {
   const double gone = change.rho_before - change.rho_after;
   return change.leaves_remainder && change.rho_before > kVisibleGap &&

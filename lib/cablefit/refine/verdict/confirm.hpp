@@ -1,5 +1,5 @@
-// Does the refined model simulate the test logs better? What a term does to the equation error may
-// be an artefact of filters (Aguirre et al. 2010). Internal to refine/.
+// Does the refined model simulate the test logs better? A smaller equation error alone may be an
+// artefact of filters (Aguirre et al. 2010). Internal to refine/.
 #pragma once
 
 #include <span>
@@ -14,12 +14,12 @@ namespace cablefit {
 struct SimulatedGap {
   double deflection = 0;  ///< rad; of theta on a rigid drive
   double tau = 0;         ///< N m, in closed loop only
-  std::string failure;    ///< why there is none: a simulation diverged; empty: there is one
+  std::string failure;    ///< why there is no value: a simulation diverged; empty: there is one
   bool known() const { return failure.empty(); }
 };
 
-/// Simulates the moving parts of the logs, each by the model of its preload (a single one: all).
-/// `compared`: see ReplayOptions.
+/// Simulates the moving parts of the logs, each with the model of its preload (a single model: all
+/// parts). `compared`: see ReplayOptions.
 SimulatedGap simulated_gap(std::span<const Model> models, std::span<const LogSurvey> logs,
                            int threads, double compared = 1);
 

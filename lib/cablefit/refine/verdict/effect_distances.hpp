@@ -1,4 +1,4 @@
-// How far apart effects are in the rows that their products were made of. Internal to refine/.
+// Distances between effects, in the rows of their products. Internal to refine/.
 #pragma once
 
 #include "cablefit/refine/verdict/effect_products.hpp"
@@ -12,11 +12,11 @@ class Distances {
 
   bool is_there(std::size_t f) const { return !own_[f].empty(); }
 
-  /// Share of an effect's square that the base leaves, of the shape that shows best.
+  /// Share of an effect's square that the base does not explain, for its most visible shape.
   double from_base(std::size_t f) const;
 
-  /// Share of the square of what the base leaves of the one that no shape of the other explains.
-  /// An explanation with more parameters that does no better is none.
+  /// Share that no shape of one effect explains of the other effect's part beyond the base. An
+  /// explanation with more parameters that is no better does not count.
   double between(std::size_t a, std::size_t b) const;
 
  private:

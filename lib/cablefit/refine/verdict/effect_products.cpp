@@ -12,7 +12,7 @@ namespace cablefit {
 namespace {
 
 constexpr std::size_t kMostShapes = 4;    // per nonlinear parameter
-constexpr Eigen::Index kMostRows = 6000;  // that are looked at; more show the same
+constexpr Eigen::Index kMostRows = 6000;  // that are used; more give the same result
 
 /// Places of the values that stand for a grid.
 std::vector<int> thinned(int n) {

@@ -63,7 +63,7 @@ std::vector<Group> groups_of(const Distances& distances, const std::vector<std::
   return groups;
 }
 
-/// Whether any log of the usual kind could separate any two of them.
+/// Whether no log of the usual kind separates any two of them.
 bool are_aliases(const std::vector<Family>& families, const Group& group) {
   const std::string_view name = families[group.front()].row->alias_class;
   return !name.empty() && std::all_of(group.begin(), group.end(), [&](std::size_t f) {

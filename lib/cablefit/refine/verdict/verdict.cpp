@@ -167,9 +167,10 @@ bool is_simpler(const Candidate& a, const Candidate& b) {
   return !is_of_sensor(a) && is_of_sensor(b);
 }
 
-/// Whether the other one is the better name: it gains more beyond chance, or as much and is the
-/// simpler one. What is always there is not held against what its row gains by chance where both
-/// are: of two that are nearly the same, the one with the larger gain under the null would lose.
+/// Whether the other effect is the better answer: it gains more beyond the null, or as much and is
+/// the simpler one. Where neither is an event, their gains are not compared with those of their own
+/// rows under the null. Otherwise, of two effects that are nearly the same, the one with the larger
+/// gain under the null would lose.
 bool is_better_name(const Candidate& other, const Candidate& best, const Significance& significance,
                     const SquaredGap& gap) {
   if (is_tie(other, best, gap) && is_simpler(other, best)) return true;

@@ -122,7 +122,7 @@ Table elongation_table(const IdentifyResult& result) {
   table.notes = notes.lines();
   double most = 0;
   for (const IdentifyPreload& preload : result.preloads) most = std::max(most, preload.equilibrium);
-  // Rounding differs between machines; what is met needs no further digits.
+  // Rounding differs between machines, so a satisfied condition is printed without its digits.
   table.notes.push_back(
       fmt::format("in the reference pose the preload alone gives {} {} on link and motor: "
                   "equilibrium (8c), imposed",

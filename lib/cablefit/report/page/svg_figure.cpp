@@ -90,7 +90,7 @@ std::vector<double> log_ticks_of(const Scale& scale) {
   return ticks;
 }
 
-/// With the digits that separate it from its neighbours.
+/// With as many digits as distinguish it from its neighbours.
 std::string tick_text(double value, double step) {
   const double largest = std::max(std::abs(value), step);
   const int digits = 2 + static_cast<int>(std::floor(std::log10(largest / step)));

@@ -66,8 +66,8 @@ Table counts_table();
 void add_counts(Table& table, const std::string& preload, const std::string& equation,
                 const RowCounts& rows, const WindowCounts& windows);
 
-/// Columns and rows of the table of both sd. `where`: titles, and then cells, of what the fits are
-/// distinguished by. Parameters that are not identifiable have no row.
+/// Columns and rows of the table of both sd. `where`: titles, then cells, of the properties that
+/// distinguish the fits. Parameters that are not identifiable have no row.
 Table both_sd_table(const std::vector<std::string>& where);
 void add_sd_rows(Table& table, const std::vector<std::string>& where,
                  const std::vector<Estimate>& parameters);

@@ -11,7 +11,7 @@ namespace cablefit {
 /// Number of characters (code points) of a printable text.
 std::size_t n_characters(std::string_view text);
 
-/// A CSV cell: quoted where RFC 4180 asks for it. A text that a spreadsheet would run as a formula
+/// A CSV cell: quoted where RFC 4180 requires it. A text that a spreadsheet would run as a formula
 /// (it begins with = + - @ and is no number) gets a ' in front.
 std::string csv_cell(std::string_view text);
 

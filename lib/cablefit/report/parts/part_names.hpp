@@ -24,7 +24,7 @@ std::string part_name(const std::vector<Part>& parts, const Part& part) {
   return part_name(parts, part, part.log);
 }
 
-/// In the first column of a table: the file's name alone where that distinguishes the logs.
+/// In the first column of a table: the file's name alone where it distinguishes the logs.
 template <typename Part>
 std::string cell_name(const std::vector<Part>& parts, const Part& part) {
   const auto file = [](const Part& p) { return std::filesystem::path(p.log).filename().string(); };

@@ -1,4 +1,4 @@
-// The run that `refine` asks for, as a reference to feed a controller.
+// The run that `refine` recommends, as a reference for a controller.
 #pragma once
 
 #include <string>

@@ -8,8 +8,8 @@
 
 namespace cablefit::result_json {
 
-/// What `item_json` makes of each item; a pointer, so that one of several overloads can be chosen.
-/// `List` is Json, which is only declared here.
+/// Applies `item_json` to each item. It is a pointer, so that the compiler can select one of
+/// several overloads. `List` is Json, which is only declared here.
 template <typename Item, typename List = Json>
 List list_of(const std::vector<Item>& items,
              std::type_identity_t<List> (*item_json)(const std::type_identity_t<Item>&)) {

@@ -98,7 +98,7 @@ void resolve_channel(LogPlan& plan, const ChannelInfo& info, int joint) {
     plan.slots.push_back(make_slot(plan, info, joint, *column, names.back()));
 }
 
-// A rigid drive has one position, whatever the log calls it, and a speed gives it but for its zero.
+// A rigid drive has one position, under any name in the log. A speed gives it except for its zero.
 void complete_theta(LogPlan& plan, int joint) {
   if (plan.has(Channel::theta, joint)) return;
   const int q = plan.find(Channel::q, joint), w = plan.find(Channel::w, joint);

@@ -1,4 +1,4 @@
-// A choice as printed: "cutoff", "126 Hz", "2 f0, f0 = 63 Hz from the elastic fit".
+// A choice for the reports: "cutoff", "126 Hz", "2 f0, f0 = 63 Hz from the elastic fit".
 #pragma once
 
 #include <string>

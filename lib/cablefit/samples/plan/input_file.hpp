@@ -1,4 +1,4 @@
-// A log as a result records it.
+// The record of a log in a result.
 #pragma once
 
 #include <string>

@@ -33,8 +33,8 @@ std::vector<std::string> unloaded_warnings(std::span<const LogSurvey> logs,
 /// further joints that a rig of one joint does not read.
 std::vector<std::string> input_warnings(std::span<const LogSurvey> logs);
 
-/// Some log with wanted parts has a unit, sign, column or sample that cannot be right, and goes on
-/// as --trust-units asks for: what is odd about a fit to it needs no second cause.
+/// Some log with wanted parts has a unit, sign, column or sample that cannot be right, and is
+/// accepted with --trust-units. It then explains a poor fit, and no second cause is reported.
 bool has_trusted_finding(std::span<const LogSurvey> logs, const PartFilter& wanted);
 
 /// Samples per second of the wanted parts. They may differ: the slowest log bounds the cut-off and

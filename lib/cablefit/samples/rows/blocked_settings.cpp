@@ -64,8 +64,8 @@ void choose_rest_speed(ChosenSettings& chosen, const SampleOptions& options, dou
     chosen.rest_speed_theta = *options.rest_speed;
     decide(chosen, "rest speed", fmt::format("{:.3g}", chosen.rest_speed_theta), kByOption);
   } else if (unseen > kSlowShare * sweep) {
-    // Too slow for the encoder to separate motion from rest row by row: the direction of the last
-    // motion is all there is, and it is enough for the branch.
+    // The motion is too slow for the encoder to separate it from rest row by row. Only the
+    // direction of the last motion is known, which is sufficient for the branch.
     chosen.rest_speed_theta = 0;
     decide(
         chosen, "rest speed", "0",

@@ -1,5 +1,5 @@
-// Zero-phase Butterworth low-pass, applied alike to every signal ("parallel filtering", Gautier
-// 1997): what the filter does to one side of an equation it does to the other.
+// Zero-phase Butterworth low-pass, applied to every signal alike ("parallel filtering", Gautier
+// 1997). It changes both sides of an equation in the same way, so the equation still holds.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,12 +18,12 @@ class Butterworth {
   /// prewarping. Forward and backward passes together give zero phase and -6 dB at the cut-off.
   Butterworth(int order, double cutoff, double rate);
 
-  /// Filters every column in place, forward then backward, starting each pass in the steady state
-  /// of its first value. `odd_start`/`odd_end`: the data really begin/end here, so they are
-  /// continued by odd reflection first (as MATLAB's and SciPy's filtfilt do) rather than cut.
+  /// Filters every column in place, forward then backward. Each pass starts in the steady state of
+  /// its first value. `odd_start`/`odd_end`: the data begin/end here, so odd reflection extends
+  /// them first (as in MATLAB's and SciPy's filtfilt). Otherwise the data continue beyond the cut.
   void apply(Eigen::Ref<Eigen::MatrixXd> columns, bool odd_start, bool odd_end) const;
 
-  /// Rows after which a start-up transient has fallen below 1e-10.
+  /// Rows after which a start-up transient is below 1e-10.
   Eigen::Index settling_rows() const { return settling_rows_; }
   const std::vector<Biquad>& sections() const { return sections_; }
 

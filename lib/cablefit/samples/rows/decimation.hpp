@@ -1,5 +1,5 @@
-// Parallel decimation: every column of an equation, regressors and torque alike, through one and
-// the same zero-phase FIR, then every M-th row (Gautier 1997).
+// Parallel decimation: one zero-phase FIR filters every column of an equation, regressors and
+// torque alike. Then every M-th row is kept (Gautier 1997).
 #pragma once
 
 #include <Eigen/Core>
@@ -15,19 +15,19 @@ class Decimation {
   explicit Decimation(int factor, int lobes = 10);
 
   int factor() const { return factor_; }
-  /// Rows on either side that an output row depends on: lobes M, 0 for M = 1; one more when
-  /// averaged.
+  /// Rows on either side that an output row depends on: lobes M, 0 for M = 1. Averaging adds one
+  /// row.
   Eigen::Index half_width() const { return factor_ == 1 ? 0 : lobes_ * factor_; }
 
-  /// One output row per input row in `centres`, centres x columns. Taps that fall outside [first,
-  /// last) are left out and the others scaled up alike, so that the ends of a log keep parallel
-  /// columns.
+  /// One output row per input row in `centres`, centres x columns. Taps outside [first, last) are
+  /// left out and the others scaled up, alike in all columns, so that the columns stay parallel at
+  /// the ends of a log.
   ///
   /// Columns that are `averaged` are also averaged over the triangle (1, 10, 1)/12 of +-1 row. A
   /// second difference IS the mean acceleration under that triangle (Numerov), so every other
-  /// column of an equation must be averaged alike: without it J_motor is 1.8 % too large at 1 kHz
-  /// on the paper's rig, through K T^2/(12 J). Empty: none is. Averages reach one row beyond
-  /// [first, last).
+  /// column of an equation must be averaged alike. Without it J_motor is 1.8 % too large at 1 kHz
+  /// on the paper's rig, through K T^2/(12 J). Empty: no column is averaged. Averages reach one row
+  /// beyond [first, last).
   Eigen::MatrixXd apply(const Eigen::Ref<const Eigen::MatrixXd>& columns,
                         std::span<const Eigen::Index> centres, Eigen::Index first,
                         Eigen::Index last, const std::vector<bool>& averaged) const;

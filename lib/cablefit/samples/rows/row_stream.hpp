@@ -1,6 +1,6 @@
 // From logs to rows of an equation: filter, differentiate, form every column at the full rate,
-// average and decimate all columns alike, drop edges and rest. The same few lines serve stage 1,
-// stage 2 and everything after; an equation only says what its columns are.
+// average and decimate all columns alike, drop edges and rest. All stages use this code; an
+// equation only defines its columns.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,44 +18,44 @@
 
 namespace cablefit {
 
-/// Every number that decides which rows come out. SI, rows count raw samples.
+/// All numbers that decide which rows result. SI; counts of rows are in raw samples.
 struct RowSettings {
   SignalSettings signal;
-  /// Hz, of any equation with a cut-off of its own: windows leave it room to settle. 0: there is
-  /// none below signal's.
+  /// Hz, the lowest cut-off of any equation: windows are long enough for it to settle. 0: none is
+  /// below that of `signal`.
   double lowest_cutoff = 0;
   int decimate = 1;
   Eigen::Index drop_edge = kDifferenceEdge;  ///< rows dropped at both ends of each segment
-  Eigen::Index rest_margin = 0;              ///< rows around a slow one that go with it
-  /// Hz, of the log that edge and margin count rows of; of a faster one they are as many more. 0:
-  /// the same number in every log.
+  Eigen::Index rest_margin = 0;              ///< rows dropped on either side of a slow row
+  /// Hz, rate of the log in which `drop_edge` and `rest_margin` count rows. A faster log drops
+  /// proportionally more rows. 0: every log drops the same number.
   double rate = 0;
 };
 
-/// For a log of this rate (Hz).
+/// The settings for a log of this rate (Hz).
 RowSettings at_rate(RowSettings settings, double rate);
 
 /// An equation as columns over full-rate rows.
 struct Equation {
   std::string name;  ///< "link", "motor", "blocked"
   std::vector<std::string> columns;
-  std::vector<bool> averaged;  ///< per column: averaged over the triangle (not: a held torque)
-  /// Changes signals of the full rate to what `fill` needs; empty: no change.
+  std::vector<bool> averaged;  ///< per column: averaged over the triangle (all but a held torque)
+  /// Converts signals of the full rate to those that `fill` needs; empty: no change.
   std::function<void(Signals&)> prepare;
   /// Writes rows x columns.
   std::function<void(const Signals&, Eigen::Ref<Eigen::MatrixXd>)> fill;
-  double cutoff = 0;      ///< Hz; its own low-pass; 0: that of the settings
-  double rest_speed = 0;  ///< rad/s; rows slower than this are dropped; 0: keep all
-  /// Speed by which rest is judged, n rows.
+  double cutoff = 0;      ///< Hz, low-pass of this equation; 0: that of the settings
+  double rest_speed = 0;  ///< rad/s; slower rows are dropped; 0: all rows are kept
+  /// Speed that decides on rest, n rows.
   std::function<Eigen::ArrayXd(const Signals&)> speed;
-  /// Rows where this is 0 are left out and counted as "not used"; empty function: all are used.
+  /// Rows with value 0 are left out and counted as "not used"; empty function: all rows are used.
   std::function<Eigen::ArrayXd(const Signals&)> use;
 };
 
 struct RowCounts {
   std::size_t rows_used = 0;      ///< after decimation
   std::size_t rows_at_rest = 0;   ///< after decimation, dropped
-  std::size_t rows_not_used = 0;  ///< after decimation, by Equation::use
+  std::size_t rows_not_used = 0;  ///< after decimation, left out by Equation::use
   std::size_t rows_at_edges = 0;  ///< raw rows
   void operator+=(const RowCounts& other);
 };
@@ -63,7 +63,7 @@ struct RowCounts {
 /// Rows of one equation from one window.
 struct EquationBatch {
   Eigen::MatrixXd rows;               ///< n x columns
-  std::vector<Eigen::Index> numbers;  ///< place on the decimated time grid over all logs
+  std::vector<Eigen::Index> numbers;  ///< place on the decimated time grid of all logs
   std::vector<double> t;              ///< s
   RowCounts counts;
 };
@@ -80,15 +80,15 @@ using WindowFilter = std::function<bool(const WindowPlace&)>;
 RowBatch make_rows(const Window& window, const LogSurvey& log, Eigen::Index number_offset,
                    const RowSettings& settings, std::span<const Equation> equations);
 
-/// Rows beside a window on which values of its rows depend.
+/// Rows beside a window that its own rows depend on.
 Eigen::Index row_halo(const RowSettings& settings, double rate);
 
-/// About how many rows will come out, per equation.
+/// Approximate number of rows per equation.
 Eigen::Index expected_rows(std::span<const LogSurvey> logs, const PartFilter& wanted,
                            const RowSettings& settings);
 
-/// Runs over all wanted rows of all logs in order: map(RowBatch) on worker threads, reduce(its
-/// result) in order on this one. `keep`: windows for which it says false are passed over.
+/// Processes all wanted rows of all logs in order: map(RowBatch) on worker threads, reduce(its
+/// result) in order on this thread. `keep`: windows for which it returns false are skipped.
 template <class Map, class Reduce>
 WindowCounts stream_rows(std::span<const LogSurvey> logs, const PartFilter& wanted,
                          const RowSettings& settings, std::span<const Equation> equations,

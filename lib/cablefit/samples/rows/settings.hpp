@@ -1,5 +1,5 @@
-// Which filter, decimation, edges and rest threshold: chosen from the log unless the user says, and
-// always reported with the reason.
+// Filter, decimation, edges and rest threshold. They are chosen from the log unless the user sets
+// them, and always reported with the reason.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace cablefit {
 
-/// What the command line may fix; anything left out is chosen.
+/// Settings that the command line may fix; others are chosen.
 struct SampleOptions {
   std::optional<double> cutoff;  ///< Hz; 0: no filter
   std::optional<int> filter_order;
@@ -25,22 +25,22 @@ struct SampleOptions {
 
 struct ChosenSettings {
   RowSettings rows;
-  double cutoff_q = 0;          ///< Hz, for equations that differentiate q twice; 0: no filter
+  double cutoff_q = 0;          ///< Hz, for equations with the second derivative of q; 0: no filter
   double rest_speed_theta = 0;  ///< rad/s, for equations of the motor (or rigid) side
   double rest_speed_q = 0;      ///< rad/s, for equations of the link side
-  double resonance = 0;         ///< Hz, of the elastic drive as it was given; 0: none
+  double resonance = 0;         ///< Hz, given resonance of the elastic drive; 0: none
   std::vector<Decision> decisions;
   std::vector<std::string> warnings;
 };
 
-/// Quasi-static stage 1: a low cut-off, rest dropped. `rest_speed_q` is the speed below which a
-/// link counts as standing still: 5 % of its upper quartile, at least 4 sd of its noise. `joint`
-/// (from 0): whose sweep decides; of the settings only the rest speeds depend on it.
+/// Settings of the quasi-static stage 1: a low cut-off, rest dropped. `rest_speed_q` is the speed
+/// below which a link counts as blocked: 5 % of its upper quartile, at least 4 sd of its noise.
+/// `joint` (from 0): its sweep decides. Of the settings only the rest speeds depend on it.
 ChosenSettings blocked_settings(std::span<const LogSurvey> logs, const PartFilter& wanted,
                                 const SampleOptions& options, int joint = 0);
 
-/// Stage 2. `resonance`: f0 of the elastic fit in Hz, or 0 for a rigid drive; `joint` (from 0):
-/// whose motion decides.
+/// Settings of stage 2. `resonance`: f0 of the elastic fit in Hz, or 0 for a rigid drive. `joint`
+/// (from 0): its motion decides.
 ChosenSettings moving_settings(std::span<const LogSurvey> logs, const PartFilter& wanted,
                                const SampleOptions& options, double resonance, int joint = 0);
 

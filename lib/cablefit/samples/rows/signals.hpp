@@ -1,4 +1,4 @@
-// From a window of raw samples to smooth positions, velocities and accelerations.
+// Computes smooth positions, velocities and accelerations from a window of raw samples.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,20 +15,20 @@ struct SignalSettings {
   int filter_order = 4;
   bool torque_held = false;  ///< tau[i] acts from t[i] until t[i] + torque_period
   double torque_period = 0;  ///< s; 0: the log's period
-  /// Motion so slow against the rate that only positions, velocities and torques matter: no
-  /// accelerations, no filtered directions.
+  /// The motion is so slow relative to the rate that only positions, velocities and torques matter.
+  /// Accelerations and filtered directions are not computed.
   bool quasi_static = false;
 };
 
-/// Signals of one joint over the rows of a window; an empty array where the log has no such
-/// channel. Position-like signals are filtered; derivatives are five-point central differences of
-/// fourth order. `tau` is filtered and moved by half the hold (tau(t - T/2)) when it is held.
+/// Signals of one joint over the rows of a window; empty arrays for channels that the log lacks.
+/// Position-like signals are filtered. Derivatives are five-point central differences of fourth
+/// order. `tau` is filtered, and when it is held, shifted by half the hold (tau(t - T/2)).
 struct JointSignals {
   Eigen::ArrayXd q, qd, qdd;  ///< rad, rad/s, rad/s^2
   Eigen::ArrayXd theta, thetad, thetadd;
   Eigen::ArrayXd tau, tau_load;  ///< N m
-  /// sgn(qd), sgn(thetad) through the same low-pass as the signals: real friction flips at once,
-  /// and the filter has smoothed that flip in every other term of the equation.
+  /// sgn(qd), sgn(thetad) through the same low-pass as the signals. Real friction reverses at once,
+  /// and the filter smooths that step in every other term of the equation.
   Eigen::ArrayXd q_direction, theta_direction;
   Eigen::ArrayXd approach;  ///< -1, 0, 1: direction of the last motion of theta
 };
@@ -41,11 +41,11 @@ struct Signals {
   Eigen::Index n_rows() const;
 };
 
-/// Rows a filtered window needs on either side.
+/// Rows that a filtered window needs on either side.
 Eigen::Index signal_halo(const SignalSettings& settings, double rate);
-/// Longest hole of an uneven log that the filter bridges, s: a quarter period of the cut-off.
+/// Longest hole of an uneven log that is interpolated, s: a quarter period of the cut-off.
 double bridge_seconds(const SignalSettings& settings);
-/// First and last rows of a segment at which differences are not to be trusted.
+/// Number of first and last rows of a segment whose differences are not valid.
 inline constexpr Eigen::Index kDifferenceEdge = 3;
 
 Signals make_signals(const Window& window, const LogPlan& plan, const SignalSettings& settings);

@@ -6,22 +6,22 @@
 
 namespace cablefit {
 
-/// What one channel looks like within one part. SI.
+/// Statistics of one channel within one part. SI.
 struct ChannelSurvey {
   double min = 0, max = 0;
-  double quantum = 0;    ///< smallest step between neighbours that occurs, 0 for a constant
+  double quantum = 0;    ///< smallest step between neighbours; 0 for a constant
   double noise = 0;      ///< sd of white noise, from sixth differences (they remove smooth motion)
-  double at_limits = 0;  ///< share of rows exactly at min or max: saturation when large
+  double at_limits = 0;  ///< share of rows exactly at min or max; a large share means saturation
   double range() const { return max - min; }
 };
 
-/// Sixth differences remove any motion that a fifth-order polynomial follows over seven samples;
-/// for white noise their variance is C(12,6) = 924 times its own.
+/// Sixth differences remove any motion that a fifth-order polynomial describes over seven samples.
+/// For white noise their variance is C(12,6) = 924 times that of the noise.
 class ChannelScan {
  public:
   using Values = Eigen::Ref<const Eigen::ArrayXd>;
-  /// The next values; `x` must not be empty. Differences reach back to the values before unless
-  /// restart() came between.
+  /// Adds the next values; `x` must not be empty. Differences include earlier values unless
+  /// restart() was called.
   void add(const Values& x);
   void restart() { n_known_ = 0; }
   ChannelSurvey result() const;

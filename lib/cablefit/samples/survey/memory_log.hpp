@@ -11,14 +11,14 @@ namespace cablefit {
 
 /// One column, one value per row; it is copied.
 struct MemoryColumn {
-  std::string name;  ///< as in a header: "t", "q", "theta [deg]", or as the rig's "columns" say
+  std::string name;  ///< as in a header: "t", "q", "theta [deg]", or a name in the rig's "columns"
   std::span<const double> values;
 };
 
-/// The columns as one part of a log, blocked or moving by whether q moves. `name` stands for the
-/// file in messages. Without a column t: `rate` in Hz. The preload is the rig's, else "default".
-/// Throws Error(input) as plan_log() and survey_log(), for columns of different lengths, fewer than
-/// 8 rows and values that are not finite.
+/// A log of one part, blocked when q does not move, else moving. `name` replaces the file name in
+/// messages. Without a column t: `rate` in Hz. The preload is the rig's, else "default". Throws
+/// Error(input) as plan_log() and survey_log(), and for columns of different lengths, fewer than 8
+/// rows and values that are not finite.
 LogSurvey survey_memory(const std::string& name, std::span<const MemoryColumn> columns,
                         const Rig& rig, double rate = 0);
 

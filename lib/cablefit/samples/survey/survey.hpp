@@ -1,6 +1,6 @@
-// Survey of a log: its parts (preload, phase, run), their clock, and per channel the range,
-// quantum and noise. One pass in constant memory, which also keeps the samples in SI for all later
-// passes.
+// Survey of a log: its parts (preload, phase, run), the clock of each, and per channel the range,
+// quantum and noise. It is one pass in constant memory, which also stores the samples in SI for all
+// later passes.
 #pragma once
 
 #include <functional>
@@ -24,7 +24,7 @@ std::string_view to_string(Phase phase);
 struct PartSurvey : ClockSurvey {
   std::string preload, run;
   Phase phase = Phase::moving;
-  bool phase_given = false;             ///< by a column, not by whether q stands still
+  bool phase_given = false;  ///< a column gives the phase; otherwise the motion of q decides
   std::vector<ChannelSurvey> channels;  ///< as LogPlan::slots
 };
 
@@ -33,33 +33,33 @@ struct LogSurvey {
   std::string sha256;
   std::size_t n_rows = 0;
   std::vector<PartSurvey> parts;
-  std::shared_ptr<const SampleStore> samples;  ///< what all later passes read
-  /// Of LogPlan::trusted, of rows left out or filled and of weigh_logs(); reported before others.
+  std::shared_ptr<const SampleStore> samples;  ///< the source of all later passes
+  /// From LogPlan::trusted, rows left out or filled, and weigh_logs(); reported before other
+  /// warnings.
   std::vector<std::string> warnings = {};
-  /// Units, signs or samples that cannot be right but are trusted: they explain later warnings.
+  /// Units, signs or samples that cannot be right but are trusted. They explain later warnings.
   bool has_trusted_finding = false;
 };
 
-/// Reads the whole log, its text for the only time, on up to `threads` threads. Throws Error(input)
-/// at file:line:column for time that does not advance, an unknown phase, a part with fewer
-/// than 8 rows, and more than half of the rows left out for missing cells or a fifth for repeated
-/// times; of a moving log for LogPlan::absent.
-/// `preload`: name for parts without a preload column (the rig's, or an option); empty: "default".
+/// Reads the whole log on up to `threads` threads; no later pass reads its text. Throws
+/// Error(input) at file:line:column for time that does not advance, an unknown phase, and a part
+/// with fewer than 8 rows. Also when more than half of the rows are left out for missing cells or a
+/// fifth for repeated times, and in a moving log for LogPlan::absent. `preload`: name for parts
+/// without a preload column (the rig's, or an option); empty: "default".
 LogSurvey survey_log(const LogPlan& plan, const std::string& preload, int threads = 1);
 
-/// blocked: the range of q is below 2 % of that of theta, of every joint.
+/// blocked: the range of q is below 2 % of that of theta, for every joint.
 Phase phase_by_motion(const PartSurvey& part, const LogPlan& plan);
 
-/// Names of the preloads of the parts for which `wanted` says true, in the order in which they
-/// come.
+/// Names of the preloads of the parts for which `wanted` is true, in the order in which they occur.
 std::vector<std::string> preload_names(std::span<const LogSurvey> logs,
                                        const std::function<bool(const PartSurvey&)>& wanted);
 
-/// The first log with a part for which `wanted` says true; the first one of all when there is none.
+/// The first log with a part for which `wanted` is true, else the first log.
 const LogSurvey& first_log_with(std::span<const LogSurvey> logs,
                                 const std::function<bool(const PartSurvey&)>& wanted);
 
-/// Lowest and highest value of a channel in the parts for which `wanted` says true; low > high when
+/// Lowest and highest value of a channel in the parts for which `wanted` is true. low > high when
 /// no such log has the channel.
 struct ChannelRange {
   double low = kUnbounded, high = -kUnbounded;

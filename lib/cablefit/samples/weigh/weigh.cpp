@@ -34,7 +34,7 @@ constexpr std::array<WeighingRow, 14> kWeighings = {{{weighing::clock, true, tru
                                                      {weighing::duplicates, false, false},
                                                      {weighing::overlaps, true, false}}};
 
-/// One rig file's mistake shows in each of its logs; it is reported of the first.
+/// A mistake in a rig file shows in each of its logs. Only the first is reported.
 std::string with_count(const std::string& what, std::size_t others) {
   if (others == 0) return what;
   return fmt::format("{} (and {} more log{})", what, others, others == 1 ? "" : "s");
