@@ -95,6 +95,12 @@ std::vector<Table> model_tables() {
     maps.rows.push_back(
         {std::string(kind.name), std::string(kind.equation), std::string(kind.source)});
   }
+  Table pairs = text_table_of("Maps of two joints (rig file: cables, motor_map and link_map)",
+                              {"name", "displacement at angles x1, x2", "source"});
+  for (const PairMapKind& kind : pair_map_kinds()) {
+    pairs.rows.push_back(
+        {std::string(kind.name), std::string(kind.equation), std::string(kind.source)});
+  }
   Table loads = text_table_of("Load laws (rig file: load, type)", {"name", "equation"});
   for (const LoadLaw& law : load_laws()) {
     loads.rows.push_back({std::string(law.name), std::string(law.equation)});
@@ -104,7 +110,7 @@ std::vector<Table> model_tables() {
     arms.rows.push_back(
         {std::string(kind.name), std::string(kind.equation), std::string(kind.source)});
   }
-  return {models, cables, maps, loads, arms};
+  return {models, cables, maps, pairs, loads, arms};
 }
 
 std::vector<Table> estimator_tables() {

@@ -41,7 +41,21 @@ inline const std::vector<Routing>& routings() {
         "cables": [{"name": "flexor", "motor_radius": [0.01, 0], "link_radius": [0.01, 0.007]},
                    {"name": "extensor", "motor_radius": [-0.01, 0], "link_radius": [-0.008, -0.005]},
                    {"name": "pip", "motor_radius": [0, 0.006],
-                    "link_radius": [0, {"type": "polynomial", "coefficients": [0.006, 0.001]}]}]})"}};
+                    "link_radius": [0, {"type": "polynomial", "coefficients": [0.006, 0.001]}]}]})"},
+      {"maps of two joints", R"({"joints": [{"name": "mcp"}, {"name": "pip"}],
+        "cables": [{"name": "flexor", "motor_radius": [0.03, 0],
+                    "link_map": {"type": "guides", "joints": ["mcp", "pip"],
+                                 "from": [-0.05, 0.03], "to": [0.04, 0.02], "length": 0.05}},
+                   {"name": "extensor", "motor_radius": [-0.03, 0], "link_radius": [-0.02, 0],
+                    "link_map": [{"type": "polynomial", "joints": ["pip", "mcp"],
+                                  "coefficients": [[0.003, -0.005, 0.002], [-0.01, 0.03, 0.01]]}]},
+                   {"name": "pip", "link_radius": [0, 0.02],
+                    "motor_map": {"type": "grid", "joints": ["mcp", "pip"],
+                                  "angle_1": [-0.4, -0.1, 0.25], "angle_2": [-0.3, 0, 0.1, 0.5],
+                                  "displacement": [[-0.007, -0.001, 0.002, 0.011],
+                                                   [-0.006, 0, 0.0025, 0.012],
+                                                   [-0.003, 0.004, 0.006, 0.016]]}}],
+        "reference_pose": {"q": [0.05, 0.1], "theta": [0.02, 0.08]}})"}};
   return kRoutings;
 }
 

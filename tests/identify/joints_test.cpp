@@ -69,7 +69,7 @@ Eigen::MatrixXd elastic_columns(const JointEquation& equation, const Transmissio
 }
 
 TEST_CASE("columns of n joints are the torques and their slopes in l_o", "[identify]") {
-  for (const PlainRig& plain : {four_cable_finger(), three_joint_finger()}) {
+  for (const PlainRig& plain : {four_cable_finger(), three_joint_finger(), guided_finger()}) {
     const Fitted f(plain);
     const Signals signals = poses(f.job.n_joints(), 40);
     for (int joint = 0; joint < f.job.n_joints(); ++joint)
@@ -115,7 +115,7 @@ TEST_CASE("columns of n joints are the torques and their slopes in l_o", "[ident
 }
 
 TEST_CASE("equilibrium of n joints holds for tensions that balance", "[identify]") {
-  for (const PlainRig& plain : {four_cable_finger(), three_joint_finger()}) {
+  for (const PlainRig& plain : {four_cable_finger(), three_joint_finger(), guided_finger()}) {
     const Fitted f(plain);
     const JointLayout layout = joint_layout({f.job}, false);
     const Eigen::MatrixXd rows = equilibrium_rows(f.job, 0, f.l_o, layout, {});

@@ -72,6 +72,16 @@ void check_equal(const std::vector<DisplacementMap>& a, const std::vector<Displa
   }
 }
 
+void check_equal(const std::vector<PairMap>& a, const std::vector<PairMap>& b) {
+  REQUIRE(a.size() == b.size());
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    CHECK(a[k].kind == b[k].kind);
+    CHECK(a[k].joints == b[k].joints);
+    CHECK(a[k].at(0.3, -0.2).displacement == b[k].at(0.3, -0.2).displacement);
+    CHECK(a[k].at(0.3, -0.2).slope == b[k].at(0.3, -0.2).slope);
+  }
+}
+
 void check_equal(const Transmission& a, const Transmission& b) {
   CHECK(a.n_joints == b.n_joints);
   CHECK(a.encoder_zero() == b.encoder_zero());
@@ -87,6 +97,8 @@ void check_equal(const Transmission& a, const Transmission& b) {
     CHECK(a.cables[i].reference_displacement == b.cables[i].reference_displacement);
     check_equal(a.cables[i].motor_map, b.cables[i].motor_map);
     check_equal(a.cables[i].link_map, b.cables[i].link_map);
+    check_equal(a.cables[i].motor_pairs, b.cables[i].motor_pairs);
+    check_equal(a.cables[i].link_pairs, b.cables[i].link_pairs);
   }
 }
 
@@ -198,7 +210,13 @@ TEST_CASE("a rig with every part survives the model file") {
     "cables": [{"name": "x", "motor_radius": [0.1, {"type": "polynomial", "coefficients": [0.2, 1]}],
                 "link_radius": [{"type": "table", "angle": [0, 1, 3], "displacement": [0, 2, 1]}, 0.4],
                 "order": 3},
-               {"name": "y", "motor_radius": [0, 0.2], "link_radius": [0, 0.4], "law": "linear",
+               {"name": "y", "motor_radius": [0, 0.2], "law": "linear",
+                "motor_map": {"type": "polynomial", "joints": ["b", "a"],
+                              "coefficients": [[0.1, 0.2], [0.3, 0.4], [0, 1]]},
+                "link_map": [{"type": "guides", "joints": ["a", "b"], "from": [-1, 0.2],
+                              "to": [0.3, 0.4], "length": 0.5},
+                             {"type": "grid", "joints": ["a", "b"], "angle_1": [0, 1, 3],
+                              "angle_2": [-1, 1], "displacement": [[1, 2], [3, 5], [8, 7]]}],
                 "initial_elongation": "search"},
                {"name": "z", "motor_radius": [0, 1], "link_radius": [0, 1], "law": "strand",
                 "toe": 0.003, "order": 1}],

@@ -78,6 +78,18 @@ TEST_CASE("a joint that was changed goes back to its place", "[model]") {
   CHECK(back.transmission.cables[2].motor_map.size() == 2);
 }
 
+TEST_CASE("a cable with a map of two joints is of no joint alone", "[model]") {
+  Model whole = finger();
+  PairMap pair{&find_pair_map_kind("polynomial"), {}, {0, 1}};
+  pair.parameters.values = Eigen::Matrix2d::Constant(0.01);
+  whole.rig.transmission.cables[0].link_pairs = {pair};
+  whole.rig.path = "rig.json";
+  CHECK_THROWS_WITH(one_joint(whole, 1),
+                    "rig.json: joint '" + whole.rig.joints[1] +
+                        "' cannot be taken alone: cable 'flexor' has a map of two joints; use "
+                        "'cablefit identify', which fits all joints together");
+}
+
 Estimate known(const std::string& name, double value, double sd) {
   Estimate e;
   e.name = name;

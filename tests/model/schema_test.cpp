@@ -110,6 +110,19 @@ TEST_CASE("the rig schema has every displacement map") {
         known_to_rig_reader(R"({"cables": [{"motor_radius": {"search": 1, "?": 0}}]})"));
 }
 
+TEST_CASE("the rig schema has every map of two joints") {
+  const JsonNode root = schema("rig");
+  const std::string start =
+      R"({"cables": [{"name": "a", "motor_radius": 1, "link_map": {"type": ")";
+  Names maps;
+  for (const JsonNode& map : root.at("$defs").at("pair_map").at("oneOf").items) {
+    const std::string type = map.at("properties").at("type").at("const").text();
+    maps.insert(type);
+    CHECK(properties(map) == known_to_rig_reader(start + type + R"(", "?": 0}}]})"));
+  }
+  CHECK(maps == known_to_rig_reader(start + R"(?"}}]})"));
+}
+
 TEST_CASE("the model schema has every effect with its parameters") {
   const JsonNode root = schema("model");
   const JsonNode& joint = root.at("properties").at("joints").at("items").at("properties");

@@ -62,6 +62,19 @@ Transmission finger() {
   return t;
 }
 
+/// As two_joints(), with levers that depend on both angles.
+Transmission two_angles() {
+  Transmission t = two_joints();
+  PairMap pair{&find_pair_map_kind("polynomial"), {}, {0, 1}};
+  pair.parameters.values.resize(3, 2);
+  pair.parameters.values << 0, 0.001, 0.002, 0.02, 0.01, -0.03;
+  t.cables[2].link_pairs = {pair};
+  pair.joints = {1, 0};
+  t.cables[3].link_pairs = t.cables[0].motor_pairs = {pair};
+  t.cables[3].motor_pairs = {pair, pair};
+  return t;
+}
+
 /// Column k: change of the torque with position k, by central differences.
 template <typename Torque>
 Eigen::MatrixXd differences(const Eigen::VectorXd& at, Torque torque) {
@@ -107,6 +120,7 @@ void check_slopes(const Transmission& t, const Eigen::VectorXd& q, const Eigen::
 
 TEST_CASE("the matrices are the slopes of the torques", "[model]") {
   check_slopes(two_joints(), Eigen::Vector2d(0.1, -0.05), Eigen::Vector2d(0.12, -0.02));
+  check_slopes(two_angles(), Eigen::Vector2d(0.1, -0.05), Eigen::Vector2d(0.12, -0.02));
   check_slopes(finger(), Eigen::Vector3d(0.2, -0.1, 0.3), Eigen::Vector3d(0.22, -0.15, 0.28));
   check_slopes(finger(), Eigen::Vector3d(0.2, -0.1, 0.3), Eigen::Vector3d(0.5, 0.3, -0.4));
 }

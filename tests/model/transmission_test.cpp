@@ -2,7 +2,8 @@
 #include <cmath>
 #include <random>
 
-#include "cablefit/model/cables.hpp"
+#include "cablefit/base/json/json_document.hpp"
+#include "cablefit/model/rig.hpp"
 
 namespace {
 
@@ -107,6 +108,15 @@ TEST_CASE("elongations count from the reference pose") {
   const Eigen::Vector2d step(0.01, -0.02);
   const VectorXd l = arm.elongations(q_o, there + step);
   CHECK(l[2] - 0.004 == Approx(0.02 * 0.01 + 0.04 * 0.02).epsilon(1e-12));
+}
+
+TEST_CASE("elongations count from position 0 where no other pose is given") {
+  const Rig rig = parse_rig(parse_json(R"({"cables": [{"name": "a", "motor_radius": 0.02,
+    "link_radius": {"type": "table", "angle": [-1, 1], "displacement": [0.03, 0.05]},
+    "initial_elongation": 0.001}]})",
+                                       "rig.json"));
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(1);
+  CHECK(std::abs(rig.transmission.elongations(zero, zero)(0) - 0.001) < 1e-17);
 }
 
 TEST_CASE("elastic parameters are named as in results") {

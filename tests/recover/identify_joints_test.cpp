@@ -106,6 +106,12 @@ TEST_CASE("one step of a finger with four cables, l_o searched", "[recover][mont
   if (full_monte_carlo()) CHECK(outcome.share() < 0.985);
 }
 
+TEST_CASE("one step of a finger with levers of two angles", "[recover][monte-carlo]") {
+  const Outcome outcome = cover("  two joints, four cables past guides", guided_finger());
+  CHECK(outcome.share() > least_share(outcome));
+  if (full_monte_carlo()) CHECK(outcome.share() < 0.985);
+}
+
 TEST_CASE("one step of a finger of three joints and four tendons", "[recover][monte-carlo]") {
   const Outcome outcome = cover("  three joints, four tendons", three_joint_finger());
   CHECK(outcome.share() > least_share(outcome));

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -30,15 +31,25 @@ struct PlainMap {
   }
 };
 
+/// What the path of a cable owes to two links together: it is longer by way[0] than with both at 0,
+/// with the derivatives way[1] and way[2] by their angles.
+struct PlainPath {
+  std::size_t first = 0, second = 1;
+  std::function<std::array<double, 3>(double, double)> way;
+  std::string map;  ///< as a rig file has it
+};
+
 struct PlainCable {
   std::string name;
   std::vector<PlainMap> motor, link;  ///< per joint
   std::vector<double> k;              ///< force sum k_j l^(j+1), l > 0
   double l_o = 0;
+  std::vector<PlainPath> paths = {};
 
   double force(const std::vector<double>& q, const std::vector<double>& theta) const {
     double l = l_o;
     for (std::size_t j = 0; j < motor.size(); ++j) l += motor[j].way(theta[j]) - link[j].way(q[j]);
+    for (const PlainPath& path : paths) l += path.way(q[path.first], q[path.second])[0];
     if (l <= 0) return 0;
     double f = 0;
     for (std::size_t j = 0; j < k.size(); ++j) f += k[j] * std::pow(l, static_cast<double>(j) + 1);
@@ -99,6 +110,11 @@ inline std::vector<double> link_torques(const PlainRig& rig, const std::vector<d
   for (const PlainCable& cable : rig.cables) {
     const double f = cable.force(q, theta);
     for (std::size_t j = 0; j < rig.n(); ++j) torque[j] += cable.link[j].slope(q[j]) * f;
+    for (const PlainPath& path : cable.paths) {
+      const std::array<double, 3> way = path.way(q[path.first], q[path.second]);
+      torque[path.first] -= way[1] * f;
+      torque[path.second] -= way[2] * f;
+    }
   }
   return torque;
 }

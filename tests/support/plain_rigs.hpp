@@ -27,11 +27,16 @@ inline std::string rig_text(const PlainRig& rig, const std::string& more, bool s
   std::string joints, cables;
   for (std::size_t j = 0; j < rig.n(); ++j)
     joints += fmt::format(R"({}{{"name": "{}"}})", j > 0 ? ", " : "", j + 1);
+  const auto paths = [](const PlainCable& cable) {
+    std::string list;
+    for (const PlainPath& path : cable.paths) list += (list.empty() ? "" : ", ") + path.map;
+    return list.empty() ? "" : fmt::format(R"("link_map": [{}], )", list);
+  };
   for (const PlainCable& cable : rig.cables)
     cables += fmt::format(
-        R"({}{{"name": "{}", "motor_radius": [{}], "link_radius": [{}], "order": {}, "initial_elongation": {}}})",
+        R"({}{{"name": "{}", "motor_radius": [{}], "link_radius": [{}], {}"order": {}, "initial_elongation": {}}})",
         cables.empty() ? "" : ",\n  ", cable.name, numbers(cable.motor), numbers(cable.link),
-        cable.k.size(), search ? R"("search")" : fmt::format("{}", cable.l_o));
+        paths(cable), cable.k.size(), search ? R"("search")" : fmt::format("{}", cable.l_o));
   return fmt::format(R"({{"schema": "cablefit/rig/1", "joints": [{}],{} "cables": [{}]}})", joints,
                      more, cables);
 }

@@ -1,6 +1,8 @@
 // Rigs of several joints whose preload alone is in equilibrium, (8c), for plain_joints.hpp.
 #pragma once
 
+#include <complex>
+
 #include "tests/support/plain_rigs.hpp"
 
 namespace cablefit::test {
@@ -34,6 +36,39 @@ inline PlainRig four_cable_finger(double force_1 = 280, double force_2 = 350) {
       {"dip", {round_map(0), round_map(-0.02)}, {round_map(-0.01), round_map(-0.02)}, {5e5, 2e7}}};
   for (std::size_t c = 0; c < 4; ++c)
     rig.cables[c].l_o = elongation_of_force(rig.cables[c], c < 2 ? force_1 : force_2);
+  return rig;
+}
+
+/// A straight tendon from a guide (from_x, y) on the base to one at (to_x, y) of link 2, whose axis
+/// is `length` from axis 1; its derivatives by complex steps (Squire & Trapp 1998).
+inline PlainPath guided(double from_x, double from_y, double to_x, double to_y, double length) {
+  using C = std::complex<double>;
+  const auto span = [=](C x1, C x2) {
+    const C x = length * std::cos(x1) + to_x * std::cos(x1 + x2) - to_y * std::sin(x1 + x2);
+    const C y = length * std::sin(x1) + to_x * std::sin(x1 + x2) + to_y * std::cos(x1 + x2);
+    return std::sqrt((x - from_x) * (x - from_x) + (y - from_y) * (y - from_y));
+  };
+  PlainPath path;
+  path.way = [span](double x1, double x2) -> std::array<double, 3> {
+    constexpr double kStep = 1e-30;
+    return {span(x1, x2).real() - span(0, 0).real(), span(C(x1, kStep), x2).imag() / kStep,
+            span(x1, C(x2, kStep)).imag() / kStep};
+  };
+  path.map = fmt::format(
+      R"({{"type": "guides", "joints": ["1", "2"], "from": [{}, {}], "to": [{}, {}], "length": {}}})",
+      from_x, from_y, to_x, to_y, length);
+  return path;
+}
+
+/// As four_cable_finger(), but the pair of joint 2 runs straight from guides on the base to guides
+/// on link 2, past both joints: its levers on each depend on both angles.
+inline PlainRig guided_finger() {
+  PlainRig rig = four_cable_finger();
+  for (std::size_t c : {2, 3}) {
+    const double side = c == 2 ? 1 : -1;
+    rig.cables[c].link = {round_map(0), round_map(0)};
+    rig.cables[c].paths = {guided(-0.04, 0.014 * side, 0.03, 0.018 * side, 0.05)};
+  }
   return rig;
 }
 

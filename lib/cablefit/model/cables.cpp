@@ -41,19 +41,13 @@ Cable joint_space_cable(int number, int order, int joint, int n_joints) {
   return cable;
 }
 
-/// Sum over joints of the maps' displacements.
-double total(const std::vector<DisplacementMap>& maps, const Eigen::VectorXd& angle) {
-  double sum = 0;
-  for (Eigen::Index k = 0; k < angle.size(); ++k) {
-    sum += maps[static_cast<std::size_t>(k)].displacement(angle[k]);
-  }
-  return sum;
+auto of(const Eigen::VectorXd& angle) {
+  return [&angle](std::size_t k) { return angle[static_cast<Eigen::Index>(k)]; };
 }
 
-Eigen::VectorXd radii(const std::vector<DisplacementMap>& maps, const Eigen::VectorXd& angle) {
-  assert(maps.size() == static_cast<std::size_t>(angle.size()));
+Eigen::VectorXd radii(const SideMaps& side, const Eigen::VectorXd& angle) {
   return Eigen::VectorXd::NullaryExpr(angle.size(), [&](Eigen::Index k) {
-    return maps[static_cast<std::size_t>(k)].radius(angle[k]);
+    return side.radius(static_cast<std::size_t>(k), of(angle));
   });
 }
 
@@ -101,14 +95,18 @@ const CableLaw& find_cable_law(std::string_view name) {
 
 double Cable::elongation(const Eigen::VectorXd& q, const Eigen::VectorXd& theta) const {
   assert(motor_map.size() == static_cast<std::size_t>(theta.size()) && q.size() == theta.size());
-  return total(motor_map, theta) - total(link_map, q) + shift();
+  return motor_side().displacement(of(theta)) - link_side().displacement(of(q)) + shift();
 }
 
 Eigen::VectorXd Cable::motor_radii(const Eigen::VectorXd& theta) const {
-  return radii(motor_map, theta);
+  assert(motor_map.size() == static_cast<std::size_t>(theta.size()));
+  return radii(motor_side(), theta);
 }
 
-Eigen::VectorXd Cable::link_radii(const Eigen::VectorXd& q) const { return radii(link_map, q); }
+Eigen::VectorXd Cable::link_radii(const Eigen::VectorXd& q) const {
+  assert(link_map.size() == static_cast<std::size_t>(q.size()));
+  return radii(link_side(), q);
+}
 
 double Cable::force(double l) const { return combine(*this, l, law->basis); }
 
@@ -209,9 +207,10 @@ Transmission classical_spring(const Transmission& cables) {
 
 void set_reference(Transmission& transmission, const ReferencePose& pose) {
   transmission.reference = pose;
+  const Eigen::VectorXd q = transmission.reference_q(), theta = transmission.reference_theta();
   for (Cable& cable : transmission.cables) {
-    cable.reference_displacement = total(cable.motor_map, transmission.reference_theta()) -
-                                   total(cable.link_map, transmission.reference_q());
+    cable.reference_displacement =
+        cable.motor_side().displacement(of(theta)) - cable.link_side().displacement(of(q));
   }
 }
 

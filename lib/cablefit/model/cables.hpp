@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cablefit/model/routing.hpp"
+#include "cablefit/model/pair_maps/side_maps.hpp"
 
 namespace cablefit {
 
@@ -59,9 +59,10 @@ struct CableLaw {
 std::span<const CableLaw> cable_laws();
 const CableLaw& find_cable_law(std::string_view name);
 
-/// One cable: its law, coefficients, initial elongation and routing. l = sum_k g_k(theta_k) -
-/// h_k(q_k) + l_o, counted from the reference pose. In joint space (the paper's (30)) the maps are
-/// +1 for cable 1 and -1 for cable 2, and the coefficients are in N m/rad^j.
+/// One cable: its law, coefficients, initial elongation and routing. l = g(theta) - h(q) + l_o,
+/// counted from the reference pose, where g and h are sums of maps of one joint and of two. In
+/// joint space (the paper's (30)) the maps are +1 for cable 1 and -1 for cable 2, and the
+/// coefficients are in N m/rad^j.
 struct Cable {
   std::string name;
   const CableLaw* law = nullptr;
@@ -71,7 +72,13 @@ struct Cable {
   double initial_elongation = 0;           ///< l_o, m or rad
   std::vector<DisplacementMap> motor_map;  ///< g_k, one per joint, of theta_k - theta_0,k
   std::vector<DisplacementMap> link_map;   ///< h_k, one per joint, of q_k
-  double reference_displacement = 0;       ///< g - h in the reference pose, where l = l_o
+  std::vector<PairMap> motor_pairs = {}, link_pairs = {};  ///< shares of g and h by two joints
+  double reference_displacement = 0;  ///< g - h in the reference pose, where l = l_o
+
+  /// g, of theta - theta_0, and h, of q.
+  SideMaps motor_side() const { return {motor_map, motor_pairs}; }
+  SideMaps link_side() const { return {link_map, link_pairs}; }
+  bool has_pairs() const { return !motor_pairs.empty() || !link_pairs.empty(); }
 
   /// l at these positions, n_joints each; `theta` without the encoder zero.
   double elongation(const Eigen::VectorXd& q, const Eigen::VectorXd& theta) const;
@@ -92,7 +99,7 @@ struct Cable {
 
   /// Whether the joint (from 0) moves the cable, by its motor or its link.
   bool passes(std::size_t joint) const {
-    return !motor_map[joint].is_zero() || !link_map[joint].is_zero();
+    return motor_side().passes(joint) || link_side().passes(joint);
   }
 
   int n_coefficients() const { return law->n_coefficients(order); }

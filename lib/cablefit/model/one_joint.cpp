@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "cablefit/base/error.hpp"
 #include "cablefit/base/random.hpp"
 #include "cablefit/model/arm.hpp"
 
@@ -24,6 +25,17 @@ std::vector<std::size_t> passing(const Transmission& whole, std::size_t joint) {
 
 Eigen::VectorXd only(const Eigen::VectorXd& all, int joint) {
   return all.size() > 0 ? Eigen::VectorXd(all.segment(joint, 1)) : all;
+}
+
+/// The radius of a map of two joints depends on both: its cable is not one of one joint.
+void refuse_pairs(const Rig& rig, std::size_t joint) {
+  for (const Cable& cable : rig.transmission.cables)
+    if (cable.has_pairs() && cable.passes(joint))
+      throw input_error(
+          {rig.path, 0, 0},
+          fmt::format("joint '{}' cannot be taken alone: cable '{}' has a map of two joints",
+                      rig.joints[joint], cable.name),
+          "use 'cablefit identify', which fits all joints together");
 }
 
 Transmission one_joint(const Transmission& whole, int joint) {
@@ -69,6 +81,7 @@ std::map<std::string, Value> about(const std::map<std::string, Value>& all,
 }
 
 Rig one_joint(const Rig& whole, int joint) {
+  refuse_pairs(whole, place(joint));
   Rig one = whole;
   one.joints = {whole.joints[place(joint)]};
   one.sensors = about(whole.sensors, std::to_string(joint + 1));

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <type_traits>
 #include <variant>
 
 namespace cablefit {
@@ -17,19 +16,27 @@ void add_column(const Rig& rig, const std::string& channel, RigFacts& facts) {
   facts.push_back({channel + " unit", mapping.unit.empty() ? "of the log" : mapping.unit});
 }
 
-std::string map_text(const DisplacementMap& map) {
+std::string numbers_text(double value) { return fmt::format(" {}", value); }
+
+template <typename Value>
+std::string numbers_text(const std::vector<Value>& values) {
+  std::string text;
+  for (const Value& value : values) text += numbers_text(value);
+  return text;
+}
+
+template <typename Map>
+std::string map_text(const Map& map) {
   std::string text(map.kind->name);
   for (const auto& [key, value] : map.kind->entries(map.parameters))
-    std::visit(
-        [&](const auto& v) {
-          if constexpr (std::is_same_v<std::decay_t<decltype(v)>, double>) {
-            text += fmt::format(" {}", v);
-          } else {
-            for (const double x : v) text += fmt::format(" {}", x);
-          }
-        },
-        value);
+    text += std::visit([](const auto& v) { return numbers_text(v); }, value);
   return text;
+}
+
+void add_pairs(const std::string& name, const std::vector<PairMap>& pairs, RigFacts& facts) {
+  for (const PairMap& pair : pairs)
+    facts.push_back(
+        {fmt::format("{} {} {}", name, pair.joints[0] + 1, pair.joints[1] + 1), map_text(pair)});
 }
 
 void add_cable(const Cable& cable, RigFacts& facts) {
@@ -40,6 +47,8 @@ void add_cable(const Cable& cable, RigFacts& facts) {
     facts.push_back({name + " motor_radius" + joint, map_text(cable.motor_map[k])});
     facts.push_back({name + " link_radius" + joint, map_text(cable.link_map[k])});
   }
+  add_pairs(name + " motor_map", cable.motor_pairs, facts);
+  add_pairs(name + " link_map", cable.link_pairs, facts);
 }
 
 }  // namespace

@@ -17,15 +17,13 @@ StiffnessMatrices of_spring(const Transmission& spring) {
           k.asDiagonal()};
 }
 
-/// sum_i f_i times the slope of each cable's radius, per joint.
-template <typename SlopeOf>
-Eigen::VectorXd turning_radii(const Transmission& transmission, const Eigen::VectorXd& f,
-                              SlopeOf slope_of) {
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(transmission.n_joints);
+/// sum_i f_i times the second derivatives of each cable's g or h at `angle`, joints x joints.
+Eigen::MatrixXd turning_radii(const Transmission& transmission, const Eigen::VectorXd& f,
+                              SideMaps (Cable::*side)() const, const Eigen::VectorXd& angle) {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(transmission.n_joints, transmission.n_joints);
+  const auto at = [&](std::size_t k) { return angle(static_cast<Eigen::Index>(k)); };
   for (Eigen::Index i = 0; i < f.size(); ++i)
-    for (Eigen::Index joint = 0; joint < sum.size(); ++joint)
-      sum(joint) += f(i) * slope_of(transmission.cables[static_cast<std::size_t>(i)],
-                                    static_cast<std::size_t>(joint));
+    (transmission.cables[static_cast<std::size_t>(i)].*side)().add_slopes(at, f(i), sum);
   return sum;
 }
 
@@ -58,19 +56,11 @@ StiffnessMatrices stiffness_matrices(const Transmission& transmission, const Eig
   const Eigen::MatrixXd p = transmission.link_coupling(q), s = transmission.motor_coupling(theta);
   const Eigen::VectorXd f = transmission.tensions(q, theta);
   const Eigen::VectorXd k = cable_stiffnesses(transmission, q, theta);
-  const Eigen::VectorXd link =
-      turning_radii(transmission, f, [&](const Cable& cable, std::size_t joint) {
-        return cable.link_map[joint].radius_slope(q(static_cast<Eigen::Index>(joint)));
-      });
-  const Eigen::VectorXd motor =
-      turning_radii(transmission, f, [&](const Cable& cable, std::size_t joint) {
-        return cable.motor_map[joint].radius_slope(turned(static_cast<Eigen::Index>(joint)));
-      });
   const Eigen::MatrixXd pk = p * k.asDiagonal(), sk = s * k.asDiagonal();
   StiffnessMatrices all{-pk * p.transpose(), pk * s.transpose(), -sk * p.transpose(),
                         sk * s.transpose()};
-  all.link_q.diagonal() += link;
-  all.motor_theta.diagonal() += motor;
+  all.link_q += turning_radii(transmission, f, &Cable::link_side, q);
+  all.motor_theta += turning_radii(transmission, f, &Cable::motor_side, turned);
   return all;
 }
 

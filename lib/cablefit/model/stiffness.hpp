@@ -10,12 +10,13 @@
 namespace cablefit {
 
 /// n_joints x n_joints each; row: torque of that joint, column: position of that joint. `k` is the
-/// diagonal matrix of df/dl.
+/// diagonal matrix of df/dl, g'' and h'' are the second derivatives by the positions: diagonal
+/// where no map is one of two joints.
 struct StiffnessMatrices {
-  Eigen::MatrixXd link_q;       ///< d tau_l/dq = -P k P^T + diag(sum_i f_i h_i'')
+  Eigen::MatrixXd link_q;       ///< d tau_l/dq = -P k P^T + sum_i f_i h_i''
   Eigen::MatrixXd link_theta;   ///< d tau_l/dtheta = P k S^T
   Eigen::MatrixXd motor_q;      ///< d tau_m/dq = -S k P^T
-  Eigen::MatrixXd motor_theta;  ///< d tau_m/dtheta = S k S^T + diag(sum_i f_i g_i'')
+  Eigen::MatrixXd motor_theta;  ///< d tau_m/dtheta = S k S^T + sum_i f_i g_i''
 
   /// Second derivatives of the elastic energy (9) by (q, theta), 2n x 2n, symmetric.
   Eigen::MatrixXd energy_hessian() const;

@@ -6,13 +6,8 @@
 namespace cablefit {
 namespace {
 
-bool all_round(const std::vector<DisplacementMap>& maps) {
-  return std::all_of(maps.begin(), maps.end(),
-                     [](const DisplacementMap& map) { return map.kind->constant_radius; });
-}
-
-void append(std::vector<DisplacementMap>& all, const std::vector<DisplacementMap>& more) {
-  all.insert(all.end(), more.begin(), more.end());
+auto as_they_are(const double* q) {
+  return [q](std::size_t k) { return q[k]; };
 }
 
 void append_radii(std::vector<double>& all, const std::vector<DisplacementMap>& more) {
@@ -26,14 +21,19 @@ Coupling::Coupling(const Transmission& transmission)
   const Eigen::VectorXd theta_0 = transmission.encoder_zero();
   theta_0_.assign(theta_0.begin(), theta_0.end());
   for (const Cable& cable : transmission.cables) {
-    const bool round = all_round(cable.motor_map) && all_round(cable.link_map);
-    Strand strand{cable.law->basis, cable.law->slope,  cable.shape(), cable.n_coefficients(), {},
-                  cable.shift(),    motor_map_.size(), round};
+    const bool round = cable.motor_side().is_round() && cable.link_side().is_round();
+    Strand strand{.basis = cable.law->basis,
+                  .slope = cable.law->slope,
+                  .shape = cable.shape(),
+                  .n_coefficients = cable.n_coefficients(),
+                  .slack = cable.shift(),
+                  .first_joint = motor_radius_.size(),
+                  .maps = maps_.size(),
+                  .round = round};
     std::copy(cable.coefficients.begin(), cable.coefficients.end(), strand.coefficients.begin());
     if (round) strand.slack -= cable.motor_radii(theta_0).dot(theta_0);
     cables_.push_back(strand);
-    append(motor_map_, cable.motor_map);
-    append(link_map_, cable.link_map);
+    maps_.push_back(cable);
     append_radii(motor_radius_, cable.motor_map);
     append_radii(link_radius_, cable.link_map);
   }
@@ -48,18 +48,15 @@ Coupling::Coupling(const Transmission& transmission)
 }
 
 double Coupling::elongation(const Strand& strand, const double* q, const double* theta) const {
-  double l = strand.slack;
-  for (std::size_t k = 0; k < n_joints_; ++k) {
-    l += motor_map_[strand.first_joint + k].displacement(theta[k] - theta_0_[k]) -
-         link_map_[strand.first_joint + k].displacement(q[k]);
-  }
-  return l;
+  const Cable& cable = maps_[strand.maps];
+  return strand.slack + cable.motor_side().displacement(turned(theta)) -
+         cable.link_side().displacement(as_they_are(q));
 }
 
 void Coupling::look(std::size_t joint, const double* q, const double* theta,
                     JointState& state) const {
-  const double turned = theta[joint] - theta_0_[joint];
-  state.deflection = turned - q[joint];
+  const auto angle = turned(theta);
+  state.deflection = angle(joint) - q[joint];
   if (cables_.empty()) {
     state.deflection = deflection(joint, q, theta);
     state.stiffness = stiffness_[joint];
@@ -68,22 +65,24 @@ void Coupling::look(std::size_t joint, const double* q, const double* theta,
   }
   state.stiffness = state.tension = 0;
   for (const Strand& strand : cables_) {
-    const std::size_t place = strand.first_joint + joint;
-    const double radius = strand.round ? motor_radius_[place] : motor_map_[place].radius(turned);
+    const SideMaps motor = maps_[strand.maps].motor_side();
+    const double radius =
+        strand.round ? motor_radius_[strand.first_joint + joint] : motor.radius(joint, angle);
     if (strand.round && radius == 0) continue;  // another joint's cable
     const double l = stretch(strand, q, theta);
     const double force = combine(strand, strand.basis, l);
     state.stiffness += radius * radius * combine(strand, strand.slope, l);
-    if (!strand.round) state.stiffness += motor_map_[place].radius_slope(turned) * force;
+    if (!strand.round) state.stiffness += motor.radius_slope(joint, angle) * force;
     state.tension += std::abs(radius) * force;
   }
 }
 
 void Coupling::add_by_maps(const Strand& strand, double force, const double* q, const double* theta,
                            double* link, double* motor) const {
+  const SideMaps motors = maps_[strand.maps].motor_side(), links = maps_[strand.maps].link_side();
   for (std::size_t k = 0; k < n_joints_; ++k) {
-    link[k] += force * link_map_[strand.first_joint + k].radius(q[k]);
-    motor[k] += force * motor_map_[strand.first_joint + k].radius(theta[k] - theta_0_[k]);
+    link[k] += force * links.radius(k, as_they_are(q));
+    motor[k] += force * motors.radius(k, turned(theta));
   }
 }
 

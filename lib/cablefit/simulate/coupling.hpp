@@ -30,10 +30,15 @@ class Coupling {
     int n_coefficients = 0;
     std::array<double, kMaxCableOrder> coefficients = {};
     double slack = 0;             ///< l where every map is 0
-    std::size_t first_joint = 0;  ///< into the radii and maps below
+    std::size_t first_joint = 0;  ///< into the radii below
+    std::size_t maps = 0;         ///< into the maps below
     bool round = false;           ///< all its pulleys are round
   };
 
+  /// theta - theta_0 of a joint.
+  auto turned(const double* theta) const {
+    return [this, theta](std::size_t k) { return theta[k] - theta_0_[k]; };
+  }
   /// phi of the linear model, Transmission::deflections.
   double deflection(std::size_t joint, const double* q, const double* theta) const;
   /// sum_j coefficient_j values_j at elongation l; 0 when slack.
@@ -47,10 +52,10 @@ class Coupling {
 
   std::size_t n_joints_;
   std::vector<Strand> cables_;
-  std::vector<double> motor_radius_, link_radius_;     ///< [cable][joint], of round pulleys
-  std::vector<DisplacementMap> motor_map_, link_map_;  ///< [cable][joint]
-  std::vector<double> theta_0_;                        ///< per joint
-  std::vector<double> stiffness_, reduction_, rest_;   ///< linear model, per joint
+  std::vector<double> motor_radius_, link_radius_;    ///< [cable][joint], of round pulleys
+  std::vector<Cable> maps_;                           ///< per cable, for its g and h
+  std::vector<double> theta_0_;                       ///< per joint
+  std::vector<double> stiffness_, reduction_, rest_;  ///< linear model, per joint
 };
 
 inline double Coupling::deflection(std::size_t joint, const double* q, const double* theta) const {

@@ -84,12 +84,24 @@ void fields(Archive& a, DisplacementMap& v) {
 }
 
 template <class Archive>
+void fields(Archive& a, PairMap& v) {
+  a.row("kind", pair_map_kinds(), v.kind);
+  PairParameters& p = v.parameters;
+  a("joint_1", v.joints[0]), a("joint_2", v.joints[1]);
+  a("angle_1", p.angle[0]), a("angle_2", p.angle[1]), a("values", p.values);
+  a("curvature_1", p.curvature[0]), a("curvature_2", p.curvature[1]);
+  a("curvature_12", p.curvature[2]), a("from_x", p.from.x()), a("from_y", p.from.y());
+  a("to_x", p.to.x()), a("to_y", p.to.y()), a("length", p.length), a("sign", p.sign);
+}
+
+template <class Archive>
 void fields(Archive& a, Cable& v) {
   a("name", v.name);
   a.row("law", cable_laws(), v.law);
   a("order", v.order), a("toe", v.toe), a("coefficients", v.coefficients);
   a("initial_elongation", v.initial_elongation), a("motor_map", v.motor_map);
-  a("link_map", v.link_map), a("reference_displacement", v.reference_displacement);
+  a("link_map", v.link_map), a("motor_pairs", v.motor_pairs), a("link_pairs", v.link_pairs);
+  a("reference_displacement", v.reference_displacement);
 }
 
 template <class Archive>

@@ -118,10 +118,15 @@ Transmission with_radii(const Transmission& transmission, double factor) {
            {&map.parameters.coefficients, &map.parameters.displacement, &map.parameters.curvature})
         for (double& value : *values) value *= factor;
   };
+  const auto scale_pairs = [factor](std::vector<PairMap>& maps) {
+    for (PairMap& map : maps) map = cablefit::scaled(std::move(map), factor);
+  };
   Transmission scaled = transmission;
   for (Cable& cable : scaled.cables) {
     scale(cable.motor_map);
     scale(cable.link_map);
+    scale_pairs(cable.motor_pairs);
+    scale_pairs(cable.link_pairs);
     cable.reference_displacement *= factor;
   }
   return scaled;

@@ -68,13 +68,7 @@ Eigen::VectorXd JointCurve::tensions(double phi) const {
 }
 
 double JointCurve::tension_at_pulleys(double phi) const {
-  const Eigen::VectorXd f = tensions(phi);
-  double sum = 0;
-  for (std::size_t i = 0; i < transmission_->cables.size(); ++i)
-    sum += f(static_cast<Eigen::Index>(i)) *
-           std::abs(transmission_->cables[i].motor_map[static_cast<std::size_t>(joint_)].radius(
-               theta_(joint_) + phi));
-  return sum;
+  return transmission_->motor_coupling(theta(phi)).row(joint_).cwiseAbs().dot(tensions(phi));
 }
 
 std::optional<double> JointCurve::deflection_at(double torque) const {

@@ -67,11 +67,10 @@ Slope slope_of(const CablesAt& at, const Eigen::VectorXd& q, const Eigen::Vector
   Slope slope{-(p * f) - load, p * k.asDiagonal() * p.transpose(),
               (p.cwiseAbs() * f.cwiseAbs() + load.cwiseAbs()).maxCoeff(),
               (p.cwiseAbs2() * taut).maxCoeff()};
+  const auto angle = [&](std::size_t joint) { return q(static_cast<Eigen::Index>(joint)); };
   for (Eigen::Index i = 0; i < f.size(); ++i)
-    for (Eigen::Index j = 0; j < q.size(); ++j)
-      slope.hessian(j, j) -= f(i) * at.transmission.cables[static_cast<std::size_t>(i)]
-                                        .link_map[static_cast<std::size_t>(j)]
-                                        .radius_slope(q(j));
+    at.transmission.cables[static_cast<std::size_t>(i)].link_side().add_slopes(angle, -f(i),
+                                                                               slope.hessian);
   return slope;
 }
 

@@ -37,7 +37,44 @@ double motor_stiffness(const Transmission& transmission, double q, double theta)
   return sum;
 }
 
+// Angles of row i, less the encoder zero on the motors.
+auto angles_at(const Transmission& transmission, std::span<const JointSignals> joints, MapSide side,
+               Eigen::Index i) {
+  return [&transmission, joints, side, i](std::size_t k) {
+    return side == MapSide::link ? joints[k].q(i)
+                                 : joints[k].theta(i) - encoder_zero(transmission, k);
+  };
+}
+
+// Adds what maps of two joints give to g - h.
+void add_pairs(const Transmission& transmission, const Cable& cable,
+               std::span<const JointSignals> joints, Eigen::ArrayXd& sum) {
+  const auto add = [&](const std::vector<PairMap>& pairs, MapSide side, double sign) {
+    for (const PairMap& pair : pairs)
+      for (Eigen::Index i = 0; i < sum.size(); ++i) {
+        const auto angle = angles_at(transmission, joints, side, i);
+        sum(i) += sign * pair.at(angle(pair.joints[0]), angle(pair.joints[1])).displacement;
+      }
+  };
+  add(cable.motor_pairs, MapSide::motor, 1);
+  add(cable.link_pairs, MapSide::link, -1);
+}
+
 }  // namespace
+
+Eigen::ArrayXd levers(const Transmission& transmission, const Cable& cable,
+                      std::span<const JointSignals> joints, MapSide side, std::size_t own) {
+  const bool on_motor = side == MapSide::motor;
+  if (!cable.has_pairs()) {
+    if (on_motor)
+      return cable.motor_map[own].radii(joints[own].theta - encoder_zero(transmission, own));
+    return cable.link_map[own].radii(joints[own].q);
+  }
+  const SideMaps maps = on_motor ? cable.motor_side() : cable.link_side();
+  return Eigen::ArrayXd::NullaryExpr(joints[own].q.size(), [&](Eigen::Index i) {
+    return maps.radius(own, angles_at(transmission, joints, side, i));
+  });
+}
 
 Eigen::ArrayXd elongation(const Transmission& transmission, const Cable& cable,
                           std::span<const JointSignals> joints) {
@@ -49,6 +86,7 @@ Eigen::ArrayXd elongation(const Transmission& transmission, const Cable& cable,
         cable.motor_map[k].displacements(turned) - cable.link_map[k].displacements(joints[k].q);
     sum = sum ? Eigen::ArrayXd(*sum + share) : std::move(share);
   }
+  if (sum && cable.has_pairs()) add_pairs(transmission, cable, joints, *sum);
   assert(sum && "a cable that no joint moves");
   return *sum + cable.shift();
 }
@@ -80,18 +118,18 @@ void fill_basis(const Cable& cable, const Eigen::ArrayXd& l, const Eigen::ArrayX
 void fill_all(const Transmission& transmission, std::span<const JointSignals> joints,
               ElasticSide side, std::size_t own, const Eigen::ArrayXXd& others,
               Eigen::Ref<Eigen::MatrixXd> out) {
-  const bool on_motor = side == ElasticSide::motor;
-  const Eigen::ArrayXd turned = joints[own].theta - encoder_zero(transmission, own);
+  const MapSide lever_side = side == ElasticSide::motor ? MapSide::motor : MapSide::link;
   Eigen::Index first = 0, number = 0;
   for (const Cable& cable : transmission.cables) {
     const Eigen::Index n = cable.n_coefficients();
-    const DisplacementMap& map = on_motor ? cable.motor_map[own] : cable.link_map[own];
-    if (map.is_zero()) {
+    const SideMaps maps = lever_side == MapSide::motor ? cable.motor_side() : cable.link_side();
+    if (!maps.passes(own)) {
       out.middleCols(first, n).setZero();
     } else {
       Eigen::ArrayXd l = elongation(transmission, cable, joints);
       if (others.cols() > 0) l += others.col(number);
-      fill_basis(cable, l, map.radii(on_motor ? turned : joints[own].q), out.middleCols(first, n));
+      fill_basis(cable, l, levers(transmission, cable, joints, lever_side, own),
+                 out.middleCols(first, n));
     }
     first += n;
     ++number;

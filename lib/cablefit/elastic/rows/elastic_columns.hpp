@@ -25,6 +25,10 @@ void elastic_basis(const Transmission& transmission, const JointSignals& signals
 Eigen::ArrayXd elongation(const Transmission& transmission, const Cable& cable,
                           std::span<const JointSignals> joints);
 
+/// Column of S or P of one cable at joint `own` (from 0), m, row by row.
+Eigen::ArrayXd levers(const Transmission& transmission, const Cable& cable,
+                      std::span<const JointSignals> joints, MapSide side, std::size_t own);
+
 /// Number of columns elastic_basis writes.
 Eigen::Index n_elastic_columns(const Transmission& transmission);
 

@@ -27,18 +27,18 @@ void fill_elastic(const Transmission& transmission, std::span<const JointSignals
                   Eigen::Ref<Eigen::MatrixXd> slope, Eigen::Ref<Eigen::MatrixXd> turn) {
   const auto own = static_cast<std::size_t>(joint);
   const Eigen::ArrayXd turned = joints[own].theta - transmission.encoder_zero()(joint);
-  const Eigen::ArrayXd at = motor_side ? turned : Eigen::ArrayXd(joints[own].q);
+  const MapSide side = motor_side ? MapSide::motor : MapSide::link;
   std::array<double, kMaxCableOrder> value{}, rise{};
   Eigen::Index first = 0;
   for (const Cable& cable : transmission.cables) {
     const int n = cable.n_coefficients();
-    const DisplacementMap& map = motor_side ? cable.motor_map[own] : cable.link_map[own];
+    const SideMaps maps = motor_side ? cable.motor_side() : cable.link_side();
     basis.middleCols(first, n).setZero();
     slope.middleCols(first, n).setZero();
     first += n;
-    if (map.is_zero()) continue;
+    if (!maps.passes(own)) continue;
     const Eigen::ArrayXd l = elongation(transmission, cable, joints);
-    const Eigen::ArrayXd gain = map.radii(at);
+    const Eigen::ArrayXd gain = levers(transmission, cable, joints, side, own);
     const LawShape shape = cable.shape();
     for (Eigen::Index i = 0; i < l.size(); ++i) {
       if (!(l(i) > 0)) continue;

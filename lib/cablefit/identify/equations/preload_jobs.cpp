@@ -27,6 +27,13 @@ bool same_maps(const std::vector<DisplacementMap>& a, const std::vector<Displace
                     });
 }
 
+bool same_pairs(const std::vector<PairMap>& a, const std::vector<PairMap>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const PairMap& x, const PairMap& y) {
+    return x.kind == y.kind && x.joints == y.joints &&
+           x.kind->entries(x.parameters) == y.kind->entries(y.parameters);
+  });
+}
+
 /// Cables of one rig are those of the other: only l_o may differ.
 bool same_cables(const Transmission& a, const Transmission& b) {
   if (a.cables.size() != b.cables.size()) return false;
@@ -34,6 +41,8 @@ bool same_cables(const Transmission& a, const Transmission& b) {
     const Cable &x = a.cables[c], &y = b.cables[c];
     if (x.name != y.name || x.law != y.law || x.order != y.order || x.toe != y.toe) return false;
     if (!same_maps(x.motor_map, y.motor_map) || !same_maps(x.link_map, y.link_map)) return false;
+    if (!same_pairs(x.motor_pairs, y.motor_pairs) || !same_pairs(x.link_pairs, y.link_pairs))
+      return false;
   }
   return true;
 }

@@ -61,7 +61,7 @@ std::optional<double> elongation_for(const Cable& cable, double force, double fi
 std::vector<Cable*> cables_of(Transmission& transmission, int joint) {
   std::vector<Cable*> found;
   for (Cable& cable : transmission.cables)
-    if (!cable.motor_map[static_cast<std::size_t>(joint)].is_zero()) found.push_back(&cable);
+    if (cable.motor_side().passes(static_cast<std::size_t>(joint))) found.push_back(&cable);
   return found;
 }
 

@@ -17,13 +17,15 @@ void set_elastic(const Transmission& transmission, const Eigen::VectorXd& q,
     return;
   }
   state.tau_elas = state.stiffness = state.tension = 0;
+  const auto own = static_cast<std::size_t>(joint);
+  const auto angle = [&](std::size_t k) { return turned[static_cast<Eigen::Index>(k)]; };
   for (const Cable& cable : transmission.cables) {
-    const DisplacementMap& map = cable.motor_map[static_cast<std::size_t>(joint)];
+    const SideMaps motor = cable.motor_side();
     const double l = cable.elongation(q, turned);
-    const double force = cable.force(l), radius = map.radius(turned[joint]);
+    const double force = cable.force(l), radius = motor.radius(own, angle);
     state.tau_elas += radius * force;
     state.stiffness +=
-        radius * radius * cable.stiffness(l) + map.radius_slope(turned[joint]) * force;
+        radius * radius * cable.stiffness(l) + motor.radius_slope(own, angle) * force;
     state.tension += std::abs(radius) * force;
   }
 }

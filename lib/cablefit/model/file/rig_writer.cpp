@@ -76,6 +76,18 @@ Json maps_json(const std::vector<DisplacementMap>& maps) {
   return list;
 }
 
+Json pairs_json(const std::vector<PairMap>& pairs, const std::vector<std::string>& joints) {
+  Json list = Json::array();
+  for (const PairMap& pair : pairs) {
+    Json json{{"type", pair.kind->name},
+              {"joints", {joints[pair.joints[0]], joints[pair.joints[1]]}}};
+    for (const auto& [key, value] : pair.kind->entries(pair.parameters))
+      std::visit([&, name = std::string(key)](const auto& v) { json[name] = v; }, value);
+    list.push_back(json);
+  }
+  return list;
+}
+
 Json cables_json(const Rig& rig) {
   Json list = Json::array();
   for (const Cable& cable : rig.transmission.cables) {
@@ -84,6 +96,8 @@ Json cables_json(const Rig& rig) {
               {"link_radius", maps_json(cable.link_map)},
               {"law", cable.law->name},
               {"order", cable.order}};
+    if (!cable.motor_pairs.empty()) json["motor_map"] = pairs_json(cable.motor_pairs, rig.joints);
+    if (!cable.link_pairs.empty()) json["link_map"] = pairs_json(cable.link_pairs, rig.joints);
     if (cable.law->has_toe) json["toe"] = cable.toe;
     if (!cable.coefficients.empty()) json["coefficients"] = cable.coefficients;
     if (rig.search_elongation[list.size()]) {

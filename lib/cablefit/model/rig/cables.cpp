@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <string_view>
@@ -39,8 +40,11 @@ DisplacementMap read_map(const JsonNode& node) {
   return map;
 }
 
+/// Whether a sum of maps has other terms, so that no joint needs a radius of its own.
+enum class Others { no, yes };
+
 /// One map per joint; a single one counts as a list of one.
-std::vector<DisplacementMap> read_maps(const JsonNode& node, int n_joints) {
+std::vector<DisplacementMap> read_maps(const JsonNode& node, int n_joints, Others others) {
   std::vector<DisplacementMap> maps;
   if (node.is_array()) {
     for (const JsonNode& item : node.items) maps.push_back(read_map(item));
@@ -51,7 +55,8 @@ std::vector<DisplacementMap> read_maps(const JsonNode& node, int n_joints) {
     throw node.error(fmt::format("{} number(s), expected {}", maps.size(), n_joints),
                      "give one per joint");
   }
-  if (std::all_of(maps.begin(), maps.end(), std::mem_fn(&DisplacementMap::is_zero))) {
+  if (others == Others::no &&
+      std::all_of(maps.begin(), maps.end(), std::mem_fn(&DisplacementMap::is_zero))) {
     throw node.error("radius is 0",
                      "give the signed radius in m, negative where a positive motion slackens the "
                      "cable");
@@ -60,15 +65,15 @@ std::vector<DisplacementMap> read_maps(const JsonNode& node, int n_joints) {
 }
 
 /// As read_maps(), of one joint also {"search": r}.
-std::vector<DisplacementMap> read_motor_maps(const JsonNode& node, int n_joints) {
+std::vector<DisplacementMap> read_motor_maps(const JsonNode& node, int n_joints, Others others) {
   if (n_joints == 1 && node.is_array() && node.items.size() == 1)
-    return read_motor_maps(node.items.front(), n_joints);
+    return read_motor_maps(node.items.front(), n_joints, others);
   if (node.is_string() && node.text() == "search") {
     throw node.error("a search of a radius needs a value to start from",
                      "give {\"search\": r} with the signed nominal radius r in m");
   }
   const JsonNode* start = node.is_object() && n_joints == 1 ? node.find("search") : nullptr;
-  if (!start) return read_maps(node, n_joints);
+  if (!start) return read_maps(node, n_joints, others);
   if (node.find("type")) {
     throw node.error("only the radius of a round pulley can be searched",
                      "give {\"search\": r} alone, or this map as it is");
@@ -80,6 +85,65 @@ std::vector<DisplacementMap> read_motor_maps(const JsonNode& node, int n_joints)
                        "give the signed nominal radius in m");
   }
   return {searched_pulley(radius)};
+}
+
+/// "joints" of a map of two joints: two different names, numbered from 0.
+std::array<std::size_t, 2> read_two_joints(const JsonNode& node, const Rig& rig) {
+  const JsonNode& names = node.at("joints");
+  const std::vector<JsonNode>& items = some_items(names);
+  if (items.size() != 2)
+    throw names.error(fmt::format("{} joint(s), expected 2", items.size()),
+                      "name the joints of angle 1 and angle 2");
+  const std::vector<std::string_view> known(rig.joints.begin(), rig.joints.end());
+  std::array<std::size_t, 2> joints{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto found = std::find(known.begin(), known.end(), items[k].text());
+    if (found == known.end()) fail_unknown(items[k], "joint", items[k].text(), known);
+    joints[k] = static_cast<std::size_t>(found - known.begin());
+  }
+  if (joints[0] == joints[1])
+    throw items[1].error("both joints are the same",
+                         "give a map of one joint in motor_radius or link_radius");
+  return joints;
+}
+
+PairMap read_pair(const JsonNode& node, MapSide side, const Rig& rig) {
+  const JsonNode& type = node.at("type");
+  const PairMapKind* kind = at_place_of(type, [&] { return &find_pair_map_kind(type.text()); });
+  if (kind->rotary_only && rig.linear_motion)
+    throw type.error(fmt::format("map '{}' on linear axes", kind->name),
+                     "it is of joints that turn: use \"grid\" or \"polynomial\"");
+  PairMap map{kind, kind->read(node, side), read_two_joints(node, rig)};
+  for (const double angle : {-1.0, 0.0, 1.0})
+    sane(node, "a radius", map.at(angle, angle).radius.cwiseAbs().maxCoeff());
+  return map;
+}
+
+/// "motor_map" or "link_map": maps of two joints, or one of them.
+std::vector<PairMap> read_pairs(const JsonNode* node, MapSide side, const Rig& rig) {
+  std::vector<PairMap> pairs;
+  if (node == nullptr) return pairs;
+  if (!node->is_array()) return {read_pair(*node, side, rig)};
+  for (const JsonNode& item : some_items(*node)) pairs.push_back(read_pair(item, side, rig));
+  return pairs;
+}
+
+/// A side's maps of one joint and of two; the first may be left out where there are second.
+void read_routing(const JsonNode& cable, const Rig& rig, Cable* to) {
+  to->motor_pairs = read_pairs(cable.find("motor_map"), MapSide::motor, rig);
+  to->link_pairs = read_pairs(cable.find("link_map"), MapSide::link, rig);
+  const auto none = [&] { return round_pulleys(Eigen::VectorXd::Zero(rig.n_joints())); };
+  const auto others = [](const std::vector<PairMap>& pairs) {
+    return pairs.empty() ? Others::no : Others::yes;
+  };
+  const bool motor_alone = !to->motor_pairs.empty() && !cable.find("motor_radius");
+  to->motor_map = motor_alone ? none()
+                              : read_motor_maps(cable.at("motor_radius"), rig.n_joints(),
+                                                others(to->motor_pairs));
+  const bool link_alone = !to->link_pairs.empty() && !cable.find("link_radius");
+  to->link_map = link_alone
+                     ? none()
+                     : read_maps(cable.at("link_radius"), rig.n_joints(), others(to->link_pairs));
 }
 
 /// "toe", which only laws with a toe have.
@@ -140,12 +204,11 @@ bool read_elongation(const JsonNode& cable, double* elongation) {
   return false;
 }
 
-Cable read_cable(const JsonNode& node, int n_joints, bool* search) {
-  node.allow_only({"name", "motor_radius", "link_radius", "law", "order", "toe", "coefficients",
-                   "initial_elongation"});
+Cable read_cable(const JsonNode& node, const Rig& rig, bool* search) {
+  node.allow_only({"name", "motor_radius", "link_radius", "motor_map", "link_map", "law", "order",
+                   "toe", "coefficients", "initial_elongation"});
   Cable cable;
-  cable.motor_map = read_motor_maps(node.at("motor_radius"), n_joints);
-  cable.link_map = read_maps(node.at("link_radius"), n_joints);
+  read_routing(node, rig, &cable);
   cable.law = &read_law(node);
   cable.order = read_order(node, *cable.law);
   cable.toe = read_toe(node, *cable.law);
@@ -172,11 +235,13 @@ void read_cables(const JsonNode& node, Rig* rig) {
   std::vector<std::string> names;
   for (const JsonNode& item : some_items(node)) {
     bool search = false;
-    Cable cable = read_cable(item, rig->n_joints(), &search);
+    Cable cable = read_cable(item, *rig, &search);
     cable.name = names.emplace_back(unique_name(item, names));
     rig->transmission.cables.push_back(std::move(cable));
     rig->search_elongation.push_back(search);
   }
+  // Maps need not be 0 at 0, and l = l_o there unless the file gives another pose.
+  set_reference(rig->transmission, {});
 }
 
 ReferencePose read_reference(const JsonNode& node, int n_joints) {
