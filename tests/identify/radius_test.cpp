@@ -4,16 +4,20 @@
 
 #include "cablefit/identify/elastic_search.hpp"
 #include "cablefit/identify/elastic_stage.hpp"
+#include "cablefit/identify/equations/joint_equations.hpp"
 #include "cablefit/identify/identify.hpp"
 #include "cablefit/model/rig/searched_radius.hpp"
 #include "cablefit/model/rig_facts.hpp"
 #include "cablefit/refine/own_base.hpp"
+#include "cablefit/report/documents/identify_document.hpp"
+#include "cablefit/report/writers/writers.hpp"
 #include "cablefit/results/elastic_models.hpp"
 #include "cablefit/results/write/elastic_json.hpp"
 #include "tests/support/message.hpp"
 #include "tests/support/monte_carlo.hpp"
 #include "tests/support/plain_rigs.hpp"
 #include "tests/support/recover.hpp"
+#include "tests/support/tendon_rigs.hpp"
 
 namespace {
 
@@ -210,6 +214,146 @@ TEST_CASE("stage 2 and refine take motor radii as known", "[identify]") {
         }) == "rig.json: refine" + rest);
 }
 
+// Little torque beside much noise: the radius is known to some 10 %, and the likelihood falls
+// faster towards smaller radii.
+TEST_CASE("a radius that is hardly known has the interval of its profile", "[identify]") {
+  PlainRig rig = pulley_pair(2e-3);
+  rig.torque_noise = 40;
+  Bench bench = bench_of(radius_rig_text(rig, 0.031, -0.031, false));
+  bench.add_text(blocked_log(rig, {0}, 60, 23));
+  const IdentifyResult r = identify(bench.logs(), {});
+  const Estimate& a = estimate(r.parameters, "r_m[a]");
+  CHECK(a.profiled);
+  CHECK(a.ci_low < kRadius);
+  CHECK(a.ci_high > kRadius);
+  // The cables pull against each other: r_m[b] is -r_m[a] throughout.
+  const Estimate& b = estimate(r.parameters, "r_m[b]");
+  CHECK(b.ci_low == Approx(-a.ci_high).epsilon(1e-9));
+  CHECK(b.ci_high == Approx(-a.ci_low).epsilon(1e-9));
+  INFO(a.value << " +- " << a.sd << ": " << a.ci_low << " .. " << a.ci_high);
+  CHECK(std::abs((a.ci_high - a.value) / (a.value - a.ci_low) - 1) > 0.05);
+  const std::string text = write_text(identify_document(r));
+  INFO(text);
+  CHECK(text.find("by profile likelihood") != std::string::npos);
+}
+
+TEST_CASE("a radius that is well known has the interval of its sd", "[identify]") {
+  const PlainRig rig = pulley_pair(1e-3);
+  Bench bench = bench_of(radius_rig_text(rig, 0.031, -0.031, true));
+  bench.add_text(blocked_log(rig, {0}, 60, 93));
+  bench.add_text(moving_log(rig, 10, 94));
+  const Estimate a = estimate(identify(bench.logs(), {}).parameters, "r_m[a]");
+  CHECK(a.profiled);
+  // Quadratic so near the best: both ends are as far away, met within 1 % of the interval, by
+  // Student's t of at least 15 effective degrees of freedom.
+  const double above = (a.ci_high - a.value) / a.sd, below = (a.value - a.ci_low) / a.sd;
+  CHECK(above == Approx(below).epsilon(0.02));
+  CHECK(above > 1.96);
+  CHECK(above < 2.13);
+}
+
+/// The rig file of four_cable_finger() with all motor radii searched, `off` times the truth.
+std::string finger_text(const PlainRig& rig, double off, bool search_l_o) {
+  std::string text = rig_text(rig, "", search_l_o);
+  const auto search = [&](double radius) {
+    return fmt::format(R"({{"search": {}}})", off * radius);
+  };
+  text = replaced(text, R"("motor_radius": [0.03, 0])",
+                  R"("motor_radius": [)" + search(0.03) + ", 0]");
+  text = replaced(text, R"("motor_radius": [-0.03, 0])",
+                  R"("motor_radius": [)" + search(-0.03) + ", 0]");
+  text = replaced(text, R"("motor_radius": [0, 0.02])",
+                  R"("motor_radius": [0, )" + search(0.02) + "]");
+  return replaced(text, R"("motor_radius": [0, -0.02])",
+                  R"("motor_radius": [0, )" + search(-0.02) + "]");
+}
+
+TEST_CASE("columns of searched radii of several joints are derivatives", "[identify]") {
+  const PlainRig rig = four_cable_finger();
+  const Rig file = bench_of(finger_text(rig, 1, false)).rig;
+  const SearchedRadii searched = searched_radii(file.transmission);
+  Transmission cables = file.transmission;
+  for (std::size_t c = 0; c < searched.size(); ++c)
+    set_motor_radius(cables, c, *searched[c], cables.cables[c].motor_map[*searched[c]].radius(0));
+  Signals signals;
+  for (const double shift : {0.0, 1.3}) {
+    JointSignals& s = signals.joints.emplace_back();
+    s.q = Eigen::ArrayXd::LinSpaced(30, 0, 9).unaryExpr(
+        [&](double t) { return 0.1 * std::sin(t + shift); });
+    s.theta = Eigen::ArrayXd::LinSpaced(30, 0, 9).unaryExpr(
+        [&](double t) { return 0.12 * std::cos(1.3 * t + 2 * shift); });
+  }
+  const auto columns = [&](const JointEquation& equation, const Transmission& at) {
+    const Equation wide = equation_at(equation, at);
+    Eigen::MatrixXd out(30, static_cast<Eigen::Index>(wide.columns.size()));
+    wide.fill(signals, out);
+    return out;
+  };
+  for (int joint = 0; joint < 2; ++joint)
+    for (const bool motor : {true, false}) {
+      JointEquation equation;
+      equation.motor_side = motor;
+      equation.joint = joint;
+      equation.searched_radius = searched;
+      equation.base.fill = [](const Signals&, Eigen::Ref<Eigen::MatrixXd>) {};
+      const JointColumns c = joint_columns(equation, 8);
+      const Eigen::MatrixXd at = columns(equation, cables);
+      for (std::size_t cable = 0; cable < 4; ++cable) {
+        const double r = cables.cables[cable].motor_map[*searched[cable]].radius(0), h = 1e-6;
+        Transmission up = cables, down = cables;
+        set_motor_radius(up, cable, *searched[cable], r * std::exp(h));
+        set_motor_radius(down, cable, *searched[cable], r * std::exp(-h));
+        const auto first = 2 * static_cast<Eigen::Index>(cable);
+        const Eigen::MatrixXd difference =
+            (columns(equation, up).middleCols(c.basis + first, 2) -
+             columns(equation, down).middleCols(c.basis + first, 2)) /
+            (2 * h);
+        // Lengths of 1e-2 m change by 1e-8 m between the two: rounding and curvature are below
+        // 1e-6.
+        CHECK((at.middleCols(c.turn + first, 2) - difference).norm() <=
+              1e-6 * (1e-6 + difference.norm()));
+      }
+    }
+}
+
+TEST_CASE("motor radii of several joints are found with everything else", "[identify][recover]") {
+  const PlainRig rig = four_cable_finger();
+  Bench bench = bench_of(finger_text(rig, 1.1, true));
+  bench.add_text(blocked_log(rig, {0, 0}, 60, 71));
+  bench.add_text(moving_log(rig, 8, 72));
+  const IdentifyResult r = identify(bench.logs(), {});
+  check_recovered(r.parameters,
+                  {{"r_m[flexor]", 0.03},
+                   {"r_m[extensor]", -0.03},
+                   {"r_m[pip]", 0.02},
+                   {"r_m[dip]", -0.02},
+                   {"k[flexor]_0", 3e5},
+                   {"k[pip]_0", 4e5},
+                   {"J_motor[1]", 0.005},
+                   {"J_link[2]", 0.02}},
+                  3);
+  // The radii on one motor keep their ratio, those on two motors are apart.
+  const auto relative = [&](const char* name) {
+    return estimate(r.parameters, name).rsd_percent();
+  };
+  CHECK(relative("r_m[flexor]") == Approx(relative("r_m[extensor]")).epsilon(1e-6));
+  REQUIRE(r.preloads.at(0).model);
+  const std::vector<Cable>& cables = r.preloads.at(0).model->rig.transmission.cables;
+  CHECK(cables[2].motor_map[1].radius(0) == estimate(r.parameters, "r_m[pip]").value);
+  CHECK(cables[2].motor_map[0].radius(0) == 0);
+}
+
+TEST_CASE("radii of one motor are searched together", "[identify]") {
+  const PlainRig rig = four_cable_finger();
+  const std::string text = replaced(finger_text(rig, 1, false), R"({"search": -0.02})", "-0.02");
+  Bench bench = bench_of(text);
+  bench.add_text(blocked_log(rig, {0, 0}, 10, 73));
+  CHECK(message_of([&] { identify(bench.logs(), {}); }, bench.folder().path()) ==
+        "rig.json: preload 'default': the motor radius of cable 'dip' is given, but cables that "
+        "pull against each other have one motor_radius / link_radius; search the motor radii of "
+        "all of them, or give them all");
+}
+
 /// Runs over seeds, and what became of the parameters.
 class RadiusRuns {
  public:
@@ -277,6 +421,26 @@ TEST_CASE("intervals of stage 1 with motor radii hold the truth",
                  .parameters);
   }
   runs.check("motor radii, 3 x 40 s blocked", false);
+}
+
+TEST_CASE("intervals of motor radii of two joints hold the truth",
+          "[identify][recover][monte-carlo]") {
+  PlainRig rig = four_cable_finger();
+  rig.torque_noise = 0.5;
+  RadiusRuns runs({{"r_m[flexor]", 0.03},
+                   {"r_m[pip]", 0.02},
+                   {"k[flexor]_0", 3e5},
+                   {"k[pip]_0", 4e5},
+                   {"J_motor[1]", 0.005},
+                   {"J_link[2]", 0.02}});
+  for (int run = 0; run < (full_monte_carlo() ? 40 : 3); ++run) {
+    const unsigned seed = 7000 + 2 * static_cast<unsigned>(run);
+    Bench bench = bench_of(finger_text(rig, 1.05, true));
+    bench.add_text(blocked_log(rig, {0, 0}, 40, seed));
+    bench.add_text(moving_log(rig, 6, seed + 1));
+    runs.add(identify(bench.logs(), {}).parameters);
+  }
+  runs.check("motor radii of two joints and four cables, 40 s blocked and 6 s moving", true);
 }
 
 }  // namespace

@@ -38,11 +38,12 @@ std::vector<LogSurvey> known_logs(std::span<const LogSurvey> logs, const Identif
       continue;
     known.push_back(log);
     Rig& rig = known.back().plan.rig;
+    const SearchedRadii searched = searched_radii(rig.transmission);
     for (std::size_t c = 0; c < rig.transmission.cables.size(); ++c) {
       const Cable& found = preload.transmission.cables[c];
       rig.transmission.cables[c].initial_elongation = found.initial_elongation;
-      if (is_searched(rig.transmission.cables[c].motor_map.front()))
-        set_motor_radius(rig.transmission, c, found.motor_map.front().radius(0));
+      if (const auto joint = searched[c])
+        set_motor_radius(rig.transmission, c, *joint, found.motor_map[*joint].radius(0));
     }
     rig.search_elongation.assign(rig.search_elongation.size(), false);
   }

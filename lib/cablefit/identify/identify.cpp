@@ -9,6 +9,7 @@
 #include "cablefit/identify/aliased_inertias.hpp"
 #include "cablefit/identify/elastic_stage.hpp"
 #include "cablefit/identify/elongations/joint_solution.hpp"
+#include "cablefit/identify/elongations/radius_profile.hpp"
 #include "cablefit/identify/equations/joint_radii.hpp"
 #include "cablefit/identify/identify_floor.hpp"
 #include "cablefit/identify/preload_records.hpp"
@@ -208,6 +209,7 @@ IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& 
   const JudgedPoint& judged = found.judged;
   for (std::size_t j = 0; j < fit.jobs.size(); ++j) require_explained(fit, judged, j);
   std::vector<Estimate> estimates = joint_estimates(fit, judged, found.profiles, options.robust_sd);
+  profile_radii(fit, judged, estimates);
   for (const PreloadFacts& f : facts) refuse_dependent(f.added, estimates);
   add_method_floor(logs, options, fit, judged, facts, estimates);
   if (options.robust_sd) widen_aliased_inertias(logs, options, fit, judged, facts, estimates);

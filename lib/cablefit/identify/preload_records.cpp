@@ -51,7 +51,7 @@ JointEquation equation_of(Side side, int joint, const DynamicJob& job, const Pre
   equation.response = columns.torque;
   equation.motor_side = side == Side::motor;
   equation.joint = joint;
-  equation.searches_radius = searches_radius(facts.rig.transmission);
+  equation.searched_radius = searched_radii(facts.rig.transmission);
   return equation;
 }
 
@@ -96,7 +96,7 @@ JointEquation blocked_equation_of(const ElasticJob& job, const BlockedRows& rows
   equation.response = columns.tau;
   equation.blocked = true;
   equation.joint = joint;
-  equation.searches_radius = searches_radius(facts.rig.transmission);
+  equation.searched_radius = searched_radii(facts.rig.transmission);
   return equation;
 }
 

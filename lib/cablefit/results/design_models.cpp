@@ -33,8 +33,9 @@ Model model_of_rig(const JsonNode& root, std::string& choice) {
                         fmt::format("cable {} has no coefficients",
                                     cablefit::quoted(model.transmission.cables[k].name)),
                         "give \"coefficients\": [N/m, N/m^2, ...], or a fitted model");
-  for (std::size_t k = 0; k < model.transmission.cables.size(); ++k)
-    if (is_searched(model.transmission.cables[k].motor_map.front()))
+  const SearchedRadii searched = searched_radii(model.transmission);
+  for (std::size_t k = 0; k < searched.size(); ++k)
+    if (searched[k])
       throw input_error(root.at("cables").items[k].at("motor_radius").place,
                         fmt::format("the motor radius of cable {} is searched",
                                     cablefit::quoted(model.transmission.cables[k].name)),

@@ -21,7 +21,8 @@ struct RadiusStep {
   double largest() const { return ln_radius.cwiseAbs().maxCoeff(); }
 };
 
-RadiusStep step_from(const JointFit& fit, const JointPoint& point) {
+RadiusStep step_from(const JointFit& fit, const JointPoint& point,
+                     const std::vector<Eigen::Index>& held) {
   JointProblem problem = next_step(fit, point);
   JointSolution s = solve(problem);
   const Eigen::VectorXd radius = searched_radii(fit);
@@ -30,7 +31,8 @@ RadiusStep step_from(const JointFit& fit, const JointPoint& point) {
   for (Eigen::Index k = 0; k < radius.size(); ++k) {
     const Eigen::VectorXd unit = Eigen::VectorXd::Unit(problem.n_params(), first + k);
     const double sd = std::sqrt(std::max(0.0, s.solve_operator(first + k, first + k)));
-    if (s.determines(unit) && sd < kOpenRadius * std::abs(radius(k))) continue;
+    const bool is_held = std::find(held.begin(), held.end(), k) != held.end();
+    if (!is_held && s.determines(unit) && sd < kOpenRadius * std::abs(radius(k))) continue;
     problem.equalities.conservativeResize(problem.equalities.rows() + 1, problem.n_params());
     problem.equalities.bottomRows(1) = unit.transpose();
     ++n_held;
@@ -72,10 +74,12 @@ bool advance(JointFit& fit, JointPoint& point, const RadiusStep& step) {
 
 }  // namespace
 
-JointPoint search_radii(JointFit& fit, JointPoint point) {
-  if (!fit.layout.searches_radius()) return point;
+JointPoint search_radii(JointFit& fit, JointPoint point, const std::vector<Eigen::Index>& held) {
+  const Eigen::Index n_radii =
+      static_cast<Eigen::Index>(fit.layout.parameters.size()) - fit.layout.first_radius();
+  if (static_cast<Eigen::Index>(held.size()) == n_radii) return point;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    const RadiusStep step = step_from(fit, point);
+    const RadiusStep step = step_from(fit, point, held);
     if (!(step.largest() > kConverged) || !advance(fit, point, step)) break;
   }
   return point;

@@ -7,8 +7,10 @@
 namespace cablefit {
 
 /// The point of the best radii near those of the fit's jobs, which are moved there; the point as it
-/// is when no radius is searched. A radius that the data do not determine stays.
-JointPoint search_radii(JointFit& fit, JointPoint point);
+/// is when no radius is searched. A radius that the data do not determine stays, and so do those of
+/// `held`, places among the radii.
+JointPoint search_radii(JointFit& fit, JointPoint point,
+                        const std::vector<Eigen::Index>& held = {});
 
 /// Relative sd from which on a radius counts as not determined: the column of such a radius is that
 /// of other parameters but for noise.

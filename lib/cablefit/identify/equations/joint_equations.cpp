@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 namespace cablefit {
@@ -13,20 +14,54 @@ Eigen::Index n_coefficients(const Transmission& transmission) {
   return n;
 }
 
-/// d l / d ln r_m of a round motor pulley: the way that it winds up from the reference pose.
-Eigen::ArrayXd wound_up(const Transmission& transmission, const Cable& cable,
-                        const Eigen::ArrayXd& turned) {
-  return cable.motor_map.front().radius(0) * (turned - transmission.reference_theta()(0));
+/// d l / d ln r_m of a round pulley on the motor of a joint: the way that it winds up from the
+/// reference pose.
+Eigen::ArrayXd wound_up(const Transmission& transmission, const Cable& cable, std::size_t joint,
+                        std::span<const JointSignals> joints) {
+  const auto k = static_cast<Eigen::Index>(joint);
+  const Eigen::ArrayXd turned = joints[joint].theta - transmission.encoder_zero()(k);
+  return cable.motor_map[joint].radius(0) * (turned - transmission.reference_theta()(k));
 }
 
-/// Torque of a joint (from 0) per unit coefficient, and its derivatives with respect to l and,
-/// where `turn` has columns, to ln r_m (one joint); rows x coefficients each. Cables that do not
-/// act on the joint leave zeros.
+/// Whose radii an equation has columns for.
+struct Turning {
+  SearchedRadii searched;
+  std::optional<std::size_t> motor;  ///< whose torques balance; none: a link's
+};
+Turning turning_of(const JointEquation& equation) {
+  Turning turning{equation.searched_radius, {}};
+  if (equation.motor_side) turning.motor = static_cast<std::size_t>(equation.joint);
+  return turning;
+}
+
+/// Derivatives of `basis` with respect to ln r_m of the cables whose r_m is searched.
+void fill_turn(const Transmission& transmission, std::span<const JointSignals> joints,
+               const Turning& turning, const Eigen::Ref<const Eigen::MatrixXd>& basis,
+               const Eigen::Ref<const Eigen::MatrixXd>& slope, Eigen::Ref<Eigen::MatrixXd> turn) {
+  turn.setZero();
+  Eigen::Index first = 0;
+  for (std::size_t c = 0; c < transmission.cables.size(); ++c) {
+    const Cable& cable = transmission.cables[c];
+    const Eigen::Index n = cable.n_coefficients();
+    if (const auto joint = turning.searched[c]) {
+      const Eigen::ArrayXd wound = wound_up(transmission, cable, *joint, joints);
+      // r_m is the lever of the force on its motor as well.
+      const bool is_lever = turning.motor == joint;
+      for (Eigen::Index k = first; k < first + n; ++k) {
+        turn.col(k) = slope.col(k).array() * wound;
+        if (is_lever) turn.col(k) += basis.col(k);
+      }
+    }
+    first += n;
+  }
+}
+
+/// Torque of a joint (from 0) per unit coefficient, and its derivative with respect to l; rows x
+/// coefficients each. Cables that do not act on the joint leave zeros.
 void fill_elastic(const Transmission& transmission, std::span<const JointSignals> joints, int joint,
                   bool motor_side, Eigen::Ref<Eigen::MatrixXd> basis,
-                  Eigen::Ref<Eigen::MatrixXd> slope, Eigen::Ref<Eigen::MatrixXd> turn) {
+                  Eigen::Ref<Eigen::MatrixXd> slope) {
   const auto own = static_cast<std::size_t>(joint);
-  const Eigen::ArrayXd turned = joints[own].theta - transmission.encoder_zero()(joint);
   const MapSide side = motor_side ? MapSide::motor : MapSide::link;
   std::array<double, kMaxCableOrder> value{}, rise{};
   Eigen::Index first = 0;
@@ -50,17 +85,6 @@ void fill_elastic(const Transmission& transmission, std::span<const JointSignals
       }
     }
   }
-  if (turn.cols() == 0) return;
-  first = 0;
-  for (const Cable& cable : transmission.cables) {
-    const int n = cable.n_coefficients();
-    const Eigen::ArrayXd wound = wound_up(transmission, cable, turned);
-    for (Eigen::Index k = first; k < first + n; ++k) {
-      turn.col(k) = slope.col(k).array() * wound;
-      if (motor_side) turn.col(k) += basis.col(k);  // r_m is the lever of the force as well
-    }
-    first += n;
-  }
 }
 
 /// Columns of one choice of l_o.
@@ -81,14 +105,18 @@ Equation widened(const JointEquation& equation, const std::vector<Transmission>&
   wide.columns.resize(wide.columns.size() + extra);
   wide.averaged.resize(wide.columns.size(), averaged);
   wide.fill = [base = equation.base, n_base, n, n_own, trials, motor_side = equation.motor_side,
-               joint = equation.joint](const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
+               joint = equation.joint, turning = turning_of(equation)](
+                  const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
     base.fill(signals, out.leftCols(n_base));
     const JointSignals& s = signals.joints[static_cast<std::size_t>(joint)];
     out.col(n_base) = trials.front().deflections(joint, s.q, s.theta);
     Eigen::Index first = n_base + 1;
     for (const Transmission& trial : trials) {
       fill_elastic(trial, signals.joints, joint, motor_side, out.middleCols(first, n),
-                   out.middleCols(first + n, n), out.middleCols(first + 2 * n, n_own - 2 * n));
+                   out.middleCols(first + n, n));
+      if (n_own > 2 * n)
+        fill_turn(trial, signals.joints, turning, out.middleCols(first, n),
+                  out.middleCols(first + n, n), out.middleCols(first + 2 * n, n));
       first += n_own;
     }
   };
@@ -187,17 +215,20 @@ EquationFacts& EquationFacts::operator+=(const EquationFacts& other) {
 JointColumns joint_columns(const JointEquation& equation, Eigen::Index n) {
   const Eigen::Index basis = equation.n_base() + 1;
   const Eigen::Index turn = basis + 2 * n;
-  return {equation.n_base(), basis, basis + n, turn, turn + (equation.searches_radius ? n : 0)};
+  const bool turns = searches_radius(equation.searched_radius);
+  return {equation.n_base(), basis, basis + n, turn, turn + (turns ? n : 0)};
 }
 
 Equation equation_at(const JointEquation& equation, const Transmission& cables) {
   return widened(equation, {cables});
 }
 
-bool searches_radius(const PreloadJob& job) {
-  const std::vector<bool>& searched = job.searched_radius;
-  return std::find(searched.begin(), searched.end(), true) != searched.end();
+bool searches_radius(const SearchedRadii& searched) {
+  return std::any_of(searched.begin(), searched.end(),
+                     [](const auto& joint) { return joint.has_value(); });
 }
+
+bool searches_radius(const PreloadJob& job) { return searches_radius(job.searched_radius); }
 
 Transmission with_elongations(Transmission transmission, const Eigen::VectorXd& l_o) {
   for (std::size_t c = 0; c < transmission.cables.size(); ++c)

@@ -12,6 +12,7 @@
 #include "cablefit/elastic/rows/elongation_range.hpp"
 #include "cablefit/estimate/solve/row_statistics.hpp"
 #include "cablefit/model/cables.hpp"
+#include "cablefit/model/rig/searched_radius.hpp"
 #include "cablefit/samples/rows/row_stream.hpp"
 
 namespace cablefit {
@@ -36,7 +37,7 @@ struct JointEquation {
   bool motor_side = true;                    ///< S Phi with sign +1, else P Phi with sign -1
   bool blocked = false;                      ///< of logs in which the links are held
   int joint = 0;                             ///< whose torques balance, from 0
-  bool searches_radius = false;              ///< has the columns JointColumns::turn
+  SearchedRadii searched_radius = {};        ///< of the rig; where any, JointColumns::turn
 
   Eigen::Index n_base() const { return static_cast<Eigen::Index>(base.columns.size()); }
   double sign() const { return motor_side ? 1.0 : -1.0; }
@@ -68,10 +69,10 @@ struct JointRecord {
 /// One preload on its way through the fit.
 struct PreloadJob {
   std::string name;
-  Transmission transmission;               ///< l_o as known or as a first guess
-  std::vector<bool> searched;              ///< per cable: l_o is not known
-  std::vector<bool> searched_radius = {};  ///< per cable: the transmission has r_m as found so far
-  bool cable_space = false;                ///< coefficients are those of cables, not of the joint
+  Transmission transmission;           ///< l_o as known or as a first guess
+  std::vector<bool> searched;          ///< per cable: l_o is not known
+  SearchedRadii searched_radius = {};  ///< the transmission has r_m as found so far
+  bool cable_space = false;            ///< coefficients are those of cables, not of the joint
   bool linear_motion = false;
   double load_inertia = 0;   ///< rides on the link, kg m^2; known, beside the J_link looked for
   const Arm* arm = nullptr;  ///< of several joints; nullptr: the links do not move each other
@@ -100,6 +101,7 @@ JointRows collect(std::span<const LogSurvey> logs, const PreloadJob& job,
                   const std::vector<Eigen::VectorXd>& elongations, bool with_cells, int threads);
 
 /// Some motor radius is not known.
+bool searches_radius(const SearchedRadii& searched);
 bool searches_radius(const PreloadJob& job);
 
 /// The transmission with these initial elongations.

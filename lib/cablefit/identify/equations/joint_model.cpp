@@ -168,7 +168,7 @@ JointBlock block_of(const JointEquation& equation, const PreloadJob& job, int pl
       block.regressors.col(l_o).segment(c.slope + first, force.size()) = force;
     if (const Eigen::Index r_m = layout.find(radius_name(cable), place); r_m >= 0)
       block.regressors.col(r_m).segment(c.turn + first, force.size()) =
-          force / cable.motor_map.front().radius(0);
+          force / searched_radius(job, layout.parameters[static_cast<std::size_t>(r_m)].cable);
     first += cable.n_coefficients();
   }
   return block;

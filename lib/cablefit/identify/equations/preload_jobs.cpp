@@ -113,10 +113,11 @@ void note_radii(const PreloadJob& job, PreloadFacts& facts) {
   for (std::size_t c = 0; c < job.searched_radius.size(); ++c) {
     if (!job.searched_radius[c]) continue;
     const Cable& cable = job.transmission.cables[c];
-    const double start = cable.motor_map.front().radius(0);
+    const std::size_t joint = *job.searched_radius[c];
+    const double start = cable.motor_map[joint].radius(0);
     value += fmt::format("{}{} searched from {:.3g}{}", value.empty() ? "" : ", ",
                          radius_name(cable), start, facts.rig.linear_motion ? "" : " m");
-    moved = moved || start != facts.rig.transmission.cables[c].motor_map.front().radius(0);
+    moved = moved || start != facts.rig.transmission.cables[c].motor_map[joint].radius(0);
   }
   facts.decisions.push_back(
       {"r_m", value, moved ? "the reduction that theta against q shows" : "by the rig file"});
@@ -172,8 +173,9 @@ std::vector<PreloadJob> begin_jobs(std::span<const LogSurvey> logs, const Identi
     job.arm = f.arm;
     job.searched_radius = searched_radii(f.rig.transmission);
     for (std::size_t c = 0; c < job.searched_radius.size(); ++c)
-      if (job.searched_radius[c])
-        set_motor_radius(job.transmission, c, job.transmission.cables[c].motor_map[0].radius(0));
+      if (const auto joint = job.searched_radius[c])
+        set_motor_radius(job.transmission, c, *joint,
+                         job.transmission.cables[c].motor_map[*joint].radius(0));
     jobs.push_back(std::move(job));
   }
   for (std::size_t j = 1; j < jobs.size(); ++j)

@@ -27,7 +27,7 @@ DisplacementMap read_map(const JsonNode& node) {
   if (node.is_number()) return round_pulley(sane(node, "a radius", node.number()));
   if (node.is_object() && node.find("search")) {
     throw node.error("this radius cannot be searched",
-                     "search \"motor_radius\" on a rig of one joint, and give this one in m");
+                     "search \"motor_radius\", and give this one in m");
   }
   if (!node.is_object()) {
     throw node.error("neither a radius nor a displacement map",
@@ -44,12 +44,13 @@ DisplacementMap read_map(const JsonNode& node) {
 enum class Others { no, yes };
 
 /// One map per joint; a single one counts as a list of one.
-std::vector<DisplacementMap> read_maps(const JsonNode& node, int n_joints, Others others) {
+std::vector<DisplacementMap> read_maps(const JsonNode& node, int n_joints, Others others,
+                                       DisplacementMap (*read)(const JsonNode&) = read_map) {
   std::vector<DisplacementMap> maps;
   if (node.is_array()) {
-    for (const JsonNode& item : node.items) maps.push_back(read_map(item));
+    for (const JsonNode& item : node.items) maps.push_back(read(item));
   } else {
-    maps.push_back(read_map(node));
+    maps.push_back(read(node));
   }
   if (maps.size() != static_cast<std::size_t>(n_joints)) {
     throw node.error(fmt::format("{} number(s), expected {}", maps.size(), n_joints),
@@ -57,34 +58,52 @@ std::vector<DisplacementMap> read_maps(const JsonNode& node, int n_joints, Other
   }
   if (others == Others::no &&
       std::all_of(maps.begin(), maps.end(), std::mem_fn(&DisplacementMap::is_zero))) {
-    throw node.error("radius is 0",
-                     "give the signed radius in m, negative where a positive motion slackens the "
-                     "cable");
+    throw node.error(
+        "radius is 0",
+        "give the signed radius in m, negative where a positive motion slackens the cable");
   }
   return maps;
 }
 
-/// As read_maps(), of one joint also {"search": r}.
-std::vector<DisplacementMap> read_motor_maps(const JsonNode& node, int n_joints, Others others) {
-  if (n_joints == 1 && node.is_array() && node.items.size() == 1)
-    return read_motor_maps(node.items.front(), n_joints, others);
-  if (node.is_string() && node.text() == "search") {
-    throw node.error("a search of a radius needs a value to start from",
-                     "give {\"search\": r} with the signed nominal radius r in m");
-  }
-  const JsonNode* start = node.is_object() && n_joints == 1 ? node.find("search") : nullptr;
-  if (!start) return read_maps(node, n_joints, others);
+/// {"search": r}: a round pulley whose radius is estimated from r on.
+DisplacementMap read_searched(const JsonNode& node) {
   if (node.find("type")) {
     throw node.error("only the radius of a round pulley can be searched",
                      "give {\"search\": r} alone, or this map as it is");
   }
   node.allow_only({"search"});
-  const double radius = sane(*start, "a radius", start->number());
+  const JsonNode& start = node.at("search");
+  const double radius = sane(start, "a radius", start.number());
   if (radius == 0) {
-    throw start->error("a search of a radius cannot start from 0",
-                       "give the signed nominal radius in m");
+    throw start.error("a search of a radius cannot start from 0",
+                      "give the signed nominal radius in m");
   }
-  return {searched_pulley(radius)};
+  return searched_pulley(radius);
+}
+
+bool asks_search(const JsonNode& node) { return node.is_object() && node.find("search"); }
+
+/// As read_maps(), also with one {"search": r}.
+std::vector<DisplacementMap> read_motor_maps(const JsonNode& node, int n_joints, Others others) {
+  const std::vector<JsonNode> alone{node};
+  const std::vector<JsonNode>& items = node.is_array() ? node.items : alone;
+  const JsonNode* searched = nullptr;
+  for (const JsonNode& item : items) {
+    if (item.is_string() && item.text() == "search")
+      throw item.error("a search of a radius needs a value to start from",
+                       "give {\"search\": r} with the signed nominal radius r in m");
+    if (!asks_search(item)) continue;
+    if (searched != nullptr)
+      throw item.error("a second radius of this cable is searched",
+                       "search one radius of a cable, and give the others in m");
+    if (others == Others::yes)
+      throw item.error("a searched radius beside motor_map",
+                       "give the radius in m, or leave motor_map out");
+    searched = &item;
+  }
+  return read_maps(node, n_joints, others, [](const JsonNode& item) {
+    return asks_search(item) ? read_searched(item) : read_map(item);
+  });
 }
 
 /// "joints" of a map of two joints: two different names, numbered from 0.

@@ -29,31 +29,39 @@ DisplacementMap searched_pulley(double start) {
 
 bool is_searched(const DisplacementMap& map) { return map.kind == &searched_kind(); }
 
-std::vector<bool> searched_radii(const Transmission& transmission) {
-  std::vector<bool> searched;
-  for (const Cable& cable : transmission.cables)
-    searched.push_back(is_searched(cable.motor_map.front()));
+SearchedRadii searched_radii(const Transmission& transmission) {
+  SearchedRadii searched;
+  for (const Cable& cable : transmission.cables) {
+    const auto found = std::find_if(cable.motor_map.begin(), cable.motor_map.end(), is_searched);
+    searched.emplace_back();
+    if (found != cable.motor_map.end())
+      searched.back() = static_cast<std::size_t>(found - cable.motor_map.begin());
+  }
   return searched;
 }
 
 bool searches_radius(const Transmission& transmission) {
-  return std::any_of(transmission.cables.begin(), transmission.cables.end(),
-                     [](const Cable& cable) { return is_searched(cable.motor_map.front()); });
+  return std::any_of(transmission.cables.begin(), transmission.cables.end(), [](const Cable& c) {
+    return std::any_of(c.motor_map.begin(), c.motor_map.end(), is_searched);
+  });
 }
 
 std::string radius_name(const Cable& cable) { return fmt::format("r_m[{}]", cable.name); }
 
 void refuse_searched_radius(const Rig& rig, std::string_view who) {
-  for (const Cable& cable : rig.transmission.cables)
-    if (is_searched(cable.motor_map.front()))
+  const SearchedRadii searched = searched_radii(rig.transmission);
+  for (std::size_t c = 0; c < searched.size(); ++c)
+    if (searched[c])
       throw input_error(
           {rig.path, 0, 0},
-          fmt::format("{} does not search the motor radius of cable '{}'", who, cable.name),
+          fmt::format("{} does not search the motor radius of cable '{}'", who,
+                      rig.transmission.cables[c].name),
           "run 'cablefit identify' and take its model, or give the radius that it found");
 }
 
-void set_motor_radius(Transmission& transmission, std::size_t cable, double radius) {
-  transmission.cables[cable].motor_map = {round_pulley(radius)};
+void set_motor_radius(Transmission& transmission, std::size_t cable, std::size_t joint,
+                      double radius) {
+  transmission.cables[cable].motor_map[joint] = round_pulley(radius);
   set_reference(transmission, transmission.reference);
 }
 

@@ -69,11 +69,13 @@ void read_joints(const JsonNode& node, ElasticPreload& preload) {
 
 /// The fit with cables has them; the spring needs them for its reduction.
 void take_found_radii(const JsonNode& fits, Transmission& transmission) {
+  const SearchedRadii searched = searched_radii(transmission);
   for (const JsonNode& item : fits.items)
     for (const Estimate& e : read_estimates(item.at("parameters")))
       for (std::size_t c = 0; c < transmission.cables.size(); ++c)
-        if (e.name == radius_name(transmission.cables[c]) && e.not_identifiable.empty())
-          set_motor_radius(transmission, c, e.value);
+        if (searched[c] && e.name == radius_name(transmission.cables[c]) &&
+            e.not_identifiable.empty())
+          set_motor_radius(transmission, c, *searched[c], e.value);
 }
 
 void read_fits(const JsonNode& node, const Rig* rig, ElasticPreload& preload) {
