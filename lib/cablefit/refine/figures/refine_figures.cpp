@@ -21,6 +21,7 @@ namespace {
 
 constexpr std::size_t kFewestBins = 4, kMostBins = 96;
 constexpr std::size_t kFewRows = 10;       // a mean over fewer says nothing
+constexpr std::size_t kSparse = 10;        // bins with a tenth of the mean number of rows: chance
 constexpr std::size_t kMostVariables = 3;  // per equation, those that reveal most
 
 /// One equation before and after, on its way to figures.
@@ -78,6 +79,11 @@ std::size_t n_bins(const ShownRows& kind) {
   return std::clamp(kind.rows.size() / (2 * kFewRows), kFewestBins, kMostBins);
 }
 
+/// Rows that a bin needs to be drawn.
+std::size_t few_rows(const ShownRows& kind) {
+  return std::max(kFewRows, kind.rows.size() / (kSparse * n_bins(kind)));
+}
+
 /// Mean residual over bins of a variable, apart by the direction of motion: friction changes sides.
 BinnedMean mean_of(const ShownRows& kind, std::size_t variable, std::size_t direction,
                    std::size_t speed) {
@@ -106,7 +112,7 @@ double explained(const ShownRows& kind, std::size_t variable) {
   double sum = 0, n = 0;
   for (const std::size_t direction : {kForward, kBackward}) {
     Trace mean;
-    mean_of(kind, variable, direction, speed).draw(mean, kFewRows, false);
+    mean_of(kind, variable, direction, speed).draw(mean, few_rows(kind), false);
     for (const double y : mean.y) {
       sum += y * y;
       ++n;
@@ -152,7 +158,8 @@ Figure mean_against(const Pair& pair, std::size_t variable) {
       Trace mean =
           new_trace(name_of(pair, k) + (direction == kForward ? "" : ", backward"),
                     direction == kForward ? TraceStyle::line : TraceStyle::dashed, series_of(k));
-      mean_of(*pair.both()[k], variable, direction, speed).draw(mean, kFewRows, true);
+      mean_of(*pair.both()[k], variable, direction, speed)
+          .draw(mean, few_rows(*pair.both()[k]), true);
       if (!mean.x.empty()) figure.traces.push_back(std::move(mean));
     }
   return figure;
@@ -169,7 +176,7 @@ Figure rms_against(const Pair& pair, std::size_t variable) {
     for (const ShownRow& row : pair.both()[k]->rows)
       mean.add(row.variables[variable], row.residual * row.residual);
     Trace trace = new_trace(name_of(pair, k), TraceStyle::line, series_of(k));
-    mean.draw(trace, kFewRows, true);
+    mean.draw(trace, few_rows(pair.before), true);
     for (double& y : trace.y) y = std::sqrt(y);
     if (!trace.x.empty()) figure.traces.push_back(std::move(trace));
   }

@@ -301,12 +301,12 @@ void add_answer(const DynamicPreload& preload, Document& document) {
 
 /// Share of the squared torque of an equation that the best model of every preload explains.
 void add_explained(const DynamicResult& result, const char* equation, Headline& headline) {
-  std::vector<std::string> shares;
+  std::vector<NamedNumber> shares;
   for (const DynamicPreload& preload : result.preloads) {
     const DynamicFit* best = better_fit(preload);
     if (best == nullptr || !best->torque_error.contains(equation)) continue;
     const double relative = best->torque_error.at(equation).relative;
-    shares.push_back(explained_percent(1, relative * relative));
+    shares.push_back({preload.name, explained_percent(1, relative * relative)});
   }
   if (!shares.empty())
     headline.numbers.push_back(
@@ -315,7 +315,8 @@ void add_explained(const DynamicResult& result, const char* equation, Headline& 
 
 void add_inertia(const DynamicResult& result, Headline& headline) {
   for (const char* name : {"J_link", "J"}) {
-    std::vector<std::string> values, missing;
+    std::vector<NamedNumber> values;
+    std::vector<std::string> missing;
     std::string unit;
     for (const DynamicPreload& preload : result.preloads) {
       const DynamicFit* best = better_fit(preload);
@@ -325,7 +326,7 @@ void add_inertia(const DynamicResult& result, Headline& headline) {
         missing.push_back(preload.name);
         continue;
       }
-      values.push_back(headline_value(*e));
+      values.push_back({preload.name, headline_value(*e)});
       unit = e->unit;
     }
     if (values.empty()) continue;

@@ -286,11 +286,7 @@ void add_elongations(const ElasticPreload& preload, Document& document) {
   if (preload.fits.empty()) return;
   const ElasticFit& cables =
       preload.fits.back();  // the straight line, where there is one, is first
-  std::string found;
-  for (const Estimate& e : cables.parameters)
-    if (e.name.starts_with("l_o[") && e.not_identifiable.empty())
-      found += fmt::format("{}{} = {} {}", found.empty() ? "" : ", ", e.name,
-                           value_with_sd(1e3 * e.value, 1e3 * e.sd), "m" + e.unit);
+  std::string found = elongations_text(cables.parameters);
   for (const Estimate& e : cables.parameters)
     if (e.name.starts_with("r_m["))
       found += fmt::format("{}{} = {} {}", found.empty() ? "" : ", ", e.name,

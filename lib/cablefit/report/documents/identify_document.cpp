@@ -15,6 +15,7 @@ constexpr int kErrorDigits = 3;
 constexpr int kRsdDigits = 2;
 constexpr double kMilli = 1e3;
 constexpr double kEquilibriumMet = 1e-9;  // N m
+constexpr double kAsSd = 0.1;             // sd: an interval that ends there is that of the sd
 
 std::string label(const Estimate& e) {
   const bool same = e.name == e.symbol || e.name.starts_with(e.symbol + "[");
@@ -50,24 +51,56 @@ std::string cad_text(const Estimate& e) {
   return std::isnan(e.cad) ? kNoNumber : fmt::format("{:g}", e.cad);
 }
 
-/// What all preloads have in common.
-Table shared_table(const IdentifyResult& result) {
-  Table table;
-  Footnotes notes;
-  table.title = result.preloads.size() > 1 ? "Shared by all preloads" : "Cables and inertias";
-  table.columns = {{"", "parameter", "", true}, {"", "unit", "", true}, {"", "CAD", ""},
-                   {"", "value", ""},           {"", "sd", ""},         {"", "rsd %", ""}};
-  for (const Estimate& e : result.parameters) {
+/// Whether an end of the interval of the profile is off that of value -+ 2 sd by a tenth of the sd
+/// or more; its own end may be open.
+bool differs_from_sd(const Estimate& e) {
+  const auto off = [&](double end, double expected) {
+    return !(std::abs(end - expected) < kAsSd * e.sd);
+  };
+  return off(e.ci_low, e.value - 2 * e.sd) || off(e.ci_high, e.value + 2 * e.sd);
+}
+
+/// "r_m[a]: 95 % interval 0.0299 .. 0.0302 m by profile likelihood", where the sd does not give it.
+void note_profiles(const std::vector<Estimate>& parameters, Table& table) {
+  for (const Estimate& e : parameters) {
+    if (!e.name.starts_with("r_m[") || !e.profiled || !e.not_identifiable.empty()) continue;
+    if (!differs_from_sd(e)) continue;
+    const auto end = [&](double value) {
+      return std::isnan(value) ? std::string("?") : value_text(value, e.sd);
+    };
+    table.notes.push_back(fmt::format("{}: 95 % interval {} .. {} {} by profile likelihood", e.name,
+                                      end(e.ci_low), end(e.ci_high), e.unit));
+  }
+}
+
+/// Rows with sd of these parameters, but for l_o.
+void add_parameter_rows(const IdentifyResult& result, const std::vector<Estimate>& parameters,
+                        Footnotes& notes, Table& table) {
+  const double load = result.preloads.front().load_inertia;
+  for (const Estimate& e : parameters) {
+    if (is_elongation(e)) continue;
     Cells cells = cells_of(&e, notes);
     const bool has_sd = e.not_identifiable.empty();
     table.rows.push_back({label(e), e.unit, cad_text(e), cells.value,
                           has_sd ? sd_text(e.value, e.sd) : "", cells.rsd});
-    const double load = result.preloads.front().load_inertia;
     if (e.name != "J_link" || !(load > 0)) continue;
     cells = without_load(&e, load);
     table.rows.push_back({"  without the load", e.unit, kNoNumber, cells.value, "", cells.rsd});
   }
+}
+
+/// What all preloads have in common; all parameters where there is one preload.
+Table shared_table(const IdentifyResult& result) {
+  Table table;
+  Footnotes notes;
+  const bool is_alone = result.preloads.size() == 1;
+  table.title = is_alone ? "All parameters (Table 2)" : "Shared by all preloads";
+  table.columns = {{"", "parameter", "", true}, {"", "unit", "", true}, {"", "CAD", ""},
+                   {"", "value", ""},           {"", "sd", ""},         {"", "rsd %", ""}};
+  add_parameter_rows(result, result.parameters, notes, table);
+  if (is_alone) add_parameter_rows(result, result.preloads.front().parameters, notes, table);
   table.notes = notes.lines();
+  note_profiles(result.parameters, table);
   return table;
 }
 
@@ -129,6 +162,16 @@ Table elongation_table(const IdentifyResult& result) {
                   most < kEquilibriumMet ? "less than 1e-9" : significant(most, 2),
                   torque_unit(result.linear_motion)));
   return table;
+}
+
+/// The summary has those that were found; the table says why one was not.
+bool any_open_elongation(const IdentifyResult& result) {
+  return std::any_of(
+      result.preloads.begin(), result.preloads.end(), [](const IdentifyPreload& preload) {
+        return std::any_of(
+            preload.parameters.begin(), preload.parameters.end(),
+            [](const Estimate& e) { return is_elongation(e) && !e.not_identifiable.empty(); });
+      });
 }
 
 bool any_load(const IdentifyResult& result) {
@@ -284,25 +327,25 @@ Headline headline_of(const IdentifyResult& result) {
   headline.tone = n_missing == 0 ? Tone::good : Tone::neutral;
   headline.verdict = fmt::format("{} of {} parameters identified", n - n_missing, n);
   for (const char* name : {"J_link", "J_motor"}) {
-    std::vector<std::string> values;
+    std::vector<NamedNumber> values;
     std::string unit;
-    const auto add = [&](const std::vector<Estimate>& all) {
+    const auto add = [&](const std::vector<Estimate>& all, const std::string& whose) {
       for (const Estimate& e : all) {
         const bool is_it = e.name == name || e.name.starts_with(std::string(name) + "[");
         if (!is_it || !e.not_identifiable.empty()) continue;
-        values.push_back(headline_value(e));
+        values.push_back({whose, headline_value(e)});
         unit = e.unit;
       }
     };
-    add(result.parameters);
-    for (const IdentifyPreload& preload : result.preloads) add(preload.parameters);
+    add(result.parameters, "");
+    for (const IdentifyPreload& preload : result.preloads) add(preload.parameters, preload.name);
     if (!values.empty())
       headline.numbers.push_back({name_of_all(result, name), joined_numbers(values) + " " + unit});
   }
-  std::vector<std::string> residuals;
+  std::vector<NamedNumber> residuals;
   for (const IdentifyPreload& preload : result.preloads)
     for (const IdentifyEquation& e : preload.equations)
-      if (e.side == "motor") residuals.push_back(significant(e.rms, kErrorDigits));
+      if (e.side == "motor") residuals.push_back({preload.name, significant(e.rms, kErrorDigits)});
   if (!residuals.empty())
     headline.numbers.push_back(
         {"residual, motor equation",
@@ -321,6 +364,8 @@ Document identify_document(const IdentifyResult& result) {
   Table derived = derived_table();
   for (const IdentifyPreload& preload : result.preloads) {
     document.summary.push_back({preload.name, residual_text(preload, result.linear_motion)});
+    const std::string elongations = elongations_text(preload.parameters);
+    if (!elongations.empty()) document.summary.push_back({"", elongations});
     add_decisions(document, preload.name, preload.decisions);
     add_decisions(document, preload.name, result.decisions);
     add_warnings(document, preload.name, preload.warnings);
@@ -335,12 +380,8 @@ Document identify_document(const IdentifyResult& result) {
   for (const std::string& bound : result.active_bounds)
     document.paragraphs.push_back("held by its bound: " + bound);
   add_table(document, shared_table(result));
-  add_table(document, dynamics_table(result));
-  const bool searched = std::any_of(
-      result.preloads.begin(), result.preloads.end(), [](const IdentifyPreload& preload) {
-        return std::any_of(preload.parameters.begin(), preload.parameters.end(), is_elongation);
-      });
-  if (searched)
+  if (result.preloads.size() > 1) add_table(document, dynamics_table(result));
+  if (any_open_elongation(result))
     add_table(document, elongation_table(result));
   else
     add_detail(document, elongation_table(result));

@@ -95,10 +95,22 @@ void lead_with(Document& document, std::size_t n) {
   }
 }
 
-std::string joined_numbers(const std::vector<std::string>& numbers) {
+std::string joined_numbers(const std::vector<NamedNumber>& numbers) {
   constexpr std::size_t kFew = 2;
-  if (numbers.size() > kFew) return numbers.front() + " ... " + numbers.back();
-  return fmt::format("{}", fmt::join(numbers, " / "));
+  if (numbers.size() == 1) return numbers.front().number;
+  const auto text = [](const NamedNumber& n) {
+    return n.name.empty() ? n.number : fmt::format("{} ({})", n.number, n.name);
+  };
+  return text(numbers.front()) + (numbers.size() > kFew ? " ... " : " / ") + text(numbers.back());
+}
+
+std::string elongations_text(const std::vector<Estimate>& parameters) {
+  std::string text;
+  for (const Estimate& e : parameters)
+    if (e.name.starts_with("l_o[") && e.not_identifiable.empty())
+      text += fmt::format("{}{} = {} m{}", text.empty() ? "" : ", ", e.name,
+                          value_with_sd(1e3 * e.value, 1e3 * e.sd), e.unit);
+  return text;
 }
 
 std::string headline_value(const Estimate& e) {

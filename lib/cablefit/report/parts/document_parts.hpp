@@ -55,11 +55,18 @@ void append(Document& all, const Document& part);
 /// Leaves so many main figures, the first; without any the first figures become it.
 void lead_with(Document& document, std::size_t n);
 
-/// A number of a headline of every one of a few things: "1 / 2", of more the first and the last.
-std::string joined_numbers(const std::vector<std::string>& numbers);
+/// A number of a headline, and what it is of: a preload or a joint.
+struct NamedNumber {
+  std::string name, number;
+};
+/// "1 (low) / 2 (high)", of more the first and the last; one alone needs no name.
+std::string joined_numbers(const std::vector<NamedNumber>& numbers);
 
 /// At most four digits of an estimate, fewer where its sd is larger.
 std::string headline_value(const Estimate& e);
+
+/// "l_o[1] = 5.110 +- 0.010 mrad, l_o[2] = ...": those that were found; empty without any.
+std::string elongations_text(const std::vector<Estimate>& parameters);
 
 /// Columns and one row of the table of rows used.
 Table counts_table();
