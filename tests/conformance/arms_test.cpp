@@ -50,7 +50,7 @@ JsonNode example(const ArmKind& kind, bool weightless = false) {
   return parse_json(text, "rig.json");
 }
 
-constexpr RigJoints kTwo{2, false};
+const RigJoints kTwo{2, JointAxes({Axes::rotary, Axes::rotary})};
 
 /// This build can read it.
 bool readable(const ArmKind& kind) { return kind.becomes.empty() || reads_urdf(); }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/parameter.hpp"
 #include "cablefit/base/units.hpp"
@@ -293,7 +294,7 @@ TEST_CASE("units of coefficients are force over length to the power", "[conforma
       INFO(joint_space << ", " << cable_space);
       CHECK(parse_unit(joint_space).dimension == parse_unit("N m").dimension);
       CHECK(parse_unit(cable_space).dimension[0] == 1 - cable.law->length_power(j));
-      CHECK(linear_unit(joint_space) == cable_space);
+      CHECK(unit_for(Axes::linear, joint_space) == cable_space);
     }
     // The power is how the basis grows when every length of the law doubles, without rounding.
     std::vector<double> basis(static_cast<std::size_t>(cable.n_coefficients()));

@@ -155,7 +155,7 @@ TEST_CASE("a candidate is documented", "[conformance]") {
       CHECK_FALSE(info.symbol.empty());
       CHECK_FALSE(info.meaning.empty());
       CHECK_NOTHROW(parse_unit(info.unit));
-      CHECK_NOTHROW(parse_unit(linear_unit(info.unit)));
+      CHECK_NOTHROW(parse_unit(unit_for(Axes::linear, info.unit)));
       CHECK(info.lower < info.upper);
     }
     REQUIRE(row.shape.size() <= row.parameters.size());

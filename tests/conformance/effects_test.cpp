@@ -110,8 +110,8 @@ TEST_CASE("units of parameters have a linear counterpart", "[conformance]") {
       // The radian counts as 1, so a rotary unit has two metres more per torque and inertia and one
       // metre less per angle below the line; the other exponents are those of the linear one.
       const Dimension rotary = parse_unit(info.unit).dimension;
-      const Dimension linear = parse_unit(linear_unit(info.unit)).dimension;
-      CHECK(linear_unit(info.unit).find("rad") == std::string::npos);
+      const Dimension linear = parse_unit(unit_for(Axes::linear, info.unit)).dimension;
+      CHECK(unit_for(Axes::linear, info.unit).find("rad") == std::string::npos);
       CHECK(linear[kMetre] != rotary[kMetre]);
       for (std::size_t base = 1; base < rotary.size(); ++base) CHECK(linear[base] == rotary[base]);
     }

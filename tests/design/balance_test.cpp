@@ -35,7 +35,7 @@ TEST_CASE("an unbalanced pair meets in the middle", "[design]") {
   CHECK_THAT(found[0].motor, WithinAbs(-3, 1e-12));
   CHECK_THAT(found[0].share, WithinAbs(0.2, 1e-12));
   CHECK(
-      imbalance_text(found[0], 1, false) ==
+      imbalance_text(found[0], 1, Axes::rotary) ==
       "the preload is not in equilibrium, (8c): it makes -3 N m on the link and -3 N m on the "
       "motor, 20 % of the sum of the cable torques; `cablefit design --balance` gives the nearest "
       "preload in equilibrium");

@@ -96,7 +96,7 @@ TEST_CASE("the torque misfit separates a right controller from a wrong one", "[d
   REQUIRE(wrong.has_value());
   CHECK_FALSE(wrong->fits());
   CHECK(wrong->misfit > 3);
-  CHECK(wrong->text(false).find("kp 800 N m/rad, kd 6 N m s/rad; its torque is ") == 0);
+  CHECK(wrong->text(Axes::rotary).find("kp 800 N m/rad, kd 6 N m s/rad; its torque is ") == 0);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ TEST_CASE("a preloaded pair of linear cables bends where one goes slack", "[elas
   pair.cables[1].coefficients = {1500};
   pair.cables[0].initial_elongation = 0.006;  // K1 l_o1 = K2 l_o2: in equilibrium
   pair.cables[1].initial_elongation = 0.004;
-  const Figure figure = cable_figure(pair, -0.02, 0.02, false);
+  const Figure figure = cable_figure(pair, -0.02, 0.02, Axes::rotary);
   REQUIRE(figure.traces.size() == 4);
   const Trace &box = figure.traces[0], &all = figure.traces[1], &first = figure.traces[2],
               &second = figure.traces[3];
@@ -51,7 +51,7 @@ TEST_CASE("a preloaded pair of linear cables bends where one goes slack", "[elas
 
   pair.cables[0].initial_elongation = 0.0006;  // too close for two names
   pair.cables[1].initial_elongation = 0.0004;
-  const std::vector<Mark> marks = cable_figure(pair, -0.02, 0.02, false).marks;
+  const std::vector<Mark> marks = cable_figure(pair, -0.02, 0.02, Axes::rotary).marks;
   REQUIRE(marks.size() == 2);
   CHECK(marks[0].text.empty());
   CHECK(marks[1].text == "1, 2");
@@ -60,7 +60,7 @@ TEST_CASE("a preloaded pair of linear cables bends where one goes slack", "[elas
 TEST_CASE("without preload no deflection keeps both cables taut", "[elastic]") {
   Transmission pair = antagonist_pair(1);
   for (Cable& cable : pair.cables) cable.coefficients = {1000};
-  const Figure figure = cable_figure(pair, -0.02, 0.03, false);
+  const Figure figure = cable_figure(pair, -0.02, 0.03, Axes::rotary);
   REQUIRE(figure.traces.size() == 3);
   CHECK(figure.traces[0].name == "all cables");
   REQUIRE(figure.notes.size() == 2);
@@ -73,7 +73,7 @@ TEST_CASE("simpler models are drawn beside the cables", "[elastic]") {
   for (Cable& cable : pair.cables) cable.coefficients = {1000, 2e4};
   line.linear_stiffness = Eigen::VectorXd::Constant(1, 1200);
   const std::vector<ComparedModel> compared = {{"line", line}};
-  const Figure figure = cable_figure(pair, -0.02, 0.02, false, compared);
+  const Figure figure = cable_figure(pair, -0.02, 0.02, Axes::rotary, compared);
   REQUIRE(figure.traces.size() == 4);
   const Trace& drawn = figure.traces.back();
   CHECK(drawn.name == "line");
@@ -92,7 +92,7 @@ TEST_CASE("the stiffness steps where a cable goes slack", "[elastic]") {
   pair.cables[1].initial_elongation = 0.004;
   line.linear_stiffness = Eigen::VectorXd::Constant(1, 1200);
   const std::vector<ComparedModel> compared = {{"line", line}};
-  const Figure figure = stiffness_figure(pair, -0.02, 0.02, false, compared);
+  const Figure figure = stiffness_figure(pair, -0.02, 0.02, Axes::rotary, compared);
   REQUIRE(figure.traces.size() == 3);
   const Trace &box = figure.traces[0], &all = figure.traces[1], &drawn = figure.traces[2];
   for (std::size_t i = 0; i < all.x.size(); ++i) {

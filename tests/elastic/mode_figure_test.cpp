@@ -71,7 +71,7 @@ using Names = std::vector<std::string>;
 TEST_CASE("the map of a preloaded pair is a band along the diagonal", "[elastic]") {
   const Transmission pair = preloaded_pair();
   // The link was blocked at 0.1.
-  const Figure figure = mode_figure(pair, 0, {0.1, 0.1}, {0.08, 0.12}, false);
+  const Figure figure = mode_figure(pair, 0, {0.1, 0.1}, {0.08, 0.12}, Axes::rotary);
   CHECK(off(line_of(figure, "1"), [](double q, double t) { return t - q + 0.006; }) < kRounding);
   CHECK(off(line_of(figure, "2"), [](double q, double t) { return q - t + 0.004; }) < kRounding);
   const Trace* band = find(figure, "all taut: force closure");
@@ -93,7 +93,7 @@ TEST_CASE("a map counts theta from the encoder zero, as logs do", "[elastic]") {
   Transmission pair = preloaded_pair();
   pair.theta_0 = Eigen::VectorXd::Constant(1, 0.7);
   set_reference(pair, {Eigen::VectorXd::Constant(1, 0.2), Eigen::VectorXd::Constant(1, 0.2)});
-  const Figure figure = mode_figure(pair, 0, {0.18, 0.22}, {0.88, 0.92}, false);
+  const Figure figure = mode_figure(pair, 0, {0.18, 0.22}, {0.88, 0.92}, Axes::rotary);
   CHECK(off(line_of(figure, "1"), [](double q, double t) { return t - 0.7 - q + 0.006; }) <
         kRounding);
   CHECK(regions(figure, pair) == Names{"all taut", "slack: 1", "slack: 2"});
@@ -101,7 +101,7 @@ TEST_CASE("a map counts theta from the encoder zero, as logs do", "[elastic]") {
 
 TEST_CASE("without preload the cables change place on one line", "[elastic]") {
   const Transmission pair = antagonist_pair(2);
-  const Figure figure = mode_figure(pair, 0, {0, 0}, {-0.02, 0.02}, false);
+  const Figure figure = mode_figure(pair, 0, {0, 0}, {-0.02, 0.02}, Axes::rotary);
   CHECK(find(figure, "all taut: force closure") == nullptr);
   CHECK(off(line_of(figure, "1"), [](double q, double t) { return t - q; }) < kRounding);
   CHECK(off(line_of(figure, "2"), [](double q, double t) { return t - q; }) < kRounding);
@@ -113,14 +113,15 @@ TEST_CASE("a gear shows as much of q as it turns", "[elastic]") {
   Transmission pair = preloaded_pair();
   for (Cable& cable : pair.cables)
     cable.motor_map = round_pulleys(0.1 * cable.motor_radii(Eigen::VectorXd::Zero(1)));
-  const Figure figure = mode_figure(pair, 0, {0, 0}, {-0.2, 0.2}, true);
+  const Figure figure = mode_figure(pair, 0, {0, 0}, {-0.2, 0.2}, Axes::linear);
   const auto [low, high] = ends(find(figure, "all taut: force closure")->x);
   CHECK(low == Approx(-0.02));
   CHECK(high == Approx(0.02));
   CHECK(off(line_of(figure, "2"), [](double q, double t) { return q - 0.1 * t + 0.004; }) <
         kRounding);
   CHECK(figure.y.unit == "m");
-  const Figure moved = mode_figure(pair, 0, {-0.5, 0.3}, {-4, 4}, true);  // q as it was seen
+  const Figure moved =
+      mode_figure(pair, 0, {-0.5, 0.3}, {-4, 4}, Axes::linear);  // q as it was seen
   CHECK(ends(find(moved, "all taut: force closure")->x).second == Approx(0.3));
 }
 
@@ -130,7 +131,7 @@ TEST_CASE("a pulley that is not round bends the line", "[elastic]") {
       R"({"cables": [{"name": "a", "link_radius": 1, "initial_elongation": 0.02,
           "motor_radius": {"type": "polynomial", "coefficients": [1, 20]}}]})",
       "rig.json"));
-  const Figure figure = mode_figure(rig.transmission, 0, {-0.02, 0.02}, {-0.2, 0.2}, false);
+  const Figure figure = mode_figure(rig.transmission, 0, {-0.02, 0.02}, {-0.2, 0.2}, Axes::rotary);
   // Steps of 1/300 in theta: h^2/8 l'' = 2.8e-5 off.
   CHECK(off(line_of(figure, "a"), [](double q, double t) { return t + 10 * t * t - q + 0.02; }) <
         2.8e-5);
@@ -141,7 +142,7 @@ TEST_CASE("a joint's map shows the cables that it moves", "[elastic]") {
   Transmission arm = antagonist_pairs(2, 1);
   for (Cable& cable : arm.cables) cable.initial_elongation = 0.005;
   arm.cables[0].initial_elongation = -1;  // slack in the reference pose, but joint 1 moves it
-  const Figure figure = mode_figure(arm, 1, {0, 0}, {-0.02, 0.02}, false);
+  const Figure figure = mode_figure(arm, 1, {0, 0}, {-0.02, 0.02}, Axes::rotary);
   CHECK(find(figure, "cable 1 goes slack") == nullptr);
   CHECK(off(line_of(figure, "3"), [](double q, double t) { return t - q + 0.005; }) < kRounding);
   Names names;

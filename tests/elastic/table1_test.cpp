@@ -297,7 +297,7 @@ TEST_CASE("where a cable pushes is found", "[elastic]") {
   CHECK(near->from == 0);
   CHECK_THAT(near->to, Catch::WithinRel(0.005, 1e-5));
   CHECK(near->lowest_at == 0);
-  CHECK(push_text(cable, *near, {true, false}) ==
+  CHECK(push_text(cable, *near, {true, Axes::rotary}) ==
         "cable 1 has a negative stiffness over elongations of 0 .. 5 mm: k(l) = f(l)/l "
         "goes down to -500 N/m at 0 mm");
 }

@@ -17,7 +17,7 @@ using test::Normal;
 constexpr Eigen::Index kRows = 400;
 
 NamedColumn column(const char* name, MotionPart part) {
-  return {name, {part, std::string(motion_unit(part, false))}};
+  return {name, {part, std::string(motion_unit(part, Axes::rotary))}};
 }
 
 const std::vector<NamedColumn> kRigid = {
@@ -176,8 +176,8 @@ TEST_CASE("any two effects of one side have advice, whichever comes first", "[es
     for (const Effect& a : base_effects(side))
       for (const Effect& b : base_effects(side)) {
         if (&a == &b) continue;
-        const MotionColumn one{a.follows, std::string(motion_unit(a.follows, false))};
-        const MotionColumn other{b.follows, std::string(motion_unit(b.follows, false))};
+        const MotionColumn one{a.follows, std::string(motion_unit(a.follows, Axes::rotary))};
+        const MotionColumn other{b.follows, std::string(motion_unit(b.follows, Axes::rotary))};
         const std::string advice = separating_motion(one, 2, other, 3);
         INFO(a.name << " and " << b.name << ": " << advice);
         CHECK_FALSE(advice.empty());

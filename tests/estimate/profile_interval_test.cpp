@@ -146,7 +146,7 @@ TEST_CASE("a solution on its bound gets profiles with the honest scale", "[estim
     LinearSolution s = solve(c.rows, c.problem);
     REQUIRE(s.at_bound[1]);
     s.profile = profile_intervals(c.rows, c.problem, s, true);
-    const Estimate e = estimate_of({"b", "b", "N m", "", 0}, false, s, 1, {});
+    const Estimate e = estimate_of({"b", "b", "N m", "", 0}, Axes::rotary, s, 1, {});
     CHECK(e.profiled);
     CHECK(e.ci_low == 0);
     CHECK(e.ci_high > 0);

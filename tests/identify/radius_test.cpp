@@ -52,12 +52,6 @@ std::string radius_rig_text(const PlainRig& rig, double start_a, double start_b,
                   fmt::format(R"("motor_radius": {{"search": {}}})", start_b));
 }
 
-Bench bench_of(const std::string& rig) {
-  Bench bench;
-  bench.rig = read_rig(bench.folder().write("rig.json", rig));
-  return bench;
-}
-
 TEST_CASE("motor radii are found from moving logs", "[identify][recover]") {
   const PlainRig rig = pulley_pair(0);
   Bench bench = bench_of(radius_rig_text(rig, 0.033, -0.028, false));

@@ -156,7 +156,7 @@ TEST_CASE("only what moves along is named", "[identify]") {
 
 TEST_CASE("traces and profiles of a linear axis have its units", "[identify]") {
   PreloadedBench bench;
-  bench.rig.linear_motion = true;
+  bench.rig.axes = JointAxes({Axes::linear});
   bench.add("a,\"b\"", blocked_log(truth::Rig::low(), 45));
   bench.add("=c", blocked_log(stretched(5e-3), 46));
   IdentifyOptions options;

@@ -30,15 +30,16 @@ Eigen::VectorXd kdl_torques(const KDL::Chain& chain, const Eigen::Vector3d& g,
   return torques.data;
 }
 
-Rig rig_of(const std::string& urdf, int n_joints, const std::string& more) {
+Rig rig_of(const std::string& urdf, int n_joints, const std::string& more,
+           const std::string& motion = "\"rotary\"") {
   const TempFolder folder;
   folder.write("arm.urdf", urdf);
   std::string joints = "{\"name\": \"1\"}";
   for (int j = 2; j <= n_joints; ++j) joints += fmt::format(", {{\"name\": \"{}\"}}", j);
   return read_rig(folder.write(
-      "rig.json", fmt::format("{{\"joints\": [{}], \"arm\": {{\"type\": \"urdf\", \"file\": "
-                              "\"arm.urdf\"{}}}}}",
-                              joints, more)));
+      "rig.json", fmt::format("{{\"joints\": [{}], \"motion\": {}, \"arm\": {{\"type\": \"urdf\", "
+                              "\"file\": \"arm.urdf\"{}}}}}",
+                              joints, motion, more)));
 }
 
 /// As the simulator has them.
@@ -84,6 +85,17 @@ TEST_CASE("torques are KDL's: skew axes, links on fixed joints") {
                "izz=\"0\"/>");
   compare(kdl_chain(urdf, "world", "hand"), rig_of(urdf, 2, R"(, "gravity": [1, -2, 9])"));
   compare(kdl_chain(urdf, "table", "hand"), rig_of(urdf, 2, R"(, "base": "table")"));
+}
+
+TEST_CASE("torques are KDL's: joints that turn and joints that slide") {
+  std::string urdf = urdf_text(seven_joints(), "seven");
+  for (const std::string joint : {"\"joint1\"", "\"joint3\"", "\"joint6\""}) {
+    const auto at = urdf.find("revolute", urdf.find(joint));
+    urdf.replace(at, std::string("revolute").size(), "prismatic");
+  }
+  compare(kdl_chain(urdf, "base", "link7"),
+          rig_of(urdf, 7, R"(, "gravity": [1, -2, 9])",
+                 R"(["linear", "rotary", "linear", "rotary", "rotary", "linear", "rotary"])"));
 }
 
 TEST_CASE("torques are KDL's: sliding joints") {

@@ -7,19 +7,6 @@ namespace {
 
 using namespace cablefit;
 
-TEST_CASE("linear_unit turns torques, inertias and angles into forces, masses and lengths") {
-  CHECK(linear_unit("rad") == "m");
-  CHECK(linear_unit("rad/s") == "m/s");
-  CHECK(linear_unit("rad/s^2") == "m/s^2");
-  CHECK(linear_unit("N m") == "N");
-  CHECK(linear_unit("kg m^2") == "kg");
-  CHECK(linear_unit("N m s/rad") == "N s/m");
-  CHECK(linear_unit("N m/rad") == "N/m");
-  CHECK(linear_unit("N m/rad^2") == "N/m^2");
-  CHECK(linear_unit("s") == "s");
-  CHECK(linear_unit("") == "");
-}
-
 TEST_CASE("the relative sd is that of the value's size, or none") {
   Estimate estimate;
   CHECK(std::isnan(estimate.rsd_percent()));

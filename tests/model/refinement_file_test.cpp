@@ -63,8 +63,8 @@ double some_value(const ParameterInfo& info) {
 }
 
 TEST_CASE("every refinement written and read back is the same") {
-  for (const bool linear_motion : {false, true}) {
-    const std::string rig = linear_motion ? R"("rig": {"motion": "linear"}, )" : "";
+  for (const Axes axes : {Axes::rotary, Axes::linear}) {
+    const std::string rig = axes == Axes::linear ? R"("rig": {"motion": "linear"}, )" : "";
     Model model = read(
         model_with(R"([{"name": "stiffness_asymmetry", "side": "transmission"}])", kJoint, rig));
     std::vector<EffectInstance>& refinements = model.joints[0].added;
@@ -75,7 +75,7 @@ TEST_CASE("every refinement written and read back is the same") {
       for (const ParameterInfo& info : row.parameters) {
         Estimate& estimate = instance.parameters.emplace_back();
         estimate.name = info.name;
-        estimate.unit = linear_motion ? linear_unit(info.unit) : info.unit;
+        estimate.unit = unit_for(axes, info.unit);
         estimate.value = some_value(info);
         if (refinements.size() % 2 == 0) estimate.sd = 0.1;
       }

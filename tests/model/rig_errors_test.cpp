@@ -155,8 +155,10 @@ const BadRig kBadRigs[] = {
     {R"({"joints": [{"name": "a"}, {"name": "b"}], "motion": "linear", "cables": [{"name": "c",
  "motor_radius": [1, 1], "link_map": {"type": "guides", "joints": ["a", "b"], "from": [1, 1],
  "to": [1, 1], "length": 1}}]})",
-     "rig.json:2:47: map 'guides' on linear axes; it is of joints that turn: use \"grid\" or "
-     "\"polynomial\""},
+     "rig.json:2:47: map 'guides' of joint 'a', which slides; it is of joints that turn: use "
+     "\"grid\" or \"polynomial\""},
+    {R"({"joints": [{"name": "a"}, {"name": "b"}], "motion": ["linear"], "cables": []})",
+     "rig.json:1:54: 1 motion(s), expected 2; give one per joint"},
     {R"({"cables": [{"name": "a", "motor_radius": 1, "link_radius": 1, "law": "strand"}]})",
      "rig.json:1:13: missing key 'toe' in 'cables[0]'; add it to this object"},
     {R"({"cables": [{"name": "a", "motor_radius": 1, "link_radius": 1, "law": "strand", "toe": 0}]})",

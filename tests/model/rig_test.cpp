@@ -46,7 +46,7 @@ TEST_CASE("a rig file with every key") {
   CHECK(rig.path == "bench/rig.json");
   CHECK(rig.name == "bench 3");
   CHECK(rig.preload == "low");
-  CHECK_FALSE(rig.linear_motion);
+  CHECK(rig.axes.all() == Axes::rotary);
   CHECK(rig.torque_hold == TorqueHold::zoh);
   CHECK(rig.torque_period == 0.002);
   CHECK(rig.joints == std::vector<std::string>{"shoulder", "elbow"});
@@ -129,7 +129,7 @@ TEST_CASE("a single joint may be numbered, and radii be scalars") {
       "cables": [{"name": "a", "motor_radius": 0.02, "link_radius": 0.05}]})",
                                        "rig.json"));
   CHECK(rig.columns.at("q1").column == "link");
-  CHECK(rig.linear_motion);
+  CHECK(rig.axes.all() == Axes::linear);
   CHECK(rig.transmission.cables[0].link_map[0].radius(0) == 0.05);
 }
 

@@ -27,7 +27,7 @@ SerialChain chain_of(const PlainArm& arm) {
     const Eigen::Matrix3d& I = link.inertia;
     about_centre << link.mass, 0, 0, 0, I(0, 0), I(0, 1), I(0, 2), I(1, 1), I(1, 2), I(2, 2);
     chain.rig_joint.push_back(static_cast<int>(chain.joints.size()));
-    chain.joints.push_back({link.origin, link.rpy, link.axis,
+    chain.joints.push_back({link.origin, link.rpy, link.axis, false,
                             moved(about_centre, Eigen::Matrix3d::Identity(), link.centre)});
   }
   return chain;
@@ -171,7 +171,8 @@ TEST_CASE("a PUMA has 36 base parameters") {
   SerialChain chain;
   chain.gravity = {0, 0, -9.81};
   for (int i = 0; i < 6; ++i) {
-    chain.joints.push_back({origins[i], {turns[i], 0, 0}, Vector3d::UnitZ(), LinkInertia::Zero()});
+    chain.joints.push_back(
+        {origins[i], {turns[i], 0, 0}, Vector3d::UnitZ(), false, LinkInertia::Zero()});
     chain.rig_joint.push_back(i);
   }
   CHECK(base_parameters_of(chain).size() == 36);
@@ -188,9 +189,9 @@ TEST_CASE("right angles written with four digits are right angles") {
 TEST_CASE("sliding joints move masses only") {
   SerialChain chain;
   chain.gravity = {0, 0, -9.81};
-  chain.slides = true;
   for (int i = 0; i < 3; ++i) {
-    chain.joints.push_back({{0.1, 0, 0.2}, {0, 0, 0}, Vector3d::Unit(i), LinkInertia::Zero()});
+    chain.joints.push_back(
+        {{0.1, 0, 0.2}, {0, 0, 0}, Vector3d::Unit(i), true, LinkInertia::Zero()});
     chain.rig_joint.push_back(i);
   }
   const auto base = base_parameters_of(chain);

@@ -135,12 +135,12 @@ TEST_CASE("a URDF that does not fit the rig is refused") {
   CHECK(skew.refused(2, R"(, "fiel": 1)") ==
         "rig.json:2:54: unknown key 'fiel' in 'arm'; did you mean 'file'?");
   CHECK(skew.refused(2, "", " \"motion\": \"linear\",") ==
-        "rig.json:2:34: joint 'shoulder' turns, the rig's joints slide; leave out \"motion\": "
-        "\"linear\"");
+        "rig.json:2:34: joint 'shoulder' turns, joint 1 of the rig slides; give \"motion\" in the "
+        "rig file, of this joint \"rotary\"");
   const UrdfRig sliding(replaced(skew_text(), "type=\"revolute\"", "type=\"prismatic\""));
   CHECK(sliding.refused(2) ==
-        "rig.json:2:34: joint 'elbow' slides, the rig's joints turn; only arms whose joints all "
-        "slide can be fitted, with \"motion\": \"linear\"");
+        "rig.json:2:34: joint 'elbow' slides, joint 2 of the rig turns; give \"motion\" in the rig "
+        "file, of this joint \"linear\"");
 }
 
 TEST_CASE("a tree that branches needs a tip") {

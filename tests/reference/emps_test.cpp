@@ -31,7 +31,7 @@ TEST_CASE("EMPS: the published estimates with the published settings", "[referen
   const std::string path = shared_file("emps/emps_ident.csv");
   if (path.empty()) return;
   Rig rig = default_rig();
-  rig.linear_motion = true;
+  rig.axes = JointAxes({Axes::linear});
   const std::vector<LogSurvey> logs = {survey_file(path, rig)};
   const DynamicResult result = fit_dynamic(logs, {}, emps_options());
   const DynamicFit& fit = result.preloads.at(0).fits.at(0);
@@ -86,7 +86,7 @@ void take_controller(Rig& rig, Emps& emps) {
 
 Bench emps_bench(Emps& emps) {
   Bench bench;
-  bench.rig.linear_motion = true;
+  bench.rig.axes = JointAxes({Axes::linear});
   take_controller(bench.rig, emps);
   Columns log;
   for (const char* name : {"t", "theta", "tau", "theta_ref"}) log.add(name);

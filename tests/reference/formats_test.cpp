@@ -13,7 +13,7 @@ using namespace cablefit::test;
 
 Rig linear_rig() {
   Rig rig = default_rig();
-  rig.linear_motion = true;
+  rig.axes = JointAxes({Axes::linear});
   return rig;
 }
 

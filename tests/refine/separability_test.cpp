@@ -120,7 +120,7 @@ TEST_CASE("trial runs keep to the limits of the logs", "[refine][separability]")
   REQUIRE(runs.size() >= 6);
   CHECK(runs.back().blocked);
   for (const TrialRun& run : runs) {
-    INFO(text_of(run, false));
+    INFO(text_of(run, Axes::rotary));
     const Eigen::Index n = run.theta_ref.size();
     const Eigen::ArrayXd rate =
         (run.theta_ref.tail(n - 1) - run.theta_ref.head(n - 1)) / run.period;

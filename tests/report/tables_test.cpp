@@ -133,7 +133,7 @@ TEST_CASE("a campaign of one cell is told in the singular") {
 TEST_CASE("a linear axis has forces and masses") {
   ElasticResult result;
   result.preloads = {test::elastic_preload("low", 2, 2)};
-  result.preloads[0].linear_motion = true;
+  result.preloads[0].axes = Axes::linear;
   result.preloads[0].unit = "m";
   const std::string text = write_text(elastic_document(result));
   CHECK_THAT(text, Contains("[mm]") && Contains("[N]") && !Contains("[mrad]"));

@@ -218,7 +218,7 @@ TEST_CASE("a unit in the rig file must not contradict the log's", "[samples]") {
   CHECK(accepts("t,theta,w [Hz]\n0,0,0\n", "w", {"w", 1, 0, "rev/s"}));
   CHECK(accepts("t,theta [counts]\n0,0\n", "theta", {"theta", 1, 0, "mrad"}));
   Rig linear = rig_with("theta", {"pos_m", 1, 0, "mm"});
-  linear.linear_motion = true;
+  linear.axes = JointAxes({Axes::linear});
   CHECK(logs.message("t,pos_m\n0,0\n", linear) == "no error");
 }
 

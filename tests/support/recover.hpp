@@ -56,6 +56,13 @@ class Bench {
   std::vector<LogSurvey> logs_;
 };
 
+/// With a rig file of that text.
+inline Bench bench_of(const std::string& rig) {
+  Bench bench;
+  bench.rig = read_rig(bench.folder().write("rig.json", rig));
+  return bench;
+}
+
 /// The estimate of that name; the test stops when there is none.
 inline const Estimate& estimate(const std::vector<Estimate>& estimates, const std::string& name) {
   const Estimate* found = find_estimate(estimates, name);

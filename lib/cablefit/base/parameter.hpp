@@ -10,7 +10,7 @@ namespace cablefit {
 
 inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-/// A row of a table of parameters. `unit` is for a rotary axis; linear_unit() gives the other.
+/// A row of a table of parameters. `unit` is for a rotary axis; unit_for() gives the others.
 struct ParameterInfo {
   std::string_view name;    ///< as in results: "J_link"
   std::string_view symbol;  ///< as in the paper: "J_M"
@@ -19,10 +19,6 @@ struct ParameterInfo {
   double lower = -kUnbounded;  ///< physical bound, in SI
   double upper = kUnbounded;
 };
-
-/// The unit of the same quantity on a linear axis: "N m" -> "N", "kg m^2" -> "kg", "rad" -> "m",
-/// ...
-std::string linear_unit(std::string_view rotary_unit);
 
 /// An estimate with its uncertainty. NaN stands for "none": printed as a dash, null in JSON.
 struct Estimate {

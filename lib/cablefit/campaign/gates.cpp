@@ -45,8 +45,8 @@ void judge_rsd(const BatchCell& cell, const DynamicFit& fit, double limit,
 void judge_error(const BatchCell& cell, const DynamicPreload& preload, const DynamicFit& fit,
                  double limit, std::vector<Gate>& gates) {
   for (const auto& [equation, error] : fit.torque_error)
-    gates.push_back(gate("torque_error " + equation, cell, limit, error.rms,
-                         preload.linear_motion ? "N" : "N m"));
+    gates.push_back(
+        gate("torque_error " + equation, cell, limit, error.rms, unit_for(preload.axes, "N m")));
 }
 
 /// The cell of the baseline that `cell` is held against: of the same name, else the latest one of

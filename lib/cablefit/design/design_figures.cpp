@@ -15,12 +15,10 @@ namespace {
 constexpr int kSteps = 60;  // of a curve, between two changes of a cable
 constexpr const char* kSection = "Sweep of the preload";
 
-std::string torque_unit_of(const DesignResult& result) {
-  return result.linear_motion ? "N" : "N m";
-}
-std::string angle_unit_of(const DesignResult& result) { return result.linear_motion ? "m" : "rad"; }
+std::string torque_unit_of(const DesignResult& result) { return unit_for(result.axes, "N m"); }
+std::string angle_unit_of(const DesignResult& result) { return unit_for(result.axes, "rad"); }
 std::string stiffness_unit_of(const DesignResult& result) {
-  return result.linear_motion ? "N/m" : "N m/rad";
+  return unit_for(result.axes, "N m/rad");
 }
 
 std::string group_of(const DesignResult& result, const DesignJoint& joint) {
@@ -107,7 +105,7 @@ void add_cable_figures(const Model& model, const Transmission& preloaded, const 
   std::vector<ComparedModel> compared;
   for (const CurveModel& simpler : models) compared.push_back({simpler.name, simpler.transmission});
   for (const auto draw : {cable_figure, stiffness_figure}) {
-    Figure figure = draw(preloaded, joint.low, joint.high, model.rig.linear_motion, compared);
+    Figure figure = draw(preloaded, joint.low, joint.high, model.rig.axes.all(), compared);
     figure.section = "Cables at " + point_name(point, result);
     result.figures.push_back(std::move(figure));
   }
@@ -177,7 +175,7 @@ std::string point_name(const DesignPoint& point, const DesignResult& result) {
   const std::string factor =
       result.needed.size() > 1 ? fmt::format(", radii x {:g}", point.radius_factor) : "";
   return fmt::format("l_o = {:.4g} {}{}{}", 1e3 * point.l_o,
-                     result.cable_space || result.linear_motion ? "mm" : "mrad", factor,
+                     result.cable_space ? "mm" : unit_for(result.axes, "mrad"), factor,
                      point.is_own ? " (its own)" : "");
 }
 

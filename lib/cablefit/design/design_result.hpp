@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/design/collision.hpp"
 #include "cablefit/design/excitation/excitation_plan.hpp"
 #include "cablefit/design/friction_curves.hpp"
@@ -104,7 +105,8 @@ struct NeededPreload {
 struct DesignResult {
   std::vector<InputFile> inputs;
   std::string model_path, model_choice, model_name, preload;
-  bool linear_motion = false, cable_space = false;
+  Axes axes = Axes::rotary;
+  bool cable_space = false;
   std::vector<std::string> cables;
   double torque = 0;                          ///< N m, the working range is -torque .. torque
   std::optional<CollisionDetector> detector;  ///< of the cables themselves

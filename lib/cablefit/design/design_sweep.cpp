@@ -214,9 +214,9 @@ void add_needed(const DesignResult& result, std::vector<std::string>& warnings) 
           "no preload up to l_o = {:.4g} {}{} keeps all cables taut up to {:g} {}, with radii "
           "times "
           "{:g}",
-          1e3 * needed.searched_to, result.cable_space || result.linear_motion ? "mm" : "mrad",
+          1e3 * needed.searched_to, result.cable_space ? "mm" : unit_for(result.axes, "mrad"),
           needed.searched_to < kLargestPreload ? ", beyond which the force of a cable falls," : "",
-          result.torque, result.linear_motion ? "N" : "N m", needed.radius_factor));
+          result.torque, unit_for(result.axes, "N m"), needed.radius_factor));
 }
 
 }  // namespace
@@ -239,12 +239,12 @@ DesignResult blank_design(const Model& model) {
   DesignResult result;
   result.model_name = model.name;
   result.preload = model.preload;
-  result.linear_motion = model.rig.linear_motion;
+  result.axes = model.rig.axes.all();
   result.cable_space = model.rig.cables_given;
   for (const Cable& cable : model.transmission.cables) result.cables.push_back(cable.name);
   for (const Imbalance& imbalance : imbalances(model.transmission))
     result.warnings.push_back(
-        imbalance_text(imbalance, model.rig.n_joints(), model.rig.linear_motion));
+        imbalance_text(imbalance, model.rig.n_joints(), model.rig.axes.all()));
   return result;
 }
 

@@ -128,13 +128,13 @@ void choose_line(std::span<const PreloadEstimate> by_tension,
 
 FrictionCurve curve_of(const Quantity& q, std::span<const Model> fitted,
                        std::span<const std::vector<MovedModel>> copies) {
-  FrictionCurve curve{q.joint, kDryFriction, fitted.front().rig.linear_motion ? "N" : "N m",
+  FrictionCurve curve{q.joint, kDryFriction, unit_for(fitted.front().rig.axes.all(), "N m"),
                       {},      {},           false};
   if (q.estimate != nullptr) {
     curve.name = q.estimate->name;
     const std::string_view unit =
         side_of(fitted.front(), q)[q.effect].effect->parameters.front().unit;
-    curve.unit = fitted.front().rig.linear_motion ? linear_unit(unit) : std::string(unit);
+    curve.unit = unit_for(fitted.front().rig.axes.all(), unit);
   }
   std::vector<PreloadEstimate> by_tension, by_length;
   for (std::size_t k = 0; k < fitted.size(); ++k) {

@@ -28,7 +28,7 @@ std::string load_name(const Eigen::VectorXd& load) {
 }
 
 Figure sag_figure(const DesignResult& result, int joint, int n_joints) {
-  const std::string angle = result.linear_motion ? "m" : "rad";
+  const std::string angle = unit_for(result.axes, "rad");
   Figure figure;
   figure.section = "Constant load";
   figure.group = n_joints > 1 ? fmt::format("joint {}", joint + 1) : "";

@@ -157,14 +157,14 @@ void add_parts_figure(const Sweep& sweep, const std::string& title, const std::s
 }
 
 void add_joint_figures(const Sweep& sweep, bool with_collision) {
-  const bool linear = sweep.result.linear_motion;
-  const std::string torque = linear ? "N" : "N m";
+  const Axes axes = sweep.result.axes;
+  const std::string torque = unit_for(axes, "N m");
   add_parts_figure(sweep, "Dry friction", torque);
-  add_parts_figure(sweep, "Viscous friction", linear ? "N s/m" : "N m s/rad");
+  add_parts_figure(sweep, "Viscous friction", unit_for(axes, "N m s/rad"));
   add_one(sweep, "Efficiency", "Of slow motion against the torque.", {"efficiency, driving", "%"},
           "efficiency", efficiency_of);
   add_one(sweep, "Stiffness against the preload", "Without load.",
-          {"stiffness", linear ? "N/m" : "N m/rad"}, "stiffness", stiffness_of);
+          {"stiffness", unit_for(axes, "N m/rad")}, "stiffness", stiffness_of);
   add_one(sweep, "Error of a linear spring against the preload",
           "Largest on the working range. Points: with the cables of each fit.",
           {"largest error", torque}, "linear", linear_error_of);
@@ -195,7 +195,7 @@ void add_preload_figures(const Model& model, const std::vector<MovedModel>& copi
   std::vector<DesignPoint> along;
   for (const double l_o : grid_of(result)) along.push_back(point_at(model, copies, l_o, options));
   const FigureAxis l_o = {"initial elongation l_o of cable " + result.cables.front(),
-                          result.cable_space || result.linear_motion ? "m" : "rad"};
+                          result.cable_space ? "m" : unit_for(result.axes, "rad")};
   for (std::size_t joint = 0; joint < result.fitted.front().joints.size(); ++joint)
     add_joint_figures({along, result, joint, l_o}, result.detector.has_value());
   // Before the figures of single preloads, of which there may be many.

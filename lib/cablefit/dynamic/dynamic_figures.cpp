@@ -12,9 +12,9 @@ namespace {
 
 /// What residuals are plotted against on one side; without a load when no log has one.
 std::vector<Observed> variables_of(Side side, std::size_t joint, bool has_deflection, bool has_load,
-                                   bool linear_motion) {
-  const std::string length = linear_motion ? "m" : "rad";
-  const std::string torque = linear_motion ? "N" : "N m";
+                                   Axes axes) {
+  const std::string length = unit_for(axes, "rad");
+  const std::string torque = unit_for(axes, "N m");
   std::vector<Observed> all;
   if (side == Side::link) {
     all.push_back(
@@ -84,9 +84,9 @@ SeenEquation see_equation(const DynamicJob& job, const EquationRows& rows, std::
                           const std::vector<std::vector<LinearSolution>>& solutions,
                           const DynamicPreload& preload) {
   const Side side = rows.columns.side;
-  const std::vector<Observed> observed = variables_of(
-      side, static_cast<std::size_t>(rows.columns.place.joint), rows.columns.deflection >= 0,
-      has_load(job.logs, job.wanted), preload.linear_motion);
+  const std::vector<Observed> observed =
+      variables_of(side, static_cast<std::size_t>(rows.columns.place.joint),
+                   rows.columns.deflection >= 0, has_load(job.logs, job.wanted), preload.axes);
   SeenEquation seen{with_observed(rows.equation, observed), {}, {}};
   seen.plan.section = preload.name;
   seen.plan.group = rows.equation.name + " equation";
@@ -99,7 +99,7 @@ SeenEquation see_equation(const DynamicJob& job, const EquationRows& rows, std::
     seen.plan.about =
         "Explained: share of the squared torque of inertia and friction. The torque of the cables "
         "is not counted.";
-  seen.plan.unit = preload.linear_motion ? "N" : "N m";
+  seen.plan.unit = unit_for(preload.axes, "N m");
   seen.plan.same_measured = side != Side::link;
   for (std::size_t m = 0; m < solutions.size(); ++m) {
     // The link's torque is that of the cables, which each model sees differently.
@@ -159,13 +159,13 @@ std::vector<Figure> dynamic_figures(const DynamicJob& job,
 
 std::vector<Figure> ratio_figures(const RatioRows& rows, const DynamicPreload& preload) {
   const std::vector<Observed> observed =
-      variables_of(Side::link, 0, true, has_load(rows.logs, rows.wanted), preload.linear_motion);
+      variables_of(Side::link, 0, true, has_load(rows.logs, rows.wanted), preload.axes);
   SeenEquation seen{with_observed(rows.equation, observed), {}, {}};
   seen.plan.section = preload.name;
   seen.plan.group = "link equation, divided by J_link";
   seen.plan.measured = "acceleration of q";
   seen.plan.error = "acceleration error";
-  seen.plan.unit = preload.linear_motion ? "m/s^2" : "rad/s^2";
+  seen.plan.unit = unit_for(preload.axes, "rad/s^2");
   const std::string& model = preload.fits.front().model;
   const Eigen::Index left = see(seen, rows.measured);
   seen.plan.models.push_back({model, series_of(model), left, see(seen, rows.residual), rows.rms});

@@ -139,7 +139,7 @@ void fit_models(const DynamicJob& job, const std::vector<EquationRows>& equation
     if (estimation.joint) fit.covariance = known_together(*estimation.joint, fit.parameters);
     if (estimation.joint && fit.elastic)
       fit.derived = drive_quantities(*estimation.joint, &fit.elastic->transmission,
-                                     job.rig().cables_given, job.rig().linear_motion);
+                                     job.rig().cables_given, job.rig().axes.all());
     if (job.options.sweep) fit.sweep = sweep_settings(job, estimator, m, fit);
     preload.fits.push_back(std::move(fit));
     solutions.push_back(std::move(estimation.solutions));
@@ -176,7 +176,7 @@ DynamicPreload fit_preload(DynamicJob job, const ElasticResult& elastic) {
   require_agreement(job.logs, job.wanted, job.preload);
   DynamicPreload preload;
   preload.name = job.preload;
-  preload.linear_motion = job.rig().linear_motion;
+  preload.axes = job.rig().axes.all();
   preload.rig_path = job.rig().path;
   require_torque(job);
   require_motion(job);

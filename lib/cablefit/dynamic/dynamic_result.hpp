@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/base/parameter_covariance.hpp"
 #include "cablefit/dynamic/validation_result.hpp"
 #include "cablefit/elastic/elastic_result.hpp"
@@ -93,7 +94,7 @@ struct TorqueDelay {
 
 struct DynamicPreload {
   std::string name;
-  bool linear_motion = false;
+  Axes axes = Axes::rotary;
   double resonance = 0;     ///< f0, Hz; 0 on a rigid drive
   double load_inertia = 0;  ///< of the hanging or swinging mass, part of J_link
   TorqueDelay delay;

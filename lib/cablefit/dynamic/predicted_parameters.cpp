@@ -32,14 +32,12 @@ double torque_rms(const PredictedSystem& system) {
 }
 
 /// Of the parameters that are estimated; `which`: their columns.
-Identifiability structure(const PredictedSystem& system, bool linear_motion,
-                          std::vector<Eigen::Index>& which) {
+Identifiability structure(const PredictedSystem& system, std::vector<Eigen::Index>& which) {
   std::vector<NamedColumn> names;
   for (std::size_t k = 0; k < system.columns.parameters.size(); ++k) {
     if (system.columns.parameters[k].given) continue;
     which.push_back(static_cast<Eigen::Index>(k));
-    names.push_back(
-        {system.columns.parameters[k].name, motion_column(system.columns, k, linear_motion)});
+    names.push_back({system.columns.parameters[k].name, motion_column(system.columns, k)});
   }
   Eigen::MatrixXd columns(system.rows.n_columns(), static_cast<Eigen::Index>(which.size()));
   for (std::size_t k = 0; k < which.size(); ++k)
@@ -77,8 +75,8 @@ Determined judge(const PredictedSystem& system, Eigen::Index k, const PredictedP
 }
 
 /// Why it is weak or worse, where no sentence about several parameters says so.
-void add_sentence(const PredictedSystem& system, Eigen::Index k, bool linear_motion,
-                  const PredictedParameter& p, std::vector<std::string>& sentences) {
+void add_sentence(const PredictedSystem& system, Eigen::Index k, const PredictedParameter& p,
+                  std::vector<std::string>& sentences) {
   const Estimate& e = system.fit.parameters[static_cast<std::size_t>(k)];
   if (!std::isfinite(p.sd_best)) return;  // listed with those that it is inseparable from
   if (!e.not_identifiable.empty()) {
@@ -87,8 +85,7 @@ void add_sentence(const PredictedSystem& system, Eigen::Index k, bool linear_mot
   }
   const double relative = relative_sd_of(system, k, p);
   if (relative <= kWantedRelativeSd || std::abs(p.correlation) > kCorrelationTold) return;
-  const MotionColumn column =
-      motion_column(system.columns, static_cast<std::size_t>(k), linear_motion);
+  const MotionColumn column = motion_column(system.columns, static_cast<std::size_t>(k));
   sentences.push_back(fmt::format("{} would be known to {} % only; {}", p.name,
                                   two_digits(100 * relative),
                                   stronger_motion(column, column_rms(system, k), relative)));
@@ -102,9 +99,9 @@ PredictedParameter given_parameter(const Estimate& e) {
 
 }  // namespace
 
-void add_parameters(const PredictedSystem& system, bool linear_motion, PredictedEquation& out) {
+void add_parameters(const PredictedSystem& system, PredictedEquation& out) {
   std::vector<Eigen::Index> which;
-  const Identifiability found = structure(system, linear_motion, which);
+  const Identifiability found = structure(system, which);
   out.condition_scaled = found.condition_scaled;
   for (const Confusion& confusion : found.confusions) out.sentences.push_back(confusion.text);
   Eigen::Index next = 0;
@@ -119,7 +116,7 @@ void add_parameters(const PredictedSystem& system, bool linear_motion, Predicted
     p.sd_first_look = e.sd;
     set_closest(found, which, next, system.columns, p);
     p.determined = judge(system, k, p);
-    add_sentence(system, k, linear_motion, p, out.sentences);
+    add_sentence(system, k, p, out.sentences);
     out.parameters.push_back(std::move(p));
     ++next;
   }

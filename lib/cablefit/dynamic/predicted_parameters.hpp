@@ -18,6 +18,6 @@ struct PredictedSystem {
 };
 
 /// Adds parameters, scaled condition number and sentences.
-void add_parameters(const PredictedSystem& system, bool linear_motion, PredictedEquation& out);
+void add_parameters(const PredictedSystem& system, PredictedEquation& out);
 
 }  // namespace cablefit

@@ -36,7 +36,7 @@ Group& group_of(std::vector<Group>& groups, const LogSurvey& log, const CheckedP
   Group group;
   group.about.preload = part.survey.preload;
   group.about.rigid = rigid;
-  group.about.linear_motion = log.plan.rig.linear_motion;
+  group.about.axes = log.plan.rig.axes.all();
   return groups.emplace_back(std::move(group));
 }
 
@@ -94,15 +94,13 @@ PredictedEquation predict_system(const DynamicJob& job, const std::vector<Equati
                                  const std::vector<std::size_t>& which,
                                  const std::vector<double>& noise) {
   const EquationRows& first = equations[which.front()];
-  const bool linear = job.rig().linear_motion;
   std::optional<RowStatistics> stacked;
   if (which.size() > 1)
     stacked = stacked_rows(equations, which, job.elastic, 0, Weighting::by_residual);
   const RowStatistics& rows = stacked ? *stacked : *first.rows;
-  PredictedSystem system{
-      first.columns, rows, solve_rows(rows, first.columns, job.elastic, 0, linear), {}};
+  PredictedSystem system{first.columns, rows, solve_rows(rows, first.columns, job.elastic, 0), {}};
   add_estimates(rows, first.columns, system.solution, job.rigid ? nullptr : job.elastic.front(), 0,
-                linear, true, system.fit);
+                true, system.fit);
   PredictedEquation out;
   out.name = name_of(equations, which);
   // Torque that jumps at every reversal looks noisy; what a model leaves bounds the noise.
@@ -121,7 +119,7 @@ PredictedEquation predict_system(const DynamicJob& job, const std::vector<Equati
   out.left = std::sqrt(left / n);
   out.noise = std::min(std::sqrt(plain / n), out.left);
   system.noise = std::min(std::sqrt(weighted / n), system.solution.rms());
-  add_parameters(system, linear, out);
+  add_parameters(system, out);
   return out;
 }
 

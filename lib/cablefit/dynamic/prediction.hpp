@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/samples/check.hpp"
 
 namespace cablefit {
@@ -51,7 +52,7 @@ struct Prediction {
   std::string preload;
   std::vector<std::string> logs;  ///< paths
   bool rigid = false;
-  bool linear_motion = false;
+  Axes axes = Axes::rotary;
   double cutoff = 0;  ///< Hz
   std::vector<PredictedEquation> equations;
   std::string none;  ///< why there is no prediction; empty when there is one

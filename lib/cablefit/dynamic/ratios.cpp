@@ -91,14 +91,14 @@ void refuse_absolute(bool has_torque, DynamicFit& fit) {
   }
 }
 
-DynamicFit make_fit(const LinearSolution& s, const DynamicOptions& options, bool linear_motion,
+DynamicFit make_fit(const LinearSolution& s, const DynamicOptions& options, Axes axes,
                     bool has_torque) {
   DynamicFit fit;
   fit.model = "ratios";
   fit.estimator = options.estimator;
   for (std::size_t k = 0; k < 3; ++k)
-    fit.parameters.push_back(estimate_of(kRatios[k], linear_motion, s, static_cast<Eigen::Index>(k),
-                                         {options.robust_sd}));
+    fit.parameters.push_back(
+        estimate_of(kRatios[k], axes, s, static_cast<Eigen::Index>(k), {options.robust_sd}));
   refuse_absolute(has_torque, fit);
   fit.effective_rows["link"] = s.effective_rows;
   fit.condition["link"] = s.condition;
@@ -118,7 +118,7 @@ DynamicPreload fit_ratios(std::span<const LogSurvey> logs, const std::string& na
   const Rig& rig = first_log_with(logs, wanted).plan.rig;
   DynamicPreload preload;
   preload.name = name;
-  preload.linear_motion = rig.linear_motion;
+  preload.axes = rig.axes.all();
   preload.rig_path = rig.path;
   const ChosenSettings settings = moving_settings(logs, wanted, options.samples, 0);
   preload.decisions = settings.decisions;
@@ -128,7 +128,7 @@ DynamicPreload fit_ratios(std::span<const LogSurvey> logs, const std::string& na
   const LinearProblem problem = ratio_problem();
   const LinearSolution s = solve(rows, problem);
   const bool has_torque = have_torque(logs, wanted);
-  preload.fits.push_back(make_fit(s, options, preload.linear_motion, has_torque));
+  preload.fits.push_back(make_fit(s, options, preload.axes, has_torque));
   if (options.figures)
     preload.figures = ratio_figures({logs, wanted, settings.rows, options.samples.threads, equation,
                                      problem.response, s.residual_combination, s.rms()},

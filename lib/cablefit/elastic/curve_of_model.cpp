@@ -25,14 +25,14 @@ std::vector<Estimate> coefficients_of(const Model& model) {
   if (model.transmission.cables.empty())
     for (int joint = 0; joint < n; ++joint)
       all.push_back(coefficient(model, joint_parameter_name("K", joint + 1, n),
-                                unit_on(model.rig, "N m/rad"),
+                                unit_for(model.rig.axes.of(joint), "N m/rad"),
                                 model.transmission.linear_stiffness[joint]));
   const bool cable_space = model.rig.cables_given;
   for (const Cable& cable : model.transmission.cables)
     for (int k = 0; k < cable.n_coefficients(); ++k) {
       const std::string unit = coefficient_unit(*cable.law, k, cable_space);
       all.push_back(coefficient(model, coefficient_name(cable, k, cable_space),
-                                cable_space ? unit : unit_on(model.rig, unit),
+                                unit_for(axes_of(model.rig.axes, cable), unit),
                                 cable.coefficients[static_cast<std::size_t>(k)]));
     }
   return all;
@@ -61,7 +61,7 @@ void add_others(const Model& model, std::vector<Estimate>& parameters) {
 ElasticResult curve_of(const Model& model) {
   ElasticPreload preload;
   preload.name = model.preload;
-  preload.linear_motion = model.rig.linear_motion;
+  preload.axes = model.rig.axes.all();
   preload.rig_path = model.rig.path;
   ElasticFit& fit = preload.fits.emplace_back();
   fit.model = model.transmission.cables.empty() ? "linear" : "poly";

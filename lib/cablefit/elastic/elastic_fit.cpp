@@ -176,7 +176,7 @@ ElasticPreload fit_preload(ElasticJob job, const std::string& name) {
   measure_errors(stage.rows, candidates, solutions, preload);
   for (ElasticFit& fit : preload.fits)
     check_passive(fit, longest_of(stage.rows.elongations),
-                  {stage.job.rig().cables_given, preload.linear_motion});
+                  {stage.job.rig().cables_given, preload.axes});
   select_model(preload, stage.job.options.materiality);
   for (std::size_t k = 0; k < candidates.size(); ++k)
     if (preload.fits[k].model == preload.selected)

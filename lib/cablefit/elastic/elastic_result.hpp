@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/base/parameter.hpp"
 #include "cablefit/elastic/bases_result.hpp"
 #include "cablefit/estimate/tests/fit_proof.hpp"
@@ -112,7 +113,7 @@ struct ElasticPreload {
   /// Why the fitted curve is not that of the cables, so that stage 2 must not use it. Empty: no
   /// doubt.
   std::string shape_doubt;
-  bool linear_motion = false;
+  Axes axes = Axes::rotary;
   std::string rig_path;  ///< empty: the default rig
   RigFacts rig_facts;    ///< facts of the rig file that the fit uses; empty: an old result has none
   std::vector<Figure> figures;

@@ -188,7 +188,7 @@ void note_zero(const Stage1& stage, int joint, ElasticPreload& preload) {
     preload.warnings.push_back(
         fmt::format("joint {}: the torque is {:.3g} {} at zero deflection; if an encoder's "
                     "arbitrary zero causes it, not an offset of the drive, give --zero theta_0",
-                    joint + 1, offset, preload.linear_motion ? "N" : "N m"));
+                    joint + 1, offset, torque_unit(stage.job.rig().axes.of(joint))));
 }
 
 void note_joints(const Stage1& stage, ElasticPreload& preload) {
@@ -203,7 +203,7 @@ void note_joints(const Stage1& stage, ElasticPreload& preload) {
     preload.loop_half_width = std::max(preload.loop_half_width, own.loop_half_width);
     const LoopSeen loop{own.loop_half_width, own.peak_torque, best.joints[k].rms_error,
                         stage.joints[k].plateaus};
-    for (const std::string& warning : loop_warnings(loop, preload.linear_motion))
+    for (const std::string& warning : loop_warnings(loop, stage.job.rig().axes.of(joint)))
       preload.warnings.push_back(fmt::format("joint {}: {}", joint + 1, warning));
     note_zero(stage, joint, preload);
   }
@@ -245,7 +245,7 @@ ElasticPreload fit_joints(ElasticJob job, const std::string& name) {
     for (int joint = 0; joint < stage.n_joints(); ++joint)
       if (!stage.nuisance[static_cast<std::size_t>(joint)].branches)
         fit.parameters.push_back(missing_friction(stage.job, joint));
-    check_passive(fit, longest, {stage.job.rig().cables_given, preload.linear_motion});
+    check_passive(fit, longest, {stage.job.rig().cables_given, preload.axes});
   }
   measure_joint_errors(stage.joints, stage.all, candidates, solutions, preload);
   select_joint_model(preload, stage.job.options.materiality);

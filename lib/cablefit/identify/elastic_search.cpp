@@ -78,7 +78,7 @@ void describe_search(const IdentifyResult& joint, const IdentifyPreload& preload
        fmt::format("{} preload(s) of one set of cables, equilibrium (8c) imposed",
                    joint.preloads.size())});
   const double scale = 1e3;
-  const char* unit = joint.cable_space || joint.linear_motion ? "mm" : "mrad";
+  const std::string unit = joint.cable_space ? "mm" : unit_for(joint.axes, "mrad");
   for (const Estimate& e : preload.parameters)
     if (is_elongation(e))
       out.selection.push_back(

@@ -16,7 +16,7 @@ const Rig& rig_of(std::span<const LogSurvey> logs, const std::string& preload) {
       .plan.rig;
 }
 
-const char* unit_of(const ElasticPreload& preload) { return preload.linear_motion ? "N" : "N m"; }
+std::string unit_of(const ElasticPreload& preload) { return torque_unit(preload.axes); }
 
 /// Stage 1 of one preload.
 struct Stage1 {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/dynamic/dynamic_result.hpp"
 #include "cablefit/elastic/elastic_result.hpp"
 #include "cablefit/elastic/rows/elongation_range.hpp"
@@ -70,7 +71,8 @@ struct IdentifyPreload {
 
 struct IdentifyResult {
   std::vector<InputFile> inputs;
-  bool linear_motion = false, cable_space = false;
+  Axes axes = Axes::rotary;
+  bool cable_space = false;
   std::vector<Estimate> parameters;  ///< shared by all preloads
   /// Of the cable coefficients, which are the first parameters, in their order. It includes the
   /// uncertainty of l_o.

@@ -27,9 +27,9 @@ PartFilter moving_parts(const std::string& preload) {
 
 JointEquation equation_of(Side side, int joint, const DynamicJob& job, const PreloadFacts& facts) {
   const ChosenSettings& settings = job.settings_of(joint);
-  const DynamicColumns columns =
-      dynamic_columns(side, {}, ElasticDetail::coefficients, {joint, job.n_joints(), facts.arm},
-                      {facts.added, facts.cables});
+  const DynamicColumns columns = dynamic_columns(side, {}, ElasticDetail::coefficients,
+                                                 {joint, job.n_joints(), facts.arm, facts.rig.axes},
+                                                 {facts.added, facts.cables});
   JointEquation equation;
   equation.base =
       dynamic_equation(columns, {}, job.settings.rows.signal.torque_held,

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/model/effects.hpp"
 
 namespace cablefit {
@@ -30,7 +31,7 @@ struct ArmParameters {
 /// The data of the rig that an arm needs.
 struct RigJoints {
   int count = 1;
-  bool slide = false;  ///< "motion": "linear"
+  JointAxes axes;
 };
 
 /// One key of an arm in a rig file: a number, a list or a list of lists.
@@ -60,7 +61,7 @@ struct ArmKind {
   /// goes to the standard parameter that names its combination, and the others are 0. The torques
   /// equal those of the regressor (arm/arm_dynamics.hpp). nullptr without base parameters.
   SerialChain (*chain)(const ArmParameters& parameters, std::span<const double> base) = nullptr;
-  /// Allowed on linear axes.
+  /// Whether joints may slide.
   bool may_slide = false;
   /// Name of the table row that the arm belongs to after reading; empty: this row.
   std::string_view becomes = {};

@@ -16,7 +16,7 @@ Estimate blank(std::string name, std::string_view symbol, std::string unit) {
 std::vector<Estimate> arm_of(const Rig& rig, const FindEstimate& find) {
   std::vector<Estimate> arm;
   for (const ParameterInfo& info : rig.arm.base_parameters()) {
-    auto e = find(blank(std::string(info.name), info.symbol, unit_on(rig, info.unit)));
+    auto e = find(blank(std::string(info.name), info.symbol, std::string(info.unit)));
     if (!e) return {};
     arm.push_back(*std::move(e));
   }
@@ -45,18 +45,19 @@ std::vector<Estimate> elastic_estimates(const Transmission& transmission, const 
     if (auto e = find(blank(name, name, unit))) found.push_back(*std::move(e));
   };
   const bool cable_space = rig.cables_given;
-  const auto on_axis = [&](std::string_view unit) {
-    return cable_space ? std::string(unit) : unit_on(rig, unit);
+  const auto unit_of = [&](const Cable& cable, std::string_view unit) {
+    return cable_space ? std::string(unit) : unit_for(axes_of(rig.axes, cable), unit);
   };
   if (transmission.cables.empty())
     for (int joint = 1; joint <= rig.n_joints(); ++joint)
-      add(joint_parameter_name("K", joint, rig.n_joints()), unit_on(rig, "N m/rad"));
+      add(joint_parameter_name("K", joint, rig.n_joints()),
+          unit_for(rig.axes.of(joint - 1), "N m/rad"));
   for (const Cable& cable : transmission.cables)
     for (int k = 0; k < cable.n_coefficients(); ++k)
       add(coefficient_name(cable, k, cable_space),
-          on_axis(coefficient_unit(*cable.law, k, cable_space)));
+          unit_of(cable, coefficient_unit(*cable.law, k, cable_space)));
   for (const Cable& cable : transmission.cables)
-    add(elongation_name(cable), on_axis(elongation_unit(cable_space)));
+    add(elongation_name(cable), unit_of(cable, elongation_unit(cable_space)));
   return found;
 }
 

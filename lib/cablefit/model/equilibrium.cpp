@@ -25,8 +25,8 @@ std::vector<Imbalance> imbalances(const Transmission& transmission) {
   return all;
 }
 
-std::string imbalance_text(const Imbalance& imbalance, int n_joints, bool linear_motion) {
-  const char* unit = linear_motion ? "N" : "N m";
+std::string imbalance_text(const Imbalance& imbalance, int n_joints, Axes axes) {
+  const std::string unit = unit_for(axes, "N m");
   return fmt::format(
       "the preload is not in equilibrium, (8c): it makes {:.3g} {} on the link and {:.3g} {} on "
       "the "

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/model/cables.hpp"
 
 namespace cablefit {
@@ -22,6 +23,6 @@ inline constexpr double kBalanced = 0.02;
 /// Joints on which the preload makes more than kBalanced of the sum of its cables' torques.
 std::vector<Imbalance> imbalances(const Transmission& transmission);
 /// One sentence: what, how large, and what to do.
-std::string imbalance_text(const Imbalance& imbalance, int n_joints, bool linear_motion);
+std::string imbalance_text(const Imbalance& imbalance, int n_joints, Axes axes);
 
 }  // namespace cablefit

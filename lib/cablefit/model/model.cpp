@@ -13,7 +13,7 @@ Estimate blank_estimate(const ParameterInfo& parameter, int joint, const Rig& ri
   Estimate estimate;
   estimate.name = joint_parameter_name(parameter.name, joint, rig.n_joints());
   estimate.symbol = parameter.symbol;
-  estimate.unit = unit_on(rig, parameter.unit);
+  estimate.unit = unit_for(rig.axes.of(joint - 1), parameter.unit);
   return estimate;
 }
 

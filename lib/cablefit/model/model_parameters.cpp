@@ -14,7 +14,7 @@ void add_arm(const Model& model, std::vector<ModelParameter>& out) {
     p.kind = ParameterKind::arm;
     p.name = infos[k].name;
     p.symbol = infos[k].symbol;
-    p.unit = unit_on(model.rig, infos[k].unit);
+    p.unit = infos[k].unit;
     p.lower = infos[k].lower;
     p.upper = infos[k].upper;
     p.index = k;
@@ -59,7 +59,7 @@ void add_added(const Model& model, int joint, std::vector<ModelParameter>& out) 
       p.name = joint_parameter_name(added_parameter_name(*added[e].effect, info), joint + 1,
                                     static_cast<int>(model.joints.size()));
       p.symbol = info.symbol;
-      p.unit = unit_on(model.rig, info.unit);
+      p.unit = unit_for(model.rig.axes.of(joint), info.unit);
       p.lower = info.lower;
       p.upper = info.upper;
       p.joint = joint;
@@ -77,7 +77,7 @@ ModelParameter per_joint(ParameterKind kind, std::string_view name, std::string_
   p.kind = kind;
   p.name = joint_parameter_name(name, joint + 1, static_cast<int>(model.joints.size()));
   p.symbol = p.name;
-  p.unit = unit_on(model.rig, unit);
+  p.unit = unit_for(model.rig.axes.of(joint), unit);
   p.joint = joint;
   return p;
 }
@@ -95,7 +95,8 @@ void add_elastic(const Model& model, std::vector<ModelParameter>& out) {
       ModelParameter p;
       p.kind = ParameterKind::coefficient;
       p.name = p.symbol = coefficient_name(cables[i], j, cable_space);
-      p.unit = unit_on(model.rig, coefficient_unit(*cables[i].law, j, cable_space));
+      p.unit = unit_for(axes_of(model.rig.axes, cables[i]),
+                        coefficient_unit(*cables[i].law, j, cable_space));
       p.cable = i;
       p.index = static_cast<std::size_t>(j);
       out.push_back(p);
@@ -105,7 +106,7 @@ void add_elastic(const Model& model, std::vector<ModelParameter>& out) {
     ModelParameter p;
     p.kind = ParameterKind::elongation;
     p.name = p.symbol = elongation_name(cables[i]);
-    p.unit = unit_on(model.rig, elongation_unit(cable_space));
+    p.unit = unit_for(axes_of(model.rig.axes, cables[i]), elongation_unit(cable_space));
     p.cable = i;
     out.push_back(p);
   }

@@ -2,7 +2,9 @@
 // they follow differ in it.
 #pragma once
 
-#include <string_view>
+#include <string>
+
+#include "cablefit/base/axes.hpp"
 
 namespace cablefit {
 
@@ -17,14 +19,14 @@ enum class MotionPart {
 };
 
 /// "rad/s"; empty for parts without a unit of their own.
-constexpr std::string_view motion_unit(MotionPart part, bool linear_motion) {
+inline std::string motion_unit(MotionPart part, Axes axes) {
   switch (part) {
     case MotionPart::velocity:
-      return linear_motion ? "m/s" : "rad/s";
+      return unit_for(axes, "rad/s");
     case MotionPart::acceleration:
-      return linear_motion ? "m/s^2" : "rad/s^2";
+      return unit_for(axes, "rad/s^2");
     case MotionPart::position:
-      return linear_motion ? "m" : "rad";
+      return unit_for(axes, "rad");
     case MotionPart::several:
     case MotionPart::constant:
     case MotionPart::direction:

@@ -84,6 +84,7 @@ Rig one_joint(const Rig& whole, int joint) {
   refuse_pairs(whole, place(joint));
   Rig one = whole;
   one.joints = {whole.joints[place(joint)]};
+  one.axes = JointAxes({whole.axes.of(joint)});
   one.sensors = about(whole.sensors, std::to_string(joint + 1));
   one.cad = about(whole.cad, fmt::format("[{}]", joint + 1));
   one.transmission = one_joint(whole.transmission, joint);

@@ -9,8 +9,8 @@
 namespace cablefit {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, bool>, 2> kMotions{
-    {{"rotary", false}, {"linear", true}}};
+constexpr std::array<std::pair<std::string_view, Axes>, 2> kMotions{
+    {{"rotary", Axes::rotary}, {"linear", Axes::linear}}};
 constexpr std::array<std::pair<std::string_view, TorqueHold>, 3> kHolds{
     {{"auto", TorqueHold::automatic}, {"zoh", TorqueHold::zoh}, {"none", TorqueHold::none}}};
 constexpr int kDefaultOrder = 2;
@@ -31,10 +31,24 @@ void read_torque_hold(const JsonNode& node, Rig* rig) {
   }
 }
 
+/// One motion for all joints, or a list with one for each.
+JointAxes read_motion(const JsonNode* node, std::size_t n_joints) {
+  if (!node) return JointAxes(std::vector<Axes>(n_joints, Axes::rotary));
+  if (!node->is_array()) return JointAxes(std::vector<Axes>(n_joints, choose(*node, kMotions)));
+  if (node->items.size() != n_joints)
+    throw node->error(fmt::format("{} motion(s), expected {}", node->items.size(), n_joints),
+                      "give one per joint");
+  std::vector<Axes> axes;
+  for (const JsonNode& item : node->items) axes.push_back(choose(item, kMotions));
+  return JointAxes(std::move(axes));
+}
+
 }  // namespace
 
-std::string unit_on(const Rig& rig, std::string_view unit) {
-  return rig.linear_motion ? linear_unit(unit) : std::string(unit);
+Axes axes_of(const JointAxes& joints, const Cable& cable) {
+  int joint = 0;
+  while (!cable.passes(static_cast<std::size_t>(joint))) ++joint;
+  return joints.of(joint);
 }
 
 Rig default_rig() {
@@ -52,11 +66,11 @@ Rig parse_rig(const JsonNode& node) {
   rig.path = node.place.file;
   rig.name = text_or(node, "name", "");
   rig.preload = text_or(node, "preload", "");
-  if (const JsonNode* motion = node.find("motion")) rig.linear_motion = choose(*motion, kMotions);
   if (const JsonNode* rate = node.find("sample_rate")) rig.sample_rate = rate->positive();
   read_torque_hold(node, &rig);
 
   if (const JsonNode* joints = node.find("joints")) rig.joints = rig_parts::read_joints(*joints);
+  rig.axes = read_motion(node.find("motion"), rig.joints.size());
   set_default_cables(&rig);
   if (const JsonNode* cables = node.find("cables")) rig_parts::read_cables(*cables, &rig);
 
@@ -68,7 +82,7 @@ Rig parse_rig(const JsonNode& node) {
     rig.columns = rig_parts::read_columns(*columns, n);
   }
   if (const JsonNode* load = node.find("load")) {
-    rig.load = rig_parts::read_load(*load, n, rig.linear_motion);
+    rig.load = rig_parts::read_load(*load, n, rig.axes.all());
   }
   if (const JsonNode* arm = node.find("arm")) rig.arm = rig_parts::read_arm(*arm, rig);
   if (const JsonNode* controller = node.find("controller")) {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/base/parameter.hpp"
 #include "cablefit/model/arm.hpp"
 #include "cablefit/model/cables.hpp"
@@ -51,9 +52,9 @@ struct Rig {
   std::string name;
   std::string preload;  ///< name of the preload setting; may be empty
   std::map<std::string, ColumnMapping>
-      columns;                 ///< by channel: "t", "q", "theta", "tau", "tau_load", "q1", ...
-  double sample_rate = 0;      ///< Hz, of logs without a time column; 0: not given
-  bool linear_motion = false;  ///< m, N, kg instead of rad, N m, kg m^2
+      columns;             ///< by channel: "t", "q", "theta", "tau", "tau_load", "q1", ...
+  double sample_rate = 0;  ///< Hz, of logs without a time column; 0: not given
+  JointAxes axes;          ///< "motion"
   TorqueHold torque_hold = TorqueHold::automatic;
   double torque_period = 0;  ///< s; 0: the log's
   Load load;
@@ -70,8 +71,8 @@ struct Rig {
   int n_joints() const { return static_cast<int>(joints.size()); }
 };
 
-/// A unit of the tables, which are for a rotary axis, converted to the rig's axes.
-std::string unit_on(const Rig& rig, std::string_view unit);
+/// Of the joint that a cable in joint space belongs to. Cables in cable space have m and N.
+Axes axes_of(const JointAxes& joints, const Cable& cable);
 
 /// The paper's rig: one joint, two antagonist cables in joint space.
 Rig default_rig();

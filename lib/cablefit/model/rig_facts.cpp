@@ -54,8 +54,12 @@ void add_cable(const Cable& cable, RigFacts& facts) {
 }  // namespace
 
 RigFacts elastic_facts(const Rig& rig) {
-  RigFacts facts = {{"motion", rig.linear_motion ? "linear" : "rotary"},
+  RigFacts facts = {{"motion", std::string(to_string(rig.axes.all()))},
                     {"number of joints", std::to_string(rig.n_joints())}};
+  if (rig.axes.all() == Axes::mixed)
+    for (int joint = 0; joint < rig.n_joints(); ++joint)
+      facts.push_back({fmt::format("motion of joint {}", joint + 1),
+                       std::string(to_string(rig.axes.of(joint)))});
   const bool one = rig.n_joints() == 1;
   for (const std::string channel : {"q", "theta", "tau"})
     for (int joint = 0; joint < rig.n_joints(); ++joint)

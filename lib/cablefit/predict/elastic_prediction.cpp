@@ -29,15 +29,17 @@ Model elastic_only(Model model) {
 std::vector<ElasticSignal> signals_of(const Model& model) {
   std::vector<ElasticSignal> all;
   const int n = model.rig.n_joints();
-  const std::string torque = unit_on(model.rig, "N m");
+  const JointAxes& axes = model.rig.axes;
   for (const char* name : {"tau_elas_l", "tau_elas_m"})
     for (int joint = 1; joint <= n; ++joint)
-      all.push_back({joint_parameter_name(name, joint, n), torque});
-  const bool in_metres = model.rig.cables_given || model.rig.linear_motion;
+      all.push_back({joint_parameter_name(name, joint, n), torque_unit(axes.of(joint - 1))});
+  const bool in_metres = model.rig.cables_given;
   for (const Cable& cable : model.transmission.cables)
-    all.push_back({fmt::format("elongation[{}]", cable.name), in_metres ? "m" : "rad"});
+    all.push_back({fmt::format("elongation[{}]", cable.name),
+                   in_metres ? "m" : unit_for(axes_of(axes, cable), "rad")});
   for (const Cable& cable : model.transmission.cables)
-    all.push_back({fmt::format("tension[{}]", cable.name), in_metres ? "N" : torque});
+    all.push_back({fmt::format("tension[{}]", cable.name),
+                   in_metres ? "N" : torque_unit(axes_of(axes, cable))});
   all.push_back({"energy", "J"});
   return all;
 }

@@ -42,7 +42,7 @@ SensedTorque torque_of(const ResidualEquation& e, const LogPlan& plan, const Tor
   SensedTorque torque;
   torque.signal =
       std::string(is_link ? "tau_load" : "tau") + (n_joints > 1 ? std::to_string(e.joint + 1) : "");
-  torque.unit = unit_on(plan.rig, "N m");
+  torque.unit = torque_unit(plan.rig.axes.of(e.joint));
   torque.method = fmt::format("equation of the {}", to_string(e.side));
   torque.is_measured = is_link ? knows_load(plan, e.joint) : plan.has(Channel::tau, e.joint);
   scan.fill(torque);
@@ -179,7 +179,7 @@ void LinkWatch::look_at(const LogSurvey& log, const std::vector<bool>& wanted, s
       found.seconds_not_watched = scan.seconds_at_rest;
       if (options_.figures)
         part.figures.push_back(
-            watch_figure(part, found, *scan.windows, unit_on(log.plan.rig, "N m")));
+            watch_figure(part, found, *scan.windows, unit_for(log.plan.rig.axes.all(), "N m")));
       part.watches.push_back(std::move(found));
     }
     part.decisions.insert(part.decisions.end(), residuals.decisions().begin(),

@@ -94,7 +94,7 @@ PredictedPart PartPrediction::result(bool figures) const {
     if (scan.n_rows() == 0) continue;
     SensedTorque& torque = part.torques.emplace_back();
     torque.signal = "tau" + (n_joints > 1 ? std::to_string(joint + 1) : std::string());
-    torque.unit = unit_on(log_.plan.rig, "N m");
+    torque.unit = torque_unit(log_.plan.rig.axes.of(joint));
     torque.method = "tau_elas_m + offset, link at rest";
     scan.fill(torque);
   }
@@ -108,7 +108,7 @@ std::vector<Figure> PartPrediction::figures() const {
   figure.group = part_.preload + ", " + std::string(to_string(part_.phase));
   figure.title = "Elastic torques by the model";
   figure.x = time_.axis();
-  figure.y = {"elastic torque", unit_on(log_.plan.rig, "N m")};
+  figure.y = {"elastic torque", torque_unit(log_.plan.rig.axes.all())};
   figure.wide = true;
   figure.rank = FigureRank::main;
   for (std::size_t k = 0; k < lines_.size(); ++k) {

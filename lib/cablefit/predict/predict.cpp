@@ -108,7 +108,7 @@ PredictResult predict_logs(const Model& model, std::span<const LogSurvey> logs,
   result.model_name = model.name;
   result.preload = model.preload;
   result.rig_path = model.rig.path;
-  result.linear_motion = model.rig.linear_motion;
+  result.axes = model.rig.axes.all();
   result.trajectories = options.trajectories;
   result.sensed = options.sensed;
   const ElasticPrediction elastic(model, options.band);

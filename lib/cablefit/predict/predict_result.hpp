@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/design/collision.hpp"
 #include "cablefit/figure/figure.hpp"
 #include "cablefit/samples/plan/input_file.hpp"
@@ -72,7 +73,7 @@ struct PredictResult {
   std::vector<InputFile> inputs;  ///< the logs; the command puts the model before them
   std::string model_path, model_choice, model_name, preload;
   std::string rig_path;  ///< the model's; empty: the default rig
-  bool linear_motion = false;
+  Axes axes = Axes::rotary;
   std::vector<PredictedPart> parts;
   std::string trajectories, sensed;  ///< files, empty: none
   std::vector<std::string> warnings;

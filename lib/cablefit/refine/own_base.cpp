@@ -189,7 +189,7 @@ void add_start_springs(Model& model) {
   for (int joint = 1; joint <= n; ++joint) {
     Estimate& e = model.elastic.emplace_back();
     e.name = e.symbol = joint_parameter_name(kSpringName, joint, n);
-    e.unit = model.rig.linear_motion ? "N/m" : "N m/rad";
+    e.unit = unit_for(model.rig.axes.of(joint - 1), "N m/rad");
     e.not_identifiable = kStartValue;
   }
 }

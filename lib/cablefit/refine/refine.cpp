@@ -115,7 +115,7 @@ void set_inputs(std::span<const Model> models, const RefineLogs& logs, RefineRes
       result.inputs.push_back({log.plan.path, log.sha256, log.n_rows});
   for (const Model& model : models) result.preloads.push_back(model.preload);
   result.rigid = models.front().rigid;
-  result.linear_motion = models.front().rig.linear_motion;
+  result.axes = models.front().rig.axes.all();
   result.rig_path = models.front().rig.path;
 }
 

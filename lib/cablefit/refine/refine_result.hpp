@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/figure/figure.hpp"
 #include "cablefit/model/effects.hpp"
 #include "cablefit/model/model.hpp"
@@ -132,7 +133,8 @@ struct RefineResult {
   std::string model_path, model_choice;
   std::vector<std::string> preloads;
   std::string rig_path;
-  bool linear_motion = false, rigid = false, held_out_blocks = false;
+  Axes axes = Axes::rotary;
+  bool rigid = false, held_out_blocks = false;
   bool elastic_only = false;  ///< blocked logs alone
   Verdict verdict = Verdict::none;
   std::string reason;  ///< one sentence

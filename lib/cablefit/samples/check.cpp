@@ -17,11 +17,11 @@ namespace {
 constexpr double kMostlyAtRest = 0.8;
 constexpr double kFewSteps = 100;  // a position that spans fewer encoder steps
 
-std::string unit_of(Channel channel, bool linear_motion) {
+std::string unit_of(Channel channel, Axes axes) {
   const bool is_torque = channel == Channel::tau || channel == Channel::tau_load;
-  if (is_torque) return linear_motion ? "N" : "N m";
-  if (channel == Channel::w) return linear_motion ? "m/s" : "rad/s";
-  return linear_motion ? "m" : "rad";
+  if (is_torque) return unit_for(axes, "N m");
+  if (channel == Channel::w) return unit_for(axes, "rad/s");
+  return unit_for(axes, "rad");
 }
 
 /// "theta", or "theta2" of several joints.
@@ -38,7 +38,7 @@ std::vector<CheckedChannel> channels_of(const LogSurvey& log, const PartSurvey& 
     const Slot& slot = log.plan.slots[k];
     if (slot.integrated) continue;
     const std::string name = indexed_name(slot.channel, slot.joint, rig);
-    const std::string unit = unit_of(slot.channel, rig.linear_motion);
+    const std::string unit = unit_of(slot.channel, rig.axes.of(slot.joint));
     channels.push_back({name, unit, unit == "rad", part.channels[k]});
   }
   return channels;
@@ -234,7 +234,7 @@ CheckResult check_logs(std::span<const LogSurvey> logs, const SampleOptions& opt
                        log.sha256,
                        log.plan.rig.path,
                        log.n_rows,
-                       log.plan.rig.linear_motion,
+                       log.plan.rig.axes.all(),
                        unused_columns(log.plan),
                        {}};
     checked.decisions = log.plan.decisions;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/figure/figure.hpp"
 #include "cablefit/samples/rows/settings.hpp"
 
@@ -46,7 +47,7 @@ struct CheckedPart {
 struct CheckedLog {
   std::string path, sha256, rig_path;
   std::size_t rows = 0;
-  bool linear_motion = false;
+  Axes axes = Axes::rotary;
   std::vector<std::string> unused_columns;
   std::vector<CheckedPart> parts;
   std::vector<Decision> decisions = {};  ///< where the values used differ from the text of the log

@@ -70,7 +70,6 @@ class PartFigures {
  private:
   void add_group(const LogSurvey& log, const PartSurvey& part, const TimeAxis& time,
                  const ChannelGroup& group, int joint) {
-    const bool linear = log.plan.rig.linear_motion;
     const std::string suffix = log.plan.rig.n_joints() > 1 ? std::to_string(joint + 1) : "";
     const std::size_t first_line = lines_.size();
     for (const Channel channel : group.channels) {
@@ -86,7 +85,7 @@ class PartFigures {
     figure.group = part_name(part);
     figure.title = std::string(group.title) + (suffix.empty() ? "" : " of joint " + suffix);
     figure.x = time.axis();
-    figure.y = {group.axis, linear ? linear_unit(group.unit) : group.unit};
+    figure.y = {group.axis, unit_for(log.plan.rig.axes.of(joint), group.unit)};
     figure.wide = true;
     figures_.push_back(std::move(figure));
   }

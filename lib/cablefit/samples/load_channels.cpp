@@ -103,7 +103,7 @@ void warn_of_law(LogSurvey& log) {
     log.warnings.push_back(fmt::format(
         "{}: J_link includes the inertia of its load ({:.3g} {}), because the rig files of the "
         "logs differ in their load; fit one load at a time for the J_link of the link alone",
-        log.plan.path, inertia, log.plan.rig.linear_motion ? "kg" : "kg m^2"));
+        log.plan.path, inertia, unit_for(log.plan.rig.axes.all(), "kg m^2")));
   if (load.law->free_fall != nullptr)
     log.warnings.push_back(fmt::format(
         "{}: not checked whether the rope of its load goes slack, because the rig files of the "

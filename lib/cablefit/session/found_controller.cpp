@@ -30,7 +30,7 @@ std::optional<Decision> take_found_controller(RefineLogs& logs, std::vector<Mode
   for (auto* some : {&logs.train, &logs.test, &logs.blocked})
     for (LogSurvey& log : *some) log.plan.rig.controller = found->controller;
   for (Model& model : models) model.rig.controller = found->controller;
-  return Decision{"controller", found->text(models.front().rig.linear_motion),
+  return Decision{"controller", found->text(models.front().rig.axes.all()),
                   "found from reference, position and torque of the training logs, as the rig file "
                   "names none"};
 }

@@ -12,7 +12,7 @@ namespace cablefit {
 namespace {
 
 std::string kind_of(const Rig& rig) {
-  return fmt::format("{} {} joint{}", rig.n_joints(), rig.linear_motion ? "linear" : "rotary",
+  return fmt::format("{} {} joint{}", rig.n_joints(), to_string(rig.axes.all()),
                      rig.n_joints() == 1 ? "" : "s");
 }
 

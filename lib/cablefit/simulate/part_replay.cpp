@@ -30,9 +30,9 @@ void cut(Eigen::Index n_rows, ReplayedRows* rows) {
     table->conservativeResize(n_rows, Eigen::NoChange);
 }
 
-std::string unit_of(Channel channel, bool linear_motion) {
+std::string unit_of(Channel channel, Axes axes) {
   const char* unit = channel == Channel::tau ? "N m" : "rad";
-  return linear_motion ? linear_unit(unit) : unit;
+  return unit_for(axes, unit);
 }
 
 }  // namespace
@@ -229,7 +229,7 @@ SignalGap PartReplay::gap_of(const Signal& signal) const {
   SignalGap gap;
   gap.signal = signal.is_deflection ? "deflection" : channel_name(signal.channel);
   if (log_.plan.rig.n_joints() > 1) gap.signal += std::to_string(signal.joint + 1);
-  gap.unit = unit_of(signal.channel, log_.plan.rig.linear_motion);
+  gap.unit = unit_of(signal.channel, log_.plan.rig.axes.of(signal.joint));
   gap.noise = signal.noise;
   signal.scan.fill(gap);
   signal.band.fill(gap);
@@ -243,7 +243,7 @@ SimulatedPart PartReplay::result() const {
   const Model& model = experiment_.model;
   if (model.rigid || model.transmission.cables.empty()) return part;
   const std::string tension =
-      model.rig.cables_given ? "N" : unit_of(Channel::tau, model.rig.linear_motion);
+      model.rig.cables_given ? "N" : unit_of(Channel::tau, model.rig.axes.all());
   part.cables = tensions_.cables(model.transmission, tension);
   part.closure_share = tensions_.closure_share();
   return part;

@@ -164,7 +164,7 @@ SimulateResult simulate_logs(const Model& model, std::span<const LogSurvey> logs
   result.model_name = model.name;
   result.preload = model.preload;
   result.rig_path = model.rig.path;
-  result.linear_motion = model.rig.linear_motion;
+  result.axes = model.rig.axes.all();
   result.trajectories = options.trajectories;
   std::vector<LogReplay> replays = plan_logs(model, logs, options, result);
   if (options.trajectories.empty()) {

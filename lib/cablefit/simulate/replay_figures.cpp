@@ -53,8 +53,7 @@ void ReplayFigures::add_signal(const LogSurvey& log, Channel channel, int joint)
   if (!log.plan.has(channel, joint)) return;
   const Compared& one = compared_of(channel);
   const bool many = log.plan.rig.n_joints() > 1;
-  const std::string unit =
-      log.plan.rig.linear_motion ? linear_unit(one.unit) : std::string(one.unit);
+  const std::string unit = unit_for(log.plan.rig.axes.of(joint), one.unit);
   signals_.push_back({std::string(channel_name(channel)) + (many ? std::to_string(joint + 1) : ""),
                       one.kind, unit, one.measured, one.simulated, joint, one.band,
                       time_.new_line(), time_.new_line(), time_.new_line(), time_.new_close_up(),

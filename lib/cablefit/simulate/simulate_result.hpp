@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/figure/figure.hpp"
 #include "cablefit/samples/plan/input_file.hpp"
 #include "cablefit/samples/rows/settings.hpp"
@@ -63,7 +64,7 @@ struct SimulateResult {
   std::vector<InputFile> inputs;  ///< the logs; the command puts the model before them
   std::string model_path, model_choice, model_name, preload;
   std::string rig_path;  ///< the model's; empty: the default rig
-  bool linear_motion = false;
+  Axes axes = Axes::rotary;
   std::vector<SimulatedPart> parts;
   std::string trajectories;  ///< file, empty: none
   std::vector<std::string> warnings;

@@ -173,7 +173,7 @@ void fields(Archive& a, ElasticPreload& v) {
   a("both_branches", v.both_branches), a("joints", v.joints), a("counts", v.counts);
   a("modes", v.modes), a("windows", v.windows), a("fits", v.fits), a("selected", v.selected);
   a("selection", v.selection), a("decisions", v.decisions), a("warnings", v.warnings);
-  a("linear_motion", v.linear_motion), a("rig_path", v.rig_path), a("rig_facts", v.rig_facts);
+  a("axes", v.axes), a("rig_path", v.rig_path), a("rig_facts", v.rig_facts);
   a("shape_doubt", v.shape_doubt), a("figures", v.figures);
 }
 
@@ -269,7 +269,7 @@ void fields(Archive& a, Validation& v) {
 
 template <class Archive>
 void fields(Archive& a, DynamicPreload& v) {
-  a("name", v.name), a("linear_motion", v.linear_motion), a("resonance", v.resonance);
+  a("name", v.name), a("axes", v.axes), a("resonance", v.resonance);
   a("load_inertia", v.load_inertia), a("delay", v.delay), a("counts", v.counts);
   a("windows", v.windows), a("decisions", v.decisions), a("fits", v.fits);
   a("warnings", v.warnings), a("rig_path", v.rig_path), a("figures", v.figures);

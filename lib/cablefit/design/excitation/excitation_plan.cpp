@@ -45,7 +45,7 @@ Trace thinned(const std::string& name, int series, TraceStyle style, double peri
 }
 
 void add_figures(ExcitationPlan& plan) {
-  const bool linear = plan.linear_motion;
+  const Axes axes = plan.axes;
   const auto add = [&](const std::string& title, const FigureAxis& y, const Eigen::ArrayXXd& values,
                        double limit, const Eigen::ArrayXXd* reference) {
     Figure figure;
@@ -76,11 +76,11 @@ void add_figures(ExcitationPlan& plan) {
     }
     plan.figures.push_back(std::move(figure));
   };
-  add("Position", {"theta", linear ? "m" : "rad"}, plan.motion.result.theta,
+  add("Position", {"theta", unit_for(axes, "rad")}, plan.motion.result.theta,
       plan.limits.max_position, &plan.motion.theta_ref);
-  add("Speed", {"thetad", linear ? "m/s" : "rad/s"}, plan.motion.result.thetad,
+  add("Speed", {"thetad", unit_for(axes, "rad/s")}, plan.motion.result.thetad,
       plan.limits.max_speed, nullptr);
-  add("Torque", {"tau", linear ? "N" : "N m"}, plan.motion.result.tau, plan.limits.max_torque,
+  add("Torque", {"tau", unit_for(axes, "N m")}, plan.motion.result.tau, plan.limits.max_torque,
       nullptr);
 }
 
@@ -116,7 +116,7 @@ ExcitationPlan plan_excitation(const Model& model, const ExcitationOptions& opti
   ExcitationPlan plan;
   plan.shape = options.shape;
   plan.limits = options.limits;
-  plan.linear_motion = model.rig.linear_motion;
+  plan.axes = model.rig.axes.all();
   plan.joints = model.rig.joints;
   // Once with the settings that some motion gets, and on with those of the motion found by that.
   ExcitationOptions half = options;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/design/excitation/excitation.hpp"
 #include "cablefit/design/excitation/planned_fit.hpp"
 #include "cablefit/figure/figure.hpp"
@@ -15,7 +16,7 @@ namespace cablefit {
 struct ExcitationPlan {
   std::string shape;
   ExcitationLimits limits;
-  bool linear_motion = false;
+  Axes axes = Axes::rotary;
   std::vector<std::string> joints;
   PlannedFit fit;
   /// The same of one sine over all of the range at full speed, and of one of the best frequency.

@@ -184,7 +184,7 @@ void FitPlanner::add_equation(std::size_t k, const EquationBatch& batch,
     PlannedParameter out;
     out.equation = s.plain[k].name;
     out.name = p.name;
-    out.unit = unit_on(s.model.rig, p.info.unit);
+    out.unit = p.unit();
     out.value = value_of(s.model, p.name);
     out.sd = out.sd_white = out.relative = kUnbounded;
     if (solver.determined()) {

@@ -52,7 +52,8 @@ Eigen::ArrayXd drive_state(const JointSignals& s, double least_torque) {
 std::vector<Watched> watched_of(const DynamicJob& job, const EquationRows& e) {
   const auto joint = static_cast<std::size_t>(e.columns.place.joint);
   const bool link = e.columns.side == Side::link;
-  const std::string length = job.rig().linear_motion ? "m" : "rad";
+  const Axes axes = job.rig().axes.of(e.columns.place.joint);
+  const std::string length = unit_for(axes, "rad");
   const double least = kOffShare * largest_torque(job.logs, e.columns.place.joint);
   std::vector<Watched> all;
   const auto watch = [&](std::string_view name, const std::string& unit, bool tested, auto value) {
@@ -69,7 +70,7 @@ std::vector<Watched> watched_of(const DynamicJob& job, const EquationRows& e) {
   watch("position theta", length, true, [](S s) { return s.theta; });
   if (e.columns.deflection >= 0)
     watch("deflection", length, true, [](S s) -> Eigen::ArrayXd { return s.theta - s.q; });
-  watch(kLoad, job.rig().linear_motion ? "N" : "N m", true, [](S s) { return s.tau_load; });
+  watch(kLoad, torque_unit(axes), true, [](S s) { return s.tau_load; });
   watch(kDrive, "", false, [least](S s) { return drive_state(s, least); });
   return all;
 }

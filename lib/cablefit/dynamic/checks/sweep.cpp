@@ -83,7 +83,7 @@ Sweep sweep_settings(const DynamicJob& job, const Estimator& estimator, std::siz
   const RowSettings& rows = job.settings.rows;
   const double cutoff = rows.signal.cutoff;
   const double rate = sample_rates(job.logs, job.wanted).lowest;
-  const std::string length = job.rig().linear_motion ? "m/s" : "rad/s";
+  const std::string length = unit_for(job.rig().axes.all(), "rad/s");
   const auto add = [&](const char* setting, double chosen, const std::string& unit, auto scaled,
                        double most) {
     if (!(chosen > 0)) return;

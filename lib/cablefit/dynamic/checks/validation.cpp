@@ -68,7 +68,7 @@ TestedRows tested(const FittedModels& fitted, const JudgedRows& rows, bool are_f
   const DynamicJob& job = fitted.job;
   const double rate = sample_rates(job.logs, job.wanted).lowest;
   return {rows, are_fitted, job.settings.rows.decimate / rate, torque_rms(fitted, m, rows.equation),
-          job.rig().linear_motion ? "N" : "N m"};
+          unit_for(job.rig().axes.all(), "N m")};
 }
 
 JudgedEquation named(const FittedModels& fitted, std::size_t m, std::size_t k) {
@@ -204,7 +204,7 @@ void require_judgeable(std::span<const LogSurvey> unseen, const std::vector<std:
   for (const LogSurvey& log : unseen) {
     const Place place{log.plan.path, 0, 0};
     if (log.plan.rig.n_joints() != fitted.plan.rig.n_joints() ||
-        log.plan.rig.linear_motion != fitted.plan.rig.linear_motion)
+        log.plan.rig.axes != fitted.plan.rig.axes)
       throw input_error(place, "another kind of rig than the fitted logs",
                         "validate on logs of the same drive");
     require_channels(log.plan, rigid);

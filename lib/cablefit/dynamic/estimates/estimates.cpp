@@ -89,12 +89,11 @@ std::string drowned_text(double torque, double left, double relative_sd, const M
 
 /// An inertia has to be positive: an interval that reaches zero has determined nothing.
 void judge_inertia(const RowStatistics& rows, const DynamicColumns& c, const LinearSolution& s,
-                   Eigen::Index k, std::size_t which, bool linear_motion, Estimate& e,
+                   Eigen::Index k, std::size_t which, Estimate& e,
                    std::vector<std::string>& warnings) {
   if (!e.not_identifiable.empty()) return;
-  const MotionColumn column = motion_column(c, static_cast<std::size_t>(k), linear_motion);
-  if (const std::string alias = inertia_alias(rows, c, k, linear_motion); !alias.empty())
-    return refuse(e, alias);
+  const MotionColumn column = motion_column(c, static_cast<std::size_t>(k));
+  if (const std::string alias = inertia_alias(rows, c, k); !alias.empty()) return refuse(e, alias);
   const double inertia = std::max(std::abs(s.unbounded_x(k)), std::abs(e.value));
   const double acceleration =
       rows.r().col(k).norm() /
@@ -152,11 +151,11 @@ Eigen::MatrixXd moved_by(const RowStatistics& rows, const LinearSolution& s, Eig
          ((rows.r() * s.score_columns).transpose() * rows.r().middleCols(first, n));
 }
 
-Estimate given_estimate(const DynamicParameter& parameter, bool linear_motion) {
+Estimate given_estimate(const DynamicParameter& parameter) {
   Estimate e;
   e.name = parameter.name;
   e.symbol = parameter.info.symbol;
-  e.unit = linear_motion ? linear_unit(parameter.info.unit) : std::string(parameter.info.unit);
+  e.unit = parameter.unit();
   e.value = e.ci_low = e.ci_high = *parameter.given;
   e.sd = e.sd_white = 0;
   return e;
@@ -187,11 +186,10 @@ void refuse_dependent(std::span<const EffectInstance> effects, std::vector<Estim
   }
 }
 
-std::string inertia_alias(const RowStatistics& rows, const DynamicColumns& c, Eigen::Index k,
-                          bool linear_motion) {
+std::string inertia_alias(const RowStatistics& rows, const DynamicColumns& c, Eigen::Index k) {
   const double explained = explained_by_position(rows, c, k);
   if (!(explained > kPositionAlias)) return "";
-  const MotionColumn column = motion_column(c, static_cast<std::size_t>(k), linear_motion);
+  const MotionColumn column = motion_column(c, static_cast<std::size_t>(k));
   return fmt::format(
       "the acceleration is {:.1f} % a function of position, speed and direction (one sine?): "
       "inertia is not separable from stiffness or gravity; {}",
@@ -199,8 +197,7 @@ std::string inertia_alias(const RowStatistics& rows, const DynamicColumns& c, Ei
 }
 
 void add_estimates(const RowStatistics& rows, const DynamicColumns& c, const LinearSolution& s,
-                   const ElasticFit* stage1, std::size_t which, bool linear_motion, bool robust,
-                   DynamicFit& fit) {
+                   const ElasticFit* stage1, std::size_t which, bool robust, DynamicFit& fit) {
   Eigen::MatrixXd extra = Eigen::MatrixXd::Zero(s.x.size(), s.x.size());
   if (stage1 != nullptr && robust) extra = stage1_covariance(rows, c, s, *stage1, which);
   if (stage1 != nullptr && robust) fit.stage1_misfit.merge(misfit_sd(rows, c, s, which));
@@ -208,8 +205,8 @@ void add_estimates(const RowStatistics& rows, const DynamicColumns& c, const Lin
   for (Eigen::Index k = 0; k < c.n_effects; ++k) {
     const DynamicParameter& parameter = c.parameters[static_cast<std::size_t>(k)];
     Estimate e = parameter.given
-                     ? given_estimate(parameter, linear_motion)
-                     : estimate_of(parameter.info, linear_motion, s, k, {robust, extra(k, k)});
+                     ? given_estimate(parameter)
+                     : estimate_of(parameter.info, parameter.axes, s, k, {robust, extra(k, k)});
     if (chosen && !parameter.given)
       take_chosen(*chosen, s, k, extra(k, k), parameter.info.lower, e);
     e.name = parameter.name;
@@ -221,7 +218,7 @@ void add_estimates(const RowStatistics& rows, const DynamicColumns& c, const Lin
     if (!e.active_bound.empty() && parameter.info.lower == 0)
       e.active_bound = fmt::format("{} >= 0", e.name);
     if (parameter.is_inertia && !parameter.given)
-      judge_inertia(rows, c, s, k, which, linear_motion, e, fit.doubts);
+      judge_inertia(rows, c, s, k, which, e, fit.doubts);
     fit.verdicts[e.name] = parameter.given              ? "given"
                            : e.not_identifiable.empty() ? "identified"
                                                         : "not identifiable";

@@ -15,7 +15,7 @@ namespace cablefit {
 /// fit's place among the columns.
 void add_estimates(const RowStatistics& rows, const DynamicColumns& columns,
                    const LinearSolution& solution, const ElasticFit* stage1, std::size_t which,
-                   bool linear_motion, bool robust, DynamicFit& fit);
+                   bool robust, DynamicFit& fit);
 
 /// Change of the parameters when one of the rows' columns from `first` on is added to the response:
 /// p x n. `rows`: those that `solution` was fitted to.
@@ -23,7 +23,7 @@ Eigen::MatrixXd moved_by(const RowStatistics& rows, const LinearSolution& soluti
                          Eigen::Index first, Eigen::Index n);
 
 /// An inertia given by the rig file, taken as exact.
-Estimate given_estimate(const DynamicParameter& parameter, bool linear_motion);
+Estimate given_estimate(const DynamicParameter& parameter);
 
 /// Removes the numbers of an estimate and records the reason.
 void refuse(Estimate& e, const std::string& why);
@@ -34,8 +34,7 @@ void refuse_dependent(std::span<const EffectInstance> effects, std::vector<Estim
 
 /// Why the motion of these rows does not separate the inertia of column `k` from a torque that
 /// depends on position, for any estimator; empty when it does.
-std::string inertia_alias(const RowStatistics& rows, const DynamicColumns& columns, Eigen::Index k,
-                          bool linear_motion);
+std::string inertia_alias(const RowStatistics& rows, const DynamicColumns& columns, Eigen::Index k);
 
 /// The kind of sd of these parameters, and the reason: "HAC: residuals are correlated over 14 ms,
 /// effective rows 812 of 12639". `row_seconds`: between rows.

@@ -145,7 +145,7 @@ JointEstimates join_estimates(const DynamicFit& fit, const std::vector<EquationI
 }
 
 std::vector<Estimate> drive_quantities(const JointEstimates& from, const Transmission* transmission,
-                                       bool cable_space, bool linear_motion) {
+                                       bool cable_space, Axes axes) {
   std::vector<Estimate> all;
   const Eigen::Index j_link = from.find("J_link"), j_motor = from.find("J_motor"),
                      f_v = from.find("f_v"), f_vm = from.find("f_vm"), f_s = from.find("f_s"),
@@ -153,7 +153,7 @@ std::vector<Estimate> drive_quantities(const JointEstimates& from, const Transmi
   if (transmission == nullptr || transmission->n_joints > 1) return all;
   const TransmissionOf changed = transmission_of(*transmission, cable_space, from);
   const auto stiffness = [changed](const Eigen::VectorXd& v) { return rest_stiffness(changed(v)); };
-  all.push_back(derive({"K_rest", "K_rest", linear_motion ? "N/m" : "N m/rad", stiffness}, from));
+  all.push_back(derive({"K_rest", "K_rest", unit_for(axes, "N m/rad"), stiffness}, from));
   if (j_link >= 0 && j_motor >= 0)
     all.push_back(derive(
         {"f_0", "f_0", "Hz",
@@ -170,7 +170,7 @@ std::vector<Estimate> drive_quantities(const JointEstimates& from, const Transmi
                           }},
                          from));
   if (f_s >= 0 && f_sm >= 0)
-    all.push_back(derive({"f_dry", "f_s + f_sm", linear_motion ? "N" : "N m",
+    all.push_back(derive({"f_dry", "f_s + f_sm", unit_for(axes, "N m"),
                           [=](const Eigen::VectorXd& v) { return v(f_s) + v(f_sm); }},
                          from));
   std::erase_if(all, [](const Estimate& e) {

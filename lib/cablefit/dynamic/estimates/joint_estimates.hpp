@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/dynamic/dynamic_result.hpp"
 #include "cablefit/dynamic/rows/dynamic_columns.hpp"
 #include "cablefit/estimate/fit/derived_quantity.hpp"
@@ -39,6 +40,6 @@ JointEstimates join_estimates(const DynamicFit& fit, const std::vector<EquationI
 /// shape). f_dry = f_s + f_sm is the torque that turns motor and link from rest. A quantity is left
 /// out when one of its parameters is not known. None with several joints.
 std::vector<Estimate> drive_quantities(const JointEstimates& from, const Transmission* transmission,
-                                       bool cable_space, bool linear_motion);
+                                       bool cable_space, Axes axes);
 
 }  // namespace cablefit

@@ -69,7 +69,7 @@ void note_controller(const EstimationTask& task, const LoopPlan& plan, Estimatio
   out.fit.warnings.insert(out.fit.warnings.end(), plan.warnings.begin(), plan.warnings.end());
   if (!plan.fitted) return;
   out.decisions.push_back({label(task, "controller"), "found from the logs",
-                           plan.fitted->text(task.job.rig().linear_motion) +
+                           plan.fitted->text(task.job.rig().axes.all()) +
                                "; in the rig file: " + controller_text(plan.fitted->controller)});
 }
 
@@ -103,8 +103,8 @@ void add_equation(const EstimationTask& task, std::size_t k, const RowStatistics
                                     ? problem_of(e.columns, task.job.elastic, task.model)
                                     : instrumented_problem(task.job, e, task.model);
   solution.profile = profile_intervals(rows, problem, solution, task.job.options.robust_sd);
-  add_estimates(rows, e.columns, solution, task.stage1(), task.model, task.job.rig().linear_motion,
-                task.job.options.robust_sd, out.fit);
+  add_estimates(rows, e.columns, solution, task.stage1(), task.model, task.job.options.robust_sd,
+                out.fit);
   influences.push_back(influence_of(rows, e.columns, solution, task.stage1(), task.model));
   out.fit.sd_reason[e.equation.name] = reason_for_sd(task, rows, e.columns, solution);
   LinearSolution own =

@@ -26,12 +26,11 @@ Estimation least_squares_fit(const EstimationTask& task, Weighting weighting) {
     if (system.size() > 1)
       stacked = stacked_rows(task.equations, system, job.elastic, task.model, weighting);
     const RowStatistics& rows = stacked ? *stacked : *first.rows;
-    const LinearProblem problem =
-        problem_of(first.columns, job.elastic, task.model, job.rig().linear_motion);
+    const LinearProblem problem = problem_of(first.columns, job.elastic, task.model);
     LinearSolution solution = solve(rows, problem);
     solution.profile = profile_intervals(rows, problem, solution, job.options.robust_sd);
-    add_estimates(rows, first.columns, solution, task.stage1(), task.model, job.rig().linear_motion,
-                  job.options.robust_sd, out.fit);
+    add_estimates(rows, first.columns, solution, task.stage1(), task.model, job.options.robust_sd,
+                  out.fit);
     influences.push_back(influence_of(rows, first.columns, solution, task.stage1(), task.model));
     const std::string reason = reason_for_sd(task, rows, first.columns, solution);
     for (const std::size_t k : system) {

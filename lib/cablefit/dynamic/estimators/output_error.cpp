@@ -149,7 +149,7 @@ std::string doubt(const EstimationTask& task, const EquationRows& e, Eigen::Inde
     return fmt::format("it is at the end of its range, {}: the logs do not determine it",
                        found.active_bound);
   if (is_inertia) {
-    std::string alias = inertia_alias(*e.rows, e.columns, k, task.job.rig().linear_motion);
+    std::string alias = inertia_alias(*e.rows, e.columns, k);
     if (!alias.empty()) return alias;
   }
   if (!oe.converged)
@@ -221,14 +221,14 @@ std::string per_axis(const EstimationTask& task, const Eigen::VectorXd& values) 
 
 void note_fit(const EstimationTask& task, const FittedRows& rows, const LoopPlan& loop,
               const OutputErrorFit& oe, Estimation& out) {
-  const bool linear = task.job.rig().linear_motion;
+  const Axes axes = task.job.rig().axes.all();
   out.decisions.push_back(
       {label(task, "output error"),
        fmt::format("{} rounds, {} simulations", oe.n_rounds, oe.n_passes),
        fmt::format("started from the wls fit; torque noise {} {} by maximum likelihood, encoder "
                    "noise {} {}; whitened residual {:.3g}{}",
-                   per_axis(task, oe.noise.force), linear ? "N" : "N m",
-                   per_axis(task, oe.noise.position), linear ? "m" : "rad", oe.residual_rms,
+                   per_axis(task, oe.noise.force), unit_for(axes, "N m"),
+                   per_axis(task, oe.noise.position), unit_for(axes, "rad"), oe.residual_rms,
                    rows.note)});
   if (!oe.instruments.empty())
     out.decisions.push_back({label(task, "instruments"),

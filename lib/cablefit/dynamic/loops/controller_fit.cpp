@@ -153,9 +153,9 @@ bool ControllerFit::fits() const {
                                 kControllerShare * kControllerShare * torque * torque;
 }
 
-std::string ControllerFit::text(bool linear_motion) const {
-  const char* const angle = linear_motion ? "m" : "rad";
-  const char* const unit = linear_motion ? "N" : "N m";
+std::string ControllerFit::text(Axes axes) const {
+  const std::string angle = unit_for(axes, "rad");
+  const std::string unit = unit_for(axes, "N m");
   std::string text = fmt::format("kp {:.4g} {}/{}, kd {:.4g} {} s/{}", controller.kp, unit, angle,
                                  controller.kd, unit, angle);
   const auto add = [&](const char* name, double gain, const std::string& of) {

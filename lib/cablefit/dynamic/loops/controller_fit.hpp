@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/samples/rows/row_stream.hpp"
 
 namespace cablefit {
@@ -21,7 +22,7 @@ struct ControllerFit {
   /// in squares.
   bool fits() const;
   /// "kp 424 N m/rad, kd 5.1 N m s/rad; torque within 0.33 N m rms, 1.1 sd of its noise"
-  std::string text(bool linear_motion) const;
+  std::string text(Axes axes) const;
 };
 inline constexpr double kControllerNoise = 2, kControllerShare = 0.05;
 

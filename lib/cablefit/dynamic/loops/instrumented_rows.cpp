@@ -76,7 +76,7 @@ std::vector<InstrumentedRows> collect_instrumented(const DynamicJob& job,
 
 LinearProblem instrumented_problem(const DynamicJob& job, const EquationRows& e,
                                    std::size_t which) {
-  LinearProblem problem = problem_of(e.columns, job.elastic, which, job.rig().linear_motion);
+  LinearProblem problem = problem_of(e.columns, job.elastic, which);
   problem.response.conservativeResizeLike(
       Eigen::VectorXd::Zero(e.columns.count + e.columns.n_effects));
   for (Eigen::Index k = 0; k < e.columns.n_effects; ++k)

@@ -221,13 +221,12 @@ void look_at_controller(const DynamicJob& job, std::span<const LogSurvey> logs, 
     some = stretches_of(logs, job.wanted, kControllerRows / all,
                         bridge_seconds(job.settings.rows.signal));
   const std::span<const LogSurvey> looked_at = some.empty() ? logs : some;
-  const bool linear = job.rig().linear_motion;
   if (plan.kind == LoopKind::known) {
     const std::optional<ControllerFit> given = check_controller(looked_at, job.wanted);
     if (!given || given->fits()) return;
     plan.kind = LoopKind::surrogate;
     plan.reason = fmt::format("the rig's controller does not reproduce the log's torque ({})",
-                              given->text(linear));
+                              given->text(job.rig().axes.all()));
     plan.warnings.push_back(plan.reason + ": it is not used; check its gains, units and reference");
   }
   const std::optional<ControllerFit> found = fit_controller(looked_at, job.wanted);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/model/effects.hpp"
 #include "cablefit/model/motion_part.hpp"
 #include "cablefit/samples/rows/signals.hpp"
@@ -18,6 +19,7 @@ namespace cablefit {
 struct DynamicParameter {
   ParameterInfo info;
   std::string name;             ///< with the joint's index when there are several
+  Axes axes = Axes::rotary;     ///< of its joint; an arm's base parameters have their own unit
   bool is_inertia = false;      ///< of one axis
   std::optional<double> given;  ///< by the rig file or a model, so not estimated
   MotionPart follows = MotionPart::several;
@@ -26,6 +28,7 @@ struct DynamicParameter {
   bool is_nonlinear = false;
   double origin = 0, lowest = -kUnbounded, highest = kUnbounded;
 
+  std::string unit() const { return unit_for(axes, info.unit); }
   /// The value after a step from the origin. A step is at most half of the value, or half of the
   /// range where the range contains 0. The value stays in the range.
   double moved(double step) const;

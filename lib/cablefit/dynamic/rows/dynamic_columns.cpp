@@ -84,7 +84,8 @@ void add_effects(DynamicColumns& c, int joint) {
     if (joint == c.place.joint) c.effects.push_back(&effect);
     const ParameterInfo& info = effect.parameters.front();
     c.parameters.push_back({info, joint_parameter_name(info.name, joint + 1, c.place.n_joints),
-                            is_inertia, given_inertia(c, effect, joint), effect.follows});
+                            c.place.axes.of(joint), is_inertia, given_inertia(c, effect, joint),
+                            effect.follows});
   }
 }
 
@@ -92,7 +93,10 @@ void add_effects(DynamicColumns& c, int joint) {
 void add_added(DynamicColumns& c, std::span<const EffectInstance> added) {
   c.added = effects_of_side(added, c.side);
   for (const AddedEffect& effect : c.added)
-    for (DynamicParameter& p : parameters_of(effect)) c.parameters.push_back(std::move(p));
+    for (DynamicParameter& p : parameters_of(effect)) {
+      p.axes = c.place.axes.of(c.place.joint);
+      c.parameters.push_back(std::move(p));
+    }
 }
 
 void add_parameters(DynamicColumns& c, std::span<const EffectInstance> added) {
@@ -101,7 +105,8 @@ void add_parameters(DynamicColumns& c, std::span<const EffectInstance> added) {
     return add_added(c, added);
   }
   for (const ParameterInfo& info : c.place.arm->base_parameters())
-    c.parameters.push_back({info, std::string(info.name), false, {}, MotionPart::joints});
+    c.parameters.push_back(
+        {info, std::string(info.name), Axes::rotary, false, {}, MotionPart::joints});
   c.n_arm = static_cast<Eigen::Index>(c.parameters.size());
   for (int joint = 0; joint < c.place.n_joints; ++joint) add_effects(c, joint);
 }
@@ -159,11 +164,10 @@ DynamicColumns dynamic_columns(Side side, const std::vector<const ElasticFit*>& 
   return c;
 }
 
-MotionColumn motion_column(const DynamicColumns& columns, std::size_t parameter,
-                           bool linear_motion) {
-  const MotionPart part = columns.parameters[parameter].follows;
+MotionColumn motion_column(const DynamicColumns& columns, std::size_t parameter) {
+  const DynamicParameter& p = columns.parameters[parameter];
   const bool weighted = columns.n_arm > 0;
-  return {part, weighted ? "" : std::string(motion_unit(part, linear_motion))};
+  return {p.follows, weighted ? "" : motion_unit(p.follows, p.axes)};
 }
 
 void effect_columns(const DynamicColumns& c, const Signals& signals, std::size_t joint,

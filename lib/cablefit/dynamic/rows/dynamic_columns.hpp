@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/dynamic/rows/added_effects.hpp"
 #include "cablefit/elastic/elastic_result.hpp"
 #include "cablefit/elastic/rows/elastic_columns.hpp"
@@ -25,6 +26,7 @@ enum class ElasticDetail { coefficients, torque };
 struct JointPlace {
   int joint = 0, n_joints = 1;
   const Arm* arm = nullptr;
+  JointAxes axes = JointAxes();
 };
 
 /// The link equations of coupled joints have the same columns, so that their rows can be stacked:
@@ -73,8 +75,7 @@ Eigen::VectorXd dynamic_response(const DynamicColumns& columns,
 
 /// The part of the motion that the column of a parameter follows. Stacked rows of several joints
 /// are weighted, so their sizes do not describe the motion.
-MotionColumn motion_column(const DynamicColumns& columns, std::size_t parameter,
-                           bool linear_motion);
+MotionColumn motion_column(const DynamicColumns& columns, std::size_t parameter);
 
 /// Writes finite values of the effects' columns into the members of `added`.
 void take_values(const DynamicColumns& columns, const Eigen::VectorXd& x,

@@ -41,8 +41,8 @@ void widen(const Eigen::MatrixXd& rows, EquationRows& e) {
 EquationRows make_equation(const DynamicJob& job, ElasticDetail detail, Side side, int joint) {
   const ChosenSettings& settings = job.settings_of(joint);
   EquationRows e;
-  e.columns = dynamic_columns(side, job.elastic, detail, {joint, job.n_joints(), job.arm()},
-                              {job.added, {}});
+  e.columns = dynamic_columns(side, job.elastic, detail,
+                              {joint, job.n_joints(), job.arm(), job.rig().axes}, {job.added, {}});
   const double rest = side == Side::link ? settings.rest_speed_q : settings.rest_speed_theta;
   e.equation = dynamic_equation(e.columns, job.elastic, job.settings.rows.signal.torque_held, rest);
   if (side == Side::link) {
@@ -180,15 +180,14 @@ WindowCounts collect_rows(const DynamicJob& job, std::vector<EquationRows>& equa
 }
 
 LinearProblem problem_of(const DynamicColumns& columns,
-                         const std::vector<const ElasticFit*>& elastic, std::size_t which,
-                         bool linear_motion) {
+                         const std::vector<const ElasticFit*>& elastic, std::size_t which) {
   LinearProblem problem;
   problem.response = dynamic_response(columns, elastic, which);
   for (const DynamicParameter& parameter : columns.parameters) {
     const auto k = static_cast<Eigen::Index>(problem.regressors.size());
     problem.regressors.push_back(k);
     problem.names.push_back(parameter.name);
-    problem.motion.push_back(motion_column(columns, static_cast<std::size_t>(k), linear_motion));
+    problem.motion.push_back(motion_column(columns, static_cast<std::size_t>(k)));
     problem.lower.push_back(parameter.info.lower);
     problem.held.emplace_back(!parameter.given       ? ""
                               : parameter.is_inertia ? "given by the rig file"
@@ -199,9 +198,8 @@ LinearProblem problem_of(const DynamicColumns& columns,
 }
 
 LinearSolution solve_rows(const RowStatistics& rows, const DynamicColumns& columns,
-                          const std::vector<const ElasticFit*>& elastic, std::size_t which,
-                          bool linear_motion) {
-  return solve(rows, problem_of(columns, elastic, which, linear_motion));
+                          const std::vector<const ElasticFit*>& elastic, std::size_t which) {
+  return solve(rows, problem_of(columns, elastic, which));
 }
 
 LinearSolution solve_equation(const EquationRows& e, const std::vector<const ElasticFit*>& elastic,

@@ -83,13 +83,11 @@ RowStatistics stacked_rows(const std::vector<EquationRows>& equations,
 
 /// The least-squares problem of model number `which` for rows of these columns.
 LinearProblem problem_of(const DynamicColumns& columns,
-                         const std::vector<const ElasticFit*>& elastic, std::size_t which,
-                         bool linear_motion = false);
+                         const std::vector<const ElasticFit*>& elastic, std::size_t which);
 
 /// The fit of model number `which` to rows of these columns.
 LinearSolution solve_rows(const RowStatistics& rows, const DynamicColumns& columns,
-                          const std::vector<const ElasticFit*>& elastic, std::size_t which,
-                          bool linear_motion = false);
+                          const std::vector<const ElasticFit*>& elastic, std::size_t which);
 
 /// The fit of model number `which` to one equation.
 LinearSolution solve_equation(const EquationRows& equation,

@@ -107,7 +107,7 @@ TorqueDelay find_delay(const DynamicJob& job) {
     rows.signal.cutoff = own.rows.signal.cutoff;
     TorqueDelay delay = estimate_torque_delay(
         job.logs, job.wanted, rows, own.rest_speed_theta, job.rigid ? Side::rigid : Side::motor,
-        job.rigid ? nullptr : job.elastic.back(), {joint, n, nullptr});
+        job.rigid ? nullptr : job.elastic.back(), {joint, n, nullptr, job.rig().axes});
     if (n > 1) delay.reason = fmt::format("joint {}: {}", joint + 1, delay.reason);
     if (!best || (delay.estimated && (!best->estimated || delay.sd < best->sd)))
       best = std::move(delay);

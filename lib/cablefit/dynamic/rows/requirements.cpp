@@ -63,7 +63,7 @@ std::string hidden_motion(const DynamicJob& job, const Equation& equation, doubl
                           double rate) {
   const double error = equation.rest_speed;
   if (!(speed > 0) || error <= kHiddenShare * speed) return "";
-  const char* const unit = job.rig().linear_motion ? "m/s" : "rad/s";
+  const std::string unit = unit_for(job.rig().axes.all(), "rad/s");
   return fmt::format(
       "the speed's error on the {} side ({:.2g} {}) hides the motion ({:.2g} {}): encoder jumps{}, "
       "or too slow a motion; look at the positions, or set --rest-speed",
@@ -94,7 +94,7 @@ std::string lowered_cutoff(const DynamicJob& job, const EquationRows& e, double 
   return fmt::format(
       "the noise of {} ({:.2g} {}) lowers the cut-off to {:.2g} Hz, too low for the motion on the "
       "{} side: encoder jumps{}; look at the positions, or set --cutoff",
-      channel_name(*channel), noise, job.rig().linear_motion ? "m" : "rad",
+      channel_name(*channel), noise, unit_for(job.rig().axes.of(joint), "rad"),
       *channel == Channel::q ? settings.cutoff_q : settings.rows.signal.cutoff, e.equation.name,
       rate_too_low(rate));
 }
@@ -154,7 +154,7 @@ std::string stillness_of(const DynamicJob& job, int joint) {
     if (travel->most > travel->of_noise) return "";
     text += fmt::format("{}{}{} {}{:.2g} {}", text.empty() ? "" : ", ", channel_name(channel),
                         joint + 1, text.empty() ? "moves " : "", travel->most,
-                        job.rig().linear_motion ? "m" : "rad");
+                        unit_for(job.rig().axes.of(joint), "rad"));
   }
   return text;
 }

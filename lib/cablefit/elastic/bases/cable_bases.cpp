@@ -240,7 +240,7 @@ BasisScore score_of(const BasisRows& basis, const CableBasis& dictionary, const 
 std::vector<CableAtom> atoms_of(const CableBasis& dictionary, const ElasticJob& job,
                                 const BlockedRows& rows, const ElasticCandidate& cables) {
   const Rig& rig = job.rig();
-  const char* unit = rig.cables_given || rig.linear_motion ? "mm" : "mrad";
+  const std::string unit = rig.cables_given ? "mm" : unit_for(rig.axes.all(), "mrad");
   std::vector<CableAtom> atoms;
   std::size_t first = 0;
   for (std::size_t c = 0; c < cables.transmission.cables.size(); ++c) {

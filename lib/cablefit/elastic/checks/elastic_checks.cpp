@@ -45,7 +45,7 @@ void check_passive(ElasticFit& fit, std::span<const double> all_longest,
 void select_model(ElasticPreload& preload, double materiality) {
   const ElasticFit& linear = preload.fits.front();
   const ElasticFit& poly = preload.fits.back();
-  const char* unit = preload.linear_motion ? "N" : "N m";
+  const std::string unit = unit_for(preload.axes, "N m");
   const double allowed = materiality * preload.peak_torque;
   const double best = std::min(linear.held_out_max, poly.held_out_max);
   const bool linear_will_do = linear.held_out_max <= best + allowed;
@@ -65,7 +65,7 @@ void select_model(ElasticPreload& preload, double materiality) {
 void select_joint_model(ElasticPreload& preload, double materiality) {
   const ElasticFit& linear = preload.fits.front();
   const ElasticFit& poly = preload.fits.back();
-  const char* unit = preload.linear_motion ? "N" : "N m";
+  const std::string unit = unit_for(preload.axes, "N m");
   bool linear_will_do = true;
   for (std::size_t k = 0; k < preload.joints.size(); ++k) {
     const double allowed = materiality * preload.joints[k].peak_torque;
@@ -90,8 +90,8 @@ bool depends_on_path(const LoopSeen& loop) {
   return left > kPathShare && (share > kLoopShare || left > kLoopShare);
 }
 
-std::vector<std::string> loop_warnings(const LoopSeen& loop, bool linear_motion) {
-  const char* unit = linear_motion ? "N" : "N m";
+std::vector<std::string> loop_warnings(const LoopSeen& loop, Axes axes) {
+  const std::string unit = unit_for(axes, "N m");
   std::vector<std::string> warnings;
   if (depends_on_path(loop))
     warnings.push_back(
@@ -133,7 +133,7 @@ void add_loop(double left, ElasticPreload& preload) {
 void note_misfit(ElasticPreload& preload) {
   const ElasticMisfit& misfit = misfit_of_selected(preload);
   if (misfit.empty()) return;
-  const char* unit = preload.linear_motion ? "N" : "N m";
+  const std::string unit = unit_for(preload.axes, "N m");
   preload.decisions.push_back({"misfit of the " + preload.selected + " fit",
                                fmt::format("a curve of up to {:.2g} {}, a loop of +-{:.2g} {}",
                                            largest(misfit, &MisfitPoint::torque), unit,
@@ -149,7 +149,7 @@ void note_loop(ElasticPreload& preload, double left, bool plateaus) {
   preload.loop_half_width =
       friction != nullptr && friction->not_identifiable.empty() ? friction->value : 0;
   const LoopSeen loop{preload.loop_half_width, preload.peak_torque, left, plateaus};
-  for (std::string& warning : loop_warnings(loop, preload.linear_motion))
+  for (std::string& warning : loop_warnings(loop, preload.axes))
     preload.warnings.push_back(std::move(warning));
   if (depends_on_path(loop)) add_loop(left, preload);
   note_misfit(preload);
@@ -186,7 +186,7 @@ void note_imbalance(ElasticPreload& preload) {
     if (!cables.parameters[static_cast<std::size_t>(k)].not_identifiable.empty()) return;
   for (const Imbalance& imbalance : imbalances(cables.transmission))
     preload.warnings.push_back(
-        imbalance_text(imbalance, cables.transmission.n_joints, preload.linear_motion));
+        imbalance_text(imbalance, cables.transmission.n_joints, preload.axes));
 }
 
 }  // namespace cablefit

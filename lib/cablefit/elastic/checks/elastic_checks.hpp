@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/elastic/elastic_result.hpp"
 #include "cablefit/elastic/models/passivity.hpp"
 #include "cablefit/elastic/rows/elongation_range.hpp"
@@ -30,7 +31,7 @@ struct LoopSeen {
 /// What is left beyond a constant friction band is large beside the peak torque.
 bool depends_on_path(const LoopSeen& loop);
 /// Warnings of a torque that depends on the path, and of plateaus.
-std::vector<std::string> loop_warnings(const LoopSeen& loop, bool linear_motion);
+std::vector<std::string> loop_warnings(const LoopSeen& loop, Axes axes);
 
 /// Fills loop_half_width; warns when the torque depends on the path, and adds a loop as wide as
 /// `left` to the misfit of the selected fit where that has none. `left`: N m rms, by that fit.

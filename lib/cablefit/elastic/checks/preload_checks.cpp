@@ -55,8 +55,8 @@ void note_reduction(const ElasticJob& job, ElasticPreload& preload) {
 ElasticPreload begin_preload(const ElasticJob& job, const std::string& name) {
   ElasticPreload preload;
   preload.name = name;
-  preload.linear_motion = job.rig().linear_motion;
-  preload.unit = preload.linear_motion ? "m" : "rad";
+  preload.axes = job.rig().axes.all();
+  preload.unit = unit_for(preload.axes, "rad");
   preload.rig_path = job.rig().path;
   preload.rig_facts = elastic_facts(job.rig());
   preload.decisions = job.settings.decisions;

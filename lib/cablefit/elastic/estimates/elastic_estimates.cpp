@@ -50,7 +50,7 @@ int joint_of(const std::string& name) {
 /// Linear spring with an arbitrary encoder zero: K phi + c = K (phi - theta_0), theta_0 = -c/K, by
 /// the delta method. `k`, `constant`: places of K and c.
 Estimate zero_of_line(const LinearSolution& s, Eigen::Index k, Eigen::Index constant, double zero,
-                      bool linear_motion, bool robust) {
+                      Axes axes, bool robust) {
   const double stiffness = s.x(k);
   const double by_stiffness = s.x(constant) / (stiffness * stiffness);
   const double by_constant = -1 / stiffness;
@@ -61,7 +61,7 @@ Estimate zero_of_line(const LinearSolution& s, Eigen::Index k, Eigen::Index cons
   };
   Estimate e;
   e.name = e.symbol = "theta_0";
-  e.unit = linear_motion ? "m" : "rad";
+  e.unit = unit_for(axes, "rad");
   e.value = zero - s.x(constant) / stiffness;
   e.sd_white = sd(s.covariance_white);
   e.sd = robust ? sd(s.covariance) : e.sd_white;
@@ -116,7 +116,7 @@ std::string coefficients_text(const ElasticFit& fit, const Cable& cable, bool ca
 void note_active_bounds(const ElasticJob& job, const ElasticCandidate& candidate,
                         const LinearSolution& s, const BlockedRows& rows, ElasticFit& fit) {
   const Rig& rig = job.rig();
-  const ElongationUnit unit{rig.cables_given, rig.linear_motion};
+  const ElongationUnit unit{rig.cables_given, rig.axes.all()};
   for (const Eigen::Index i : s.active_constraints) {
     const PullBound& bound = candidate.pull.bounds[static_cast<std::size_t>(i)];
     fit.active_bounds.push_back(fmt::format("cable {}: k(l) >= 0 at l = {}",
@@ -134,7 +134,7 @@ void note_active_bounds(const ElasticJob& job, const ElasticCandidate& candidate
                     ">= 0 is imposed: rms error {:.3g} instead of {:.3g} {}, sd given the active "
                     "bounds; --unconstrained gives the plain fit",
                     coefficients_text(fit, cable, rig.cables_given), push_text(cable, *push, unit),
-                    s.rms(), plain.rms(), rig.linear_motion ? "N" : "N m"));
+                    s.rms(), plain.rms(), torque_unit(rig.axes.all())));
   }
 }
 
@@ -154,7 +154,7 @@ std::vector<Estimate> derived_of(const ElasticJob& job, const LinearSolution& s,
   from.degrees_of_freedom = s.degrees_of_freedom;
   std::vector<Estimate> all;
   for (const DerivedQuantity& quantity :
-       elastic_quantities(fit.transmission, job.rig().cables_given, job.rig().linear_motion,
+       elastic_quantities(fit.transmission, job.rig().cables_given, job.rig().axes,
                           {rows.deflection_low, rows.deflection_high}, from)) {
     all.push_back(derive(quantity, from));
     if (!std::isfinite(all.back().value) || !(all.back().sd > 0)) all.pop_back();
@@ -167,12 +167,19 @@ bool is_speed(const ElasticCandidate& candidate, std::size_t k) {
   return k >= candidate.n_elastic && without_index(candidate.names[k]) == "f_vm";
 }
 
+/// Of the joint that candidate.names[k] belongs to.
+Axes axes_at(const ElasticCandidate& candidate, std::size_t k, const JointAxes& joints) {
+  if (const auto coefficient = coefficient_at(candidate, k))
+    return axes_of(joints, candidate.transmission.cables[coefficient->cable]);
+  return joints.of(joint_of(candidate.names[k]));
+}
+
 }  // namespace
 
 Estimate missing_friction(const ElasticJob& job, int joint) {
   Estimate e;
   e.name = e.symbol = joint_parameter_name("f_sm", joint + 1, job.basis.n_joints);
-  e.unit = job.rig().linear_motion ? "N" : "N m";
+  e.unit = torque_unit(job.rig().axes.of(joint));
   e.not_identifiable = job.basis.n_joints > 1
                            ? fmt::format("theta{} moves in one direction only", joint + 1)
                            : "theta moves in one direction only";
@@ -199,15 +206,16 @@ ElasticFit make_fit(const ElasticJob& job, const ElasticCandidate& candidate,
     if (is_speed(candidate, k)) continue;  // a sweep this slow only keeps it out of f_sm
     const auto index = static_cast<Eigen::Index>(k);
     const std::string unit = unit_of(candidate, k, rig.cables_given);
-    Estimate e = estimate_of({name, name, unit, "", candidate.lower[k]}, rig.linear_motion, s,
-                             index, {job.options.robust_sd});
+    const Axes axes = axes_at(candidate, k, rig.axes);
+    Estimate e = estimate_of({name, name, unit, "", candidate.lower[k]}, axes, s, index,
+                             {job.options.robust_sd});
     const bool is_nuisance = k >= candidate.n_elastic;
     const int joint = is_nuisance ? joint_of(name) : 0;
     const double zero = rows.transmission.theta_0(joint);
     const bool is_zero = is_nuisance && without_index(name) == "theta_0";
     if (is_nuisance && without_index(name) == "offset" &&
         nuisance[static_cast<std::size_t>(joint)].theta_0) {
-      e = zero_of_line(s, joint, index, zero, rig.linear_motion, job.options.robust_sd);
+      e = zero_of_line(s, joint, index, zero, axes, job.options.robust_sd);
       e.name = e.symbol = joint_parameter_name("theta_0", joint + 1, job.basis.n_joints);
     } else if (is_zero) {
       e.value += zero;

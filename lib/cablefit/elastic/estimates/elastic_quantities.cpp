@@ -69,10 +69,15 @@ TransmissionOf transmission_of(const Transmission& transmission, bool cable_spac
 
 namespace {
 
+/// Of the torque of one joint against the angle of another: "N/rad", "N m/m".
+std::string stiffness_unit(Axes torque, Axes angle) {
+  return torque_unit(torque) + "/" + unit_for(angle, "rad");
+}
+
 /// d tau_m/dtheta at rest of several joints, symmetric: "K_rest[1,2]". Without preload no cable is
 /// taut there, and there is none.
 std::vector<DerivedQuantity> rest_matrix(const Transmission& transmission, bool cable_space,
-                                         bool linear_motion, const JointEstimates& from) {
+                                         const JointAxes& axes, const JointEstimates& from) {
   std::vector<DerivedQuantity> all;
   if (!is_preloaded(transmission)) return all;
   const TransmissionOf changed = transmission_of(transmission, cable_space, from);
@@ -81,7 +86,7 @@ std::vector<DerivedQuantity> rest_matrix(const Transmission& transmission, bool 
   for (Eigen::Index i = 0; i < transmission.n_joints; ++i)
     for (Eigen::Index j = i; j < transmission.n_joints; ++j)
       all.push_back({fmt::format("K_rest[{},{}]", i + 1, j + 1), "K_rest",
-                     linear_motion ? "N/m" : "N m/rad",
+                     stiffness_unit(axes.of(static_cast<int>(i)), axes.of(static_cast<int>(j))),
                      [changed, q, theta, i, j](const Eigen::VectorXd& v) {
                        return stiffness_matrices(changed(v), q, theta).motor_theta(i, j);
                      }});
@@ -91,23 +96,25 @@ std::vector<DerivedQuantity> rest_matrix(const Transmission& transmission, bool 
 }  // namespace
 
 std::vector<DerivedQuantity> elastic_quantities(const Transmission& transmission, bool cable_space,
-                                                bool linear_motion, const UsedDeflections& used,
+                                                const JointAxes& joint_axes,
+                                                const UsedDeflections& used,
                                                 const JointEstimates& from) {
   std::vector<DerivedQuantity> all;
   if (transmission.cables.empty()) return all;
-  if (transmission.n_joints > 1) return rest_matrix(transmission, cable_space, linear_motion, from);
+  if (transmission.n_joints > 1) return rest_matrix(transmission, cable_space, joint_axes, from);
+  const Axes axes = joint_axes.all();
   const TransmissionOf changed = transmission_of(transmission, cable_space, from);
-  all.push_back({"K_rest", "K_rest", linear_motion ? "N/m" : "N m/rad",
+  all.push_back({"K_rest", "K_rest", unit_for(axes, "N m/rad"),
                  [changed](const Eigen::VectorXd& v) { return rest_stiffness(changed(v)); }});
   if (!is_preloaded(transmission)) return all;
   for (const SlackPoint& point : slack_points(transmission, used.low, used.high)) {
     std::string cable = fmt::format("[{}]", transmission.cables[point.cable].name);
     if (all.back().name == "tau_slack" + cable) cable += "'";  // taut in a range only
-    all.push_back({"phi_slack" + cable, "phi_slack", linear_motion ? "m" : "rad",
+    all.push_back({"phi_slack" + cable, "phi_slack", unit_for(axes, "rad"),
                    [changed, used, point](const Eigen::VectorXd& v) {
                      return slack_value(changed(v), used, point, &SlackPoint::deflection);
                    }});
-    all.push_back({"tau_slack" + cable, "tau_slack", linear_motion ? "N" : "N m",
+    all.push_back({"tau_slack" + cable, "tau_slack", unit_for(axes, "N m"),
                    [changed, used, point](const Eigen::VectorXd& v) {
                      return slack_value(changed(v), used, point, &SlackPoint::motor);
                    }});

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/estimate/fit/derived_quantity.hpp"
 #include "cablefit/model/cables.hpp"
 
@@ -27,7 +28,7 @@ TransmissionOf transmission_of(const Transmission& transmission, bool cable_spac
 /// K_rest of fitted cables; of a preloaded pair also the deflection and the torque at which each
 /// cable goes slack ("phi_slack[1]", "tau_slack[1]"). Of several preloaded joints K_rest[i,j].
 std::vector<DerivedQuantity> elastic_quantities(const Transmission& transmission, bool cable_space,
-                                                bool linear_motion, const UsedDeflections& used,
+                                                const JointAxes& axes, const UsedDeflections& used,
                                                 const JointEstimates& from);
 
 }  // namespace cablefit

@@ -21,7 +21,7 @@ Figure basis_stiffness(const ElasticPreload& preload) {
       "The slope of the elastic torque, each basis with the number of terms that block "
       "cross-validation chose.");
   figure.x = {"deflection theta - q", preload.unit};
-  figure.y = {"stiffness", preload.linear_motion ? "N/m" : "N m/rad"};
+  figure.y = {"stiffness", unit_for(preload.axes, "N m/rad")};
   int series = 0;
   for (const BasisScore& score : preload.bases->scores)
     figure.traces.push_back({score.basis,
@@ -41,7 +41,7 @@ Figure basis_errors(const ElasticPreload& preload) {
       "On held-out blocks; terms chosen and fitted without them. Dashed: scatter about short "
       "lines, which no curve explains.");
   figure.x = {"terms of all cables", ""};
-  figure.y = {"error on held-out blocks, rms", preload.linear_motion ? "N" : "N m", true};
+  figure.y = {"error on held-out blocks, rms", unit_for(preload.axes, "N m"), true};
   double most = 0;
   int series = 0;
   for (const BasisScore& score : preload.bases->scores) {

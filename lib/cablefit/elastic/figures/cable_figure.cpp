@@ -64,7 +64,7 @@ Trace curve(std::string name, TraceStyle style, int series, const std::vector<do
 
 }  // namespace
 
-Figure cable_figure(const Transmission& transmission, double low, double high, bool linear_motion,
+Figure cable_figure(const Transmission& transmission, double low, double high, Axes axes,
                     std::span<const ComparedModel> compared) {
   Figure figure;
   figure.title = "Elastic torque of each cable";
@@ -72,8 +72,8 @@ Figure cable_figure(const Transmission& transmission, double low, double high, b
       "The fitted cables without friction and offset. Dotted line: there the cable "
       "of that name goes slack.";
   figure.wide = true;
-  figure.x = {"deflection theta - q", linear_motion ? "m" : "rad"};
-  figure.y = {"elastic torque on the motor", linear_motion ? "N" : "N m"};
+  figure.x = {"deflection theta - q", unit_for(axes, "rad")};
+  figure.y = {"elastic torque on the motor", unit_for(axes, "N m")};
   std::vector<double> phi;
   for (int i = 0; i <= kSteps; ++i) phi.push_back(low + (high - low) * i / kSteps);
   const auto total = [](const Transmission& of) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/figure/figure.hpp"
 #include "cablefit/model/cables.hpp"
 
@@ -20,12 +21,12 @@ struct ComparedModel {
 /// from `low` to `high`), the link in its reference position; marks where a cable goes slack, an
 /// area for the deflections and torques between which all are taut, and by name which cables are
 /// slack beside it. One joint. Section and group are left to the caller.
-Figure cable_figure(const Transmission& transmission, double low, double high, bool linear_motion,
+Figure cable_figure(const Transmission& transmission, double low, double high, Axes axes,
                     std::span<const ComparedModel> compared = {});
 
 /// The stiffness d tau_elas_m / d theta of the cables against the same deflections, with the
 /// others, the area and the marks of cable_figure().
-Figure stiffness_figure(const Transmission& transmission, double low, double high,
-                        bool linear_motion, std::span<const ComparedModel> compared = {});
+Figure stiffness_figure(const Transmission& transmission, double low, double high, Axes axes,
+                        std::span<const ComparedModel> compared = {});
 
 }  // namespace cablefit

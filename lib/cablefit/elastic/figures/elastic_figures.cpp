@@ -143,7 +143,7 @@ ScanPlan scan_plan(const ElasticPreload& preload, const std::string& section,
   plan.section = section;
   plan.group = "Blocked link: residuals";
   plan.measured = "motor torque tau";
-  plan.unit = preload.linear_motion ? "N" : "N m";
+  plan.unit = unit_for(preload.axes, "N m");
   for (std::size_t k = 0; k < preload.fits.size(); ++k)
     plan.models.push_back({model_text(preload.fits[k]), static_cast<int>(k) + 1, kTau,
                            residual_of(k), solutions[k].rms()});
@@ -195,11 +195,10 @@ std::vector<Figure> elastic_figures(const ElasticJob& job, const BlockedRows& ro
   };
   if (cables.n_joints == 1)
     for (const auto draw : {cable_figure, stiffness_figure})
-      push_back(draw(cables, preload.deflection_low, preload.deflection_high, preload.linear_motion,
-                     compared));
-  Figure map =
-      mode_figure(cables, joint, seen_range(job.logs, job.wanted, Channel::q, joint),
-                  seen_range(job.logs, job.wanted, Channel::theta, joint), preload.linear_motion);
+      push_back(
+          draw(cables, preload.deflection_low, preload.deflection_high, preload.axes, compared));
+  Figure map = mode_figure(cables, joint, seen_range(job.logs, job.wanted, Channel::q, joint),
+                           seen_range(job.logs, job.wanted, Channel::theta, joint), preload.axes);
   map.traces.push_back(curves.positions());
   push_back(std::move(map));
   for (Figure& figure : residuals.figures()) figures.push_back(std::move(figure));

@@ -103,7 +103,7 @@ std::string caption(const Transmission& transmission, bool in_one_place) {
 }  // namespace
 
 Figure mode_figure(const Transmission& transmission, int joint, ChannelRange q, ChannelRange theta,
-                   bool linear_motion) {
+                   Axes axes) {
   const double way = ways_of_q(transmission, joint) * theta.width();
   const bool in_one_place = q.width() < way / 2;
   ReferencePose pose{transmission.reference_q(),
@@ -116,7 +116,7 @@ Figure mode_figure(const Transmission& transmission, int joint, ChannelRange q, 
   figure.title = "Force closure and disclosure over q and theta";
   figure.caption = caption(transmission, in_one_place);
   figure.wide = true;
-  const std::string unit = linear_motion ? "m" : "rad";
+  const std::string unit = unit_for(axes, "rad");
   figure.x = {"link position q", unit};
   figure.y = {"motor position theta", unit};
   if (Trace area = closure_area(map, cables); !area.x.empty())

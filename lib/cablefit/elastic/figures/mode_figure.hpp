@@ -1,6 +1,7 @@
 // Force closure and disclosure over the positions of a joint, Fichera & Grossard 2017, (12)-(13).
 #pragma once
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/figure/figure.hpp"
 #include "cablefit/model/cables.hpp"
 #include "cablefit/samples/survey/survey.hpp"
@@ -13,6 +14,6 @@ namespace cablefit {
 /// as much of q is shown as moves the cables as far as theta did. Lines are linear between 121
 /// places each way: exact for round pulleys. Section and group are left to the caller.
 Figure mode_figure(const Transmission& transmission, int joint, ChannelRange q, ChannelRange theta,
-                   bool linear_motion);
+                   Axes axes);
 
 }  // namespace cablefit

@@ -40,16 +40,16 @@ double largest_of(const Figure& figure) {
 
 }  // namespace
 
-Figure stiffness_figure(const Transmission& transmission, double low, double high,
-                        bool linear_motion, std::span<const ComparedModel> compared) {
+Figure stiffness_figure(const Transmission& transmission, double low, double high, Axes axes,
+                        std::span<const ComparedModel> compared) {
   Figure figure;
   figure.title = "Stiffness against deflection";
   figure.caption =
       "The slope of the elastic torque. It falls where a cable goes slack: force closure in the "
       "grey box, force disclosure beyond. The classical linear model has one value for all.";
   figure.wide = true;
-  figure.x = {"deflection theta - q", linear_motion ? "m" : "rad"};
-  figure.y = {"stiffness", linear_motion ? "N/m" : "N m/rad"};
+  figure.x = {"deflection theta - q", unit_for(axes, "rad")};
+  figure.y = {"stiffness", unit_for(axes, "N m/rad")};
   const std::vector<CableZone> zones = zones_of(transmission, low, high);
   const std::vector<double> phi = positions_of(zones);
   figure.traces = {trace_of(transmission, "all cables", TraceStyle::broad, kMeasured, phi)};

@@ -46,14 +46,14 @@ ElasticScore score_of(const Scored& curve, const BlockedRows& rows, bool is_test
           errors.at};
 }
 
-std::string range_text(const std::pair<double, double>& range, bool linear_motion) {
+std::string range_text(const std::pair<double, double>& range, Axes axes) {
   return fmt::format("{:.4g} .. {:.4g} {}", 1e3 * range.first, 1e3 * range.second,
-                     linear_motion ? "mm" : "mrad");
+                     unit_for(axes, "mrad"));
 }
 
 /// The rows with deflections in the range.
 BlockedRows rows_within(const BlockedRows& rows, const std::pair<double, double>& range,
-                        bool linear_motion) {
+                        Axes axes) {
   const Eigen::Index phi = rows.columns.deflection;
   BlockedRows within = rows_where(rows, [&](const Eigen::Ref<const Eigen::RowVectorXd>& row) {
     return row(phi) >= range.first && row(phi) <= range.second;
@@ -62,8 +62,8 @@ BlockedRows rows_within(const BlockedRows& rows, const std::pair<double, double>
     throw Error(
         ErrorKind::input,
         fmt::format("--linear-range: {} samples have a deflection of {}; give a range within {}",
-                    within.rows->n_rows(), range_text(range, linear_motion),
-                    range_text({rows.deflection_low, rows.deflection_high}, linear_motion)));
+                    within.rows->n_rows(), range_text(range, axes),
+                    range_text({rows.deflection_low, rows.deflection_high}, axes)));
   return within;
 }
 
@@ -108,12 +108,12 @@ std::vector<Scored> curves_of(const ElasticJob& job, const BlockedRows& rows,
                               const LinearSolution& solution) {
   const BlockedRows elastic = without_friction(rows, cables, solution);
   const Lines lines(elastic, find_estimate(preload.fits.back().parameters, "theta_0") != nullptr);
-  const bool linear_motion = job.rig().linear_motion;
+  const Axes axes = job.rig().axes.all();
   const double fitted = preload.fits.front().transmission.linear_stiffness(0);
   std::vector<Scored> curves = {lines.with_slope("all samples", fitted)};
   for (const std::pair<double, double>& range : job.options.lines.ranges)
-    curves.push_back(lines.with_slope(range_text(range, linear_motion),
-                                      lines.slope_of(rows_within(elastic, range, linear_motion))));
+    curves.push_back(lines.with_slope(range_text(range, axes),
+                                      lines.slope_of(rows_within(elastic, range, axes))));
   for (const double k : job.options.lines.stiffnesses)
     curves.push_back(lines.with_slope("given", k));
   curves.push_back({model_text(preload.fits.back()), "all samples",

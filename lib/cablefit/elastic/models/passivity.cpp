@@ -92,7 +92,7 @@ std::optional<Push> find_push(const Cable& cable, double longest) {
 }
 
 std::string ElongationUnit::text(double elongation) const {
-  return fmt::format("{:.3g} {}", 1e3 * elongation, cable_space || linear_motion ? "mm" : "mrad");
+  return fmt::format("{:.3g} {}", 1e3 * elongation, cable_space ? "mm" : unit_for(axes, "mrad"));
 }
 
 std::string ElongationUnit::text(double from, double to) const {
@@ -101,7 +101,7 @@ std::string ElongationUnit::text(double from, double to) const {
 
 std::string ElongationUnit::stiffness() const {
   const std::string unit = cable_space ? "N/m" : "N m/rad";
-  return linear_motion ? linear_unit(unit) : unit;
+  return unit_for(axes, unit);
 }
 
 std::string push_text(const Cable& cable, const Push& push, const ElongationUnit& unit) {

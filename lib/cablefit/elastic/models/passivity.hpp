@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/model/cables.hpp"
 
 namespace cablefit {
@@ -44,7 +45,8 @@ std::optional<Push> find_push(const Cable& cable, double longest);
 
 /// "0 .. 13.8 mrad", "13.8 mrad" with the unit that suits elongations of the rig.
 struct ElongationUnit {
-  bool cable_space = false, linear_motion = false;
+  bool cable_space = false;
+  Axes axes = Axes::rotary;
 
   std::string text(double elongation) const;
   std::string text(double from, double to) const;

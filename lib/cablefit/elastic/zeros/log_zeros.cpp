@@ -99,16 +99,16 @@ double note_log_zeros(const ElasticJob& job, const BlockedRows& rows,
                                       [&](const auto& c) { return c.model == preload.selected; });
   const auto found = find_log_zeros(job, rows, *candidate, selected.transmission);
   if (!found || found->rms * found->rms > (1 - kMostOf) * left * left) return left;
-  const bool linear = preload.linear_motion;
+  const Axes axes = preload.axes;
   std::string zeros;
   for (const LogZeros::Zero& zero : found->zeros)
     zeros += fmt::format("{}{:.4g} {} in {}", zeros.empty() ? "" : ", ", 1e3 * zero.theta_0,
-                         linear ? "mm" : "mrad", zero.log);
+                         unit_for(axes, "mrad"), zero.log);
   preload.warnings.push_back(
       fmt::format("the encoder zero differs between logs: with one each the residual is {:.3g} "
                   "of {:.3g} {} rms ({}); was an axis homed between them? `cablefit refine` of "
                   "these logs identifies it as a slip and fits all logs with it",
-                  found->rms, left, linear ? "N" : "N m", zeros));
+                  found->rms, left, unit_for(axes, "N m"), zeros));
   return found->rms;
 }
 

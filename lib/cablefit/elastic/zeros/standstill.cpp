@@ -19,7 +19,7 @@ double chosen_rest_speed(const ElasticJob& job) {
 
 /// "samples in motion alone give 2.8 N m; "; nothing where they do not determine it.
 std::string friction_in_motion(const BlockedRows& moving, const ElasticCandidate& cables,
-                               const char* unit) {
+                               const std::string& unit) {
   const LinearSolution s = solve_candidate(moving, cables);
   const auto at = std::find(cables.names.begin(), cables.names.end(), "f_sm");
   const auto k = static_cast<std::size_t>(at - cables.names.begin());
@@ -41,7 +41,7 @@ void note_standstill(const ElasticJob& job, const BlockedRows& rows, const Elast
   const auto n = static_cast<double>(rows.rows->n_rows());
   const double share = 1 - static_cast<double>(moving.rows->n_rows()) / n;
   if (share < kLeastShare) return;
-  const char* unit = preload.linear_motion ? "N" : "N m";
+  const std::string unit = unit_for(preload.axes, "N m");
   preload.warnings.push_back(
       fmt::format("--rest-speed 0 keeps samples at standstill ({:.0f} %), where the torque lies "
                   "anywhere in the "

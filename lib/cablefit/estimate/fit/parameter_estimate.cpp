@@ -37,12 +37,12 @@ void widen_interval(Estimate& e, double factor) {
   if (!cut_off) e.ci_low = e.value - factor * (e.value - e.ci_low);
 }
 
-Estimate estimate_of(const ParameterInfo& info, bool linear_motion, const LinearSolution& s,
-                     Eigen::Index k, const SdChoice& choice) {
+Estimate estimate_of(const ParameterInfo& info, Axes axes, const LinearSolution& s, Eigen::Index k,
+                     const SdChoice& choice) {
   Estimate e;
   e.name = info.name;
   e.symbol = info.symbol;
-  e.unit = linear_motion ? linear_unit(info.unit) : std::string(info.unit);
+  e.unit = unit_for(axes, info.unit);
   e.not_identifiable = s.not_identifiable[static_cast<std::size_t>(k)];
   if (!e.not_identifiable.empty()) return e;
   e.value = s.x(k);

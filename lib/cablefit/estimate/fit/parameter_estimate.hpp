@@ -1,6 +1,7 @@
 // One parameter of a solution as an estimate: value, robust sd, 95 % interval, bound.
 #pragma once
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/base/parameter.hpp"
 #include "cablefit/estimate/fit/least_squares.hpp"
 
@@ -30,7 +31,7 @@ void widen_interval(Estimate& e, double factor);
 
 /// Parameter `k` of the solution, its interval by profile where the solution has profiles. On its
 /// bound, 0, see set_on_bound(). Held at 0 by constraints instead, it has no sd.
-Estimate estimate_of(const ParameterInfo& info, bool linear_motion, const LinearSolution& solution,
+Estimate estimate_of(const ParameterInfo& info, Axes axes, const LinearSolution& solution,
                      Eigen::Index k, const SdChoice& choice);
 
 }  // namespace cablefit

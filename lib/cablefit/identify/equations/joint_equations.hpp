@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/base/parameter.hpp"
 #include "cablefit/dynamic/rows/dynamic_columns.hpp"
 #include "cablefit/elastic/rows/elongation_range.hpp"
@@ -73,7 +74,7 @@ struct PreloadJob {
   std::vector<bool> searched;          ///< per cable: l_o is not known
   SearchedRadii searched_radius = {};  ///< the transmission has r_m as found so far
   bool cable_space = false;            ///< coefficients are those of cables, not of the joint
-  bool linear_motion = false;
+  JointAxes axes;
   double load_inertia = 0;   ///< rides on the link, kg m^2; known, beside the J_link looked for
   const Arm* arm = nullptr;  ///< of several joints; nullptr: the links do not move each other
   std::vector<JointRecord> records;

@@ -119,7 +119,7 @@ PhysicalBounds physical_bounds(const JointFit& fit, const Elongations& l_o) {
   }
   for (std::size_t j = 0; j < fit.jobs.size() && !fit.unconstrained; ++j) {
     const PreloadJob& job = fit.jobs[j];
-    const ElongationUnit unit{job.cable_space, job.linear_motion};
+    const ElongationUnit unit{job.cable_space, job.axes.all()};
     const Transmission cables = with_elongations(job.transmission, l_o[j]);
     const PullConstraints pull =
         pull_constraints(cables, std::vector<bool>(cables.cables.size(), true),

@@ -19,13 +19,15 @@ bool has_own(const PreloadJob& job, std::string_view name) {
   return false;
 }
 
-void add_coefficients(const Transmission& transmission, bool cable_space, JointLayout& layout) {
-  for (std::size_t c = 0; c < transmission.cables.size(); ++c) {
-    const Cable& cable = transmission.cables[c];
+void add_coefficients(const PreloadJob& job, JointLayout& layout) {
+  for (std::size_t c = 0; c < job.transmission.cables.size(); ++c) {
+    const Cable& cable = job.transmission.cables[c];
     for (int k = 0; k < cable.n_coefficients(); ++k) {
-      const std::string name = coefficient_name(cable, k, cable_space);
+      const std::string name = coefficient_name(cable, k, job.cable_space);
       layout.parameters.push_back(
-          {name, name, coefficient_unit(*cable.law, k, cable_space), -kUnbounded, kShared, c});
+          {name, name,
+           unit_for(axes_of(job.axes, cable), coefficient_unit(*cable.law, k, job.cable_space)),
+           -kUnbounded, kShared, c});
     }
   }
   layout.n_coefficients = static_cast<Eigen::Index>(layout.parameters.size());
@@ -35,6 +37,7 @@ void add_coefficients(const Transmission& transmission, bool cable_space, JointL
 /// each other its base parameters first, which stand for the inertias of the links.
 struct DriveParameter {
   std::string name;
+  std::string unit;
   ParameterInfo info;
   bool inertia = false;  ///< of the drive, whatever the preload
 };
@@ -42,13 +45,13 @@ std::vector<DriveParameter> drive_parameters(const PreloadJob& job) {
   std::vector<DriveParameter> all;
   if (job.arm != nullptr)
     for (const ParameterInfo& info : job.arm->base_parameters())
-      all.push_back({std::string(info.name), info, true});
+      all.push_back({std::string(info.name), std::string(info.unit), info, true});
   for (int joint = 1; joint <= job.n_joints(); ++joint)
     for (const Side side : {Side::link, Side::motor})
       for (const Effect& effect : base_effects(side))
         for (const ParameterInfo& info : effect.parameters)
-          all.push_back(
-              {joint_parameter_name(info.name, joint, job.n_joints()), info, effect.is_inertia()});
+          all.push_back({joint_parameter_name(info.name, joint, job.n_joints()),
+                         unit_for(job.axes.of(joint - 1), info.unit), info, effect.is_inertia()});
   return all;
 }
 
@@ -58,8 +61,8 @@ void add_drive(const std::vector<PreloadJob>& jobs, bool inertias, bool apart,
   const auto add = [&](const PreloadJob& job, int preload, const auto& is_used) {
     for (const DriveParameter& p : drive_parameters(job))
       if (p.inertia == inertias && is_used(p.name))
-        layout.parameters.push_back({p.name, std::string(p.info.symbol), std::string(p.info.unit),
-                                     p.info.lower, preload, 0, inertias});
+        layout.parameters.push_back(
+            {p.name, std::string(p.info.symbol), p.unit, p.info.lower, preload, 0, inertias});
   };
   if (!apart)
     return add(jobs.front(), kShared, [&](std::string_view name) {
@@ -78,8 +81,7 @@ void add_added(const std::vector<PreloadJob>& jobs, JointLayout& layout) {
       for (const JointEquation& equation : record.equations)
         for (const DynamicParameter& p : equation.added)
           if (layout.find(p.name, static_cast<int>(j)) < 0)
-            layout.parameters.push_back({p.name, std::string(p.info.symbol),
-                                         std::string(p.info.unit), p.info.lower,
+            layout.parameters.push_back({p.name, std::string(p.info.symbol), p.unit(), p.info.lower,
                                          static_cast<int>(j), 0, false, p.origin});
 }
 
@@ -87,8 +89,9 @@ void add_added(const std::vector<PreloadJob>& jobs, JointLayout& layout) {
 void add_blocked(const std::vector<PreloadJob>& jobs, JointLayout& layout) {
   for (std::size_t j = 0; j < jobs.size(); ++j)
     for (int joint = 1; joint <= jobs[j].n_joints(); ++joint) {
-      const auto add = [&](const char* symbol, const char* unit, double lower) {
+      const auto add = [&](const char* symbol, const char* rotary_unit, double lower) {
         const std::string name = joint_parameter_name(symbol, joint, jobs[j].n_joints());
+        const std::string unit = unit_for(jobs[j].axes.of(joint - 1), rotary_unit);
         if (has_own(jobs[j], name))
           layout.parameters.push_back({name, name, unit, lower, static_cast<int>(j), 0});
       };
@@ -101,9 +104,11 @@ void add_elongations(const std::vector<PreloadJob>& jobs, JointLayout& layout) {
   for (std::size_t j = 0; j < jobs.size(); ++j)
     for (std::size_t c = 0; c < jobs[j].searched.size(); ++c) {
       if (!jobs[j].searched[c]) continue;
-      const std::string name = elongation_name(jobs[j].transmission.cables[c]);
-      layout.parameters.push_back({name, name, std::string(elongation_unit(jobs[j].cable_space)),
-                                   -kUnbounded, static_cast<int>(j), c});
+      const Cable& cable = jobs[j].transmission.cables[c];
+      const std::string name = elongation_name(cable);
+      const std::string unit =
+          unit_for(axes_of(jobs[j].axes, cable), elongation_unit(jobs[j].cable_space));
+      layout.parameters.push_back({name, name, unit, -kUnbounded, static_cast<int>(j), c});
     }
 }
 
@@ -113,7 +118,9 @@ void add_radii(const PreloadJob& job, JointLayout& layout) {
     if (!job.searched_radius[c]) continue;
     const std::string name = radius_name(job.transmission.cables[c]);
     layout.parameters.push_back(
-        {name, name, job.linear_motion ? "1" : "m", -kUnbounded, kShared, c});
+        {name, name,
+         job.axes.of(static_cast<int>(*job.searched_radius[c])) == Axes::linear ? "1" : "m",
+         -kUnbounded, kShared, c});
   }
 }
 
@@ -130,15 +137,6 @@ void add_loads(const std::vector<PreloadJob>& jobs, JointLayout& layout) {
         if (p.preload != kShared) p.known = jobs[static_cast<std::size_t>(p.preload)].load_inertia;
         if (p.preload == kShared && same) p.known = first;
       }
-}
-
-/// Coefficients of cable space have those of cables whatever the axis.
-void use_units_of_axis(const PreloadJob& job, JointLayout& layout) {
-  if (!job.linear_motion) return;
-  const std::size_t first =
-      job.cable_space ? static_cast<std::size_t>(layout.n_coefficients) : std::size_t{0};
-  for (std::size_t k = first; k < layout.parameters.size(); ++k)
-    layout.parameters[k].unit = linear_unit(layout.parameters[k].unit);
 }
 
 JointBlock block_of(const JointEquation& equation, const PreloadJob& job, int place,
@@ -186,7 +184,7 @@ Eigen::Index JointLayout::find(std::string_view name, int preload) const {
 
 JointLayout joint_layout(const std::vector<PreloadJob>& jobs, bool inertias_apart) {
   JointLayout layout;
-  add_coefficients(jobs.front().transmission, jobs.front().cable_space, layout);
+  add_coefficients(jobs.front(), layout);
   add_drive(jobs, true, inertias_apart, layout);
   add_drive(jobs, false, true, layout);
   add_added(jobs, layout);
@@ -194,7 +192,6 @@ JointLayout joint_layout(const std::vector<PreloadJob>& jobs, bool inertias_apar
   layout.n_linear = static_cast<Eigen::Index>(layout.parameters.size());
   add_elongations(jobs, layout);
   layout.n_elongations = static_cast<Eigen::Index>(layout.parameters.size()) - layout.n_linear;
-  use_units_of_axis(jobs.front(), layout);
   add_loads(jobs, layout);
   add_radii(jobs.front(), layout);
   return layout;

@@ -115,8 +115,9 @@ void note_radii(const PreloadJob& job, PreloadFacts& facts) {
     const Cable& cable = job.transmission.cables[c];
     const std::size_t joint = *job.searched_radius[c];
     const double start = cable.motor_map[joint].radius(0);
-    value += fmt::format("{}{} searched from {:.3g}{}", value.empty() ? "" : ", ",
-                         radius_name(cable), start, facts.rig.linear_motion ? "" : " m");
+    value +=
+        fmt::format("{}{} searched from {:.3g}{}", value.empty() ? "" : ", ", radius_name(cable),
+                    start, facts.rig.axes.of(static_cast<int>(joint)) == Axes::linear ? "" : " m");
     moved = moved || start != facts.rig.transmission.cables[c].motor_map[joint].radius(0);
   }
   facts.decisions.push_back(
@@ -168,7 +169,7 @@ std::vector<PreloadJob> begin_jobs(std::span<const LogSurvey> logs, const Identi
     job.transmission = cables_of(f.rig, options.order);
     job.transmission.theta_0 = Eigen::VectorXd::Zero(f.rig.n_joints());
     job.cable_space = f.rig.cables_given;
-    job.linear_motion = f.rig.linear_motion;
+    job.axes = f.rig.axes;
     job.load_inertia = f.load_inertia;
     job.arm = f.arm;
     job.searched_radius = searched_radii(f.rig.transmission);
@@ -180,8 +181,7 @@ std::vector<PreloadJob> begin_jobs(std::span<const LogSurvey> logs, const Identi
   }
   for (std::size_t j = 1; j < jobs.size(); ++j)
     if (!same_cables(jobs[0].transmission, jobs[j].transmission) ||
-        jobs[0].cable_space != jobs[j].cable_space ||
-        jobs[0].linear_motion != jobs[j].linear_motion ||
+        jobs[0].cable_space != jobs[j].cable_space || jobs[0].axes != jobs[j].axes ||
         jobs[0].searched_radius != jobs[j].searched_radius)
       throw input_error(
           {first_log_with(logs, parts_of(jobs[j].name)).plan.path, 0, 0},
@@ -201,7 +201,7 @@ std::vector<PreloadJob> begin_jobs(std::span<const LogSurvey> logs, const Identi
   start_radii(logs, jobs);
   if (searches_radius(jobs.front()))
     for (std::size_t j = 0; j < jobs.size(); ++j) note_radii(jobs[j], facts[j]);
-  result.linear_motion = jobs[0].linear_motion;
+  result.axes = jobs[0].axes.all();
   result.cable_space = jobs[0].cable_space;
   return jobs;
 }

@@ -74,7 +74,7 @@ std::optional<Sum> sum_of(const JointFit& fit, const JudgedPoint& judged, int in
     first += cable.n_coefficients();
   }
   if (sum.text.empty()) return std::nullopt;
-  if (job.linear_motion) sum.unit = linear_unit(sum.unit);
+  sum.unit = unit_for(job.axes.all(), sum.unit);
   return sum;
 }
 

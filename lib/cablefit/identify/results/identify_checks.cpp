@@ -58,7 +58,7 @@ std::vector<Misfit> misfits_of(const JointFit& fit, const JudgedPoint& judged, s
   return misfits;
 }
 
-const char* unit_of(const JointFit& fit) { return fit.jobs.front().linear_motion ? "N" : "N m"; }
+std::string unit_of(const JointFit& fit) { return torque_unit(fit.jobs.front().axes.all()); }
 
 bool is_searched(const PreloadJob& job) {
   return std::find(job.searched.begin(), job.searched.end(), true) != job.searched.end();
@@ -101,7 +101,7 @@ std::vector<std::string> misfit_warnings(const JointFit& fit, const JudgedPoint&
           "the straight line through the blocked rows has {} = {:.4g} +- {:.2g} {}/{}, through "
           "these cables {:.4g}: blocked and moving logs do not agree on them; {}",
           line.name, line.measured, line.sd, unit_of(fit),
-          fit.jobs.front().linear_motion ? "m" : "rad", line.model, what_to_try(fit, job)));
+          unit_for(fit.jobs.front().axes.all(), "rad"), line.model, what_to_try(fit, job)));
   if (!is_searched(fit.jobs[job]) && looks_preloaded(preload.transmission, preload.elongations))
     warnings.emplace_back(
         "the stiffness falls on both sides of zero, as with cables that are both taut there "

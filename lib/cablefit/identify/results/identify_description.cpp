@@ -46,7 +46,7 @@ void note_pushing(const JointFit& fit, const IdentifyPreload& preload, IdentifyR
     const Cable& cable = preload.transmission.cables[c];
     if (const std::optional<Push> push = find_push(cable, preload.elongations[c].high))
       result.warnings.push_back(
-          push_text(cable, *push, {fit.jobs.front().cable_space, fit.jobs.front().linear_motion}));
+          push_text(cable, *push, {fit.jobs.front().cable_space, fit.jobs.front().axes.all()}));
   }
 }
 
@@ -82,7 +82,7 @@ void add_given(const PreloadJob& job, IdentifyPreload& preload) {
   for (const JointRecord& record : job.records)
     for (const JointEquation& equation : record.equations)
       for (const JointEquation::Given& given : equation.given)
-        preload.parameters.push_back(given_estimate(given.parameter, job.linear_motion));
+        preload.parameters.push_back(given_estimate(given.parameter));
 }
 
 void add_model(const PreloadFacts& facts, const JointEstimates& known, IdentifyResult& result,
@@ -140,10 +140,9 @@ JointEstimates known_together(const JointFit& fit, const JudgedPoint& judged,
 }
 
 void add_derived(const PreloadJob& job, const JointEstimates& from, IdentifyPreload& preload) {
-  preload.derived =
-      drive_quantities(from, &preload.transmission, job.cable_space, job.linear_motion);
+  preload.derived = drive_quantities(from, &preload.transmission, job.cable_space, job.axes.all());
   for (const DerivedQuantity& quantity :
-       elastic_quantities(preload.transmission, job.cable_space, job.linear_motion,
+       elastic_quantities(preload.transmission, job.cable_space, job.axes,
                           {preload.deflection_low, preload.deflection_high}, from)) {
     const Estimate e = derive(quantity, from);
     if (find_estimate(preload.derived, e.name) == nullptr && std::isfinite(e.value) && e.sd > 0)

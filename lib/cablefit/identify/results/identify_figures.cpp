@@ -37,7 +37,7 @@ Figure profile_figure(const ElongationProfile& profile, double scale, const std:
 }
 
 std::vector<Figure> cable_figures(std::span<const LogSurvey> logs, const IdentifyPreload& preload,
-                                  bool linear_motion) {
+                                  Axes axes) {
   const auto of_preload = [&](const PartSurvey& part) { return part.preload == preload.name; };
   std::vector<Figure> figures;
   const int n_joints = preload.transmission.n_joints;
@@ -49,12 +49,12 @@ std::vector<Figure> cable_figures(std::span<const LogSurvey> logs, const Identif
           Eigen::VectorXd::Constant(1, preload.lines.front().measured);
     }
     figures.push_back(cable_figure(preload.transmission, preload.deflection_low,
-                                   preload.deflection_high, linear_motion, line));
+                                   preload.deflection_high, axes, line));
   }
   for (int joint = 0; joint < n_joints; ++joint) {
-    figures.push_back(
-        mode_figure(preload.transmission, joint, seen_range(logs, of_preload, Channel::q, joint),
-                    seen_range(logs, of_preload, Channel::theta, joint), linear_motion));
+    figures.push_back(mode_figure(preload.transmission, joint,
+                                  seen_range(logs, of_preload, Channel::q, joint),
+                                  seen_range(logs, of_preload, Channel::theta, joint), axes));
     if (n_joints > 1) figures.back().title += fmt::format(", joint {}", joint + 1);
   }
   return figures;
@@ -65,17 +65,17 @@ std::vector<Figure> cable_figures(std::span<const LogSurvey> logs, const Identif
 std::vector<Figure> identify_figures(std::span<const LogSurvey> logs,
                                      const IdentifyResult& result) {
   std::vector<Figure> figures;
-  const bool length = result.cable_space || result.linear_motion;
+  const std::string unit = result.cable_space ? "mm" : unit_for(result.axes, "mrad");
   for (const IdentifyPreload& preload : result.preloads) {
     if (!preload.knows_elongations()) continue;
-    for (Figure& figure : cable_figures(logs, preload, result.linear_motion)) {
+    for (Figure& figure : cable_figures(logs, preload, result.axes)) {
       figure.section = preload.name;
       figure.group = "cables";
       figures.push_back(std::move(figure));
     }
   }
   for (const ElongationProfile& profile : result.profiles)
-    figures.push_back(profile_figure(profile, 1e3, length ? "mm" : "mrad"));
+    figures.push_back(profile_figure(profile, 1e3, unit));
   if (result.trace)
     for (Figure& figure : trace_figures(*result.trace)) figures.push_back(std::move(figure));
   return figures;

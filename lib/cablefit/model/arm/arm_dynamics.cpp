@@ -29,8 +29,7 @@ void add_shift(double mass, const Vector3d& moment, const Vector3d& arm, Matrix3
 
 }  // namespace
 
-ArmDynamics::ArmDynamics(const SerialChain& chain)
-    : slides_(chain.slides), worlds_(chain.joints.size()) {
+ArmDynamics::ArmDynamics(const SerialChain& chain) : worlds_(chain.joints.size()) {
   const std::size_t n = chain.joints.size();
   mass_.resize(n * n);
   bias_.resize(n);
@@ -43,7 +42,7 @@ ArmDynamics::ArmDynamics(const SerialChain& chain)
                        before.transpose() * joint.origin, joint.inertia(0),
                        turn.transpose() * joint.inertia.segment<3>(1),
                        turn.transpose() * tensor_of(joint.inertia) * turn,
-                       static_cast<std::size_t>(chain.rig_joint[i])});
+                       static_cast<std::size_t>(chain.rig_joint[i]), joint.slides});
     before = turn;
   }
   base_.rotation.setIdentity();
@@ -72,7 +71,7 @@ void ArmDynamics::place(const Joint& joint, const World& before, double q, World
   at.origin.noalias() = before.rotation * joint.origin;
   at.origin += before.origin;
   const Vector3d axis = at.rotation.col(2);
-  if (slides_) {
+  if (joint.slides) {
     at.origin += q * axis;
     at.turn.setZero();
     at.shift = axis;

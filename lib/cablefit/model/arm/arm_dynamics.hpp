@@ -39,6 +39,7 @@ class ArmDynamics {
     Vector moment;   ///< first, kg m
     Matrix inertia;  ///< about the frame's origin
     std::size_t rig_joint;
+    bool slides;
   };
   /// A link in the base's frame, about the base's origin. The sums are of it and all behind it.
   struct World {
@@ -56,7 +57,6 @@ class ArmDynamics {
   static void load(const Joint& joint, World& at);
   void sum_up(std::size_t i);
 
-  bool slides_;
   World base_;
   std::vector<Joint> joints_;
   std::vector<World> worlds_;

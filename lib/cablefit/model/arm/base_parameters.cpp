@@ -107,7 +107,7 @@ std::vector<Index> order_of_keeping(const SerialChain& chain) {
             kLinkParameters * i +
             static_cast<Index>(along(kind, chain.joints[static_cast<std::size_t>(i)].axis)));
   };
-  if (chain.slides) {  // no link turns: masses are all there is
+  if (chain.only_slides()) {  // no link turns: masses are all there is
     add({M});
     add({ZZ, XX, XY, XZ, YZ, MX, MY, YY, MZ});
   } else {

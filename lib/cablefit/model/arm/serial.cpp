@@ -56,7 +56,6 @@ ArmParameters read(const JsonNode& node, const RigJoints& joints) {
   node.allow_only({"type", "origins", "rpy", "axes", "gravity", "order", "inertias"});
   const auto n = static_cast<std::size_t>(joints.count);
   SerialChain chain;
-  chain.slides = joints.slide;
   const Rows origins = rows_at(node.at("origins"), n, 3);
   const JsonNode* rpy = node.find("rpy");
   const Rows angles = rpy == nullptr ? Rows(n, {0, 0, 0}) : rows_at(*rpy, n, 3);
@@ -67,9 +66,11 @@ ArmParameters read(const JsonNode& node, const RigJoints& joints) {
       throw node.at("axes").items[i].error("an axis of length 0",
                                            "give the direction of the joint's axis");
     chain.joints.push_back(
-        {vector_of(origins[i]), vector_of(angles[i]), unit_axis(axis), LinkInertia::Zero()});
+        {vector_of(origins[i]), vector_of(angles[i]), unit_axis(axis), false, LinkInertia::Zero()});
   }
   chain.rig_joint = order_at(node.find("order"), n);
+  for (std::size_t i = 0; i < n; ++i)
+    chain.joints[i].slides = joints.axes.of(chain.rig_joint[i]) == Axes::linear;
   chain.gravity = gravity_at(node);
   if (const JsonNode* inertias = node.find("inertias")) read_inertias(*inertias, chain);
   ArmParameters parameters;

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace cablefit {
 namespace {
@@ -28,17 +29,17 @@ struct FrameMotion {
 /// From link to link, base first.
 class Walk {
  public:
-  explicit Walk(const SerialChain& chain) : slides_(chain.slides) {
+  explicit Walk(const SerialChain& chain) {
     for (const ChainJoint& joint : chain.joints)
-      joints_.push_back({rotation_of(joint.rpy), joint.origin, joint.axis});
+      joints_.push_back({rotation_of(joint.rpy), joint.origin, joint.axis, joint.slides});
   }
 
   /// `m`: of the link before, becomes that of link i.
   void step(std::size_t i, double q, double qd, double qdd, bool is_own, FrameMotion& m) const {
-    const auto& [rotation, origin, axis] = joints_[i];
-    const Vector3d arm = slides_ ? Vector3d(origin + rotation * axis * q) : origin;
-    const Matrix3d back = slides_ ? Matrix3d(rotation.transpose())
-                                  : Matrix3d(Eigen::AngleAxisd(-q, axis) * rotation.transpose());
+    const auto& [rotation, origin, axis, slides] = joints_[i];
+    const Vector3d arm = slides ? Vector3d(origin + rotation * axis * q) : origin;
+    const Matrix3d back = slides ? Matrix3d(rotation.transpose())
+                                 : Matrix3d(Eigen::AngleAxisd(-q, axis) * rotation.transpose());
     const Vector3d vd = m.vd + m.wd.cross(arm) + m.w.cross(m.w.cross(arm));
     const Vector3d shift = m.shift + m.turn.cross(arm);
     m.w = back * m.w;
@@ -46,8 +47,8 @@ class Walk {
     m.vd = back * vd;
     m.turn = back * m.turn;
     m.shift = back * shift;
-    if (slides_) {  // and no link of such a chain turns
-      m.vd += axis * qdd;
+    if (slides) {
+      m.vd += axis * qdd + 2 * m.w.cross(axis) * qd;
       if (is_own) m.shift = axis;
     } else {
       m.wd += axis * qdd + m.w.cross(axis) * qd;
@@ -60,9 +61,9 @@ class Walk {
   struct Fixed {
     Matrix3d rotation;
     Vector3d origin, axis;
+    bool slides;
   };
   std::vector<Fixed> joints_;
-  bool slides_;
 };
 
 /// x' I y per unit of XX, XY, XZ, YY, YZ, ZZ.
@@ -97,6 +98,10 @@ std::string_view unit_of(LinkParameter parameter) {
 bool SerialChain::is_described() const {
   return std::all_of(joints.begin(), joints.end(),
                      [](const ChainJoint& joint) { return joint.inertia(0) > 0; });
+}
+
+bool SerialChain::only_slides() const {
+  return std::all_of(joints.begin(), joints.end(), std::mem_fn(&ChainJoint::slides));
 }
 
 Matrix3d rotation_of(const Vector3d& rpy) {

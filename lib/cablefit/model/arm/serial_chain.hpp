@@ -32,6 +32,7 @@ struct ChainJoint {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Vector3d rpy = Eigen::Vector3d::Zero();
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
+  bool slides = false;                        ///< along the axis (m, N) instead of turning about it
   LinkInertia inertia = LinkInertia::Zero();  ///< what the description says; 0: unknown
 };
 
@@ -39,11 +40,12 @@ struct SerialChain {
   std::vector<ChainJoint> joints;  ///< from the base to the tip
   std::vector<int> rig_joint;      ///< of each: its place (from 0) among the rig's joints
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< m/s^2, in the frame of the base
-  bool slides = false;  ///< joints move along their axes (m, N) instead of about them
 
   Eigen::Index n_joints() const { return static_cast<Eigen::Index>(joints.size()); }
   /// Every link has a mass.
   bool is_described() const;
+  /// No joint turns.
+  bool only_slides() const;
   Eigen::Index n_parameters() const { return kLinkParameters * n_joints(); }
 };
 

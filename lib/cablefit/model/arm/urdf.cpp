@@ -31,14 +31,21 @@ void require_fit(const JsonNode& node, const UrdfTree& tree, const std::vector<s
     throw node.error(fmt::format("the arm has {} moving joint(s) ({}), the rig {}", moving.size(),
                                  listed(tree, moving), joints.count),
                      "list them as the rig's \"joints\", or name another \"base\" or \"tip\"");
-  for (const std::size_t j : moving) {
-    const bool slides = tree.joints[j].motion == UrdfMotion::slides;
-    if (slides == joints.slide) continue;
+}
+
+/// The rig file says which of its joints slide, as it gives the units of their columns.
+void require_motion(const JsonNode& node, const UrdfTree& tree,
+                    const std::vector<std::size_t>& moving, const std::vector<int>& places,
+                    const JointAxes& axes) {
+  for (std::size_t k = 0; k < moving.size(); ++k) {
+    const UrdfJoint& joint = tree.joints[moving[k]];
+    const bool slides = joint.motion == UrdfMotion::slides;
+    if (slides == (axes.of(places[k]) == Axes::linear)) continue;
     throw node.error(
-        fmt::format("joint {} {}, the rig's joints {}", cablefit::quoted(tree.joints[j].name),
-                    slides ? "slides" : "turns", joints.slide ? "slide" : "turn"),
-        slides ? "only arms whose joints all slide can be fitted, with \"motion\": \"linear\""
-               : "leave out \"motion\": \"linear\"");
+        fmt::format("joint {} {}, joint {} of the rig {}", cablefit::quoted(joint.name),
+                    slides ? "slides" : "turns", places[k] + 1, slides ? "turns" : "slides"),
+        fmt::format("give \"motion\" in the rig file, of this joint \"{}\"",
+                    slides ? "linear" : "rotary"));
   }
 }
 
@@ -81,7 +88,7 @@ ArmParameters read(const JsonNode& node, const RigJoints& joints) {
   SerialChain chain = chain_of(tree, way);
   chain.rig_joint = rig_joints(node.find("joints"), tree, moving);
   chain.gravity = gravity_at(node);
-  chain.slides = joints.slide;
+  require_motion(file, tree, moving, chain.rig_joint, joints.axes);
   ArmParameters parameters;
   parameters.serial = at_place_of(file, [&] { return serial_arm_of(std::move(chain)); });
   return parameters;

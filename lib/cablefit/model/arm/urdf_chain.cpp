@@ -137,8 +137,9 @@ SerialChain chain_of(const UrdfTree& tree, const UrdfWay& way) {
     if (!moves(joint)) continue;
     const std::size_t i = chain.joints.size();
     const auto next = i + 1 < moving.size() ? static_cast<std::ptrdiff_t>(moving[i + 1]) : -1;
-    chain.joints.push_back(
-        {frame.origin, rpy_of(frame.rotation), joint.axis, hanging_on(tree, joint.child, next)});
+    chain.joints.push_back({frame.origin, rpy_of(frame.rotation), joint.axis,
+                            joint.motion == UrdfMotion::slides,
+                            hanging_on(tree, joint.child, next)});
     frame = {};
   }
   return chain;

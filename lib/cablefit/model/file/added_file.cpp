@@ -18,9 +18,9 @@ constexpr std::array<std::pair<std::string_view, Site>, 5> kSites{
      {"sensor", Site::sensor},
      {"drive", Site::drive}}};
 
-Estimate read_parameter(const JsonNode& node, const ParameterInfo& info, const Rig& rig) {
+Estimate read_parameter(const JsonNode& node, const ParameterInfo& info, Axes axes) {
   Estimate estimate =
-      read_strict_estimate(node, std::string(info.name), info.symbol, unit_on(rig, info.unit));
+      read_strict_estimate(node, std::string(info.name), info.symbol, unit_for(axes, info.unit));
   if (estimate.value >= info.lower && estimate.value <= info.upper) return estimate;
   const std::string range = std::isinf(info.upper)
                                 ? fmt::format("at least {:g}", info.lower)
@@ -35,17 +35,17 @@ bool is_optional(const Effect& row, std::size_t parameter) {
   return row.shape[parameter - row.n_linear()].low == 0;
 }
 
-Estimate left_out(const ParameterInfo& info, const Rig& rig) {
+Estimate left_out(const ParameterInfo& info, Axes axes) {
   Estimate estimate;
   estimate.name = info.name;
   estimate.symbol = info.symbol;
-  estimate.unit = unit_on(rig, info.unit);
+  estimate.unit = unit_for(axes, info.unit);
   estimate.value = 0;
   return estimate;
 }
 
 std::vector<Estimate> read_parameters(const JsonNode* node, const JsonNode& row_node,
-                                      const Effect& row, const Rig& rig) {
+                                      const Effect& row, Axes axes) {
   std::vector<Estimate> parameters;
   if (!node && row.parameters.empty()) return parameters;
   const JsonNode& values = node ? *node : row_node.at("parameters");
@@ -54,9 +54,9 @@ std::vector<Estimate> read_parameters(const JsonNode* node, const JsonNode& row_
     const ParameterInfo& info = row.parameters[p];
     known.push_back(info.name);
     if (is_optional(row, p) && !values.find(info.name))
-      parameters.push_back(left_out(info, rig));
+      parameters.push_back(left_out(info, axes));
     else
-      parameters.push_back(read_parameter(values.at(info.name), info, rig));
+      parameters.push_back(read_parameter(values.at(info.name), info, axes));
   }
   for (const auto& [key, value] : members_of(values))
     if (std::find(known.begin(), known.end(), key) == known.end())
@@ -79,7 +79,7 @@ void read_event(const JsonNode& node, EffectInstance& instance) {
   instance.event_time = date.at("time").number();
 }
 
-EffectInstance read_refinement(const JsonNode& node, const Rig& rig, bool rigid) {
+EffectInstance read_refinement(const JsonNode& node, Axes axes, bool rigid) {
   node.allow_only({"name", "side", "parameters", "event"});
   const Site site = choose(node.at("side"), kSites);
   const JsonNode& name = node.at("name");
@@ -88,17 +88,17 @@ EffectInstance read_refinement(const JsonNode& node, const Rig& rig, bool rigid)
   if (rigid && site == Site::transmission)
     throw name.error(fmt::format("{} on a rigid drive", cablefit::quoted(name.text())),
                      "it has no transmission: drop it, or give link and motor");
-  instance.parameters = read_parameters(node.find("parameters"), node, *instance.effect, rig);
+  instance.parameters = read_parameters(node.find("parameters"), node, *instance.effect, axes);
   read_event(node, instance);
   return instance;
 }
 
 }  // namespace
 
-std::vector<EffectInstance> read_refinements(const JsonNode& node, const Rig& rig, bool rigid) {
+std::vector<EffectInstance> read_refinements(const JsonNode& node, Axes axes, bool rigid) {
   std::vector<EffectInstance> refinements;
   for (const JsonNode& item : some_items(node))
-    refinements.push_back(read_refinement(item, rig, rigid));
+    refinements.push_back(read_refinement(item, axes, rigid));
   return refinements;
 }
 

@@ -18,8 +18,8 @@ std::vector<Estimate> read_arm(const JsonNode& node, const Rig& rig) {
       fail_unknown(value, "base parameter", name, known);
   std::vector<Estimate> arm;
   for (const ParameterInfo& info : infos)
-    arm.push_back(read_strict_estimate(node.at(info.name), std::string(info.name), info.symbol,
-                                       unit_on(rig, info.unit)));
+    arm.push_back(
+        read_strict_estimate(node.at(info.name), std::string(info.name), info.symbol, info.unit));
   return arm;
 }
 

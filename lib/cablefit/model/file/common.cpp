@@ -105,8 +105,6 @@ Estimate read_strict_estimate(const JsonNode& node, std::string name, std::strin
   return read_estimate(node, std::move(name), symbol, unit);
 }
 
-std::string stiffness_unit(const Rig& rig) { return rig.linear_motion ? "N/m" : "N m/rad"; }
-
 Rig read_rig_reference(const JsonNode* node) {
   if (!node || node->is_null()) return default_rig();
   if (!node->is_string()) return parse_rig(*node);

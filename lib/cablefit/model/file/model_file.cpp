@@ -57,7 +57,7 @@ JointModel read_joint(const JsonNode& node, int joint, const Model& model) {
     axes.motor = read_side(node.at("motor"), Side::motor, joint, model.rig);
   }
   if (const JsonNode* refinements = node.find("refinements"))
-    axes.added = read_refinements(*refinements, model.rig, model.rigid);
+    axes.added = read_refinements(*refinements, model.rig.axes.of(joint - 1), model.rigid);
   return axes;
 }
 

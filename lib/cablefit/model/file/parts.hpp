@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/completeness.hpp"
 #include "cablefit/model/model.hpp"
@@ -28,11 +29,9 @@ Estimate read_estimate(const JsonNode& node, std::string name, std::string_view 
 /// The same for a file written by hand: any other key is an error.
 Estimate read_strict_estimate(const JsonNode& node, std::string name, std::string_view symbol,
                               std::string_view unit);
-/// Unit of the linear stiffness K.
-std::string stiffness_unit(const Rig& rig);
 
 /// "refinements" of a joint: [{"name", "side", "parameters": {...}, "event": {"log", "time"}}].
-std::vector<EffectInstance> read_refinements(const JsonNode& node, const Rig& rig, bool rigid);
+std::vector<EffectInstance> read_refinements(const JsonNode& node, Axes axes, bool rigid);
 
 /// "covariance": {"parameters": [names], "matrix": [rows]}. Throws for another number of rows or
 /// columns than names.

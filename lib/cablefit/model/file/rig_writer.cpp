@@ -119,6 +119,14 @@ void add_map(Json* json, const char* key, const Map& map, ToJson to_json) {
   for (const auto& [name, value] : map) (*json)[key][name] = to_json(value);
 }
 
+Json motion_json(const Rig& rig) {
+  if (rig.axes.all() != Axes::mixed) return to_string(rig.axes.all());
+  Json list = Json::array();
+  for (int joint = 0; joint < rig.n_joints(); ++joint)
+    list.push_back(to_string(rig.axes.of(joint)));
+  return list;
+}
+
 }  // namespace
 
 Json rig_json(const Rig& rig) {
@@ -127,7 +135,7 @@ Json rig_json(const Rig& rig) {
   if (!rig.preload.empty()) json["preload"] = rig.preload;
   add_map(&json, "columns", rig.columns, column_json);
   if (rig.sample_rate > 0) json["sample_rate"] = rig.sample_rate;
-  if (rig.linear_motion) json["motion"] = "linear";
+  if (const Json motion = motion_json(rig); motion != "rotary") json["motion"] = motion;
   if (rig.torque_hold != TorqueHold::automatic) json["torque_hold"] = name_of(rig.torque_hold);
   if (rig.torque_period > 0) json["torque_period"] = rig.torque_period;
   if (rig.load.law) json["load"] = load_json(rig.load);

@@ -26,7 +26,8 @@ Eigen::VectorXd read_per_joint(const JsonNode& node, std::string_view name, cons
   for (int k = 0; k < n; ++k) {
     const JsonNode& value = values[static_cast<std::size_t>(k)];
     const std::string indexed = joint_parameter_name(name, k + 1, n);
-    const Estimate estimate = read_strict_estimate(value, indexed, indexed, unit);
+    const Estimate estimate =
+        read_strict_estimate(value, indexed, indexed, unit_for(model->rig.axes.of(k), unit));
     result[k] = estimate.value;
     model->elastic.push_back(estimate);
   }
@@ -49,8 +50,10 @@ void read_coefficients(const JsonNode& node, Cable* cable, Model* model) {
   for (const JsonNode& value : node.items) {
     const int j = static_cast<int>(cable->coefficients.size());
     const std::string name = coefficient_name(*cable, j, model->rig.cables_given);
-    model->elastic.push_back(read_strict_estimate(
-        value, name, name, coefficient_unit(*cable->law, j, model->rig.cables_given)));
+    model->elastic.push_back(
+        read_strict_estimate(value, name, name,
+                             unit_for(axes_of(model->rig.axes, *cable),
+                                      coefficient_unit(*cable->law, j, model->rig.cables_given))));
     cable->coefficients.push_back(model->elastic.back().value);
   }
 }
@@ -136,16 +139,14 @@ void read_transmission(const JsonNode& node, Model* model) {
   }
   if (linear) {
     model->transmission = classical_spring(model->transmission);
-    model->transmission.linear_stiffness =
-        read_per_joint(*linear, "K", stiffness_unit(model->rig), model);
+    model->transmission.linear_stiffness = read_per_joint(*linear, "K", "N m/rad", model);
   } else {
     read_cables(node.at("cables"), model);
   }
   const JsonNode* theta_0 = node.find("theta_0");
   if (!theta_0) return;
   const auto without_zero = model->elastic.size();
-  model->transmission.theta_0 =
-      read_per_joint(*theta_0, "theta_0", model->rig.linear_motion ? "m" : "rad", model);
+  model->transmission.theta_0 = read_per_joint(*theta_0, "theta_0", "rad", model);
   const JsonNode& first = theta_0->is_array() ? theta_0->items.front() : *theta_0;
   if (!first.is_object()) model->elastic.resize(without_zero);
 }

@@ -41,7 +41,7 @@ std::string without_joint_index(const std::string& name, int n_joints) {
 
 }  // namespace
 
-Load read_load(const JsonNode& node, int n_joints, bool linear_motion) {
+Load read_load(const JsonNode& node, int n_joints, Axes axes) {
   const JsonNode& type = node.at("type");
   Load load;
   load.law = at_place_of(type, [&] { return &find_load_law(type.text()); });
@@ -50,7 +50,7 @@ Load read_load(const JsonNode& node, int n_joints, bool linear_motion) {
     throw type.error(fmt::format("load '{}' on a rig of {} joints", load.law->name, n_joints),
                      "log tau_load1, tau_load2, ... and use {\"type\": \"column\"}");
   }
-  if (linear_motion && load.law->rotary_only) {
+  if (axes != Axes::rotary && load.law->rotary_only) {
     throw type.error(fmt::format("load '{}' on a linear axis", load.law->name),
                      "its weight is a force: use {\"type\": \"constant\", \"torque\": N}");
   }
@@ -61,10 +61,10 @@ Arm read_arm(const JsonNode& node, const Rig& rig) {
   const JsonNode& type = node.at("type");
   Arm arm;
   arm.kind = at_place_of(type, [&] { return &find_arm_kind(type.text()); });
-  if (rig.linear_motion && arm.is_coupled() && !arm.kind->may_slide)
-    throw type.error(fmt::format("arm '{}' on linear axes", arm.kind->name),
-                     "its joints turn: leave out \"motion\": \"linear\"");
-  arm.parameters = arm.kind->read(node, {rig.n_joints(), rig.linear_motion});
+  if (rig.axes.all() != Axes::rotary && arm.is_coupled() && !arm.kind->may_slide)
+    throw type.error(fmt::format("arm '{}' with joints that slide", arm.kind->name),
+                     "its joints turn: leave out \"motion\", or describe the arm as \"serial\"");
+  arm.parameters = arm.kind->read(node, {rig.n_joints(), rig.axes});
   if (!arm.kind->becomes.empty()) arm.kind = &find_arm_kind(arm.kind->becomes);
   return arm;
 }

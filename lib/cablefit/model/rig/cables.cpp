@@ -129,10 +129,12 @@ std::array<std::size_t, 2> read_two_joints(const JsonNode& node, const Rig& rig)
 PairMap read_pair(const JsonNode& node, MapSide side, const Rig& rig) {
   const JsonNode& type = node.at("type");
   const PairMapKind* kind = at_place_of(type, [&] { return &find_pair_map_kind(type.text()); });
-  if (kind->rotary_only && rig.linear_motion)
-    throw type.error(fmt::format("map '{}' on linear axes", kind->name),
-                     "it is of joints that turn: use \"grid\" or \"polynomial\"");
   PairMap map{kind, kind->read(node, side), read_two_joints(node, rig)};
+  for (const std::size_t joint : map.joints)
+    if (kind->rotary_only && rig.axes.of(static_cast<int>(joint)) == Axes::linear)
+      throw type.error(
+          fmt::format("map '{}' of joint '{}', which slides", kind->name, rig.joints[joint]),
+          "it is of joints that turn: use \"grid\" or \"polynomial\"");
   for (const double angle : {-1.0, 0.0, 1.0})
     sane(node, "a radius", map.at(angle, angle).radius.cwiseAbs().maxCoeff());
   return map;

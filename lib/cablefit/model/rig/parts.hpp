@@ -1,6 +1,7 @@
 // The parts of a rig file, one reader per top-level key. Internal to rig.cpp.
 #pragma once
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/base/json/json_document.hpp"
 #include "cablefit/model/rig.hpp"
 
@@ -15,7 +16,7 @@ void read_cables(const JsonNode& node, Rig* rig);
 /// "reference_pose": where every l = l_o.
 ReferencePose read_reference(const JsonNode& node, int n_joints);
 /// "load": a law of q (one joint) or a column.
-Load read_load(const JsonNode& node, int n_joints, bool linear_motion);
+Load read_load(const JsonNode& node, int n_joints, Axes axes);
 /// "arm": how the links move each other; needs the joints.
 Arm read_arm(const JsonNode& node, const Rig& rig);
 /// "controller"; none is one of type "open_loop".

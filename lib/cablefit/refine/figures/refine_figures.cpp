@@ -27,7 +27,8 @@ constexpr std::size_t kMostVariables = 3;  // per equation, those that reveal mo
 /// One equation before and after, on its way to figures.
 struct Pair {
   std::string section, group, unit;
-  bool linear_motion = false, link = false, changed = false;
+  Axes axes = Axes::rotary;
+  bool link = false, changed = false;
   double floor = 0;
   ShownRows before, after;
   std::array<const ShownRows*, 2> both() const { return {&before, &after}; }
@@ -140,9 +141,8 @@ std::vector<std::size_t> revealing(const Pair& pair) {
   return chosen;
 }
 
-FigureAxis axis_of(const RegimeVariable& variable, bool link, bool linear_motion) {
-  return {std::string(link ? variable.link : variable.motor),
-          regime_unit(variable.regime, linear_motion)};
+FigureAxis axis_of(const RegimeVariable& variable, bool link, Axes axes) {
+  return {std::string(link ? variable.link : variable.motor), regime_unit(variable.regime, axes)};
 }
 
 /// What of the residual is a function of the variable: noise averages out.
@@ -150,7 +150,7 @@ Figure mean_against(const Pair& pair, std::size_t variable) {
   const RegimeVariable& v = regime_variables()[variable];
   Figure figure = blank(pair, fmt::format("Mean residual against {}", v.regime));
   figure.caption = "Solid: forward motion; dashed: backward.";
-  figure.x = axis_of(v, pair.link, pair.linear_motion);
+  figure.x = axis_of(v, pair.link, pair.axes);
   figure.y = {"mean residual", pair.unit};
   const std::size_t speed = place_of("speed");
   for (std::size_t k = 0; k < n_states(pair); ++k)
@@ -169,7 +169,7 @@ Figure mean_against(const Pair& pair, std::size_t variable) {
 Figure rms_against(const Pair& pair, std::size_t variable) {
   const RegimeVariable& v = regime_variables()[variable];
   Figure figure = blank(pair, fmt::format("Size of the residual by {}", v.regime));
-  figure.x = axis_of(v, pair.link, pair.linear_motion);
+  figure.x = axis_of(v, pair.link, pair.axes);
   figure.y = {"rms of the residual", pair.unit};
   for (std::size_t k = 0; k < n_states(pair); ++k) {
     BinnedMean mean(n_bins(pair.before));
@@ -228,8 +228,8 @@ void add_residuals(const BeforeAfter& rows, const std::string& section, Detail d
     const Timeline time = timeline_of(rows.before, rows.logs, kind);
     const Pair pair{section,
                     fmt::format("{} equation", to_string(kind)),
-                    result.linear_motion ? "N" : "N m",
-                    result.linear_motion,
+                    unit_for(result.axes, "N m"),
+                    result.axes,
                     kind == RowKind::link,
                     rows.after.added.size() > rows.before.added.size(),
                     rows.floor[static_cast<std::size_t>(kind)],

@@ -96,7 +96,7 @@ Figure simulated_figure(const TestLogs& test, const std::vector<Model>& before,
                                test.compared < 1 ? "The last part of " : "", log);
   figure.x = {"time", "s"};
   figure.y = {first.rigid ? "motor position theta" : "deflection theta - q",
-              first.rig.linear_motion ? "mm" : "mrad"};
+              unit_for(first.rig.axes.all(), "mrad")};
   figure.wide = true;
   figure.rank = FigureRank::main;
   const auto name = [&after](const char* when, const Lines& lines) {

@@ -112,8 +112,8 @@ std::vector<ParameterShift> kept_shifts(const Design& first, const Eigen::Vector
     for (Eigen::Index p = 0; p < n_linear(first.added[k]); ++p) {
       const ParameterInfo& info = row.parameters[static_cast<std::size_t>(p)];
       shifts.push_back({fmt::format("{} ({}) {}", row.name, to_string(row.site), info.name),
-                        unit_on(design.models.front().rig, info.unit), before(old[k] + p),
-                        fit.x(now[k] + p), sd_at(fit, now[k] + p)});
+                        unit_for(design.models.front().rig.axes.all(), info.unit),
+                        before(old[k] + p), fit.x(now[k] + p), sd_at(fit, now[k] + p)});
     }
   }
   return shifts;
@@ -181,7 +181,7 @@ std::vector<NamedEffect> named_effects(const Design& design, const FinalFit& fit
       effect.instance.parameters.push_back(
           estimate_of(row.parameters[parameter], value, sd, fit.degrees_of_freedom));
       Estimate& e = effect.instance.parameters.back();
-      e.unit = unit_on(model.rig, e.unit);
+      e.unit = unit_for(model.rig.axes.all(), e.unit);
     };
     for (Eigen::Index p = 0; p < n; ++p)
       add(static_cast<std::size_t>(p), fit.x(first[k] + p), sd_at(fit, first[k] + p));
@@ -191,7 +191,7 @@ std::vector<NamedEffect> named_effects(const Design& design, const FinalFit& fit
     for (std::size_t p = 0; p < variant.shape.size(); ++p)
       add(row.n_linear() + p, variant.shape[p], is_free(variant, p) ? sd_at(fit, shape_at++) : 0);
     effect.derived = amplitudes(variant, fit, first[k]);
-    for (Estimate& e : effect.derived) e.unit = unit_on(model.rig, e.unit);
+    for (Estimate& e : effect.derived) e.unit = unit_for(model.rig.axes.all(), e.unit);
     if (n > 0) effect.torque_rms = carried_torque(design, fit.x, first[k], n);
   }
   return effects;

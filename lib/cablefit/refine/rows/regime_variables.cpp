@@ -32,10 +32,9 @@ double value_at(const RegimeVariable& variable, const Design& design, std::size_
                         design.rows[stretch].motion->tau_load(sample));
 }
 
-std::string regime_unit(std::string_view regime, bool linear_motion) {
+std::string regime_unit(std::string_view regime, Axes axes) {
   for (const RegimeVariable& variable : kVariables)
-    if (variable.regime == regime)
-      return linear_motion ? linear_unit(variable.unit) : std::string(variable.unit);
+    if (variable.regime == regime) return unit_for(axes, variable.unit);
   return "";
 }
 

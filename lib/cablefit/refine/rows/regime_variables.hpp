@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/refine/rows/design.hpp"
 
 namespace cablefit {
@@ -25,6 +26,6 @@ double value_at(const RegimeVariable& variable, const Design& design, std::size_
                 RowKind kind, Eigen::Index sample);
 
 /// The unit of a regime's variable; empty: none.
-std::string regime_unit(std::string_view regime, bool linear_motion);
+std::string regime_unit(std::string_view regime, Axes axes);
 
 }  // namespace cablefit

@@ -109,12 +109,12 @@ Controller stiff_controller(const Model& model, double period) {
 
 }  // namespace
 
-std::string text_of(const TrialRun& run, bool linear_motion) {
-  const std::string unit = linear_motion ? "m/s" : "rad/s";
+std::string text_of(const TrialRun& run, Axes axes) {
+  const std::string unit = unit_for(axes, "rad/s");
   if (run.blocked) return "with the link blocked, a slow ramp up to the peak torque on both sides";
   const std::string load =
       run.load == 0 ? "without load"
-                    : fmt::format("at a load of {:+.3g} {}", run.load, linear_motion ? "N" : "N m");
+                    : fmt::format("at a load of {:+.3g} {}", run.load, unit_for(axes, "N m"));
   return fmt::format("{} and up to {:.2g} {}{}", load, run.speed, unit,
                      run.dithered ? " with a small dither" : "");
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/refine/rows/design.hpp"
 
 namespace cablefit {
@@ -20,7 +21,7 @@ struct TrialRun {
 };
 
 /// "at a load of +30 N m, slow (up to 0.05 rad/s)".
-std::string text_of(const TrialRun& run, bool linear_motion);
+std::string text_of(const TrialRun& run, Axes axes);
 
 /// The cheapest first: the present load, slow and fast, then other loads, then a blocked link (for
 /// models with cables). Empty for logs of blocked links alone.

@@ -132,8 +132,8 @@ void separate_rivals(const NextRunInput& input, RefineResult& result) {
   take(run, result);
   result.next_experiment = fmt::format(
       "{}: {} and {} differ there by {:.2g} {} rms in the {} equation, {} the noise floor",
-      text_of(run, result.linear_motion), row.name, choice->rival, choice->difference,
-      result.linear_motion ? "N" : "N m", to_string(choice->kind),
+      text_of(run, result.axes), row.name, choice->rival, choice->difference,
+      unit_for(result.axes, "N m"), to_string(choice->kind),
       times(choice->difference / choice->floor));
 }
 
@@ -164,7 +164,7 @@ void separate_groups(const NextRunInput& input, RefineResult& result) {
                    [number](const NotSeparable& group) { return group.run == number; });
   if (!result.next_experiment.empty()) result.next_experiment += "; then ";
   result.next_experiment += fmt::format(
-      "{}: it separates {}{}", text_of(run, result.linear_motion), separated(*asked),
+      "{}: it separates {}{}", text_of(run, result.axes), separated(*asked),
       *most > 1 ? fmt::format(" ({} of {} groups of that kind)", *most, result.not_separable.size())
                 : "");
 }

@@ -136,7 +136,7 @@ void advise(std::vector<Open> open, const std::vector<Family>& all, const Design
       if (close.size() >= fewest[k]) continue;
       fewest[k] = close.size();
       out[k].run = static_cast<int>(r);
-      out[k].next_run = text_of(runs[r], model.rig.linear_motion);
+      out[k].next_run = text_of(runs[r], model.rig.axes.all());
       out[k].still_together.clear();
       for (const std::size_t f : open[k].group)
         if (std::any_of(close.begin(), close.end(),

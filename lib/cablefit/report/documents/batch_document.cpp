@@ -70,8 +70,8 @@ std::string effects_text(const CellRefine& refine) {
 
 std::string unit_of(const BatchResult& result) {
   for (const BatchCell& cell : result.cells)
-    if (cell.dynamic) return torque_unit(cell.dynamic->preloads.front().linear_motion);
-  return torque_unit(false);
+    if (cell.dynamic) return torque_unit(cell.dynamic->preloads.front().axes);
+  return torque_unit(Axes::rotary);
 }
 
 /// The missing effects of every cell that was refined; no rows where none was.

@@ -33,11 +33,11 @@ std::string good_for(const CheckedPart& part) {
 /// All logs in short.
 Table logs_table(const CheckResult& result) {
   Table table;
-  const bool linear = !result.logs.empty() && result.logs.front().linear_motion;
+  const Axes axes = axes_of(result.logs);
   table.columns = {{"", "log", "", true},     {"", "part", "", true},
                    {"", "phase", "", true},   {"", "duration", "s"},
                    {"", "rate", "Hz"},        {"", "gaps", ""},
-                   {"", "at rest", "%"},      {"", "fastest", linear ? "m/s" : "rad/s"},
+                   {"", "at rest", "%"},      {"", "fastest", unit_for(axes, "rad/s")},
                    {"", "good for", "", true}};
   for (const CheckedLog& log : result.logs)
     for (const CheckedPart& part : log.parts) {
@@ -64,7 +64,7 @@ Table parts_table(const CheckedLog& log) {
                    {"clock", "worst", "%"},
                    {"clock", "gaps", ""},
                    {"motion", "at rest", "%"},
-                   {"motion", "fastest", log.linear_motion ? "m/s" : "rad/s"},
+                   {"motion", "fastest", unit_for(log.axes, "rad/s")},
                    {"motion", "speeds", "of 10"},
                    {"", "good for", "", true}};
   for (const CheckedPart& part : log.parts) {
@@ -207,7 +207,7 @@ std::string closest_text(const PredictedParameter& p) {
 
 /// What a row of the table says of the prediction that it stands under.
 std::string about(const Prediction& p, const PredictedEquation& e) {
-  const std::string torque = torque_unit(p.linear_motion);
+  const std::string torque = torque_unit(p.axes);
   return fmt::format(
       "{}: {} samples, scaled condition number {}, sensor noise {} {}, residual of the preliminary "
       "fit {} {}",

@@ -33,11 +33,11 @@ struct Words {
 
   explicit Words(const DesignResult& r)
       : result(r),
-        torque(torque_unit(r.linear_motion)),
-        stiffness(r.linear_motion ? "N/m" : "N m/rad"),
-        angle(r.linear_motion ? "mm" : "mrad"),
-        elongation(r.cable_space || r.linear_motion ? "mm" : "mrad"),
-        tension(r.cable_space || r.linear_motion ? "N" : "N m") {}
+        torque(torque_unit(r.axes)),
+        stiffness(unit_for(r.axes, "N m/rad")),
+        angle(unit_for(r.axes, "mrad")),
+        elongation(r.cable_space ? "mm" : unit_for(r.axes, "mrad")),
+        tension(r.cable_space ? "N" : unit_for(r.axes, "N m")) {}
 
   bool several_joints() const { return result.points.front().joints.size() > 1; }
   bool several_radii() const { return result.needed.size() > 1; }
@@ -244,7 +244,7 @@ void add_tidy_rows(const Words& words, Document& document) {
                          double value) {
       add_tidy_number(document.tidy, where, model, "design", name, unit, value);
     };
-    const std::string rad = words.result.linear_motion ? "m" : "rad";
+    const std::string rad = unit_for(words.result.axes, "rad");
     add("cables", "closure_torque", words.torque, joint.closure_torque);
     add("cables", "closure_low", rad, joint.closure_low);
     add("cables", "closure_high", rad, joint.closure_high);
@@ -295,7 +295,7 @@ Table excitation_table(const ExcitationPlan& plan) {
 
 void add_excitation(const DesignResult& result, Document& document) {
   const ExcitationPlan& plan = *result.excitation;
-  const std::string rad = result.linear_motion ? "m" : "rad";
+  const std::string rad = unit_for(result.axes, "rad");
   document.summary.push_back(
       {"reference",
        fmt::format("{}: {} of {:g} s at {:g} Hz, best of {} simulated", result.excitation_path,
@@ -311,7 +311,7 @@ void add_excitation(const DesignResult& result, Document& document) {
                              100 * plan.motion.position_share, plan.limits.max_position, rad,
                              100 * plan.motion.speed_share, plan.limits.max_speed, rad,
                              100 * plan.motion.torque_share, plan.limits.max_torque,
-                             torque_unit(result.linear_motion))});
+                             torque_unit(result.axes))});
   document.tables.push_back(excitation_table(plan));
   add_figures(document, plan.figures);
   add_decisions(document, result.preload, plan.decisions);

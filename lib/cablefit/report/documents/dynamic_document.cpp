@@ -30,15 +30,15 @@ std::set<std::string> all_equations(const DynamicResult& result) {
 }
 
 Table error_table(const DynamicResult& result) {
-  const bool linear_motion = !result.preloads.empty() && result.preloads.front().linear_motion;
+  const Axes axes = axes_of(result.preloads);
   Table table;
   table.title = "Torque errors: the residual, relative to the torque to be explained";
   table.columns = {{"", "preload", "", true}, {"", "model", "", true}};
   const std::set<std::string> equations = all_equations(result);
   for (const std::string& equation : equations) {
     const std::string group = equation + " equation";
-    table.columns.push_back({group, "rms", torque_unit(linear_motion)});
-    table.columns.push_back({group, "max", torque_unit(linear_motion)});
+    table.columns.push_back({group, "rms", torque_unit(axes)});
+    table.columns.push_back({group, "max", torque_unit(axes)});
     table.columns.push_back({group, "relative", "%"});
   }
   for (const DynamicPreload& preload : result.preloads) {
@@ -87,14 +87,14 @@ Table sd_table(const DynamicResult& result) {
 Table suspect_table(const DynamicResult& result) {
   Table table;
   table.title = "Suspect spans: where the residual exceeds the noise";
-  const bool linear = !result.preloads.empty() && result.preloads.front().linear_motion;
+  const Axes axes = axes_of(result.preloads);
   table.columns = {{"", "preload", "", true},
                    {"", "model", "", true},
                    {"", "equation", "", true},
                    {"", "log", "", true},
                    {"", "from", "s"},
                    {"", "to", "s"},
-                   {"", "largest", torque_unit(linear)}};
+                   {"", "largest", torque_unit(axes)}};
   for (const DynamicPreload& preload : result.preloads)
     for (const DynamicFit& fit : preload.fits)
       for (const SuspectSpan& span : fit.suspects)
@@ -130,7 +130,7 @@ Table online_table(const DynamicResult& result) {
                                 sd_text(end.value, end.sd), significant(end.difference, 2)});
         }
   if (!table.rows.empty())
-    table.notes.push_back(
+    table.notes.emplace_back(
         "direct: the weighted fit to all rows, the answer of this result; difference: in sd of the "
         "updated estimate, which does not see all rows alike");
   return table;
@@ -230,7 +230,7 @@ void add_tidy_rows(Table& table, const DynamicPreload& preload, const DynamicFit
     add_tidy(table, preload.name, fit.model, fit.estimator, e);
   }
   for (const Estimate& e : fit.derived) add_tidy(table, preload.name, fit.model, fit.estimator, e);
-  const std::string torque = torque_unit(preload.linear_motion);
+  const std::string torque = torque_unit(preload.axes);
   for (const auto& [equation, error] : fit.torque_error) {
     const auto add = [&, name = equation](const char* what, const std::string& unit, double value) {
       add_tidy_number(table, preload.name, fit.model, fit.estimator,
@@ -276,7 +276,7 @@ std::string dependence_text(const DynamicPreload& preload, const std::string& mo
   bool is_same = true;
   for (const JudgedEquation& e : preload.residual_tests) {
     if (e.model != model) continue;
-    const std::string depends = depends_text(e, torque_unit(preload.linear_motion));
+    const std::string depends = depends_text(e, torque_unit(preload.axes));
     if (text.empty()) first = depends;
     is_same = is_same && depends == first;
     text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", e.equation, depends);
@@ -287,7 +287,7 @@ std::string dependence_text(const DynamicPreload& preload, const std::string& mo
 void add_answer(const DynamicPreload& preload, Document& document) {
   const DynamicFit* best = better_fit(preload);
   if (best == nullptr) return;
-  const std::string unit = torque_unit(preload.linear_motion);
+  const std::string unit = torque_unit(preload.axes);
   const std::string use = preload.fits.size() > 1 ? "use " + best->model + "; " : "";
   document.summary.push_back(
       {preload.name, fmt::format("{}residual: {}", use, residual_text(*best, unit))});

@@ -58,15 +58,15 @@ bool has_several_joints(const ElasticResult& result) {
 }
 
 Table fits_table(const ElasticResult& result) {
-  const bool linear_motion = !result.preloads.empty() && result.preloads.front().linear_motion;
-  const std::string torque = torque_unit(linear_motion);
+  const Axes axes = axes_of(result.preloads);
+  const std::string torque = torque_unit(axes);
   Table table;
   Footnotes notes;
   table.title = "Fits";
   table.columns = {{"", "preload", "", true},
                    {"", "model", "", true},
                    {"", "offset", torque},
-                   {"", "theta_0", linear_motion ? "mm" : "mrad"},
+                   {"", "theta_0", unit_for(axes, "mrad")},
                    {"", "f_sm", torque},
                    {"error", "rms", torque},
                    {"error", "max", torque},
@@ -105,14 +105,14 @@ Table fits_table(const ElasticResult& result) {
 
 /// Lines and cables on the logs of the fit, and on test logs: Figs. 6b and 7b as numbers.
 Table scores_table(const ElasticResult& result) {
-  const bool linear_motion = !result.preloads.empty() && result.preloads.front().linear_motion;
-  const std::string torque = torque_unit(linear_motion);
+  const Axes axes = axes_of(result.preloads);
+  const std::string torque = torque_unit(axes);
   Table table;
   table.title = "Errors of the elastic torque (Figs. 6b, 7b)";
   table.columns = {{"", "preload", "", true},   {"", "model", "", true},
-                   {"", "fitted to", "", true}, {"", "K", linear_motion ? "N/m" : "N m/rad"},
+                   {"", "fitted to", "", true}, {"", "K", unit_for(axes, "N m/rad")},
                    {"", "on", "", true},        {"error", "rms", torque},
-                   {"error", "max", torque},    {"error", "at", linear_motion ? "mm" : "mrad"}};
+                   {"error", "max", torque},    {"error", "at", unit_for(axes, "mrad")}};
   for (const ElasticPreload& preload : result.preloads)
     for (const ElasticScore& score : preload.scores)
       table.rows.push_back(
@@ -130,8 +130,8 @@ std::string terms_text(const BasisScore& score) {
 
 /// Bases of the cable force: the answer of --bases.
 Table bases_table(const ElasticResult& result) {
-  const bool linear_motion = !result.preloads.empty() && result.preloads.front().linear_motion;
-  const std::string torque = torque_unit(linear_motion);
+  const Axes axes = axes_of(result.preloads);
+  const std::string torque = torque_unit(axes);
   Table table;
   table.title = "Bases of the cable force";
   table.columns = {{"", "preload", "", true},
@@ -140,7 +140,7 @@ Table bases_table(const ElasticResult& result) {
                    {"error", "rms", torque},
                    {"held-out blocks", "rms", torque},
                    {"held-out blocks", "best polynomial of as many terms", torque},
-                   {"k(l) = f(l)/l", "least", linear_motion ? "N/m" : "N m/rad"},
+                   {"k(l) = f(l)/l", "least", unit_for(axes, "N m/rad")},
                    {"k(l) = f(l)/l", ">= 0", "", true}};
   for (const ElasticPreload& preload : result.preloads) {
     if (!preload.bases) continue;
@@ -156,7 +156,7 @@ Table bases_table(const ElasticResult& result) {
                       preload.name, error_text(preload.bases->floor), torque));
   }
   if (!table.rows.empty())
-    table.notes.push_back(
+    table.notes.emplace_back(
         "terms: of each cable, chosen one by one; their number by block cross-validation");
   return table;
 }
@@ -174,7 +174,7 @@ std::string balance_text(const ElasticPreload& preload, const ElasticFit& fit) {
   return fmt::format(
       "{}, {}: in the reference pose the preload alone gives {} {} on the link and "
       "{} on the motor; 0 in equilibrium (8c)",
-      preload.name, fit.model, numbers_text(alone.link), torque_unit(preload.linear_motion),
+      preload.name, fit.model, numbers_text(alone.link), torque_unit(preload.axes),
       numbers_text(alone.motor));
 }
 
@@ -194,14 +194,14 @@ std::string modes_text(const ElasticPreload& preload) {
 /// Where cables of a preloaded fit go slack, within the deflections of the logs; no rows otherwise:
 /// with every l_o = 0 each cable ends at zero deflection by definition.
 Table slack_table(const ElasticResult& result) {
-  const bool linear_motion = !result.preloads.empty() && result.preloads.front().linear_motion;
+  const Axes axes = axes_of(result.preloads);
   Table table;
   table.title = "Cables go slack (force disclosure) at";
   table.columns = {{"", "preload", "", true},
                    {"", "model", "", true},
                    {"", "cable", "", true},
-                   {"", "deflection", linear_motion ? "mm" : "mrad"},
-                   {"", "elastic torque", torque_unit(linear_motion)},
+                   {"", "deflection", unit_for(axes, "mrad")},
+                   {"", "elastic torque", torque_unit(axes)},
                    {"", "slack", "", true}};
   for (const ElasticPreload& preload : result.preloads) {
     for (const ElasticFit& fit : preload.fits) {
@@ -235,7 +235,7 @@ void add_tidy_rows(Table& table, const ElasticPreload& preload, const ElasticFit
   const auto add = [&](const char* name, const std::string& unit, double value) {
     add_tidy_number(table, preload.name, fit.model, method, name, unit, value);
   };
-  const std::string torque = torque_unit(preload.linear_motion);
+  const std::string torque = torque_unit(preload.axes);
   add("rms_error", torque, fit.rms_error);
   add("max_abs_error", torque, fit.max_abs_error);
   add("held_out_rms", torque, fit.held_out_rms);
@@ -246,7 +246,7 @@ void add_tidy_rows(Table& table, const ElasticPreload& preload, const ElasticFit
 
 /// What to take, and by how much it is better.
 SummaryLine answer_of(const ElasticPreload& preload) {
-  const std::string torque = torque_unit(preload.linear_motion);
+  const std::string torque = torque_unit(preload.axes);
   std::string text, others;
   for (const ElasticFit& fit : preload.fits) {
     const std::string error = fmt::format("{} {}", error_text(fit.held_out_max), torque);
@@ -273,9 +273,9 @@ Headline headline_of(const ElasticResult& result) {
     headline.verdict += fmt::format("{}{}: use {}", headline.verdict.empty() ? "" : "; ",
                                     preload.name, model_text(*fit));
     if (headline.numbers.size() < kMostNumbers)
-      headline.numbers.push_back({fmt::format("largest error on held-out blocks, {}", preload.name),
-                                  fmt::format("{} {}", error_text(fit->held_out_max),
-                                              torque_unit(preload.linear_motion))});
+      headline.numbers.push_back(
+          {fmt::format("largest error on held-out blocks, {}", preload.name),
+           fmt::format("{} {}", error_text(fit->held_out_max), torque_unit(preload.axes))});
   }
   return headline;
 }

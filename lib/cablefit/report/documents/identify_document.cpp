@@ -125,15 +125,14 @@ bool searches_radius(const IdentifyResult& result) {
 Table elongation_table(const IdentifyResult& result) {
   Table table;
   Footnotes notes;
-  const bool length = result.cable_space || result.linear_motion;
+  const std::string length = result.cable_space ? "mm" : unit_for(result.axes, "mrad");
   table.title = "Initial elongations l_o";
   table.columns = {{"", "preload", "", true},
                    {"", "cable", "", true},
-                   {"", "l_o", length ? "mm" : "mrad"},
-                   {"", "sd", length ? "mm" : "mrad"},
+                   {"", "l_o", length},
+                   {"", "sd", length},
                    {"", "95 % interval", searches_radius(result) ? "" : "profile likelihood"},
-                   {"", "tension", length && !result.cable_space ? "N" : "N m"}};
-  if (result.cable_space) table.columns.back().unit = "N";
+                   {"", "tension", result.cable_space ? "N" : torque_unit(result.axes)}};
   for (const IdentifyPreload& preload : result.preloads)
     for (const Cable& cable : preload.transmission.cables) {
       const Estimate* e = elongation_estimate(preload, cable);
@@ -156,11 +155,10 @@ Table elongation_table(const IdentifyResult& result) {
   double most = 0;
   for (const IdentifyPreload& preload : result.preloads) most = std::max(most, preload.equilibrium);
   // Rounding differs between machines, so a satisfied condition is printed without its digits.
-  table.notes.push_back(
-      fmt::format("in the reference pose the preload alone gives {} {} on link and motor: "
-                  "equilibrium (8c), imposed",
-                  most < kEquilibriumMet ? "less than 1e-9" : significant(most, 2),
-                  torque_unit(result.linear_motion)));
+  table.notes.push_back(fmt::format(
+      "in the reference pose the preload alone gives {} {} on link and motor: "
+      "equilibrium (8c), imposed",
+      most < kEquilibriumMet ? "less than 1e-9" : significant(most, 2), torque_unit(result.axes)));
   return table;
 }
 
@@ -228,9 +226,9 @@ Table line_table(const IdentifyResult& result) {
   table.title = "Linear stiffness K: the straight line through the blocked rows";
   table.columns = {{"", "preload", "", true},
                    {"", "slope", "", true},
-                   {"", "deflection", result.linear_motion ? "mm" : "mrad"},
-                   {"", "measured", result.linear_motion ? "N/m" : "N m/rad"},
-                   {"", "of these cables", result.linear_motion ? "N/m" : "N m/rad"}};
+                   {"", "deflection", unit_for(result.axes, "mrad")},
+                   {"", "measured", unit_for(result.axes, "N m/rad")},
+                   {"", "of these cables", unit_for(result.axes, "N m/rad")}};
   for (const IdentifyPreload& preload : result.preloads)
     for (const LineStiffness& line : preload.lines)
       table.rows.push_back({preload.name, line.name, range_text(line.low, line.high),
@@ -244,8 +242,8 @@ Table slack_table(const IdentifyResult& result) {
   table.title = "Cables go slack (force disclosure) at";
   table.columns = {{"", "preload", "", true},
                    {"", "cable", "", true},
-                   {"", "deflection", result.linear_motion ? "mm" : "mrad"},
-                   {"", "elastic torque", torque_unit(result.linear_motion)},
+                   {"", "deflection", unit_for(result.axes, "mrad")},
+                   {"", "elastic torque", torque_unit(result.axes)},
                    {"", "slack", "", true}};
   for (const IdentifyPreload& preload : result.preloads)
     for (const SlackPoint& point : preload.slack)
@@ -259,14 +257,10 @@ Table slack_table(const IdentifyResult& result) {
 Table equation_table(const IdentifyResult& result) {
   Table table;
   table.title = "Equations: residual and weight of each";
-  table.columns = {{"", "preload", "", true},
-                   {"", "equation", "", true},
-                   {"", "rms", torque_unit(result.linear_motion)},
-                   {"rows", "used", ""},
-                   {"rows", "at rest", ""},
-                   {"rows", "not used", ""},
-                   {"rows", "effective", ""},
-                   {"", "weight", "1/variance"}};
+  table.columns = {
+      {"", "preload", "", true}, {"", "equation", "", true},  {"", "rms", torque_unit(result.axes)},
+      {"rows", "used", ""},      {"rows", "at rest", ""},     {"rows", "not used", ""},
+      {"rows", "effective", ""}, {"", "weight", "1/variance"}};
   for (const IdentifyPreload& preload : result.preloads)
     for (const IdentifyEquation& e : preload.equations)
       table.rows.push_back(
@@ -291,7 +285,7 @@ void add_tidy_rows(Document& document, const std::string& preload,
 }
 
 /// "residual: blocked 0.0549 N m rms, link ..."; of several joints the least and the largest.
-std::string residual_text(const IdentifyPreload& preload, bool linear_motion) {
+std::string residual_text(const IdentifyPreload& preload, Axes axes) {
   std::string text;
   for (const char* side : {"blocked", "link", "motor"}) {
     double least = kUnbounded, most = -kUnbounded;
@@ -303,7 +297,7 @@ std::string residual_text(const IdentifyPreload& preload, bool linear_motion) {
     if (most < least) continue;
     const std::string from = significant(least, kErrorDigits), to = significant(most, kErrorDigits);
     text += fmt::format("{} {} {} {} rms", text.empty() ? "residual:" : ",", side,
-                        from == to ? to : from + " .. " + to, torque_unit(linear_motion));
+                        from == to ? to : from + " .. " + to, torque_unit(axes));
   }
   return text;
 }
@@ -349,7 +343,7 @@ Headline headline_of(const IdentifyResult& result) {
   if (!residuals.empty())
     headline.numbers.push_back(
         {"residual, motor equation",
-         fmt::format("{} {} rms", joined_numbers(residuals), torque_unit(result.linear_motion))});
+         fmt::format("{} {} rms", joined_numbers(residuals), torque_unit(result.axes))});
   return headline;
 }
 
@@ -363,7 +357,7 @@ Document identify_document(const IdentifyResult& result) {
   add_tidy_rows(document, "all", result.parameters);
   Table derived = derived_table();
   for (const IdentifyPreload& preload : result.preloads) {
-    document.summary.push_back({preload.name, residual_text(preload, result.linear_motion)});
+    document.summary.push_back({preload.name, residual_text(preload, result.axes)});
     const std::string elongations = elongations_text(preload.parameters);
     if (!elongations.empty()) document.summary.push_back({"", elongations});
     add_decisions(document, preload.name, preload.decisions);

@@ -66,15 +66,14 @@ Table watch_table(const PredictResult& result) {
   table.title = "Contact detection";
   table.columns = {{"", "log", "", true},
                    {"", "joint", "", true},
-                   {"torque", "threshold", "N m"},
-                   {"torque", "detected", "N m"},
+                   {"torque", "threshold", torque_unit(result.axes)},
+                   {"torque", "detected", torque_unit(result.axes)},
                    {"windows", "monitored", ""},
                    {"windows", "alarms", ""},
                    {"windows", "expected", ""},
                    {"without contact", "windows", ""},
                    {"without contact", "alarms", ""},
                    {"", "not monitored", "s"}};
-  if (result.linear_motion) table.columns[2].unit = table.columns[3].unit = "N";
   for (const PredictedPart& part : result.parts)
     for (const ContactWatch& watch : part.watches)
       table.rows.push_back(
@@ -98,7 +97,7 @@ Table contact_table(const PredictResult& result) {
                    {"", "joint", "", true},
                    {"", "from", "s"},
                    {"", "to", "s"},
-                   {"", "torque", result.linear_motion ? "N" : "N m"}};
+                   {"", "torque", unit_for(result.axes, "N m")}};
   for (const PredictedPart& part : result.parts)
     for (const ContactWatch& watch : part.watches) {
       const std::size_t n = std::min(watch.contacts.size(), kMostContacts);

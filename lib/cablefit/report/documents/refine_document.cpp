@@ -22,7 +22,7 @@ std::string percent(double share) {
 
 /// Of several joints what each has.
 Table joint_table(const RefineResult& result) {
-  const std::string torque = torque_unit(result.linear_motion);
+  const std::string torque = torque_unit(result.axes);
   Table table;
   table.title = "Joints";
   table.columns = {{"", "joint", "", true},
@@ -57,7 +57,7 @@ Table joint_reasons(const RefineResult& result) {
 }
 
 Table where_table(const RefineResult& result) {
-  const std::string torque = torque_unit(result.linear_motion);
+  const std::string torque = torque_unit(result.axes);
   Table table;
   table.title = "Where the gap is";
   table.detail = true;
@@ -66,7 +66,7 @@ Table where_table(const RefineResult& result) {
                    {"share of", "rows", "%"},  {"", "rms", torque},
                    {"", "noise floor", torque}};
   for (const Regime& r : result.where)
-    table.rows.push_back({r.equation, r.regime, regime_text(r, result.linear_motion),
+    table.rows.push_back({r.equation, r.regime, regime_text(r, result.axes),
                           percent(r.share_of_squared_gap), percent(r.share_of_rows), number(r.rms),
                           number(r.noise)});
   table.notes = {
@@ -120,7 +120,7 @@ Table separability_table(const RefineResult& result) {
 }
 
 Table step_table(const RefineResult& result) {
-  const std::string torque = torque_unit(result.linear_motion);
+  const std::string torque = torque_unit(result.axes);
   Table table;
   table.title = "Steps";
   table.detail = true;
@@ -196,8 +196,8 @@ Table tidy_rows(const RefineResult& result) {
   for (const Model& model : result.models) add_model_rows(table, model);
   for (const KeptEffect& kept : result.kept) add_effect_rows(table, kept.now, result);
   for (const NamedEffect& effect : result.effects) add_effect_rows(table, effect, result);
-  add_gap_rows(table, result.torque, "torque", torque_unit(result.linear_motion));
-  add_gap_rows(table, result.simulation, "simulation", result.linear_motion ? "m" : "rad");
+  add_gap_rows(table, result.torque, "torque", torque_unit(result.axes));
+  add_gap_rows(table, result.simulation, "simulation", unit_for(result.axes, "rad"));
   if (result.models.size() == 1)  // then all of it is about its preload
     for (auto& row : table.rows) row.front() = result.models.front().preload;
   return table;

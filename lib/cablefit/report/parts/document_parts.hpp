@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cablefit/base/torque_unit.hpp"
+#include "cablefit/base/axes.hpp"
 #include "cablefit/elastic/elastic_result.hpp"
 #include "cablefit/report/parts/document.hpp"
 

@@ -22,9 +22,9 @@ struct FrictionWords {
   bool several_joints;
 
   explicit FrictionWords(const DesignResult& r)
-      : torque(torque_unit(r.linear_motion)),
-        stiffness(r.linear_motion ? "N/m" : "N m/rad"),
-        elongation(r.cable_space || r.linear_motion ? "mm" : "mrad"),
+      : torque(torque_unit(r.axes)),
+        stiffness(unit_for(r.axes, "N m/rad")),
+        elongation(r.cable_space ? "mm" : unit_for(r.axes, "mrad")),
         several_joints(!r.points.empty() && r.points.front().joints.size() > 1) {}
 
   std::string length(double l_o) const {
@@ -211,7 +211,7 @@ void add_friction_rows(const DesignResult& result, Document& document) {
       };
       for (const DesignFriction::Part& p : joint.friction->parts)
         add(p.name, p.unit, p.value.value);
-      add(kDryFriction, torque_unit(result.linear_motion), joint.friction->at_rest);
+      add(kDryFriction, torque_unit(result.axes), joint.friction->at_rest);
       add("efficiency_driving", "", joint.friction->efficiency_driving);
     }
 }

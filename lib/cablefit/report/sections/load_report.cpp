@@ -22,10 +22,10 @@ struct LoadUnits {
   std::string torque, angle, elongation, tension;
 
   explicit LoadUnits(const DesignResult& r)
-      : torque(torque_unit(r.linear_motion)),
-        angle(r.linear_motion ? "mm" : "mrad"),
-        elongation(r.cable_space || r.linear_motion ? "mm" : "mrad"),
-        tension(r.cable_space || r.linear_motion ? "N" : "N m") {}
+      : torque(torque_unit(r.axes)),
+        angle(unit_for(r.axes, "mrad")),
+        elongation(r.cable_space ? "mm" : unit_for(r.axes, "mrad")),
+        tension(r.cable_space ? "N" : unit_for(r.axes, "N m")) {}
 };
 
 std::string own_text(const HeldLoad& held) {
@@ -102,7 +102,7 @@ void add_held_loads(const DesignResult& result, Document& document) {
     for (Eigen::Index j = 0; j < held.load.size(); ++j)
       add_tidy_number(document.tidy, "l_o " + exact(held.l_o) + " load " + load_text(held),
                       "cables", "design", "deflection[" + std::to_string(j + 1) + "]",
-                      result.linear_motion ? "m" : "rad", held.deflection(j));
+                      unit_for(result.axes, "rad"), held.deflection(j));
 }
 
 }  // namespace cablefit

@@ -105,7 +105,7 @@ Figure polytope_figure(const TorquePolytope& p, const std::string& torque) {
 }  // namespace
 
 void add_polytopes(const DesignResult& result, Document& document) {
-  const std::string torque = torque_unit(result.linear_motion);
+  const std::string torque = torque_unit(result.axes);
   std::vector<Figure> figures;
   for (const TorquePolytope& p : result.polytopes) {
     add_table(document, torque_table(result, p, torque));

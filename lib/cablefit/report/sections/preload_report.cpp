@@ -21,15 +21,15 @@ std::string range_text(double low, double high) {
                      significant(kMilli * high, kDigits));
 }
 
-bool is_linear_motion(const BatchResult& result) {
+Axes axes_of(const BatchResult& result) {
   for (const BatchCell& cell : result.cells)
-    if (cell.dynamic) return cell.dynamic->preloads.front().linear_motion;
-  return false;
+    if (cell.dynamic) return cell.dynamic->preloads.front().axes;
+  return Axes::rotary;
 }
 
 Table advice_table(const std::vector<PreloadAdvice>& advice, const AdviceDetector& detector,
-                   bool linear_motion) {
-  const std::string torque = torque_unit(linear_motion), way = linear_motion ? "mm" : "mrad";
+                   Axes axes) {
+  const std::string torque = torque_unit(axes), way = unit_for(axes, "mrad");
   Table table;
   table.title = "Model error and friction of each preload";
   table.columns = {{"", "cell", "", true},
@@ -58,7 +58,7 @@ Table advice_table(const std::vector<PreloadAdvice>& advice, const AdviceDetecto
   return table;
 }
 
-Figure advice_figure(const std::vector<PreloadAdvice>& advice, bool linear_motion) {
+Figure advice_figure(const std::vector<PreloadAdvice>& advice, Axes axes) {
   Figure figure;
   figure.section = "Preload trade-off";
   figure.title = "Model error and friction against preload";
@@ -66,7 +66,7 @@ Figure advice_figure(const std::vector<PreloadAdvice>& advice, bool linear_motio
       "Bars on the friction: 95 % intervals. A collision smaller than its mark is not separable "
       "from the model's own error.";
   figure.x = {kPreloadAxis, ""};
-  figure.y = {"torque", torque_unit(linear_motion)};
+  figure.y = {"torque", torque_unit(axes)};
   figure.wide = true;
   struct Line {
     const char* name;
@@ -98,9 +98,9 @@ void add_preload_advice(const BatchResult& result, Document& document) {
   const AdviceDetector detector;
   const std::vector<PreloadAdvice> advice = preload_advice(result.cells, detector);
   if (advice.size() < 2) return;
-  const bool linear_motion = is_linear_motion(result);
-  document.tables.push_back(advice_table(advice, detector, linear_motion));
-  document.figures.insert(document.figures.begin(), advice_figure(advice, linear_motion));
+  const Axes axes = axes_of(result);
+  document.tables.push_back(advice_table(advice, detector, axes));
+  document.figures.insert(document.figures.begin(), advice_figure(advice, axes));
 }
 
 }  // namespace cablefit

@@ -53,10 +53,9 @@ std::vector<SummaryLine> where_lines(const RefineResult& result) {
         {lines.empty() ? "where" : "and",
          fmt::format("{} equation, {}: {} of its squared gap in {} of its {}; {} {} rms "
                      "there, noise floor {}",
-                     r.equation, regime_text(r, result.linear_motion),
-                     percent(r.share_of_squared_gap), percent(r.share_of_rows),
-                     r.regime == kFrequency ? "band" : "rows", number(r.rms),
-                     torque_unit(result.linear_motion), number(r.noise))});
+                     r.equation, regime_text(r, result.axes), percent(r.share_of_squared_gap),
+                     percent(r.share_of_rows), r.regime == kFrequency ? "band" : "rows",
+                     number(r.rms), torque_unit(result.axes), number(r.noise))});
   }
   return lines;
 }
@@ -172,8 +171,8 @@ void add_effect_lines(const RefineResult& result, std::vector<SummaryLine>& line
     std::string text = fmt::format("{}: {}; {}", name, row.equation, parameters_text(effect));
     if (row.is_event) text += "; " + date_text(effect.instance, result);
     if (effect.torque_rms > 0)
-      text += fmt::format("; carries {} {} rms", number(effect.torque_rms),
-                          torque_unit(result.linear_motion));
+      text +=
+          fmt::format("; carries {} {} rms", number(effect.torque_rms), torque_unit(result.axes));
     lines.push_back({"effect", text});
     lines.push_back(evidence_line(effect, result.held_out_blocks));
     const bool is_first = effect.joint != std::exchange(last_joint, effect.joint);
@@ -192,15 +191,15 @@ std::string before_after(double before, double after, bool changed) {
 SummaryLine gap_line(const RefineResult& result) {
   const GapStory& gap = result.torque;
   const bool changed = !result.effects.empty();
-  return {"gap",
-          fmt::format("torque, {} rms: train {}, test {}{}, noise floor {}",
-                      torque_unit(result.linear_motion),
-                      before_after(gap.train_before, gap.train_after, changed),
-                      before_after(gap.test_before, gap.test_after, changed),
-                      interval_text(gap.test_after_ci), number(gap.noise_floor)) +
-              (result.held_out_blocks ? fmt::format("; test: the last third of every {} log",
-                                                    result.elastic_only ? "blocked" : "moving")
-                                      : "")};
+  return {
+      "gap",
+      fmt::format("torque, {} rms: train {}, test {}{}, noise floor {}", torque_unit(result.axes),
+                  before_after(gap.train_before, gap.train_after, changed),
+                  before_after(gap.test_before, gap.test_after, changed),
+                  interval_text(gap.test_after_ci), number(gap.noise_floor)) +
+          (result.held_out_blocks ? fmt::format("; test: the last third of every {} log",
+                                                result.elastic_only ? "blocked" : "moving")
+                                  : "")};
 }
 
 /// Why the simulation replays the torque of a log; nullptr in closed loop.
@@ -224,18 +223,17 @@ std::string replay_text(const RefineResult& result) {
 SummaryLine simulation_line(const RefineResult& result) {
   const GapStory& gap = result.simulation;
   if (result.elastic_only) return {"simulation", "none: a blocked link does not move"};
-  return {
-      "simulation",
-      fmt::format(
-          "of the test logs, {} rms: {}{}, noise floor {}", result.linear_motion ? "mm" : "mrad",
-          before_after(1e3 * gap.test_before, 1e3 * gap.test_after, !result.effects.empty()),
-          interval_text({1e3 * gap.test_after_ci[0], 1e3 * gap.test_after_ci[1]}),
-          number(1e3 * gap.noise_floor)) +
-          replay_text(result)};
+  return {"simulation",
+          fmt::format(
+              "of the test logs, {} rms: {}{}, noise floor {}", unit_for(result.axes, "mrad"),
+              before_after(1e3 * gap.test_before, 1e3 * gap.test_after, !result.effects.empty()),
+              interval_text({1e3 * gap.test_after_ci[0], 1e3 * gap.test_after_ci[1]}),
+              number(1e3 * gap.noise_floor)) +
+              replay_text(result)};
 }
 
 SummaryLine remainder_line(const RefineResult& result) {
-  const std::string unit = torque_unit(result.linear_motion);
+  const std::string unit = torque_unit(result.axes);
   std::string text;
   if (result.elastic_only)
     return {"remainder", fmt::format("blocked {} {} rms above the noise floor",
@@ -245,16 +243,16 @@ SummaryLine remainder_line(const RefineResult& result) {
                                           number(result.remainder_motor), unit)};
 }
 
-std::string unexplained_text(const Unexplained& found, bool linear_motion) {
+std::string unexplained_text(const Unexplained& found, Axes axes) {
   const std::string size =
-      fmt::format("{} {} rms above the noise floor", number(found.rms), torque_unit(linear_motion));
+      fmt::format("{} {} rms above the noise floor", number(found.rms), torque_unit(axes));
   const std::string share = percent(found.share_of_squared_gap);
   if (found.kind == "mode")
     return fmt::format(
         "{} equation, {}: like a mode of {} Hz and damping ratio {}, {} {}, excited by "
         "the motion ({} of it)",
         found.equation, size, number(found.frequency), significant(found.damping, 2),
-        significant(found.inertia, 2), linear_motion ? "kg" : "kg m^2", share);
+        significant(found.inertia, 2), unit_for(axes, "kg m^2"), share);
   if (found.kind == "hum")
     return fmt::format(
         "{} equation, {}: like a tone of {} Hz, independent of the motion ({} of it)",
@@ -284,12 +282,12 @@ std::string effect_text(const NamedEffect& effect, const RefineResult& result) {
   return effect_text(row.name, to_string(row.site), effect.joint, result);
 }
 
-std::string regime_text(const Regime& regime, bool linear_motion) {
+std::string regime_text(const Regime& regime, Axes axes) {
   if (regime.regime == "direction")
     return fmt::format("{} = {}", regime.variable, regime.from < -0.5 ? -1 : 1);
   if (regime.regime == kFrequency)
     return fmt::format("from {} to {} Hz", number(regime.from), number(regime.to));
-  const std::string unit = regime_unit(regime.regime, linear_motion);
+  const std::string unit = regime_unit(regime.regime, axes);
   return fmt::format("{} from {} to {}{}{}", regime.variable, number(regime.from),
                      number(regime.to), unit.empty() ? "" : " ", unit);
 }
@@ -315,7 +313,7 @@ Headline refine_headline(const RefineResult& result) {
     names += (names.empty() ? "" : ", ") + effect_text(effect, result);
   headline.verdict = names.empty() ? result.reason : names + "; " + result.reason;
   const bool changed = !result.effects.empty();
-  const std::string torque = torque_unit(result.linear_motion);
+  const std::string torque = torque_unit(result.axes);
   const auto numbers = [&](const GapStory& gap, double scale, const std::string& unit) {
     return fmt::format(
         "{} {}", before_after(scale * gap.test_before, scale * gap.test_after, changed), unit);
@@ -323,10 +321,10 @@ Headline refine_headline(const RefineResult& result) {
   if (result.torque.known)
     headline.numbers = {{"torque gap on test data, rms", numbers(result.torque, 1, torque)}};
   if (result.simulation.known)
-    headline.numbers.push_back(
-        {replay_of(result) != nullptr ? "simulation gap on test data (torque replayed), rms"
-                                      : "simulation gap on test data, rms",
-         numbers(result.simulation, 1e3, result.linear_motion ? "mm" : "mrad")});
+    headline.numbers.push_back({replay_of(result) != nullptr
+                                    ? "simulation gap on test data (torque replayed), rms"
+                                    : "simulation gap on test data, rms",
+                                numbers(result.simulation, 1e3, unit_for(result.axes, "mrad"))});
   if (result.torque.known)
     headline.numbers.push_back(
         {"noise floor, torque", fmt::format("{} {}", number(result.torque.noise_floor), torque)});
@@ -342,7 +340,7 @@ std::vector<SummaryLine> refine_story(const RefineResult& result,
   if (result.simulation.known || result.elastic_only) lines.push_back(simulation_line(result));
   lines.push_back(remainder_line(result));
   if (result.unexplained)
-    lines.push_back({"remainder", unexplained_text(*result.unexplained, result.linear_motion)});
+    lines.push_back({"remainder", unexplained_text(*result.unexplained, result.axes)});
   if (result.verdict != Verdict::none)
     for (SummaryLine& line : where_lines(result)) lines.push_back(std::move(line));
   if (!result.effects.empty() && !shifts_any(result))

@@ -1,6 +1,7 @@
 // The story of a refinement in about ten lines. Internal to report/.
 #pragma once
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/refine/refine_result.hpp"
 #include "cablefit/report/parts/document.hpp"
 
@@ -18,7 +19,7 @@ std::string effect_text(std::string_view name, std::string_view side, int joint,
 std::string effect_text(const NamedEffect& effect, const RefineResult& result);
 
 /// "thetad from -0.386 to 0.208 rad/s", "negative direction of thetad".
-std::string regime_text(const Regime& regime, bool linear_motion);
+std::string regime_text(const Regime& regime, Axes axes);
 
 /// How many sd a parameter moved; NaN without an sd.
 double moved_sd(const ParameterShift& shift);

@@ -22,12 +22,12 @@ struct Units {
   std::string torque, stiffness, angle, elongation, tension, cable;
 
   explicit Units(const DesignResult& r)
-      : torque(torque_unit(r.linear_motion)),
-        stiffness(r.linear_motion ? "N/m" : "N m/rad"),
-        angle(r.linear_motion ? "mm" : "mrad"),
-        elongation(r.cable_space || r.linear_motion ? "mm" : "mrad"),
-        tension(r.cable_space || r.linear_motion ? "N" : "N m"),
-        cable(r.cable_space || r.linear_motion ? "N/m" : "N m/rad") {}
+      : torque(torque_unit(r.axes)),
+        stiffness(unit_for(r.axes, "N m/rad")),
+        angle(unit_for(r.axes, "mrad")),
+        elongation(r.cable_space ? "mm" : unit_for(r.axes, "mrad")),
+        tension(r.cable_space ? "N" : unit_for(r.axes, "N m")),
+        cable(r.cable_space ? "N/m" : unit_for(r.axes, "N m/rad")) {}
 };
 
 /// Torque of joint j by positions of joint k: four blocks, q first.

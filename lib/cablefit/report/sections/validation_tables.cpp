@@ -15,7 +15,7 @@ constexpr int kDigits = 3;
 std::string number(double value) { return significant(value, kDigits); }
 
 std::string torque_unit_of(const DynamicResult& result) {
-  return torque_unit(!result.preloads.empty() && result.preloads.front().linear_motion);
+  return torque_unit(axes_of(result.preloads));
 }
 
 Table condition_table(const std::string& unit, const std::string& linear) {
@@ -175,7 +175,7 @@ Table residual_summary(const DynamicResult& result) {
   for (const DynamicPreload& preload : result.preloads)
     for (const JudgedEquation& e : preload.residual_tests)
       table.rows.push_back({preload.name, e.model, e.equation, white_text(e),
-                            depends_text(e, torque_unit(preload.linear_motion))});
+                            depends_text(e, torque_unit(preload.axes))});
   return table;
 }
 
@@ -189,7 +189,7 @@ Table residual_table(const DynamicResult& result) {
 std::vector<std::string> validation_warnings(const DynamicPreload& preload) {
   std::vector<std::string> warnings;
   if (!preload.validation) return warnings;
-  const std::string unit = torque_unit(preload.linear_motion);
+  const std::string unit = torque_unit(preload.axes);
   for (const JudgedEquation& e : preload.validation->equations) {
     const ConditionError* worst = worst_of(e);
     if (worst == nullptr) continue;
@@ -206,7 +206,7 @@ std::vector<std::string> validation_warnings(const DynamicPreload& preload) {
 
 void add_validation_rows(Table& table, const DynamicPreload& preload) {
   if (!preload.validation) return;
-  const std::string unit = torque_unit(preload.linear_motion);
+  const std::string unit = torque_unit(preload.axes);
   for (const JudgedEquation& e : preload.validation->equations) {
     for (const ConditionError& c : e.conditions) {
       const std::string place =

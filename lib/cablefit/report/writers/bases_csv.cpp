@@ -16,7 +16,7 @@ std::string bases_csv(const ElasticResult& result) {
       text = fmt::format("preload,deflection [{}]", preload.unit);
       for (const BasisScore& score : scores)
         text += fmt::format(",{0} torque [{1}],{0} stiffness [{1}/{2}]", score.basis,
-                            torque_unit(preload.linear_motion), preload.unit);
+                            torque_unit(preload.axes), preload.unit);
       text += '\n';
     }
     for (std::size_t i = 0; i < scores.front().curve.deflection.size(); ++i) {

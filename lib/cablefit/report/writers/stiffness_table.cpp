@@ -79,8 +79,8 @@ std::string range_text(const ElasticPreload& preload) {
 }
 
 std::string range_unit(const ElasticResult& result) {
-  const bool linear_motion = !result.preloads.empty() && result.preloads.front().linear_motion;
-  return linear_motion ? "mm" : "mrad";
+  const Axes axes = axes_of(result.preloads);
+  return unit_for(axes, "mrad");
 }
 
 /// j of "K1_j" and "k[name]_j"; 0 of "K".

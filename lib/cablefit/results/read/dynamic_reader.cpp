@@ -91,7 +91,7 @@ void read_model_parts(const JsonNode& node, const Rig& rig, DynamicFit& fit) {
     fit.elastic = read_stage1(*elastic, node, rig, fit.model);
   const JsonNode* effects = node.find("effects");
   if (effects != nullptr && !effects->items.empty())
-    fit.effects = model_file::read_refinements(*effects, rig, is_rigid_fit(fit, rig));
+    fit.effects = model_file::read_refinements(*effects, rig.axes.all(), is_rigid_fit(fit, rig));
   const JsonNode* covariance = node.find("covariance");
   if (covariance != nullptr && !covariance->is_null())
     fit.covariance = model_file::read_covariance(*covariance);
@@ -130,7 +130,7 @@ DynamicPreload read_dynamic_preload(const JsonNode& node) {
   preload.name = node.at("name").text();
   if (const JsonNode* rig = node.find("rig"); rig != nullptr && rig->is_string())
     preload.rig_path = rig->text();
-  preload.linear_motion = flag_or(node, "linear_motion", false);
+  preload.axes = axes_at(node);
   if (object_or_none(node, "counts") != nullptr) {
     const JsonNode& counts = node.at("counts");
     preload.windows = read_window_counts(counts);

@@ -106,8 +106,8 @@ ElasticPreload read_preload(const JsonNode& node, RigFiles rig_files) {
   std::optional<Rig> rig;
   if (rig_files == RigFiles::read) rig = model_file::read_rig_reference(rig_node);
   if (rig_node != nullptr && rig_node->is_string()) preload.rig_path = rig_node->text();
-  preload.linear_motion = rig ? rig->linear_motion : flag_or(node, "linear_motion", false);
-  preload.unit = preload.linear_motion ? "m" : "rad";
+  preload.axes = rig ? rig->axes.all() : axes_at(node);
+  preload.unit = unit_for(preload.axes, "rad");
   read_range(node, preload);
   if (rig) require_joints(node, *rig);
   read_joints(node, preload);

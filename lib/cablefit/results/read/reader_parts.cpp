@@ -53,6 +53,13 @@ std::string text_or_none(const JsonNode& object, std::string_view key) {
   return node == nullptr ? std::string() : node->text();
 }
 
+Axes axes_at(const JsonNode& object) {
+  const JsonNode* node = given(object, "linear_motion");
+  if (node == nullptr) return Axes::rotary;
+  if (node->is_string()) return Axes::mixed;
+  return node->boolean() ? Axes::linear : Axes::rotary;
+}
+
 bool flag_or(const JsonNode& object, std::string_view key, bool otherwise) {
   const JsonNode* node = given(object, key);
   return node == nullptr ? otherwise : node->boolean();

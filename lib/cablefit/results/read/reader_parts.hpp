@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/base/json/json_document.hpp"
 #include "cablefit/base/parameter.hpp"
 #include "cablefit/samples/plan/input_file.hpp"
@@ -24,6 +25,8 @@ double number_or_nan(const JsonNode& object, std::string_view key);
 std::vector<double> numbers_or_nan(const JsonNode& object, std::string_view key);
 /// Empty: null or missing.
 std::string text_or_none(const JsonNode& object, std::string_view key);
+/// "linear_motion": true, false, "mixed"; missing: rotary.
+Axes axes_at(const JsonNode& object);
 bool flag_or(const JsonNode& object, std::string_view key, bool otherwise);
 std::size_t count_or_zero(const JsonNode& object, std::string_view key);
 std::vector<std::string> texts_or_none(const JsonNode& object, std::string_view key);

@@ -299,7 +299,7 @@ std::string design_json(const DesignResult& result) {
                    {"preload", result.preload},
                    {"choice", result.model_choice}};
   json["cables"] = result.cables;
-  json["elongation_unit"] = result.cable_space || result.linear_motion ? "m" : "rad";
+  json["elongation_unit"] = result.cable_space ? "m" : unit_for(result.axes, "rad");
   json["torque"] = result.torque;
   json["detector"] = detector_json(result);
   json["needed_preload"] = list_of(result.needed, needed_json);

@@ -126,6 +126,10 @@ Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json
 
 Json rig(const std::string& path) { return text_or_null(path); }
 
+Json linear_motion_json(Axes axes) {
+  return axes == Axes::mixed ? Json(to_string(axes)) : Json(axes == Axes::linear);
+}
+
 Json per_joint(const Eigen::VectorXd& values) {
   if (values.size() == 1) return values[0];
   return std::vector<double>(values.begin(), values.end());

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cablefit/base/axes.hpp"
 #include "cablefit/elastic/elastic_result.hpp"
 
 namespace cablefit::result_json {
@@ -23,6 +24,8 @@ Json row_counts(const RowCounts& counts);
 Json text_or_null(const std::string& text);
 /// The path of a rig file, null for the default rig.
 Json rig(const std::string& path);
+/// true, false, "mixed".
+Json linear_motion_json(Axes axes);
 /// One number, or a list when there are several joints.
 Json per_joint(const Eigen::VectorXd& values);
 /// The drive's offset, or a list of several joints', null where there is none.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "cablefit/base/torque_unit.hpp"
+#include "cablefit/base/axes.hpp"
 #include "cablefit/results/write/json_list.hpp"
 #include "cablefit/results/write/json_parts.hpp"
 
@@ -133,7 +133,7 @@ Json remainder_json(const RefineResult& result) {
     return if_there(most > 0, most);
   };
   const bool has_link = moves && !result.rigid, has_blocked = result.floor_blocked > 0;
-  return Json{{"unit", torque_unit(result.linear_motion)},
+  return Json{{"unit", torque_unit(result.axes)},
               {"link", if_there(has_link, result.remainder_link)},
               {"motor", if_there(moves, result.remainder_motor)},
               {"blocked", if_there(has_blocked, result.remainder_blocked)},
@@ -145,7 +145,7 @@ Json remainder_json(const RefineResult& result) {
               {"material_blocked", material("blocked")}};
 }
 
-Json unexplained_json(const std::optional<Unexplained>& found, bool linear_motion) {
+Json unexplained_json(const std::optional<Unexplained>& found, Axes axes) {
   if (!found) return nullptr;
   const auto if_there = [](double value) { return value > 0 ? Json(value) : Json(); };
   return Json{{"kind", found->kind},
@@ -156,7 +156,7 @@ Json unexplained_json(const std::optional<Unexplained>& found, bool linear_motio
               {"correlation_time", if_there(found->correlation_time)},
               {"share_of_squared_gap", found->share_of_squared_gap},
               {"rms", found->rms},
-              {"unit", torque_unit(linear_motion)}};
+              {"unit", torque_unit(axes)}};
 }
 
 Json shift_json(const ParameterShift& shift) {
@@ -183,12 +183,12 @@ Json joint_json(const RefineResult& r) {
               {"name", r.joint_name},
               {"verdict", to_string(r.verdict)},
               {"reason", r.reason},
-              {"unexplained", unexplained_json(r.unexplained, r.linear_motion)},
+              {"unexplained", unexplained_json(r.unexplained, r.axes)},
               {"rho", {{"before", r.rho_before}, {"after", r.rho_after}}},
               {"remainder", remainder_json(r)},
               {"gap",
-               {{"torque", gap_json(r.torque, torque_unit(r.linear_motion), true)},
-                {"simulation", gap_json(r.simulation, r.linear_motion ? "m" : "rad", false)}}},
+               {{"torque", gap_json(r.torque, torque_unit(r.axes), true)},
+                {"simulation", gap_json(r.simulation, unit_for(r.axes, "rad"), false)}}},
               {"p_value", r.search_p}};
 }
 
@@ -206,7 +206,7 @@ std::string refine_json(const RefineResult& result, std::span<const std::string>
   json["base_model"] = {{"path", result.model_path}, {"choice", result.model_choice}};
   json["verdict"] = to_string(result.verdict);
   json["reason"] = result.reason;
-  json["unexplained"] = unexplained_json(result.unexplained, result.linear_motion);
+  json["unexplained"] = unexplained_json(result.unexplained, result.axes);
   json["preloads"] = result.preloads;
   json["where"] = list_of(result.where, regime_json);
   json["effects"] = Json::array();
@@ -217,9 +217,8 @@ std::string refine_json(const RefineResult& result, std::span<const std::string>
   json["rho"] = {{"before", result.rho_before}, {"after", result.rho_after}};
   json["remainder"] = remainder_json(result);
   json["steps"] = list_of(result.steps, step_json);
-  json["gap"] = {
-      {"torque", gap_json(result.torque, torque_unit(result.linear_motion), true)},
-      {"simulation", gap_json(result.simulation, result.linear_motion ? "m" : "rad", false)}};
+  json["gap"] = {{"torque", gap_json(result.torque, torque_unit(result.axes), true)},
+                 {"simulation", gap_json(result.simulation, unit_for(result.axes, "rad"), false)}};
   json["test_held_out_of_train"] = result.held_out_blocks;
   json["search"] = {{"p_value", result.search_p},
                     {"p_is_fitted", result.search_p_is_fitted},

@@ -57,7 +57,7 @@ Slot make_slot(LogPlan& plan, const ChannelInfo& info, int joint, std::size_t co
   const ColumnHeader& cell = plan.header.columns[column];
   require_no_dates(cell);
   const ColumnMapping mapping = mapping_of(plan.rig, channel);
-  const Dimension& dimension = plan.rig.linear_motion ? info.linear : info.rotary;
+  const Dimension& dimension = plan.rig.axes.of(joint) == Axes::linear ? info.linear : info.rotary;
   const std::string unit = unit_of(plan, cell, mapping, dimension);
   double unit_scale = 1;
   if (info.channel == Channel::w) require_clear_speed(unit, cell.place, cell.name);
@@ -80,7 +80,7 @@ bool is_optional(Channel channel) {
 /// Finds the channel's column: on a rig of one joint q or q1, else q1, q2, ...
 void resolve_channel(LogPlan& plan, const ChannelInfo& info, int joint) {
   const Rig& rig = plan.rig;
-  const Dimension& dimension = rig.linear_motion ? info.linear : info.rotary;
+  const Dimension& dimension = rig.axes.of(joint) == Axes::linear ? info.linear : info.rotary;
   std::vector<std::string> names = {fmt::format("{}{}", info.name, joint + 1)};
   if (rig.n_joints() == 1) names.insert(names.begin(), std::string(info.name));
   for (const std::string& name : names) {

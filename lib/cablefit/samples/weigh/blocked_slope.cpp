@@ -60,7 +60,7 @@ Findings blocked_slope(const Logs& logs) {
            fmt::format(
                "tau falls as theta grows while the link is blocked (slope {:.3g} {}): tau or "
                "theta is reversed",
-               line.slope, plan.rig.linear_motion ? "N/m" : "N m/rad"),
+               line.slope, unit_for(plan.rig.axes.all(), "N m/rad")),
            mending_line(plan, Channel::tau, 0, -1) + ", or the same of theta"});
       continue;
     }

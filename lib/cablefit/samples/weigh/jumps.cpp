@@ -92,8 +92,8 @@ std::optional<Finding> jump_finding(const LogSurvey& log, std::size_t part, std:
   finding.what = fmt::format(
       "{} jumps by {:.3g} {} in one sample, {:.2g} times the jumps elsewhere: a "
       "single wrong sample, a wrapped encoder, lost counts, or two logs in one",
-      weighed_name(log.plan, at.channel, at.joint), jump.size, unit_on(log.plan.rig, "rad"),
-      jump.size / usual);
+      weighed_name(log.plan, at.channel, at.joint), jump.size,
+      unit_for(log.plan.rig.axes.of(at.joint), "rad"), jump.size / usual);
   finding.remedy = "correct the log, or mark each run in a 'run' column";
   return finding;
 }

@@ -38,8 +38,8 @@ struct UnitRatio {
 constexpr std::array<UnitRatio, 2> kAngles = {
     {{kDegrees, "degrees", "deg"}, {1000, "mrad", "mrad"}}};
 constexpr std::array<UnitRatio, 2> kLengths = {{{1000, "mm", "mm"}, {100, "cm", "cm"}}};
-std::span<const UnitRatio> unit_ratios(const Rig& rig) {
-  return rig.linear_motion ? std::span<const UnitRatio>(kLengths) : kAngles;
+std::span<const UnitRatio> unit_ratios(Axes axes) {
+  return axes == Axes::linear ? std::span<const UnitRatio>(kLengths) : kAngles;
 }
 constexpr double kTurn = 2 * std::numbers::pi;
 
@@ -57,7 +57,7 @@ Finding ratio_finding(const LogPlan& plan, const CoarsePart& part, int joint,
     return Finding{part.log, {}, true, what, remedy};
   };
   const auto is = [&](double x, double unit) { return std::abs(x / unit - 1) < kSameUnit; };
-  for (const UnitRatio& unit : unit_ratios(plan.rig)) {
+  for (const UnitRatio& unit : unit_ratios(plan.rig.axes.of(joint))) {
     const bool by_theta = is(size, unit.ratio);
     if (!by_theta && !is(1 / size, unit.ratio)) continue;
     // The unit is missing on one side, or wrongly given on the other.
@@ -75,7 +75,7 @@ Finding ratio_finding(const LogPlan& plan, const CoarsePart& part, int joint,
   }
   const std::string more =
       fmt::format("{} moves {:.3g} times as much as {}: ", theta, nice_factor(slope), q);
-  if (!plan.rig.linear_motion && (is(size, kTurn) || is(1 / size, kTurn))) {
+  if (plan.rig.axes.of(joint) == Axes::rotary && (is(size, kTurn) || is(1 / size, kTurn))) {
     const Channel turns = is(size, kTurn) ? Channel::q : Channel::theta;
     return finding(
         fmt::format("{}{} in revolutions, or a reduction?", more, weighed_name(plan, turns, joint)),
@@ -167,8 +167,8 @@ std::optional<Finding> weigh_ratio(const LogPlan& plan, const CoarsePart& part, 
   return ratio_finding(plan, part, j, line);
 }
 
-bool is_unit_ratio(const Rig& rig, double slope) {
-  const std::span<const UnitRatio> units = unit_ratios(rig);
+bool is_unit_ratio(Axes axes, double slope) {
+  const std::span<const UnitRatio> units = unit_ratios(axes);
   return std::any_of(units.begin(), units.end(), [&](const UnitRatio& unit) {
     return std::abs(slope / unit.ratio - 1) < kSameUnit ||
            std::abs(1 / slope / unit.ratio - 1) < kSameUnit;
@@ -181,9 +181,10 @@ bool weighs_ratio(const Logs& logs, const CoarsePart& part, int j, const Eigen::
   const PartSurvey& survey = logs.survey(part);
   if (survey.phase == Phase::moving || survey.phase_given) return survey.phase == Phase::moving;
   const CoarseLine line = coarse_line(expected, part.joints[static_cast<std::size_t>(j)].theta);
-  const bool moves = !logs.plan(part).rig.linear_motion && coarse_range(expected) > kLinkMoves;
+  const bool moves =
+      logs.plan(part).rig.axes.of(j) == Axes::rotary && coarse_range(expected) > kLinkMoves;
   return std::abs(line.correlation) > kSameMotion &&
-         (moves || is_unit_ratio(logs.plan(part).rig, line.slope));
+         (moves || is_unit_ratio(logs.plan(part).rig.axes.of(j), line.slope));
 }
 
 void weigh_columns(const Logs& logs, const CoarsePart& part, Findings& findings) {
@@ -204,9 +205,9 @@ void weigh_columns(const Logs& logs, const CoarsePart& part, Findings& findings)
 
 void weigh_range(const Logs& logs, const CoarsePart& part, Findings& findings) {
   const LogPlan& plan = logs.plan(part);
-  if (plan.rig.linear_motion) return;
   const bool blocked = logs.survey(part).phase == Phase::blocked;
   for (int j = 0; j < plan.rig.n_joints(); ++j) {
+    if (plan.rig.axes.of(j) == Axes::linear) continue;
     if (!plan.has_measured(Channel::q, j) || !plan.has_measured(Channel::theta, j)) continue;
     const CoarsePart::Joint& joint = part.joints[static_cast<std::size_t>(j)];
     const Channel channel = blocked ? Channel::theta : Channel::q;

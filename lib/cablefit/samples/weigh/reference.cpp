@@ -29,7 +29,7 @@ Finding odd_reference(const LogPlan& plan, const CoarsePart& part, int joint,
         mending_line(plan, Channel::theta_ref, joint, -1));
   const std::string more =
       fmt::format("{} moves {:.3g} times as much as {}", reference, slope, theta);
-  if (std::abs(slope / kDegrees - 1) < kSameUnit && !plan.rig.linear_motion)
+  if (std::abs(slope / kDegrees - 1) < kSameUnit && plan.rig.axes.of(joint) == Axes::rotary)
     return finding(more + ": degrees?", mending_unit(plan, Channel::theta_ref, joint, "deg"));
   return finding(more + ": a unit or a reduction?",
                  measured_line(plan, Channel::theta_ref, joint, 1 / slope,
