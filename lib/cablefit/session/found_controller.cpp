@@ -12,6 +12,14 @@ bool is_moving(const PartSurvey& part) { return part.phase == Phase::moving; }
 
 bool says_how_it_is_driven(const Rig& rig) { return rig.controller || rig.open_loop; }
 
+/// A blocked sweep may have been driven with other gains.
+bool has_other_gains(LogSurvey log, const Controller& controller) {
+  if (has_phase(log, Phase::moving)) return false;
+  log.plan.rig.controller = controller;
+  const auto fit = check_controller({&log, 1}, [](const PartSurvey&) { return true; });
+  return fit && !fit->fits();
+}
+
 }  // namespace
 
 std::optional<Decision> take_found_controller(RefineLogs& logs, std::vector<Model>& models) {
@@ -28,7 +36,8 @@ std::optional<Decision> take_found_controller(RefineLogs& logs, std::vector<Mode
   const std::optional<ControllerFit> found = fit_controller(moving, is_moving);
   if (!found || !found->fits()) return std::nullopt;
   for (auto* some : {&logs.train, &logs.test, &logs.blocked})
-    for (LogSurvey& log : *some) log.plan.rig.controller = found->controller;
+    for (LogSurvey& log : *some)
+      if (!has_other_gains(log, found->controller)) log.plan.rig.controller = found->controller;
   for (Model& model : models) model.rig.controller = found->controller;
   return Decision{"controller", found->text(models.front().rig.axes.all()),
                   "found from reference, position and torque of the training logs, as the rig file "
