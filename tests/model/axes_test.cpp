@@ -29,7 +29,9 @@ TEST_CASE("units of joints that turn, and of a rig with both") {
 
 TEST_CASE("a rig of several joints has axes of one kind or both") {
   CHECK(JointAxes().all() == Axes::rotary);
+  CHECK(JointAxes().of(6) == Axes::rotary);
   CHECK(JointAxes({Axes::linear, Axes::linear}).all() == Axes::linear);
+  CHECK(JointAxes({Axes::rotary, Axes::rotary}) == JointAxes());
   const JointAxes both({Axes::rotary, Axes::linear});
   CHECK(both.all() == Axes::mixed);
   CHECK(both.of(0) == Axes::rotary);

@@ -24,9 +24,10 @@ std::string linear_unit(std::string_view rotary_unit) {
 
 }  // namespace
 
-Axes JointAxes::all() const {
-  const bool same = std::equal(joints_.begin() + 1, joints_.end(), joints_.begin());
-  return same ? joints_.front() : Axes::mixed;
+JointAxes::JointAxes(std::vector<Axes> joints) : all_(joints.front()) {
+  if (std::all_of(joints.begin(), joints.end(), [this](Axes one) { return one == all_; })) return;
+  all_ = Axes::mixed;
+  joints_ = std::move(joints);
 }
 
 std::string_view to_string(Axes axes) {

@@ -17,18 +17,23 @@ std::string_view to_string(Axes axes);
 /// "N m/rad" is "N/m". Of a rig with both, "kg m^2 or kg".
 std::string unit_for(Axes axes, std::string_view rotary_unit);
 
-/// Of every joint of a rig, rotary or linear.
+/// Of every joint of a rig, rotary or linear; by default all turn.
 class JointAxes {
  public:
-  explicit JointAxes(std::vector<Axes> joints = {Axes::rotary}) : joints_(std::move(joints)) {}
+  JointAxes() = default;
+  /// One per joint.
+  explicit JointAxes(std::vector<Axes> joints);
 
   /// `joint` from 0.
-  Axes of(int joint) const { return joints_[static_cast<std::size_t>(joint)]; }
-  Axes all() const;
+  Axes of(int joint) const {
+    return joints_.empty() ? all_ : joints_[static_cast<std::size_t>(joint)];
+  }
+  Axes all() const { return all_; }
   bool operator==(const JointAxes&) const = default;
 
  private:
-  std::vector<Axes> joints_;
+  Axes all_ = Axes::rotary;
+  std::vector<Axes> joints_;  ///< where they differ
 };
 
 inline std::string torque_unit(Axes axes) { return unit_for(axes, "N m"); }

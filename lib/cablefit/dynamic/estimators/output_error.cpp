@@ -140,8 +140,8 @@ double lower_of(const EquationRows& e, Eigen::Index k) {
 }
 
 /// Why this estimate is not reliable; empty when it is.
-std::string doubt(const EstimationTask& task, const EquationRows& e, Eigen::Index k,
-                  const OutputErrorFit& oe, const Estimate& found) {
+std::string doubt(const EquationRows& e, Eigen::Index k, const OutputErrorFit& oe,
+                  const Estimate& found) {
   if (!found.not_identifiable.empty()) return found.not_identifiable;
   const DynamicParameter& parameter = e.columns.parameters[static_cast<std::size_t>(k)];
   const bool is_inertia = parameter.is_inertia;
@@ -168,7 +168,7 @@ Estimate estimate_of(const EstimationTask& task, const EquationRows& equation, E
     if (e.active_bound.empty())
       cablefit::set_interval(e, oe.degrees_of_freedom, lower_of(equation, k));
   }
-  const std::string why = doubt(task, equation, k, oe, e);
+  const std::string why = doubt(equation, k, oe, e);
   if (why.empty()) return e;
   Estimate refused;
   refused.name = e.name;

@@ -26,7 +26,7 @@ enum class ElasticDetail { coefficients, torque };
 struct JointPlace {
   int joint = 0, n_joints = 1;
   const Arm* arm = nullptr;
-  JointAxes axes = JointAxes();
+  JointAxes axes = {};
 };
 
 /// The link equations of coupled joints have the same columns, so that their rows can be stacked:
