@@ -45,17 +45,22 @@ double rms_acceleration(const Eigen::ArrayXd& theta, double period, const Smooth
   return std::sqrt(smooth.square().mean());
 }
 
-/// Whether a joint's moving stretches are as lively as the measured ones.
+double range_of(const Eigen::ArrayXd& x) { return x.maxCoeff() - x.minCoeff(); }
+
+/// Whether a joint's moving stretches are as lively as the measured ones, and its blocked sweeps as
+/// wide.
 bool move_alike(const SimulatedCopy& copy, const std::vector<SimulationResult>& motions, int joint,
                 const Smoothing& smoothing) {
   constexpr double kAlike = 1.25;
   for (std::size_t k = 0; k < motions.size(); ++k) {
     const CopyStretch& stretch = copy.stretches[k];
-    if (stretch.link_blocked) continue;
     const int slot = copy.plans[stretch.log].find(Channel::theta, joint);
-    const double period = stretch.period;
-    const double measured = rms_acceleration(stretch.measured.col(slot).array(), period, smoothing);
-    const double simulated = rms_acceleration(motions[k].theta.col(joint), period, smoothing);
+    const auto size = [&](const Eigen::ArrayXd& theta) {
+      return stretch.link_blocked ? range_of(theta)
+                                  : rms_acceleration(theta, stretch.period, smoothing);
+    };
+    const double measured = size(stretch.measured.col(slot).array());
+    const double simulated = size(motions[k].theta.col(joint));
     if (simulated > kAlike * measured || measured > kAlike * simulated) return false;
   }
   return true;
