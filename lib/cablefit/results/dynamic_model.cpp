@@ -63,6 +63,18 @@ void require_known(const JsonNode& list, const std::vector<Estimate>& known) {
   }
 }
 
+/// A model that moves needs the inertias, which the fit may not have determined.
+void require_determined_inertias(const DynamicFit& fit, const JsonNode& node) {
+  for (const Estimate& e : fit.parameters)
+    for (const Side side : {Side::link, Side::motor, Side::rigid})
+      for (const Effect& effect : base_effects(side))
+        if (effect.is_inertia() && e.symbol == effect.parameters.front().symbol &&
+            !e.not_identifiable.empty())
+          throw node.error(
+              fmt::format("{} is not identifiable in this fit: {}", e.name, e.not_identifiable),
+              "'cablefit identify' of the same logs may determine it");
+}
+
 }  // namespace
 
 Model read_dynamic_model(const JsonNode& root, const model_file::Wanted& wanted,
@@ -80,7 +92,10 @@ Model read_dynamic_model(const JsonNode& root, const model_file::Wanted& wanted,
   std::vector<Estimate> known = parameters_of(model);
   if (in_one_step) known.insert(known.end(), model.elastic.begin(), model.elastic.end());
   require_known(fit_node.at("parameters"), known);
-  if (wanted.completeness == Completeness::can_move) model_file::require_inertia(model, fit_node);
+  if (wanted.completeness == Completeness::can_move) {
+    require_determined_inertias(fit, fit_node);
+    model_file::require_inertia(model, fit_node);
+  }
   *choice = describe(preloads, preload_node, "preload", "name", wanted.preload) + ", " +
             describe(fits, fit_node, "model", "model", wanted.model);
   return model;

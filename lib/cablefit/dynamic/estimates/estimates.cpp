@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -35,6 +36,35 @@ double explained_by_position(const RowStatistics& rows, const DynamicColumns& c,
   return total > 0 ? 1 - solve(rows, problem).rss / total : 1;
 }
 
+/// The elastic torque is all that moves the link: there is no load beside it.
+bool is_moved_by_cables_alone(const RowStatistics& rows, const DynamicColumns& c) {
+  constexpr double kNone = 1e-9;
+  if (c.side != Side::link || c.elastic.empty()) return false;
+  const double load = rows.r().col(c.torque).norm();
+  return load <= kNone * rows.r().middleCols(c.elastic.front(), c.n_elastic.front()).norm();
+}
+
+/// Effect column `k`'s coefficient when torques of position are allowed whose sum with the elastic
+/// torque has the same size as the elastic torque alone: without a load a torque of any size could
+/// take it away and leave every parameter 0. How large it is, stage 1 says, with its sd.
+double with_torque_of_other_shape(const RowStatistics& rows, const DynamicColumns& c,
+                                  Eigen::Index k, const Eigen::VectorXd& response,
+                                  std::size_t which) {
+  const auto& r = rows.r();
+  const Eigen::VectorXd elastic = r * response;
+  const Eigen::VectorXd unit = elastic.normalized();
+  Eigen::MatrixXd free(r.rows(), 1 + c.n_elastic[which]);
+  free << r.col(c.position), r.middleCols(c.elastic[which], c.n_elastic[which]);
+  free -= unit * (unit.transpose() * free).eval();
+  Eigen::MatrixXd all(r.rows(), c.n_effects + free.cols());
+  all << r.leftCols(c.n_effects), free;
+  const Eigen::VectorXd size =
+      all.colwise().norm().transpose().unaryExpr([](double x) { return x > 0 ? x : 1; });
+  const Eigen::VectorXd x =
+      (all * size.cwiseInverse().asDiagonal()).colPivHouseholderQr().solve(elastic);
+  return x(k) / size(k);
+}
+
 /// Effect column `k`'s coefficient when a torque proportional to position or to the elastic columns
 /// is allowed as well: what a wrong stiffness, gravity or hysteresis would look like.
 double with_position_torque(const RowStatistics& rows, const DynamicColumns& c, Eigen::Index k,
@@ -48,6 +78,9 @@ double with_position_torque(const RowStatistics& rows, const DynamicColumns& c, 
   problem.names.assign(problem.regressors.size(), "");
   problem.response = s.residual_combination;
   for (Eigen::Index j = 0; j < c.n_effects; ++j) problem.response(j) += s.x(j);
+  // One elastic column has no other shape.
+  if (is_moved_by_cables_alone(rows, c) && c.n_elastic[which] > 1)
+    return with_torque_of_other_shape(rows, c, k, problem.response, which);
   problem.instruments = s.instruments;
   // What is allowed in addition is its own instrument.
   if (!s.instruments.empty())
@@ -114,8 +147,10 @@ void judge_inertia(const RowStatistics& rows, const DynamicColumns& c, const Lin
   const char* const what = c.side == Side::rigid ? "the load model" : "the stiffness model";
   if (shift > kShiftRefused)
     refuse(e, fmt::format("sensitive to {}: {:.3g} becomes {:.3g} with a free position-dependent "
-                          "torque; move faster",
-                          what, e.value, alternative));
+                          "torque; {}",
+                          what, e.value, alternative,
+                          is_moved_by_cables_alone(rows, c) ? "record a log with a known load"
+                                                            : "move faster"));
   else
     warnings.push_back(fmt::format(
         "{} is sensitive to {}: {:.3g} becomes {:.3g} with a free position-dependent torque",
