@@ -113,6 +113,19 @@ void note_active_bounds(const JointFit& fit, const JointPoint& point, IdentifyRe
                   pushing));
 }
 
+/// Of some parameters, correlated as in the fit, scaled to the final sd, which include the method's
+/// floor.
+Eigen::MatrixXd final_covariance(const Eigen::MatrixXd& all, const std::vector<Estimate>& estimates,
+                                 const std::vector<Eigen::Index>& kept) {
+  Eigen::VectorXd wider(static_cast<Eigen::Index>(kept.size()));
+  for (Eigen::Index k = 0; k < wider.size(); ++k) {
+    const Eigen::Index at = kept[static_cast<std::size_t>(k)];
+    const double sd = std::sqrt(all(at, at));
+    wider(k) = sd > 0 ? estimates[static_cast<std::size_t>(at)].sd / sd : 1;
+  }
+  return wider.asDiagonal() * all(kept, kept) * wider.asDiagonal();
+}
+
 /// What the preload's linear and shared parameters are known together as.
 JointEstimates known_together(const JointFit& fit, const JudgedPoint& judged,
                               const std::vector<Estimate>& estimates, std::size_t job,
@@ -133,7 +146,8 @@ JointEstimates known_together(const JointFit& fit, const JudgedPoint& judged,
   }
   from.value =
       Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-  from.covariance = (robust ? judged.covariance.covariance : judged.covariance.white)(kept, kept);
+  from.covariance = final_covariance(
+      robust ? judged.covariance.covariance : judged.covariance.white, estimates, kept);
   if (!kept.empty())
     from.degrees_of_freedom = judged.covariance.degrees_of_freedom(kept).minCoeff();
   return from;
@@ -150,24 +164,20 @@ void add_derived(const PreloadJob& job, const JointEstimates& from, IdentifyPrel
   }
 }
 
-/// Correlated as in the fit, scaled to the final sd, which include the method's floor.
+/// Of every l_o that was searched and found.
 ElongationCovariance searched_elongations(const JointFit& fit, const JudgedPoint& judged,
                                           const std::vector<Estimate>& estimates) {
   const Eigen::MatrixXd& all = judged.covariance.covariance;
   ElongationCovariance searched;
   std::vector<Eigen::Index> kept;
-  std::vector<double> scale;
   for (Eigen::Index k = fit.layout.n_linear; k < fit.layout.first_radius(); ++k) {
     const Estimate& e = estimates[static_cast<std::size_t>(k)];
     if (!e.not_identifiable.empty() || !(e.sd > 0) || !(all(k, k) > 0)) continue;
     const int job = fit.layout.parameters[static_cast<std::size_t>(k)].preload;
     searched.of.push_back({fit.jobs[static_cast<std::size_t>(job)].name, e.name});
-    scale.push_back(e.sd / std::sqrt(all(k, k)));
     kept.push_back(k);
   }
-  const auto n = static_cast<Eigen::Index>(scale.size());
-  const Eigen::Map<const Eigen::VectorXd> widened(scale.data(), n);
-  searched.matrix = widened.asDiagonal() * all(kept, kept) * widened.asDiagonal();
+  searched.matrix = final_covariance(all, estimates, kept);
   return searched;
 }
 
