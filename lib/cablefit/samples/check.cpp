@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "cablefit/base/quote.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
 #include "cablefit/samples/rows/signals.hpp"
 #include "cablefit/samples/survey/speed_histogram.hpp"
@@ -207,6 +208,36 @@ CheckedPart check_part(const LogSurvey& log, const PartSurvey& survey,
   return part;
 }
 
+bool has_known_load(const LogSurvey& log) {
+  const LoadLaw* law = log.plan.rig.load.law;
+  if (law != nullptr && !law->from_column && law->name != "none") return true;
+  return std::any_of(log.parts.begin(), log.parts.end(), [&](const PartSurvey& part) {
+    for (std::size_t k = 0; k < log.plan.slots.size(); ++k) {
+      const ChannelSurvey& channel = part.channels[k];
+      if (log.plan.slots[k].channel == Channel::tau_load && (channel.min != 0 || channel.max != 0))
+        return true;
+    }
+    return false;
+  });
+}
+
+/// A wrong torque constant scales every stiffness, inertia and friction. Only a known load shows
+/// it.
+void note_unchecked_scale(std::span<const LogSurvey> logs, std::vector<std::string>& warnings) {
+  if (std::any_of(logs.begin(), logs.end(), has_known_load)) return;
+  for (const LogSurvey& log : logs)
+    for (const auto& [channel, mapping] : log.plan.rig.columns) {
+      const bool is_torque = channel == "tau" || channel == "tau1";
+      if (!is_torque || std::abs(mapping.scale) == 1) continue;
+      warnings.push_back(fmt::format(
+          "{} is {:g} times column {}, and no log has a known load to check this factor: if it "
+          "is "
+          "wrong, so are all stiffnesses, inertias and frictions; record a log with a known load",
+          channel, mapping.scale, cablefit::quoted(mapping.column)));
+      return;
+    }
+}
+
 std::vector<std::string> unused_columns(const LogPlan& plan) {
   std::vector<std::string> unused;
   for (std::size_t k = 0; k < plan.header.columns.size(); ++k) {
@@ -229,6 +260,7 @@ bool CheckedLog::usable() const {
 CheckResult check_logs(std::span<const LogSurvey> logs, const SampleOptions& options) {
   CheckResult result;
   result.warnings = input_warnings(logs);
+  note_unchecked_scale(logs, result.warnings);
   for (const LogSurvey& log : logs) {
     CheckedLog checked{log.plan.path,
                        log.sha256,
