@@ -136,7 +136,8 @@ Document study_document(const Study& study, const std::vector<std::string>& mode
     appendix.add("check", std::move(stage), false);
   }
   if (study.elastic) {
-    const Document stage = elastic_document(*study.elastic);
+    Document stage = elastic_document(*study.elastic);
+    for (Table& table : stage.tables) table.is_optional = study.dynamic.has_value();
     document.headline = stage.headline;
     add_answers("stiffness", study.elastic->preloads.size(), stage, document);
     appendix.add("stage 1", stage, true);

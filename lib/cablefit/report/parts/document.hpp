@@ -26,7 +26,8 @@ struct Table {
   std::vector<Column> columns;
   std::vector<std::vector<std::string>> rows;  ///< each as long as `columns`
   std::vector<std::string> notes;
-  bool detail = false;  ///< for files and for --verbose, not for the usual screen
+  bool detail = false;       ///< for files and for --verbose, not for the usual screen
+  bool is_optional = false;  ///< left out on the screen where the answer is long
 };
 
 /// "name = value (reason)", for all preloads or for those named.

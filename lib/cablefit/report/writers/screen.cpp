@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "cablefit/report/writers/writers.hpp"
@@ -42,6 +43,8 @@ Document on_screen(Document document) {
   document.decisions.clear();
   const std::vector<std::string> all = document.warnings;
   keep_warnings(kMostWarnings, document);
+  if (n_lines(document) <= kMostLines) return document;
+  std::erase_if(document.tables, std::mem_fn(&Table::is_optional));
   if (n_lines(document) <= kMostLines) return document;
   document.warnings = all;
   keep_warnings(kFewWarnings, document);
