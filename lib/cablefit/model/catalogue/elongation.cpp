@@ -128,7 +128,8 @@ Effect preload() {
   return {.name = "preload",
           .site = Site::transmission,
           .alias_class = "l_o",
-          .equation = "l_o of cable 1; that of the other cable follows from S f = 0 in the reference pose",
+          .equation =
+              "l_o of cable 1; that of the other cable follows from S f = 0 in the reference pose",
           .signature =
               "both cables are taut near zero torque, with twice the slope and a kink where "
               "one goes slack; a dead zone is flat there instead",
