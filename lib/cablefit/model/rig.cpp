@@ -1,5 +1,7 @@
 #include "cablefit/model/rig.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <filesystem>
 
