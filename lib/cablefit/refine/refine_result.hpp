@@ -91,7 +91,7 @@ struct ParameterShift {
 
 /// Description of the residual that no effect of the catalogue explains.
 struct Unexplained {
-  std::string kind;  ///< "mode": an attached mass swings; "hum": a tone; "wandering": slow torque
+  std::string kind;                   ///< one of "unexplained.kind" in refine.schema.json
   std::string equation;               ///< "link", "motor", "blocked"
   double frequency = 0, damping = 0;  ///< Hz, damping ratio of a mode; of a hum only the frequency
   double inertia = 0;                 ///< kg m^2, of the attached mass

@@ -209,8 +209,9 @@ CheckedPart check_part(const LogSurvey& log, const PartSurvey& survey,
 }
 
 bool has_known_load(const LogSurvey& log) {
-  const LoadLaw* law = log.plan.rig.load.law;
-  if (law != nullptr && !law->from_column && law->name != "none") return true;
+  const auto& [law, parameters] = log.plan.rig.load;
+  if (law != nullptr && !law->from_column)  // 0 at one angle only: a pendulum
+    return law->torque(parameters, 0) != 0 || law->torque(parameters, 1) != 0;
   return std::any_of(log.parts.begin(), log.parts.end(), [&](const PartSurvey& part) {
     for (std::size_t k = 0; k < log.plan.slots.size(); ++k) {
       const ChannelSurvey& channel = part.channels[k];

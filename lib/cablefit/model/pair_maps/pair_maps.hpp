@@ -1,4 +1,4 @@
-// Displacement maps of two joints: what a cable's length owes to two angles together, in the sums
+// Displacement maps of two joints: how far two angles together move a cable, in the sums
 // g(theta) and h(q) of Fichera & Grossard 2017, (3)-(4). To add a kind: one file in pair_maps/, one
 // line in pair_maps.cpp.
 #pragma once

@@ -60,7 +60,7 @@ Json part_json(const CheckedPart& part) {
 Json log_json(const CheckedLog& log) {
   return Json{{"path", log.path},
               {"rig", result_json::rig(log.rig_path)},
-              {"linear_motion", result_json::linear_motion_json(log.axes)},
+              {"linear_motion", result_json::linear_motion(log.axes)},
               {"usable", log.usable()},
               {"unused_columns", log.unused_columns},
               {"decisions", result_json::decisions(log.decisions)},
@@ -92,7 +92,7 @@ Json prediction_json(const Prediction& p) {
   return Json{{"preload", p.preload},
               {"logs", p.logs},
               {"model", p.rigid ? "rigid" : "elastic"},
-              {"linear_motion", result_json::linear_motion_json(p.axes)},
+              {"linear_motion", result_json::linear_motion(p.axes)},
               {"cutoff", p.cutoff},
               {"equations", list_of(p.equations, equation_json)},
               {"none", text_or_null(p.none)}};

@@ -137,7 +137,7 @@ Json counts_json(const DynamicPreload& preload) {
 Json preload_json(const DynamicPreload& preload) {
   Json json{{"name", preload.name},
             {"rig", result_json::rig(preload.rig_path)},
-            {"linear_motion", result_json::linear_motion_json(preload.axes)},
+            {"linear_motion", result_json::linear_motion(preload.axes)},
             {"resonance_hz", preload.resonance > 0 ? Json(preload.resonance) : Json()},
             {"load_inertia", preload.load_inertia},
             {"torque_delay", delay_json(preload.delay)},

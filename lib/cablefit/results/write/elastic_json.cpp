@@ -133,7 +133,7 @@ Json preload_json(const ElasticPreload& preload) {
   counts["equations"]["blocked"] = result_json::row_counts(preload.counts);
   Json json{{"name", preload.name},
             {"rig", result_json::rig(preload.rig_path)},
-            {"linear_motion", result_json::linear_motion_json(preload.axes)},
+            {"linear_motion", result_json::linear_motion(preload.axes)},
             {"deflection_range", {preload.deflection_low, preload.deflection_high}},
             {"peak_torque", preload.peak_torque},
             {"loop_half_width", preload.loop_half_width},

@@ -126,7 +126,7 @@ Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json
 
 Json rig(const std::string& path) { return text_or_null(path); }
 
-Json linear_motion_json(Axes axes) {
+Json linear_motion(Axes axes) {
   return axes == Axes::mixed ? Json(to_string(axes)) : Json(axes == Axes::linear);
 }
 

@@ -24,8 +24,8 @@ Json row_counts(const RowCounts& counts);
 Json text_or_null(const std::string& text);
 /// The path of a rig file, null for the default rig.
 Json rig(const std::string& path);
-/// true, false, "mixed".
-Json linear_motion_json(Axes axes);
+/// Whether all joints slide: true, false, "mixed".
+Json linear_motion(Axes axes);
 /// One number, or a list when there are several joints.
 Json per_joint(const Eigen::VectorXd& values);
 /// The drive's offset, or a list of several joints', null where there is none.
