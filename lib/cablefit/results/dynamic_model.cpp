@@ -3,7 +3,7 @@
 
 #include "cablefit/base/quote.hpp"
 #include "cablefit/dynamic/fit_model.hpp"
-#include "cablefit/dynamic/rows/torque_delay.hpp"
+#include "cablefit/dynamic/rows/delay_hold.hpp"
 #include "cablefit/model/assembled_model.hpp"
 #include "cablefit/model/effects/effect_parameter.hpp"
 #include "cablefit/results/read/dynamic_reader.hpp"

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "cablefit/dynamic/rows/delay_hold.hpp"
 #include "cablefit/dynamic/rows/dynamic_job.hpp"
 #include "cablefit/dynamic/rows/joint_settings.hpp"
 #include "cablefit/dynamic/rows/torque_delay.hpp"

@@ -5,7 +5,6 @@
 
 #include "cablefit/dynamic/dynamic_result.hpp"
 #include "cablefit/dynamic/rows/dynamic_columns.hpp"
-#include "cablefit/samples/rows/torque_hold.hpp"
 
 namespace cablefit {
 
@@ -15,9 +14,5 @@ namespace cablefit {
 TorqueDelay estimate_torque_delay(std::span<const LogSurvey> logs, const PartFilter& wanted,
                                   const RowSettings& settings, double rest_speed, Side side,
                                   const ElasticFit* elastic, const JointPlace& place = {});
-
-FoundHold hold_of(const TorqueDelay& found);
-/// Of a rig whose file leaves the hold open. A period that it gives stays.
-void set_torque_hold(const TorqueDelay& found, Rig& rig);
 
 }  // namespace cablefit

@@ -1,8 +1,8 @@
 #include "cablefit/identify/results/identify_model.hpp"
-#include "cablefit/dynamic/rows/torque_delay.hpp"
 
 #include <fmt/format.h>
 
+#include "cablefit/dynamic/rows/delay_hold.hpp"
 #include "cablefit/model/assembled_model.hpp"
 #include "cablefit/model/effects/effect_parameter.hpp"
 
