@@ -60,7 +60,7 @@ TEST_CASE("accumulators of windows add up to one", "[estimate]") {
     RowStatistics part = total.empty_copy();
     part.add(rows.middleRows(begin, n), std::span(numbers).subspan(static_cast<std::size_t>(begin),
                                                                    static_cast<std::size_t>(n)));
-    total.add(part);
+    total.add(std::move(part));
   }
   CHECK(total.n_rows() == 10000);
   REQUIRE(total.cells().size() == one.cells().size());

@@ -15,34 +15,6 @@ namespace {
 
 constexpr double kLimit = 3;  // sd
 
-/// A pair of cables per joint.
-PlainRig seven_joint_rig() {
-  PlainRig rig;
-  rig.link_dynamics = seven_joints();
-  const double swings[] = {0.8, 0.7, 0.9, 0.8, 1, 0.9, 1};
-  for (int j = 0; j < 7; ++j) {
-    PlainJoint joint;
-    joint.swing = swings[j];
-    joint.load = 0;
-    joint.sweep_rate = 0.05 + 0.004 * j;
-    joint.kp = j < 4 ? 90 : 40;
-    joint.kd = j < 4 ? 1.2 : 0.4;
-    joint.J_motor = j < 4 ? 0.01 : 0.004;
-    joint.f_s = 0.1 - 0.01 * j;
-    rig.joints.push_back(joint);
-    for (const double side : {1.0, -1.0}) {
-      PlainCable cable;
-      cable.name = fmt::format("{}{}", j + 1, side > 0 ? "a" : "b");
-      cable.motor.assign(7, round_map(0));
-      cable.motor[static_cast<std::size_t>(j)] = round_map(side * 0.03);
-      cable.link = cable.motor;
-      cable.k = {j < 4 ? 6e5 : 3e5, side > 0 ? 2e7 : 1e7};
-      rig.cables.push_back(cable);
-    }
-  }
-  return rig;
-}
-
 struct Recovered {
   Rig rig;
   DynamicResult dynamic;

@@ -86,6 +86,19 @@ inline PlainRig tendon_finger() {
   return rig;
 }
 
+/// The same joints with two tendons each, 2n; those of the tip pass the first joint.
+inline PlainRig paired_finger() {
+  PlainRig rig = tendon_finger();
+  const auto pulleys = [](double first, double second) {
+    return std::vector<PlainMap>{round_map(first), round_map(second)};
+  };
+  rig.cables = {{"mcp", pulleys(0.01, 0), pulleys(0.01, 0), {1e5, 1e7}, 2e-3},
+                {"back", pulleys(-0.01, 0), pulleys(-0.01, 0), {7e4, 1.5e7}, 2e-3},
+                {"pip", pulleys(0, 0.006), pulleys(0.005, 0.006), {5e4}, 1.5e-3},
+                {"tip", pulleys(0, -0.006), pulleys(-0.005, -0.007), {6e4, 1e7}, 1.5e-3}};
+  return rig;
+}
+
 /// Two fingers of three joints and five tendons each: the long ones pass all joints of a finger, so
 /// that its links move together.
 inline PlainRig two_finger_hand() {
@@ -128,6 +141,34 @@ inline PlainRig phalanges_rig() {
   PlainRig rig = tendon_finger();
   rig.link_dynamics = phalanges();
   for (PlainJoint& joint : rig.joints) joint.load = 0;
+  return rig;
+}
+
+/// An arm of seven joints, a pair of cables per joint.
+inline PlainRig seven_joint_rig() {
+  PlainRig rig;
+  rig.link_dynamics = seven_joints();
+  const double swings[] = {0.8, 0.7, 0.9, 0.8, 1, 0.9, 1};
+  for (int j = 0; j < 7; ++j) {
+    PlainJoint joint;
+    joint.swing = swings[j];
+    joint.load = 0;
+    joint.sweep_rate = 0.05 + 0.004 * j;
+    joint.kp = j < 4 ? 90 : 40;
+    joint.kd = j < 4 ? 1.2 : 0.4;
+    joint.J_motor = j < 4 ? 0.01 : 0.004;
+    joint.f_s = 0.1 - 0.01 * j;
+    rig.joints.push_back(joint);
+    for (const double side : {1.0, -1.0}) {
+      PlainCable cable;
+      cable.name = fmt::format("{}{}", j + 1, side > 0 ? "a" : "b");
+      cable.motor.assign(7, round_map(0));
+      cable.motor[static_cast<std::size_t>(j)] = round_map(side * 0.03);
+      cable.link = cable.motor;
+      cable.k = {j < 4 ? 6e5 : 3e5, side > 0 ? 2e7 : 1e7};
+      rig.cables.push_back(cable);
+    }
+  }
   return rig;
 }
 

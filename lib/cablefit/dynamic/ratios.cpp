@@ -54,8 +54,8 @@ RowStatistics collect(std::span<const LogSurvey> logs, const PartFilter& wanted,
         part.add(batch.equations[0].rows, batch.equations[0].numbers);
         return std::pair(std::move(part), batch.equations[0].counts);
       },
-      [&](const std::pair<RowStatistics, RowCounts>& result) {
-        rows.add(result.first);
+      [&](std::pair<RowStatistics, RowCounts>&& result) {
+        rows.add(std::move(result.first));
         counts += result.second;
       });
   return rows;

@@ -115,6 +115,8 @@ double settle_zeros(Stage1& stage, Transmission preliminary, const Eigen::Vector
                     Eigen::VectorXd& zeros) {
   for (int iteration = 0; iteration < kJointsZeroIterations && zeros.allFinite(); ++iteration) {
     preliminary.theta_0 = zeros;
+    stage.joints.clear();  // not two of them at a time: those of a hand are large
+    stage.all = {};
     stage.joints = collect_joints(stage.job, zeros, &preliminary);
     weigh(stage);
     const ElasticCandidate curve =

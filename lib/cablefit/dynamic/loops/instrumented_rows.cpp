@@ -22,7 +22,8 @@ Equation with_instruments(const EquationRows& e, int n_joints, LoopKind loop) {
   const Eigen::Index own = e.columns.count, extra = e.columns.n_effects;
   more.columns.resize(static_cast<std::size_t>(own + extra));
   more.averaged.resize(more.columns.size(), true);
-  const auto copy = static_cast<std::size_t>(n_joints + e.columns.place.joint);
+  const auto copy =
+      static_cast<std::size_t>(n_joints) + static_cast<std::size_t>(e.columns.place.joint);
   more.fill = [fill = e.equation.fill, columns = e.columns, own, extra, n_joints, copy](
                   const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
     fill(measured(signals, n_joints), out.leftCols(own));
@@ -65,9 +66,9 @@ std::vector<InstrumentedRows> collect_instrumented(const DynamicJob& job,
         }
         return shares;
       },
-      [&](const std::vector<InstrumentedRows>& shares) {
+      [&](std::vector<InstrumentedRows>&& shares) {
         for (std::size_t k = 0; k < with.size(); ++k) {
-          all[k].rows.add(shares[k].rows);
+          all[k].rows.add(std::move(shares[k].rows));
           all[k].counts += shares[k].counts;
         }
       });

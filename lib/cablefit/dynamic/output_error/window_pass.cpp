@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "cablefit/base/parallel.hpp"
 
@@ -100,7 +101,7 @@ WindowPass pass_over(const std::vector<OutputErrorWindow>& windows, const Model&
       [&](WindowPart&& part) {
         pass.valid = pass.valid && part.valid;
         if (!part.valid) return;
-        pass.statistics.add(*part.statistics);
+        pass.statistics.add(std::move(*part.statistics));
         pass.lag_product += part.lag_product;
         pass.lag_square += part.lag_square;
       });
@@ -135,7 +136,7 @@ RowStatistics instrumented_pass(const std::vector<OutputErrorWindow>& windows,
       },
       [&](WindowPart&& part) {
         valid = valid && part.valid;
-        if (valid) all.add(*part.statistics);
+        if (valid) all.add(std::move(*part.statistics));
       });
   return valid ? all : empty;
 }

@@ -1,6 +1,7 @@
 #include "cablefit/dynamic/rows/dynamic_job.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "cablefit/samples/rows/agreement.hpp"
 #include "cablefit/samples/rows/preliminary.hpp"
@@ -142,7 +143,7 @@ Share share_of(const EquationBatch& batch, const EquationRows& e, const RowStati
 }
 
 void take(EquationRows& e, Share&& share) {
-  e.rows->add(share.rows);
+  e.rows->add(std::move(share.rows));
   e.peaks->add(std::move(share.peaks));
   e.counts += share.counts;
   e.deflection_low = std::min(e.deflection_low, share.low);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/model/model.hpp"
@@ -153,9 +154,9 @@ Collected collect(const ElasticJob& job, const Transmission& transmission,
         result.batch = std::move(batch);
         return result;
       },
-      [&](const Result& result) {
+      [&](Result&& result) {
         for (std::size_t k = 0; k < all.equations.size(); ++k) {
-          all.statistics[k].add(result.statistics[k]);
+          all.statistics[k].add(std::move(result.statistics[k]));
           all.archives[k]->append(result.batch.equations[k]);
           all.counts[k] += result.batch.equations[k].counts;
         }
@@ -193,8 +194,9 @@ void measure_ranges(BlockedRows& blocked, Eigen::Index deflection_column) {
   });
 }
 
-/// Of one joint, in motion or, where there is hardly any, at rest.
-BlockedRows rows_of_joint(const Collected& all, const Transmission& transmission, int joint) {
+/// Of one joint, in motion or, where there is hardly any, at rest. Takes them out of `all`: those
+/// of a hand fill some hundred megabytes.
+BlockedRows take_joint(Collected& all, const Transmission& transmission, int joint) {
   const std::size_t first = 2 * static_cast<std::size_t>(joint);
   BlockedRows blocked;
   blocked.transmission = transmission;
@@ -207,8 +209,8 @@ BlockedRows rows_of_joint(const Collected& all, const Transmission& transmission
   blocked.plateaus = sliding < kSlidingShare * (sliding + holding);
   const std::size_t chosen = first + (blocked.plateaus ? 1 : 0);
   blocked.equations = {all.equations[chosen]};
-  blocked.rows = all.statistics[chosen];
-  blocked.archive = all.archives[chosen];
+  blocked.rows = std::move(all.statistics[chosen]);
+  blocked.archive = std::move(all.archives[chosen]);
   blocked.counts = all.counts[chosen];
   if (!blocked.plateaus) blocked.counts.rows_at_rest = all.counts[first].rows_at_rest;
   measure_ranges(blocked, blocked.columns.of_joint(joint).deflection);
@@ -221,10 +223,10 @@ std::vector<BlockedRows> collect_joints(const ElasticJob& job, const Eigen::Vect
                                         const Transmission* preliminary) {
   Transmission transmission = job.basis;
   transmission.theta_0 = theta_0;
-  const Collected all = collect(job, transmission, preliminary);
+  Collected all = collect(job, transmission, preliminary);
   std::vector<BlockedRows> joints;
   for (int joint = 0; joint < transmission.n_joints; ++joint) {
-    joints.push_back(rows_of_joint(all, transmission, joint));
+    joints.push_back(take_joint(all, transmission, joint));
     joints.back().offset = job.options.offset;
   }
   return joints;

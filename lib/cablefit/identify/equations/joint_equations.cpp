@@ -192,10 +192,10 @@ void collect_record(std::span<const LogSurvey> logs, const JointRecord& record,
                                     trials.size(), blank[e]));
         return shares;
       },
-      [&](const std::vector<Share>& shares) {
+      [&](std::vector<Share>&& shares) {
         for (std::size_t e = 0; e < wide.size(); ++e) {
           for (std::size_t t = 0; t < trials.size(); ++t)
-            out.rows[t][first + e].add(shares[e].rows[t]);
+            out.rows[t][first + e].add(std::move(shares[e].rows[t]));
           out.facts[first + e] += shares[e].facts;
         }
       });
