@@ -23,103 +23,103 @@ void add(Tables& tables, const std::string& stage, const std::vector<Estimate>& 
   }
 }
 
-void run(const PlainRig& plain, const Rig& rig, unsigned seed, Tables& tables) {
-  Bench bench;
-  bench.rig = rig;
-  bench.add_text(blocked_log(plain, {0.1, 0.1}, 60, seed));
-  bench.add_text(moving_log(plain, 8, seed + 1000));
-  const ElasticResult elastic = fit_elastic(bench.logs(), {});
-  add(tables, "1 ", elastic.preloads.at(0).find("poly")->parameters, stage1_truth(plain));
-  const DynamicResult dynamic = fit_dynamic(bench.logs(), elastic, {});
-  add(tables, "2 ", dynamic.preloads.at(0).fits.at(0).parameters, stage2_truth(plain));
+/// How a rig is driven. `more`: keys of its file; `held`: rad, of every joint of the blocked log.
+struct Trial {
+  PlainRig plain;
+  std::string more = {};
+  double held = 0, blocked = 60, moving = 20;  ///< s
+};
+
+/// The arm has no other URDF.
+Rig rig_of(const Trial& trial, const TempFolder& folder) {
+  if (!trial.more.empty()) folder.write("arm.urdf", urdf_text(seven_joints(), "arm"));
+  return read_rig(folder.write("rig.json", rig_text(trial.plain, trial.more)));
 }
 
-TEST_CASE("intervals of coupled joints cover the truth", "[recover][monte-carlo]") {
-  const unsigned n_runs = full_monte_carlo() ? 150 : 12;
-  const PlainRig plain = three_coupled_cables();
+/// Both stages, n_runs times.
+Tables run(const Trial& trial, unsigned n_runs) {
+  const PlainRig& plain = trial.plain;
   const TempFolder folder;
-  const Rig rig = read_rig(folder.write("rig.json", rig_text(plain, "")));
-  Tables tables;
-  for (unsigned seed = 1; seed <= n_runs; ++seed) run(plain, rig, seed, tables);
-  RunTable::print_header("  two joints, three coupled cables");
-  double inside = 0, n = 0;
-  for (const auto& [name, table] : tables) {
-    table.print();
-    inside += static_cast<double>(table.inside_interval);
-    n += table.n();
-    INFO(name);
-    // The chance of scatter (chi of n - 1) beyond these, sd being right, is under 1e-4.
-    CHECK(table.mean_sd() / table.scatter() > (full_monte_carlo() ? 0.75 : 0.45));
-  }
-  const double share = inside / n;
-  std::printf("    inside their 95 %% interval: %.1f %%\n", 100 * share);
-  // 95 % less 3.3 standard errors of a binomial. Parameters of one run are correlated: three count
-  // as one.
-  CHECK(share > 0.95 - 3.3 * std::sqrt(0.95 * 0.05 / (n / 3)));
-}
-
-/// The rig as its file says it, for `more` keys.
-Rig rig_of(const PlainRig& plain, const TempFolder& folder, const std::string& more) {
-  if (!more.empty()) folder.write("arm.urdf", urdf_text(seven_joints(), "arm"));
-  return read_rig(folder.write("rig.json", rig_text(plain, more)));
-}
-
-/// Both stages over seeds. Of all intervals together 90 to 98 % hold the truth.
-void check_coverage(const char* title, const PlainRig& plain, const std::string& more,
-                    double blocked, double moving) {
-  const unsigned n_runs = full_monte_carlo() ? 20 : 1;
-  const TempFolder folder;
-  const Rig rig = rig_of(plain, folder, more);
-  // Held at whole counts of the encoder, as in serial_arms_test.cpp.
-  const std::vector<double> at(plain.n(), 10000 * plain.quantum);
-  NamedValues links = stage2_truth(plain);
+  const Rig rig = rig_of(trial, folder);
+  NamedValues moving = stage2_truth(plain);
   if (plain.link_dynamics)
-    for (const auto& value : arm_truth(rig)) links.push_back(value);
+    for (const auto& value : arm_truth(rig)) moving.push_back(value);
+  const std::vector<double> at(plain.n(), trial.held);
+  DynamicOptions options;
+  options.models = {"poly"};
   Tables tables;
   for (unsigned seed = 1; seed <= n_runs; ++seed) {
     Bench bench;
     bench.rig = rig;
-    bench.add_text(blocked_log(plain, at, blocked, seed));
-    bench.add_text(moving_log(plain, moving, seed + 1000));
+    bench.add_text(blocked_log(plain, at, trial.blocked, seed));
+    bench.add_text(moving_log(plain, trial.moving, seed + 1000));
     const ElasticResult elastic = fit_elastic(bench.logs(), {});
     add(tables, "1 ", elastic.preloads.at(0).find("poly")->parameters, stage1_truth(plain));
-    DynamicOptions options;
-    options.models = {"poly"};
     const DynamicResult dynamic = fit_dynamic(bench.logs(), elastic, options);
-    add(tables, "2 ", dynamic.preloads.at(0).fits.at(0).parameters, links);
+    add(tables, "2 ", dynamic.preloads.at(0).fits.at(0).parameters, moving);
   }
+  return tables;
+}
+
+struct Inside {
+  double share = 0, n = 0;
+};
+
+/// Prints the tables. Of all intervals together, those that hold the truth.
+Inside inside_of(const char* title, const Tables& tables) {
   RunTable::print_header(title);
-  double inside = 0, n = 0;
+  Inside all;
   for (const auto& [name, table] : tables) {
     table.print();
-    inside += static_cast<double>(table.inside_interval);
-    n += table.n();
+    all.share += static_cast<double>(table.inside_interval);
+    all.n += table.n();
   }
-  std::printf("    blocked %g s, moving %g s; inside their 95 %% interval: %.1f %% of %g\n",
-              blocked, moving, 100 * inside / n, n);
-  if (full_monte_carlo()) {
-    CHECK(inside / n >= 0.9);
-    CHECK(inside / n <= 0.98);
-  } else {  // as above: parameters of one run are correlated, three count as one
-    CHECK(inside / n > 0.95 - 3.3 * std::sqrt(0.95 * 0.05 / (n / 3)));
+  all.share /= all.n;
+  std::printf("    inside their 95 %% interval: %.1f %% of %g\n", 100 * all.share, all.n);
+  return all;
+}
+
+/// 95 % less 3.3 standard errors of a binomial. Parameters of one run are correlated: three count
+/// as one.
+double least_share(const Inside& all) { return 0.95 - 3.3 * std::sqrt(0.95 * 0.05 / (all.n / 3)); }
+
+TEST_CASE("intervals of coupled joints cover the truth", "[recover][monte-carlo]") {
+  const Tables tables =
+      run({three_coupled_cables(), "", 0.1, 60, 8}, full_monte_carlo() ? 150 : 12);
+  const Inside all = inside_of("  two joints, three coupled cables", tables);
+  for (const auto& [name, table] : tables) {
+    INFO(name);
+    // The chance of scatter (chi of n - 1) beyond these, sd being right, is under 1e-4.
+    CHECK(table.mean_sd() / table.scatter() > (full_monte_carlo() ? 0.75 : 0.45));
   }
+  CHECK(all.share > least_share(all));
+}
+
+/// 90 to 98 % of the intervals of twenty runs hold the truth. Joints are held at whole counts of
+/// the encoder, as in serial_arms_test.cpp.
+void check_coverage(const char* title, Trial trial) {
+  trial.held = 10000 * trial.plain.quantum;
+  const Inside all = inside_of(title, run(trial, full_monte_carlo() ? 20 : 1));
+  CHECK(all.share >= (full_monte_carlo() ? 0.9 : least_share(all)));
+  if (full_monte_carlo()) CHECK(all.share <= 0.98);
 }
 
 TEST_CASE("intervals of a finger with n + 1 tendons", "[recover][monte-carlo]") {
-  check_coverage("  finger, 2 joints, 3 tendons", tendon_finger(), "", 60, 20);
+  check_coverage("  finger, 2 joints, 3 tendons; 60 s blocked, 20 s moving", {tendon_finger()});
 }
 
 TEST_CASE("intervals of a finger with 2n tendons", "[recover][monte-carlo]") {
-  check_coverage("  finger, 2 joints, 4 tendons", paired_finger(), "", 60, 20);
+  check_coverage("  finger, 2 joints, 4 tendons; 60 s blocked, 20 s moving", {paired_finger()});
 }
 
 TEST_CASE("intervals of a hand with two fingers", "[recover][monte-carlo]") {
-  check_coverage("  hand, 6 joints, 10 tendons", two_finger_hand(), "", 60, 20);
+  check_coverage("  hand, 6 joints, 10 tendons; 60 s blocked, 20 s moving", {two_finger_hand()});
 }
 
 TEST_CASE("intervals of an arm of seven joints", "[recover][monte-carlo]") {
   if (!reads_urdf()) return;
-  check_coverage("  arm, 7 joints, 14 cables, URDF", seven_joint_rig(), kUrdfArm, 60, 16);
+  check_coverage("  arm, 7 joints, 14 cables, URDF; 60 s blocked, 16 s moving",
+                 {seven_joint_rig(), kUrdfArm, 0, 60, 16});
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // All that the estimators need of millions of rows, in constant memory. The triangular factor of a
 // streamed QR gives the estimates: it does not square the condition number. The Gram matrices of at
-// most kMaxCells stretches of rows give robust standard deviations and held-out blocks, for which
-// their precision is sufficient.
+// most kMaxCells stretches of rows (fewer where rows are wide) give robust standard deviations and
+// held-out blocks, for which their precision is sufficient.
 #pragma once
 
 #include <Eigen/Core>
@@ -47,7 +47,7 @@ class RowStatistics {
  public:
   static constexpr Eigen::Index kMaxCells = 2048;
 
-  /// `expected_rows` decides the length of a cell (at least one row). There are no cells when
+  /// Both numbers decide the length of a cell (at least one row). There are no cells when
   /// `with_cells` is off.
   RowStatistics(Eigen::Index n_columns, Eigen::Index expected_rows, bool with_cells = true);
   /// An empty accumulator of the same layout, for another thread or window.
