@@ -1,7 +1,8 @@
 // One pass over the samples of a log for something that every channel of every part keeps.
 #pragma once
 
-#include <utility>
+#include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 #include "cablefit/samples/survey/survey.hpp"
@@ -9,11 +10,12 @@
 namespace cablefit {
 
 /// For each slot that is `wanted`: calls states[part][slot].begin() where a part does not go on
-/// from the row before, and .add(t, value, row) for each sample; `row` counts the rows of the log
-/// as it is read.
+/// from the row before, and .add(t, values, row) for the samples that follow each other; `row` is
+/// the first one's in the log as it is read.
 template <class State>
 void over_channels(const LogSurvey& log, bool (*wanted)(const Slot&),
                    std::vector<std::vector<State>>& states) {
+  using Values = Eigen::Map<const Eigen::ArrayXd>;
   Eigen::MatrixXd rows;
   std::size_t row = 0;
   for (const SamplePiece& piece : log.samples->pieces()) {
@@ -21,12 +23,10 @@ void over_channels(const LogSurvey& log, bool (*wanted)(const Slot&),
     log.samples->read(piece, rows);
     for (std::size_t k = 0; k < part.size(); ++k) {
       if (!wanted(log.plan.slots[k])) continue;
-      State state = std::move(part[k]);  // a local one stays in registers
-      if (!piece.follows) state.begin();
+      if (!piece.follows) part[k].begin();
       const auto column = static_cast<Eigen::Index>(k) + 1;
-      for (Eigen::Index i = 0; i < rows.rows(); ++i)
-        state.add(rows(i, 0), rows(i, column), row + static_cast<std::size_t>(i));
-      part[k] = std::move(state);
+      part[k].add(Values(rows.data(), rows.rows()), Values(rows.col(column).data(), rows.rows()),
+                  row);
     }
     row += static_cast<std::size_t>(piece.n_rows);
   }

@@ -30,17 +30,27 @@ struct Jump {
 /// stand alone: motion that sets in has a large step behind a large one.
 class Steps {
  public:
+  using Values = Eigen::Map<const Eigen::ArrayXd>;
+
   Steps(std::size_t n_rows, double period)
       : stride_(n_rows / kKeptSteps + 1), longest_(kGap * period) {}
 
-  void begin() { last_t_ = -std::numeric_limits<double>::infinity(); }
-  void add(double t, double x, std::size_t row) {
-    if (t - last_t_ <= longest_) {
-      take(std::abs(x - last_x_), row);
-    } else {
-      recent_.fill(0);
+  void begin() { last_.t = -std::numeric_limits<double>::infinity(); }
+  void add(const Values& t, const Values& x, std::size_t row) {
+    Last last = last_;  // a copy stays in registers
+    for (Eigen::Index i = 0; i < t.size(); ++i) {
+      if (t(i) - last.t <= longest_) {
+        const double step = std::abs(x(i) - last.x);
+        if (--n_to_keep_ == 0) keep(step);
+        last.push(step);
+        if (last.steps[2] > largest_.size)
+          look_at_middle(last.steps, row + static_cast<std::size_t>(i) - 2);
+      } else {
+        last.steps = {};
+      }
+      last.t = t(i), last.x = x(i);
     }
-    last_t_ = t, last_x_ = x;
+    last_ = last;
   }
   Jump result() {
     if (kept_.size() < kFewSteps) return {};
@@ -52,22 +62,30 @@ class Steps {
   }
 
  private:
-  void take(double step, std::size_t row) {
-    if (n_passed_++ == 0) kept_.push_back(step);
-    if (n_passed_ == stride_) n_passed_ = 0;
-    std::shift_left(recent_.begin(), recent_.end(), 1);
-    recent_.back() = step;
-    const double middle = recent_[2];
-    if (!(middle > largest_.size)) return;
+  using Steps5 = std::array<double, 5>;  // one row after another; 0 before the first
+
+  struct Last {
+    double t = 0, x = 0;
+    Steps5 steps{};
+
+    void push(double step) { steps = {steps[1], steps[2], steps[3], steps[4], step}; }
+  };
+
+  /// Every stride_-th step, the first one first.
+  void keep(double step) {
+    kept_.push_back(step);
+    n_to_keep_ = stride_;
+  }
+  void look_at_middle(const Steps5& steps, std::size_t row) {
     // The step after a wrong sample leads back.
-    const double before = std::max(recent_[0], recent_[1]);
-    const double after = std::min(recent_[3], recent_[4]);
-    if (middle > kAlone * std::max(before, after)) largest_ = {middle, 0, row - 2};
+    const double before = std::max(steps[0], steps[1]);
+    const double after = std::min(steps[3], steps[4]);
+    if (steps[2] > kAlone * std::max(before, after)) largest_ = {steps[2], 0, row};
   }
 
-  std::size_t stride_, n_passed_ = 0;
-  double longest_, last_t_ = 0, last_x_ = 0;
-  std::array<double, 5> recent_{};  // one row after another; 0 before the first
+  std::size_t stride_, n_to_keep_ = 1;
+  double longest_;
+  Last last_;
   std::vector<double> kept_;
   Jump largest_;
 };

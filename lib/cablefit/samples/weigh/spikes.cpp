@@ -51,13 +51,21 @@ double lone_height(double before, double x, double after) {
 /// The sample of one channel that lies furthest beyond both of its neighbours.
 class LoneSamples {
  public:
+  using Values = Eigen::Map<const Eigen::ArrayXd>;
+
   void begin() { n_ = 0; }
-  void add(double /*t*/, double x, std::size_t row) {
-    if (n_ >= 2) {
-      const double lone = lone_height(before_, middle_, x);
-      if (lone > height_) height_ = lone, largest_ = {0, middle_, row - 1};
+  void add(const Values& /*t*/, const Values& x, std::size_t row) {
+    const Eigen::Index n = x.size(), n_edge = std::min<Eigen::Index>(2, n);
+    for (Eigen::Index i = 0; i < n_edge; ++i) {
+      if (n_ >= 2) look_at(before_, middle_, x(i), row + static_cast<std::size_t>(i) - 1);
+      before_ = middle_, middle_ = x(i), n_ = std::min(2, n_ + 1);
     }
-    before_ = middle_, middle_ = x, ++n_;
+    if (n <= n_edge) return;
+    // All at once first: hardly any stretch has a sample beyond all that were seen.
+    if (highest(x) > height_)
+      for (Eigen::Index i = 2; i < n; ++i)
+        look_at(x(i - 2), x(i - 1), x(i), row + static_cast<std::size_t>(i) - 1);
+    before_ = x(n - 2), middle_ = x(n - 1);
   }
   Spike result(const LogSurvey& log, std::size_t part, std::size_t slot) const {
     // The quantiles cost a sort: only where the range is not the usual one.
@@ -69,7 +77,19 @@ class LoneSamples {
   }
 
  private:
-  std::size_t n_ = 0;
+  /// The largest lone_height(), negative for none: of x - before and x - after the smaller one
+  /// where both are positive, as below the neighbours.
+  static double highest(const Values& x) {
+    const Eigen::Index m = x.size() - 2;
+    const auto a = x.segment(1, m) - x.head(m), b = x.segment(1, m) - x.tail(m);
+    return a.min(b).max(-a.max(b)).maxCoeff();
+  }
+  void look_at(double before, double x, double after, std::size_t row) {
+    const double lone = lone_height(before, x, after);
+    if (lone > height_) height_ = lone, largest_ = {0, x, row};
+  }
+
+  int n_ = 0;  // values before, as far as that matters: no more than 2
   double before_ = 0, middle_ = 0, height_ = 0;
   Spike largest_;
 };
