@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cablefit/dynamic/estimates/estimates.hpp"
+#include "cablefit/dynamic/loops/log_copy.hpp"
 #include "cablefit/dynamic/rows/scaled_settings.hpp"
 #include "cablefit/estimate/fit/parameter_estimate.hpp"
 #include "cablefit/estimate/spread/long_run.hpp"
@@ -16,6 +17,9 @@ namespace cablefit {
 namespace {
 
 constexpr double kOtherCutoffs[] = {0.5, 2};
+// Of longer logs so many rows, in evenly spaced stretches: what counts is a movement of
+// kMovementNoted, beside which the scatter of a fit to them is small.
+constexpr double kRowsForCheck = 250000;
 constexpr double kNoisyShare = 0.05;  // noise in a regressor shrinks its coefficient by that share
 
 Estimate* inertia_of(const EquationRows& e, std::size_t parameter, DynamicFit& fit) {
@@ -101,6 +105,14 @@ void check_at(const OtherCutoff& other, const EstimationTask& task, Estimation& 
   }
 }
 
+/// Stretches of the wanted rows; empty: there are few enough.
+std::vector<LogSurvey> rows_for_check(const DynamicJob& job) {
+  const auto all = static_cast<double>(expected_rows(job.logs, job.wanted, RowSettings{}));
+  if (all <= kRowsForCheck) return {};
+  return stretches_of(job.logs, job.wanted, kRowsForCheck / all,
+                      bridge_seconds(job.settings.rows.signal));
+}
+
 }  // namespace
 
 std::vector<OtherCutoff> rows_at_other_cutoffs(const DynamicJob& job,
@@ -109,9 +121,11 @@ std::vector<OtherCutoff> rows_at_other_cutoffs(const DynamicJob& job,
   const double cutoff = job.settings.rows.signal.cutoff;
   if (!(cutoff > 0) || systems_of(equations).size() < equations.size()) return all;
   const double rate = sample_rates(job.logs, job.wanted).lowest;
+  const std::vector<LogSurvey> stretches = rows_for_check(job);
   for (const double factor : kOtherCutoffs) {
     if (factor * cutoff > kMostShareOfRate * rate) continue;
-    const DynamicJob other = with_cutoff_scaled(job, factor);
+    DynamicJob other = with_cutoff_scaled(job, factor);
+    if (!stretches.empty()) other.logs = stretches;
     all.push_back({factor, make_equations(other, ElasticDetail::torque)});
     collect_rows(other, all.back().equations);
   }
