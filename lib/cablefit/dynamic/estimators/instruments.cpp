@@ -3,52 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cablefit/dynamic/estimates/estimates.hpp"
 #include "cablefit/dynamic/estimates/joint_estimates.hpp"
+#include "cablefit/dynamic/estimators/instrument_proof.hpp"
 #include "cablefit/dynamic/estimators/least_squares_fit.hpp"
 #include "cablefit/dynamic/estimators/rows.hpp"
 #include "cablefit/dynamic/loops/instrumental_variables.hpp"
-#include "cablefit/dynamic/loops/log_copy.hpp"
-#include "cablefit/dynamic/rows/scaled_settings.hpp"
 #include "cablefit/estimate/fit/instruments.hpp"
 #include "cablefit/estimate/fit/profile_interval.hpp"
-#include "cablefit/estimate/tests/held_out_moments.hpp"
 #include "cablefit/model/file/controller_text.hpp"
-#include "cablefit/samples/rows/agreement.hpp"
 
 namespace cablefit::estimation {
 namespace {
 
 constexpr double kSignificant = 0.05;
-// `auto` looks at this many rows of longer logs before it decides. A bias that shows in fewer rows
-// than that matters, one that does not is below the sd of the fit to them.
-constexpr double kRowsForTest = 250000;
-
-/// The wanted rows, or of many evenly spaced stretches.
-struct TestRows {
-  std::vector<LogSurvey> stretches;  ///< empty: all rows
-  std::string note;
-
-  std::span<const LogSurvey> logs(const DynamicJob& job) const {
-    return stretches.empty() ? job.logs : std::span<const LogSurvey>(stretches);
-  }
-};
-
-TestRows rows_for_test(const DynamicJob& job) {
-  TestRows rows;
-  double all = 0;
-  for (const LogSurvey& log : job.logs)
-    for (const PartSurvey& part : log.parts)
-      if (job.wanted(part)) all += static_cast<double>(part.n_rows);
-  if (all <= kRowsForTest) return rows;
-  const double share = kRowsForTest / all;
-  rows.stretches =
-      stretches_of(job.logs, job.wanted, share, bridge_seconds(job.settings.rows.signal));
-  rows.note =
-      fmt::format(", judged on {:.2g} % of the rows in evenly spaced stretches", 100 * share);
-  return rows;
-}
 
 std::string label(const EstimationTask& task, const char* what) {
   if (task.job.models.size() < 2) return what;
@@ -216,55 +186,6 @@ bool any_wants(const std::vector<Judgement>& judgements) {
                      [](const Judgement& j) { return j.wants_instruments(); });
 }
 
-/// Whether this log proves instruments that come from a surrogate loop, which keeps encoder noise
-/// out but not what moved the robot.
-struct InstrumentProof {
-  bool agrees = false;  ///< with themselves at other cut-offs, within kAgreement
-  bool better = false;  ///< held-out residuals share less with them than by least squares
-  double moved = 0;     ///< sd, of the parameter that moves most between cut-offs
-  std::string parameter;
-
-  bool holds() const { return agrees && better; }
-  std::string text() const {
-    return fmt::format("{} changes by {:.2g} sd between cut-offs; {} than wls on held-out blocks",
-                       parameter, moved, better ? "better" : "not better");
-  }
-};
-
-constexpr double kOtherCutoffs[] = {0.71, 1.41};
-constexpr double kAgreement = 1;  // sd
-
-std::vector<InstrumentProof> prove_instruments(const EstimationTask& task, const TestRows& test,
-                                               const IvFit& fit) {
-  const DynamicJob& job = task.job;
-  std::vector<InstrumentProof> proofs(task.equations.size());
-  for (std::size_t k = 0; k < proofs.size(); ++k) {
-    const HeldOutMoments moments = held_out_moments(
-        fit.rows[k].rows, instrumented_problem(job, task.equations[k], task.model));
-    proofs[k].better = moments.with < moments.plain;
-  }
-  const double rate = sample_rates(job.logs, job.wanted).lowest;
-  int n_cutoffs = 0;
-  for (const double factor : kOtherCutoffs) {
-    if (factor * job.settings.rows.signal.cutoff > kMostShareOfRate * rate) continue;
-    const DynamicJob other = with_cutoff_scaled(job, factor);
-    const std::vector<EquationRows> equations = make_equations(other);
-    const IvFit again = fit_by_instruments(other, test.logs(job), equations, fit.solutions,
-                                           task.model, plan_loop(other, job.logs), 1);
-    if (!again.failure.empty()) return proofs;
-    ++n_cutoffs;
-    for (std::size_t k = 0; k < proofs.size(); ++k) {
-      const EstimateDifference moved = largest_difference(fit.solutions[k], again.solutions[k]);
-      if (moved.parameter < 0 || std::abs(moved.in_sd) < proofs[k].moved) continue;
-      proofs[k].moved = std::abs(moved.in_sd);
-      proofs[k].parameter =
-          task.equations[k].columns.parameters[static_cast<std::size_t>(moved.parameter)].name;
-    }
-  }
-  for (InstrumentProof& proof : proofs) proof.agrees = n_cutoffs > 0 && proof.moved < kAgreement;
-  return proofs;
-}
-
 /// Least squares stands, but what instruments would change is part of its sd.
 void keep_difference(const EquationRows& e, const LinearSolution& plain, const LinearSolution& with,
                      DynamicFit& fit) {
@@ -275,21 +196,43 @@ void keep_difference(const EquationRows& e, const LinearSolution& plain, const L
   }
 }
 
+/// Which equations use instruments, and why.
+struct Decided {
+  std::vector<Judgement> judgements;
+  std::vector<InstrumentProof> proofs;  ///< empty: none is needed
+  std::vector<bool> uses;
+
+  bool any_uses() const { return std::find(uses.begin(), uses.end(), true) != uses.end(); }
+};
+
+/// Of each equation: as it wants, and where a surrogate makes the instruments, as it is proved.
+Decided decide(const EstimationTask& task, const LoopPlan& plan, const TestRows& test,
+               const std::vector<LinearSolution>& plain, const IvFit& fit) {
+  Decided decided{judge_all(task, plain, fit), {}, {}};
+  if (any_wants(decided.judgements) && !keeps_disturbances_out(plan.kind))
+    decided.proofs = prove_instruments(task, test, fit);
+  for (std::size_t k = 0; k < task.equations.size(); ++k)
+    decided.uses.push_back(decided.judgements[k].wants_instruments() &&
+                           (decided.proofs.empty() || decided.proofs[k].holds()));
+  return decided;
+}
+
 Estimation estimate_automatically(const EstimationTask& task) {
   const DynamicJob& job = task.job;
-  const LoopPlan plan = plan_loop(job, job.logs);
+  const TestRows test = rows_for_test(job);
+  const LoopPlan plan = plan_loop(job, test.logs(job));
   if (plan.kind == LoopKind::none) return stay_with_least_squares(task, plan.reason);
   const std::vector<LinearSolution> plain = least_squares_of(task);
-  const TestRows test = rows_for_test(job);
   IvFit fit = fit_by_instruments(job, test.logs(job), task.equations, plain, task.model, plan);
   if (!fit.failure.empty()) return stay_with_least_squares(task, fit.failure);
   for (const LinearSolution& solution : fit.solutions)
     if (has_weak_instruments(solution))
       return stay_with_least_squares(task,
                                      "the simulated loop does not reproduce the measured motion");
-  std::vector<Judgement> judgements = judge_all(task, plain, fit);
-  if (any_wants(judgements) && !test.stretches.empty()) {
-    // Settled on the stretches; the same once more with all rows, whose differences count.
+  Decided decided = decide(task, plan, test, plain, fit);
+  if (!test.stretches.empty() && decided.any_uses()) {
+    // Settled and confirmed on the stretches; the same once more with all rows, whose differences
+    // count. What few rows do not confirm, more rows would not: their sd is smaller.
     IvFit all =
         fit_by_instruments(job, job.logs, task.equations, fit.solutions, task.model, plan, 1);
     if (!all.failure.empty()) return stay_with_least_squares(task, all.failure);
@@ -297,34 +240,26 @@ Estimation estimate_automatically(const EstimationTask& task) {
     all.last_change = fit.last_change;
     all.tests = std::move(fit.tests);
     fit = std::move(all);
-    judgements = judge_all(task, plain, fit);
+    decided = decide(task, plan, test, plain, fit);
   }
-  // Of each equation: as it wants, and where a surrogate makes the instruments, as it is proved.
-  std::vector<InstrumentProof> proofs;
-  if (any_wants(judgements) && !keeps_disturbances_out(plan.kind))
-    proofs = prove_instruments(task, test, fit);
-  const auto uses_instruments = [&](std::size_t k) {
-    return judgements[k].wants_instruments() && (proofs.empty() || proofs[k].holds());
-  };
-  bool any = false;
-  for (std::size_t k = 0; k < task.equations.size(); ++k) any = any || uses_instruments(k);
+  const std::vector<Judgement>& judgements = decided.judgements;
   Estimation out;
-  out.fit.estimator = any ? "iv" : "wls";
+  out.fit.estimator = decided.any_uses() ? "iv" : "wls";
   out.decisions.push_back(
-      {label(task, "estimator"), any ? "iv" : "wls",
+      {label(task, "estimator"), out.fit.estimator,
        fmt::format("Durbin-Wu-Hausman: {}{}", all_p(task, judgements), test.note)});
   std::vector<EquationInfluence> influences;
   for (std::size_t k = 0; k < task.equations.size(); ++k) {
     const EquationRows& e = task.equations[k];
     std::string text = verdict(judgements[k], "wls is kept", "the iv estimates are used");
-    if (uses_instruments(k)) {
+    if (decided.uses[k]) {
       add_equation(task, k, fit.rows[k].rows, fit.solutions[k], influences, out);
     } else {
       add_equation(task, k, *e.rows, plain[k], influences, out);
       if (judgements[k].wants_instruments()) {
         keep_difference(e, plain[k], fit.solutions[k], out.fit);
         text = verdict(judgements[k], "", "wls is kept, with the difference in its sd") +
-               " (instruments not confirmed: " + proofs[k].text() + ")";
+               " (instruments not confirmed: " + decided.proofs[k].text() + ")";
       }
     }
     out.fit.verdicts[verdict_key(e)] = text;
