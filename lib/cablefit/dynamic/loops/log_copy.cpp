@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "cablefit/samples/survey/chosen_windows.hpp"
+
 namespace cablefit {
 
 LogCopy::LogCopy(const LogSurvey& from, bool with_simulated)
@@ -55,11 +57,12 @@ std::vector<LogSurvey> stretches_of(std::span<const LogSurvey> logs, const PartF
   int windows = 0;
   for (const LogSurvey& log : logs) {
     LogCopy copy(log, false);
-    for_each_window(log, wanted, 0, 2 * kDifferenceEdge + 2, bridge, [&](Window&& window) {
+    const auto chosen = [&](const WindowPlace&) {
       const int stretch = windows++ / kStretchWindows;
-      if (std::floor((stretch + 1) * share) > std::floor(stretch * share)) copy.add(window);
-      return true;
-    });
+      return std::floor((stretch + 1) * share) > std::floor(stretch * share);
+    };
+    for_chosen_windows(log, wanted, 2 * kDifferenceEdge + 2, bridge, chosen,
+                       [&](const Window& window) { copy.add(window); });
     all.push_back(copy.finish());
   }
   return all;
