@@ -37,6 +37,37 @@ class Steps {
 
   void begin() { last_.t = -std::numeric_limits<double>::infinity(); }
   void add(const Values& t, const Values& x, std::size_t row) {
+    const Eigen::Index n = t.size();
+    const Eigen::Index n_first = std::min(n, kReach);
+    take(t.head(n_first), x.head(n_first), row);
+    if (n == n_first) return;
+    // All at once first: hardly any stretch has a gap or a step beyond the largest one seen.
+    if (pass_over(t, x)) return;
+    take(t.tail(n - n_first), x.tail(n - n_first), row + static_cast<std::size_t>(n_first));
+  }
+  Jump result() {
+    if (kept_.size() < kFewSteps) return {};
+    const auto at = kept_.begin() + static_cast<std::ptrdiff_t>(
+                                        kUsualShare * static_cast<double>(kept_.size() - 1));
+    std::nth_element(kept_.begin(), at, kept_.end());
+    largest_.usual = *at;
+    return largest_;
+  }
+
+ private:
+  static constexpr Eigen::Index kReach = 5;   // a step, two before and two behind it
+  using Steps5 = std::array<double, kReach>;  // one row after another; 0 before the first
+
+  struct Last {
+    double t = 0, x = 0;
+    Steps5 steps{};
+
+    void push(double step) { steps = {steps[1], steps[2], steps[3], steps[4], step}; }
+  };
+
+  using Some = Eigen::Ref<const Eigen::ArrayXd>;
+
+  void take(const Some& t, const Some& x, std::size_t row) {
     Last last = last_;  // a copy stays in registers
     for (Eigen::Index i = 0; i < t.size(); ++i) {
       if (t(i) - last.t <= longest_) {
@@ -52,25 +83,22 @@ class Steps {
     }
     last_ = last;
   }
-  Jump result() {
-    if (kept_.size() < kFewSteps) return {};
-    const auto at = kept_.begin() + static_cast<std::ptrdiff_t>(
-                                        kUsualShare * static_cast<double>(kept_.size() - 1));
-    std::nth_element(kept_.begin(), at, kept_.end());
-    largest_.usual = *at;
-    return largest_;
+  /// Takes the rows from kReach on, if none of them is behind a gap or shows a larger step.
+  bool pass_over(const Values& t, const Values& x) {
+    const Eigen::Index m = t.size() - 1;
+    if (!((t.tail(m) - t.head(m)).maxCoeff() <= longest_)) return false;
+    steps_ = (x.tail(m) - x.head(m)).abs();
+    const auto at = [&](Eigen::Index k) { return steps_.segment(k, m + 1 - kReach); };
+    const auto around = at(0).max(at(1)).max(at(3).min(at(4)));
+    if ((at(2) - kAlone * around).min(at(2) - largest_.size).maxCoeff() > 0) return false;
+    auto next = static_cast<std::size_t>(kReach - 1) + n_to_keep_ - 1;
+    for (; next < static_cast<std::size_t>(m); next += stride_)
+      kept_.push_back(steps_(static_cast<Eigen::Index>(next)));
+    n_to_keep_ = next - static_cast<std::size_t>(m) + 1;
+    last_ = {t(m), x(m), {}};
+    std::copy_n(steps_.data() + m - kReach, kReach, last_.steps.begin());
+    return true;
   }
-
- private:
-  using Steps5 = std::array<double, 5>;  // one row after another; 0 before the first
-
-  struct Last {
-    double t = 0, x = 0;
-    Steps5 steps{};
-
-    void push(double step) { steps = {steps[1], steps[2], steps[3], steps[4], step}; }
-  };
-
   /// Every stride_-th step, the first one first.
   void keep(double step) {
     kept_.push_back(step);
@@ -87,6 +115,7 @@ class Steps {
   double longest_;
   Last last_;
   std::vector<double> kept_;
+  Eigen::ArrayXd steps_;  // of the rows at hand
   Jump largest_;
 };
 
