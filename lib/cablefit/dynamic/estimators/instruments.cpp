@@ -65,6 +65,15 @@ std::vector<LinearSolution> least_squares_of(const EstimationTask& task) {
   return solutions;
 }
 
+/// On the stretches alone; the difference of two fits to the same rows does not scatter with them.
+std::vector<LinearSolution> least_squares_on(const TestRows& test, const EstimationTask& task) {
+  DynamicJob job = task.job;
+  job.logs = test.logs(task.job);
+  std::vector<EquationRows> equations = make_equations(job);
+  collect_rows(job, equations);
+  return least_squares_of({job, equations, task.model});
+}
+
 void add_equation(const EstimationTask& task, std::size_t k, const RowStatistics& rows,
                   LinearSolution solution, std::vector<EquationInfluence>& influences,
                   Estimation& out) {
@@ -186,7 +195,8 @@ bool any_wants(const std::vector<Judgement>& judgements) {
                      [](const Judgement& j) { return j.wants_instruments(); });
 }
 
-/// Least squares stands, but what instruments would change is part of its sd.
+/// Least squares stands, but what instruments would change is part of its sd. `plain` and `with`
+/// are of the same rows.
 void keep_difference(const EquationRows& e, const LinearSolution& plain, const LinearSolution& with,
                      DynamicFit& fit) {
   for (Eigen::Index k = 0; k < e.columns.n_effects; ++k) {
@@ -243,6 +253,9 @@ Estimation estimate_automatically(const EstimationTask& task) {
     decided = decide(task, plan, test, plain, fit);
   }
   const std::vector<Judgement>& judgements = decided.judgements;
+  const bool thinned = !test.stretches.empty() && !decided.any_uses();
+  const std::vector<LinearSolution> beside =
+      thinned && any_wants(judgements) ? least_squares_on(test, task) : plain;
   Estimation out;
   out.fit.estimator = decided.any_uses() ? "iv" : "wls";
   out.decisions.push_back(
@@ -257,7 +270,7 @@ Estimation estimate_automatically(const EstimationTask& task) {
     } else {
       add_equation(task, k, *e.rows, plain[k], influences, out);
       if (judgements[k].wants_instruments()) {
-        keep_difference(e, plain[k], fit.solutions[k], out.fit);
+        keep_difference(e, beside[k], fit.solutions[k], out.fit);
         text = verdict(judgements[k], "", "wls is kept, with the difference in its sd") +
                " (instruments not confirmed: " + decided.proofs[k].text() + ")";
       }
