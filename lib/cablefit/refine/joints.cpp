@@ -194,7 +194,7 @@ RefineResult merged(std::span<const Model> models, std::vector<RefineResult> joi
   all.inputs = first.inputs;
   all.preloads = first.preloads;
   all.rig_path = first.rig_path;
-  all.axes = first.axes;
+  all.axes = models.front().rig.axes.all();
   all.rigid = first.rigid;
   all.held_out_blocks = first.held_out_blocks;
   all.elastic_only = first.elastic_only;

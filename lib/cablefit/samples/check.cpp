@@ -107,18 +107,28 @@ CheckedExcitation least_excitation(const LogSurvey& log, const PartSurvey& part,
   return least;
 }
 
+/// Whether every joint has these channels, and moves by the first of them.
+bool all_joints_move(const LogPlan& plan, const PartSurvey& part,
+                     std::initializer_list<Channel> channels) {
+  for (int joint = 0; joint < plan.rig.n_joints(); ++joint) {
+    for (const Channel channel : channels)
+      if (!plan.has(channel, joint)) return false;
+    const auto k = static_cast<std::size_t>(plan.find(*channels.begin(), joint));
+    if (!(part.channels[k].range() > 0)) return false;
+  }
+  return true;
+}
+
 /// What several joints are good for: every joint needs every channel.
 std::vector<std::string> identified_by_joints(const LogPlan& plan, const PartSurvey& part) {
-  bool all_move = true;
-  for (int joint = 0; joint < plan.rig.n_joints(); ++joint) {
-    for (const Channel channel : {Channel::q, Channel::theta, Channel::tau})
-      if (!plan.has(channel, joint)) return {};
-    const Channel moving = part.phase == Phase::blocked ? Channel::theta : Channel::q;
-    const auto k = static_cast<std::size_t>(plan.find(moving, joint));
-    all_move = all_move && part.channels[k].range() > 0;
-  }
-  if (!all_move) return {};
-  return {part.phase == Phase::blocked ? "elastic" : "dynamic"};
+  using enum Channel;
+  if (part.phase == Phase::blocked)
+    return all_joints_move(plan, part, {theta, q, tau}) ? std::vector<std::string>{"elastic"}
+                                                        : std::vector<std::string>{};
+  std::vector<std::string> models;
+  if (all_joints_move(plan, part, {q, theta, tau})) models.emplace_back("dynamic");
+  if (all_joints_move(plan, part, {theta, tau})) models.emplace_back("rigid");
+  return models;
 }
 
 std::vector<std::string> identified_by(const LogPlan& plan, const PartSurvey& part) {

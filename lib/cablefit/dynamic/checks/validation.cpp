@@ -68,7 +68,7 @@ TestedRows tested(const FittedModels& fitted, const JudgedRows& rows, bool are_f
   const DynamicJob& job = fitted.job;
   const double rate = sample_rates(job.logs, job.wanted).lowest;
   return {rows, are_fitted, job.settings.rows.decimate / rate, torque_rms(fitted, m, rows.equation),
-          unit_for(job.rig().axes.all(), "N m")};
+          torque_unit(job.rig().axes.of(fitted.equations[rows.equation].columns.place.joint))};
 }
 
 JudgedEquation named(const FittedModels& fitted, std::size_t m, std::size_t k) {

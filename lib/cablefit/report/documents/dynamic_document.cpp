@@ -10,6 +10,7 @@
 
 #include "cablefit/figure/explained.hpp"
 #include "cablefit/report/parts/document_parts.hpp"
+#include "cablefit/report/parts/equation_unit.hpp"
 #include "cablefit/report/parts/numbers.hpp"
 #include "cablefit/report/sections/proof_report.hpp"
 #include "cablefit/report/sections/validation_tables.hpp"
@@ -230,8 +231,8 @@ void add_tidy_rows(Table& table, const DynamicPreload& preload, const DynamicFit
     add_tidy(table, preload.name, fit.model, fit.estimator, e);
   }
   for (const Estimate& e : fit.derived) add_tidy(table, preload.name, fit.model, fit.estimator, e);
-  const std::string torque = torque_unit(preload.axes);
   for (const auto& [equation, error] : fit.torque_error) {
+    const std::string torque = equation_unit(preload, equation);
     const auto add = [&, name = equation](const char* what, const std::string& unit, double value) {
       add_tidy_number(table, preload.name, fit.model, fit.estimator,
                       fmt::format("torque_error_{}_{}", name, what), unit, value);
@@ -261,11 +262,11 @@ const DynamicFit* better_fit(const DynamicPreload& preload) {
 }
 
 /// "link 0.169 N m rms (1.3 % of the torque), motor 0.167 N m rms (4.3 %)".
-std::string residual_text(const DynamicFit& fit, const std::string& unit) {
+std::string residual_text(const DynamicPreload& preload, const DynamicFit& fit) {
   std::string text;
   for (const auto& [equation, error] : fit.torque_error)
     text += fmt::format("{}{} {} {} rms ({} %{})", text.empty() ? "" : ", ", equation,
-                        significant(error.rms, kErrorDigits), unit,
+                        significant(error.rms, kErrorDigits), equation_unit(preload, equation),
                         significant(100 * error.relative, 2), text.empty() ? " of the torque" : "");
   return text;
 }
@@ -276,7 +277,7 @@ std::string dependence_text(const DynamicPreload& preload, const std::string& mo
   bool is_same = true;
   for (const JudgedEquation& e : preload.residual_tests) {
     if (e.model != model) continue;
-    const std::string depends = depends_text(e, torque_unit(preload.axes));
+    const std::string depends = depends_text(e, equation_unit(preload, e.equation));
     if (text.empty()) first = depends;
     is_same = is_same && depends == first;
     text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", e.equation, depends);
@@ -284,19 +285,39 @@ std::string dependence_text(const DynamicPreload& preload, const std::string& mo
   return is_same ? first : text;
 }
 
+/// Of several joints a line per equation.
+void add_answers(const DynamicPreload& preload, const DynamicFit& fit, Document& document) {
+  for (const auto& [equation, error] : fit.torque_error) {
+    std::string depends;
+    for (const JudgedEquation& e : preload.residual_tests)
+      if (e.model == fit.model && e.equation == equation)
+        depends = "; against motion: " + depends_text(e, equation_unit(preload, equation));
+    const bool is_first = equation == fit.torque_error.begin()->first;
+    document.summary.push_back(
+        {is_first ? preload.name : "",
+         fmt::format("{}: residual {} {} rms, {} % of the torque{}", equation,
+                     significant(error.rms, kErrorDigits), equation_unit(preload, equation),
+                     significant(100 * error.relative, 2), depends)});
+  }
+}
+
 void add_answer(const DynamicPreload& preload, Document& document) {
+  constexpr std::size_t kOneJoint = 2;  // equations
   const DynamicFit* best = better_fit(preload);
   if (best == nullptr) return;
-  const std::string unit = torque_unit(preload.axes);
+  if (best->torque_error.size() > kOneJoint && preload.fits.size() == 1) {
+    add_answers(preload, *best, document);
+    return;
+  }
   const std::string use = preload.fits.size() > 1 ? "use " + best->model + "; " : "";
   document.summary.push_back(
-      {preload.name, fmt::format("{}residual: {}", use, residual_text(*best, unit))});
+      {preload.name, fmt::format("{}residual: {}", use, residual_text(preload, *best))});
   if (const std::string depends = dependence_text(preload, best->model); !depends.empty())
     document.summary.push_back({"", "residual against motion and load: " + depends});
   for (const DynamicFit& fit : preload.fits)
     if (&fit != best)
       document.summary.push_back(
-          {"  " + fit.model, fmt::format("residual: {}", residual_text(fit, unit))});
+          {"  " + fit.model, fmt::format("residual: {}", residual_text(preload, fit))});
 }
 
 /// Share of the squared torque of an equation that the best model of every preload explains.

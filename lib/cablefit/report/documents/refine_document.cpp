@@ -22,7 +22,8 @@ std::string percent(double share) {
 
 /// Of several joints what each has.
 Table joint_table(const RefineResult& result) {
-  const std::string torque = torque_unit(result.axes);
+  const bool mixed = result.axes == Axes::mixed;  // then every number has its unit
+  const std::string torque = mixed ? "" : torque_unit(result.axes);
   Table table;
   table.title = "Joints";
   table.columns = {{"", "joint", "", true},
@@ -37,10 +38,14 @@ Table joint_table(const RefineResult& result) {
     for (const NamedEffect& effect : r.effects)
       effects += (effects.empty() ? "" : ", ") + effect_text(effect, result);
     const bool is_done = r.not_refined.empty();
-    const auto known = [&](double value) { return is_done ? number(value) : kNoNumber; };
+    const auto known = [&](double value, const std::string& unit) {
+      return is_done ? number(value) + unit : kNoNumber;
+    };
+    const std::string unit = mixed ? " " + torque_unit(r.axes) : "";
     table.rows.push_back({r.joint_name, is_done ? std::string(to_string(r.verdict)) : "not refined",
-                          effects, known(r.torque.test_before), known(r.torque.test_after),
-                          known(r.torque.noise_floor), known(r.search_p)});
+                          effects, known(r.torque.test_before, unit),
+                          known(r.torque.test_after, unit), known(r.torque.noise_floor, unit),
+                          known(r.search_p, "")});
   }
   table.notes = {"each joint by its own equations, the measured motion of the others given"};
   return table;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cablefit/report/parts/document_parts.hpp"
+#include "cablefit/report/parts/equation_unit.hpp"
 #include "cablefit/report/parts/numbers.hpp"
 
 namespace cablefit {
@@ -175,7 +176,7 @@ Table residual_summary(const DynamicResult& result) {
   for (const DynamicPreload& preload : result.preloads)
     for (const JudgedEquation& e : preload.residual_tests)
       table.rows.push_back({preload.name, e.model, e.equation, white_text(e),
-                            depends_text(e, torque_unit(preload.axes))});
+                            depends_text(e, equation_unit(preload, e.equation))});
   return table;
 }
 
@@ -189,8 +190,8 @@ Table residual_table(const DynamicResult& result) {
 std::vector<std::string> validation_warnings(const DynamicPreload& preload) {
   std::vector<std::string> warnings;
   if (!preload.validation) return warnings;
-  const std::string unit = torque_unit(preload.axes);
   for (const JudgedEquation& e : preload.validation->equations) {
+    const std::string unit = equation_unit(preload, e.equation);
     const ConditionError* worst = worst_of(e);
     if (worst == nullptr) continue;
     warnings.push_back(fmt::format(
@@ -206,8 +207,8 @@ std::vector<std::string> validation_warnings(const DynamicPreload& preload) {
 
 void add_validation_rows(Table& table, const DynamicPreload& preload) {
   if (!preload.validation) return;
-  const std::string unit = torque_unit(preload.axes);
   for (const JudgedEquation& e : preload.validation->equations) {
+    const std::string unit = equation_unit(preload, e.equation);
     for (const ConditionError& c : e.conditions) {
       const std::string place =
           fmt::format("{}_{}{}", e.equation, c.condition, c.value.empty() ? "" : "_" + c.value);
