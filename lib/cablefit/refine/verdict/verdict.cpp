@@ -25,6 +25,7 @@ constexpr double kTieShare = 0.02;        // of the gap: closer than that, eithe
 // closed 3 % less than another in 2 of 68 cases at one load).
 constexpr double kAlikeShare = 0.03;
 constexpr double kEqualShare = 0.005;  // the same, where the blocks agree on which is better
+constexpr double kSameShare = 0.001;   // closer than that the logs say nothing of which it is
 constexpr double kSureSd = 3;          // that they do
 constexpr double kSafety = 1.3;        // times the largest chance gain seen
 // What passes against its gain at half of all other dates. By chance the largest of 40 blocks'
@@ -167,6 +168,14 @@ bool is_simpler(const Candidate& a, const Candidate& b) {
   return !is_of_sensor(a) && is_of_sensor(b);
 }
 
+/// Of two that nothing in the logs separates the one that is commoner in cable drives: it stands
+/// first in the catalogue.
+bool is_commoner(const Candidate& a, const Candidate& b, const SquaredGap& gap) {
+  const Effect &row = *a.variant.effect, &other = *b.variant.effect;
+  return are_comparable(a, b) && row.site == other.site && n_parameters(a) == n_parameters(b) &&
+         std::abs(paired(a.error, b.error).sum) < kSameShare * gap.above() && &row < &other;
+}
+
 /// Whether the other effect is the better answer: it gains more beyond the null, or as much and is
 /// the simpler one. Where neither is an event, their gains are not compared with those of their own
 /// rows under the null. Otherwise, of two effects that are nearly the same, the one with the larger
@@ -174,6 +183,7 @@ bool is_simpler(const Candidate& a, const Candidate& b) {
 bool is_better_name(const Candidate& other, const Candidate& best, const Significance& significance,
                     const SquaredGap& gap) {
   if (is_tie(other, best, gap) && is_simpler(other, best)) return true;
+  if (is_commoner(other, best, gap)) return true;
   if (!other.variant.effect->is_event && !best.variant.effect->is_event)
     return other.gain > best.gain;
   return significance.beyond_chance(other) > significance.beyond_chance(best);
