@@ -86,5 +86,51 @@ TEST_CASE("where nothing is missing on any joint nothing is named", "[refine]") 
     }
 }
 
+/// The torque of one joint is 1.2 times what it should be.
+PlainRig with_wrong_torque(PlainRig rig, std::size_t joint) {
+  rig.joints[joint].gain = 1.2;
+  return rig;
+}
+
+TEST_CASE("a wrong torque of one joint is told from a wrong load by the others", "[refine]") {
+  for (const std::size_t joint : {0u, 1u}) {
+    INFO("joint " << joint + 1);
+    const RefineResult result = refined(with_wrong_torque(tendon_finger(), joint)).result;
+    CHECK(result.verdict == Verdict::named);
+    REQUIRE(result.effects.size() == 1);
+    const NamedEffect& effect = result.effects[0];
+    CHECK(effect.instance.effect->name == "torque_gain");
+    CHECK(effect.joint == static_cast<int>(joint) + 1);
+    CHECK(effect.rivals.empty());
+    const Estimate& a = effect.instance.parameters[0];
+    CHECK(std::abs(a.value - (1 - 1.2)) < 4 * a.sd);
+    CHECK(a.sd < 0.005);
+    CHECK(result.joints[1 - joint].verdict == Verdict::none);
+    // The cables are in the torque of the joint that is right.
+    const Estimate* k = find_estimate(result.models.at(0).elastic, "k[flexor]_0");
+    REQUIRE(k != nullptr);
+    CHECK(std::abs(k->value - 1e5) < 5e-3 * 1e5);
+  }
+}
+
+TEST_CASE("without a load either of two torques may be the wrong one", "[refine]") {
+  const RefineResult result = refined(with_wrong_torque(phalanges_rig(), 1),
+                                      R"( "arm": {"type": "urdf", "file": "finger.urdf"},)")
+                                  .result;
+  CHECK(result.verdict == Verdict::ambiguous);
+  REQUIRE(result.effects.size() == 1);
+  const NamedEffect& effect = result.effects[0];
+  CHECK(effect.instance.effect->name == "torque_gain");
+  CHECK(effect.joint == 2);  // joint 1 agrees with the masses of the URDF
+  REQUIRE(effect.rivals.size() == 1);
+  CHECK(effect.rivals[0].name == "torque_gain");
+  CHECK(effect.rivals[0].joint == 1);
+  CHECK(effect.evidence.p_value < 1e-6);
+  // What is seen by joint 2 is no longer explained by other cables and masses than joint 1 has.
+  const GapStory& gap = result.joints[1].torque;
+  CHECK(gap.test_before > 5 * gap.test_after);
+  CHECK(gap.test_after < 1.2 * gap.noise_floor);
+}
+
 }  // namespace
 }  // namespace cablefit::test

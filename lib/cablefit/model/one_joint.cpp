@@ -298,6 +298,12 @@ Model one_joint(const Model& whole, int joint) {
   return one;
 }
 
+std::vector<Model> one_joint(std::span<const Model> models, int joint) {
+  std::vector<Model> one;
+  for (const Model& model : models) one.push_back(one_joint(model, joint));
+  return one;
+}
+
 Model whole_of(const Model& model) {
   if (model.whole == nullptr) return model;
   Model whole = *model.whole;

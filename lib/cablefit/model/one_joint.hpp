@@ -17,6 +17,7 @@ namespace cablefit {
 /// rig says of it, named as on a rig of one joint. It remembers `whole`. Links that move each other
 /// keep their arm, whose torque on this joint follows from the motion of all (arm_columns).
 Model one_joint(const Model& whole, int joint);
+std::vector<Model> one_joint(std::span<const Model> models, int joint);
 
 /// The same without the others, which stand at 0: an arm as an inertia M_kk(0) of the link.
 Model standing_alone(const Model& one);

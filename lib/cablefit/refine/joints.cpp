@@ -10,22 +10,17 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/model/one_joint.hpp"
 #include "cablefit/refine/kept_joint.hpp"
+#include "cablefit/refine/torque_gains.hpp"
 
 namespace cablefit {
 namespace {
-
-std::vector<Model> one_joint_each(std::span<const Model> models, int joint) {
-  std::vector<Model> one;
-  for (const Model& model : models) one.push_back(one_joint(model, joint));
-  return one;
-}
 
 /// Simulations of one joint move the others too: all of them with values that fit.
 std::vector<Model> with_base_fits(std::span<const Model> given, const RefineLogs& logs) {
   std::vector<Model> models(given.begin(), given.end());
   for (int joint = 0; joint < static_cast<int>(given.front().joints.size()); ++joint) {
     try {
-      const std::vector<Model> fitted = with_base_fit(one_joint_each(models, joint), logs);
+      const std::vector<Model> fitted = with_base_fit(one_joint(models, joint), logs);
       for (std::size_t m = 0; m < models.size(); ++m) models[m] = whole_of(fitted[m]);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::not_identifiable) throw;  // the joint says so in its turn
@@ -185,7 +180,6 @@ std::vector<Model> joined_models(std::span<const Model> models,
 RefineResult merged(std::span<const Model> models, std::vector<RefineResult> joints) {
   RefineResult all;
   all.models = joined_models(models, joints);
-  for (RefineResult& r : joints) set_joint(r);
   for (const RefineResult& r : joints) append_lists(r, all);
   all.joints = std::move(joints);
   all.verdict = verdict_of(all.joints);
@@ -220,6 +214,7 @@ RefineResult refine_joints(std::span<const Model> given, const RefineLogs& logs,
   const auto n = static_cast<int>(models.front().joints.size());
   RefineOptions own = options;
   own.significance /= n;
+  const ComparedTorques torques = compared_torques(models, logs, own.significance);
   std::vector<RefineResult> joints;
   std::optional<Error> first;
   for (int joint = 0; joint < n; ++joint) {
@@ -230,7 +225,7 @@ RefineResult refine_joints(std::span<const Model> given, const RefineLogs& logs,
         options.progress(fmt::format("joint {}, {}", name, what), share);
       };
     try {
-      r = refine_one(one_joint_each(models, joint), logs, own);
+      r = refine_one(start_of(joint, models, torques), logs, own);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::not_identifiable) throw;
       if (!first) first = error;
@@ -246,6 +241,8 @@ RefineResult refine_joints(std::span<const Model> given, const RefineLogs& logs,
   if (std::all_of(joints.begin(), joints.end(),
                   [](const RefineResult& r) { return !r.not_refined.empty(); }))
     throw Error(*first);
+  for (RefineResult& r : joints) set_joint(r);
+  name_torque_gains(torques, logs, own.significance, joints);
   return merged(models, std::move(joints));
 }
 

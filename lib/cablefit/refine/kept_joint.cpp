@@ -26,7 +26,8 @@ std::optional<KeptBase> base_of(const std::vector<Model>& models, const RefineLo
   return fit_kept_base(stage.models, std::move(stretches), wanted, settings);
 }
 
-/// The base fit with the sd of its values.
+}  // namespace
+
 std::optional<std::vector<Model>> base_estimates(const std::vector<Model>& models,
                                                  const RefineLogs& logs) {
   const ScanSettings settings;
@@ -42,6 +43,8 @@ std::optional<std::vector<Model>> base_estimates(const std::vector<Model>& model
     return {};
   }
 }
+
+namespace {
 
 bool is_start(const Estimate& e) { return e.not_identifiable == kStartValue; }
 

@@ -1,6 +1,7 @@
 // Known values of one of several joints that could not be refined. Internal to refine/.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +14,10 @@ namespace cablefit {
 /// The models of one joint with the values of the base fit to its training logs, without sd: start
 /// values of a search. Unchanged for blocked logs alone, and where there is no base fit.
 std::vector<Model> with_base_fit(const std::vector<Model>& models, const RefineLogs& logs);
+
+/// The base fit with the sd of its values. Nothing: there is none.
+std::optional<std::vector<Model>> base_estimates(const std::vector<Model>& models,
+                                                 const RefineLogs& logs);
 
 struct KeptJoint {
   std::vector<Model> models;  ///< of this joint, one per preload

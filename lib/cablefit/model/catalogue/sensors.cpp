@@ -7,8 +7,8 @@ namespace {
 
 constexpr ParameterInfo kScale[] = {{"scale", "a", "", "true theta = (1 + a) logged theta"}};
 constexpr ParameterInfo kOffset[] = {{"offset", "a", "rad", "true theta - q = logged + a"}};
-constexpr ParameterInfo kGain[] = {{"gain", "a", "", "true tau = (1 + a) logged tau"}};
-constexpr ParameterInfo kLoad[] = {{"scale", "a", "", "true tau_load = (1 + a) logged tau_load"}};
+constexpr ParameterInfo kGain[] = {{"gain", "a", "", "logged tau = (1 - a) true tau"}};
+constexpr ParameterInfo kLoad[] = {{"scale", "a", "", "logged tau_load = (1 - a) true tau_load"}};
 
 void scaled(const JointState& state, const double* /*shape*/, const double* /*z*/, double* link,
             double* motor) {
@@ -20,14 +20,14 @@ void shifted(const JointState& state, const double* /*shape*/, const double* /*z
   pull(state.stiffness, 0, link, motor);
 }
 
-// J thetadd + ... + tau_elas = (1 + a) tau: divided by 1 + a, all but tau_elas is in the other
-// parameters, and tau_elas falls by a (to first order).
+// J thetadd + ... + tau_elas = tau / (1 - a): times 1 - a, all but tau_elas is in the other
+// parameters, and tau_elas falls by a.
 void motor_share(const JointState& state, const double* /*shape*/, const double* /*z*/,
                  double* /*link*/, double* motor) {
   motor[0] = -state.tau_elas;
 }
 
-// The same on the link: J qdd + ... - tau_elas = (1 + a) tau_load.
+// The same on the link: J qdd + ... - tau_elas = tau_load / (1 - a).
 void link_share(const JointState& state, const double* /*shape*/, const double* /*z*/, double* link,
                 double* /*motor*/) {
   link[0] = state.tau_elas;
@@ -68,7 +68,7 @@ Effect torque_gain() {
   return {.name = "torque_gain",
           .site = Site::drive,
           .alias_class = "scale",
-          .equation = "-a tau_elas on the motor, true tau = (1 + a) logged",
+          .equation = "-a tau_elas on the motor, logged tau = (1 - a) true tau",
           .signature =
               "tau_elas of the motor equation and of the link equation differ by a factor; "
               "similar to a wrong load",
@@ -83,7 +83,7 @@ Effect load_scale() {
   return {.name = "load_scale",
           .site = Site::link,
           .alias_class = "scale",
-          .equation = "a tau_elas on the link, true tau_load = (1 + a) logged",
+          .equation = "a tau_elas on the link, logged tau_load = (1 - a) true tau_load",
           .signature =
               "tau_elas of the link equation and of the motor equation differ by a factor; "
               "similar to a wrong torque constant",

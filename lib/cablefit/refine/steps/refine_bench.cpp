@@ -24,7 +24,6 @@ namespace cablefit {
 namespace {
 
 constexpr std::size_t kFloorCopies = 4;  // the floor is then known to about 1 %
-constexpr double kHeldOutShare = 1.0 / 3;
 
 template <typename Draw>
 auto run_draws(const RefineBench& bench, std::size_t n, std::uint64_t first, std::string_view what,

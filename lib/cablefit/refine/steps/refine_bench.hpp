@@ -17,6 +17,9 @@
 
 namespace cablefit {
 
+/// Of the moving logs, where no logs are given to test by.
+inline constexpr double kHeldOutShare = 1.0 / 3;
+
 /// Data that every step needs.
 struct RefineBench {
   const RefineOptions& options;
