@@ -1,6 +1,7 @@
 // Several joints: an effect that is hidden on one of them is named there, and nowhere else. The
 // logs are made by plain arithmetic that shares nothing with the library.
 #include <catch2/catch.hpp>
+#include <sstream>
 
 #include "cablefit/session/stages.hpp"
 #include "tests/hidden/joints/joint_effects.hpp"
@@ -16,15 +17,35 @@ struct Finger {
   RefineResult result;
 };
 
-/// `more`: further keys of the rig file.
-Finger refined(const PlainRig& hidden, const std::string& more = "") {
+/// A CSV text with one column times `factor`.
+std::string with_column_times(const std::string& text, const std::string& name, double factor) {
+  std::istringstream lines(text);
+  std::string line, cell, out;
+  std::getline(lines, line);
+  out = line + "\n";
+  std::size_t at = 0, k = 0;
+  for (std::istringstream header(line); std::getline(header, cell, ','); ++k)
+    if (cell == name) at = k;
+  while (std::getline(lines, line)) {
+    k = 0;
+    for (std::istringstream row(line); std::getline(row, cell, ','); ++k)
+      out += (k > 0 ? "," : "") + (k == at ? std::to_string(factor * std::stod(cell)) : cell);
+    out += "\n";
+  }
+  return out;
+}
+
+/// `more`: further keys of the rig file. `load`: logged over true, on the first joint.
+Finger refined(const PlainRig& hidden, const std::string& more = "", double load = 1) {
   Finger finger;
   finger.bench.folder().write("finger.urdf", urdf_text(phalanges(), "finger"));
   finger.bench.rig =
       read_rig(finger.bench.folder().write("rig.json", rig_text(tendon_finger(), more)));
   RefineLogs logs;
   logs.blocked = {finger.bench.add_text(blocked_log(hidden, {0.1, 0.1}, 60, 11, 200, 0, 0.005))};
-  logs.train = {finger.bench.add_text(moving_log(hidden, 20, 12))};
+  const std::string moving = moving_log(hidden, 20, 12);
+  logs.train = {
+      finger.bench.add_text(load == 1 ? moving : with_column_times(moving, "tau_load1", load))};
   RefineOptions options;
   options.n_draws = kDraws;
   finger.result = missing_effects(logs, options);
@@ -111,6 +132,19 @@ TEST_CASE("a wrong torque of one joint is told from a wrong load by the others",
     REQUIRE(k != nullptr);
     CHECK(std::abs(k->value - 1e5) < 5e-3 * 1e5);
   }
+}
+
+TEST_CASE("a wrong load of one joint is told from a wrong torque by the others", "[refine]") {
+  const RefineResult result = refined(tendon_finger(), "", 1.2).result;
+  CHECK(result.verdict == Verdict::named);
+  REQUIRE(result.effects.size() == 1);
+  const NamedEffect& effect = result.effects[0];
+  CHECK(effect.instance.effect->name == "load_scale");
+  CHECK(effect.joint == 1);
+  CHECK(effect.rivals.empty());
+  const Estimate& a = effect.instance.parameters[0];
+  CHECK(std::abs(a.value - (1 - 1.2)) < 4 * a.sd);
+  CHECK(a.sd < 0.005);
 }
 
 TEST_CASE("without a load either of two torques may be the wrong one", "[refine]") {
