@@ -18,7 +18,7 @@ using RefineOne =
 /// Refines one joint after the other. The significance level of each joint is the given one over
 /// their number (Bonferroni 1936). A joint that cannot be refined does not stop the others. An
 /// error that is the same for all joints is thrown.
-RefineResult refine_joints(std::span<const Model> models, const RefineLogs& logs,
+RefineResult refine_joints(std::span<const Model> given, const RefineLogs& logs,
                            const RefineOptions& options, const RefineOne& refine_one);
 
 }  // namespace cablefit

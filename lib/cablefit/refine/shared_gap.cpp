@@ -7,6 +7,7 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/refine/null/kept_effects.hpp"
 #include "cablefit/refine/rows/levels.hpp"
+#include "cablefit/refine/rows/refined_model.hpp"
 #include "cablefit/refine/steps/elastic_stage.hpp"
 #include "cablefit/refine/steps/refine_bench.hpp"
 
