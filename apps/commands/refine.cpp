@@ -326,7 +326,7 @@ RefineResult run(RefineCommand& command) {
 
 std::vector<std::string> failed_gates(const RefineCommand& command, const RefineResult& result) {
   std::vector<std::string> failed;
-  const std::string unit = unit_for(result.axes, "N m");
+  const std::string unit = torque_unit(result.axes);
   if (result.torque.test_after > command.most_gap)
     failed.push_back(fmt::format("gate gap failed: {:.4g} {} on the test logs, limit {:g} {}",
                                  result.torque.test_after, unit, command.most_gap, unit));

@@ -46,7 +46,7 @@ void judge_error(const BatchCell& cell, const DynamicPreload& preload, const Dyn
                  double limit, std::vector<Gate>& gates) {
   for (const auto& [equation, error] : fit.torque_error)
     gates.push_back(
-        gate("torque_error " + equation, cell, limit, error.rms, unit_for(preload.axes, "N m")));
+        gate("torque_error " + equation, cell, limit, error.rms, torque_unit(preload.axes)));
 }
 
 /// The cell of the baseline that `cell` is held against: of the same name, else the latest one of

@@ -15,7 +15,7 @@ namespace {
 constexpr int kSteps = 60;  // of a curve, between two changes of a cable
 constexpr const char* kSection = "Sweep of the preload";
 
-std::string torque_unit_of(const DesignResult& result) { return unit_for(result.axes, "N m"); }
+std::string torque_unit_of(const DesignResult& result) { return torque_unit(result.axes); }
 std::string angle_unit_of(const DesignResult& result) { return unit_for(result.axes, "rad"); }
 std::string stiffness_unit_of(const DesignResult& result) {
   return unit_for(result.axes, "N m/rad");

@@ -216,7 +216,7 @@ void add_needed(const DesignResult& result, std::vector<std::string>& warnings) 
           "{:g}",
           1e3 * needed.searched_to, result.cable_space ? "mm" : unit_for(result.axes, "mrad"),
           needed.searched_to < kLargestPreload ? ", beyond which the force of a cable falls," : "",
-          result.torque, unit_for(result.axes, "N m"), needed.radius_factor));
+          result.torque, torque_unit(result.axes), needed.radius_factor));
 }
 
 }  // namespace

@@ -128,7 +128,7 @@ void choose_line(std::span<const PreloadEstimate> by_tension,
 
 FrictionCurve curve_of(const Quantity& q, std::span<const Model> fitted,
                        std::span<const std::vector<MovedModel>> copies) {
-  FrictionCurve curve{q.joint, kDryFriction, unit_for(fitted.front().rig.axes.all(), "N m"),
+  FrictionCurve curve{q.joint, kDryFriction, torque_unit(fitted.front().rig.axes.all()),
                       {},      {},           false};
   if (q.estimate != nullptr) {
     curve.name = q.estimate->name;

@@ -158,7 +158,7 @@ void add_parts_figure(const Sweep& sweep, const std::string& title, const std::s
 
 void add_joint_figures(const Sweep& sweep, bool with_collision) {
   const Axes axes = sweep.result.axes;
-  const std::string torque = unit_for(axes, "N m");
+  const std::string torque = torque_unit(axes);
   add_parts_figure(sweep, "Dry friction", torque);
   add_parts_figure(sweep, "Viscous friction", unit_for(axes, "N m s/rad"));
   add_one(sweep, "Efficiency", "Of slow motion against the torque.", {"efficiency, driving", "%"},

@@ -14,7 +14,7 @@ namespace {
 std::vector<Observed> variables_of(Side side, std::size_t joint, bool has_deflection, bool has_load,
                                    Axes axes) {
   const std::string length = unit_for(axes, "rad");
-  const std::string torque = unit_for(axes, "N m");
+  const std::string torque = torque_unit(axes);
   std::vector<Observed> all;
   if (side == Side::link) {
     all.push_back(
@@ -99,7 +99,7 @@ SeenEquation see_equation(const DynamicJob& job, const EquationRows& rows, std::
     seen.plan.about =
         "Explained: share of the squared torque of inertia and friction. The torque of the cables "
         "is not counted.";
-  seen.plan.unit = unit_for(preload.axes, "N m");
+  seen.plan.unit = torque_unit(preload.axes);
   seen.plan.same_measured = side != Side::link;
   for (std::size_t m = 0; m < solutions.size(); ++m) {
     // The link's torque is that of the cables, which each model sees differently.

@@ -26,7 +26,7 @@ std::vector<Imbalance> imbalances(const Transmission& transmission) {
 }
 
 std::string imbalance_text(const Imbalance& imbalance, int n_joints, Axes axes) {
-  const std::string unit = unit_for(axes, "N m");
+  const std::string unit = torque_unit(axes);
   return fmt::format(
       "the preload is not in equilibrium, (8c): it makes {:.3g} {} on the link and {:.3g} {} on "
       "the "

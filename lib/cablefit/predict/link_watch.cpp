@@ -179,7 +179,7 @@ void LinkWatch::look_at(const LogSurvey& log, const std::vector<bool>& wanted, s
       found.seconds_not_watched = scan.seconds_at_rest;
       if (options_.figures)
         part.figures.push_back(
-            watch_figure(part, found, *scan.windows, unit_for(log.plan.rig.axes.all(), "N m")));
+            watch_figure(part, found, *scan.windows, torque_unit(log.plan.rig.axes.all())));
       part.watches.push_back(std::move(found));
     }
     part.decisions.insert(part.decisions.end(), residuals.decisions().begin(),

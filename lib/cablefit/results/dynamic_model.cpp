@@ -1,6 +1,9 @@
 // cablefit/dynamic/1 as a model: one fit of one preload.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
+
 #include "cablefit/base/quote.hpp"
 #include "cablefit/dynamic/fit_model.hpp"
 #include "cablefit/dynamic/rows/delay_hold.hpp"
@@ -63,16 +66,20 @@ void require_known(const JsonNode& list, const std::vector<Estimate>& known) {
   }
 }
 
+bool is_inertia(const Estimate& e) {
+  const std::span<const Effect> rows = base_effects();
+  return std::any_of(rows.begin(), rows.end(), [&](const Effect& row) {
+    return row.is_inertia() && e.symbol == row.parameters.front().symbol;
+  });
+}
+
 /// A model that moves needs the inertias, which the fit may not have determined.
 void require_determined_inertias(const DynamicFit& fit, const JsonNode& node) {
   for (const Estimate& e : fit.parameters)
-    for (const Side side : {Side::link, Side::motor, Side::rigid})
-      for (const Effect& effect : base_effects(side))
-        if (effect.is_inertia() && e.symbol == effect.parameters.front().symbol &&
-            !e.not_identifiable.empty())
-          throw node.error(
-              fmt::format("{} is not identifiable in this fit: {}", e.name, e.not_identifiable),
-              "'cablefit identify' of the same logs may determine it");
+    if (is_inertia(e) && !e.not_identifiable.empty())
+      throw node.error(
+          fmt::format("{} is not identifiable in this fit: {}", e.name, e.not_identifiable),
+          "'cablefit identify' of the same logs may determine it");
 }
 
 }  // namespace

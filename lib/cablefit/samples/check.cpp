@@ -20,7 +20,7 @@ constexpr double kFewSteps = 100;  // a position that spans fewer encoder steps
 
 std::string unit_of(Channel channel, Axes axes) {
   const bool is_torque = channel == Channel::tau || channel == Channel::tau_load;
-  if (is_torque) return unit_for(axes, "N m");
+  if (is_torque) return torque_unit(axes);
   if (channel == Channel::w) return unit_for(axes, "rad/s");
   return unit_for(axes, "rad");
 }

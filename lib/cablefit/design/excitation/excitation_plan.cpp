@@ -80,7 +80,7 @@ void add_figures(ExcitationPlan& plan) {
       plan.limits.max_position, &plan.motion.theta_ref);
   add("Speed", {"thetad", unit_for(axes, "rad/s")}, plan.motion.result.thetad,
       plan.limits.max_speed, nullptr);
-  add("Torque", {"tau", unit_for(axes, "N m")}, plan.motion.result.tau, plan.limits.max_torque,
+  add("Torque", {"tau", torque_unit(axes)}, plan.motion.result.tau, plan.limits.max_torque,
       nullptr);
 }
 

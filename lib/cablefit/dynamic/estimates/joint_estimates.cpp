@@ -170,7 +170,7 @@ std::vector<Estimate> drive_quantities(const JointEstimates& from, const Transmi
                           }},
                          from));
   if (f_s >= 0 && f_sm >= 0)
-    all.push_back(derive({"f_dry", "f_s + f_sm", unit_for(axes, "N m"),
+    all.push_back(derive({"f_dry", "f_s + f_sm", torque_unit(axes),
                           [=](const Eigen::VectorXd& v) { return v(f_s) + v(f_sm); }},
                          from));
   std::erase_if(all, [](const Estimate& e) {

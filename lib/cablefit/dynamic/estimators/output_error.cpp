@@ -227,7 +227,7 @@ void note_fit(const EstimationTask& task, const FittedRows& rows, const LoopPlan
        fmt::format("{} rounds, {} simulations", oe.n_rounds, oe.n_passes),
        fmt::format("started from the wls fit; torque noise {} {} by maximum likelihood, encoder "
                    "noise {} {}; whitened residual {:.3g}{}",
-                   per_axis(task, oe.noise.force), unit_for(axes, "N m"),
+                   per_axis(task, oe.noise.force), torque_unit(axes),
                    per_axis(task, oe.noise.position), unit_for(axes, "rad"), oe.residual_rms,
                    rows.note)});
   if (!oe.instruments.empty())

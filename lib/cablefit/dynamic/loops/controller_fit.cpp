@@ -155,7 +155,7 @@ bool ControllerFit::fits() const {
 
 std::string ControllerFit::text(Axes axes) const {
   const std::string angle = unit_for(axes, "rad");
-  const std::string unit = unit_for(axes, "N m");
+  const std::string unit = torque_unit(axes);
   std::string text = fmt::format("kp {:.4g} {}/{}, kd {:.4g} {} s/{}", controller.kp, unit, angle,
                                  controller.kd, unit, angle);
   const auto add = [&](const char* name, double gain, const std::string& of) {

@@ -45,7 +45,7 @@ void check_passive(ElasticFit& fit, std::span<const double> all_longest,
 void select_model(ElasticPreload& preload, double materiality) {
   const ElasticFit& linear = preload.fits.front();
   const ElasticFit& poly = preload.fits.back();
-  const std::string unit = unit_for(preload.axes, "N m");
+  const std::string unit = torque_unit(preload.axes);
   const double allowed = materiality * preload.peak_torque;
   const double best = std::min(linear.held_out_max, poly.held_out_max);
   const bool linear_will_do = linear.held_out_max <= best + allowed;
@@ -65,7 +65,7 @@ void select_model(ElasticPreload& preload, double materiality) {
 void select_joint_model(ElasticPreload& preload, double materiality) {
   const ElasticFit& linear = preload.fits.front();
   const ElasticFit& poly = preload.fits.back();
-  const std::string unit = unit_for(preload.axes, "N m");
+  const std::string unit = torque_unit(preload.axes);
   bool linear_will_do = true;
   for (std::size_t k = 0; k < preload.joints.size(); ++k) {
     const double allowed = materiality * preload.joints[k].peak_torque;
@@ -91,7 +91,7 @@ bool depends_on_path(const LoopSeen& loop) {
 }
 
 std::vector<std::string> loop_warnings(const LoopSeen& loop, Axes axes) {
-  const std::string unit = unit_for(axes, "N m");
+  const std::string unit = torque_unit(axes);
   std::vector<std::string> warnings;
   if (depends_on_path(loop))
     warnings.push_back(
@@ -133,7 +133,7 @@ void add_loop(double left, ElasticPreload& preload) {
 void note_misfit(ElasticPreload& preload) {
   const ElasticMisfit& misfit = misfit_of_selected(preload);
   if (misfit.empty()) return;
-  const std::string unit = unit_for(preload.axes, "N m");
+  const std::string unit = torque_unit(preload.axes);
   preload.decisions.push_back({"misfit of the " + preload.selected + " fit",
                                fmt::format("a curve of up to {:.2g} {}, a loop of +-{:.2g} {}",
                                            largest(misfit, &MisfitPoint::torque), unit,

@@ -114,7 +114,7 @@ std::vector<DerivedQuantity> elastic_quantities(const Transmission& transmission
                    [changed, used, point](const Eigen::VectorXd& v) {
                      return slack_value(changed(v), used, point, &SlackPoint::deflection);
                    }});
-    all.push_back({"tau_slack" + cable, "tau_slack", unit_for(axes, "N m"),
+    all.push_back({"tau_slack" + cable, "tau_slack", torque_unit(axes),
                    [changed, used, point](const Eigen::VectorXd& v) {
                      return slack_value(changed(v), used, point, &SlackPoint::motor);
                    }});

@@ -41,7 +41,7 @@ Figure basis_errors(const ElasticPreload& preload) {
       "On held-out blocks; terms chosen and fitted without them. Dashed: scatter about short "
       "lines, which no curve explains.");
   figure.x = {"terms of all cables", ""};
-  figure.y = {"error on held-out blocks, rms", unit_for(preload.axes, "N m"), true};
+  figure.y = {"error on held-out blocks, rms", torque_unit(preload.axes), true};
   double most = 0;
   int series = 0;
   for (const BasisScore& score : preload.bases->scores) {

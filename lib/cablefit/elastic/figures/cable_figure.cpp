@@ -73,7 +73,7 @@ Figure cable_figure(const Transmission& transmission, double low, double high, A
       "of that name goes slack.";
   figure.wide = true;
   figure.x = {"deflection theta - q", unit_for(axes, "rad")};
-  figure.y = {"elastic torque on the motor", unit_for(axes, "N m")};
+  figure.y = {"elastic torque on the motor", torque_unit(axes)};
   std::vector<double> phi;
   for (int i = 0; i <= kSteps; ++i) phi.push_back(low + (high - low) * i / kSteps);
   const auto total = [](const Transmission& of) {

@@ -143,7 +143,7 @@ ScanPlan scan_plan(const ElasticPreload& preload, const std::string& section,
   plan.section = section;
   plan.group = "Blocked link: residuals";
   plan.measured = "motor torque tau";
-  plan.unit = unit_for(preload.axes, "N m");
+  plan.unit = torque_unit(preload.axes);
   for (std::size_t k = 0; k < preload.fits.size(); ++k)
     plan.models.push_back({model_text(preload.fits[k]), static_cast<int>(k) + 1, kTau,
                            residual_of(k), solutions[k].rms()});

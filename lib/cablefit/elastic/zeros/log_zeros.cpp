@@ -108,7 +108,7 @@ double note_log_zeros(const ElasticJob& job, const BlockedRows& rows,
       fmt::format("the encoder zero differs between logs: with one each the residual is {:.3g} "
                   "of {:.3g} {} rms ({}); was an axis homed between them? `cablefit refine` of "
                   "these logs identifies it as a slip and fits all logs with it",
-                  found->rms, left, unit_for(axes, "N m"), zeros));
+                  found->rms, left, torque_unit(axes), zeros));
   return found->rms;
 }
 

@@ -41,7 +41,7 @@ void note_standstill(const ElasticJob& job, const BlockedRows& rows, const Elast
   const auto n = static_cast<double>(rows.rows->n_rows());
   const double share = 1 - static_cast<double>(moving.rows->n_rows()) / n;
   if (share < kLeastShare) return;
-  const std::string unit = unit_for(preload.axes, "N m");
+  const std::string unit = torque_unit(preload.axes);
   preload.warnings.push_back(
       fmt::format("--rest-speed 0 keeps samples at standstill ({:.0f} %), where the torque lies "
                   "anywhere in the "

@@ -228,7 +228,7 @@ void add_residuals(const BeforeAfter& rows, const std::string& section, Detail d
     const Timeline time = timeline_of(rows.before, rows.logs, kind);
     const Pair pair{section,
                     fmt::format("{} equation", to_string(kind)),
-                    unit_for(result.axes, "N m"),
+                    torque_unit(result.axes),
                     result.axes,
                     kind == RowKind::link,
                     rows.after.added.size() > rows.before.added.size(),

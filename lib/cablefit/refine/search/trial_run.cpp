@@ -114,7 +114,7 @@ std::string text_of(const TrialRun& run, Axes axes) {
   if (run.blocked) return "with the link blocked, a slow ramp up to the peak torque on both sides";
   const std::string load =
       run.load == 0 ? "without load"
-                    : fmt::format("at a load of {:+.3g} {}", run.load, unit_for(axes, "N m"));
+                    : fmt::format("at a load of {:+.3g} {}", run.load, torque_unit(axes));
   return fmt::format("{} and up to {:.2g} {}{}", load, run.speed, unit,
                      run.dithered ? " with a small dither" : "");
 }

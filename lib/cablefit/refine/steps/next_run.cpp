@@ -133,8 +133,7 @@ void separate_rivals(const NextRunInput& input, RefineResult& result) {
   result.next_experiment = fmt::format(
       "{}: {} and {} differ there by {:.2g} {} rms in the {} equation, {} the noise floor",
       text_of(run, result.axes), row.name, choice->rival, choice->difference,
-      unit_for(result.axes, "N m"), to_string(choice->kind),
-      times(choice->difference / choice->floor));
+      torque_unit(result.axes), to_string(choice->kind), times(choice->difference / choice->floor));
 }
 
 /// "a, b from c, d", or "a, b".

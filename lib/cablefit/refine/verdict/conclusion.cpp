@@ -119,7 +119,7 @@ namespace {
 
 /// Says that the residual of every equation is too small to matter; empty: it is not.
 std::string immaterial(const RefineResult& result) {
-  const std::string unit = unit_for(result.axes, "N m");
+  const std::string unit = torque_unit(result.axes);
   std::string text;
   for (const EquationRemainder& e : result.remainders) {
     const bool is_seen = !result.material_given && e.above > kLikeNoise * e.noise;
@@ -143,7 +143,7 @@ std::string contradiction_by_test(const RefineResult& result) {
           "the residual of {} is {:.3g} {} beyond the noise of {:.2g} ({} equation), and the {} "
           "show what is missing: {}",
           of_logs ? "the test logs" : "the last third of the logs", e.above,
-          unit_for(result.axes, "N m"), e.noise, e.equation,
+          torque_unit(result.axes), e.noise, e.equation,
           of_logs ? "training logs do not" : "samples before it do not",
           of_logs ? "train with logs like these too" : "record longer, or train with more logs");
   return "";

@@ -37,7 +37,7 @@ struct Words {
         stiffness(unit_for(r.axes, "N m/rad")),
         angle(unit_for(r.axes, "mrad")),
         elongation(r.cable_space ? "mm" : unit_for(r.axes, "mrad")),
-        tension(r.cable_space ? "N" : unit_for(r.axes, "N m")) {}
+        tension(r.cable_space ? "N" : torque_unit(r.axes)) {}
 
   bool several_joints() const { return result.points.front().joints.size() > 1; }
   bool several_radii() const { return result.needed.size() > 1; }

@@ -97,7 +97,7 @@ Table contact_table(const PredictResult& result) {
                    {"", "joint", "", true},
                    {"", "from", "s"},
                    {"", "to", "s"},
-                   {"", "torque", unit_for(result.axes, "N m")}};
+                   {"", "torque", torque_unit(result.axes)}};
   for (const PredictedPart& part : result.parts)
     for (const ContactWatch& watch : part.watches) {
       const std::size_t n = std::min(watch.contacts.size(), kMostContacts);

@@ -25,7 +25,7 @@ struct LoadUnits {
       : torque(torque_unit(r.axes)),
         angle(unit_for(r.axes, "mrad")),
         elongation(r.cable_space ? "mm" : unit_for(r.axes, "mrad")),
-        tension(r.cable_space ? "N" : unit_for(r.axes, "N m")) {}
+        tension(r.cable_space ? "N" : torque_unit(r.axes)) {}
 };
 
 std::string own_text(const HeldLoad& held) {

@@ -26,7 +26,7 @@ struct Units {
         stiffness(unit_for(r.axes, "N m/rad")),
         angle(unit_for(r.axes, "mrad")),
         elongation(r.cable_space ? "mm" : unit_for(r.axes, "mrad")),
-        tension(r.cable_space ? "N" : unit_for(r.axes, "N m")),
+        tension(r.cable_space ? "N" : torque_unit(r.axes)),
         cable(r.cable_space ? "N/m" : unit_for(r.axes, "N m/rad")) {}
 };
 
