@@ -1,9 +1,9 @@
 #include "cablefit/refine/joint_scales.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <string>
 
 #include "cablefit/estimate/spread/tail_probability.hpp"
@@ -13,7 +13,10 @@ namespace cablefit {
 namespace {
 
 constexpr double kWellKnown = 0.1;  // sd over value of what is compared
-constexpr double kLeastSd = 0.002;  // of a ratio: an sd does not contain every error of the method
+// Relative, of each value: an sd does not contain every error of the method. Known as if from so
+// many values, with which the scatter of the values themselves is pooled.
+constexpr double kLeastSd = 0.0014;
+constexpr double kPriorDof = 10;
 constexpr double kLeastScale = 0.02;  // distance of a factor from 1 that matters
 constexpr double kLeastExplained = 0.9;
 constexpr int kLeastShared = 2;  // one alone differs for many reasons, such as a wrong radius
@@ -26,12 +29,11 @@ struct Measured {
 struct Shared {
   std::map<std::string, Measured> by_name;
   double cad_distance = 0;  ///< mean |log| of its masses over those of the rig; 0: there are none
-  TorqueTrust trust = TorqueTrust::unknown;
 };
 
 void add(const Estimate* e, Shared& shared) {
   if (e == nullptr || !(e->sd > 0) || e->sd > kWellKnown * std::abs(e->value)) return;
-  shared.by_name[e->name] = {e->value, e->sd / std::abs(e->value)};
+  shared.by_name[e->name] = {e->value, std::hypot(kLeastSd, e->sd / e->value)};
 }
 
 Shared shared_of(const Model& one) {
@@ -41,9 +43,10 @@ Shared shared_of(const Model& one) {
     if (p.kind == ParameterKind::coefficient) add(find_estimate(one.elastic, p.name), shared);
     if (p.kind != ParameterKind::arm) continue;
     add(find_estimate(one.arm, p.name), shared);
-    const auto cad = one.rig.cad.find(p.name), end = one.rig.cad.end();
+    const auto cad = one.rig.cad.find(p.name);
     const auto found = shared.by_name.find(p.name);
-    if (cad == end || found == shared.by_name.end() || !(found->second.value / cad->second > 0))
+    if (cad == one.rig.cad.end() || found == shared.by_name.end() ||
+        !(found->second.value / cad->second > 0))
       continue;
     shared.cad_distance += std::abs(std::log(found->second.value / cad->second));
     ++n;
@@ -52,40 +55,50 @@ Shared shared_of(const Model& one) {
   return shared;
 }
 
-/// One factor between all that two joints measure: the second's over the first's.
-struct Comparison {
-  int n = 0;
-  double log_ratio = 0, sd = 0, explained = 0, chance = 1;
+using Joints = std::vector<std::size_t>;
 
-  bool is_possible() const { return n >= kLeastShared; }
-  bool differs(double significance) const {
-    return is_possible() && std::abs(log_ratio) > kLeastScale && explained > kLeastExplained &&
-           chance < significance;
-  }
+/// log |value| = that of what is measured + log factor of the joint, weighted least squares.
+struct Factors {
+  Eigen::VectorXd log_factor;  ///< per free joint
+  Eigen::MatrixXd covariance;
+  double left = 0;  ///< weighted squared residual
+  double dof = 1;
 };
 
-Comparison compared(const Shared& first, const Shared& second) {
-  Comparison c;
-  double weights = 0, sum = 0, squares = 0;
-  for (const auto& [name, a] : first.by_name) {
-    const auto other = second.by_name.find(name);
-    if (other == second.by_name.end()) continue;
-    const double ratio = other->second.value / a.value;
-    if (!(ratio > 0)) return {};
-    const double x = std::log(ratio);
-    const double sd = std::max(kLeastSd, std::hypot(a.relative_sd, other->second.relative_sd));
-    weights += 1 / (sd * sd);
-    sum += x / (sd * sd);
-    squares += x * x / (sd * sd);
-    ++c.n;
+/// `named`: the joints with a factor; the others have none.
+Factors fitted_factors(const std::vector<Shared>& shared, const Joints& group,
+                       const Joints& named) {
+  std::map<std::string, Eigen::Index> names;
+  for (const std::size_t joint : group)
+    for (const auto& [name, measured] : shared[joint].by_name)
+      names.emplace(name, static_cast<Eigen::Index>(names.size()));
+  Eigen::Index n_rows = 0;
+  for (const std::size_t joint : group)
+    n_rows += static_cast<Eigen::Index>(shared[joint].by_name.size());
+  const auto n_free = static_cast<Eigen::Index>(named.size());
+  const Eigen::Index n = n_free + static_cast<Eigen::Index>(names.size());
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(n_rows, n);
+  Eigen::VectorXd logs(n_rows);
+  Eigen::Index row = 0;
+  for (const std::size_t joint : group) {
+    const auto at = std::find(named.begin(), named.end(), joint);
+    for (const auto& [name, measured] : shared[joint].by_name) {
+      const double weight = 1 / measured.relative_sd;
+      rows(row, n_free + names.at(name)) = weight;
+      if (at != named.end()) rows(row, at - named.begin()) = weight;
+      logs(row++) = weight * std::log(std::abs(measured.value));
+    }
   }
-  if (!c.is_possible()) return c;
-  c.log_ratio = sum / weights;
-  const double left = std::max(0.0, squares - sum * sum / weights);
-  c.explained = squares > 0 ? 1 - left / squares : 0;
-  c.sd = std::sqrt(std::max(1.0, left / (c.n - 1)) / weights);
-  c.chance = t_tail(std::abs(c.log_ratio) / c.sd, c.n - 1);
-  return c;
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr(rows);
+  const Eigen::VectorXd x = qr.solve(logs);
+  const Eigen::MatrixXd inverse = qr.pseudoInverse();
+  Factors out;
+  out.log_factor = x.head(n_free);
+  out.left = (rows * x - logs).squaredNorm();
+  out.dof = kPriorDof + static_cast<double>(n_rows - qr.rank());
+  const double variance = (kPriorDof + out.left) / out.dof;
+  out.covariance = variance * (inverse * inverse.transpose()).topLeftCorner(n_free, n_free);
+  return out;
 }
 
 /// Joints that share something, compared.
@@ -93,99 +106,123 @@ class Comparisons {
  public:
   Comparisons(const std::vector<const Model*>& fits, const std::vector<TorqueTrust>& trust,
               double significance)
-      : significance_(significance) {
-    for (std::size_t k = 0; k < fits.size(); ++k) {
-      shared_.push_back(fits[k] == nullptr ? Shared{} : shared_of(*fits[k]));
-      shared_.back().trust = trust[k];
-    }
+      : trust_(trust), significance_(significance) {
+    for (const Model* one : fits) shared_.push_back(one == nullptr ? Shared{} : shared_of(*one));
   }
 
-  /// Per joint; the reference of every group of joints that share something has 1.
   std::vector<JointScale> scales() const {
     std::vector<JointScale> all(shared_.size());
     std::vector<bool> is_done(shared_.size());
     for (std::size_t joint = 0; joint < shared_.size(); ++joint) {
       if (is_done[joint]) continue;
-      const std::vector<std::size_t> group = group_of(joint);
+      const Joints group = group_of(joint);
       for (const std::size_t member : group) is_done[member] = true;
-      set_scales(group, all);
+      if (group.size() > 1) set_scales(group, all);
     }
     return all;
   }
 
  private:
-  Comparison between(std::size_t i, std::size_t j) const {
-    return compared(shared_[i], shared_[j]);
+  /// With the same sign: of other signs no factor is the cause.
+  int n_shared(std::size_t i, std::size_t j) const {
+    int n = 0;
+    for (const auto& [name, measured] : shared_[i].by_name) {
+      const auto other = shared_[j].by_name.find(name);
+      if (other == shared_[j].by_name.end()) continue;
+      if (!(other->second.value / measured.value > 0)) return 0;
+      ++n;
+    }
+    return n;
   }
 
-  std::vector<std::size_t> group_of(std::size_t joint) const {
-    std::vector<std::size_t> group{joint};
+  Joints group_of(std::size_t joint) const {
+    Joints group{joint};
     for (std::size_t k = 0; k < group.size(); ++k)
       for (std::size_t other = 0; other < shared_.size(); ++other)
         if (std::find(group.begin(), group.end(), other) == group.end() &&
-            between(group[k], other).is_possible())
+            n_shared(group[k], other) >= kLeastShared)
           group.push_back(other);
     return group;
   }
 
-  int n_agreeing(std::size_t joint, const std::vector<std::size_t>& group) const {
-    return static_cast<int>(std::count_if(group.begin(), group.end(), [&](std::size_t other) {
-      const Comparison c = between(joint, other);
-      return other != joint && c.is_possible() && !c.differs(significance_);
-    }));
+  bool differs(double log_factor, double variance, double dof) const {
+    return std::abs(std::expm1(log_factor)) > kLeastScale &&
+           t_tail(std::abs(log_factor) / std::sqrt(variance), dof) < significance_;
   }
 
-  /// The joint that a load has weighed, else with whose torque most others agree; of several the
-  /// one nearest to the masses of the rig file.
-  std::size_t reference_of(const std::vector<std::size_t>& group) const {
-    return *std::max_element(group.begin(), group.end(), [&](std::size_t a, std::size_t b) {
-      if (shared_[a].trust != shared_[b].trust) return shared_[a].trust < shared_[b].trust;
-      const int of_a = n_agreeing(a, group), of_b = n_agreeing(b, group);
-      if (of_a != of_b) return of_a < of_b;
-      return shared_[a].cad_distance > shared_[b].cad_distance;
-    });
-  }
-
-  /// From joint to joint, the reference first.
-  void set_scales(const std::vector<std::size_t>& group, std::vector<JointScale>& all) const {
-    std::vector<std::size_t> known{reference_of(group)};
-    all[known.front()].compared = group.size() > 1;
-    for (std::size_t k = 0; k < known.size(); ++k)
-      for (const std::size_t other : group) {
-        if (std::find(known.begin(), known.end(), other) != known.end()) continue;
-        const Comparison c = between(known[k], other);
-        if (!c.is_possible()) continue;
-        const JointScale& from = all[known[k]];
-        all[other] = from;
-        if (c.differs(significance_))
-          all[other] = {from.scale * std::exp(c.log_ratio),
-                        from.scale * c.sd,
-                        true,
-                        c.n,
-                        c.explained,
-                        c.chance,
-                        {}};
-        known.push_back(other);
+  /// Of every joint of the group those with the same torque, itself among them.
+  std::vector<Joints> agreeing(const Joints& group) const {
+    const Joints others(group.begin() + 1, group.end());
+    const Factors all = fitted_factors(shared_, group, others);
+    const auto n = static_cast<Eigen::Index>(group.size());
+    Eigen::VectorXd factor = Eigen::VectorXd::Zero(n);
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
+    factor.tail(n - 1) = all.log_factor;
+    covariance.bottomRightCorner(n - 1, n - 1) = all.covariance;
+    std::vector<Joints> agreeing(group.size());
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j < n; ++j) {
+        const double variance = covariance(i, i) + covariance(j, j) - 2 * covariance(i, j);
+        if (i == j || !differs(factor(i) - factor(j), variance, all.dof))
+          agreeing[static_cast<std::size_t>(i)].push_back(group[static_cast<std::size_t>(j)]);
       }
-    set_rivals(group, all);
+    return agreeing;
   }
 
-  /// Where as many joints are off as not, the others may be the wrong ones, unless a load tells.
-  void set_rivals(const std::vector<std::size_t>& group, std::vector<JointScale>& all) const {
-    std::vector<int> agreeing;
-    bool is_weighed = false;
-    for (const std::size_t joint : group)
-      if (!all[joint].is_off()) {
-        agreeing.push_back(static_cast<int>(joint));
-        is_weighed = is_weighed || shared_[joint].trust == TorqueTrust::weighed;
+  /// Those that agree with a joint that a load has weighed, else the most that agree; of several
+  /// such the ones nearest to the masses of the rig file.
+  Joints right_ones(const Joints& group) const {
+    const std::vector<Joints> all = agreeing(group);
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < group.size(); ++k) {
+      const std::size_t one = group[k], other = group[best];
+      if (trust_[one] != trust_[other]) {
+        if (trust_[one] > trust_[other]) best = k;
+      } else if (all[k].size() != all[best].size()) {
+        if (all[k].size() > all[best].size()) best = k;
+      } else if (shared_[one].cad_distance < shared_[other].cad_distance) {
+        best = k;
       }
-    if (is_weighed || 2 * agreeing.size() > group.size()) return;
+    }
+    return all[best];
+  }
+
+  void set_scales(const Joints& group, std::vector<JointScale>& all) const {
+    const Joints right = right_ones(group);
+    TorqueTrust best = TorqueTrust::off;
+    for (const std::size_t joint : right) best = std::max(best, trust_[joint]);
+    for (const std::size_t joint : group) all[joint].settled = best != TorqueTrust::off;
+    Joints off;
     for (const std::size_t joint : group)
-      if (all[joint].is_off() && shared_[joint].trust != TorqueTrust::off)
-        all[joint].rivals = agreeing;
+      if (std::find(right.begin(), right.end(), joint) == right.end()) off.push_back(joint);
+    if (off.empty()) return;
+    const Factors with = fitted_factors(shared_, group, off);
+    const double explained = 1 - with.left / fitted_factors(shared_, group, {}).left;
+    if (!(explained > kLeastExplained)) return;
+    for (std::size_t k = 0; k < off.size(); ++k) {
+      const auto at = static_cast<Eigen::Index>(k);
+      const double variance = with.covariance(at, at);
+      if (!differs(with.log_factor(at), variance, with.dof)) continue;
+      JointScale& scale = all[off[k]];
+      scale.scale = std::exp(with.log_factor(at));
+      scale.sd = scale.scale * std::sqrt(variance);
+      scale.n = static_cast<int>(shared_[off[k]].by_name.size());
+      scale.explained = explained;
+      scale.dof = with.dof;
+      scale.chance = t_tail(std::abs(with.log_factor(at)) / std::sqrt(variance), with.dof);
+      if (may_be_right(off[k], right, group, best)) scale.rivals.assign(right.begin(), right.end());
+    }
+  }
+
+  /// Where its own load says so, or no load tells and the others are no more.
+  bool may_be_right(std::size_t joint, const Joints& right, const Joints& group,
+                    TorqueTrust best) const {
+    if (trust_[joint] == TorqueTrust::weighed) return true;
+    return best != TorqueTrust::weighed && 2 * right.size() <= group.size();
   }
 
   std::vector<Shared> shared_;
+  std::vector<TorqueTrust> trust_;
   double significance_;
 };
 

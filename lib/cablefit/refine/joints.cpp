@@ -210,7 +210,8 @@ RefineResult merged(std::span<const Model> models, std::vector<RefineResult> joi
 
 RefineResult refine_joints(std::span<const Model> given, const RefineLogs& logs,
                            const RefineOptions& options, const RefineOne& refine_one) {
-  const std::vector<Model> models = with_base_fits(given, logs);
+  const std::vector<Model> own_given = without_shown_gains(given, logs);
+  const std::vector<Model> models = with_base_fits(own_given, logs);
   const auto n = static_cast<int>(models.front().joints.size());
   RefineOptions own = options;
   own.significance /= n;
@@ -230,7 +231,7 @@ RefineResult refine_joints(std::span<const Model> given, const RefineLogs& logs,
       if (error.kind() != ErrorKind::not_identifiable) throw;
       if (!first) first = error;
       r.not_refined = error.what();
-      KeptJoint kept = kept_joint(given, models, joint, logs);
+      KeptJoint kept = kept_joint(own_given, models, joint, logs);
       r.models = std::move(kept.models);
       r.warnings.push_back(fmt::format("not refined: {}; {}", r.not_refined, kept.source));
     }
@@ -242,7 +243,7 @@ RefineResult refine_joints(std::span<const Model> given, const RefineLogs& logs,
                   [](const RefineResult& r) { return !r.not_refined.empty(); }))
     throw Error(*first);
   for (RefineResult& r : joints) set_joint(r);
-  name_torque_gains(torques, logs, own.significance, joints);
+  name_torque_gains(logs, own.significance, joints);
   return merged(models, std::move(joints));
 }
 

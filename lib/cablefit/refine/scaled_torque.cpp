@@ -1,84 +1,108 @@
 #include "cablefit/refine/scaled_torque.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace cablefit {
 namespace {
 
-/// Scales estimates, and remembers by how much for their covariance.
+void multiply(Estimate& e, double by, double relative_sd) {
+  const double sd = by * std::hypot(e.sd, relative_sd * e.value);
+  const double wider = e.sd > 0 ? sd / e.sd : by;
+  e.ci_low = by * e.value + wider * (e.ci_low - e.value);
+  e.ci_high = by * e.value + wider * (e.ci_high - e.value);
+  e.value *= by;
+  e.sd = sd;
+  e.sd_white *= by;
+}
+
+/// Scales a model's estimates, and remembers by how much for their covariance.
 class Scaling {
  public:
-  explicit Scaling(double factor) : factor_(factor) {}
+  explicit Scaling(const TorqueFactor& factor) : factor_(factor) {}
 
   void scale(Estimate& e) {
-    const double by = torque_power(e.unit, factor_);
-    for (double Estimate::*number : {&Estimate::value, &Estimate::sd, &Estimate::sd_white,
-                                     &Estimate::ci_low, &Estimate::ci_high})
-      e.*number *= by;
-    by_[e.name] = by;
+    const Moved moved{factor_.of(e.unit), e.value};
+    factor_.scale(e);
+    moved_[e.name] = moved;
+    moved_[e.name.substr(0, e.name.rfind('['))] = moved;  // its name in the model of one joint
   }
-  void scale(std::vector<EffectInstance>& effects) {
-    for (EffectInstance& instance : effects)
+
+  void scale(EffectInstance& instance) {
+    if (!is_of_motor(*instance.effect)) {
       for (Estimate& e : instance.parameters) scale(e);
-  }
-  void scale(Transmission& transmission) const {
-    for (Cable& cable : transmission.cables)
-      for (double& coefficient : cable.coefficients) coefficient *= factor_;
-    transmission.linear_stiffness *= factor_;
-  }
-  void scale(ParameterCovariance& covariance) const {
-    for (std::size_t k = 0; k < covariance.parameters.size(); ++k) {
-      const auto found = by_.find(covariance.parameters[k]);
-      if (found == by_.end()) continue;
-      const auto at = static_cast<Eigen::Index>(k);
-      covariance.matrix.row(at) *= found->second;
-      covariance.matrix.col(at) *= found->second;
+    } else if (instance.effect->level != nullptr) {  // a share of a tension, in the motor's torque
+      for (std::size_t k = 0; k < instance.effect->n_linear(); ++k) {
+        Estimate& e = instance.parameters[k];
+        if (e.unit.empty()) multiply(e, 1 / factor_.value, factor_.relative_sd);
+      }
     }
   }
 
+  void scale(Transmission& transmission) const {
+    for (Cable& cable : transmission.cables)
+      for (double& coefficient : cable.coefficients) coefficient *= factor_.value;
+    transmission.linear_stiffness *= factor_.value;
+  }
+
+  void scale(ParameterCovariance& covariance) const {
+    const auto n = static_cast<Eigen::Index>(covariance.parameters.size());
+    Eigen::VectorXd by = Eigen::VectorXd::Ones(n), common = Eigen::VectorXd::Zero(n);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const auto found = moved_.find(covariance.parameters[static_cast<std::size_t>(k)]);
+      if (found == moved_.end()) continue;
+      by(k) = found->second.by;
+      if (by(k) != 1) common(k) = factor_.relative_sd * by(k) * found->second.value;
+    }
+    if (n > 0)
+      covariance.matrix =
+          by.asDiagonal() * covariance.matrix * by.asDiagonal() + common * common.transpose();
+  }
+
  private:
-  double factor_;
-  std::map<std::string, double> by_;
+  struct Moved {
+    double by = 1, value = 0;
+  };
+  TorqueFactor factor_;
+  std::map<std::string, Moved> moved_;
 };
 
-bool is_of_motor(const Effect& row) {
-  return row.site == Site::motor || row.site == Site::drive || row.site == Site::rigid;
+/// A coefficient of a cable or K; other results of stage 1 are the motors'.
+bool is_stiffness(const Estimate& e) {
+  return e.unit.find("N/m") != std::string::npos || e.unit.find("N m/rad") != std::string::npos;
 }
 
 }  // namespace
 
-double torque_power(const std::string& unit, double factor) {
-  if (unit.find("/(N") != std::string::npos) return 1 / factor;  // a compliance
+double TorqueFactor::of(const std::string& unit) const {
+  if (unit.find("/(N") != std::string::npos) return 1 / value;  // a compliance
   const bool is_torque =
       unit.find('N') != std::string::npos || unit.find("kg") != std::string::npos;
-  return is_torque ? factor : 1;
+  return is_torque ? value : 1;
 }
 
-Model with_torque_times(Model model, double factor) {
+void TorqueFactor::scale(Estimate& e) const {
+  const double by = of(e.unit);
+  if (by != 1) multiply(e, by, relative_sd);
+}
+
+Model with_link_torque(Model model, const TorqueFactor& factor) {
   Scaling scaling(factor);
-  for (JointModel& joint : model.joints)
-    for (auto* effects : {&joint.link, &joint.motor, &joint.added}) scaling.scale(*effects);
+  for (JointModel& joint : model.joints) {
+    for (EffectInstance& instance : joint.link) scaling.scale(instance);
+    for (EffectInstance& instance : joint.added) scaling.scale(instance);
+  }
   for (Estimate& e : model.arm) scaling.scale(e);
-  for (Estimate& e : model.elastic) scaling.scale(e);
+  for (Estimate& e : model.elastic)
+    if (is_stiffness(e)) scaling.scale(e);
   scaling.scale(model.transmission);
   scaling.scale(model.covariance);
   return model;
 }
 
-Model with_link_torque_times(Model one, double factor) {
-  Scaling scaling(factor);
-  JointModel& joint = one.joints.front();
-  scaling.scale(joint.link);
-  for (EffectInstance& instance : joint.added)
-    if (!is_of_motor(*instance.effect))
-      for (Estimate& e : instance.parameters) scaling.scale(e);
-  for (Estimate& e : one.arm) scaling.scale(e);
-  for (Estimate& e : one.elastic)
-    if (!is_of_motor(one, e.name)) scaling.scale(e);
-  scaling.scale(one.transmission);
-  scaling.scale(one.covariance);
-  return one;
+bool is_of_motor(const Effect& row) {
+  return row.site == Site::motor || row.site == Site::drive || row.site == Site::rigid;
 }
 
 bool is_of_motor(const Model& one, const std::string& parameter) {

@@ -7,17 +7,21 @@
 
 namespace cablefit {
 
-/// By what a factor of all torques multiplies a parameter with this unit, "N m s/rad" or "kg m^2".
-double torque_power(const std::string& unit, double factor);
+/// A factor of all torques, with its own relative sd.
+struct TorqueFactor {
+  double value = 1, relative_sd = 0;
 
-/// The model of one joint, or of all, with every torque times `factor`: inertias, frictions,
-/// stiffnesses, masses and their sd.
-Model with_torque_times(Model model, double factor);
+  /// By what it multiplies a parameter with this unit, "N m s/rad" or "kg m^2".
+  double of(const std::string& unit) const;
+  void scale(Estimate& e) const;
+};
 
-/// The model of one joint with everything beyond the motor in a torque `factor` times as large.
-Model with_link_torque_times(Model one, double factor);
+/// The model of one joint, or of all, with everything beyond the motors in another torque: links,
+/// cables, masses, and what effects are a share of. Motors keep the torque of their logs.
+Model with_link_torque(Model model, const TorqueFactor& factor);
 
-/// Whether a parameter is one of the motor's.
+/// Whether an effect acts on the motor, and a parameter is one of the motor's.
+bool is_of_motor(const Effect& row);
 bool is_of_motor(const Model& one, const std::string& parameter);
 
 }  // namespace cablefit

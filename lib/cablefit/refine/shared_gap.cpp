@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/refine/null/kept_effects.hpp"
@@ -27,23 +28,42 @@ bool is_shared(const Model& one, const ModelParameter& parameter) {
          (parameter.kind == ParameterKind::coefficient && passes_others(one, parameter));
 }
 
+bool has_same_cable(const Model& own, const ModelParameter& parameter, const Model& other,
+                    const ModelParameter& same) {
+  return parameter.kind != ParameterKind::coefficient ||
+         own.transmission.cables[parameter.cable].order ==
+             other.transmission.cables[same.cable].order;
+}
+
+/// The others' value of what is shared; nothing where their cables are of another order.
+std::optional<double> agreed_value(const Model& own, const ModelParameter& parameter,
+                                   const Model& agreed) {
+  if (!is_shared(own, parameter)) return {};
+  for (const ModelParameter& p : model_parameters(agreed))
+    if (p.kind == parameter.kind && p.name == parameter.name)
+      return has_same_cable(own, parameter, agreed, p) ? std::optional(parameter_value(agreed, p))
+                                                       : std::nullopt;
+  return {};
+}
+
 /// The shared columns with the agreed values, the others fitted to what these leave.
 Eigen::VectorXd held_values(const BaseFit& base, const Model& own, const Model& agreed) {
   const BaseLayout& layout = base.design.layout;
-  const Eigen::VectorXd given = base_values(layout, agreed);
   Eigen::VectorXd x = base.fit.x;
   std::vector<Eigen::Index> held{0}, open;  // of [response, columns]
   Eigen::VectorXd minus_held = Eigen::VectorXd::Ones(1);
   for (Eigen::Index k = 0; k < x.size(); ++k) {
-    const bool is_base = k < layout.n();
-    if (!is_base || !is_shared(own, layout.parameters[static_cast<std::size_t>(k)])) {
+    const auto at = static_cast<std::size_t>(k);
+    const std::optional<double> given =
+        k < layout.n() ? agreed_value(own, layout.parameters[at], agreed) : std::nullopt;
+    if (!given) {
       open.push_back(k + 1);
       continue;
     }
-    x(k) = given(k);
+    x(k) = *given;
     held.push_back(k + 1);
     minus_held.conservativeResize(minus_held.size() + 1);
-    minus_held(minus_held.size() - 1) = -given(k);
+    minus_held(minus_held.size() - 1) = -*given;
   }
   const Eigen::MatrixXd gram = weighted_sum(base.grams, base.levels);
   const Eigen::MatrixXd own_gram = gram(open, open);
@@ -88,7 +108,7 @@ SharedGap shared_gap(const std::vector<Model>& own, const Model& agreed, const R
   try {
     const BaseFit base = fit_kept_base(stage.models, std::move(train), wanted, settings).base;
     const Eigen::VectorXd& free = base.fit.x;
-    const Eigen::VectorXd held = held_values(base, own.front(), agreed);
+    const Eigen::VectorXd held = held_values(base, base.design.models.front(), agreed);
     const auto ratio = [&](const BlockGrams& grams) {
       const double with_own = errors_of(grams, base.levels, free).sum();
       return with_own > 0 ? errors_of(grams, base.levels, held).sum() / with_own : 1;

@@ -10,9 +10,13 @@
 
 namespace cablefit {
 
+/// Without torque_gain (drive) where nothing but the other joints shows it: they show it again.
+std::vector<Model> without_shown_gains(std::span<const Model> given, const RefineLogs& logs);
+
 struct ComparedTorques {
   std::vector<JointScale> scales;  ///< per joint
-  /// In the torque of the joints that agree, one per preload; empty: all agree.
+  /// Of all joints, one per preload: links, cables and masses in the torque of the joints that
+  /// agree, every motor in that of its logs. Empty: all agree.
   std::vector<Model> agreed;
 };
 
@@ -20,14 +24,15 @@ struct ComparedTorques {
 ComparedTorques compared_torques(const std::vector<Model>& models, const RefineLogs& logs,
                                  double significance);
 
-/// Models of one joint to begin with: all joints in the torque of this one, so that simulations
-/// move as the robot does.
+/// Models of one joint to begin with. Links and cables are in the torque of this joint, and the
+/// motors of the others have the gain that this leaves, so that all move as the robot does.
 std::vector<Model> start_of(int joint, std::span<const Model> models,
                             const ComparedTorques& torques);
 
 /// Adds torque_gain (drive) to the results of joints that are off, by the values that the joints
-/// have in the end. Their models had all in their logged torque; then only the motor has.
-void name_torque_gains(const ComparedTorques& torques, const RefineLogs& logs, double significance,
+/// have in the end; and where a joint's own load shows a factor, decides by the other joints
+/// whether it is the load's or the torque's. Results are those of start_of()'s models.
+void name_torque_gains(const RefineLogs& logs, double significance,
                        std::vector<RefineResult>& joints);
 
 }  // namespace cablefit

@@ -121,12 +121,12 @@ std::vector<OtherCutoff> rows_at_other_cutoffs(const DynamicJob& job,
   const double cutoff = job.settings.rows.signal.cutoff;
   if (!(cutoff > 0) || systems_of(equations).size() < equations.size()) return all;
   const double rate = sample_rates(job.logs, job.wanted).lowest;
-  const std::vector<LogSurvey> stretches = rows_for_check(job);
+  const auto stretches = std::make_shared<const std::vector<LogSurvey>>(rows_for_check(job));
   for (const double factor : kOtherCutoffs) {
     if (factor * cutoff > kMostShareOfRate * rate) continue;
     DynamicJob other = with_cutoff_scaled(job, factor);
-    if (!stretches.empty()) other.logs = stretches;
-    all.push_back({factor, make_equations(other, ElasticDetail::torque)});
+    if (!stretches->empty()) other.logs = *stretches;
+    all.push_back({factor, make_equations(other, ElasticDetail::torque), stretches});
     collect_rows(other, all.back().equations);
   }
   return all;

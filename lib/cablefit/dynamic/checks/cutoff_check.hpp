@@ -1,6 +1,9 @@
 // Does another cut-off confirm an identified inertia?
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "cablefit/dynamic/estimates/estimation.hpp"
 
 namespace cablefit {
@@ -9,6 +12,7 @@ namespace cablefit {
 struct OtherCutoff {
   double factor = 1;
   std::vector<EquationRows> equations;
+  std::shared_ptr<const std::vector<LogSurvey>> stretches;  ///< whose rigs the equations refer to
 };
 
 /// Rows with half and twice the cut-off, as far as the rate allows, for all models at once. None

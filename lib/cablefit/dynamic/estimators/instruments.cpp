@@ -240,7 +240,8 @@ Estimation estimate_automatically(const EstimationTask& task) {
       return stay_with_least_squares(task,
                                      "the simulated loop does not reproduce the measured motion");
   Decided decided = decide(task, plan, test, plain, fit);
-  if (!test.stretches.empty() && decided.any_uses()) {
+  bool of_stretches = !test.stretches.empty();
+  if (of_stretches && decided.any_uses()) {
     // Settled and confirmed on the stretches; the same once more with all rows, whose differences
     // count. What few rows do not confirm, more rows would not: their sd is smaller.
     IvFit all =
@@ -250,12 +251,12 @@ Estimation estimate_automatically(const EstimationTask& task) {
     all.last_change = fit.last_change;
     all.tests = std::move(fit.tests);
     fit = std::move(all);
+    of_stretches = false;
     decided = decide(task, plan, test, plain, fit);
   }
   const std::vector<Judgement>& judgements = decided.judgements;
-  const bool thinned = !test.stretches.empty() && !decided.any_uses();
   const std::vector<LinearSolution> beside =
-      thinned && any_wants(judgements) ? least_squares_on(test, task) : plain;
+      of_stretches && any_wants(judgements) ? least_squares_on(test, task) : plain;
   Estimation out;
   out.fit.estimator = decided.any_uses() ? "iv" : "wls";
   out.decisions.push_back(

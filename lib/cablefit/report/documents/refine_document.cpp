@@ -20,6 +20,13 @@ std::string percent(double share) {
   return std::isfinite(share) ? fmt::format("{:.0f}", 100 * share) : kNoNumber;
 }
 
+/// Of the search, or of what the joint shares with others where that names its effect.
+double p_of(const RefineResult& r) {
+  for (const NamedEffect& effect : r.effects)
+    if (effect.evidence.n_draws == 0) return effect.evidence.p_value;
+  return r.search_p;
+}
+
 /// Of several joints what each has.
 Table joint_table(const RefineResult& result) {
   const bool mixed = result.axes == Axes::mixed;  // then every number has its unit
@@ -45,7 +52,7 @@ Table joint_table(const RefineResult& result) {
     table.rows.push_back({r.joint_name, is_done ? std::string(to_string(r.verdict)) : "not refined",
                           effects, known(r.torque.test_before, unit),
                           known(r.torque.test_after, unit), known(r.torque.noise_floor, unit),
-                          known(r.search_p, "")});
+                          known(p_of(r), "")});
   }
   table.notes = {"each joint by its own equations, the measured motion of the others given"};
   return table;

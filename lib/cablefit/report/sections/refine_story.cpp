@@ -163,6 +163,11 @@ std::string date_text(const EffectInstance& event, const RefineResult& result) {
          (event.ends_with_log ? "" : " on");
 }
 
+Axes axes_of_joint(const RefineResult& result, int joint) {
+  return result.joints.empty() ? result.axes
+                               : result.joints.at(static_cast<std::size_t>(joint - 1)).axes;
+}
+
 void add_effect_lines(const RefineResult& result, std::vector<SummaryLine>& lines) {
   int last_joint = 0;
   for (const NamedEffect& effect : result.effects) {
@@ -172,8 +177,8 @@ void add_effect_lines(const RefineResult& result, std::vector<SummaryLine>& line
     std::string text = fmt::format("{}: {}; {}", name, row.equation, parameters_text(effect));
     if (row.is_event) text += "; " + date_text(effect.instance, result);
     if (effect.torque_rms > 0)
-      text +=
-          fmt::format("; carries {} {} rms", number(effect.torque_rms), torque_unit(result.axes));
+      text += fmt::format("; carries {} {} rms", number(effect.torque_rms),
+                          torque_unit(axes_of_joint(result, effect.joint)));
     lines.push_back({"effect", text});
     lines.push_back(evidence_line(effect, result.held_out_blocks));
     const bool is_first = effect.joint != std::exchange(last_joint, effect.joint);
