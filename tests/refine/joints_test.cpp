@@ -1,5 +1,8 @@
 // Several joints: an effect that is hidden on one of them is named there, and nowhere else. The
 // logs are made by plain arithmetic that shares nothing with the library.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <sstream>
 
@@ -35,17 +38,19 @@ std::string with_column_times(const std::string& text, const std::string& name, 
   return out;
 }
 
-/// `more`: further keys of the rig file. `load`: logged over true, on the first joint.
-Finger refined(const PlainRig& hidden, const std::string& more = "", double load = 1) {
+/// `more`: further keys of the rig file. `loads`: logged over true, of the first joints.
+Finger refined(const PlainRig& hidden, const std::string& more = "",
+               const std::vector<double>& loads = {}) {
   Finger finger;
   finger.bench.folder().write("finger.urdf", urdf_text(phalanges(), "finger"));
   finger.bench.rig =
       read_rig(finger.bench.folder().write("rig.json", rig_text(tendon_finger(), more)));
   RefineLogs logs;
   logs.blocked = {finger.bench.add_text(blocked_log(hidden, {0.1, 0.1}, 60, 11, 200, 0, 0.005))};
-  const std::string moving = moving_log(hidden, 20, 12);
-  logs.train = {
-      finger.bench.add_text(load == 1 ? moving : with_column_times(moving, "tau_load1", load))};
+  std::string moving = moving_log(hidden, 20, 12);
+  for (std::size_t k = 0; k < loads.size(); ++k)
+    moving = with_column_times(moving, fmt::format("tau_load{}", k + 1), loads[k]);
+  logs.train = {finger.bench.add_text(moving)};
   RefineOptions options;
   options.n_draws = kDraws;
   finger.result = missing_effects(logs, options);
@@ -135,7 +140,7 @@ TEST_CASE("a wrong torque of one joint is told from a wrong load by the others",
 }
 
 TEST_CASE("a wrong load of one joint is told from a wrong torque by the others", "[refine]") {
-  const RefineResult result = refined(tendon_finger(), "", 1.2).result;
+  const RefineResult result = refined(tendon_finger(), "", {1.2}).result;
   CHECK(result.verdict == Verdict::named);
   REQUIRE(result.effects.size() == 1);
   const NamedEffect& effect = result.effects[0];
@@ -145,6 +150,31 @@ TEST_CASE("a wrong load of one joint is told from a wrong torque by the others",
   const Estimate& a = effect.instance.parameters[0];
   CHECK(std::abs(a.value - (1 - 1.2)) < 4 * a.sd);
   CHECK(a.sd < 0.005);
+}
+
+TEST_CASE("two joints whose loads are both wrong do not settle each other's", "[refine]") {
+  const RefineResult result = refined(tendon_finger(), "", {1.2, 1.2}).result;
+  CHECK(result.verdict == Verdict::ambiguous);
+  REQUIRE(result.effects.size() == 2);
+  for (const NamedEffect& effect : result.effects) {
+    CHECK(effect.instance.effect->alias_class == "scale");
+    REQUIRE(effect.rivals.size() == 1);
+    CHECK(effect.rivals[0].by_rule);
+  }
+}
+
+TEST_CASE("a wrong torque is named beside another effect of its joint", "[refine]") {
+  PlainRig hidden = with_wrong_torque(tendon_finger(), 1);
+  find_joint_effect("stribeck", "link").hide(hidden, 1, 1.5);
+  const RefineResult result = refined(hidden).result;
+  REQUIRE(result.effects.size() == 2);
+  std::vector<std::string> names;
+  for (const NamedEffect& effect : result.effects) {
+    names.emplace_back(effect.instance.effect->name);
+    CHECK(effect.joint == 2);
+  }
+  std::sort(names.begin(), names.end());
+  CHECK(names == std::vector<std::string>{"stribeck", "torque_gain"});
 }
 
 TEST_CASE("without a load either of two torques may be the wrong one", "[refine]") {
