@@ -118,7 +118,7 @@ PlainRig with_wrong_torque(PlainRig rig, std::size_t joint) {
   return rig;
 }
 
-TEST_CASE("a wrong torque of one joint is told from a wrong load by the others", "[refine]") {
+TEST_CASE("other joints distinguish a wrong torque from a wrong load", "[refine]") {
   for (const std::size_t joint : {0u, 1u}) {
     INFO("joint " << joint + 1);
     const RefineResult result = refined(with_wrong_torque(tendon_finger(), joint)).result;
@@ -139,7 +139,7 @@ TEST_CASE("a wrong torque of one joint is told from a wrong load by the others",
   }
 }
 
-TEST_CASE("a wrong load of one joint is told from a wrong torque by the others", "[refine]") {
+TEST_CASE("other joints distinguish a wrong load from a wrong torque", "[refine]") {
   const RefineResult result = refined(tendon_finger(), "", {1.2}).result;
   CHECK(result.verdict == Verdict::named);
   REQUIRE(result.effects.size() == 1);
@@ -152,7 +152,7 @@ TEST_CASE("a wrong load of one joint is told from a wrong torque by the others",
   CHECK(a.sd < 0.005);
 }
 
-TEST_CASE("two joints whose loads are both wrong do not settle each other's", "[refine]") {
+TEST_CASE("two joints with wrong loads do not confirm each other", "[refine]") {
   const RefineResult result = refined(tendon_finger(), "", {1.2, 1.2}).result;
   CHECK(result.verdict == Verdict::ambiguous);
   REQUIRE(result.effects.size() == 2);
@@ -177,7 +177,7 @@ TEST_CASE("a wrong torque is named beside another effect of its joint", "[refine
   CHECK(names == std::vector<std::string>{"stribeck", "torque_gain"});
 }
 
-TEST_CASE("without a load either of two torques may be the wrong one", "[refine]") {
+TEST_CASE("without a load two wrong torques are not separable", "[refine]") {
   const RefineResult result = refined(with_wrong_torque(phalanges_rig(), 1),
                                       R"( "arm": {"type": "urdf", "file": "finger.urdf"},)")
                                   .result;

@@ -57,7 +57,7 @@ Shared shared_of(const Model& one) {
 
 using Joints = std::vector<std::size_t>;
 
-/// log |value| = that of what is measured + log factor of the joint, weighted least squares.
+/// log |value| = log |true value| + log factor of the joint, by weighted least squares.
 struct Factors {
   Eigen::VectorXd log_factor;  ///< per free joint
   Eigen::MatrixXd covariance;
@@ -135,6 +135,16 @@ class Comparisons {
     return n;
   }
 
+  /// Values of the joint that another one of the group has as well.
+  int n_compared(std::size_t joint, const Joints& group) const {
+    const auto& own = shared_[joint].by_name;
+    return static_cast<int>(std::count_if(own.begin(), own.end(), [&](const auto& value) {
+      return std::any_of(group.begin(), group.end(), [&](std::size_t other) {
+        return other != joint && shared_[other].by_name.contains(value.first);
+      });
+    }));
+  }
+
   Joints group_of(std::size_t joint) const {
     Joints group{joint};
     for (std::size_t k = 0; k < group.size(); ++k)
@@ -169,8 +179,8 @@ class Comparisons {
     return agreeing;
   }
 
-  /// Those that agree with a joint that a load has weighed, else the most that agree; of several
-  /// such the ones nearest to the masses of the rig file.
+  /// The reference: joints that agree with one whose load confirms its torque, else the largest
+  /// group that agrees; of equal groups the one nearest to the masses of the rig file.
   Joints right_ones(const Joints& group) const {
     const std::vector<Joints> all = agreeing(group);
     std::size_t best = 0;
@@ -189,9 +199,9 @@ class Comparisons {
 
   void set_scales(const Joints& group, std::vector<JointScale>& all) const {
     const Joints right = right_ones(group);
-    TorqueTrust best = TorqueTrust::off;
+    TorqueTrust best = TorqueTrust::contradicted;
     for (const std::size_t joint : right) best = std::max(best, trust_[joint]);
-    for (const std::size_t joint : group) all[joint].settled = best != TorqueTrust::off;
+    for (const std::size_t joint : group) all[joint].comparable = best != TorqueTrust::contradicted;
     Joints off;
     for (const std::size_t joint : group)
       if (std::find(right.begin(), right.end(), joint) == right.end()) off.push_back(joint);
@@ -206,7 +216,7 @@ class Comparisons {
       JointScale& scale = all[off[k]];
       scale.scale = std::exp(with.log_factor(at));
       scale.sd = scale.scale * std::sqrt(variance);
-      scale.n = static_cast<int>(shared_[off[k]].by_name.size());
+      scale.n = n_compared(off[k], group);
       scale.explained = explained;
       scale.dof = with.dof;
       scale.chance = t_tail(std::abs(with.log_factor(at)) / std::sqrt(variance), with.dof);
@@ -214,11 +224,11 @@ class Comparisons {
     }
   }
 
-  /// Where its own load says so, or no load tells and the others are no more.
+  /// Its own load confirms its torque; or no load confirms the reference, which is no larger group.
   bool may_be_right(std::size_t joint, const Joints& right, const Joints& group,
                     TorqueTrust best) const {
-    if (trust_[joint] == TorqueTrust::weighed) return true;
-    return best != TorqueTrust::weighed && 2 * right.size() <= group.size();
+    if (trust_[joint] == TorqueTrust::confirmed) return true;
+    return best != TorqueTrust::confirmed && 2 * right.size() <= group.size();
   }
 
   std::vector<Shared> shared_;

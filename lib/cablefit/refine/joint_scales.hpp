@@ -1,7 +1,8 @@
-// Whether the torques of several joints agree. A cable that passes two joints, and the masses of
-// links that move each other, are measured by each of these joints: where all that a joint measures
-// differs from the others by one factor, its torque is off by it (a wrong torque constant; Gautier
-// & Briot 2014). No single joint shows that without a load. Internal to refine/.
+// Whether the torques of several joints agree. Each of the joints that a cable passes measures its
+// coefficients; each of several coupled links measures their masses. Where all these values of a
+// joint differ from those of the others by one factor, its torque is off by this factor (a wrong
+// torque constant; Gautier & Briot 2014). No single joint shows that without a load. Internal to
+// refine/.
 #pragma once
 
 #include <vector>
@@ -10,15 +11,16 @@
 
 namespace cablefit {
 
-/// What a joint's own logs say of its torque: against its load it is off, or nothing, or right.
-enum class TorqueTrust { off, unknown, weighed };
+/// Whether a joint's own load confirms its torque: the two contradict each other, there is no
+/// load, or they agree.
+enum class TorqueTrust { contradicted, unknown, confirmed };
 
 /// Of one joint.
 struct JointScale {
-  double scale = 1;  ///< its logged torque over the one that the other joints call for
+  double scale = 1;  ///< its logged torque over that of the reference joints
   double sd = 0;
-  bool settled = false;     ///< compared with a joint whose torque its own load does not contradict
-  int n = 0;                ///< values that were compared
+  bool comparable = false;  ///< no load contradicts the torque of the reference joints
+  int n = 0;                ///< values that it shares with other joints
   double explained = 0;     ///< share of the joints' weighted squared disagreement
   double chance = 1;        ///< probability of such a factor where the torques agree
   double dof = 1;           ///< of the t distribution of the factor

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kInterval = 0.95;
 constexpr std::string_view kScaleClass = "scale";
-// A load weighs a torque where it is above the noise of its sensor and a part of the torque.
+// A load checks a torque where it is above the noise of its sensor and a part of the torque.
 constexpr double kAboveNoise = 20, kPartOfTorque = 0.05;
 // Factors of torque and load that are one: sd, and what no sd contains.
 constexpr double kSureSd = 4, kSameFactor = 0.01;
@@ -34,8 +34,8 @@ double largest(const ChannelSurvey& channel) {
   return std::max(std::abs(channel.min), std::abs(channel.max));
 }
 
-/// Whether a log has a load that weighs the torque of the joint (from 0).
-bool is_weighed(const RefineLogs& logs, int joint) {
+/// Whether a log has a load that checks the torque of the joint (from 0).
+bool is_loaded(const RefineLogs& logs, int joint) {
   const std::vector<LogSurvey> fitted = logs.fitted();
   return std::any_of(fitted.begin(), fitted.end(), [&](const LogSurvey& log) {
     const int load = log.plan.find(Channel::tau_load, joint);
@@ -50,11 +50,23 @@ bool is_weighed(const RefineLogs& logs, int joint) {
   });
 }
 
+/// Whether two joints have a cable or masses in common.
+bool shares_anything(const Model& model) {
+  if (model.rigid) return false;
+  const std::vector<Cable>& cables = model.transmission.cables;
+  return model.is_coupled() || std::any_of(cables.begin(), cables.end(), [&](const Cable& cable) {
+           int n = 0;
+           for (std::size_t joint = 0; joint < model.joints.size(); ++joint)
+             n += cable.passes(joint) ? 1 : 0;
+           return n > 1;
+         });
+}
+
 std::vector<TorqueTrust> trust_by_loads(const RefineLogs& logs, std::size_t n_joints) {
   std::vector<TorqueTrust> trust;
   for (std::size_t joint = 0; joint < n_joints; ++joint)
-    trust.push_back(is_weighed(logs, static_cast<int>(joint)) ? TorqueTrust::weighed
-                                                              : TorqueTrust::unknown);
+    trust.push_back(is_loaded(logs, static_cast<int>(joint)) ? TorqueTrust::confirmed
+                                                             : TorqueTrust::unknown);
   return trust;
 }
 
@@ -116,7 +128,7 @@ std::vector<Model> agreed_models(std::size_t n_preloads, const std::vector<Joint
   return agreed;
 }
 
-/// The gap before is that which the others' values leave.
+/// The gap before is that with the others' values.
 void widen_before(const SharedGap& gap, RefineResult& r) {
   const auto with = [](double before, double after, double ratio) {
     return std::sqrt(before * before + std::max(0.0, ratio - 1) * after * after);
@@ -143,8 +155,8 @@ void forget(const EffectInstance& gone, ParameterCovariance& covariance) {
   covariance.parameters = std::move(names);
 }
 
-/// All that the result says beyond the motor in the torque of the other joints. `instead`: of an
-/// effect of the same class that the models have.
+/// Scales the result to the torque of the other joints, but for the motor. `instead` replaces an
+/// effect of the same class.
 void take_scale(const JointScale& scale, const EffectInstance& instead, RefineResult& r) {
   const TorqueFactor factor = to_others(scale);
   for (ParameterShift& shift : r.shifts) {
@@ -197,7 +209,8 @@ void add_torque_gain(const JointScale& scale, const Model& agreed, const RefineL
   widen_before(gap, r);
   take_scale(scale, effect.instance, r);
   const std::string reason = fmt::format(
-      "all that it shares with other joints is {:.4g} times as large (sd {:.1g}, {} values)",
+      "the values that it shares with other joints are {:.4g} times as large (sd {:.1g}, {} "
+      "values)",
       scale.scale, scale.sd, scale.n);
   r.reason = r.effects.empty() && r.verdict == Verdict::none ? reason : r.reason + "; " + reason;
   if (!effect.rivals.empty()) {
@@ -208,18 +221,18 @@ void add_torque_gain(const JointScale& scale, const Model& agreed, const RefineL
   set_verdict(r);
 }
 
-/// A wrong torque and a wrong load look the same to one joint. Others tell them apart: with the
-/// right one of the two the joint's values agree with theirs.
-void settle_scale(const JointScale& scale, NamedEffect& own, RefineResult& r) {
-  if (!scale.settled) return;
+/// A wrong torque and a wrong load are not separable with one joint. With the right one of the two
+/// the joint's values agree with those of the others.
+void decide_scale(const JointScale& scale, NamedEffect& own, RefineResult& r) {
+  if (!scale.comparable) return;
   if (scale.is_off()) {
     const Estimate& a = own.instance.parameters.front();
     const double one = std::abs(std::log(scale.scale * (1 - a.value)));
     if (!(one < kSameFactor + kSureSd * std::hypot(scale.sd / scale.scale, a.sd))) {
-      r.warnings.push_back(
-          fmt::format("all that it shares with other joints is {:.4g} times as large, and neither "
-                      "its torque nor its load alone explains that: both may be wrong",
-                      scale.scale));
+      r.warnings.push_back(fmt::format(
+          "the values that it shares with other joints are {:.4g} times as large; neither a "
+          "wrong torque nor a wrong load alone explains that; check both",
+          scale.scale));
       return;
     }
     const Effect& other = own.instance.effect->site == Site::drive ? load_scale() : torque_gain();
@@ -237,7 +250,7 @@ std::vector<Model> without_shown_gains(std::span<const Model> given, const Refin
   std::vector<Model> models(given.begin(), given.end());
   for (Model& model : models)
     for (std::size_t k = 0; k < model.joints.size(); ++k) {
-      if (is_weighed(logs, static_cast<int>(k))) continue;
+      if (is_loaded(logs, static_cast<int>(k))) continue;
       for (const EffectInstance& instance : model.joints[k].added)
         if (instance.effect == &torque_gain()) forget(instance, model.covariance);
       std::erase_if(model.joints[k].added, [](const EffectInstance& instance) {
@@ -250,6 +263,7 @@ std::vector<Model> without_shown_gains(std::span<const Model> given, const Refin
 ComparedTorques compared_torques(const std::vector<Model>& models, const RefineLogs& logs,
                                  double significance) {
   const std::size_t n = models.front().joints.size();
+  if (!shares_anything(models.front())) return {std::vector<JointScale>(n), {}};
   std::vector<std::vector<Model>> fits;
   std::vector<const Model*> first;
   for (std::size_t k = 0; k < n; ++k)
@@ -286,7 +300,7 @@ void name_torque_gains(const RefineLogs& logs, double significance,
   std::vector<TorqueTrust> trust = trust_by_loads(logs, joints.size());
   std::vector<const Model*> models;
   for (std::size_t k = 0; k < joints.size(); ++k) {
-    if (own_scale(joints[k]) != nullptr) trust[k] = TorqueTrust::off;
+    if (own_scale(joints[k]) != nullptr) trust[k] = TorqueTrust::contradicted;
     const bool is_known = joints[k].not_refined.empty() && !joints[k].models.empty();
     models.push_back(is_known ? &joints[k].models.front() : nullptr);
   }
@@ -298,7 +312,7 @@ void name_torque_gains(const RefineLogs& logs, double significance,
   for (std::size_t k = 0; k < joints.size(); ++k) {
     RefineResult& r = joints[k];
     if (NamedEffect* own = own_scale(r))
-      settle_scale(scales[k], *own, r);
+      decide_scale(scales[k], *own, r);
     else if (scales[k].is_off())
       add_torque_gain(scales[k], agreed.front(), logs, r);
   }

@@ -1,4 +1,4 @@
-// Joints whose torques do not agree, and the effect that says so. Internal to refine/.
+// Joints whose torques do not agree, and the effect that describes it. Internal to refine/.
 #pragma once
 
 #include <span>
@@ -10,7 +10,8 @@
 
 namespace cablefit {
 
-/// Without torque_gain (drive) where nothing but the other joints shows it: they show it again.
+/// The models without torque_gain (drive) of joints without a load: only the other joints show it,
+/// and the comparison finds it again.
 std::vector<Model> without_shown_gains(std::span<const Model> given, const RefineLogs& logs);
 
 struct ComparedTorques {
@@ -25,13 +26,13 @@ ComparedTorques compared_torques(const std::vector<Model>& models, const RefineL
                                  double significance);
 
 /// Models of one joint to begin with. Links and cables are in the torque of this joint, and the
-/// motors of the others have the gain that this leaves, so that all move as the robot does.
+/// motors of the others have the remaining gain, so that all move as the robot does.
 std::vector<Model> start_of(int joint, std::span<const Model> models,
                             const ComparedTorques& torques);
 
-/// Adds torque_gain (drive) to the results of joints that are off, by the values that the joints
-/// have in the end; and where a joint's own load shows a factor, decides by the other joints
-/// whether it is the load's or the torque's. Results are those of start_of()'s models.
+/// Adds torque_gain (drive) to the results of joints that are off, by their refined values. Where a
+/// joint's own load shows a factor, the other joints decide whether the load or the torque is
+/// wrong. Results are those of start_of()'s models.
 void name_torque_gains(const RefineLogs& logs, double significance,
                        std::vector<RefineResult>& joints);
 

@@ -25,7 +25,7 @@ constexpr double kTieShare = 0.02;        // of the gap: closer than that, eithe
 // closed 3 % less than another in 2 of 68 cases at one load).
 constexpr double kAlikeShare = 0.03;
 constexpr double kEqualShare = 0.005;  // the same, where the blocks agree on which is better
-constexpr double kSameShare = 0.001;   // closer than that the logs say nothing of which it is
+constexpr double kSameShare = 0.001;   // closer than that: not separable with these logs
 constexpr double kSureSd = 3;          // that they do
 constexpr double kSafety = 1.3;        // times the largest chance gain seen
 // What passes against its gain at half of all other dates. By chance the largest of 40 blocks'
@@ -168,8 +168,8 @@ bool is_simpler(const Candidate& a, const Candidate& b) {
   return !is_of_sensor(a) && is_of_sensor(b);
 }
 
-/// Of two that nothing in the logs separates the one that is commoner in cable drives: it stands
-/// first in the catalogue.
+/// Of two effects that are not separable with these logs, the one that is more common in cable
+/// drives. It comes first in the catalogue.
 bool is_commoner(const Candidate& a, const Candidate& b, const SquaredGap& gap) {
   const Effect &row = *a.variant.effect, &other = *b.variant.effect;
   return are_comparable(a, b) && row.site == other.site && n_parameters(a) == n_parameters(b) &&

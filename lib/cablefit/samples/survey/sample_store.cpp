@@ -11,9 +11,9 @@ namespace {
 
 using Column = Eigen::Ref<const Eigen::VectorXd>;
 
-// A piece begins with a head, which tells the columns that need not be written: many a link is
-// held, many a load constant, and most clocks count on. All passes over a long log are shorter
-// then. The head: rate and first row of the clock, then the value of every channel.
+// A piece begins with a head. It replaces columns that are constant (a held link, a constant load)
+// and an even clock, so that every pass over a long log reads less. The head: rate and first row
+// of the clock, then the value of every channel.
 using Head = std::vector<double>;
 constexpr double kWritten =
     std::numeric_limits<double>::quiet_NaN();  // column by column, behind it
@@ -22,12 +22,12 @@ Head empty_head(Eigen::Index n_columns) {
   return Head(static_cast<std::size_t>(n_columns) + 1, kWritten);
 }
 
-/// What the head tells of column k.
-double told(const Head& head, Eigen::Index k) {
+/// The head's entry for column k.
+double entry(const Head& head, Eigen::Index k) {
   return head[k == 0 ? 0 : static_cast<std::size_t>(k) + 1];
 }
 
-bool is_written(const Head& head, Eigen::Index k) { return std::isnan(told(head, k)); }
+bool is_written(const Head& head, Eigen::Index k) { return std::isnan(entry(head, k)); }
 
 /// Row i at (first + i)/rate: the nearest number to what a log prints that counts its rows.
 Eigen::ArrayXd times(double rate, double first, Eigen::Index n) {
@@ -86,7 +86,7 @@ void SampleStore::read(const SamplePiece& piece, Eigen::MatrixXd& rows) const {
     } else if (k == 0) {
       rows.col(0) = times(head[0], head[1], piece.n_rows);
     } else {
-      rows.col(k).setConstant(told(head, k));
+      rows.col(k).setConstant(entry(head, k));
     }
   }
 }
