@@ -70,7 +70,9 @@ std::vector<Table> effect_tables() {
   return {
       effect_table("Base model", base_effects()),
       effect_table("Effects beyond the base model, which refine may identify", candidate_effects()),
-      differences};
+      differences,
+      effect_table("Errors of the rig file, which refine may identify from several joints together",
+                   rig_errors())};
 }
 
 std::string orders_of(const CableLaw& law) {

@@ -12,12 +12,10 @@
 #include "cablefit/model/catalogue/rows.hpp"
 
 namespace cablefit {
+namespace rows {
 namespace {
 
-constexpr std::size_t kMostOwn = 64;  // rows stay where they are: models point to them
-
 std::vector<Effect> candidates() {
-  using namespace rows;
   using enum Site;
   return {
       constant_torque(),
@@ -50,7 +48,7 @@ std::vector<Effect> candidates() {
       pulley_eccentricity(),
       creep(),
       dead_zone(),
-      rows::preload(),
+      preload(),
       encoder_scale(),
       encoder_offset(),
       encoder_delay(),
@@ -66,10 +64,17 @@ std::vector<Effect> candidates() {
   };
 }
 
+}  // namespace
+}  // namespace rows
+
+namespace {
+
+constexpr std::size_t kMostOwn = 64;  // rows stay where they are: models point to them
+
 std::vector<Effect>& table() {
   static std::vector<Effect> all = [] {
+    const std::vector<Effect> more = rows::candidates();
     std::vector<Effect> rows = rows::base();
-    const std::vector<Effect> more = candidates();
     rows.reserve(rows.size() + more.size() + kMostOwn);
     rows.insert(rows.end(), more.begin(), more.end());
     return rows;
@@ -151,6 +156,11 @@ std::span<const Effect> base_effects(Side side) {
 }
 
 std::span<const Effect> candidate_effects() { return effects().subspan(n_base()); }
+
+std::span<const Effect> rig_errors() {
+  static const std::vector<Effect> rows = rows::rig_errors();
+  return rows;
+}
 
 namespace {
 

@@ -210,6 +210,9 @@ std::span<const Effect> base_effects(Side side);
 /// The effects beyond it that `refine` may identify, in the order of docs/reference/effects.md;
 /// those of add_effect() last.
 std::span<const Effect> candidate_effects();
+/// Errors of the rig file that `refine` identifies from several joints together. They have none of
+/// the functions of a row: the refined model has another rig.
+std::span<const Effect> rig_errors();
 /// Adds a row of your own. From then on refine searches for it, model files may contain it, and it
 /// is simulated and fitted like all others. Call it before any other function of the library; at
 /// most 64 rows. Throws Error(usage) when the name and site exist already, when the functions are

@@ -10,7 +10,9 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/model/one_joint.hpp"
 #include "cablefit/refine/kept_joint.hpp"
+#include "cablefit/refine/named_radius.hpp"
 #include "cablefit/refine/torque_gains.hpp"
+#include "cablefit/refine/wrong_radius.hpp"
 
 namespace cablefit {
 namespace {
@@ -206,19 +208,31 @@ RefineResult merged(std::span<const Model> models, std::vector<RefineResult> joi
   return all;
 }
 
-}  // namespace
-
-RefineResult refine_joints(std::span<const Model> given, const RefineLogs& logs,
-                           const RefineOptions& options, const RefineOne& refine_one) {
-  const std::vector<Model> own_given = without_shown_gains(given, logs);
-  const std::vector<Model> models = with_base_fits(own_given, logs);
-  const auto n = static_cast<int>(models.front().joints.size());
-  RefineOptions own = options;
-  own.significance /= n;
-  const ComparedTorques torques = compared_torques(models, logs, own.significance);
+/// Each joint from the same models.
+struct JointRun {
+  std::vector<Model> models;  ///< of all joints, with base fits
   std::vector<RefineResult> joints;
-  std::optional<Error> first;
-  for (int joint = 0; joint < n; ++joint) {
+  std::optional<Error> error;  ///< of the first joint that could not be refined
+
+  bool is_refined() const {
+    return std::any_of(joints.begin(), joints.end(),
+                       [](const RefineResult& r) { return r.not_refined.empty(); });
+  }
+  bool any_gap() const {
+    return std::any_of(joints.begin(), joints.end(), [](const RefineResult& r) {
+      return !r.not_refined.empty() || r.verdict != Verdict::none;
+    });
+  }
+};
+
+JointRun run_joints(std::span<const Model> given, const RefineLogs& logs,
+                    const RefineOptions& options, const RefineOne& refine_one) {
+  const std::vector<Model> own_given = without_shown_gains(given, logs);
+  JointRun run{with_base_fits(own_given, logs), {}, {}};
+  const std::vector<Model>& models = run.models;
+  RefineOptions own = options;
+  const ComparedTorques torques = compared_torques(models, logs, own.significance);
+  for (int joint = 0; joint < static_cast<int>(models.front().joints.size()); ++joint) {
     RefineResult r;
     const std::string& name = models.front().rig.joints[static_cast<std::size_t>(joint)];
     if (options.progress)
@@ -229,7 +243,7 @@ RefineResult refine_joints(std::span<const Model> given, const RefineLogs& logs,
       r = refine_one(start_of(joint, models, torques), logs, own);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::not_identifiable) throw;
-      if (!first) first = error;
+      if (!run.error) run.error = error;
       r.not_refined = error.what();
       KeptJoint kept = kept_joint(own_given, models, joint, logs);
       r.models = std::move(kept.models);
@@ -237,14 +251,36 @@ RefineResult refine_joints(std::span<const Model> given, const RefineLogs& logs,
     }
     r.joint = joint + 1;
     r.joint_name = name;
-    joints.push_back(std::move(r));
+    run.joints.push_back(std::move(r));
   }
-  if (std::all_of(joints.begin(), joints.end(),
-                  [](const RefineResult& r) { return !r.not_refined.empty(); }))
-    throw Error(*first);
-  for (RefineResult& r : joints) set_joint(r);
-  name_torque_gains(logs, own.significance, joints);
-  return merged(models, std::move(joints));
+  for (RefineResult& r : run.joints) set_joint(r);
+  if (run.is_refined()) name_torque_gains(logs, own.significance, run.joints);
+  return run;
+}
+
+/// Again with the right radius where one of the rig file is wrong, and that explains what the
+/// joints show.
+void try_radius(std::span<const Model> given, const RefineLogs& logs, const RefineOptions& options,
+                const RefineOne& refine_one, JointRun& run) {
+  auto wrong = wrong_radius(run.models, logs, options.significance);
+  if (!wrong) return;
+  const std::vector<Model> models = with_right_radius(given, logs, options.threads, *wrong);
+  JointRun right = run_joints(models, logs, options, refine_one);
+  if (!right.is_refined() || !is_explained(run.joints, right.joints)) return;
+  name_radius(*wrong, models.front(), run.joints, right.joints);
+  run = std::move(right);
+}
+
+}  // namespace
+
+RefineResult refine_joints(std::span<const Model> given, const RefineLogs& logs,
+                           const RefineOptions& options, const RefineOne& refine_one) {
+  RefineOptions own = options;
+  own.significance /= static_cast<double>(given.front().joints.size());
+  JointRun run = run_joints(given, logs, own, refine_one);
+  if (run.any_gap()) try_radius(given, logs, own, refine_one, run);
+  if (!run.is_refined()) throw Error(*run.error);
+  return merged(run.models, std::move(run.joints));
 }
 
 }  // namespace cablefit

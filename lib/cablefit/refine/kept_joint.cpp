@@ -28,6 +28,17 @@ std::optional<KeptBase> base_of(const std::vector<Model>& models, const RefineLo
 
 }  // namespace
 
+std::optional<BaseFit> base_fit_of(const std::vector<Model>& models, const RefineLogs& logs) {
+  try {
+    auto kept = base_of(models, logs, {});
+    if (!kept) return {};
+    return std::move(kept->base);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::not_identifiable) throw;
+    return {};
+  }
+}
+
 std::optional<std::vector<Model>> base_estimates(const std::vector<Model>& models,
                                                  const RefineLogs& logs) {
   const ScanSettings settings;

@@ -7,9 +7,13 @@
 #include <vector>
 
 #include "cablefit/model/model.hpp"
+#include "cablefit/refine/null/null_draws.hpp"
 #include "cablefit/refine/refine_options.hpp"
 
 namespace cablefit {
+
+/// Of models of one joint. Nothing: there are blocked logs alone, or the logs do not determine it.
+std::optional<BaseFit> base_fit_of(const std::vector<Model>& models, const RefineLogs& logs);
 
 /// The models of one joint with the values of the base fit to its training logs, without sd: start
 /// values of a search. Unchanged for blocked logs alone, and where there is no base fit.

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "cablefit/estimate/spread/tail_probability.hpp"
+#include "cablefit/estimate/fit/parameter_estimate.hpp"
 #include "cablefit/model/effects/effect_parameter.hpp"
 #include "cablefit/model/one_joint.hpp"
 #include "cablefit/refine/kept_joint.hpp"
@@ -16,7 +16,6 @@
 namespace cablefit {
 namespace {
 
-constexpr double kInterval = 0.95;
 constexpr std::string_view kScaleClass = "scale";
 // A load checks a torque where it is above the noise of its sensor and a part of the torque.
 constexpr double kAboveNoise = 20, kPartOfTorque = 0.05;
@@ -90,9 +89,7 @@ EffectInstance instance_of(const Effect& row, double factor, const JointScale* s
   a.value = 1 - factor;
   if (scale == nullptr) return instance;
   a.sd = scale->sd;
-  const double half = t_quantile(1 - kInterval, scale->dof) * a.sd;
-  a.ci_low = a.value - half;
-  a.ci_high = a.value + half;
+  set_interval(a, scale->dof);
   return instance;
 }
 

@@ -3,6 +3,7 @@
 //
 //   hidden_joints --list
 //   hidden_joints RIG FOLDER NAME SIDE JOINT SIZE SEED     (NAME none: nothing is hidden)
+// Exit code 3: the rig has no place for the effect.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -61,6 +62,9 @@ int main(int argc, char** argv) {
     }
     if (args.size() != 7) throw std::invalid_argument("see the head of hidden_joints.cpp");
     cablefit::test::write_case(args);
+  } catch (const cablefit::test::NotPossible& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 3;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 2;

@@ -12,6 +12,11 @@
 
 namespace cablefit::test {
 
+/// The rig has no place for the effect.
+struct NotPossible : std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
 /// `size`: of its torque, in parts of the dry friction of the axis it acts on.
 struct JointEffect {
   std::string name, side;
@@ -65,6 +70,37 @@ inline void hide_cable_damping(PlainRig& rig, std::size_t joint, double size) {
   };
 }
 
+/// Round pulleys of one joint, on either side.
+inline PlainMap& pulley_of(PlainCable& cable, bool on_link, std::size_t joint) {
+  return (on_link ? cable.link : cable.motor)[joint];
+}
+
+inline bool has_pulley(PlainCable& cable, bool on_link, std::size_t joint) {
+  const PlainMap& map = pulley_of(cable, on_link, joint);
+  return map.radius.size() == 1 && map.radius.front() != 0;
+}
+
+/// A pulley that is larger than the rig file says.
+inline void hide_radius(PlainRig& rig, bool on_link, std::size_t joint, double size) {
+  for (PlainCable& cable : rig.cables)
+    if (has_pulley(cable, on_link, joint)) {
+      pulley_of(cable, on_link, joint).radius.front() *= 1 + 0.04 * size;
+      return;
+    }
+  throw NotPossible("no round pulley on the joint");
+}
+
+/// A cable that the joint moves although the rig file lets it pass. It moves with the next joint.
+inline void forget_radius(PlainRig& rig, std::size_t joint, double size) {
+  for (PlainCable& cable : rig.cables)
+    if (cable.link[joint].radius.front() == 0 && joint + 1 < rig.n() &&
+        cable.link[joint + 1].radius.front() != 0) {
+      pulley_of(cable, true, joint) = round_map(0.003 * size);
+      return;
+    }
+  throw NotPossible("every cable of the next joint moves with this one");
+}
+
 inline const std::vector<JointEffect>& joint_effects() {
   const auto stribeck = [](double a, double, double v) {
     return a * sign_of(v) * std::exp(-std::pow(v / 0.3, 2));
@@ -92,6 +128,11 @@ inline const std::vector<JointEffect>& joint_effects() {
               [](double a, double, double v) { return a * sign_of(v) * std::cbrt(std::abs(v)); }),
       {"tension_friction", "motor", hide_tension_friction},
       {"cable_damping", "transmission", hide_cable_damping},
+      {"cable_radius", "link",
+       [](PlainRig& rig, std::size_t joint, double size) { hide_radius(rig, true, joint, size); }},
+      {"cable_radius", "motor",
+       [](PlainRig& rig, std::size_t joint, double size) { hide_radius(rig, false, joint, size); }},
+      {"forgotten_radius", "link", forget_radius},
       {"torque_gain", "drive", [](PlainRig& rig, std::size_t joint, double size) {
          rig.joints[joint].gain = 1 + 0.2 * size;
        }}};

@@ -15,10 +15,10 @@ constexpr ParameterInfo kPresliding[] = {
      "part of the dry friction that builds up by presliding, at most all of it", 0},
     {"distance", "d", "rad", "distance after which 63 % of it has built up", 1e-6}};
 
-// Two to eight periods over the range: with fewer any smooth function of position passes for them,
-// as friction that grows with a load that depends on position.
+// One and a half to eight periods over the range: with fewer any smooth function of position passes
+// for them, as friction that grows with a load that depends on position.
 constexpr ShapeGrid kOrder[] = {
-    {.low = 6.3, .high = 25, .n_values = 32, .is_geometric = false, .unit = GridUnit::per_travel}};
+    {.low = 4.7, .high = 25, .n_values = 35, .is_geometric = false, .unit = GridUnit::per_travel}};
 constexpr ShapeGrid kDistance[] = {{.low = 0.2e-3, .high = 20e-3, .n_values = 9}};
 
 template <Site kSide>

@@ -9,6 +9,9 @@ namespace cablefit::rows {
 /// The paper's model, side by side.
 std::vector<Effect> base();
 
+/// Of the rig file. They have no function.
+std::vector<Effect> rig_errors();
+
 // Torques that depend on nothing but the side, or on position.
 Effect constant_torque();
 Effect asymmetric_coulomb(Site side);

@@ -65,4 +65,10 @@ void set_motor_radius(Transmission& transmission, std::size_t cable, std::size_t
   set_reference(transmission, transmission.reference);
 }
 
+void set_link_radius(Transmission& transmission, std::size_t cable, std::size_t joint,
+                     double radius) {
+  transmission.cables[cable].link_map[joint] = round_pulley(radius);
+  set_reference(transmission, transmission.reference);
+}
+
 }  // namespace cablefit

@@ -31,5 +31,8 @@ void refuse_searched_radius(const Rig& rig, std::string_view who);
 /// reference pose.
 void set_motor_radius(Transmission& transmission, std::size_t cable, std::size_t joint,
                       double radius);
+/// The same on the link.
+void set_link_radius(Transmission& transmission, std::size_t cable, std::size_t joint,
+                     double radius);
 
 }  // namespace cablefit

@@ -261,17 +261,19 @@ std::vector<ReplacedColumns> columns_of_torque(const StretchRows& kept, const Re
   return replaced;
 }
 
-std::vector<ReplacedColumns> columns_of_cables(const StretchRows& kept, const BaseLayout& before,
-                                               const Model& model, const BaseLayout& layout,
-                                               const Smoothing& wanted, Evaluation evaluation) {
-  const Smoothing smoothing = suited(wanted, kept.motion->period);
+std::vector<ReplacedColumns> columns_of_cables(const SmoothMotion& motion,
+                                               const std::vector<KindRows>& kinds,
+                                               const BaseLayout& before, const Model& model,
+                                               const BaseLayout& layout, const Smoothing& wanted,
+                                               Evaluation evaluation) {
+  const Smoothing smoothing = suited(wanted, motion.period);
   const Eigen::Index every = spacing(smoothing, evaluation);
-  const SmoothMotion motion = thinned_positions(*kept.motion, every);
-  const Kernel filter = gaussian(smoothing.columns, motion.period);
+  const SmoothMotion positions = thinned_positions(motion, every);
+  const Kernel filter = gaussian(smoothing.columns, positions.period);
   std::vector<ReplacedColumns> replaced;
-  for (const KindRows& k : kept.kinds) {
-    Eigen::MatrixXd elastic(motion.size(), layout.n_elastic);
-    fill_elastic(model, motion, k.kind == RowKind::link, elastic);
+  for (const KindRows& k : kinds) {
+    Eigen::MatrixXd elastic(positions.size(), layout.n_elastic);
+    fill_elastic(model, positions, k.kind == RowKind::link, elastic);
     replaced.push_back({1 + before.n_link + before.n_motor, before.n_elastic,
                         apply_at(filter, elastic, thinned(k.at, every))});
   }

@@ -79,14 +79,16 @@ struct ReplacedColumns {
 };
 
 /// Changes per kind of row where positions stay the same: another torque changes the response,
-/// other cables change the elastic columns. `kept`: rows with the columns of `before`, possibly
-/// followed by others.
+/// other cables change the elastic columns. `kept`, `kinds`: rows with the columns of `before`,
+/// possibly followed by others; `motion`: theirs.
 std::vector<ReplacedColumns> columns_of_torque(const StretchRows& kept, const Recording& changed,
                                                const Model& model, const Smoothing& wanted,
                                                Evaluation evaluation);
-std::vector<ReplacedColumns> columns_of_cables(const StretchRows& kept, const BaseLayout& before,
-                                               const Model& model, const BaseLayout& layout,
-                                               const Smoothing& wanted, Evaluation evaluation);
+std::vector<ReplacedColumns> columns_of_cables(const SmoothMotion& motion,
+                                               const std::vector<KindRows>& kinds,
+                                               const BaseLayout& before, const Model& model,
+                                               const BaseLayout& layout, const Smoothing& wanted,
+                                               Evaluation evaluation);
 
 /// Writes the replaced columns into the rows.
 void put_in(StretchRows& rows, const std::vector<ReplacedColumns>& replaced);

@@ -172,9 +172,9 @@ std::vector<std::vector<ReplacedColumns>> columns_of_other_cables(const Design& 
   const BaseLayout layout = base_layout(models->front());
   std::vector<std::vector<ReplacedColumns>> replaced;
   for (std::size_t k = 0; k < design.stretches.size(); ++k)
-    replaced.push_back(columns_of_cables(design.rows[k], design.layout,
-                                         (*models)[design.stretches[k].model], layout,
-                                         design.smoothing, evaluation));
+    replaced.push_back(columns_of_cables(*design.rows[k].motion, design.rows[k].kinds,
+                                         design.layout, (*models)[design.stretches[k].model],
+                                         layout, design.smoothing, evaluation));
   return replaced;
 }
 

@@ -129,8 +129,12 @@ SummaryLine evidence_line(const NamedEffect& effect, bool held_out_blocks) {
                                   chance_text(evidence), percent(evidence.inclusion))};
 }
 
-std::string rival_text(const Rival& rival, const RefineResult& result) {
+/// Whether it was not found by a search among simulated data sets, but from several joints.
+bool is_of_joints(const NamedEffect& effect) { return effect.evidence.n_draws == 0; }
+
+std::string rival_text(const Rival& rival, const NamedEffect& effect, const RefineResult& result) {
   const std::string name = effect_text(rival.name, rival.side, rival.joint, result);
+  if (is_of_joints(effect) && !rival.by_rule) return name + " explains the logs as well";
   if (rival.by_rule) return name + " is the same in any log of the usual kind";
   return fmt::format("{} removes {}, {} sd less", name, percent(rival.gain),
                      significant(std::max(0.0, rival.difference), 2));
@@ -140,8 +144,9 @@ std::string rival_text(const Rival& rival, const RefineResult& result) {
 SummaryLine rivals_line(const NamedEffect& effect, const RefineResult& result, bool is_first) {
   std::string text;
   for (const Rival& rival : effect.rivals)
-    text += (text.empty() ? "" : "; ") + rival_text(rival, result);
+    text += (text.empty() ? "" : "; ") + rival_text(rival, effect, result);
   if (!text.empty()) return {"rivals", text};
+  if (is_of_joints(effect)) return {"rivals", "none"};
   const Effect& row = *effect.instance.effect;
   const std::vector<Rival>& ranking = result.ranking;
   const auto next = std::find_if(ranking.begin(), ranking.end(), [&](const Rival& r) {

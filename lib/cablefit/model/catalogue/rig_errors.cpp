@@ -1,0 +1,29 @@
+#include "cablefit/model/catalogue/rows.hpp"
+
+// What several joints together show of the rig file.
+namespace cablefit::rows {
+namespace {
+
+constexpr ParameterInfo kRadius[] = {
+    {"radius", "r", "m", "of the pulley, with the sign of the rig file"}};
+
+Effect cable_radius(Site side) {
+  constexpr TwoSides<std::string_view> kEquation{
+      "l = ... - r q, r not the link_radius of the rig file",
+      "l = ... + r theta, r not the motor_radius of the rig file"};
+  return {.name = "cable_radius",
+          .site = side,
+          .equation = kEquation.at(side),
+          .signature =
+              "an elongation of one cable proportional to the motion of one joint, in the "
+              "equations of every joint that the cable passes",
+          .experiment = "move this joint with the others at rest",
+          .source = "Fichera & Grossard 2017, (3)-(4)",
+          .parameters = kRadius};
+}
+
+}  // namespace
+
+std::vector<Effect> rig_errors() { return {cable_radius(Site::link), cable_radius(Site::motor)}; }
+
+}  // namespace cablefit::rows

@@ -1,0 +1,249 @@
+#include "cablefit/refine/wrong_radius.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/estimate/spread/tail_probability.hpp"
+#include "cablefit/refine/own_base.hpp"
+#include "cablefit/refine/rows/levels.hpp"
+#include "cablefit/refine/search/golden.hpp"
+
+namespace cablefit {
+namespace {
+
+constexpr double kFirstStep = 0.005;  // of the cable's largest radius
+constexpr int kMostDoublings = 9;     // to over twice the largest radius
+constexpr std::size_t kLookedAt = 4;  // pulleys that are fitted, of those that promise most
+
+double largest_radius(const Cable& cable) {
+  double largest = 0;
+  for (const auto* maps : {&cable.motor_map, &cable.link_map})
+    for (const DisplacementMap& map : *maps) largest = std::max(largest, std::abs(map.radius(0)));
+  return largest;
+}
+
+/// How much the squared residual falls, as far as a few radii show.
+struct Promise {
+  Pulley pulley;
+  double from = 0, step = 0;  ///< m, changes of the radius: the minimum is from `from` on, in steps
+  double fall = 0;
+};
+
+/// Near the given radius, by a parabola as narrow as it must be: over a wide one errors of a cable
+/// that is too long and too short differ.
+std::optional<Promise> near_promise(const RadiusFit& fit, const Pulley& pulley, double h) {
+  constexpr int kTimes = 4;
+  constexpr double kNarrower = 0.2;
+  const auto same = fit.errors(pulley, 0, false);
+  for (int i = 0; same && i < kTimes; ++i, h *= kNarrower) {
+    const auto less = fit.errors(pulley, -h, false), more = fit.errors(pulley, h, false);
+    if (!less || !more) return {};
+    const double slope = (more->sum() - less->sum()) / 2;
+    const double least = std::min(less->sum(), more->sum());
+    if (least > same->sum() && i + 1 < kTimes) continue;
+    const double bend = more->sum() - 2 * same->sum() + less->sum();
+    const double fall = bend > 0 ? slope * slope / (2 * bend) : same->sum() - least;
+    return Promise{pulley, 0, slope > 0 ? -h : h, fall};
+  }
+  return {};
+}
+
+/// Of a pulley that the rig file does not have. Its cable is longer by more than curves are
+/// straight.
+std::optional<Promise> far_promise(const RadiusFit& fit, const Pulley& pulley, double largest) {
+  constexpr int kSteps = 6;
+  constexpr double kStep = 0.2;
+  const auto same = fit.errors(pulley, 0, false);
+  if (!same) return {};
+  Promise best{pulley, 0, 0, 0};
+  for (int i = -kSteps; i <= kSteps; ++i) {
+    const double change = i * kStep * largest;
+    const auto errors = fit.errors(pulley, change, false);
+    if (!errors || !(same->sum() - errors->sum() > best.fall)) continue;
+    best.fall = same->sum() - errors->sum();
+    best.from = (std::abs(i) - 1) * kStep * (i < 0 ? -largest : largest);
+    best.step = change - best.from;
+  }
+  if (best.step == 0) return {};
+  return best;
+}
+
+std::optional<Promise> promise_of(const RadiusFit& fit, const Pulley& pulley) {
+  const double largest = largest_radius(fit.model().transmission.cables[pulley.cable]);
+  const auto near = near_promise(fit, pulley, kFirstStep * largest);
+  if (radius_of(fit.model().transmission, pulley) != 0) return near;
+  const auto far = far_promise(fit, pulley, largest);
+  return far && (!near || far->fall > near->fall) ? far : near;
+}
+
+std::vector<Promise> most_promising(const RadiusFit& fit) {
+  std::vector<Promise> all;
+  for (const Pulley& pulley : fit.pulleys())
+    if (const auto promise = promise_of(fit, pulley)) all.push_back(*promise);
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Promise& a, const Promise& b) { return a.fall > b.fall; });
+  return all;
+}
+
+/// By a parabola through three radii around one (h in m).
+struct Minimum {
+  double step = 0;  ///< m, from the middle one
+  /// m, the sandwich over blocks of time: slopes of their own errors over the curvature of the sum.
+  double sd = 0;
+  double dof = 1;
+};
+
+std::optional<Minimum> minimum_near(const RadiusFit& fit, const Pulley& pulley, double change,
+                                    double h) {
+  const auto less = fit.errors(pulley, change - h, false), same = fit.errors(pulley, change, false),
+             more = fit.errors(pulley, change + h, false);
+  if (!less || !same || !more) return {};
+  const Eigen::ArrayXd slopes = (more->in_sample - less->in_sample) / (2 * h);
+  const double bend = (more->sum() - 2 * same->sum() + less->sum()) / (h * h);
+  if (!(bend > 0)) return {};
+  const double scatter = std::sqrt((slopes - slopes.mean()).square().sum());
+  return Minimum{-slopes.sum() / bend, scatter / bend,
+                 std::max(1.0, static_cast<double>(slopes.size()) - 1)};
+}
+
+/// A radius with the least squared residual.
+struct Fitted {
+  Pulley pulley;
+  double change = 0;  ///< m
+  Minimum near;
+  RadiusFit::Errors errors;
+};
+
+double first_step(const Transmission& transmission, const Pulley& pulley) {
+  return kFirstStep * largest_radius(transmission.cables[pulley.cable]);
+}
+
+std::optional<Fitted> fitted(const RadiusFit& fit, const Promise& promise) {
+  const auto sum_at = [&](double change) {
+    const auto errors = fit.errors(promise.pulley, change, false);
+    return errors ? errors->sum() : kUnbounded;
+  };
+  double before = promise.from, at = promise.from + promise.step, least = sum_at(at);
+  double beyond = at + promise.step;
+  for (int i = 0; i < kMostDoublings; ++i) {
+    const double next = sum_at(beyond);
+    if (!(next < least)) break;
+    least = next;
+    before = at;
+    at = beyond;
+    beyond = at + 2 * (at - before);
+  }
+  double low = before, high = beyond;
+  for (int i = 0; i < 2; ++i) {  // the golden section is exact to 1 % of its range
+    const double found = golden(low, high, sum_at);
+    const double width = 0.05 * std::abs(high - low);
+    low = found - width;
+    high = found + width;
+  }
+  const double change = (low + high) / 2;
+  const auto errors = fit.errors(promise.pulley, change, true);
+  const auto minimum = minimum_near(fit, promise.pulley, change,
+                                    first_step(fit.model().transmission, promise.pulley));
+  if (!errors || !minimum) return {};
+  return Fitted{promise.pulley, change, *minimum, *errors};
+}
+
+/// Whether both leave the same, to within the scatter over blocks of time.
+bool is_as_good(const Fitted& one, const Fitted& best, double all) {
+  constexpr double kSameSd = 2, kSameShare = 0.02;
+  if (one.errors.held_out.size() != best.errors.held_out.size())  // other joints show it
+    return false;
+  const Paired difference = paired(one.errors.held_out, best.errors.held_out);
+  return difference.in_sd() < kSameSd || difference.sum < kSameShare * all;
+}
+
+/// Logs whose rig has this radius.
+RefineLogs with_radius(RefineLogs logs, const Pulley& pulley, double radius) {
+  for (auto* some : {&logs.blocked, &logs.train, &logs.test})
+    for (LogSurvey& log : *some) set_radius(log.plan.rig.transmission, pulley, radius);
+  return logs;
+}
+
+/// Masses of coupled links as stage 2 finds them with the rig of these logs: no single joint
+/// determines all of them.
+void take_arm(const RefineLogs& logs, int threads, std::vector<Model>& models) {
+  if (!models.front().is_coupled()) return;
+  try {
+    for (const Model& started : own_base(logs, threads).models)
+      for (Model& model : models)
+        if (model.preload == started.preload) model.arm = started.arm;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::not_identifiable) throw;
+  }
+}
+
+}  // namespace
+
+std::optional<WrongRadius> wrong_radius(const std::vector<Model>& models, const RefineLogs& logs,
+                                        double significance) {
+  const RadiusFit fit(models, logs);
+  const std::vector<Promise> promises = most_promising(fit);
+  std::vector<Fitted> found;
+  for (std::size_t k = 0; k < std::min(kLookedAt, promises.size()); ++k)
+    if (auto one = fitted(fit, promises[k])) found.push_back(*std::move(one));
+  const Fitted* best = nullptr;
+  double most = 0;
+  for (const Fitted& one : found) {
+    const double fall = fit.errors(one.pulley, 0, false)->sum() - one.errors.sum();
+    if (fall > most) best = &one;
+    most = std::max(most, fall);
+  }
+  if (best == nullptr || !(best->near.sd > 0)) return {};
+  WrongRadius wrong;
+  wrong.pulley = best->pulley;
+  wrong.given = radius_of(models.front().transmission, wrong.pulley);
+  wrong.radius = wrong.given + best->change;
+  wrong.sd = best->near.sd;
+  wrong.dof = best->near.dof;
+  wrong.chance = std::min(1.0, static_cast<double>(promises.size()) *
+                                   t_tail(std::abs(best->change) / wrong.sd, wrong.dof));
+  const double all = fit.errors(best->pulley, 0, false)->sum();
+  wrong.share = most / all;
+  for (const Fitted& one : found)
+    if (&one != best && is_as_good(one, *best, all)) wrong.rivals.push_back(one.pulley);
+  if (!(wrong.chance < significance)) return {};
+  return wrong;
+}
+
+namespace {
+
+/// By the weights of fits with the right radius.
+void set_share(const std::vector<Model>& models, const RefineLogs& logs, WrongRadius& wrong) {
+  const RadiusFit fit(models, logs);
+  const auto right = fit.errors(wrong.pulley, 0, true),
+             given = fit.errors(wrong.pulley, wrong.given - wrong.radius, true);
+  if (right && given && given->held_out.sum() > 0)
+    wrong.share = std::max(0.0, 1 - right->held_out.sum() / given->held_out.sum());
+}
+
+}  // namespace
+
+std::vector<Model> with_right_radius(std::span<const Model> given, const RefineLogs& logs,
+                                     int threads, WrongRadius& wrong) {
+  constexpr int kSteps = 4;
+  constexpr double kFarSd = 10, kNearSd = 0.1;
+  std::vector<Model> models = with_radius({given.begin(), given.end()}, wrong.pulley, wrong.radius);
+  double h = first_step(models.front().transmission, wrong.pulley);
+  for (int i = 0; i < kSteps; ++i) {
+    take_arm(with_radius(logs, wrong.pulley, wrong.radius), threads, models);
+    const RadiusFit fit(models, logs);
+    const auto minimum = minimum_near(fit, wrong.pulley, 0, h);
+    if (!minimum || !(minimum->sd > 0)) break;
+    wrong.radius += minimum->step;
+    wrong.sd = minimum->sd;
+    wrong.dof = minimum->dof;
+    models = with_radius(std::move(models), wrong.pulley, wrong.radius);
+    if (std::abs(minimum->step) < kNearSd * minimum->sd) break;
+    h = std::min(h, kFarSd * minimum->sd);
+  }
+  set_share(models, logs, wrong);
+  return models;
+}
+
+}  // namespace cablefit
