@@ -43,7 +43,7 @@ TEST_CASE("a wrong radius on a link is identified with cable and joint", "[refin
   const RefineResult result = refined(hidden).result;
   check_radius(result, 1, Site::link, 2, -0.0093);
   CHECK(result.joints[1].reason ==
-        "the link radius of cable 'extensor' is -9.3 mm by the motion of the joints (sd 0.009 um), "
+        "the link radius of cable 'extensor' is -9.3 mm by the motion of the joints (sd 0.2 um), "
         "-9 mm in the rig file");
 }
 

@@ -58,10 +58,8 @@ void set_joint(RefineResult& r) {
     for (std::string& effect : group.effects) effect = with_number(effect, r.joint);
     for (std::string& effect : group.still_together) effect = with_number(effect, r.joint);
   }
-  for (Figure& figure : r.figures) {
+  for (Figure& figure : r.figures)
     figure.section = fmt::format("Joint {}: {}", r.joint_name, figure.section);
-    if (figure.rank == FigureRank::main && r.joint > 1) figure.rank = FigureRank::shown;
-  }
 }
 
 template <typename List>
@@ -179,12 +177,20 @@ std::vector<Model> joined_models(std::span<const Model> models,
   return all;
 }
 
+/// A page begins with one joint only.
+void begin_with(int joint, std::vector<RefineResult>& joints) {
+  for (RefineResult& r : joints)
+    for (Figure& figure : r.figures)
+      if (figure.rank == FigureRank::main && r.joint != joint) figure.rank = FigureRank::shown;
+}
+
 RefineResult merged(std::span<const Model> models, std::vector<RefineResult> joints) {
   RefineResult all;
   all.models = joined_models(models, joints);
+  all.verdict = verdict_of(joints);
+  begin_with(leading(joints, all.verdict).joint, joints);
   for (const RefineResult& r : joints) append_lists(r, all);
   all.joints = std::move(joints);
-  all.verdict = verdict_of(all.joints);
   all.reason = reasons_of(all.joints);
   const RefineResult& first = leading(all.joints, all.verdict);
   all.inputs = first.inputs;

@@ -34,6 +34,15 @@ EffectInstance instance_of(const WrongRadius& wrong, const Model& model) {
   return instance;
 }
 
+/// The radius in the rig file, beside that which was found.
+Estimate given_radius(const WrongRadius& wrong, const Model& model) {
+  Estimate e;
+  e.name = e.symbol = with_cable("given", wrong.pulley, model);
+  e.unit = row_of(wrong.pulley).parameters.front().unit;
+  e.value = wrong.given;
+  return e;
+}
+
 std::vector<Rival> rivals_of(const WrongRadius& wrong, const Model& model) {
   std::vector<Rival> rivals;
   for (const Pulley& pulley : wrong.rivals) {
@@ -104,6 +113,7 @@ void name_radius(const WrongRadius& wrong, const Model& model,
                  const std::vector<RefineResult>& given, std::vector<RefineResult>& right) {
   NamedEffect effect;
   effect.instance = instance_of(wrong, model);
+  effect.derived = {given_radius(wrong, model)};
   effect.rivals = rivals_of(wrong, model);
   effect.joint = wrong.pulley.joint + 1;
   const double before = test_excess(given, right), after = test_excess(right, given);

@@ -27,6 +27,11 @@ double p_of(const RefineResult& r) {
   return r.search_p;
 }
 
+std::string p_text(const RefineResult& r) {
+  const double p = p_of(r);
+  return p < kLeastTestP ? "< " + number(kLeastTestP) : number(p);
+}
+
 /// Of several joints what each has.
 Table joint_table(const RefineResult& result) {
   const bool mixed = result.axes == Axes::mixed;  // then every number has its unit
@@ -52,7 +57,7 @@ Table joint_table(const RefineResult& result) {
     table.rows.push_back({r.joint_name, is_done ? std::string(to_string(r.verdict)) : "not refined",
                           effects, known(r.torque.test_before, unit),
                           known(r.torque.test_after, unit), known(r.torque.noise_floor, unit),
-                          known(p_of(r), "")});
+                          is_done ? p_text(r) : kNoNumber});
   }
   table.notes = {"each joint by its own equations, the measured motion of the others given"};
   return table;

@@ -104,7 +104,9 @@ SummaryLine kept_line(const KeptEffect& kept, const RefineResult& result) {
 
 /// Where none of the draws came as far, p says of what: a fit, and no more than the draws support.
 std::string chance_text(const RefineEvidence& e) {
-  if (e.n_draws == 0) return fmt::format("p = {:.1g} (t test of what joints share)", e.p_value);
+  if (e.n_draws == 0)
+    return fmt::format("p {} {:.1g} (t test of what joints share)",
+                       e.p_value < kLeastTestP ? "<" : "=", std::max(e.p_value, kLeastTestP));
   const double least = least_tail(e.n_draws);
   const bool is_least = e.is_fitted_tail && e.p_value <= least;
   return fmt::format("p {} {:.1g} ({} {} simulated data sets)", is_least ? "<" : "=",

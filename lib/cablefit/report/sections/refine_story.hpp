@@ -11,6 +11,9 @@ Headline refine_headline(const RefineResult& result);
 std::vector<SummaryLine> refine_story(const RefineResult& result,
                                       const std::vector<std::string>& model_files);
 
+/// Smaller p-values of a test are not printed: so far out no distribution is known.
+inline constexpr double kLeastTestP = 1e-6;
+
 /// "motor", of one of several joints "motor 2".
 std::string side_text(std::string_view side, int joint, const RefineResult& result);
 /// "stribeck (motor)", "stribeck (motor 2)".
