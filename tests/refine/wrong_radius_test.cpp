@@ -1,6 +1,7 @@
 // A radius that is not that of the rig file, of one pulley of a finger with two joints.
 #include <catch2/catch.hpp>
 
+#include "cablefit/refine/radius_fit.hpp"
 #include "tests/refine/refined_finger.hpp"
 
 namespace cablefit::test {
@@ -86,6 +87,16 @@ TEST_CASE("a wrong radius is identified beside an effect of another joint", "[re
   CHECK(result.effects[0].joint == 1);
   CHECK(result.effects[1].instance.effect->name == "cable_radius");
   CHECK(result.effects[1].joint == 2);
+}
+
+TEST_CASE("only round pulleys that a rig file gives can have a wrong radius", "[refine]") {
+  const Finger finger = refined(tendon_finger());
+  Model model = finger.result.models.at(0);
+  // Two links and a motor of each long cable. The third has a motor, and a radius of 0 on link 1;
+  // its pulley on link 2 is not round.
+  CHECK(pulleys_of(model).size() == 8);
+  model.rig.cables_given = false;
+  CHECK(pulleys_of(model).empty());
 }
 
 }  // namespace

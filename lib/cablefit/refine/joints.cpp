@@ -272,7 +272,8 @@ void try_radius(std::span<const Model> given, const RefineLogs& logs, const Refi
   if (!wrong) return;
   const std::vector<Model> models = with_right_radius(given, logs, options.threads, *wrong);
   JointRun right = run_joints(models, logs, options, refine_one);
-  if (!right.is_refined() || !is_explained(run.joints, right.joints)) return;
+  const RefineResult& own = right.joints[static_cast<std::size_t>(wrong->pulley.joint)];
+  if (!own.not_refined.empty() || !is_explained(run.joints, right.joints)) return;
   name_radius(*wrong, models.front(), run.joints, right.joints);
   run = std::move(right);
 }

@@ -6,15 +6,15 @@
 #include <cmath>
 
 #include "cablefit/estimate/fit/parameter_estimate.hpp"
+#include "cablefit/refine/verdict/conclusion.hpp"
 
 namespace cablefit {
 namespace {
 
 const Effect& row_of(const Pulley& pulley) {
   const std::span<const Effect> rows = rig_errors();
-  return *std::find_if(rows.begin(), rows.end(), [&](const Effect& row) {
-    return row.name == "cable_radius" && row.site == site_of(pulley.side);
-  });
+  return *std::find_if(rows.begin(), rows.end(),
+                       [&](const Effect& row) { return row.site == site_of(pulley.side); });
 }
 
 /// "radius[flexor]".
@@ -129,17 +129,14 @@ void name_radius(const WrongRadius& wrong, const Model& model,
         0.0, std::pow(own_given.torque.test_before, 2) - std::pow(own.torque.test_before, 2)));
   for (std::size_t k = 0; k < right.size(); ++k) take_before(given[k], right[k]);
   const std::string reason = fmt::format(
-      "the {} radius of cable '{}' is {:.4g} mm by the motion of the joints (sd {:.1g} um), {:.4g} "
-      "mm "
-      "in the rig file",
+      "the {} radius of cable '{}' is {:.4g} mm by the motion of the joints (sd {:.1g} um), "
+      "{:.4g} mm in the rig file",
       to_string(wrong.pulley.side), model.transmission.cables[wrong.pulley.cable].name,
       1e3 * wrong.radius, 1e6 * wrong.sd, 1e3 * wrong.given);
   own.reason = own.verdict == Verdict::none ? reason : reason + "; " + own.reason;
   if (!effect.rivals.empty()) own.next_experiment = effect.instance.effect->experiment;
   own.effects.insert(own.effects.begin(), std::move(effect));
-  const bool is_open = std::any_of(own.effects.begin(), own.effects.end(),
-                                   [](const NamedEffect& e) { return !e.rivals.empty(); });
-  own.verdict = is_open ? Verdict::ambiguous : Verdict::named;
+  own.verdict = verdict_by_rivals(own);
 }
 
 }  // namespace cablefit

@@ -37,6 +37,25 @@ double reference_of(const Model& whole, const Pulley& pulley) {
 
 }  // namespace
 
+std::vector<Pulley> pulleys_of(const Model& model) {
+  std::vector<Pulley> all;
+  if (!model.rig.cables_given) return all;
+  const std::vector<Cable>& cables = model.transmission.cables;
+  for (std::size_t cable = 0; cable < cables.size(); ++cable) {
+    if (cables[cable].has_pairs()) continue;
+    for (int joint = 0; joint < static_cast<int>(model.joints.size()); ++joint) {
+      if (model.rig.axes.of(joint) != Axes::rotary) continue;
+      for (const Side side : {Side::link, Side::motor}) {
+        const Pulley pulley{cable, joint, side};
+        const DisplacementMap& map = map_of(cables[cable], pulley, place(joint));
+        if (map.kind->constant_radius && (side == Side::link || !map.is_zero()))
+          all.push_back(pulley);
+      }
+    }
+  }
+  return all;
+}
+
 double radius_of(const Transmission& transmission, const Pulley& pulley) {
   return map_of(transmission.cables[pulley.cable], pulley, place(pulley.joint)).radius(0);
 }
@@ -60,22 +79,6 @@ RadiusFit::RadiusFit(const std::vector<Model>& models, const RefineLogs& logs) :
     joints_.back()->design.states.clear();  // these are most of its memory
     joints_.back()->design.coarse_states.clear();
   }
-}
-
-std::vector<Pulley> RadiusFit::pulleys() const {
-  std::vector<Pulley> all;
-  const std::vector<Cable>& cables = model().transmission.cables;
-  for (std::size_t cable = 0; cable < cables.size(); ++cable) {
-    if (cables[cable].has_pairs()) continue;
-    for (int joint = 0; joint < static_cast<int>(joints_.size()); ++joint)
-      for (const Side side : {Side::link, Side::motor}) {
-        const Pulley pulley{cable, joint, side};
-        const DisplacementMap& map = map_of(cables[cable], pulley, place(joint));
-        if (map.kind->constant_radius && (side == Side::link || !map.is_zero()))
-          all.push_back(pulley);
-      }
-  }
-  return all;
 }
 
 Eigen::ArrayXd RadiusFit::travel(const Pulley& pulley, std::size_t stretch) const {

@@ -18,10 +18,12 @@ struct Pulley {
   std::size_t cable = 0;
   int joint = 0;
   Side side = Side::link;
-
-  bool operator==(const Pulley&) const = default;
 };
 
+/// Round pulleys on joints that turn, and links that the cable passes with radius 0. None where the
+/// rig file gives no cables: radii are then 1 by definition. `model`: of all joints.
+std::vector<Pulley> pulleys_of(const Model& model);
+/// m, signed.
 double radius_of(const Transmission& transmission, const Pulley& pulley);
 void set_radius(Transmission& transmission, const Pulley& pulley, double radius);
 /// Models of all joints with this radius (m, signed).
@@ -34,13 +36,10 @@ class RadiusFit {
 
   const Model& model() const { return models_.front(); }
 
-  /// Round pulleys, and the joints of the others that a cable does not pass according to the rig.
-  std::vector<Pulley> pulleys() const;
-
-  /// Squared residuals over those levels that the joints have with the given radius, per block of
-  /// time of the moving and blocked logs, for one joint after the other that the cable passes. The
-  /// linear parameters are fitted anew. `change` (m) is added to the radius. Nothing where the rows
-  /// do not determine them, or where no joint that the cable passes has a fit.
+  /// Squared residuals of the joints that the cable passes, one joint after the other, per block of
+  /// time. Weights are those of the fits with the given radius. `change` (m) is added to the
+  /// radius, and the linear parameters are fitted anew. Nothing where the rows do not determine
+  /// them, or where no joint that the cable passes has a fit.
   struct Errors {
     Eigen::ArrayXd in_sample, held_out;  ///< held_out: the other blocks predict it; or empty
     double sum() const { return in_sample.sum(); }

@@ -12,6 +12,7 @@
 #include "cablefit/refine/kept_joint.hpp"
 #include "cablefit/refine/scaled_torque.hpp"
 #include "cablefit/refine/shared_gap.hpp"
+#include "cablefit/refine/verdict/conclusion.hpp"
 
 namespace cablefit {
 namespace {
@@ -184,12 +185,6 @@ void take_scale(const JointScale& scale, const EffectInstance& instead, RefineRe
   }
 }
 
-void set_verdict(RefineResult& r) {
-  const bool is_open = std::any_of(r.effects.begin(), r.effects.end(),
-                                   [](const NamedEffect& e) { return !e.rivals.empty(); });
-  r.verdict = is_open ? Verdict::ambiguous : Verdict::named;
-}
-
 void add_torque_gain(const JointScale& scale, const Model& agreed, const RefineLogs& logs,
                      RefineResult& r) {
   const SharedGap gap = shared_gap(r.models, one_joint(agreed, r.joint - 1), logs);
@@ -215,7 +210,7 @@ void add_torque_gain(const JointScale& scale, const Model& agreed, const RefineL
     r.next_run.reset();
   }
   r.effects.push_back(std::move(effect));
-  set_verdict(r);
+  r.verdict = verdict_by_rivals(r);
 }
 
 /// A wrong torque and a wrong load are not separable with one joint. With the right one of the two
@@ -238,7 +233,7 @@ void decide_scale(const JointScale& scale, NamedEffect& own, RefineResult& r) {
   }
   std::erase_if(own.rivals, [](const Rival& rival) { return rival.by_rule; });
   if (r.next_experiment.starts_with(own.instance.effect->experiment)) r.next_experiment.clear();
-  if (r.verdict == Verdict::ambiguous) set_verdict(r);
+  if (r.verdict == Verdict::ambiguous) r.verdict = verdict_by_rivals(r);
 }
 
 }  // namespace

@@ -31,40 +31,40 @@ struct Promise {
   Pulley pulley;
   double from = 0, step = 0;  ///< m, changes of the radius: the minimum is from `from` on, in steps
   double fall = 0;
+  double given = 0;  ///< squared residual with the given radius
 };
 
-/// Near the given radius, by a parabola as narrow as it must be: over a wide one errors of a cable
-/// that is too long and too short differ.
-std::optional<Promise> near_promise(const RadiusFit& fit, const Pulley& pulley, double h) {
+/// Near the given radius, by a parabola. It must be narrow: a cable that is too long and one that
+/// is too short do not leave the same residual. `given`: squared residual with the given radius.
+std::optional<Promise> near_promise(const RadiusFit& fit, const Pulley& pulley, double given,
+                                    double h) {
   constexpr int kTimes = 4;
   constexpr double kNarrower = 0.2;
-  const auto same = fit.errors(pulley, 0, false);
-  for (int i = 0; same && i < kTimes; ++i, h *= kNarrower) {
+  for (int i = 0; i < kTimes; ++i, h *= kNarrower) {
     const auto less = fit.errors(pulley, -h, false), more = fit.errors(pulley, h, false);
     if (!less || !more) return {};
     const double slope = (more->sum() - less->sum()) / 2;
     const double least = std::min(less->sum(), more->sum());
-    if (least > same->sum() && i + 1 < kTimes) continue;
-    const double bend = more->sum() - 2 * same->sum() + less->sum();
-    const double fall = bend > 0 ? slope * slope / (2 * bend) : same->sum() - least;
-    return Promise{pulley, 0, slope > 0 ? -h : h, fall};
+    if (least > given && i + 1 < kTimes) continue;
+    const double bend = more->sum() - 2 * given + less->sum();
+    const double fall = bend > 0 ? slope * slope / (2 * bend) : given - least;
+    return Promise{pulley, 0, slope > 0 ? -h : h, fall, given};
   }
   return {};
 }
 
-/// Of a pulley that the rig file does not have. Its cable is longer by more than curves are
-/// straight.
-std::optional<Promise> far_promise(const RadiusFit& fit, const Pulley& pulley, double largest) {
+/// Of a pulley that the rig file does not have, among radii up to more than the largest one of its
+/// cable: too far for a parabola.
+std::optional<Promise> far_promise(const RadiusFit& fit, const Pulley& pulley, double given,
+                                   double largest) {
   constexpr int kSteps = 6;
   constexpr double kStep = 0.2;
-  const auto same = fit.errors(pulley, 0, false);
-  if (!same) return {};
-  Promise best{pulley, 0, 0, 0};
+  Promise best{pulley, 0, 0, 0, given};
   for (int i = -kSteps; i <= kSteps; ++i) {
     const double change = i * kStep * largest;
     const auto errors = fit.errors(pulley, change, false);
-    if (!errors || !(same->sum() - errors->sum() > best.fall)) continue;
-    best.fall = same->sum() - errors->sum();
+    if (!errors || !(given - errors->sum() > best.fall)) continue;
+    best.fall = given - errors->sum();
     best.from = (std::abs(i) - 1) * kStep * (i < 0 ? -largest : largest);
     best.step = change - best.from;
   }
@@ -74,22 +74,25 @@ std::optional<Promise> far_promise(const RadiusFit& fit, const Pulley& pulley, d
 
 std::optional<Promise> promise_of(const RadiusFit& fit, const Pulley& pulley) {
   const double largest = largest_radius(fit.model().transmission.cables[pulley.cable]);
-  const auto near = near_promise(fit, pulley, kFirstStep * largest);
+  const auto errors = fit.errors(pulley, 0, false);
+  if (!errors) return {};
+  const double given = errors->sum();
+  const auto near = near_promise(fit, pulley, given, kFirstStep * largest);
   if (radius_of(fit.model().transmission, pulley) != 0) return near;
-  const auto far = far_promise(fit, pulley, largest);
+  const auto far = far_promise(fit, pulley, given, largest);
   return far && (!near || far->fall > near->fall) ? far : near;
 }
 
-std::vector<Promise> most_promising(const RadiusFit& fit) {
+std::vector<Promise> most_promising(const RadiusFit& fit, const std::vector<Pulley>& pulleys) {
   std::vector<Promise> all;
-  for (const Pulley& pulley : fit.pulleys())
+  for (const Pulley& pulley : pulleys)
     if (const auto promise = promise_of(fit, pulley)) all.push_back(*promise);
   std::stable_sort(all.begin(), all.end(),
                    [](const Promise& a, const Promise& b) { return a.fall > b.fall; });
   return all;
 }
 
-/// By a parabola through three radii around one (h in m).
+/// The minimum of a parabola through three radii, `h` (m) apart.
 struct Minimum {
   double step = 0;  ///< m, from the middle one
   /// m, the sandwich over blocks of time: slopes of their own errors over the curvature of the sum.
@@ -116,6 +119,9 @@ struct Fitted {
   double change = 0;  ///< m
   Minimum near;
   RadiusFit::Errors errors;
+  double given = 0;  ///< squared residual with the given radius
+
+  double fall() const { return given - errors.sum(); }
 };
 
 double first_step(const Transmission& transmission, const Pulley& pulley) {
@@ -149,16 +155,16 @@ std::optional<Fitted> fitted(const RadiusFit& fit, const Promise& promise) {
   const auto minimum = minimum_near(fit, promise.pulley, change,
                                     first_step(fit.model().transmission, promise.pulley));
   if (!errors || !minimum) return {};
-  return Fitted{promise.pulley, change, *minimum, *errors};
+  return Fitted{promise.pulley, change, *minimum, *errors, promise.given};
 }
 
 /// Whether both leave the same, to within the scatter over blocks of time.
-bool is_as_good(const Fitted& one, const Fitted& best, double all) {
+bool is_as_good(const Fitted& one, const Fitted& best) {
   constexpr double kSameSd = 2, kSameShare = 0.02;
   if (one.errors.held_out.size() != best.errors.held_out.size())  // other joints show it
     return false;
   const Paired difference = paired(one.errors.held_out, best.errors.held_out);
-  return difference.in_sd() < kSameSd || difference.sum < kSameShare * all;
+  return difference.in_sd() < kSameSd || difference.sum < kSameShare * best.given;
 }
 
 /// Logs whose rig has this radius.
@@ -185,18 +191,16 @@ void take_arm(const RefineLogs& logs, int threads, std::vector<Model>& models) {
 
 std::optional<WrongRadius> wrong_radius(const std::vector<Model>& models, const RefineLogs& logs,
                                         double significance) {
+  const std::vector<Pulley> pulleys = pulleys_of(models.front());
+  if (pulleys.empty()) return {};
   const RadiusFit fit(models, logs);
-  const std::vector<Promise> promises = most_promising(fit);
+  const std::vector<Promise> promises = most_promising(fit, pulleys);
   std::vector<Fitted> found;
   for (std::size_t k = 0; k < std::min(kLookedAt, promises.size()); ++k)
     if (auto one = fitted(fit, promises[k])) found.push_back(*std::move(one));
   const Fitted* best = nullptr;
-  double most = 0;
-  for (const Fitted& one : found) {
-    const double fall = fit.errors(one.pulley, 0, false)->sum() - one.errors.sum();
-    if (fall > most) best = &one;
-    most = std::max(most, fall);
-  }
+  for (const Fitted& one : found)
+    if (one.fall() > (best != nullptr ? best->fall() : 0)) best = &one;
   if (best == nullptr || !(best->near.sd > 0)) return {};
   WrongRadius wrong;
   wrong.pulley = best->pulley;
@@ -206,10 +210,9 @@ std::optional<WrongRadius> wrong_radius(const std::vector<Model>& models, const 
   wrong.dof = best->near.dof;
   wrong.chance = std::min(1.0, static_cast<double>(promises.size()) *
                                    t_tail(std::abs(best->change) / wrong.sd, wrong.dof));
-  const double all = fit.errors(best->pulley, 0, false)->sum();
-  wrong.share = most / all;
+  wrong.share = best->fall() / best->given;
   for (const Fitted& one : found)
-    if (&one != best && is_as_good(one, *best, all)) wrong.rivals.push_back(one.pulley);
+    if (&one != best && is_as_good(one, *best)) wrong.rivals.push_back(one.pulley);
   if (!(wrong.chance < significance)) return {};
   return wrong;
 }

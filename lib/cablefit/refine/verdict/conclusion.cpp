@@ -167,6 +167,12 @@ double closed_share(const Gaps& gaps) {
   return (before - after) / std::max(1e-9, before - 1);
 }
 
+Verdict verdict_by_rivals(const RefineResult& result) {
+  const bool is_open = std::any_of(result.effects.begin(), result.effects.end(),
+                                   [](const NamedEffect& e) { return !e.rivals.empty(); });
+  return is_open ? Verdict::ambiguous : Verdict::named;
+}
+
 void conclude(RefineResult& result) {
   const double rho = result.rho_before;
   if (!result.effects.empty()) {

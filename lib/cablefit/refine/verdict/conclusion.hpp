@@ -54,6 +54,9 @@ bool shows_gap(const Gaps& gaps);
 /// wrong ones.
 inline constexpr double kLeastClosed = 0.5;
 
+/// `named`, or `ambiguous` where an effect has rivals. For a result with effects.
+Verdict verdict_by_rivals(const RefineResult& result);
+
 /// Sets verdict, reason and next experiment of a result with its final effects.
 void conclude(RefineResult& result);
 
