@@ -130,6 +130,20 @@ Model planar() {
   return model;
 }
 
+/// A thumb, whose first axis is at right angles to the others.
+Model spatial() {
+  const TempFolder folder;
+  folder.write("finger.urdf", urdf_text(thumb(), "finger"));
+  Model model;
+  model.rig = read_rig(folder.write(
+      "rig.json", rig_text(thumb_rig(), R"( "arm": {"type": "urdf", "file": "finger.urdf"},)")));
+  model.joints.resize(3);
+  model.transmission = model.rig.transmission;
+  for (const ParameterInfo& info : model.rig.arm.base_parameters())
+    model.arm.push_back(known(std::string(info.name), 1, 0.1));
+  return model;
+}
+
 TEST_CASE("alone, a link of an arm turns its M_kk", "[model]") {
   const Model whole = planar();
   // M at q = 0 of a planar arm: M11 = ZZ1' + ZZ2 + 2 L1 MX2, M22 = ZZ2 (Khalil & Dombre 2004).
@@ -149,6 +163,24 @@ TEST_CASE("an equation has columns for the base parameters that it can tell", "[
   Model vague = planar();
   vague.arm[2].sd = 2 * vague.arm[2].value;  // not known to within its size
   CHECK(determined_arm_columns(one_joint(vague, 1)) == std::vector<Eigen::Index>{1, 3});
+}
+
+TEST_CASE("a base parameter that turns only other axes has no column in an equation", "[model]") {
+  // Links 2 and 3 turn about axes at right angles to axis 1: their moments of inertia about these
+  // give no torque on it, only rounding.
+  const Model whole = spatial();
+  const std::vector<Eigen::Index> determined = determined_arm_columns(one_joint(whole, 0));
+  std::size_t n_missing = 0;
+  for (std::size_t k = 0; k < whole.arm.size(); ++k) {
+    const std::string& name = whole.arm[k].name;
+    const bool is_there = std::find(determined.begin(), determined.end(),
+                                    static_cast<Eigen::Index>(k)) != determined.end();
+    const bool turns_others = name.starts_with("YY2") || name.starts_with("YY3");
+    INFO(name);
+    CHECK(is_there != turns_others);
+    n_missing += turns_others ? 1 : 0;
+  }
+  CHECK(n_missing == 2);
 }
 
 TEST_CASE("the arm's base parameters come from the joint that knows each best", "[model]") {

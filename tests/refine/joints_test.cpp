@@ -35,8 +35,7 @@ TEST_CASE("an effect of one joint is named with its joint", "[refine]") {
 TEST_CASE("an effect of an arm is named with its joint", "[refine]") {
   PlainRig hidden = phalanges_rig();
   find_joint_effect("quadratic_drag", "link").hide(hidden, 1, 1);
-  const RefineResult result =
-      refined(hidden, R"( "arm": {"type": "urdf", "file": "finger.urdf"},)").result;
+  const RefineResult result = refined_arm(hidden).result;
   CHECK(result.verdict == Verdict::named);
   REQUIRE(result.effects.size() == 1);
   CHECK(result.effects[0].instance.effect->name == "quadratic_drag");
@@ -90,7 +89,7 @@ TEST_CASE("other joints distinguish a wrong torque from a wrong load", "[refine]
 }
 
 TEST_CASE("other joints distinguish a wrong load from a wrong torque", "[refine]") {
-  const RefineResult result = refined(tendon_finger(), "", {1.2}).result;
+  const RefineResult result = refined(tendon_finger(), {1.2}).result;
   CHECK(result.verdict == Verdict::named);
   REQUIRE(result.effects.size() == 1);
   const NamedEffect& effect = result.effects[0];
@@ -103,7 +102,7 @@ TEST_CASE("other joints distinguish a wrong load from a wrong torque", "[refine]
 }
 
 TEST_CASE("two joints with wrong loads do not confirm each other", "[refine]") {
-  const RefineResult result = refined(tendon_finger(), "", {1.2, 1.2}).result;
+  const RefineResult result = refined(tendon_finger(), {1.2, 1.2}).result;
   CHECK(result.verdict == Verdict::ambiguous);
   REQUIRE(result.effects.size() == 2);
   for (const NamedEffect& effect : result.effects) {
@@ -128,9 +127,7 @@ TEST_CASE("a wrong torque is named beside another effect of its joint", "[refine
 }
 
 TEST_CASE("without a load two wrong torques are not separable", "[refine]") {
-  const RefineResult result = refined(with_wrong_torque(phalanges_rig(), 1),
-                                      R"( "arm": {"type": "urdf", "file": "finger.urdf"},)")
-                                  .result;
+  const RefineResult result = refined_arm(with_wrong_torque(phalanges_rig(), 1)).result;
   CHECK(result.verdict == Verdict::ambiguous);
   REQUIRE(result.effects.size() == 1);
   const NamedEffect& effect = result.effects[0];

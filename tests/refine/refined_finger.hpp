@@ -40,15 +40,17 @@ inline std::string with_column_times(const std::string& text, const std::string&
   return out;
 }
 
-/// `more`: further keys of the rig file. `loads`: logged over true, of the first joints.
-inline Finger refined(const PlainRig& hidden, const std::string& more = "",
-                      const std::vector<double>& loads = {}) {
+/// `given`: what the rig file says; its arm is "finger.urdf". `more`: further keys. `loads`: logged
+/// over true, of the first joints.
+inline Finger refined_rig(const PlainRig& given, const PlainRig& hidden, const std::string& more,
+                          const std::vector<double>& loads = {}) {
   Finger finger;
-  finger.bench.folder().write("finger.urdf", urdf_text(phalanges(), "finger"));
-  finger.bench.rig =
-      read_rig(finger.bench.folder().write("rig.json", rig_text(tendon_finger(), more)));
+  if (const PlainArm* arm = given.link_dynamics.target<PlainArm>())
+    finger.bench.folder().write("finger.urdf", urdf_text(*arm, "finger"));
+  finger.bench.rig = read_rig(finger.bench.folder().write("rig.json", rig_text(given, more)));
+  const std::vector<double> held(given.n(), 0.1);
   RefineLogs logs;
-  logs.blocked = {finger.bench.add_text(blocked_log(hidden, {0.1, 0.1}, 60, 11, 200, 0, 0.005))};
+  logs.blocked = {finger.bench.add_text(blocked_log(hidden, held, 60, 11, 200, 0, 0.005))};
   std::string moving = moving_log(hidden, 20, 12);
   for (std::size_t k = 0; k < loads.size(); ++k)
     moving = with_column_times(moving, fmt::format("tau_load{}", k + 1), loads[k]);
@@ -57,6 +59,18 @@ inline Finger refined(const PlainRig& hidden, const std::string& more = "",
   options.n_draws = kDraws;
   finger.result = missing_effects(logs, options);
   return finger;
+}
+
+inline const char* const kWithArm = R"( "arm": {"type": "urdf", "file": "finger.urdf"},)";
+
+inline Finger refined(const PlainRig& hidden, const std::vector<double>& loads = {}) {
+  return refined_rig(tendon_finger(), hidden, "", loads);
+}
+inline Finger refined_arm(const PlainRig& hidden) {
+  return refined_rig(phalanges_rig(), hidden, kWithArm);
+}
+inline Finger refined_thumb(const PlainRig& hidden) {
+  return refined_rig(thumb_rig(), hidden, kWithArm);
 }
 
 }  // namespace cablefit::test

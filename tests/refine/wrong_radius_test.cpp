@@ -63,11 +63,9 @@ TEST_CASE("a pulley that the rig file does not have is identified", "[refine]") 
 TEST_CASE("a wrong radius of an arm does not change its masses", "[refine]") {
   PlainRig hidden = phalanges_rig();
   hidden.cables[0].link[1] = round_map(0.0072);
-  const RefineResult result =
-      refined(hidden, R"( "arm": {"type": "urdf", "file": "finger.urdf"},)").result;
+  const RefineResult result = refined_arm(hidden).result;
   check_radius(result, 0, Site::link, 2, 0.0072);
-  const RefineResult right =
-      refined(phalanges_rig(), R"( "arm": {"type": "urdf", "file": "finger.urdf"},)").result;
+  const RefineResult right = refined_arm(phalanges_rig()).result;
   for (std::size_t k = 0; k < right.models.at(0).arm.size(); ++k) {
     const Estimate &a = result.models.at(0).arm[k], &b = right.models[0].arm[k];
     INFO(a.name);

@@ -184,6 +184,18 @@ inline PlainArm phalanges() {
             plain_tensor(1.2e-5, 8e-5, 8e-5)}}};
 }
 
+/// A thumb: it swings about x at its base, and its two phalanges bend about y.
+inline PlainArm thumb() {
+  PlainArm arm = phalanges();
+  arm.links.insert(arm.links.begin(), {{0, 0, 0.01},
+                                       {0, 0, 0},
+                                       {1, 0, 0},
+                                       0.15,
+                                       {0.02, 0.002, 0.011},
+                                       plain_tensor(4e-5, 3e-5, 3e-5)});
+  return arm;
+}
+
 /// Seven joints as on common arms: axes at right angles, offsets at elbow and wrist.
 inline PlainArm seven_joints() {
   constexpr double kRight = 1.5707963267948966;

@@ -144,6 +144,20 @@ inline PlainRig phalanges_rig() {
   return rig;
 }
 
+/// One finger of the hand with the links of the thumb; no other torque acts on them.
+inline PlainRig thumb_rig() {
+  PlainRig rig = two_finger_hand();
+  rig.joints.resize(3);
+  rig.cables.resize(5);
+  for (PlainCable& cable : rig.cables) {
+    cable.motor.resize(3);
+    cable.link.resize(3);
+  }
+  rig.link_dynamics = thumb();
+  for (PlainJoint& joint : rig.joints) joint.load = 0;
+  return rig;
+}
+
 /// An arm of seven joints, a pair of cables per joint.
 inline PlainRig seven_joint_rig() {
   PlainRig rig;

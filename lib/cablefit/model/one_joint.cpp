@@ -198,11 +198,9 @@ bool is_coefficient(const Model& one, const std::string& name) {
                      });
 }
 
-/// Base parameters whose columns in the equation of a joint are not made of earlier ones. Modified
-/// Gram-Schmidt over columns of unit norm.
-std::vector<Eigen::Index> determined_arm_columns(const Model& whole, int joint) {
+/// Columns of all base parameters for 200 random motions of the arm, a matrix per joint.
+std::vector<Eigen::MatrixXd> random_arm_columns(const Model& whole) {
   constexpr Eigen::Index kSamples = 200;
-  constexpr double kOwnPart = 1e-6;  // rounding is 1e-15, a true part at random motions 0.1
   const auto n = static_cast<Eigen::Index>(whole.joints.size());
   Random random(1);
   Eigen::ArrayXXd motion[3];
@@ -210,13 +208,25 @@ std::vector<Eigen::Index> determined_arm_columns(const Model& whole, int joint) 
     table.resize(kSamples, n);
     for (double& x : table.reshaped()) x = random.normal();
   }
+  std::vector<Eigen::MatrixXd> all;
   Model one = whole;
-  one.joint = joint;
-  Eigen::MatrixXd columns = arm_columns(one, motion[0], motion[1], motion[2]);
+  for (one.joint = 0; one.joint < static_cast<int>(n); ++one.joint)
+    all.push_back(arm_columns(one, motion[0], motion[1], motion[2]));
+  return all;
+}
+
+/// Base parameters whose columns in the equation of a joint are neither 0 nor made of earlier ones.
+/// Modified Gram-Schmidt over columns of unit norm.
+std::vector<Eigen::Index> determined_arm_columns(const Model& whole, int joint) {
+  constexpr double kOwnPart = 1e-6;  // rounding is 1e-15, a true part at random motions 0.1
+  const std::vector<Eigen::MatrixXd> all = random_arm_columns(whole);
+  Eigen::MatrixXd columns = all[place(joint)];
   std::vector<Eigen::Index> determined;
   for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+    double largest = 0;  // of this parameter's torques on any joint
+    for (const Eigen::MatrixXd& of : all) largest = std::max(largest, of.col(k).norm());
     const double size = columns.col(k).norm();
-    if (!(size > 0)) continue;
+    if (!(size > kOwnPart * largest)) continue;
     columns.col(k) /= size;
     for (const Eigen::Index before : determined)
       columns.col(k) -= columns.col(before).dot(columns.col(k)) * columns.col(before);

@@ -10,9 +10,8 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/model/one_joint.hpp"
 #include "cablefit/refine/kept_joint.hpp"
-#include "cablefit/refine/named_radius.hpp"
+#include "cablefit/refine/rig_error.hpp"
 #include "cablefit/refine/torque_gains.hpp"
-#include "cablefit/refine/wrong_radius.hpp"
 
 namespace cablefit {
 namespace {
@@ -264,18 +263,19 @@ JointRun run_joints(std::span<const Model> given, const RefineLogs& logs,
   return run;
 }
 
-/// Again with the right radius where one of the rig file is wrong, and that explains what the
-/// joints show.
-void try_radius(std::span<const Model> given, const RefineLogs& logs, const RefineOptions& options,
-                const RefineOne& refine_one, JointRun& run) {
-  auto wrong = wrong_radius(run.models, logs, options.significance);
-  if (!wrong) return;
-  const std::vector<Model> models = with_right_radius(given, logs, options.threads, *wrong);
-  JointRun right = run_joints(models, logs, options, refine_one);
-  const RefineResult& own = right.joints[static_cast<std::size_t>(wrong->pulley.joint)];
-  if (!own.not_refined.empty() || !is_explained(run.joints, right.joints)) return;
-  name_radius(*wrong, models.front(), run.joints, right.joints);
-  run = std::move(right);
+/// Again with the right value where one of the rig file is wrong, and that explains what the joints
+/// show.
+void try_rig_errors(std::span<const Model> given, const RefineLogs& logs,
+                    const RefineOptions& options, const RefineOne& refine_one, JointRun& run) {
+  const RigErrorSearch search{given, run.models, logs, options.significance, options.threads};
+  for (const RigError& error : rig_errors_of(search)) {
+    JointRun right = run_joints(error.models, with_rig(logs, error.change), options, refine_one);
+    const RefineResult& own = right.joints[static_cast<std::size_t>(error.joint)];
+    if (!own.not_refined.empty() || !is_explained(run.joints, right.joints)) continue;
+    name_rig_error(error, run.joints, right.joints);
+    run = std::move(right);
+    return;
+  }
 }
 
 }  // namespace
@@ -285,7 +285,7 @@ RefineResult refine_joints(std::span<const Model> given, const RefineLogs& logs,
   RefineOptions own = options;
   own.significance /= static_cast<double>(given.front().joints.size());
   JointRun run = run_joints(given, logs, own, refine_one);
-  if (run.any_gap()) try_radius(given, logs, own, refine_one, run);
+  if (run.any_gap()) try_rig_errors(given, logs, own, refine_one, run);
   if (!run.is_refined()) throw Error(*run.error);
   return merged(run.models, std::move(run.joints));
 }

@@ -1,11 +1,13 @@
 #include "cablefit/refine/wrong_radius.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/base/error.hpp"
+#include "cablefit/estimate/fit/parameter_estimate.hpp"
 #include "cablefit/estimate/spread/tail_probability.hpp"
-#include "cablefit/refine/own_base.hpp"
+#include "cablefit/refine/radius_fit.hpp"
 #include "cablefit/refine/rows/levels.hpp"
 #include "cablefit/refine/search/golden.hpp"
 
@@ -167,33 +169,21 @@ bool is_as_good(const Fitted& one, const Fitted& best) {
   return difference.in_sd() < kSameSd || difference.sum < kSameShare * best.given;
 }
 
-/// Logs whose rig has this radius.
-RefineLogs with_radius(RefineLogs logs, const Pulley& pulley, double radius) {
-  for (auto* some : {&logs.blocked, &logs.train, &logs.test})
-    for (LogSurvey& log : *some) set_radius(log.plan.rig.transmission, pulley, radius);
-  return logs;
-}
+struct WrongRadius {
+  Pulley pulley;
+  double given = 0, radius = 0, sd = 0;  ///< m, signed
+  double dof = 1;                        ///< of the t distribution of the radius
+  double chance = 1;
+  double share = 0;            ///< on held-out blocks
+  std::vector<Pulley> rivals;  ///< whose radius explains the logs as well
+};
 
-/// Masses of coupled links as stage 2 finds them with the rig of these logs: no single joint
-/// determines all of them.
-void take_arm(const RefineLogs& logs, int threads, std::vector<Model>& models) {
-  if (!models.front().is_coupled()) return;
-  try {
-    for (const Model& started : own_base(logs, threads).models)
-      for (Model& model : models)
-        if (model.preload == started.preload) model.arm = started.arm;
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::not_identifiable) throw;
-  }
-}
-
-}  // namespace
-
-std::optional<WrongRadius> wrong_radius(const std::vector<Model>& models, const RefineLogs& logs,
-                                        double significance) {
+/// The pulley whose radius explains most. Nothing where none is significant.
+std::optional<WrongRadius> best_radius(const RigErrorSearch& search) {
+  const std::vector<Model>& models = search.fitted;
   const std::vector<Pulley> pulleys = pulleys_of(models.front());
   if (pulleys.empty()) return {};
-  const RadiusFit fit(models, logs);
+  const RadiusFit fit(models, search.logs);
   const std::vector<Promise> promises = most_promising(fit, pulleys);
   std::vector<Fitted> found;
   for (std::size_t k = 0; k < std::min(kLookedAt, promises.size()); ++k)
@@ -213,11 +203,9 @@ std::optional<WrongRadius> wrong_radius(const std::vector<Model>& models, const 
   wrong.share = best->fall() / best->given;
   for (const Fitted& one : found)
     if (&one != best && is_as_good(one, *best)) wrong.rivals.push_back(one.pulley);
-  if (!(wrong.chance < significance)) return {};
+  if (!(wrong.chance < search.significance)) return {};
   return wrong;
 }
-
-namespace {
 
 /// By the weights of fits with the right radius.
 void set_share(const std::vector<Model>& models, const RefineLogs& logs, WrongRadius& wrong) {
@@ -228,17 +216,27 @@ void set_share(const std::vector<Model>& models, const RefineLogs& logs, WrongRa
     wrong.share = std::max(0.0, 1 - right->held_out.sum() / given->held_out.sum());
 }
 
-}  // namespace
+std::function<void(Rig&)> change_of(const WrongRadius& wrong) {
+  return [pulley = wrong.pulley, radius = wrong.radius](Rig& rig) {
+    set_radius(rig.transmission, pulley, radius);
+  };
+}
 
-std::vector<Model> with_right_radius(std::span<const Model> given, const RefineLogs& logs,
-                                     int threads, WrongRadius& wrong) {
+/// The given models with the right radius. It is fitted again with the weights that the rows have
+/// then; the first ones had the gap of the wrong radius in them.
+std::vector<Model> with_right_radius(const RigErrorSearch& search, WrongRadius& wrong) {
   constexpr int kSteps = 4;
   constexpr double kFarSd = 10, kNearSd = 0.1;
-  std::vector<Model> models = with_radius({given.begin(), given.end()}, wrong.pulley, wrong.radius);
+  std::vector<Model> models =
+      with_radius({search.given.begin(), search.given.end()}, wrong.pulley, wrong.radius);
   double h = first_step(models.front().transmission, wrong.pulley);
   for (int i = 0; i < kSteps; ++i) {
-    take_arm(with_radius(logs, wrong.pulley, wrong.radius), threads, models);
-    const RadiusFit fit(models, logs);
+    if (models.front().is_coupled())
+      take_arm(
+          with_rig(search.logs,
+                   [&](Rig& rig) { set_radius(rig.transmission, wrong.pulley, wrong.radius); }),
+          search.threads, models);
+    const RadiusFit fit(models, search.logs);
     const auto minimum = minimum_near(fit, wrong.pulley, 0, h);
     if (!minimum || !(minimum->sd > 0)) break;
     wrong.radius += minimum->step;
@@ -248,10 +246,74 @@ std::vector<Model> with_right_radius(std::span<const Model> given, const RefineL
     if (std::abs(minimum->step) < kNearSd * minimum->sd) break;
     h = std::min(h, kFarSd * minimum->sd);
   }
-  set_share(models, logs, wrong);
+  set_share(models, search.logs, wrong);
   wrong.sd = std::hypot(
       wrong.sd, kLeastSd * largest_radius(models.front().transmission.cables[wrong.pulley.cable]));
   return models;
+}
+
+const Effect& row_of(const Pulley& pulley) {
+  return rig_error_row("cable_radius", site_of(pulley.side));
+}
+
+/// "radius[flexor]".
+std::string with_cable(std::string_view name, const Pulley& pulley, const Model& model) {
+  return fmt::format("{}[{}]", name, model.transmission.cables[pulley.cable].name);
+}
+
+Estimate radius_estimate(std::string_view name, double value, const Pulley& pulley,
+                         const Model& model) {
+  Estimate e;
+  e.name = e.symbol = with_cable(name, pulley, model);
+  e.unit = row_of(pulley).parameters.front().unit;
+  e.value = value;
+  return e;
+}
+
+std::vector<Rival> rivals_of(const WrongRadius& wrong, const Model& model) {
+  std::vector<Rival> rivals;
+  for (const Pulley& pulley : wrong.rivals) {
+    const Effect& row = row_of(pulley);
+    Rival& rival = rivals.emplace_back();
+    rival.name = with_cable(row.name, pulley, model);
+    rival.side = to_string(row.site);
+    rival.gain = wrong.share;
+    rival.experiment = row.experiment;
+    rival.joint = pulley.joint + 1;
+  }
+  return rivals;
+}
+
+std::string reason_of(const WrongRadius& wrong, const Model& model) {
+  return fmt::format(
+      "the {} radius of cable '{}' is {:.4g} mm by the motion of the joints (sd {:.1g} um), "
+      "{:.4g} mm in the rig file",
+      to_string(wrong.pulley.side), model.transmission.cables[wrong.pulley.cable].name,
+      1e3 * wrong.radius, 1e6 * wrong.sd, 1e3 * wrong.given);
+}
+
+}  // namespace
+
+std::optional<RigError> wrong_radius(const RigErrorSearch& search) {
+  auto wrong = best_radius(search);
+  if (!wrong) return {};
+  RigError error;
+  error.models = with_right_radius(search, *wrong);
+  error.change = change_of(*wrong);
+  const Model& model = error.models.front();
+  const Effect& row = row_of(wrong->pulley);
+  Estimate radius =
+      radius_estimate(row.parameters.front().name, wrong->radius, wrong->pulley, model);
+  radius.sd = wrong->sd;
+  set_interval(radius, wrong->dof);
+  error.instance = {&row, {radius}};
+  error.given = {radius_estimate("given", wrong->given, wrong->pulley, model)};
+  error.joint = wrong->pulley.joint;
+  error.chance = wrong->chance;
+  error.share = wrong->share;
+  error.rivals = rivals_of(*wrong, model);
+  error.reason = reason_of(*wrong, model);
+  return error;
 }
 
 }  // namespace cablefit

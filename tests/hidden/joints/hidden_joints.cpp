@@ -1,5 +1,6 @@
 // Logs of a finger with an effect hidden on one of its joints. RIG: finger, whose links turn
-// inertias of their own, arm, whose links move each other, or hand, two fingers of three joints.
+// inertias of their own, arm, whose links move each other, thumb, an arm that moves in space, or
+// hand, two fingers of three joints.
 //
 //   hidden_joints --list
 //   hidden_joints RIG FOLDER NAME SIDE JOINT SIZE SEED     (NAME none: nothing is hidden)
@@ -24,12 +25,19 @@ void write(const std::string& path, const std::string& text) {
   if (!file.flush()) throw std::runtime_error("cannot write " + path);
 }
 
+PlainRig rig_of(const std::string& kind) {
+  if (kind == "arm") return phalanges_rig();
+  if (kind == "thumb") return thumb_rig();
+  if (kind == "hand") return two_finger_hand();
+  return tendon_finger();
+}
+
 void write_case(std::span<char*> args) {
   const std::string folder = args[1], name = args[2], side = args[3];
   const auto seed = static_cast<unsigned>(std::stoul(args[6]));
   const std::string kind = args[0];
-  const bool is_arm = kind == "arm";
-  PlainRig rig = is_arm ? phalanges_rig() : kind == "hand" ? two_finger_hand() : tendon_finger();
+  PlainRig rig = rig_of(kind);
+  const PlainArm* arm = rig.link_dynamics.target<PlainArm>();
   const std::vector<double> held(rig.n(), 0.1);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> other(0.7, 1.4);
@@ -37,9 +45,9 @@ void write_case(std::span<char*> args) {
     for (double PlainJoint::*value : {&PlainJoint::J_link, &PlainJoint::f_v, &PlainJoint::f_s,
                                       &PlainJoint::f_vm, &PlainJoint::f_sm, &PlainJoint::swing})
       joint.*value *= other(random);
-  if (is_arm) write(folder + "/finger.urdf", urdf_text(phalanges(), "finger"));
+  if (arm != nullptr) write(folder + "/finger.urdf", urdf_text(*arm, "finger"));
   write(folder + "/rig.json",
-        rig_text(rig, is_arm ? R"( "arm": {"type": "urdf", "file": "finger.urdf"},)" : ""));
+        rig_text(rig, arm ? R"( "arm": {"type": "urdf", "file": "finger.urdf"},)" : ""));
   if (name != "none")
     find_joint_effect(name, side).hide(rig, std::stoul(args[4]) - 1, std::stod(args[5]));
   write(folder + "/blocked.csv", blocked_log(rig, held, kBlocked, 10 * seed + 1, 200, 0, 0.005));

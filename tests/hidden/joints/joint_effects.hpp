@@ -101,6 +101,16 @@ inline void forget_radius(PlainRig& rig, std::size_t joint, double size) {
   throw NotPossible("every cable of the next joint moves with this one");
 }
 
+/// The base leans by 0.1 rad times `size`, each time about another level axis.
+inline void lean(PlainRig& rig, std::size_t joint, double size) {
+  PlainArm* arm = rig.link_dynamics.target<PlainArm>();
+  if (arm == nullptr) throw NotPossible("the links have no weight");
+  const double about[] = {0, 1.5707963267948966, 2.5};
+  const double angle = 0.1 * size, heading = about[joint % 3];
+  const Eigen::Vector3d axis(std::cos(heading), std::sin(heading), 0);
+  arm->gravity = Eigen::AngleAxisd(angle, axis) * arm->gravity;
+}
+
 inline const std::vector<JointEffect>& joint_effects() {
   const auto stribeck = [](double a, double, double v) {
     return a * sign_of(v) * std::exp(-std::pow(v / 0.3, 2));
@@ -133,6 +143,7 @@ inline const std::vector<JointEffect>& joint_effects() {
       {"cable_radius", "motor",
        [](PlainRig& rig, std::size_t joint, double size) { hide_radius(rig, false, joint, size); }},
       {"forgotten_radius", "link", forget_radius},
+      {"gravity_direction", "link", lean},
       {"torque_gain", "drive", [](PlainRig& rig, std::size_t joint, double size) {
          rig.joints[joint].gain = 1 + 0.2 * size;
        }}};

@@ -22,8 +22,26 @@ Effect cable_radius(Site side) {
           .parameters = kRadius};
 }
 
+constexpr ParameterInfo kGravity[] = {{"g_x", "g_x", "m/s^2", "in the frame of the arm's base"},
+                                      {"g_y", "g_y", "m/s^2", "in the frame of the arm's base"},
+                                      {"g_z", "g_z", "m/s^2", "in the frame of the arm's base"}};
+
+Effect gravity_direction() {
+  return {.name = "gravity_direction",
+          .site = Site::link,
+          .equation = "g(q) of the arm, not along the \"gravity\" of the rig file",
+          .signature =
+              "torques of the links' weights on all joints, by the poses of all of them; "
+              "gravity imbalance depends on one joint alone",
+          .experiment = "move all joints slowly, so that each link points in many directions",
+          .source = "Khalil & Dombre 2004, ch. 9",
+          .parameters = kGravity};
+}
+
 }  // namespace
 
-std::vector<Effect> rig_errors() { return {cable_radius(Site::link), cable_radius(Site::motor)}; }
+std::vector<Effect> rig_errors() {
+  return {cable_radius(Site::link), cable_radius(Site::motor), gravity_direction()};
+}
 
 }  // namespace cablefit::rows

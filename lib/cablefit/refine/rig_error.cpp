@@ -1,61 +1,21 @@
-#include "cablefit/refine/named_radius.hpp"
+#include "cablefit/refine/rig_error.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/estimate/fit/parameter_estimate.hpp"
+#include "cablefit/base/error.hpp"
+#include "cablefit/refine/own_base.hpp"
 #include "cablefit/refine/verdict/conclusion.hpp"
+#include "cablefit/refine/wrong_gravity.hpp"
+#include "cablefit/refine/wrong_radius.hpp"
 
 namespace cablefit {
 namespace {
 
-const Effect& row_of(const Pulley& pulley) {
-  const std::span<const Effect> rows = rig_errors();
-  return *std::find_if(rows.begin(), rows.end(),
-                       [&](const Effect& row) { return row.site == site_of(pulley.side); });
-}
-
-/// "radius[flexor]".
-std::string with_cable(std::string_view name, const Pulley& pulley, const Model& model) {
-  return fmt::format("{}[{}]", name, model.transmission.cables[pulley.cable].name);
-}
-
-EffectInstance instance_of(const WrongRadius& wrong, const Model& model) {
-  const Effect& row = row_of(wrong.pulley);
-  EffectInstance instance{&row, {}};
-  Estimate& e = instance.parameters.emplace_back();
-  e.name = e.symbol = with_cable(row.parameters.front().name, wrong.pulley, model);
-  e.unit = row.parameters.front().unit;
-  e.value = wrong.radius;
-  e.sd = wrong.sd;
-  set_interval(e, wrong.dof);
-  return instance;
-}
-
-/// The radius in the rig file, beside that which was found.
-Estimate given_radius(const WrongRadius& wrong, const Model& model) {
-  Estimate e;
-  e.name = e.symbol = with_cable("given", wrong.pulley, model);
-  e.unit = row_of(wrong.pulley).parameters.front().unit;
-  e.value = wrong.given;
-  return e;
-}
-
-std::vector<Rival> rivals_of(const WrongRadius& wrong, const Model& model) {
-  std::vector<Rival> rivals;
-  for (const Pulley& pulley : wrong.rivals) {
-    const Effect& row = row_of(pulley);
-    Rival& rival = rivals.emplace_back();
-    rival.name = with_cable(row.name, pulley, model);
-    rival.side = to_string(row.site);
-    rival.gain = wrong.share;
-    rival.experiment = row.experiment;
-    rival.joint = pulley.joint + 1;
-  }
-  return rivals;
-}
+constexpr std::optional<RigError> (*kSearches[])(const RigErrorSearch&) = {wrong_radius,
+                                                                           wrong_gravity};
 
 bool is_done(const RefineResult& joint) { return joint.not_refined.empty(); }
 
@@ -93,6 +53,39 @@ void take_before(const RefineResult& given, RefineResult& right) {
 
 }  // namespace
 
+std::vector<RigError> rig_errors_of(const RigErrorSearch& search) {
+  std::vector<RigError> all;
+  for (const auto find : kSearches)
+    if (auto error = find(search)) all.push_back(*std::move(error));
+  std::stable_sort(all.begin(), all.end(),
+                   [](const RigError& a, const RigError& b) { return a.share > b.share; });
+  return all;
+}
+
+const Effect& rig_error_row(std::string_view name, Site site) {
+  const std::span<const Effect> rows = rig_errors();
+  return *std::find_if(rows.begin(), rows.end(),
+                       [&](const Effect& row) { return row.name == name && row.site == site; });
+}
+
+RefineLogs with_rig(RefineLogs logs, const std::function<void(Rig&)>& change) {
+  for (auto* some : {&logs.blocked, &logs.train, &logs.test})
+    for (LogSurvey& log : *some) change(log.plan.rig);
+  return logs;
+}
+
+bool take_arm(const RefineLogs& logs, int threads, std::vector<Model>& models) {
+  try {
+    for (const Model& started : own_base(logs, threads).models)
+      for (Model& model : models)
+        if (model.preload == started.preload) model.arm = started.arm;
+    return true;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::not_identifiable) throw;
+    return false;
+  }
+}
+
 bool is_explained(const std::vector<RefineResult>& given, const std::vector<RefineResult>& right) {
   constexpr double kSame = 0.02;  // of the gap
   for (std::size_t k = 0; k < given.size(); ++k)
@@ -109,31 +102,26 @@ bool is_explained(const std::vector<RefineResult>& given, const std::vector<Refi
          (is_simpler && excess(right, given, &RefineResult::rho_after) <= left);
 }
 
-void name_radius(const WrongRadius& wrong, const Model& model,
-                 const std::vector<RefineResult>& given, std::vector<RefineResult>& right) {
+void name_rig_error(const RigError& error, const std::vector<RefineResult>& given,
+                    std::vector<RefineResult>& right) {
   NamedEffect effect;
-  effect.instance = instance_of(wrong, model);
-  effect.derived = {given_radius(wrong, model)};
-  effect.rivals = rivals_of(wrong, model);
-  effect.joint = wrong.pulley.joint + 1;
+  effect.instance = error.instance;
+  effect.derived = error.given;
+  effect.rivals = error.rivals;
+  effect.joint = error.joint + 1;
   const double before = test_excess(given, right), after = test_excess(right, given);
-  effect.evidence.gain = before > 0 ? 1 - after / before : wrong.share;
-  effect.evidence.p_value = wrong.chance;
+  effect.evidence.gain = before > 0 ? 1 - after / before : error.share;
+  effect.evidence.p_value = error.chance;
   effect.evidence.inclusion = 1;
-  RefineResult& own = right[static_cast<std::size_t>(wrong.pulley.joint)];
-  const RefineResult& own_given = given[static_cast<std::size_t>(wrong.pulley.joint)];
+  RefineResult& own = right[static_cast<std::size_t>(error.joint)];
+  const RefineResult& own_given = given[static_cast<std::size_t>(error.joint)];
   effect.evidence.rho_before = is_done(own_given) ? own_given.rho_before : own.rho_before;
   effect.evidence.rho_after = own.rho_before;
   if (own_given.torque.known && own.torque.known)
     effect.torque_rms = std::sqrt(std::max(
         0.0, std::pow(own_given.torque.test_before, 2) - std::pow(own.torque.test_before, 2)));
   for (std::size_t k = 0; k < right.size(); ++k) take_before(given[k], right[k]);
-  const std::string reason = fmt::format(
-      "the {} radius of cable '{}' is {:.4g} mm by the motion of the joints (sd {:.1g} um), "
-      "{:.4g} mm in the rig file",
-      to_string(wrong.pulley.side), model.transmission.cables[wrong.pulley.cable].name,
-      1e3 * wrong.radius, 1e6 * wrong.sd, 1e3 * wrong.given);
-  own.reason = own.verdict == Verdict::none ? reason : reason + "; " + own.reason;
+  own.reason = own.verdict == Verdict::none ? error.reason : error.reason + "; " + own.reason;
   if (!effect.rivals.empty()) own.next_experiment = effect.instance.effect->experiment;
   own.effects.insert(own.effects.begin(), std::move(effect));
   own.verdict = verdict_by_rivals(own);

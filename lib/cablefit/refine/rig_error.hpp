@@ -1,0 +1,59 @@
+// A value of the rig file that is wrong, as several joints together show it, and the results of
+// refine with the right value. To add one: one file, one line in rig_errors.cpp. Internal to
+// refine/.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cablefit/refine/refine_options.hpp"
+#include "cablefit/refine/refine_result.hpp"
+
+namespace cablefit {
+
+struct RigError {
+  EffectInstance instance;           ///< the right values; its row is one of rig_errors()
+  std::vector<Estimate> given;       ///< the values of the rig file
+  std::function<void(Rig&)> change;  ///< gives a rig the right values
+  std::vector<Model> models;         ///< those given to refine, with the right values
+  int joint = 0;                     ///< from 0; its result lists the error
+  double chance = 1;                 ///< of such a difference where the rig file is right
+  double share = 0;                  ///< of the squared residual that the right values remove
+  std::vector<Rival> rivals = {};    ///< errors that explain the logs as well
+  std::string reason;                ///< for the verdict
+};
+
+/// What the search for such an error starts from.
+struct RigErrorSearch {
+  std::span<const Model> given;      ///< models given to refine, one per preload
+  const std::vector<Model>& fitted;  ///< the same with base fits of all joints
+  const RefineLogs& logs;
+  double significance = 0;
+  int threads = 1;
+};
+
+/// Errors that are significant, by the share of the residual that they remove, largest first.
+std::vector<RigError> rig_errors_of(const RigErrorSearch& search);
+
+/// The row of rig_errors() of this name and side.
+const Effect& rig_error_row(std::string_view name, Site site);
+
+/// Logs of a rig that `change` changes.
+RefineLogs with_rig(RefineLogs logs, const std::function<void(Rig&)>& change);
+
+/// Masses of coupled links as stage 2 finds them with the rig of these logs: no single joint
+/// determines all of them. False: the logs do not determine them, and the models are as before.
+bool take_arm(const RefineLogs& logs, int threads, std::vector<Model>& models);
+
+/// Whether the right values explain the logs as well as the effects that were identified with the
+/// given ones. `given`, `right`: results of each joint with either.
+bool is_explained(const std::vector<RefineResult>& given, const std::vector<RefineResult>& right);
+
+/// Adds the error to the results with the right values. Gaps before are those with the given ones.
+void name_rig_error(const RigError& error, const std::vector<RefineResult>& given,
+                    std::vector<RefineResult>& right);
+
+}  // namespace cablefit

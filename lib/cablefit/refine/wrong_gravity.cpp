@@ -1,0 +1,194 @@
+#include "cablefit/refine/wrong_gravity.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+
+#include "cablefit/base/error.hpp"
+#include "cablefit/estimate/fit/parameter_estimate.hpp"
+#include "cablefit/estimate/spread/tail_probability.hpp"
+#include "cablefit/refine/gravity_fit.hpp"
+
+namespace cablefit {
+namespace {
+
+/// Models of all joints with masses of the arm that stage 2 finds with this gravity, and their fit.
+struct Posed {
+  std::vector<Model> models;
+  GravityFit fit;
+};
+
+std::function<void(Rig&)> change_to(const Eigen::Vector3d& gravity) {
+  return [gravity](Rig& rig) { set_gravity(rig, gravity); };
+}
+
+std::optional<Posed> posed(const RigErrorSearch& search, const Eigen::Vector3d& gravity) {
+  const auto change = change_to(gravity);
+  std::vector<Model> models(search.given.begin(), search.given.end());
+  for (Model& model : models) change(model.rig);
+  if (!take_arm(with_rig(search.logs, change), search.threads, models)) return {};
+  GravityFit fit(models, search.logs);
+  return Posed{std::move(models), std::move(fit)};
+}
+
+/// Squared residuals of each joint on held-out blocks, with the weights that `weights` has.
+std::vector<double> squares_of(const GravityFit& fit, const GravityFit& weights) {
+  std::vector<double> all;
+  for (std::size_t k = 0; k < fit.joints().size(); ++k) {
+    const std::optional<BaseFit>&own = fit.joints()[k], &other = weights.joints()[k];
+    double& squares = all.emplace_back(0);
+    if (!other) continue;
+    const auto again = own ? fit_blocks(own->grams, other->levels) : std::nullopt;
+    squares = again ? again->held_out.sum() : kUnbounded;
+  }
+  return all;
+}
+
+double sum_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum;
+}
+
+/// Minus the logarithm of the likelihood, where every kind of row has the level of its own
+/// residual. Infinite where a joint that `given` has a fit of has none.
+double misfit(const GravityFit& fit, const GravityFit& given) {
+  double sum = 0;
+  for (std::size_t k = 0; k < fit.joints().size(); ++k) {
+    if (!given.joints()[k]) continue;
+    if (!fit.joints()[k]) return kUnbounded;
+    const BlockFit& own = fit.joints()[k]->fit;
+    const KindLevels rms = own.rms();
+    for (std::size_t kind = 0; kind < rms.size(); ++kind)
+      if (own.n_rows[kind] > 0) sum += own.n_rows[kind] * std::log(rms[kind]);
+  }
+  return sum;
+}
+
+/// The direction to begin with: the given one, or that of an axis of the base where it fits better,
+/// as on an arm that hangs from a wall or a ceiling.
+Eigen::Vector3d best_start(const RigErrorSearch& search, const Eigen::Vector3d& given,
+                           const GravityFit& given_fit) {
+  const double near = std::cos(0.7);  // rad: the steps go so far by themselves
+  Eigen::Vector3d best = given;
+  double least = misfit(given_fit, given_fit);
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0}) {
+      const Eigen::Vector3d gravity = sign * given.norm() * Eigen::Vector3d::Unit(axis);
+      if (gravity.dot(given) > near * given.squaredNorm()) continue;
+      const auto other = posed(search, gravity);
+      const double now = other ? misfit(other->fit, given_fit) : kUnbounded;
+      if (!(now < least)) continue;
+      least = now;
+      best = gravity;
+    }
+  return best;
+}
+
+struct Direction {
+  Eigen::Vector3d gravity;
+  Tilt last;  ///< the step to it
+};
+
+/// Where the residual is least.
+std::optional<Direction> least_near(const RigErrorSearch& search, Eigen::Vector3d gravity) {
+  constexpr int kSteps = 8;
+  constexpr double kNearSd = 0.1;
+  std::optional<Direction> found;
+  for (int i = 0; i < kSteps; ++i) {
+    const auto here = posed(search, gravity);
+    const auto tilt = here ? here->fit.tilt() : std::nullopt;
+    if (!tilt) return {};
+    gravity = tilt->turned(gravity);
+    found = {gravity, *tilt};
+    const Eigen::Array2d sd = tilt->covariance.diagonal().array().sqrt();
+    if ((tilt->angles.array().abs() < kNearSd * sd).all()) break;
+  }
+  return found;
+}
+
+/// Of the angle to another direction, rad.
+double sd_towards(const Direction& from, const Eigen::Vector3d& other) {
+  const Eigen::Vector3d turn = from.gravity.cross(other);
+  const Eigen::Vector2d part = turn.norm() > 0
+                                   ? Eigen::Vector2d(from.last.axes.transpose() * turn.normalized())
+                                   : Eigen::Vector2d(1, 0);
+  return std::sqrt(part.dot(from.last.covariance * part));
+}
+
+double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+constexpr std::array kComponents = {'x', 'y', 'z'};
+
+std::vector<Estimate> components(const std::string& name, const Eigen::Vector3d& gravity) {
+  std::vector<Estimate> all;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    Estimate& e = all.emplace_back();
+    e.name = e.symbol = fmt::format("{}_{}", name, kComponents[static_cast<std::size_t>(k)]);
+    e.unit = "m/s^2";
+    e.value = gravity(k);
+  }
+  return all;
+}
+
+EffectInstance instance_of(const Direction& right) {
+  EffectInstance instance{&rig_error_row("gravity_direction", Site::link),
+                          components("g", right.gravity)};
+  Eigen::Matrix<double, 3, 2> slope;  // of the components, per radian
+  for (Eigen::Index k = 0; k < 2; ++k) slope.col(k) = right.last.axes.col(k).cross(right.gravity);
+  const Eigen::Matrix3d covariance = slope * right.last.covariance * slope.transpose();
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    Estimate& e = instance.parameters[static_cast<std::size_t>(k)];
+    e.sd = std::sqrt(std::max(0.0, covariance(k, k)));
+    set_interval(e, right.last.dof);
+  }
+  return instance;
+}
+
+/// How much the right direction removes, and on which joint most.
+void set_share(const GravityFit& given, const GravityFit& right, RigError& error) {
+  const std::vector<double> before = squares_of(given, right), after = squares_of(right, right);
+  double largest = 0;
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    if (!(before[k] - after[k] > largest)) continue;
+    largest = before[k] - after[k];
+    error.joint = static_cast<int>(k);
+  }
+  if (sum_of(before) > 0) error.share = std::max(0.0, 1 - sum_of(after) / sum_of(before));
+}
+
+}  // namespace
+
+std::optional<RigError> wrong_gravity(const RigErrorSearch& search) {
+  constexpr double kDegree = 57.295779513082323;
+  constexpr int kAngles = 2;
+  if (!has_gravity(search.fitted.front().rig)) return {};
+  const Eigen::Vector3d given = gravity_of(search.fitted.front().rig);
+  const auto given_pose = posed(search, given);
+  if (!given_pose) return {};
+  const auto right = least_near(search, best_start(search, given, given_pose->fit));
+  if (!right) return {};
+  const double angle = angle_between(given, right->gravity), sd = sd_towards(*right, given);
+  RigError error;
+  error.chance = std::min(1.0, kAngles * t_tail(angle / sd, right->last.dof));
+  if (!(error.chance < search.significance)) return {};
+  auto pose = posed(search, right->gravity);
+  if (!pose) return {};
+  set_share(given_pose->fit, pose->fit, error);
+  error.change = change_to(right->gravity);
+  error.models = std::move(pose->models);
+  error.instance = instance_of(*right);
+  error.given = components("given", given);
+  error.reason = fmt::format(
+      "by the weight of the links, gravity points {:.3g} deg (sd {:.1g} deg) beside that of the "
+      "rig "
+      "file",
+      kDegree * angle, kDegree * sd);
+  return error;
+}
+
+}  // namespace cablefit

@@ -1,0 +1,15 @@
+// Gravity that does not point where the rig file says, as on an arm whose base leans or hangs. The
+// weights of all links show it, by the poses of all joints. Internal to refine/.
+#pragma once
+
+#include <optional>
+
+#include "cablefit/refine/rig_error.hpp"
+
+namespace cablefit {
+
+/// Of an arm with a chain of joints. Nothing where the logs do not determine a direction, or the
+/// rig file's is as good.
+std::optional<RigError> wrong_gravity(const RigErrorSearch& search);
+
+}  // namespace cablefit

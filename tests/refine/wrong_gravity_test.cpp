@@ -1,0 +1,68 @@
+// A thumb whose base leans or hangs, which its rig file does not say.
+#include <catch2/catch.hpp>
+
+#include "tests/refine/refined_finger.hpp"
+
+namespace cablefit::test {
+namespace {
+
+/// The thumb with its base turned.
+PlainRig leaning(double angle, const Eigen::Vector3d& about) {
+  PlainRig rig = thumb_rig();
+  PlainArm& arm = *rig.link_dynamics.target<PlainArm>();
+  arm.gravity = Eigen::AngleAxisd(angle, about) * arm.gravity;
+  return rig;
+}
+
+/// The direction is the only effect, and the masses are those of the arm.
+void check_direction(const PlainRig& hidden) {
+  const RefineResult result = refined_thumb(hidden).result;
+  CHECK(result.verdict == Verdict::named);
+  REQUIRE(result.effects.size() == 1);
+  const NamedEffect& effect = result.effects[0];
+  CHECK(effect.instance.effect->name == "gravity_direction");
+  CHECK(effect.rivals.empty());
+  CHECK(effect.evidence.gain > 0.99);
+  CHECK(effect.evidence.p_value < 1e-6);
+  const Eigen::Vector3d right = hidden.link_dynamics.target<PlainArm>()->gravity;
+  Eigen::Vector3d found;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const Estimate& e = effect.instance.parameters.at(static_cast<std::size_t>(k));
+    INFO(e.name);
+    CHECK(e.unit == "m/s^2");
+    CHECK(e.sd < 0.02);
+    found(k) = e.value;
+  }
+  CHECK((found - right).norm() < 0.02);
+  for (const RefineResult& joint : result.joints)
+    CHECK(joint.torque.test_after < 1.1 * joint.torque.noise_floor);
+  for (const Estimate& e : result.models.at(0).arm)
+    if (e.name.starts_with("MX2"))
+      CHECK(e.value == Approx(0.12 * 0.1 + 0.21 * 0.048).epsilon(0.02));
+}
+
+TEST_CASE("the direction of gravity on a base that leans is identified", "[refine]") {
+  check_direction(leaning(0.1, Eigen::Vector3d::UnitX()));
+}
+
+TEST_CASE("an arm that hangs from the ceiling is identified", "[refine]") {
+  check_direction(leaning(3.1, Eigen::Vector3d::UnitY()));
+}
+
+TEST_CASE("on a thumb that stands as its rig file says nothing is missing", "[refine]") {
+  const RefineResult result = refined_thumb(thumb_rig()).result;
+  CHECK(result.verdict == Verdict::none);
+  for (const RefineResult& joint : result.joints) CHECK(joint.not_refined.empty());
+}
+
+TEST_CASE("an effect on one joint of a thumb is not taken for gravity", "[refine]") {
+  PlainRig hidden = thumb_rig();
+  find_joint_effect("stribeck", "motor").hide(hidden, 2, 1);
+  const RefineResult result = refined_thumb(hidden).result;
+  REQUIRE(result.effects.size() == 1);
+  CHECK(result.effects[0].instance.effect->name == "stribeck");
+  CHECK(result.effects[0].joint == 3);
+}
+
+}  // namespace
+}  // namespace cablefit::test
