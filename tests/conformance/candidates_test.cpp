@@ -95,6 +95,7 @@ JointState random_state(std::mt19937& engine) {
   state.thetadd = random(80);
   state.deflection_rate = state.thetad - state.qd;
   state.load = random(10);
+  state.path_friction = random(5);
   set_elastic(paper_cables(), Eigen::VectorXd::Constant(1, state.q),
               Eigen::VectorXd::Constant(1, state.theta), 0, state);
   return state;
@@ -106,6 +107,7 @@ TEST_CASE("the catalogue is the list of docs/reference/effects.md", "[conformanc
                          {"asymmetric_coulomb", "link", "constant"},
                          {"asymmetric_coulomb", "motor", "constant"},
                          {"gravity_imbalance", "link", ""},
+                         {"path_friction", "link", ""},
                          {"load_friction", "motor", ""},
                          {"cogging", "motor", ""},
                          {"drive_efficiency", "motor", ""},
@@ -270,6 +272,7 @@ double work_over_cycle(const Effect& row, const Transmission& transmission, cons
     set_elastic(transmission, Eigen::VectorXd::Constant(1, state.q),
                 Eigen::VectorXd::Constant(1, state.theta), 0, state);
     state.load = 12;
+    state.path_friction = state.qd > 0 ? state.tension : -state.tension;
     if (row.advance) row.advance(state, shape.data(), 0.5 * h, z.data());
     const double v = row.site == Site::link ? state.qd : state.thetad;
     const Torques torques = act(row, state, v > 0 ? 1 : -1, shape, z);
@@ -298,8 +301,8 @@ TEST_CASE("what cannot be negative takes energy over every cycle", "[conformance
         CHECK(work_over_cycle(row, transmission, shape) > 0);
   }
   // stribeck, quadratic_drag, nonlinear_viscous, tension_friction, presliding on two sides;
-  // load_friction, drive_efficiency, cable_damping, cable_hysteresis, creep.
-  CHECK(n_rows == 15);
+  // path_friction, load_friction, drive_efficiency, cable_damping, cable_hysteresis, creep.
+  CHECK(n_rows == 16);
 }
 
 TEST_CASE("states are bounded and do not depend on the step", "[conformance]") {

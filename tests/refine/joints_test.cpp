@@ -45,6 +45,30 @@ TEST_CASE("an effect of an arm is named with its joint", "[refine]") {
   CHECK(result.models.at(0).arm.size() == result.models.at(0).rig.arm.base_parameters().size());
 }
 
+TEST_CASE("friction of cables on the pulleys that they pass is named on every link", "[refine]") {
+  PlainRig hidden = tendon_finger();
+  find_joint_effect("path_friction", "link").hide(hidden, 0, 1);
+  const RefineResult result = refined(hidden).result;
+  CHECK(result.verdict == Verdict::named);
+  REQUIRE(result.effects.size() == 2);
+  // The dry friction of link 1 by the cables' force on it at rest.
+  const std::vector<double> zero(2, 0.0);
+  double at_rest = 0;
+  for (const PlainCable& cable : hidden.cables)
+    at_rest += std::abs(cable.link[0].slope(0)) * cable.force(zero, zero);
+  const double mu = hidden.joints[0].f_s / at_rest;
+  for (std::size_t joint = 0; joint < 2; ++joint) {
+    const NamedEffect& effect = result.effects[joint];
+    CHECK(effect.instance.effect->name == "path_friction");
+    CHECK(effect.joint == static_cast<int>(joint) + 1);
+    CHECK(effect.rivals.empty());
+    CHECK(effect.instance.parameters.at(0).value == Approx(mu).epsilon(0.03));
+    const GapStory& gap = result.joints[joint].torque;
+    CHECK(gap.test_after < 0.2 * gap.test_before);
+    CHECK(result.models.at(0).joints[joint].added.size() == 1);
+  }
+}
+
 TEST_CASE("where nothing is missing on any joint nothing is named", "[refine]") {
   const RefineResult result = refined(tendon_finger()).result;
   CHECK(result.verdict == Verdict::none);

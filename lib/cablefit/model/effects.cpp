@@ -34,6 +34,7 @@ std::vector<Effect> candidates() {
       position_friction(motor),
       tension_friction(link),
       tension_friction(motor),
+      path_friction(),
       presliding(link),
       presliding(motor),
       friction_drift(link),

@@ -51,6 +51,9 @@ struct JointState {
   double load = 0;  ///< N m, on a rigid drive tau_load and the torque of the rig's load law; else 0
   /// N m, sum of all cable forces, each at its motor pulley; |tau_elas| without cables.
   double tension = 0;
+  /// N m on the link per unit of mu, of cables on the pulleys that they pass (path_friction.hpp); 0
+  /// for one joint.
+  double path_friction = 0;
 };
 
 /// Sets the members that follow from the transmission at these positions (rad, n_joints each):
@@ -65,8 +68,8 @@ struct Recording {
   /// Parts of the elongation of the joint's cables that other joints cause, samples x cables, m. No
   /// columns: there are none.
   Eigen::ArrayXXd others = {};
-  /// For coupled links: q of all joints, samples x joints, rad, and the index of this one. No
-  /// columns: the link is not coupled.
+  /// Of one of several joints: q of all, samples x joints, rad, and the index of this one. No
+  /// columns: there is one joint.
   Eigen::ArrayXXd links = {};
   Eigen::Index joint = 0;
 };
@@ -120,6 +123,7 @@ enum class Yardstick {
   none,
   load,             ///< a load torque that is not 0
   load_or_inertia,  ///< that, or an inertia of the link given in the rig file
+  shared_cable,     ///< a cable that passes the links of this joint and of others
 };
 
 /// A row. It has exactly one of `follows`, `torque` (with or without `level`), `level`, `correct`
@@ -148,7 +152,8 @@ struct Effect {
   /// Blocked logs alone can show it and separate it from the other effects that they can show.
   bool is_static = false;
 
-  /// A scale of torques is determined only relative to a known torque or inertia.
+  /// A scale of torques is determined only relative to a known torque or inertia, and friction on
+  /// the path of a cable needs a path.
   Yardstick yardstick = Yardstick::none;
 
   /// Internal states z[0 .. n_states), 0 at the start. `advance` integrates them over the time h

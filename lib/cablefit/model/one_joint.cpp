@@ -308,6 +308,13 @@ Model one_joint(const Model& whole, int joint) {
   return one;
 }
 
+std::vector<Cable> passing_cables(const Model& one) {
+  std::vector<Cable> cables;
+  for (const std::size_t i : passing(one.whole->transmission, place(one.joint)))
+    cables.push_back(one.whole->transmission.cables[i]);
+  return cables;
+}
+
 std::vector<Model> one_joint(std::span<const Model> models, int joint) {
   std::vector<Model> one;
   for (const Model& model : models) one.push_back(one_joint(model, joint));

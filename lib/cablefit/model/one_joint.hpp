@@ -19,6 +19,9 @@ namespace cablefit {
 Model one_joint(const Model& whole, int joint);
 std::vector<Model> one_joint(std::span<const Model> models, int joint);
 
+/// The cables of the model with the maps of all joints, as the whole has them.
+std::vector<Cable> passing_cables(const Model& one);
+
 /// The same without the others, which stand at 0: an arm as an inertia M_kk(0) of the link.
 Model standing_alone(const Model& one);
 

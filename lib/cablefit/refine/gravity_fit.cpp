@@ -57,7 +57,7 @@ struct Bowl {
   Eigen::Matrix2d bend = Eigen::Matrix2d::Zero();
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();  ///< sum over blocks of slope slope'
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();    ///< downhill
-  double n_blocks = 0;
+  double n_blocks = 0;                                ///< with rows of a moving link
 };
 
 /// The part of the last two columns that is not made of those of the base.
@@ -80,10 +80,9 @@ void add_joint(const BaseFit& base, const BlockGrams& grams, Bowl& bowl) {
       if (block.gram[kind].size() > 0)
         slope += own.transpose() * block.gram[kind].bottomRows(n + 2) * residual /
                  (base.levels[kind] * base.levels[kind]);
-    if (slope.isZero(0)) continue;  // no row of a moving link
     bowl.slope += slope;
     bowl.scatter += slope * slope.transpose();
-    bowl.n_blocks += 1;
+    if (block.n_rows[static_cast<std::size_t>(RowKind::link)] > 0) bowl.n_blocks += 1;
   }
 }
 

@@ -35,6 +35,7 @@ Plant::Plant(const Model& model, const SimulationInput& input, bool link_blocked
       link_blocked_(link_blocked),
       load_(model.rig.load),
       coupling_(model.rigid ? Transmission{} : model.transmission),
+      path_(model.rigid ? std::vector<Cable>{} : model.transmission.cables),
       t0_(input.t0) {
   const std::size_t n = model.joints.size();
   for (const JointModel& joint : model.joints) {
@@ -52,6 +53,7 @@ Plant::Plant(const Model& model, const SimulationInput& input, bool link_blocked
   elastic_motor_.resize(n);
   extra_.resize(link_.size() + motor_.size());
   no_load_.resize(n);
+  tension_.resize(coupling_.n_cables());
   if (model.is_coupled() && !is_rigid_) {
     arm_.emplace(model.rig.arm, model.arm, link_);
     arm_->start(q_.data(), qd_.data());
@@ -156,10 +158,19 @@ JointState Plant::middle_of_step(std::size_t joint, double load, double h) const
   }
   coupling_.look(joint, q_.data(), theta_.data(), state);
   state.tau_elas = elastic_motor_[joint];
+  if (!path_.is_empty()) state.path_friction = path_.on_link(joint, q_, tension_);
   return state;
 }
 
+void Plant::advance_path(double h) {
+  if (path_.is_empty()) return;
+  if (!link_blocked_) path_.advance(q_, qd_, h);
+  for (std::size_t i = 0; i < tension_.size(); ++i)
+    tension_[i] = coupling_.tension(i, q_.data(), theta_.data());
+}
+
 void Plant::advance_refined(const double* tau, const double* tau_load, double h) {
+  advance_path(h);
   for (std::size_t k = 0; k < theta_.size(); ++k) {
     const RefinedStep more = refined_[k].step(middle_of_step(k, 0, h), h);
     thetad_[k] = motor_[k].advance(thetad_[k], tau[k] - elastic_motor_[k] - more.motor_torque, h,
@@ -213,6 +224,7 @@ void Plant::step_rigid(const double* tau, const double* tau_load, double h) {
 
 void Plant::take_history(const Plant& before) {
   for (std::size_t k = 0; k < refined_.size(); ++k) refined_[k].take_history(before.refined_[k]);
+  path_ = before.path_;
   if (arm_) arm_->take_history(*before.arm_);
 }
 

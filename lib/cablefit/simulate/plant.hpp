@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "cablefit/model/effects/path_friction.hpp"
 #include "cablefit/simulate/axis.hpp"
 #include "cablefit/simulate/coupled_links.hpp"
 #include "cablefit/simulate/coupling.hpp"
@@ -58,6 +59,7 @@ class Plant {
   const Axis& axis(std::size_t number) const {
     return number < link_.size() ? link_[number] : motor_[number - link_.size()];
   }
+  void advance_path(double h);
   JointState middle_of_step(std::size_t joint, double load, double h) const;
 
   bool is_rigid_, link_blocked_;
@@ -68,10 +70,12 @@ class Plant {
   std::vector<double> q_, qd_, theta_, thetad_;
   std::vector<double> elastic_link_, elastic_motor_;  ///< N m, of the present step
   std::vector<RefinedJoint> refined_;                 ///< empty: the model has none
-  std::vector<Axis::Extra> extra_;                    ///< per axis, of the last step
-  std::vector<double> no_load_;                       ///< zeros, per joint
-  double t0_;                                         ///< s
-  double n_steps_ = 0;                                ///< counted for refinements
+  PathFriction path_;
+  std::vector<double> tension_;     ///< N, per cable, where path_ is not empty
+  std::vector<Axis::Extra> extra_;  ///< per axis, of the last step
+  std::vector<double> no_load_;     ///< zeros, per joint
+  double t0_;                       ///< s
+  double n_steps_ = 0;              ///< counted for refinements
 };
 
 }  // namespace cablefit

@@ -101,6 +101,31 @@ inline void forget_radius(PlainRig& rig, std::size_t joint, double size) {
   throw NotPossible("every cable of the next joint moves with this one");
 }
 
+/// Every cable rubs on the pulleys of the joints that it passes: on the pulley of joint k it loses
+/// a share of its tension against its speed there, which all joints from k on make.
+inline void hide_path_friction(PlainRig& rig, std::size_t joint, double size) {
+  const auto cables = rig.cables;
+  const std::size_t n = rig.n();
+  const std::vector<double> zero(n, 0.0);
+  double at_rest = 0;
+  for (const PlainCable& cable : cables)
+    at_rest += std::abs(cable.link[joint].slope(0)) * cable.force(zero, zero);
+  const double mu = size * rig.joints[joint].f_s / at_rest;
+  rig.hidden = [=](const PlainMotion& m, std::vector<double>& link, std::vector<double>&) {
+    for (const PlainCable& cable : cables) {
+      const double force = cable.force(m.q, m.theta);
+      double speed = 0;
+      for (std::size_t k = n; k-- > 0;) {  // from the tip
+        const double radius = cable.link[k].slope(m.q[k]);
+        if (radius == 0) continue;
+        speed += radius * m.qd[k];
+        for (std::size_t j = k; j < n; ++j)
+          link[j] += mu * force * cable.link[j].slope(m.q[j]) * sign_of(speed);
+      }
+    }
+  };
+}
+
 /// The base leans by 0.1 rad times `size`, each time about another level axis.
 inline void lean(PlainRig& rig, std::size_t joint, double size) {
   PlainArm* arm = rig.link_dynamics.target<PlainArm>();
@@ -137,6 +162,7 @@ inline const std::vector<JointEffect>& joint_effects() {
       on_axis("nonlinear_viscous", "motor",
               [](double a, double, double v) { return a * sign_of(v) * std::cbrt(std::abs(v)); }),
       {"tension_friction", "motor", hide_tension_friction},
+      {"path_friction", "link", hide_path_friction},
       {"cable_damping", "transmission", hide_cable_damping},
       {"cable_radius", "link",
        [](PlainRig& rig, std::size_t joint, double size) { hide_radius(rig, true, joint, size); }},

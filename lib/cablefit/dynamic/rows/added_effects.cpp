@@ -153,6 +153,8 @@ void require_fittable(const EffectInstance& effect, bool rigid) {
            "correct the log by its rig file, or drop it from the model; 'cablefit refine' fits it");
   if (!acts_as_torque(row))
     refuse("it changes the cables", "give the model its cables, or fit it with 'cablefit refine'");
+  if (row.yardstick == Yardstick::shared_cable)
+    refuse("it depends on the motion of all joints", "'cablefit refine' fits it");
   if (row.yardstick != Yardstick::none)
     refuse("a torque scale needs a known torque or inertia",
            "'cablefit refine' fits it where the logs or the rig file have one");

@@ -8,6 +8,8 @@ namespace {
 
 constexpr ParameterInfo kMu[] = {
     {"mu", "mu", "", "dry friction per cable force at the pulley (N m per N m)", 0}};
+constexpr ParameterInfo kPathMu[] = {
+    {"mu", "mu", "", "share of its tension that a cable loses at each pulley", 0}};
 constexpr ParameterInfo kLoadMu[] = {{"mu", "mu", "", "dry friction per load torque", 0}};
 constexpr ParameterInfo kLoss[] = {
     {"loss", "a", "", "share of tau_elas lost while the motor drives", 0}};
@@ -15,6 +17,11 @@ constexpr ParameterInfo kLoss[] = {
 void tension_level(const JointState& state, double /*direction*/, const double* /*shape*/,
                    const double* /*z*/, double* level) {
   level[0] = state.tension;
+}
+
+void rub(const JointState& state, const double* /*shape*/, const double* /*z*/, double* link,
+         double* /*motor*/) {
+  link[0] = state.path_friction;
 }
 
 void load_level(const JointState& state, double /*direction*/, const double* /*shape*/,
@@ -43,6 +50,22 @@ Effect tension_friction(Site side) {
           .parameters = kMu,
           .is_static = side == Site::motor,
           .level = tension_level};
+}
+
+Effect path_friction() {
+  return {.name = "path_friction",
+          .site = Site::link,
+          .equation =
+              "sum over cables of mu T r sgn(v), over the pulleys up to this joint; v: speed "
+              "of the cable over the pulley, r_j qd_j of all joints from there on",
+          .signature =
+              "dry friction that changes sign with the motion of other joints; tension friction "
+              "follows the joint's own speed",
+          .experiment = "move each joint with the others at rest, then all together",
+          .source = "Euler 1769 (capstan equation); Kaneko et al. 1991",
+          .parameters = kPathMu,
+          .yardstick = Yardstick::shared_cable,
+          .torque = rub};
 }
 
 Effect load_friction() {

@@ -25,6 +25,7 @@ Effect quadratic_drag(Site side);
 Effect nonlinear_viscous(Site side);
 Effect position_friction(Site side);
 Effect tension_friction(Site side);
+Effect path_friction();
 Effect load_friction();
 Effect drive_efficiency();
 Effect presliding(Site side);

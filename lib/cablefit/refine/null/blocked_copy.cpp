@@ -43,10 +43,10 @@ Eigen::ArrayXd torque_of(const EffectInstance& instance, const std::vector<Joint
   return tau;
 }
 
-Eigen::ArrayXd torque_of(const Model& model, const SmoothMotion& m, double least_speed) {
-  const Eigen::ArrayXd direction = directions(m.thetad, least_speed);
+Eigen::ArrayXd torque_of(const Model& model, const SmoothMotion& m, const Smoothing& smoothing) {
+  const Eigen::ArrayXd direction = directions(m.thetad, smoothing.least_speed_blocked);
   Eigen::ArrayXd tau(m.size());
-  const std::vector<JointState> states = joint_states(m, model);
+  const std::vector<JointState> states = joint_states(m, model, smoothing);
   for (Eigen::Index i = 0; i < m.size(); ++i) tau(i) = states[static_cast<std::size_t>(i)].tau_elas;
   for (const EffectInstance& instance : model.joints.front().added)
     tau += torque_of(instance, states, direction, m.period);
@@ -99,7 +99,7 @@ BlockedCopy make_blocked_copy(const std::vector<Model>& models, std::vector<Stre
     const double late = torque_lateness(model.rig, stretch.recording.period);
     const SmoothMotion m = smooth_motion_of(stretch.recording, stretch.t0, late, smoothing);
     stretch.recording.theta = m.theta;
-    stretch.recording.tau = as_logged(torque_of(model, m, smoothing.least_speed_blocked), late);
+    stretch.recording.tau = as_logged(torque_of(model, m, smoothing), late);
   }
   copy.stretches = std::move(stretches);
   return copy;

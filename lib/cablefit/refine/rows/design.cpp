@@ -101,8 +101,8 @@ void fill_states(Design& design) {
   design.states.clear();
   design.coarse_states.clear();
   for (std::size_t k = 0; k < design.stretches.size(); ++k) {
-    const auto& states = design.states.emplace_back(
-        joint_states(*design.rows[k].motion, design.models[design.stretches[k].model]));
+    const auto& states = design.states.emplace_back(joint_states(
+        *design.rows[k].motion, design.models[design.stretches[k].model], design.smoothing));
     const auto stride = static_cast<std::size_t>(design.smoothing_of(k).stride);
     auto& coarse = design.coarse_states.emplace_back();
     for (std::size_t i = 0; i < states.size(); i += stride) coarse.push_back(states[i]);

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "cablefit/elastic/rows/elastic_columns.hpp"
+#include "cablefit/model/effects/path_friction.hpp"
+#include "cablefit/model/one_joint.hpp"
 
 namespace cablefit {
 namespace {
@@ -155,7 +158,40 @@ std::vector<Eigen::Index> moving_rows(const Eigen::ArrayXd& speed, double least_
   return rows;
 }
 
-std::vector<JointState> joint_states(const SmoothMotion& m, const Model& model) {
+/// What cables lose on the pulleys that they pass. It turns within the rows, with the motion of
+/// other joints, and so it is smoothed like the measured torques.
+void fill_path_friction(const SmoothMotion& m, const Model& model, const Smoothing& smoothing,
+                        std::vector<JointState>& states) {
+  if (model.whole == nullptr || m.links.cols() == 0) return;
+  PathFriction path(passing_cables(model));
+  if (path.is_empty()) return;
+  const Transmission& own = model.transmission;
+  std::vector<JointSignals> joint(1);
+  joint.front().q = m.q;
+  joint.front().theta = m.theta;
+  Eigen::ArrayXXd tension(own.cables.size(), m.size());  // side by side, as one sample needs them
+  for (std::size_t i = 0; i < own.cables.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    Eigen::ArrayXd l = elongation(own, own.cables[i], joint);
+    if (m.others.cols() > 0) l += m.others.col(k);
+    tension.row(k) = l.unaryExpr([&](double x) { return own.cables[i].force(x); }).transpose();
+  }
+  const Eigen::ArrayXXd q = m.links.transpose(), qd = m.links_d.transpose();
+  const auto at = [](const Eigen::ArrayXXd& table, Eigen::Index i) {
+    return std::span<const double>(table.col(i).data(), static_cast<std::size_t>(table.rows()));
+  };
+  Eigen::ArrayXd torque(m.size());
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    path.advance(at(q, i), at(qd, i), m.period);
+    torque(i) = path.on_link(static_cast<std::size_t>(model.joint), at(q, i), at(tension, i));
+  }
+  torque = apply(gaussian(suited(smoothing, m.period).signals, m.period), torque);
+  for (Eigen::Index i = 0; i < m.size(); ++i)
+    states[static_cast<std::size_t>(i)].path_friction = torque(i);
+}
+
+std::vector<JointState> joint_states(const SmoothMotion& m, const Model& model,
+                                     const Smoothing& smoothing) {
   std::vector<JointState> states(static_cast<std::size_t>(m.size()));
   const double zero = model.rigid ? 0 : model.transmission.encoder_zero()(0);
   for (Eigen::Index i = 0; i < m.size(); ++i) {
@@ -188,6 +224,7 @@ std::vector<JointState> joint_states(const SmoothMotion& m, const Model& model) 
     s.tension = tau.amounts(i);
     s.stiffness = (more.sum(i) - less.sum(i)) / (2 * kProbe);
   }
+  fill_path_friction(m, model, smoothing, states);
   return states;
 }
 

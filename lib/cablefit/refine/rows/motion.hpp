@@ -54,7 +54,7 @@ struct SmoothMotion {
   Eigen::ArrayXd tau, tau_load;                 ///< smoothed; tau at the time it acts
   Eigen::ArrayXd q_direction, theta_direction;  ///< -1, 0, 1
   Eigen::ArrayXXd others;                       ///< see Recording; smoothed
-  Eigen::ArrayXXd links, links_d, links_dd;     ///< of all joints, samples x joints; or none
+  Eigen::ArrayXXd links, links_d, links_dd;     ///< of several joints, samples x joints; or none
   Eigen::Index size() const { return theta.size(); }
 };
 
@@ -77,7 +77,8 @@ std::vector<Eigen::Index> moving_rows(const Eigen::ArrayXd& speed, double least_
                                       double period, const Smoothing& smoothing);
 
 /// States of the model's cables at every sample, with the motion.
-std::vector<JointState> joint_states(const SmoothMotion& motion, const Model& model);
+std::vector<JointState> joint_states(const SmoothMotion& motion, const Model& model,
+                                     const Smoothing& smoothing);
 
 /// 99 % quantile of the values; 0 without values.
 double most_of(std::vector<double> values);

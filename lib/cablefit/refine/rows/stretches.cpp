@@ -57,7 +57,7 @@ Recording recording_of(const GaplessRows& run, const LogPlan& plan, const Model&
   if (model.whole == nullptr) return r;
   const Eigen::ArrayXXd q = columns(run, plan, Channel::q);
   r.others = others_elongation(model, q, columns(run, plan, Channel::theta));
-  if (model.is_coupled()) r.links = q;
+  r.links = q;
   r.joint = model.joint;
   return r;
 }

@@ -155,7 +155,7 @@ std::optional<Stretch> simulated(const TrialRun& run, const Model& given) {
   stretch.blocked = run.blocked;
   stretch.recording = {run.period, motion.q.col(0), motion.theta.col(0), motion.tau.col(0),
                        input.tau_load.col(0)};
-  if (!given.is_coupled()) return stretch;
+  if (given.whole == nullptr) return stretch;
   Recording& r = stretch.recording;  // the other links stand at 0
   r.links = Eigen::ArrayXXd::Zero(n, static_cast<Eigen::Index>(given.whole->joints.size()));
   r.joint = given.joint;
