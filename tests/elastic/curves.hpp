@@ -6,6 +6,8 @@
 #include "cablefit/elastic/rows/blocked_rows.hpp"
 #include "tests/support/recover.hpp"
 
+#include "cablefit/samples/rows/row_stream.hpp"
+
 namespace cablefit::test {
 
 /// tau_elas of a fit at a deflection from its zero, link at 0.

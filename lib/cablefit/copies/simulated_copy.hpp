@@ -8,7 +8,7 @@
 
 #include "cablefit/base/random.hpp"
 #include "cablefit/copies/coloured_noise.hpp"
-#include "cablefit/samples/rows/row_stream.hpp"
+#include "cablefit/samples/rows/equation_rows.hpp"
 #include "cablefit/samples/survey/recorded.hpp"
 #include "cablefit/simulate/simulator.hpp"
 

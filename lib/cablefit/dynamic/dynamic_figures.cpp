@@ -6,6 +6,7 @@
 
 #include "cablefit/estimate/tests/residual_scan.hpp"
 #include "cablefit/samples/rows/observed.hpp"
+#include "cablefit/samples/rows/row_stream.hpp"
 
 namespace cablefit {
 namespace {

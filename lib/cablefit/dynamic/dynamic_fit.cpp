@@ -25,6 +25,7 @@
 #include "cablefit/model/effects/effect_parameter.hpp"
 #include "cablefit/model/rig/searched_radius.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
+#include "cablefit/samples/rows/row_stream.hpp"
 #include "cablefit/samples/rows/unused_rows.hpp"
 
 namespace cablefit {

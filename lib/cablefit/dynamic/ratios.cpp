@@ -10,6 +10,7 @@
 #include "cablefit/dynamic/dynamic_figures.hpp"
 #include "cablefit/estimate/fit/parameter_estimate.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
+#include "cablefit/samples/rows/row_stream.hpp"
 
 namespace cablefit {
 namespace {

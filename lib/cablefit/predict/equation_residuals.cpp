@@ -8,6 +8,7 @@
 #include "cablefit/elastic/curve_of_model.hpp"
 #include "cablefit/model/model_parameters.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
+#include "cablefit/samples/rows/row_stream.hpp"
 
 namespace cablefit {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "cablefit/dynamic/rows/dynamic_job.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
+#include "cablefit/samples/rows/row_stream.hpp"
 
 namespace cablefit {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cablefit/design/excitation/excited_motion.hpp"
-#include "cablefit/samples/rows/row_stream.hpp"
+#include "cablefit/samples/rows/equation_rows.hpp"
 
 namespace cablefit {
 

@@ -10,6 +10,7 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/dynamic/estimators/least_squares_fit.hpp"
 #include "cablefit/dynamic/estimators/online_system.hpp"
+#include "cablefit/samples/rows/row_stream.hpp"
 
 namespace cablefit::estimation {
 namespace {

@@ -12,6 +12,7 @@
 #include "cablefit/dynamic/estimators/rows.hpp"
 #include "cablefit/estimate/fit/huber.hpp"
 #include "cablefit/samples/rows/row_archive.hpp"
+#include "cablefit/samples/rows/row_stream.hpp"
 
 namespace cablefit::estimation {
 namespace {

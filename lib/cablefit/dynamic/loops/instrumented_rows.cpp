@@ -1,5 +1,7 @@
 #include "cablefit/dynamic/loops/instrumented_rows.hpp"
 
+#include "cablefit/samples/rows/row_stream.hpp"
+
 namespace cablefit {
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "cablefit/samples/rows/row_stream.hpp"
+#include "cablefit/samples/rows/equation_rows.hpp"
 
 namespace cablefit {
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "cablefit/base/parallel.hpp"
 #include "cablefit/dynamic/loops/log_copy.hpp"
 #include "cablefit/model/least_inertias.hpp"
 #include "cablefit/samples/rows/agreement.hpp"

@@ -5,6 +5,7 @@
 
 #include "cablefit/samples/rows/agreement.hpp"
 #include "cablefit/samples/rows/preliminary.hpp"
+#include "cablefit/samples/rows/row_stream.hpp"
 
 namespace cablefit {
 namespace {

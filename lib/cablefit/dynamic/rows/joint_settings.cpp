@@ -13,7 +13,7 @@ namespace {
 double lower_cutoff(double a, double b) { return a > 0 && b > 0 ? std::min(a, b) : std::max(a, b); }
 
 /// What all equations share: enough for the joint that needs most. The margin around rest is that
-/// of the highest cut-off: an equation with a lower one widens it (row_stream.hpp).
+/// of the highest cut-off: an equation with a lower one widens it (equation_rows.hpp).
 void take_most(RowSettings& all, const ChosenSettings& joint) {
   const RowSettings& own = joint.rows;
   if (own.signal.cutoff >= all.signal.cutoff) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "cablefit/samples/rows/row_stream.hpp"
+
 namespace cablefit {
 namespace {
 

@@ -7,6 +7,7 @@
 #include "cablefit/elastic/figures/mode_figure.hpp"
 #include "cablefit/estimate/tests/residual_scan.hpp"
 #include "cablefit/samples/rows/observed.hpp"
+#include "cablefit/samples/rows/row_stream.hpp"
 
 namespace cablefit {
 namespace {

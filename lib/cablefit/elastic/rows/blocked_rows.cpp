@@ -9,6 +9,7 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/model/model.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
+#include "cablefit/samples/rows/row_stream.hpp"
 
 namespace cablefit {
 namespace {

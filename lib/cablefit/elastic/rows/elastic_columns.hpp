@@ -6,7 +6,7 @@
 #include <span>
 
 #include "cablefit/model/cables.hpp"
-#include "cablefit/samples/rows/row_stream.hpp"
+#include "cablefit/samples/rows/equation_rows.hpp"
 
 namespace cablefit {
 

@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "cablefit/samples/rows/row_stream.hpp"
+
 namespace cablefit {
 namespace {
 

@@ -14,7 +14,7 @@
 #include "cablefit/estimate/solve/row_statistics.hpp"
 #include "cablefit/model/cables.hpp"
 #include "cablefit/model/rig/searched_radius.hpp"
-#include "cablefit/samples/rows/row_stream.hpp"
+#include "cablefit/samples/rows/equation_rows.hpp"
 
 namespace cablefit {
 

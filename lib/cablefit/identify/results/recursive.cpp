@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/samples/rows/row_stream.hpp"
+
 namespace cablefit {
 namespace {
 

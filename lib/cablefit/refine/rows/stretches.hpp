@@ -6,7 +6,7 @@
 
 #include "cablefit/model/effects.hpp"
 #include "cablefit/model/model.hpp"
-#include "cablefit/samples/rows/row_stream.hpp"
+#include "cablefit/samples/rows/equation_rows.hpp"
 
 namespace cablefit {
 

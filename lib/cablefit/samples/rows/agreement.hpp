@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cablefit/samples/rows/row_stream.hpp"
+#include "cablefit/samples/rows/equation_rows.hpp"
 
 namespace cablefit {
 

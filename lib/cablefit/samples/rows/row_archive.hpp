@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cablefit/log/spill_file.hpp"
-#include "cablefit/samples/rows/row_stream.hpp"
+#include "cablefit/samples/rows/equation_rows.hpp"
 
 namespace cablefit {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cablefit/samples/plan/decision.hpp"
-#include "cablefit/samples/rows/row_stream.hpp"
+#include "cablefit/samples/rows/equation_rows.hpp"
 
 namespace cablefit {
 

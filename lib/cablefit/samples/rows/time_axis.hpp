@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cablefit/figure/thinned_line.hpp"
-#include "cablefit/samples/rows/row_stream.hpp"
+#include "cablefit/samples/rows/equation_rows.hpp"
 
 namespace cablefit {
 

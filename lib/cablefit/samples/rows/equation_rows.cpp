@@ -1,4 +1,4 @@
-#include "cablefit/samples/rows/row_stream.hpp"
+#include "cablefit/samples/rows/equation_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
