@@ -5,6 +5,14 @@
 #include <utility>
 
 namespace cablefit {
+
+Model::Model() = default;
+Model::Model(const Model&) = default;
+Model::Model(Model&&) noexcept = default;
+Model& Model::operator=(const Model&) = default;
+Model& Model::operator=(Model&&) noexcept = default;
+Model::~Model() = default;
+
 std::string joint_parameter_name(std::string_view name, int joint, int n_joints) {
   return n_joints > 1 ? fmt::format("{}[{}]", name, joint) : std::string(name);
 }

@@ -36,6 +36,14 @@ struct JointModel {
 };
 
 struct Model {
+  // Compiled once in model.cpp, not in every file that copies or destroys one.
+  Model();
+  Model(const Model&);
+  Model(Model&&) noexcept;
+  Model& operator=(const Model&);
+  Model& operator=(Model&&) noexcept;
+  ~Model();
+
   std::string name;  ///< "poly", "linear", "rigid"
   std::string preload;
   Rig rig;

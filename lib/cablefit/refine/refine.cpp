@@ -127,6 +127,13 @@ std::vector<LogSurvey> RefineLogs::fitted() const {
   return all;
 }
 
+RefineResult::RefineResult() = default;
+RefineResult::RefineResult(const RefineResult&) = default;
+RefineResult::RefineResult(RefineResult&&) noexcept = default;
+RefineResult& RefineResult::operator=(const RefineResult&) = default;
+RefineResult& RefineResult::operator=(RefineResult&&) noexcept = default;
+RefineResult::~RefineResult() = default;
+
 std::string_view to_string(Verdict verdict) {
   constexpr std::array<std::string_view, 4> kNames{"named", "none", "ambiguous", "unexplained"};
   return kNames[static_cast<std::size_t>(verdict)];

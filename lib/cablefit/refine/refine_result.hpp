@@ -129,6 +129,14 @@ struct EquationRemainder {
 };
 
 struct RefineResult {
+  // Compiled once in refine.cpp, not in every file that copies or destroys one.
+  RefineResult();
+  RefineResult(const RefineResult&);
+  RefineResult(RefineResult&&) noexcept;
+  RefineResult& operator=(const RefineResult&);
+  RefineResult& operator=(RefineResult&&) noexcept;
+  ~RefineResult();
+
   std::vector<InputFile> inputs;
   std::string model_path, model_choice;
   std::vector<std::string> preloads;

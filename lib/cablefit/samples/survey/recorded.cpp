@@ -43,7 +43,8 @@ PartSurvey survey_part(const LogPlan& plan, const RecordedPart& recorded) {
 
 LogSurvey survey_recorded(const LogPlan& plan, const std::vector<RecordedPart>& parts) {
   auto samples = std::make_shared<SampleStore>();
-  LogSurvey survey{plan, "", 0, {}, nullptr};
+  LogSurvey survey;
+  survey.plan = plan;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     const Eigen::MatrixXd& rows = parts[k].rows;
     survey.parts.push_back(survey_part(plan, parts[k]));

@@ -98,7 +98,11 @@ class LogScan {
   }
 
   LogSurvey result(std::string sha256) {
-    LogSurvey survey{plan_, std::move(sha256), n_rows_, {}, std::move(samples_)};
+    LogSurvey survey;
+    survey.plan = plan_;
+    survey.sha256 = std::move(sha256);
+    survey.n_rows = n_rows_;
+    survey.samples = std::move(samples_);
     if (time_origin_ != 0)
       survey.plan.decisions.push_back(
           {"clock", fmt::format("from {:.12g} s on", time_origin_ * plan_.time_factor),
@@ -232,6 +236,13 @@ class LogScan {
 };
 
 }  // namespace
+
+LogSurvey::LogSurvey() = default;
+LogSurvey::LogSurvey(const LogSurvey&) = default;
+LogSurvey::LogSurvey(LogSurvey&&) noexcept = default;
+LogSurvey& LogSurvey::operator=(const LogSurvey&) = default;
+LogSurvey& LogSurvey::operator=(LogSurvey&&) noexcept = default;
+LogSurvey::~LogSurvey() = default;
 
 Phase phase_by_motion(const PartSurvey& part, const LogPlan& plan) {
   // Of several joints one motor may sweep while the others rest, and all links have to stand.

@@ -29,6 +29,14 @@ struct PartSurvey : ClockSurvey {
 };
 
 struct LogSurvey {
+  // Compiled once in survey.cpp, not in every file that copies or destroys one.
+  LogSurvey();
+  LogSurvey(const LogSurvey&);
+  LogSurvey(LogSurvey&&) noexcept;
+  LogSurvey& operator=(const LogSurvey&);
+  LogSurvey& operator=(LogSurvey&&) noexcept;
+  ~LogSurvey();
+
   LogPlan plan;
   std::string sha256;
   std::size_t n_rows = 0;
