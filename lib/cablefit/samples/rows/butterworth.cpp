@@ -28,7 +28,7 @@ State steady(const Biquad& section, const Lane& x) {
 }
 
 /// N sections in a row over n values from `x` on, `step` (1 or -1) apart. N is known to the
-/// compiler so that all states stay in registers.
+/// compiler, and the sections are unrolled, so that all states stay in registers.
 template <std::size_t N>
 void sweep(const Biquad* sections, Lane* x, std::size_t n, std::ptrdiff_t step) {
   std::array<Biquad, N> c;
@@ -38,6 +38,7 @@ void sweep(const Biquad* sections, Lane* x, std::size_t n, std::ptrdiff_t step) 
   for (std::size_t k = 0; k < N; ++k) states[k] = steady(c[k], *x);
   for (std::size_t i = 0; i < n; ++i, x += step) {
     Lane v = *x;
+#pragma GCC unroll 2
     for (std::size_t k = 0; k < N; ++k) {
       State& s = states[k];
       const Lane y = c[k].b0 * v + s.s1;
