@@ -1,6 +1,6 @@
 // Logs of a finger with an effect hidden on one of its joints. RIG: finger, whose links turn
-// inertias of their own, arm, whose links move each other, thumb, an arm that moves in space, seven,
-// an arm of seven joints, or hand, two fingers of three joints.
+// inertias of their own, arm, whose links move each other, thumb, an arm that moves in space,
+// seven, an arm of seven joints, or hand, two fingers of three joints.
 //
 //   hidden_joints --list
 //   hidden_joints RIG FOLDER NAME SIDE JOINT SIZE SEED     (NAME none: nothing is hidden)

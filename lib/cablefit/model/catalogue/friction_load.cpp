@@ -56,8 +56,8 @@ Effect path_friction() {
   return {.name = "path_friction",
           .site = Site::link,
           .equation =
-              "sum over cables of mu T r sgn(v), over the pulleys up to this joint; v: speed "
-              "of the cable over the pulley, r_j qd_j of all joints from there on",
+              "sum mu T r sgn(v) of cables on the pulleys up to this joint, v = sum r_j qd_j "
+              "from the pulley on",
           .signature =
               "dry friction that changes sign with the motion of other joints; tension friction "
               "follows the joint's own speed",
