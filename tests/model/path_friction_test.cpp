@@ -19,7 +19,7 @@ std::vector<Cable> cables_of(const PlainRig& plain) {
 
 TEST_CASE("a cable loses tension at each pulley against its speed there", "[model]") {
   // The flexor of the hand's first finger passes three links at 10, 7 and 5 mm.
-  PathFriction path(cables_of(two_finger_hand()));
+  PathFriction path(cables_of(two_finger_hand()), 0);
   CHECK_FALSE(path.is_empty());
   const std::vector<double> q(6, 0.0);
   std::vector<double> tension(10, 0.0);
@@ -35,7 +35,7 @@ TEST_CASE("a cable loses tension at each pulley against its speed there", "[mode
 }
 
 TEST_CASE("friction on the path of cables takes energy and never gives any", "[model]") {
-  PathFriction path(cables_of(two_finger_hand()));
+  PathFriction path(cables_of(two_finger_hand()), 0);
   const std::vector<double> q(6, 0.1), tension(10, 20);
   for (int step = 0; step < 200; ++step) {
     std::vector<double> qd(6);
@@ -49,7 +49,7 @@ TEST_CASE("friction on the path of cables takes energy and never gives any", "[m
 }
 
 TEST_CASE("a cable turns its friction over the way of a reversal", "[model]") {
-  PathFriction path(cables_of(tendon_finger()));
+  PathFriction path(cables_of(tendon_finger()), 2e-6);
   const std::vector<double> q(2, 0.0), tension = {100, 0, 0};
   const auto after = [&](double way) {  // m over the pulley of link 2, whose radius is 7 mm
     const std::vector<double> qd = {-0.007 / 0.010 * way / 0.007, way / 0.007};
@@ -62,7 +62,7 @@ TEST_CASE("a cable turns its friction over the way of a reversal", "[model]") {
 }
 
 TEST_CASE("a rig whose cables pass one joint each has no path", "[model]") {
-  CHECK(PathFriction(cables_of(seven_joint_rig())).is_empty());
+  CHECK(PathFriction(cables_of(seven_joint_rig()), 0).is_empty());
 }
 
 }  // namespace

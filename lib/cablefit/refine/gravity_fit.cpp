@@ -1,7 +1,9 @@
 #include "cablefit/refine/gravity_fit.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -57,6 +59,7 @@ struct Bowl {
   Eigen::Matrix2d bend = Eigen::Matrix2d::Zero();
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();  ///< sum over blocks of slope slope'
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();    ///< downhill
+  double squares = 0;                                 ///< of the two columns, weighted
   double n_blocks = 0;                                ///< with rows of a moving link
 };
 
@@ -72,6 +75,7 @@ void add_joint(const BaseFit& base, const BlockGrams& grams, Bowl& bowl) {
   own.bottomRows(2).setIdentity();
   own = scale.asDiagonal() * own * scale.tail(2).cwiseInverse().asDiagonal();
   bowl.bend += own.transpose() * all * own;
+  bowl.squares += all.diagonal().tail(2).sum();
   Eigen::VectorXd residual(n + 3);  // response minus columns
   residual << 1, -base.fit.x, 0, 0;
   for (const BlockGrams::Block& block : grams.blocks) {
@@ -107,17 +111,12 @@ Eigen::Vector3d Tilt::turned(const Eigen::Vector3d& gravity) const {
   return Eigen::AngleAxisd(turn.norm(), turn.normalized()) * gravity;
 }
 
-GravityFit::GravityFit(const std::vector<Model>& models, const RefineLogs& logs) : models_(models) {
-  for (int joint = 0; joint < static_cast<int>(models.front().joints.size()); ++joint) {
-    joints_.push_back(base_fit_of(one_joint(models, joint), logs));
-    if (!joints_.back()) continue;
-    joints_.back()->design.states.clear();  // these are most of its memory
-    joints_.back()->design.coarse_states.clear();
-  }
-}
+GravityFit::GravityFit(const std::vector<Model>& models, const RefineLogs& logs)
+    : models_(models), joints_(base_fits_of(models, logs)) {}
 
 std::optional<Tilt> GravityFit::tilt() const {
-  constexpr double kMostSd = 0.5;  // rad
+  constexpr double kMostSd = 0.5;    // rad
+  constexpr double kOwnPart = 1e-6;  // of a column's square; less is rounding
   const Eigen::Vector3d gravity = gravity_of(models_.front().rig);
   Tilt tilt;
   tilt.axes.col(0) = gravity.unitOrthogonal();
@@ -132,9 +131,9 @@ std::optional<Tilt> GravityFit::tilt() const {
                          tilt_columns(design, gravity, tilt.axes), block_seconds),
                 bowl);
     }
-  const Eigen::LDLT<Eigen::Matrix2d> factors(bowl.bend);
-  if (factors.info() != Eigen::Success || !factors.isPositive()) return {};
-  const Eigen::Matrix2d inverse = factors.solve(Eigen::Matrix2d::Identity());
+  const double own = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(bowl.bend).eigenvalues()(0);
+  if (!(own > kOwnPart * bowl.squares)) return {};
+  const Eigen::Matrix2d inverse = bowl.bend.inverse();
   tilt.angles = inverse * bowl.slope;
   tilt.covariance = (1 + kRepeated * bowl.n_blocks) * inverse * bowl.scatter * inverse;
   tilt.dof = std::max(1.0, bowl.n_blocks - 2);

@@ -270,7 +270,8 @@ void try_rig_errors(std::span<const Model> given, const RefineLogs& logs,
   const RigErrorSearch search{given, run.models, logs, options.significance, options.threads};
   for (const RigError& error : rig_errors_of(search)) {
     JointRun right = run_joints(error.models, with_rig(logs, error.change), options, refine_one);
-    const RefineResult& own = right.joints[static_cast<std::size_t>(error.joint)];
+    const int joint = listing_joint(error, run.joints, right.joints);
+    const RefineResult& own = right.joints[static_cast<std::size_t>(joint)];
     if (!own.not_refined.empty() || !is_explained(run.joints, right.joints)) continue;
     name_rig_error(error, run.joints, right.joints);
     run = std::move(right);

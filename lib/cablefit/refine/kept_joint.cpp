@@ -39,6 +39,18 @@ std::optional<BaseFit> base_fit_of(const std::vector<Model>& models, const Refin
   }
 }
 
+std::vector<std::optional<BaseFit>> base_fits_of(const std::vector<Model>& models,
+                                                 const RefineLogs& logs) {
+  std::vector<std::optional<BaseFit>> all;
+  for (int joint = 0; joint < static_cast<int>(models.front().joints.size()); ++joint) {
+    all.push_back(base_fit_of(one_joint(models, joint), logs));
+    if (!all.back()) continue;
+    all.back()->design.states.clear();
+    all.back()->design.coarse_states.clear();
+  }
+  return all;
+}
+
 std::optional<std::vector<Model>> base_estimates(const std::vector<Model>& models,
                                                  const RefineLogs& logs) {
   const ScanSettings settings;

@@ -15,6 +15,10 @@ namespace cablefit {
 /// Of models of one joint. Nothing: there are blocked logs alone, or the logs do not determine it.
 std::optional<BaseFit> base_fit_of(const std::vector<Model>& models, const RefineLogs& logs);
 
+/// Of each joint of the models, without states, which are most of its memory.
+std::vector<std::optional<BaseFit>> base_fits_of(const std::vector<Model>& models,
+                                                 const RefineLogs& logs);
+
 /// The models of one joint with the values of the base fit to its training logs, without sd: start
 /// values of a search. Unchanged for blocked logs alone, and where there is no base fit.
 std::vector<Model> with_base_fit(const std::vector<Model>& models, const RefineLogs& logs);

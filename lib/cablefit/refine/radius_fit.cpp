@@ -72,14 +72,8 @@ std::vector<Model> with_radius(std::vector<Model> models, const Pulley& pulley, 
   return models;
 }
 
-RadiusFit::RadiusFit(const std::vector<Model>& models, const RefineLogs& logs) : models_(models) {
-  for (int joint = 0; joint < static_cast<int>(models.front().joints.size()); ++joint) {
-    joints_.push_back(base_fit_of(one_joint(models, joint), logs));
-    if (!joints_.back()) continue;
-    joints_.back()->design.states.clear();  // these are most of its memory
-    joints_.back()->design.coarse_states.clear();
-  }
-}
+RadiusFit::RadiusFit(const std::vector<Model>& models, const RefineLogs& logs)
+    : models_(models), joints_(base_fits_of(models, logs)) {}
 
 Eigen::ArrayXd RadiusFit::travel(const Pulley& pulley, std::size_t stretch) const {
   const std::optional<BaseFit>& own = joints_[place(pulley.joint)];

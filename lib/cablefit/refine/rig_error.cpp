@@ -39,7 +39,7 @@ double test_excess(const std::vector<RefineResult>& of, const std::vector<Refine
   return sum;
 }
 
-/// The gaps of a joint before are those with the radius of the rig file.
+/// The gaps of a joint before are those with the values of the rig file.
 void take_before(const RefineResult& given, RefineResult& right) {
   if (!is_done(given) || !is_done(right)) return;
   right.rho_before = given.rho_before;
@@ -102,19 +102,35 @@ bool is_explained(const std::vector<RefineResult>& given, const std::vector<Refi
          (is_simpler && excess(right, given, &RefineResult::rho_after) <= left);
 }
 
+int listing_joint(const RigError& error, const std::vector<RefineResult>& given,
+                  const std::vector<RefineResult>& right) {
+  if (error.joint) return *error.joint;
+  int most = 0;
+  double largest = 0;
+  for (std::size_t k = 0; k < given.size(); ++k) {
+    if (!is_done(right[k])) continue;
+    const double fall = is_done(given[k]) ? given[k].rho_before - right[k].rho_before : 0;
+    if (!(fall > largest)) continue;
+    largest = fall;
+    most = static_cast<int>(k);
+  }
+  return most;
+}
+
 void name_rig_error(const RigError& error, const std::vector<RefineResult>& given,
                     std::vector<RefineResult>& right) {
   NamedEffect effect;
   effect.instance = error.instance;
   effect.derived = error.given;
   effect.rivals = error.rivals;
-  effect.joint = error.joint + 1;
+  const int joint = listing_joint(error, given, right);
+  effect.joint = joint + 1;
   const double before = test_excess(given, right), after = test_excess(right, given);
   effect.evidence.gain = before > 0 ? 1 - after / before : error.share;
   effect.evidence.p_value = error.chance;
   effect.evidence.inclusion = 1;
-  RefineResult& own = right[static_cast<std::size_t>(error.joint)];
-  const RefineResult& own_given = given[static_cast<std::size_t>(error.joint)];
+  RefineResult& own = right[static_cast<std::size_t>(joint)];
+  const RefineResult& own_given = given[static_cast<std::size_t>(joint)];
   effect.evidence.rho_before = is_done(own_given) ? own_given.rho_before : own.rho_before;
   effect.evidence.rho_after = own.rho_before;
   if (own_given.torque.known && own.torque.known)

@@ -19,7 +19,7 @@ struct RigError {
   std::vector<Estimate> given;       ///< the values of the rig file
   std::function<void(Rig&)> change;  ///< gives a rig the right values
   std::vector<Model> models;         ///< those given to refine, with the right values
-  int joint = 0;                     ///< from 0; its result lists the error
+  std::optional<int> joint;          ///< from 0, whose result lists it; none: whose gap falls most
   double chance = 1;                 ///< of such a difference where the rig file is right
   double share = 0;                  ///< of the squared residual that the right values remove
   std::vector<Rival> rivals = {};    ///< errors that explain the logs as well
@@ -51,6 +51,10 @@ bool take_arm(const RefineLogs& logs, int threads, std::vector<Model>& models);
 /// Whether the right values explain the logs as well as the effects that were identified with the
 /// given ones. `given`, `right`: results of each joint with either.
 bool is_explained(const std::vector<RefineResult>& given, const std::vector<RefineResult>& right);
+
+/// The joint (from 0) whose result lists the error.
+int listing_joint(const RigError& error, const std::vector<RefineResult>& given,
+                  const std::vector<RefineResult>& right);
 
 /// Adds the error to the results with the right values. Gaps before are those with the given ones.
 void name_rig_error(const RigError& error, const std::vector<RefineResult>& given,

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "cablefit/base/error.hpp"
 #include "cablefit/estimate/fit/parameter_estimate.hpp"
 #include "cablefit/estimate/spread/tail_probability.hpp"
 #include "cablefit/refine/gravity_fit.hpp"
@@ -33,22 +33,15 @@ std::optional<Posed> posed(const RigErrorSearch& search, const Eigen::Vector3d& 
   return Posed{std::move(models), std::move(fit)};
 }
 
-/// Squared residuals of each joint on held-out blocks, with the weights that `weights` has.
-std::vector<double> squares_of(const GravityFit& fit, const GravityFit& weights) {
-  std::vector<double> all;
+/// Squared residuals of all joints on held-out blocks, with the weights that `weights` has.
+double squares_of(const GravityFit& fit, const GravityFit& weights) {
+  double sum = 0;
   for (std::size_t k = 0; k < fit.joints().size(); ++k) {
     const std::optional<BaseFit>&own = fit.joints()[k], &other = weights.joints()[k];
-    double& squares = all.emplace_back(0);
     if (!other) continue;
     const auto again = own ? fit_blocks(own->grams, other->levels) : std::nullopt;
-    squares = again ? again->held_out.sum() : kUnbounded;
+    sum += again ? again->held_out.sum() : kUnbounded;
   }
-  return all;
-}
-
-double sum_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
   return sum;
 }
 
@@ -92,21 +85,19 @@ struct Direction {
   Tilt last;  ///< the step to it
 };
 
-/// Where the residual is least.
+/// Where the residual is least; nothing where the steps do not end.
 std::optional<Direction> least_near(const RigErrorSearch& search, Eigen::Vector3d gravity) {
   constexpr int kSteps = 8;
   constexpr double kNearSd = 0.1;
-  std::optional<Direction> found;
   for (int i = 0; i < kSteps; ++i) {
     const auto here = posed(search, gravity);
     const auto tilt = here ? here->fit.tilt() : std::nullopt;
     if (!tilt) return {};
     gravity = tilt->turned(gravity);
-    found = {gravity, *tilt};
     const Eigen::Array2d sd = tilt->covariance.diagonal().array().sqrt();
-    if ((tilt->angles.array().abs() < kNearSd * sd).all()) break;
+    if ((tilt->angles.array().abs() < kNearSd * sd).all()) return Direction{gravity, *tilt};
   }
-  return found;
+  return {};
 }
 
 /// Of the angle to another direction, rad.
@@ -149,18 +140,6 @@ EffectInstance instance_of(const Direction& right) {
   return instance;
 }
 
-/// How much the right direction removes, and on which joint most.
-void set_share(const GravityFit& given, const GravityFit& right, RigError& error) {
-  const std::vector<double> before = squares_of(given, right), after = squares_of(right, right);
-  double largest = 0;
-  for (std::size_t k = 0; k < before.size(); ++k) {
-    if (!(before[k] - after[k] > largest)) continue;
-    largest = before[k] - after[k];
-    error.joint = static_cast<int>(k);
-  }
-  if (sum_of(before) > 0) error.share = std::max(0.0, 1 - sum_of(after) / sum_of(before));
-}
-
 }  // namespace
 
 std::optional<RigError> wrong_gravity(const RigErrorSearch& search) {
@@ -178,15 +157,15 @@ std::optional<RigError> wrong_gravity(const RigErrorSearch& search) {
   if (!(error.chance < search.significance)) return {};
   auto pose = posed(search, right->gravity);
   if (!pose) return {};
-  set_share(given_pose->fit, pose->fit, error);
+  const double before = squares_of(given_pose->fit, pose->fit);
+  if (before > 0) error.share = std::max(0.0, 1 - squares_of(pose->fit, pose->fit) / before);
   error.change = change_to(right->gravity);
   error.models = std::move(pose->models);
   error.instance = instance_of(*right);
   error.given = components("given", given);
   error.reason = fmt::format(
-      "by the weight of the links, gravity points {:.3g} deg (sd {:.1g} deg) beside that of the "
-      "rig "
-      "file",
+      "the weight of the links shows gravity {:.3g} deg (sd {:.1g} deg) from the direction in the "
+      "rig file",
       kDegree * angle, kDegree * sd);
   return error;
 }

@@ -22,6 +22,18 @@ bool all_have_inertia(const std::vector<Axis>& axes) {
   return std::all_of(axes.begin(), axes.end(), [](const Axis& axis) { return axis.inertia() > 0; });
 }
 
+/// Empty where no joint has it.
+PathFriction path_friction_of(const Model& model) {
+  constexpr double kReversal = 2e-6;  // m
+  const auto has_it = [](const JointModel& joint) {
+    return std::any_of(joint.added.begin(), joint.added.end(), [](const EffectInstance& e) {
+      return e.effect->yardstick == Yardstick::shared_cable;
+    });
+  };
+  if (model.rigid || std::none_of(model.joints.begin(), model.joints.end(), has_it)) return {};
+  return {model.transmission.cables, kReversal};
+}
+
 void write_row(const std::vector<double>& values, Eigen::Index row, Eigen::ArrayXXd* table) {
   for (std::size_t k = 0; k < values.size(); ++k) {
     (*table)(row, static_cast<Eigen::Index>(k)) = values[k];
@@ -35,7 +47,7 @@ Plant::Plant(const Model& model, const SimulationInput& input, bool link_blocked
       link_blocked_(link_blocked),
       load_(model.rig.load),
       coupling_(model.rigid ? Transmission{} : model.transmission),
-      path_(model.rigid ? std::vector<Cable>{} : model.transmission.cables),
+      path_(path_friction_of(model)),
       t0_(input.t0) {
   const std::size_t n = model.joints.size();
   for (const JointModel& joint : model.joints) {

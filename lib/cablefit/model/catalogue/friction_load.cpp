@@ -56,8 +56,8 @@ Effect path_friction() {
   return {.name = "path_friction",
           .site = Site::link,
           .equation =
-              "sum mu T r sgn(v) of cables on the pulleys up to this joint, v = sum r_j qd_j "
-              "from the pulley on",
+              "mu r_j sum T_i sgn(v_ik) over cables i and pulleys k <= j, v_ik = sum r_il qd_l "
+              "over l >= k",
           .signature =
               "dry friction that changes sign with the motion of other joints; tension friction "
               "follows the joint's own speed",

@@ -8,8 +8,6 @@
 namespace cablefit {
 namespace {
 
-constexpr double kReversal = 2e-6;  // m, after which 63 % of the friction has turned
-
 std::vector<std::size_t> passed_links(const Cable& cable) {
   std::vector<std::size_t> joints;
   for (std::size_t k = 0; k < cable.link_map.size(); ++k)
@@ -23,9 +21,11 @@ bool rubs_on_path(const Cable& cable) {
   return !cable.has_pairs() && passed_links(cable).size() > 1;
 }
 
-PathFriction::PathFriction(std::vector<Cable> cables) : cables_(std::move(cables)) {
+PathFriction::PathFriction(std::vector<Cable> cables, double reversal)
+    : cables_(std::move(cables)), reversal_(reversal) {
+  if (std::none_of(cables_.begin(), cables_.end(), rubs_on_path)) return;
   for (std::size_t i = 0; i < cables_.size(); ++i) {
-    if (!rubs_on_path(cables_[i])) continue;
+    if (cables_[i].has_pairs()) continue;
     Path& path = paths_.emplace_back(Path{i, {}});
     for (const std::size_t joint : passed_links(cables_[i])) path.pulleys.push_back({joint, 0});
   }
@@ -38,7 +38,7 @@ void PathFriction::advance(std::span<const double> q, std::span<const double> qd
       Pulley& pulley = path.pulleys[k];
       speed +=
           cables_[path.cable].link_map[pulley.joint].radius(q[pulley.joint]) * qd[pulley.joint];
-      pulley.slid = rows::slid(pulley.slid, speed * h, kReversal);
+      pulley.slid = rows::slid(pulley.slid, speed * h, reversal_);
     }
   }
 }

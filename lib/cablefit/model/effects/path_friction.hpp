@@ -3,8 +3,7 @@
 //   v_ik = sum over joints j >= k of r_ij qd_j          (r_ij: its link radii, m)
 // against the link before, and what is behind the pulley has mu T_i sgn(v_ik) less of the tension
 // T_i: capstan friction (Euler 1769; Kaneko et al. 1991) to first order in mu, in the sense of
-// virtual work. Joints are passed in the order of the rig. After a reversal the friction builds up
-// over a short way (Dahl 1968), so that cables at rest stick.
+// virtual work. Joints are passed in the order of the rig.
 #pragma once
 
 #include <span>
@@ -19,10 +18,13 @@ bool rubs_on_path(const Cable& cable);
 
 class PathFriction {
  public:
-  /// `cables`: with the maps of all joints of the rig. None rubs at the beginning.
-  explicit PathFriction(std::vector<Cable> cables);
+  PathFriction() = default;
+  /// `cables`: with the maps of all joints of the rig; those with a map of two joints are left out.
+  /// `reversal`: m, after which 63 % of the friction has turned (Dahl 1968), so that cables at rest
+  /// stick in a simulation; 0: it turns at once. None rubs at the beginning.
+  PathFriction(std::vector<Cable> cables, double reversal);
 
-  /// No cable passes links of several joints.
+  /// No cable passes links of several joints: this is friction of the joints themselves.
   bool is_empty() const { return paths_.empty(); }
 
   /// The links move at `qd` (rad/s) for h (s) from `q` on (rad); one per joint.
@@ -43,6 +45,7 @@ class PathFriction {
   };
 
   std::vector<Cable> cables_;
+  double reversal_ = 0;
   std::vector<Path> paths_;
 };
 

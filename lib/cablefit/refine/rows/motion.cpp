@@ -163,7 +163,7 @@ std::vector<Eigen::Index> moving_rows(const Eigen::ArrayXd& speed, double least_
 void fill_path_friction(const SmoothMotion& m, const Model& model, const Smoothing& smoothing,
                         std::vector<JointState>& states) {
   if (model.whole == nullptr || m.links.cols() == 0) return;
-  PathFriction path(passing_cables(model));
+  PathFriction path(passing_cables(model), 0);
   if (path.is_empty()) return;
   const Transmission& own = model.transmission;
   std::vector<JointSignals> joint(1);

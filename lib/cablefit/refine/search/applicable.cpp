@@ -7,7 +7,7 @@
 namespace cablefit {
 namespace {
 
-bool rubs_on_path(const Model& one) {
+bool has_shared_cable(const Model& one) {
   if (one.whole == nullptr) return false;
   const std::vector<Cable>& cables = one.whole->transmission.cables;
   return std::any_of(cables.begin(), cables.end(), [&](const Cable& cable) {
@@ -17,7 +17,7 @@ bool rubs_on_path(const Model& one) {
 
 bool has_yardstick(Yardstick wanted, const Design& design) {
   if (wanted == Yardstick::none) return true;
-  if (wanted == Yardstick::shared_cable) return rubs_on_path(design.models.front());
+  if (wanted == Yardstick::shared_cable) return has_shared_cable(design.models.front());
   if (wanted == Yardstick::load_or_inertia && design.layout.given) return true;
   return std::any_of(design.stretches.begin(), design.stretches.end(), [](const Stretch& stretch) {
     return (stretch.recording.tau_load != 0).any();
