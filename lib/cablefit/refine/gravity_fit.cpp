@@ -54,17 +54,17 @@ VariantColumns tilt_columns(const Design& design, const Eigen::Vector3d& gravity
   return all;
 }
 
-/// Half the squared residual over the two angles, to second order, of one joint or of several.
-struct Bowl {
-  Eigen::Matrix2d bend = Eigen::Matrix2d::Zero();
-  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();  ///< sum over blocks of slope slope'
-  Eigen::Vector2d slope = Eigen::Vector2d::Zero();    ///< downhill
+/// Of the two angles, without the parameters of the joints; summed over joints.
+struct NormalEquations {
+  Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();  ///< sum over blocks of right right'
+  Eigen::Vector2d right = Eigen::Vector2d::Zero();    ///< right-hand side
   double squares = 0;                                 ///< of the two columns, weighted
   double n_blocks = 0;                                ///< with rows of a moving link
 };
 
 /// The part of the last two columns that is not made of those of the base.
-void add_joint(const BaseFit& base, const BlockGrams& grams, Bowl& bowl) {
+void add_joint(const BaseFit& base, const BlockGrams& grams, NormalEquations& sum) {
   const Eigen::Index n = base.grams.n_columns;
   const Eigen::MatrixXd all = weighted_sum(grams, base.levels).bottomRightCorner(n + 2, n + 2);
   const Eigen::VectorXd scale = all.diagonal().unaryExpr(
@@ -74,19 +74,19 @@ void add_joint(const BaseFit& base, const BlockGrams& grams, Bowl& bowl) {
   own.topRows(n) = -scaled.topLeftCorner(n, n).ldlt().solve(scaled.topRightCorner(n, 2));
   own.bottomRows(2).setIdentity();
   own = scale.asDiagonal() * own * scale.tail(2).cwiseInverse().asDiagonal();
-  bowl.bend += own.transpose() * all * own;
-  bowl.squares += all.diagonal().tail(2).sum();
+  sum.matrix += own.transpose() * all * own;
+  sum.squares += all.diagonal().tail(2).sum();
   Eigen::VectorXd residual(n + 3);  // response minus columns
   residual << 1, -base.fit.x, 0, 0;
   for (const BlockGrams::Block& block : grams.blocks) {
-    Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+    Eigen::Vector2d right = Eigen::Vector2d::Zero();
     for (std::size_t kind = 0; kind < block.gram.size(); ++kind)
       if (block.gram[kind].size() > 0)
-        slope += own.transpose() * block.gram[kind].bottomRows(n + 2) * residual /
+        right += own.transpose() * block.gram[kind].bottomRows(n + 2) * residual /
                  (base.levels[kind] * base.levels[kind]);
-    bowl.slope += slope;
-    bowl.scatter += slope * slope.transpose();
-    if (block.n_rows[static_cast<std::size_t>(RowKind::link)] > 0) bowl.n_blocks += 1;
+    sum.right += right;
+    sum.scatter += right * right.transpose();
+    if (block.n_rows[static_cast<std::size_t>(RowKind::link)] > 0) sum.n_blocks += 1;
   }
 }
 
@@ -121,7 +121,7 @@ std::optional<Tilt> GravityFit::tilt() const {
   Tilt tilt;
   tilt.axes.col(0) = gravity.unitOrthogonal();
   tilt.axes.col(1) = gravity.normalized().cross(tilt.axes.col(0));
-  Bowl bowl;
+  NormalEquations sum;
   const double block_seconds = ScanSettings{}.block_seconds;
   for (const std::optional<BaseFit>& base : joints_)
     if (base) {
@@ -129,14 +129,14 @@ std::optional<Tilt> GravityFit::tilt() const {
       add_joint(*base,
                 extended(base->grams, design.rows, design.stretches,
                          tilt_columns(design, gravity, tilt.axes), block_seconds),
-                bowl);
+                sum);
     }
-  const double own = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(bowl.bend).eigenvalues()(0);
-  if (!(own > kOwnPart * bowl.squares)) return {};
-  const Eigen::Matrix2d inverse = bowl.bend.inverse();
-  tilt.angles = inverse * bowl.slope;
-  tilt.covariance = (1 + kRepeated * bowl.n_blocks) * inverse * bowl.scatter * inverse;
-  tilt.dof = std::max(1.0, bowl.n_blocks - 2);
+  const double own = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(sum.matrix).eigenvalues()(0);
+  if (!(own > kOwnPart * sum.squares)) return {};
+  const Eigen::Matrix2d inverse = sum.matrix.inverse();
+  tilt.angles = inverse * sum.right;
+  tilt.covariance = (1 + kRepeated * sum.n_blocks) * inverse * sum.scatter * inverse;
+  tilt.dof = std::max(1.0, sum.n_blocks - 2);
   const bool is_determined =
       tilt.angles.allFinite() && (tilt.covariance.diagonal().array() < kMostSd * kMostSd).all();
   if (!is_determined) return {};

@@ -15,7 +15,7 @@ namespace cablefit {
 namespace {
 
 /// Models of all joints with masses of the arm that stage 2 finds with this gravity, and their fit.
-struct Posed {
+struct FitAtGravity {
   std::vector<Model> models;
   GravityFit fit;
 };
@@ -24,13 +24,13 @@ std::function<void(Rig&)> change_to(const Eigen::Vector3d& gravity) {
   return [gravity](Rig& rig) { set_gravity(rig, gravity); };
 }
 
-std::optional<Posed> posed(const RigErrorSearch& search, const Eigen::Vector3d& gravity) {
+std::optional<FitAtGravity> fit_at(const RigErrorSearch& search, const Eigen::Vector3d& gravity) {
   const auto change = change_to(gravity);
   std::vector<Model> models(search.given.begin(), search.given.end());
   for (Model& model : models) change(model.rig);
   if (!take_arm(with_rig(search.logs, change), search.threads, models)) return {};
   GravityFit fit(models, search.logs);
-  return Posed{std::move(models), std::move(fit)};
+  return FitAtGravity{std::move(models), std::move(fit)};
 }
 
 /// Squared residuals of all joints on held-out blocks, with the weights that `weights` has.
@@ -71,7 +71,7 @@ Eigen::Vector3d best_start(const RigErrorSearch& search, const Eigen::Vector3d& 
     for (const double sign : {1.0, -1.0}) {
       const Eigen::Vector3d gravity = sign * given.norm() * Eigen::Vector3d::Unit(axis);
       if (gravity.dot(given) > near * given.squaredNorm()) continue;
-      const auto other = posed(search, gravity);
+      const auto other = fit_at(search, gravity);
       const double now = other ? misfit(other->fit, given_fit) : kUnbounded;
       if (!(now < least)) continue;
       least = now;
@@ -90,7 +90,7 @@ std::optional<Direction> least_near(const RigErrorSearch& search, Eigen::Vector3
   constexpr int kSteps = 8;
   constexpr double kNearSd = 0.1;
   for (int i = 0; i < kSteps; ++i) {
-    const auto here = posed(search, gravity);
+    const auto here = fit_at(search, gravity);
     const auto tilt = here ? here->fit.tilt() : std::nullopt;
     if (!tilt) return {};
     gravity = tilt->turned(gravity);
@@ -147,20 +147,21 @@ std::optional<RigError> wrong_gravity(const RigErrorSearch& search) {
   constexpr int kAngles = 2;
   if (!has_gravity(search.fitted.front().rig)) return {};
   const Eigen::Vector3d given = gravity_of(search.fitted.front().rig);
-  const auto given_pose = posed(search, given);
-  if (!given_pose) return {};
-  const auto right = least_near(search, best_start(search, given, given_pose->fit));
+  const auto given_fit = fit_at(search, given);
+  if (!given_fit) return {};
+  const auto right = least_near(search, best_start(search, given, given_fit->fit));
   if (!right) return {};
   const double angle = angle_between(given, right->gravity), sd = sd_towards(*right, given);
   RigError error;
   error.chance = std::min(1.0, kAngles * t_tail(angle / sd, right->last.dof));
   if (!(error.chance < search.significance)) return {};
-  auto pose = posed(search, right->gravity);
-  if (!pose) return {};
-  const double before = squares_of(given_pose->fit, pose->fit);
-  if (before > 0) error.share = std::max(0.0, 1 - squares_of(pose->fit, pose->fit) / before);
+  auto right_fit = fit_at(search, right->gravity);
+  if (!right_fit) return {};
+  const double before = squares_of(given_fit->fit, right_fit->fit);
+  if (before > 0)
+    error.share = std::max(0.0, 1 - squares_of(right_fit->fit, right_fit->fit) / before);
   error.change = change_to(right->gravity);
-  error.models = std::move(pose->models);
+  error.models = std::move(right_fit->models);
   error.instance = instance_of(*right);
   error.given = components("given", given);
   error.reason = fmt::format(

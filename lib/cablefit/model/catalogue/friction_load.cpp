@@ -19,8 +19,8 @@ void tension_level(const JointState& state, double /*direction*/, const double* 
   level[0] = state.tension;
 }
 
-void rub(const JointState& state, const double* /*shape*/, const double* /*z*/, double* link,
-         double* /*motor*/) {
+void path_loss(const JointState& state, const double* /*shape*/, const double* /*z*/, double* link,
+               double* /*motor*/) {
   link[0] = state.path_friction;
 }
 
@@ -65,7 +65,7 @@ Effect path_friction() {
           .source = "Euler 1769 (capstan equation); Kaneko et al. 1991",
           .parameters = kPathMu,
           .yardstick = Yardstick::shared_cable,
-          .torque = rub};
+          .torque = path_loss};
 }
 
 Effect load_friction() {

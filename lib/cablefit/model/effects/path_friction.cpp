@@ -38,7 +38,7 @@ void PathFriction::advance(std::span<const double> q, std::span<const double> qd
       Pulley& pulley = path.pulleys[k];
       speed +=
           cables_[path.cable].link_map[pulley.joint].radius(q[pulley.joint]) * qd[pulley.joint];
-      pulley.slid = rows::slid(pulley.slid, speed * h, reversal_);
+      pulley.sign = rows::slid(pulley.sign, speed * h, reversal_);
     }
   }
 }
@@ -51,7 +51,7 @@ double PathFriction::on_link(std::size_t joint, std::span<const double> q,
                                   [&](const Pulley& pulley) { return pulley.joint == joint; });
     if (own == path.pulleys.end()) continue;
     double lost = 0;
-    for (auto pulley = path.pulleys.begin(); pulley <= own; ++pulley) lost += pulley->slid;
+    for (auto pulley = path.pulleys.begin(); pulley <= own; ++pulley) lost += pulley->sign;
     torque += lost * tension[path.cable] * cables_[path.cable].link_map[joint].radius(q[joint]);
   }
   return torque;

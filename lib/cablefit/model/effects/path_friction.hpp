@@ -37,7 +37,7 @@ class PathFriction {
   /// A pulley that a cable passes.
   struct Pulley {
     std::size_t joint;
-    double slid = 0;  ///< -1 .. 1: sgn(v_ik) after a short way
+    double sign = 0;  ///< -1 .. 1: sgn(v_ik) after a short way
   };
   struct Path {
     std::size_t cable;
