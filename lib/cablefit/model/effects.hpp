@@ -68,8 +68,8 @@ struct Recording {
   /// Parts of the elongation of the joint's cables that other joints cause, samples x cables, m. No
   /// columns: there are none.
   Eigen::ArrayXXd others = {};
-  /// Of one of several joints: q of all, samples x joints, rad, and the index of this one. No
-  /// columns: there is one joint.
+  /// Of one of several joints: q of the joints whose links move with it (linked_joints), samples x
+  /// joints, rad, and its place among them. No columns: there is one joint.
   Eigen::ArrayXXd links = {};
   Eigen::Index joint = 0;
 };

@@ -308,10 +308,37 @@ Model one_joint(const Model& whole, int joint) {
   return one;
 }
 
+std::vector<int> linked_joints(const Model& one) {
+  const Transmission& whole = one.whole->transmission;
+  const std::vector<std::size_t> cables = passing(whole, place(one.joint));
+  std::vector<int> joints;
+  for (int j = 0; j < static_cast<int>(one.whole->joints.size()); ++j) {
+    const bool shares = std::any_of(cables.begin(), cables.end(), [&](std::size_t i) {
+      return !whole.cables[i].link_map[place(j)].is_zero();
+    });
+    if (shares || j == one.joint || one.is_coupled()) joints.push_back(j);
+  }
+  return joints;
+}
+
+int own_place(const Model& one) {
+  const std::vector<int> joints = linked_joints(one);
+  return static_cast<int>(std::find(joints.begin(), joints.end(), one.joint) - joints.begin());
+}
+
 std::vector<Cable> passing_cables(const Model& one) {
+  const std::vector<int> joints = linked_joints(one);
+  const auto linked = [&](const std::vector<DisplacementMap>& maps) {
+    std::vector<DisplacementMap> some;
+    for (const int j : joints) some.push_back(maps[place(j)]);
+    return some;
+  };
   std::vector<Cable> cables;
-  for (const std::size_t i : passing(one.whole->transmission, place(one.joint)))
-    cables.push_back(one.whole->transmission.cables[i]);
+  for (const std::size_t i : passing(one.whole->transmission, place(one.joint))) {
+    Cable& cable = cables.emplace_back(one.whole->transmission.cables[i]);
+    cable.motor_map = linked(cable.motor_map);
+    cable.link_map = linked(cable.link_map);
+  }
   return cables;
 }
 

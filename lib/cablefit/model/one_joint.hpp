@@ -19,7 +19,12 @@ namespace cablefit {
 Model one_joint(const Model& whole, int joint);
 std::vector<Model> one_joint(std::span<const Model> models, int joint);
 
-/// The cables of the model with the maps of all joints, as the whole has them.
+/// Joints (from 0) whose links move with this one: all of an arm, else those that its cables pass.
+/// With its own, ascending.
+std::vector<int> linked_joints(const Model& one);
+/// The place of the joint among them.
+int own_place(const Model& one);
+/// The cables of the model with the maps of the linked joints, as the whole has them.
 std::vector<Cable> passing_cables(const Model& one);
 
 /// The same without the others, which stand at 0: an arm as an inertia M_kk(0) of the link.

@@ -30,6 +30,16 @@ std::optional<std::size_t> place_in(const Model& one, const Pulley& pulley) {
   return static_cast<std::size_t>(found - cables.begin());
 }
 
+/// Cables need no more of a motion.
+SmoothMotion positions_of(const SmoothMotion& motion) {
+  SmoothMotion positions;
+  positions.period = motion.period;
+  positions.q = motion.q;
+  positions.theta = motion.theta;
+  positions.others = motion.others;
+  return positions;
+}
+
 double reference_of(const Model& whole, const Pulley& pulley) {
   return pulley.side == Side::link ? whole.transmission.reference_q()(pulley.joint)
                                    : whole.transmission.reference_theta()(pulley.joint);
@@ -73,7 +83,13 @@ std::vector<Model> with_radius(std::vector<Model> models, const Pulley& pulley, 
 }
 
 RadiusFit::RadiusFit(const std::vector<Model>& models, const RefineLogs& logs)
-    : models_(models), joints_(base_fits_of(models, logs)) {}
+    : models_(models), joints_(base_fits_of(models, logs)) {
+  for (std::optional<BaseFit>& base : joints_)
+    for (std::size_t k = 0; base && k < base->design.rows.size(); ++k) {
+      StretchRows& rows = base->design.rows[k];
+      rows.motion = std::make_shared<const SmoothMotion>(positions_of(*rows.motion));
+    }
+}
 
 Eigen::ArrayXd RadiusFit::travel(const Pulley& pulley, std::size_t stretch) const {
   const std::optional<BaseFit>& own = joints_[place(pulley.joint)];
@@ -99,11 +115,7 @@ BlockGrams RadiusFit::grams(const BaseFit& base, const Pulley& pulley, double ch
   std::vector<std::vector<ReplacedColumns>> columns;
   for (std::size_t k = 0; k < design.rows.size(); ++k) {
     const StretchRows& rows = design.rows[k];
-    SmoothMotion motion;  // cables need no more of it
-    motion.period = rows.motion->period;
-    motion.q = rows.motion->q;
-    motion.theta = rows.motion->theta;
-    motion.others = rows.motion->others;
+    SmoothMotion motion = *rows.motion;
     if (!is_own)
       motion.others.col(static_cast<Eigen::Index>(cable)) +=
           sign_of(pulley) * change * travel(pulley, k);

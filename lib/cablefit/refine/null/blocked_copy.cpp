@@ -97,7 +97,7 @@ BlockedCopy make_blocked_copy(const std::vector<Model>& models, std::vector<Stre
     const Model& model = models[stretch.model];
     copy.sensors.push_back(sensors_of(model.rig, stretch.recording));
     const double late = torque_lateness(model.rig, stretch.recording.period);
-    const SmoothMotion m = smooth_motion_of(stretch.recording, stretch.t0, late, smoothing);
+    const SmoothMotion m = smooth_motion_of(stretch.recording, stretch.t0, late, smoothing, false);
     stretch.recording.theta = m.theta;
     stretch.recording.tau = as_logged(torque_of(model, m, smoothing), late);
   }

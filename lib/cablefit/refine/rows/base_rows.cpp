@@ -207,7 +207,7 @@ std::shared_ptr<const SmoothMotion> motion_of(const Stretch& stretch, const Mode
   const Recording& recording = stretch.recording;
   return std::make_shared<const SmoothMotion>(
       smooth_motion_of(recording, stretch.t0, torque_lateness(model.rig, recording.period),
-                       suited(wanted, recording.period)));
+                       suited(wanted, recording.period), model.is_coupled()));
 }
 
 StretchRows base_rows(const Stretch& stretch, const Model& model, const BaseLayout& layout,

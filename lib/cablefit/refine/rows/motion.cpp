@@ -97,7 +97,7 @@ double torque_lateness(const Rig& rig, double period) {
 }
 
 SmoothMotion smooth_motion_of(const Recording& r, double t0, double late,
-                              const Smoothing& smoothing) {
+                              const Smoothing& smoothing, bool of_arm) {
   const Kernel smooth = gaussian(smoothing.signals, r.period);
   const Kernel slope = gaussian_slope(smoothing.signals, r.period);
   const Kernel curvature = gaussian_curvature(smoothing.signals, r.period);
@@ -120,7 +120,7 @@ SmoothMotion smooth_motion_of(const Recording& r, double t0, double late,
   links.col(r.joint) = r.q;  // as a sensor's error may have changed it
   m.links = apply_to_columns(smooth, links);
   m.links_d = apply_to_columns(slope, links);
-  m.links_dd = apply_to_columns(curvature, links);
+  if (of_arm) m.links_dd = apply_to_columns(curvature, links);
   return m;
 }
 
@@ -180,10 +180,11 @@ void fill_path_friction(const SmoothMotion& m, const Model& model, const Smoothi
   const auto at = [](const Eigen::ArrayXXd& table, Eigen::Index i) {
     return std::span<const double>(table.col(i).data(), static_cast<std::size_t>(table.rows()));
   };
+  const auto at_own = static_cast<std::size_t>(own_place(model));
   Eigen::ArrayXd torque(m.size());
   for (Eigen::Index i = 0; i < m.size(); ++i) {
     path.advance(at(q, i), at(qd, i), m.period);
-    torque(i) = path.on_link(static_cast<std::size_t>(model.joint), at(q, i), at(tension, i));
+    torque(i) = path.on_link(at_own, at(q, i), at(tension, i));
   }
   torque = apply(gaussian(suited(smoothing, m.period).signals, m.period), torque);
   for (Eigen::Index i = 0; i < m.size(); ++i)

@@ -54,7 +54,8 @@ struct SmoothMotion {
   Eigen::ArrayXd tau, tau_load;                 ///< smoothed; tau at the time it acts
   Eigen::ArrayXd q_direction, theta_direction;  ///< -1, 0, 1
   Eigen::ArrayXXd others;                       ///< see Recording; smoothed
-  Eigen::ArrayXXd links, links_d, links_dd;     ///< of several joints, samples x joints; or none
+  Eigen::ArrayXXd links, links_d;               ///< of linked joints, samples x joints; or none
+  Eigen::ArrayXXd links_dd;                     ///< of an arm
   Eigen::Index size() const { return theta.size(); }
 };
 
@@ -62,9 +63,9 @@ struct SmoothMotion {
 /// drive holds it, 0 without a hold.
 double torque_lateness(const Rig& rig, double period);
 
-/// `late`: see torque_lateness.
+/// `late`: see torque_lateness. `of_arm`: with the accelerations of all links.
 SmoothMotion smooth_motion_of(const Recording& recording, double t0, double late,
-                              const Smoothing& smoothing);
+                              const Smoothing& smoothing, bool of_arm);
 
 /// Only tau, at every `every`-th sample. With `every` above 1 it is 0 within the kernel of the
 /// ends.

@@ -57,8 +57,8 @@ Recording recording_of(const GaplessRows& run, const LogPlan& plan, const Model&
   if (model.whole == nullptr) return r;
   const Eigen::ArrayXXd q = columns(run, plan, Channel::q);
   r.others = others_elongation(model, q, columns(run, plan, Channel::theta));
-  r.links = q;
-  r.joint = model.joint;
+  r.links = q(Eigen::all, linked_joints(model));
+  r.joint = own_place(model);
   return r;
 }
 

@@ -157,8 +157,8 @@ std::optional<Stretch> simulated(const TrialRun& run, const Model& given) {
                        input.tau_load.col(0)};
   if (given.whole == nullptr) return stretch;
   Recording& r = stretch.recording;  // the other links stand at 0
-  r.links = Eigen::ArrayXXd::Zero(n, static_cast<Eigen::Index>(given.whole->joints.size()));
-  r.joint = given.joint;
+  r.links = Eigen::ArrayXXd::Zero(n, static_cast<Eigen::Index>(linked_joints(given).size()));
+  r.joint = own_place(given);
   r.links.col(r.joint) = r.q;
   return stretch;
 }
