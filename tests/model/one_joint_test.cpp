@@ -133,10 +133,10 @@ Model planar() {
 /// A thumb, whose first axis is at right angles to the others.
 Model spatial() {
   const TempFolder folder;
-  folder.write("finger.urdf", urdf_text(thumb(), "finger"));
   Model model;
-  model.rig = read_rig(folder.write(
-      "rig.json", rig_text(thumb_rig(), R"( "arm": {"type": "urdf", "file": "finger.urdf"},)")));
+  model.rig = read_rig(folder.write("rig.json", rig_text(thumb_rig(), R"( "arm": {
+    "type": "serial", "origins": [[0, 0, 0.01], [0, 0, 0.02], [0.1, 0, 0]],
+    "axes": [[1, 0, 0], [0, 1, 0], [0, 1, 0]]},)")));
   model.joints.resize(3);
   model.transmission = model.rig.transmission;
   for (const ParameterInfo& info : model.rig.arm.base_parameters())

@@ -1,6 +1,6 @@
 // A value of the rig file that is wrong, as several joints together show it, and the results of
-// refine with the right value. To add one: one file, one line in rig_errors.cpp. Internal to
-// refine/.
+// refine with the right value. To add one: one file, one line in rig_error.cpp, one row in
+// model/catalogue/rig_errors.cpp. Internal to refine/.
 #pragma once
 
 #include <functional>

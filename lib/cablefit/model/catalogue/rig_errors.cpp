@@ -31,8 +31,8 @@ Effect gravity_direction() {
           .site = Site::link,
           .equation = "g(q) of the arm, not along the \"gravity\" of the rig file",
           .signature =
-              "torques of the links' weights on all joints, by the poses of all of them; "
-              "gravity imbalance depends on one joint alone",
+              "torques of the links' weights, which depend on the poses of all joints; gravity "
+              "imbalance depends on one joint alone",
           .experiment = "move all joints slowly, so that each link points in many directions",
           .source = "Khalil & Dombre 2004, ch. 9",
           .parameters = kGravity};

@@ -19,7 +19,8 @@ bool rubs_on_path(const Cable& cable);
 class PathFriction {
  public:
   PathFriction() = default;
-  /// `cables`: with the maps of all joints of the rig; those with a map of two joints are left out.
+  /// `cables`: with the link maps of the same joints, by which the calls below count; those with a
+  /// map of two joints are left out.
   /// `reversal`: m, after which 63 % of the friction has turned (Dahl 1968), so that cables at rest
   /// stick in a simulation; 0: it turns at once. None rubs at the beginning.
   PathFriction(std::vector<Cable> cables, double reversal);
