@@ -94,10 +94,8 @@ PredictedEquation predict_system(const DynamicJob& job, const std::vector<Equati
                                  const std::vector<std::size_t>& which,
                                  const std::vector<double>& noise) {
   const EquationRows& first = equations[which.front()];
-  std::optional<RowStatistics> stacked;
-  if (which.size() > 1)
-    stacked = stacked_rows(equations, which, job.elastic, 0, Weighting::by_residual);
-  const RowStatistics& rows = stacked ? *stacked : *first.rows;
+  const SystemRows system_rows(equations, which, job.elastic, 0, Weighting::by_residual);
+  const RowStatistics& rows = system_rows.get();
   PredictedSystem system{first.columns, rows, solve_rows(rows, first.columns, job.elastic, 0), {}};
   add_estimates(rows, first.columns, system.solution, job.rigid ? nullptr : job.elastic.front(), 0,
                 true, system.fit);
@@ -109,7 +107,7 @@ PredictedEquation predict_system(const DynamicJob& job, const std::vector<Equati
     const EquationRows& e = equations[k];
     const auto n_rows = static_cast<double>(e.rows->n_rows());
     const LinearSolution own = solve_equation(e, job.elastic, 0);
-    const double weight = stacked && own.rss > 0 ? n_rows / own.rss : 1;
+    const double weight = which.size() > 1 && own.rss > 0 ? n_rows / own.rss : 1;
     weighted += n_rows * weight * noise[k] * noise[k];
     plain += n_rows * noise[k] * noise[k];
     left += own.rss;

@@ -45,10 +45,14 @@ std::string InstrumentProof::text() const {
 std::vector<InstrumentProof> prove_instruments(const EstimationTask& task, const TestRows& test,
                                                const IvFit& fit) {
   const DynamicJob& job = task.job;
-  std::vector<InstrumentProof> proofs(task.equations.size());
+  const std::vector<std::vector<std::size_t>> systems = systems_of(task.equations);
+  const auto first_of = [&](std::size_t k) -> const EquationRows& {
+    return task.equations[systems[k].front()];
+  };
+  std::vector<InstrumentProof> proofs(systems.size());
   for (std::size_t k = 0; k < proofs.size(); ++k) {
-    const HeldOutMoments moments = held_out_moments(
-        fit.rows[k].rows, instrumented_problem(job, task.equations[k], task.model));
+    const HeldOutMoments moments =
+        held_out_moments(fit.rows[k], instrumented_problem(job, first_of(k), task.model));
     proofs[k].better = moments.with < moments.plain;
   }
   const double rate = sample_rates(job.logs, job.wanted).lowest;
@@ -67,7 +71,7 @@ std::vector<InstrumentProof> prove_instruments(const EstimationTask& task, const
       if (moved.parameter < 0 || std::abs(moved.in_sd) < proofs[k].moved) continue;
       proofs[k].moved = std::abs(moved.in_sd);
       proofs[k].parameter =
-          task.equations[k].columns.parameters[static_cast<std::size_t>(moved.parameter)].name;
+          first_of(k).columns.parameters[static_cast<std::size_t>(moved.parameter)].name;
     }
   }
   for (InstrumentProof& proof : proofs) proof.agrees = n_cutoffs > 0 && proof.moved < kAgreement;

@@ -34,7 +34,7 @@ struct InstrumentProof {
   std::string text() const;
 };
 
-/// Per equation of the task.
+/// Per system of the task's equations.
 std::vector<InstrumentProof> prove_instruments(const EstimationTask& task, const TestRows& test,
                                                const IvFit& fit);
 

@@ -30,7 +30,7 @@ std::string rows_of(const EstimationTask& task, const IvFit& fit) {
   std::string text;
   for (std::size_t k = 0; k < task.equations.size(); ++k)
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", task.equations[k].equation.name,
-                        fit.rows[k].counts.rows_used);
+                        fit.counts[k].rows_used);
   return text;
 }
 
@@ -58,10 +58,35 @@ void note_instruments(const EstimationTask& task, const LoopPlan& plan, const Iv
                     fit.n_simulations, fit.last_change));
 }
 
+/// What is solved together, and the first equation of it, whose columns are those of all.
+struct System {
+  std::vector<std::size_t> equations;
+  const EquationRows* first = nullptr;
+  std::string name;  ///< "motor", "link[1] + link[2]"
+};
+
+std::vector<System> systems_of(const EstimationTask& task) {
+  std::vector<System> systems;
+  for (const std::vector<std::size_t>& equations : cablefit::systems_of(task.equations)) {
+    System& system = systems.emplace_back();
+    system.equations = equations;
+    system.first = &task.equations[equations.front()];
+    for (const std::size_t k : equations)
+      system.name += (system.name.empty() ? "" : " + ") + task.equations[k].equation.name;
+  }
+  return systems;
+}
+
+SystemRows plain_rows(const EstimationTask& task, const System& system) {
+  return {task.equations, system.equations, task.job.elastic, task.model, Weighting::by_residual};
+}
+
+/// Per system.
 std::vector<LinearSolution> least_squares_of(const EstimationTask& task) {
   std::vector<LinearSolution> solutions;
-  for (const EquationRows& e : task.equations)
-    solutions.push_back(solve_equation(e, task.job.elastic, task.model));
+  for (const System& system : systems_of(task))
+    solutions.push_back(solve_rows(plain_rows(task, system).get(), system.first->columns,
+                                   task.job.elastic, task.model));
   return solutions;
 }
 
@@ -74,10 +99,10 @@ std::vector<LinearSolution> least_squares_on(const TestRows& test, const Estimat
   return least_squares_of({job, equations, task.model});
 }
 
-void add_equation(const EstimationTask& task, std::size_t k, const RowStatistics& rows,
-                  LinearSolution solution, std::vector<EquationInfluence>& influences,
-                  Estimation& out) {
-  const EquationRows& e = task.equations[k];
+void add_system(const EstimationTask& task, const System& system, const RowStatistics& rows,
+                LinearSolution solution, std::vector<EquationInfluence>& influences,
+                Estimation& out) {
+  const EquationRows& e = *system.first;
   const LinearProblem problem = solution.instruments.empty()
                                     ? problem_of(e.columns, task.job.elastic, task.model)
                                     : instrumented_problem(task.job, e, task.model);
@@ -85,19 +110,24 @@ void add_equation(const EstimationTask& task, std::size_t k, const RowStatistics
   add_estimates(rows, e.columns, solution, task.stage1(), task.model, task.job.options.robust_sd,
                 out.fit);
   influences.push_back(influence_of(rows, e.columns, solution, task.stage1(), task.model));
-  out.fit.sd_reason[e.equation.name] = reason_for_sd(task, rows, e.columns, solution);
+  const std::string reason = reason_for_sd(task, rows, e.columns, solution);
   LinearSolution own =
       std::move(solution);  // without the instruments' columns, which it does not use
   own.residual_combination = own.residual_combination.head(e.columns.count).eval();
-  add_errors(*e.rows, e.equation.name, own, out.fit);
-  out.solutions.push_back(std::move(own));
+  out.solutions.resize(task.equations.size());
+  for (const std::size_t k : system.equations) {
+    const std::string& name = task.equations[k].equation.name;
+    out.fit.sd_reason[name] = reason;
+    add_errors(*task.equations[k].rows, name, own, out.fit);
+    out.solutions[k] = own;
+  }
 }
 
 bool is_rejected(const ExogeneityTest& test) {
   return test.possible && test.p_value < kSignificant;
 }
 
-/// The common result of the test and the two fits of one equation.
+/// The common result of the test and the two fits of one system.
 struct Judgement {
   ExogeneityTest test;
   EstimateDifference difference;
@@ -119,8 +149,10 @@ Judgement judge(const EquationRows& e, const LinearSolution& plain, const Linear
 std::vector<Judgement> judge_all(const EstimationTask& task,
                                  const std::vector<LinearSolution>& plain, const IvFit& fit) {
   std::vector<Judgement> all;
-  for (std::size_t k = 0; k < task.equations.size(); ++k)
-    all.push_back(judge(task.equations[k], plain[k], fit.solutions[k], fit.tests[k]));
+  for (const System& system : systems_of(task)) {
+    const std::size_t k = all.size();
+    all.push_back(judge(*system.first, plain[k], fit.solutions[k], fit.tests[k]));
+  }
   return all;
 }
 
@@ -150,6 +182,12 @@ std::string verdict(const Judgement& j, const char* stands, const char* used) {
 
 std::string verdict_key(const EquationRows& e) { return e.equation.name + " equation"; }
 
+void set_verdict(const EstimationTask& task, const System& system, const std::string& text,
+                 Estimation& out) {
+  for (const std::size_t k : system.equations)
+    out.fit.verdicts[verdict_key(task.equations[k])] = text;
+}
+
 /// Least squares, because nothing could be simulated.
 Estimation stay_with_least_squares(const EstimationTask& task, const std::string& why) {
   Estimation out = least_squares_fit(task, Weighting::by_residual);
@@ -169,11 +207,13 @@ Estimation estimate_iv(const EstimationTask& task) {
   if (!fit.failure.empty()) return stay_with_least_squares(task, fit.failure);
   Estimation out;
   std::vector<EquationInfluence> influences;
-  for (std::size_t k = 0; k < task.equations.size(); ++k) {
-    add_equation(task, k, fit.rows[k].rows, fit.solutions[k], influences, out);
-    const Judgement j = judge(task.equations[k], plain[k], fit.solutions[k], fit.tests[k]);
-    out.fit.verdicts[verdict_key(task.equations[k])] =
-        verdict(j, "wls would be sufficient", "the iv estimates are used");
+  const std::vector<Judgement> judgements = judge_all(task, plain, fit);
+  const std::vector<System> systems = systems_of(task);
+  for (std::size_t k = 0; k < systems.size(); ++k) {
+    add_system(task, systems[k], fit.rows[k], fit.solutions[k], influences, out);
+    set_verdict(task, systems[k],
+                verdict(judgements[k], "wls would be sufficient", "the iv estimates are used"),
+                out);
   }
   out.joint = join_estimates(out.fit, influences, task.stage1());
   note_controller(task, plan, out);
@@ -184,8 +224,9 @@ Estimation estimate_iv(const EstimationTask& task) {
 /// "motor p = 0.4, link p < 0.001"
 std::string all_p(const EstimationTask& task, const std::vector<Judgement>& judgements) {
   std::string text;
-  for (std::size_t k = 0; k < task.equations.size(); ++k)
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", task.equations[k].equation.name,
+  const std::vector<System> systems = systems_of(task);
+  for (std::size_t k = 0; k < systems.size(); ++k)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", systems[k].name,
                         judgements[k].test.possible ? judgements[k].test.p_text() : "not tested");
   return text;
 }
@@ -206,7 +247,7 @@ void keep_difference(const EquationRows& e, const LinearSolution& plain, const L
   }
 }
 
-/// Which equations use instruments, and why.
+/// Which systems use instruments, and why.
 struct Decided {
   std::vector<Judgement> judgements;
   std::vector<InstrumentProof> proofs;  ///< empty: none is needed
@@ -215,13 +256,13 @@ struct Decided {
   bool any_uses() const { return std::find(uses.begin(), uses.end(), true) != uses.end(); }
 };
 
-/// Of each equation: as it wants, and where a surrogate makes the instruments, as it is proved.
+/// Of each system: as it wants, and where a surrogate makes the instruments, as it is proved.
 Decided decide(const EstimationTask& task, const LoopPlan& plan, const TestRows& test,
                const std::vector<LinearSolution>& plain, const IvFit& fit) {
   Decided decided{judge_all(task, plain, fit), {}, {}};
   if (any_wants(decided.judgements) && !keeps_disturbances_out(plan.kind))
     decided.proofs = prove_instruments(task, test, fit);
-  for (std::size_t k = 0; k < task.equations.size(); ++k)
+  for (std::size_t k = 0; k < decided.judgements.size(); ++k)
     decided.uses.push_back(decided.judgements[k].wants_instruments() &&
                            (decided.proofs.empty() || decided.proofs[k].holds()));
   return decided;
@@ -263,20 +304,20 @@ Estimation estimate_automatically(const EstimationTask& task) {
       {label(task, "estimator"), out.fit.estimator,
        fmt::format("Durbin-Wu-Hausman: {}{}", all_p(task, judgements), test.note)});
   std::vector<EquationInfluence> influences;
-  for (std::size_t k = 0; k < task.equations.size(); ++k) {
-    const EquationRows& e = task.equations[k];
+  const std::vector<System> systems = systems_of(task);
+  for (std::size_t k = 0; k < systems.size(); ++k) {
     std::string text = verdict(judgements[k], "wls is kept", "the iv estimates are used");
     if (decided.uses[k]) {
-      add_equation(task, k, fit.rows[k].rows, fit.solutions[k], influences, out);
+      add_system(task, systems[k], fit.rows[k], fit.solutions[k], influences, out);
     } else {
-      add_equation(task, k, *e.rows, plain[k], influences, out);
+      add_system(task, systems[k], plain_rows(task, systems[k]).get(), plain[k], influences, out);
       if (judgements[k].wants_instruments()) {
-        keep_difference(e, beside[k], fit.solutions[k], out.fit);
+        keep_difference(*systems[k].first, beside[k], fit.solutions[k], out.fit);
         text = verdict(judgements[k], "", "wls is kept, with the difference in its sd") +
                " (instruments not confirmed: " + decided.proofs[k].text() + ")";
       }
     }
-    out.fit.verdicts[verdict_key(e)] = text;
+    set_verdict(task, systems[k], text, out);
   }
   out.joint = join_estimates(out.fit, influences, task.stage1());
   note_controller(task, plan, out);
@@ -294,8 +335,8 @@ Estimator iv() {
 
 Estimator automatic() {
   return {"auto",
-          "wls, and iv for each equation that fails the Durbin-Wu-Hausman test, if "
-          "instruments are confirmed",
+          "wls, and iv for each equation (of an arm, all its links together) that fails the "
+          "Durbin-Wu-Hausman test, if instruments are confirmed",
           "Janot et al. 2016", estimate_automatically};
 }
 

@@ -22,10 +22,8 @@ Estimation least_squares_fit(const EstimationTask& task, Weighting weighting) {
   std::vector<EquationInfluence> influences;
   for (const std::vector<std::size_t>& system : systems_of(task.equations)) {
     const EquationRows& first = task.equations[system.front()];
-    std::optional<RowStatistics> stacked;
-    if (system.size() > 1)
-      stacked = stacked_rows(task.equations, system, job.elastic, task.model, weighting);
-    const RowStatistics& rows = stacked ? *stacked : *first.rows;
+    const SystemRows system_rows(task.equations, system, job.elastic, task.model, weighting);
+    const RowStatistics& rows = system_rows.get();
     const LinearProblem problem = problem_of(first.columns, job.elastic, task.model);
     LinearSolution solution = solve(rows, problem);
     solution.profile = profile_intervals(rows, problem, solution, job.options.robust_sd);

@@ -13,11 +13,13 @@
 
 namespace cablefit {
 
+/// Of each system (systems_of()): an equation alone, or those of the links of an arm, stacked.
 struct IvFit {
   std::string failure;  ///< why there is no fit; empty: there is one
   int n_simulations = 0;
   double last_change = 0;                 ///< of any parameter in the last iteration, in its own sd
-  std::vector<InstrumentedRows> rows;     ///< per equation
+  std::vector<RowCounts> counts;          ///< per equation
+  std::vector<RowStatistics> rows;        ///< per system
   std::vector<LinearSolution> solutions;  ///< on these rows
   std::vector<ExogeneityTest> tests;      ///< Durbin-Wu-Hausman, by these instruments
 
@@ -28,7 +30,7 @@ struct IvFit {
 inline constexpr int kMostSimulations = 6;
 
 /// Fits model number `which` to the wanted parts of `logs`, which may be fewer than the job's.
-/// `start`: per equation the solution for the first simulation.
+/// `start`: per system the solution for the first simulation.
 IvFit fit_by_instruments(const DynamicJob& job, std::span<const LogSurvey> logs,
                          const std::vector<EquationRows>& equations,
                          const std::vector<LinearSolution>& start, std::size_t which,

@@ -54,7 +54,7 @@ struct MethodFloor {
 /// equation), without disturbances, with sensors that round like those of the logs. It fits that
 /// copy with the same filter, decimation and masks. The estimates differ from the simulated values
 /// by the method alone. `with_instruments`, per equation: instruments exclude rounding, so the copy
-/// then has exact positions. Not for arms with coupled links.
+/// then has exact positions.
 MethodFloor method_floor(const DynamicJob& job, const std::vector<EquationRows>& equations,
                          const std::vector<LinearSolution>& solutions,
                          const std::vector<bool>& with_instruments, std::size_t which);

@@ -9,7 +9,7 @@
 namespace cablefit {
 
 /// Model number `which` of the job with the values of `solutions`, one per equation. A parameter
-/// that the rows do not determine is 0. Not for arms with coupled links.
+/// that the rows do not determine is 0.
 Model model_of_solutions(const DynamicJob& job, const std::vector<EquationRows>& equations,
                          const std::vector<LinearSolution>& solutions, std::size_t which);
 

@@ -240,11 +240,8 @@ void look_at_controller(const DynamicJob& job, std::span<const LogSurvey> logs, 
 
 LoopPlan plan_loop(const DynamicJob& job, std::span<const LogSurvey> logs) {
   LoopPlan plan;
-  if (job.is_coupled())
-    return {LoopKind::none,
-            "instruments are made equation by equation, and the equations of a coupled arm share "
-            "parameters",
-            0};
+  if (job.is_coupled() && job.rigid)
+    return {LoopKind::none, "rigid drives of links that move each other are not simulated", 0};
   std::size_t n_logs = 0, n_commanded = 0;
   plan.kind = LoopKind::known;
   for (const LogSurvey& log : logs) {

@@ -209,10 +209,12 @@ LinearSolution solve_equation(const EquationRows& e, const std::vector<const Ela
   return solve_rows(*e.rows, e.columns, elastic, which);
 }
 
-RowStatistics stacked_rows(const std::vector<EquationRows>& equations,
-                           const std::vector<std::size_t>& system,
-                           const std::vector<const ElasticFit*>& elastic, std::size_t which,
-                           Weighting weighting) {
+SystemRows::SystemRows(const std::vector<EquationRows>& equations,
+                       const std::vector<std::size_t>& system,
+                       const std::vector<const ElasticFit*>& elastic, std::size_t which,
+                       Weighting weighting)
+    : only_(&*equations[system.front()].rows) {
+  if (system.size() == 1) return;
   std::vector<const RowStatistics*> rows;
   std::vector<double> weights;
   for (const std::size_t k : system) {
@@ -221,7 +223,7 @@ RowStatistics stacked_rows(const std::vector<EquationRows>& equations,
     const double rss = weighting == Weighting::none ? 0 : solve_equation(e, elastic, which).rss;
     weights.push_back(rss > 0 ? static_cast<double>(e.rows->n_rows()) / rss : 1);
   }
-  return RowStatistics::weighted(rows, weights);
+  joined_ = RowStatistics::weighted(rows, weights);
 }
 
 std::vector<LinearSolution> solve_equations(const std::vector<EquationRows>& equations,
@@ -229,12 +231,9 @@ std::vector<LinearSolution> solve_equations(const std::vector<EquationRows>& equ
                                             std::size_t which) {
   std::vector<LinearSolution> solutions(equations.size());
   for (const std::vector<std::size_t>& system : systems_of(equations)) {
-    const EquationRows& first = equations[system.front()];
+    const SystemRows rows(equations, system, elastic, which, Weighting::by_residual);
     const LinearSolution solution =
-        system.size() > 1
-            ? solve_rows(stacked_rows(equations, system, elastic, which, Weighting::by_residual),
-                         first.columns, elastic, which)
-            : solve_equation(first, elastic, which);
+        solve_rows(rows.get(), equations[system.front()].columns, elastic, which);
     for (const std::size_t k : system) solutions[k] = solution;
   }
   return solutions;

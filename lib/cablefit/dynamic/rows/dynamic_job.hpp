@@ -74,12 +74,19 @@ WindowCounts collect_rows(const DynamicJob& job, std::vector<EquationRows>& equa
 /// Weights of the equations relative to each other.
 enum class Weighting { none, by_residual };
 
-/// Joins the rows of a system's equations. The weight of each equation is one or 1/variance of its
-/// own residual.
-RowStatistics stacked_rows(const std::vector<EquationRows>& equations,
-                           const std::vector<std::size_t>& system,
-                           const std::vector<const ElasticFit*>& elastic, std::size_t which,
-                           Weighting weighting);
+/// The rows of a system: those of its one equation, or of all of them joined. The weight of each
+/// equation is one or 1/variance of its own residual.
+class SystemRows {
+ public:
+  SystemRows(const std::vector<EquationRows>& equations, const std::vector<std::size_t>& system,
+             const std::vector<const ElasticFit*>& elastic, std::size_t which, Weighting weighting);
+
+  const RowStatistics& get() const { return joined_ ? *joined_ : *only_; }
+
+ private:
+  const RowStatistics* only_ = nullptr;
+  std::optional<RowStatistics> joined_;
+};
 
 /// The least-squares problem of model number `which` for rows of these columns.
 LinearProblem problem_of(const DynamicColumns& columns,
