@@ -76,13 +76,13 @@ std::vector<std::string> estimator_names() {
   return names;
 }
 
-/// "a,b" -> a, b.
+/// "a, b" -> "a", "b".
 std::vector<std::string> split(const std::string& names) {
   std::vector<std::string> all = {""};
   for (const char c : names)
     if (c == ',')
       all.emplace_back();
-    else
+    else if (c != ' ' || !all.back().empty())
       all.back() += c;
   return all;
 }
@@ -100,7 +100,8 @@ void add_dynamic_options(CLI::App& app, DynamicCommand& command) {
       ->type_name("FILE");
   app.add_option_function<std::string>(
          "--effects", [&command](const std::string& names) { command.effects = split(names); },
-         "effects to fit beside the paper's: stribeck[motor],cogging; see 'cablefit list effects'")
+         "effects to fit beside the paper's: stribeck[motor],cogging; on several joints: on each, "
+         "or 'stribeck[motor 2]' on one; see 'cablefit list effects'")
       ->type_name("NAME[SIDE],...");
   add_choice(
       app, "--estimator", "estimator", estimator_names(),
@@ -187,10 +188,19 @@ std::optional<StartModel> start_model(DynamicCommand& command) {
     throw usage_error("a model and --elastic are given: both describe the cables",
                       "give one of them");
   if (start) use_model(*start, command.fit);
-  const std::vector<EffectInstance> named = blank_effects(command.effects);
-  command.fit.effects.insert(command.fit.effects.end(), named.begin(), named.end());
-  if (!named.empty() && !start && !is_chosen) command.fit.models = {"poly"};
+  for (const std::string& name : command.effects) (void)wanted_effect(name);
+  if (!command.effects.empty() && !start && !is_chosen) command.fit.models = {"poly"};
   return start;
+}
+
+/// Effects by name, after those of the model given.
+void add_named_effects(const DynamicCommand& command, const std::vector<LogSurvey>& logs,
+                       EffectsPerJoint& effects) {
+  if (command.effects.empty() || logs.empty()) return;
+  const EffectsPerJoint named = blank_effects(command.effects, logs.front().plan.rig.n_joints());
+  effects.resize(std::max(effects.size(), named.size()));
+  for (std::size_t k = 0; k < named.size(); ++k)
+    effects[k].insert(effects[k].end(), named[k].begin(), named[k].end());
 }
 
 Stage1 stage1_from(const StartModel& start) {
@@ -393,6 +403,7 @@ int run_dynamic(const Arguments& arguments) {
                                       : options.logs.empty() ? campaign_logs(options)
                                                              : read_logs(options);
   command.fit.validation = read_unseen(command);
+  add_named_effects(command, logs, command.fit.effects);
   const std::vector<LogSurvey> moving = logs_of(logs, Phase::moving);
   if (own_logs && moving.empty())
     throw usage_error(

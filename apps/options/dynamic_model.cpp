@@ -7,6 +7,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/elastic/curve_of_model.hpp"
+#include "cablefit/model/effects/effects_per_joint.hpp"
 #include "cablefit/results/read_model.hpp"
 #include "cablefit/session/read_logs.hpp"
 #include "cablefit/simulate/experiment.hpp"
@@ -42,15 +43,14 @@ std::vector<LogSurvey> read_logs_of(const StartModel& start, const CommonOptions
 
 void use_model(const StartModel& start, DynamicOptions& fit) {
   fit.models = {std::string(default_model_name(start.model))};
-  for (const JointModel& joint : start.model.joints)
-    fit.effects.insert(fit.effects.end(), joint.added.begin(), joint.added.end());
+  fit.effects = added_effects(start.model);
 }
 
 void use_model(const StartModel& start, IdentifyOptions& fit) {
   if (start.model.rigid)
     throw usage_error("one step needs cables; the model is a rigid drive",
                       "use 'cablefit dynamic' with it");
-  fit.effects = start.model.joints.front().added;
+  fit.effects = added_effects(start.model);
   if (fit.order > 0 || start.model.rig.cables_given) return;
   for (const Cable& cable : start.model.transmission.cables)
     fit.order = std::max(fit.order, cable.order);

@@ -36,7 +36,7 @@ DynamicFit refitted(const HiddenLogs& logs, std::vector<EffectInstance> effects,
   DynamicOptions options;
   options.models = {"poly"};
   options.estimator = estimator;
-  options.effects = std::move(effects);
+  options.effects = {std::move(effects)};
   const ElasticResult curve = curve_of(logs.models.front());
   return fit_dynamic(logs.logs.train, curve, options).preloads.at(0).fits.at(0);
 }
@@ -69,10 +69,11 @@ TEST_CASE("stage 2 finds the values of two effects of a model", "[refine]") {
     CHECK(e->sd < 0.2 * std::abs(value));
   }
   // The model that is written has the same numbers.
-  REQUIRE(fit.effects.size() == 2);
-  CHECK(fit.effects[0].parameters[1].value ==
+  REQUIRE(fit.effects.size() == 1);
+  REQUIRE(fit.effects[0].size() == 2);
+  CHECK(fit.effects[0][0].parameters[1].value ==
         find_estimate(fit.parameters, "stribeck[motor].v_s")->value);
-  CHECK(fit.effects[0].parameters[2].value == 2);  // the Gaussian law, held
+  CHECK(fit.effects[0][0].parameters[2].value == 2);  // the Gaussian law, held
 }
 
 TEST_CASE("stage 2 without the effects is wrong where they are", "[refine]") {
@@ -101,14 +102,14 @@ TEST_CASE("what stage 2 cannot fit of a model is refused by name", "[refine]") {
 TEST_CASE("what acts between the sides is held at the model's values", "[refine]") {
   const auto effects = std::vector{instance("cable_damping", Site::transmission, {3})};
   for (const Side side : {Side::link, Side::motor}) {
-    const std::vector<AddedEffect> own = effects_of_side(effects, side);
+    const std::vector<AddedEffect> own = effects_of_side(effects, side, 0);
     REQUIRE(own.size() == 1);
-    const std::vector<DynamicParameter> parameters = parameters_of(own.front());
+    const std::vector<DynamicParameter> parameters = parameters_of(own.front(), 1);
     REQUIRE(parameters.size() == 1);
     CHECK(parameters.front().name == "cable_damping[transmission].damping");
     CHECK(parameters.front().given == 3.0);
   }
-  CHECK(effects_of_side(effects, Side::rigid).empty());
+  CHECK(effects_of_side(effects, Side::rigid, 0).empty());
 }
 
 }  // namespace

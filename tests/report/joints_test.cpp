@@ -3,6 +3,7 @@
 #include <set>
 
 #include "cablefit/base/json/json_document.hpp"
+#include "cablefit/model/effects/effect_names.hpp"
 #include "cablefit/model/model.hpp"
 #include "cablefit/report/documents/dynamic_document.hpp"
 #include "cablefit/report/documents/elastic_document.hpp"
@@ -78,6 +79,38 @@ TEST_CASE("results of several joints are read back as they were") {
   REQUIRE(model.joints.size() == 2);
   CHECK(model.joints[1].link.front().parameters.front().value ==
         estimate(dynamic.preloads.at(0).fits.at(1).parameters, "J_link[2]").value);
+}
+
+TEST_CASE("effects of several joints are read back on their joints") {
+  const TwoJoints two;
+  DynamicOptions options;
+  options.models = {"poly"};
+  options.effects = blank_effects({"quadratic_drag[link 2]"}, 2);
+  const ElasticResult elastic = fit_elastic(two.bench.logs(), {});
+  const std::string result = dynamic_json(fit_dynamic(two.bench.logs(), elastic, options));
+  CHECK(schema_errors("dynamic", result) == "");
+  const auto read = [](const std::string& text) {
+    std::string choice;
+    return parse_model(parse_json(text, "dynamic.json"), "", "poly", choice);
+  };
+  const Model model = read(result);
+  CHECK(model.joints.at(0).added.empty());
+  REQUIRE(model.joints.at(1).added.size() == 1);
+  CHECK(model.joints[1].added[0].effect->name == "quadratic_drag");
+  const auto refused = [&](const std::string& joint) {
+    std::string text = result;
+    const std::string was = R"("joint": 2)";
+    const std::size_t at = text.find(was, text.find(R"("effects")"));
+    REQUIRE(at != std::string::npos);
+    text.replace(at, was.size(), joint);
+    const std::string message = message_of([&] { (void)read(text); });
+    return message.substr(message.find(' ') + 1);  // without the place
+  };
+  for (const char* joint : {"0", "3", "1.5", "-1"})
+    CHECK(refused(R"("joint": )" + std::string(joint)) ==
+          "not the number of a joint; expected 1 to 2");
+  CHECK(refused(R"("event": null)") ==
+        "missing key 'joint' in 'preloads[0].fits[0].effects[0]'; add it to this object");
 }
 
 TEST_CASE("reports of several joints have a row and figures per joint") {

@@ -47,7 +47,7 @@ void read_effects(const JsonNode& node, Campaign& campaign) {
   for (const std::string& name : node.texts()) {
     const JsonNode& item = node.items[campaign.effects.size()];
     try {
-      (void)blank_effects({name});
+      (void)wanted_effect(name);
     } catch (const Error& error) {
       throw item.error(error.what(), "see 'cablefit list effects'");
     }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "cablefit/base/catalog.hpp"
 #include "cablefit/dynamic/checks/cutoff_check.hpp"
@@ -22,7 +24,7 @@
 #include "cablefit/dynamic/rows/first_shapes.hpp"
 #include "cablefit/dynamic/rows/requirements.hpp"
 #include "cablefit/dynamic/rows/settled_effects.hpp"
-#include "cablefit/model/effects/effect_parameter.hpp"
+#include "cablefit/model/effects/effects_per_joint.hpp"
 #include "cablefit/model/rig/searched_radius.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
 #include "cablefit/samples/rows/row_stream.hpp"
@@ -78,8 +80,7 @@ void add_cad(DynamicFit& fit, const Rig& rig) {
 
 /// What is held keeps the numbers that the model came with, and what the logs do not determine the
 /// value about which the columns were made, without sd.
-std::vector<EffectInstance> with_estimates(std::vector<EffectInstance> effects,
-                                           const std::vector<Estimate>& parameters) {
+EffectsPerJoint with_estimates(EffectsPerJoint effects, const std::vector<Estimate>& parameters) {
   for (const Estimate& e : parameters) {
     Estimate* own = find_parameter(effects, e.name);
     if (own == nullptr || e.sd == 0) continue;
@@ -182,7 +183,9 @@ DynamicPreload fit_preload(DynamicJob job, const ElasticResult& elastic) {
   require_torque(job);
   require_motion(job);
   note_load(job, preload);
+  EffectsPerJoint wanted = std::exchange(job.added, with_values(job.added));
   choose_settings(job, preload, elastic);
+  job.added = std::move(wanted);
   find_first_shapes(job);
   std::vector<EquationRows> equations;
   std::string still_moving;
@@ -214,15 +217,12 @@ bool any_torque(std::span<const LogSurvey> logs, const PartFilter& wanted) {
   });
 }
 
-/// Effects are of one joint, and of one model: they go by its cables.
-void check_effects(std::span<const LogSurvey> logs, const DynamicOptions& options) {
-  if (options.effects.empty()) return;
-  for (const LogSurvey& log : logs)
-    require_one_joint(log.plan, "a model with effects beyond the paper's supports one joint");
+/// Effects are of one model: they go by its cables.
+void check_effects(const DynamicOptions& options) {
+  if (!any_effect(options.effects)) return;
   if (options.models.size() != 1 || options.models.front() == "ratios")
     throw usage_error("effects beyond the paper's are fitted with one model at a time",
                       "give --model poly, --model linear or --model rigid");
-  require_fittable(options.effects, options.models.front() == "rigid");
 }
 
 void check_names(const DynamicOptions& options) {
@@ -237,7 +237,7 @@ std::span<const DynamicModel> dynamic_models() { return kModels; }
 DynamicResult fit_dynamic(std::span<const LogSurvey> logs, const ElasticResult& elastic,
                           const DynamicOptions& options) {
   check_names(options);
-  check_effects(logs, options);
+  check_effects(options);
   DynamicResult result;
   result.warnings = input_warnings(logs);
   for (std::string& warning : input_warnings(options.validation))
@@ -273,8 +273,8 @@ DynamicResult fit_dynamic(std::span<const LogSurvey> logs, const ElasticResult& 
       result.preloads.push_back(fit_ratios(logs, name, wanted, options));
       continue;
     }
-    DynamicJob job{logs, options, name,  wanted,         {}, options.models, rigid,
-                   {},   {},      false, options.effects};
+    DynamicJob job{logs, options, name, wanted, {}, options.models, rigid, {}, {}};
+    job.added = of_joints(options.effects, job.n_joints());
     for (const LogSurvey& log : logs)
       if (std::any_of(log.parts.begin(), log.parts.end(), wanted))
         require_channels(log.plan, rigid);
@@ -283,6 +283,8 @@ DynamicResult fit_dynamic(std::span<const LogSurvey> logs, const ElasticResult& 
     if (!rigid)
       for (const std::string& model : options.models)
         job.elastic.push_back(&require_stage1(elastic, name, model));
+    require_fittable(job.added, rigid,
+                     rigid ? std::span<const Cable>() : job.elastic.front()->transmission.cables);
     result.preloads.push_back(fit_preload(std::move(job), elastic));
   }
   return result;

@@ -29,9 +29,8 @@ struct DynamicOptions {
   std::string estimator = "auto";              ///< name of the table (estimators.hpp)
   bool robust_sd = true;                       ///< --sd honest | white
   std::string preload;                         ///< only this one; empty: all preloads
-  /// Effects of the joint beyond the paper's (31), with start values. They require exactly one
-  /// model.
-  std::vector<EffectInstance> effects = {};
+  /// Effects beyond the paper's (31), with start values. They require exactly one model.
+  EffectsPerJoint effects = {};
   bool figures = false;        ///< one more pass, for reports with plots
   bool residual_tests = true;  ///< tests of up to 40 windows of every log
   bool sweep = false;          ///< also fit with other cut-offs and rest speeds

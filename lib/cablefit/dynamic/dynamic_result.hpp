@@ -74,7 +74,7 @@ struct DynamicFit {
   /// and interval.
   std::map<std::string, double> method_floor = {}, estimator_difference = {}, stage1_misfit = {};
   /// What the model has beyond the paper's (31); its parameters are among `parameters` as well.
-  std::vector<EffectInstance> effects = {};
+  EffectsPerJoint effects = {};
   /// Of these parameters and stage 1's together, as far as they are identified; empty: not known.
   ParameterCovariance covariance = {};
   std::vector<Estimate> derived = {};  ///< stiffness, resonance, damping: of several parameters

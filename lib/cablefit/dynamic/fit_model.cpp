@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cablefit/model/assembled_model.hpp"
+#include "cablefit/model/effects/effects_per_joint.hpp"
 
 namespace cablefit {
 namespace {
@@ -43,7 +44,7 @@ Model model_of(const DynamicFit& fit, const DynamicPreload& preload, const Rig& 
   Model model = assembled_model(rig, !fit.elastic, finder(fit.parameters));
   model.name = fit.model;
   model.preload = preload.name;
-  model.joints.front().added = fit.effects;
+  set_added_effects(fit.effects, model);
   model.covariance = fit.covariance;
   model.link_residual = link_residual(preload, fit.model);
   if (!fit.elastic) return model;

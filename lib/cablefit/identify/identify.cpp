@@ -18,17 +18,15 @@
 #include "cablefit/identify/results/identify_estimates.hpp"
 #include "cablefit/identify/results/identify_figures.hpp"
 #include "cablefit/identify/results/recursive.hpp"
-#include "cablefit/model/effects/effect_parameter.hpp"
+#include "cablefit/model/effects/effects_per_joint.hpp"
 #include "cablefit/model/modes.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
 
 namespace cablefit {
 namespace {
 
-void require_channels(std::span<const LogSurvey> logs, bool has_effects) {
+void require_channels(std::span<const LogSurvey> logs) {
   for (const LogSurvey& log : logs) {
-    if (has_effects)
-      require_one_joint(log.plan, "a model with effects beyond the paper's supports one joint");
     require_channel(log.plan, Channel::q, "the deflection theta - q");
     require_channel(log.plan, Channel::theta, "the deflection theta - q");
     require_channel(log.plan, Channel::tau, "the torque balance of the motor");
@@ -91,7 +89,7 @@ constexpr double kStill = 1e-3;  // of a nonlinear parameter
 
 /// Moves the effects of a preload to where the fit has them; false: no nonlinear parameter moves.
 bool move_effects(const JointFit& fit, const JointPoint& point, std::size_t job,
-                  std::vector<EffectInstance>& added) {
+                  EffectsPerJoint& added) {
   bool any = false;
   for (const JointRecord& record : fit.jobs[job].records)
     for (const JointEquation& equation : record.equations)
@@ -176,8 +174,7 @@ bool curve_wants_search(std::span<const LogSurvey> logs, const IdentifyOptions& 
 
 IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& given) {
   IdentifyResult result;
-  require_channels(logs, !given.effects.empty());
-  require_fittable(given.effects, false);
+  require_channels(logs);
   IdentifyOptions options = given;
   if (options.elongations == ElongationMode::automatic && !options.unconstrained &&
       curve_wants_search(logs, options)) {
@@ -188,8 +185,9 @@ IdentifyResult identify(std::span<const LogSurvey> logs, const IdentifyOptions& 
     result.inputs.push_back({log.plan.path, log.sha256, log.n_rows});
   result.warnings = input_warnings(logs);
   std::vector<PreloadFacts> facts = preloads_of(logs, options);
+  for (const PreloadFacts& f : facts) require_fittable(f.added, false, f.rig.transmission.cables);
   for (PreloadFacts& f : facts)
-    if (!f.added.empty() && f.has_blocked)
+    if (any_effect(f.added) && f.has_blocked)
       f.warnings.emplace_back(
           "the effects of the model are fitted in the moving logs only: friction differs "
           "in a blocked sweep");

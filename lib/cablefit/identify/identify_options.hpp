@@ -24,8 +24,7 @@ struct IdentifyOptions {
   std::string preload;                  ///< only this one; empty: all preloads
   bool recursive = false;               ///< also the trace of R-LSA, beside the direct fit
   bool figures = false;
-  /// Effects of the joint beyond the paper's (31), with start values.
-  std::vector<EffectInstance> effects = {};
+  EffectsPerJoint effects = {};  ///< beyond the paper's (31), with start values
 };
 
 }  // namespace cablefit

@@ -29,7 +29,7 @@ JointEquation equation_of(Side side, int joint, const DynamicJob& job, const Pre
   const ChosenSettings& settings = job.settings_of(joint);
   const DynamicColumns columns = dynamic_columns(side, {}, ElasticDetail::coefficients,
                                                  {joint, job.n_joints(), facts.arm, facts.rig.axes},
-                                                 {facts.added, facts.cables});
+                                                 {&facts.added, facts.cables});
   JointEquation equation;
   equation.base =
       dynamic_equation(columns, {}, job.settings.rows.signal.torque_held,
@@ -45,9 +45,8 @@ JointEquation equation_of(Side side, int joint, const DynamicJob& job, const Pre
     else
       equation.own.push_back({parameter.name, k});
   }
-  for (const AddedEffect& effect : columns.added)
-    for (DynamicParameter& parameter : parameters_of(effect))
-      if (!parameter.given) equation.added.push_back(std::move(parameter));
+  for (auto k = static_cast<std::size_t>(columns.first_added); k < columns.parameters.size(); ++k)
+    if (!columns.parameters[k].given) equation.added.push_back(columns.parameters[k]);
   equation.response = columns.torque;
   equation.motor_side = side == Side::motor;
   equation.joint = joint;

@@ -241,6 +241,10 @@ struct EffectInstance {
   bool ends_with_log = false;  ///< of a lasting event: it lasts only until that log ends
 };
 
+/// Effects beyond (31) by joint, from 0. In options, joints at the end that have none may be left
+/// out; elsewhere there is a list for each joint (of_joints() in effects_per_joint.hpp).
+using EffectsPerJoint = std::vector<std::vector<EffectInstance>>;
+
 /// Torque (N m, n long) of base effects with their values.
 Eigen::VectorXd base_torque(const std::vector<EffectInstance>& effects, const Motion& motion);
 /// Inertia that the effects add to an axis, kg m^2 (on a linear axis kg); 0 without any.

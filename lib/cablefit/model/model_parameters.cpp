@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cablefit/model/effects/effect_parameter.hpp"
+#include "cablefit/model/effects/effects_per_joint.hpp"
 
 namespace cablefit {
 namespace {
@@ -56,7 +56,7 @@ void add_added(const Model& model, int joint, std::vector<ModelParameter>& out) 
       const std::size_t n_linear = added[e].effect->n_linear();
       ModelParameter p;
       p.kind = ParameterKind::added;
-      p.name = joint_parameter_name(added_parameter_name(*added[e].effect, info), joint + 1,
+      p.name = added_parameter_name(*added[e].effect, info, joint,
                                     static_cast<int>(model.joints.size()));
       p.symbol = info.symbol;
       p.unit = unit_for(model.rig.axes.of(joint), info.unit);

@@ -6,6 +6,7 @@
 #include "cablefit/dynamic/rows/dynamic_job.hpp"
 #include "cablefit/dynamic/rows/requirements.hpp"
 #include "cablefit/elastic/curve_of_model.hpp"
+#include "cablefit/model/effects/effects_per_joint.hpp"
 #include "cablefit/model/model_parameters.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
 #include "cablefit/samples/rows/row_stream.hpp"
@@ -33,7 +34,7 @@ Eigen::VectorXd combination_of(const Model& model, const EquationRows& e,
 }
 
 void require_equations(const Model& model) {
-  if (!model.joints.empty()) require_fittable(model.joints.front().added, model.rigid);
+  require_fittable(added_effects(model), model.rigid, model.transmission.cables);
 }
 
 DynamicOptions options_of(const Model& model, const ElasticResult& curve,
@@ -41,7 +42,7 @@ DynamicOptions options_of(const Model& model, const ElasticResult& curve,
   DynamicOptions options;
   options.samples = samples;
   options.models = {model.rigid ? "rigid" : curve.preloads.front().fits.front().model};
-  options.effects = model.joints.front().added;
+  options.effects = added_effects(model);
   return options;
 }
 

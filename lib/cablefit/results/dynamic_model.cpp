@@ -8,7 +8,7 @@
 #include "cablefit/dynamic/fit_model.hpp"
 #include "cablefit/dynamic/rows/delay_hold.hpp"
 #include "cablefit/model/assembled_model.hpp"
-#include "cablefit/model/effects/effect_parameter.hpp"
+#include "cablefit/model/effects/effects_per_joint.hpp"
 #include "cablefit/results/read/dynamic_reader.hpp"
 #include "cablefit/results/read/fit_reader.hpp"
 #include "cablefit/results/result_models.hpp"
@@ -41,14 +41,17 @@ void take_own_curve(const JsonNode& node, const Rig& rig, DynamicFit& fit) {
 /// The parameters of the model's equations by their names in results.
 std::vector<Estimate> parameters_of(const Model& model) {
   std::vector<Estimate> all = model.arm;
-  for (const JointModel& axes : model.joints) {
+  const auto n_joints = static_cast<int>(model.joints.size());
+  for (int joint = 0; joint < n_joints; ++joint) {
+    const JointModel& axes = model.joints[static_cast<std::size_t>(joint)];
     for (const auto* side : {&axes.link, &axes.motor})
       for (const EffectInstance& effect : *side)
         all.insert(all.end(), effect.parameters.begin(), effect.parameters.end());
     for (const EffectInstance& effect : axes.added)
       for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
         all.push_back(effect.parameters[k]);
-        all.back().name = added_parameter_name(*effect.effect, effect.effect->parameters[k]);
+        all.back().name =
+            added_parameter_name(*effect.effect, effect.effect->parameters[k], joint, n_joints);
       }
   }
   return all;

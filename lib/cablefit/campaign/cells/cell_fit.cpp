@@ -43,7 +43,6 @@ DynamicOptions stage2_options(const Campaign& campaign, const CampaignCell& cell
   dynamic.samples = options.samples;
   dynamic.models = campaign.models;
   dynamic.estimator = campaign.estimator;
-  dynamic.effects = blank_effects(campaign.effects);
   dynamic.robust_sd = options.robust_sd;
   dynamic.preload = cell.preload;
   dynamic.figures = with_figures(campaign);
@@ -135,6 +134,7 @@ CellResults fit_cell(const Campaign& campaign, const CampaignCell& cell, const C
   if (cell.moving.empty()) return results;
   const std::vector<LogSurvey> moving = read(cell.moving);
   DynamicOptions dynamic = stage2_options(campaign, cell, options);
+  dynamic.effects = blank_effects(campaign.effects, moving.front().plan.rig.n_joints());
   dynamic.validation = read(cell.validation);
   results.dynamic = dynamics(moving, *results.elastic, dynamic);
   if (!cell.refine) return results;

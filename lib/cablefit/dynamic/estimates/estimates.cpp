@@ -11,7 +11,7 @@
 #include "cablefit/estimate/fit/parameter_estimate.hpp"
 #include "cablefit/estimate/fit/sd_choice.hpp"
 #include "cablefit/estimate/spread/long_run.hpp"
-#include "cablefit/model/effects/effect_parameter.hpp"
+#include "cablefit/model/effects/effects_per_joint.hpp"
 
 namespace cablefit {
 namespace {
@@ -202,23 +202,32 @@ void refuse(Estimate& e, const std::string& why) {
   e.value = e.sd = e.sd_white = e.ci_low = e.ci_high = std::numeric_limits<double>::quiet_NaN();
 }
 
-void refuse_dependent(std::span<const EffectInstance> effects, std::vector<Estimate>& parameters) {
-  const auto find = [&](const Effect& row, std::size_t k) {
-    const std::string name = added_parameter_name(row, row.parameters[k]);
+namespace {
+
+void refuse_dependent(const Effect& row, int joint, int n_joints,
+                      std::vector<Estimate>& parameters) {
+  const auto find = [&](std::size_t k) {
+    const std::string name = added_parameter_name(row, row.parameters[k], joint, n_joints);
     return std::find_if(parameters.begin(), parameters.end(),
                         [&](const Estimate& e) { return e.name == name; });
   };
-  for (const EffectInstance& effect : effects) {
-    const Effect& row = *effect.effect;
-    for (std::size_t shape = row.n_linear(); shape < row.parameters.size(); ++shape) {
-      const auto unknown = find(row, shape);
-      if (unknown == parameters.end() || unknown->not_identifiable.empty()) continue;
-      for (std::size_t k = 0; k < row.n_linear(); ++k)
-        if (const auto e = find(row, k); e != parameters.end() && e->not_identifiable.empty())
-          refuse(*e, fmt::format("it depends on {}, which the logs do not determine",
-                                 row.parameters[shape].name));
-    }
+  for (std::size_t shape = row.n_linear(); shape < row.parameters.size(); ++shape) {
+    const auto unknown = find(shape);
+    if (unknown == parameters.end() || unknown->not_identifiable.empty()) continue;
+    for (std::size_t k = 0; k < row.n_linear(); ++k)
+      if (const auto e = find(k); e != parameters.end() && e->not_identifiable.empty())
+        refuse(*e, fmt::format("it depends on {}, which the logs do not determine",
+                               row.parameters[shape].name));
   }
+}
+
+}  // namespace
+
+void refuse_dependent(const EffectsPerJoint& effects, std::vector<Estimate>& parameters) {
+  const auto n_joints = static_cast<int>(effects.size());
+  for (int joint = 0; joint < n_joints; ++joint)
+    for (const EffectInstance& effect : effects[static_cast<std::size_t>(joint)])
+      refuse_dependent(*effect.effect, joint, n_joints, parameters);
 }
 
 std::string inertia_alias(const RowStatistics& rows, const DynamicColumns& c, Eigen::Index k) {

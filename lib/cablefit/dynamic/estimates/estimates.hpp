@@ -30,7 +30,7 @@ void refuse(Estimate& e, const std::string& why);
 
 /// Refuses the linear parameters of an effect beyond (31) when a nonlinear one of it is not
 /// determined: an amplitude has no meaning without it.
-void refuse_dependent(std::span<const EffectInstance> effects, std::vector<Estimate>& parameters);
+void refuse_dependent(const EffectsPerJoint& effects, std::vector<Estimate>& parameters);
 
 /// Why the motion of these rows does not separate the inertia of column `k` from a torque that
 /// depends on position, for any estimator; empty when it does.

@@ -17,6 +17,7 @@
 #include "cablefit/dynamic/output_error/log_stretches.hpp"
 #include "cablefit/dynamic/output_error/stage1_prior.hpp"
 #include "cablefit/estimate/fit/parameter_estimate.hpp"
+#include "cablefit/model/effects/effects_per_joint.hpp"
 
 namespace cablefit::estimation {
 namespace {
@@ -46,7 +47,7 @@ bool has_load(const DynamicJob& job) {
 std::string obstacle(const EstimationTask& task, const Model& start) {
   const DynamicJob& job = task.job;
   if (job.is_coupled()) return "not made for links that move each other";
-  if (job.rigid && !job.added.empty() && has_load(job))
+  if (job.rigid && any_effect(job.added) && has_load(job))
     return "an added effect of a rigid drive may depend on its load, and output error adds the "
            "logged load to the torque";
   for (const LogSurvey& log : job.logs) {
@@ -235,7 +236,7 @@ void note_fit(const EstimationTask& task, const FittedRows& rows, const LoopPlan
                              oe.instrumented ? source_of_instruments(loop) : "none",
                              oe.instruments});
   out.fit.warnings.insert(out.fit.warnings.end(), oe.warnings.begin(), oe.warnings.end());
-  if (!task.job.added.empty())
+  if (any_effect(task.job.added))
     out.fit.warnings.emplace_back(
         "output error: the intervals of effects that act at low speed are too narrow; compare with "
         "--estimator iv");
@@ -330,7 +331,8 @@ Estimation estimate(const EstimationTask& task) {
     return stay_with_least_squares(task, std::move(start), "no stretch of 16 rows without a gap");
   OutputErrorOptions options = options_of(task, model);
   // Beside Stribeck friction the instruments of a surrogate loop put J_motor 3 sd too low.
-  const LoopPlan loop = job.added.empty() ? add_noise_free_loop(job, rows, options) : LoopPlan{};
+  const LoopPlan loop =
+      !any_effect(job.added) ? add_noise_free_loop(job, rows, options) : LoopPlan{};
   const OutputErrorFit oe = fit_output_error(model, rows.stretches, options);
   if (oe.parameters.empty()) return stay_with_least_squares(task, std::move(start), oe.message);
   Estimation out;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cablefit/model/assembled_model.hpp"
+#include "cablefit/model/effects/effects_per_joint.hpp"
 
 namespace cablefit {
 namespace {
@@ -26,10 +27,9 @@ FindEstimate finder(const std::vector<EquationRows>& equations,
 }
 
 /// The effects beyond (31), with what the columns of either side say of their parameters.
-std::vector<EffectInstance> added_of(const DynamicJob& job,
-                                     const std::vector<EquationRows>& equations,
-                                     const std::vector<LinearSolution>& solutions) {
-  std::vector<EffectInstance> added = job.added;
+EffectsPerJoint added_of(const DynamicJob& job, const std::vector<EquationRows>& equations,
+                         const std::vector<LinearSolution>& solutions) {
+  EffectsPerJoint added = job.added;
   for (std::size_t k = 0; k < equations.size(); ++k)
     take_values(equations[k].columns, solutions[k].x, added);
   return added;
@@ -43,7 +43,7 @@ Model model_of_solutions(const DynamicJob& job, const std::vector<EquationRows>&
   model.name = job.models[which];
   model.preload = job.preload;
   if (!job.rigid) model.transmission = job.elastic[which]->transmission;
-  model.joints.front().added = added_of(job, equations, solutions);
+  set_added_effects(added_of(job, equations, solutions), model);
   return model;
 }
 

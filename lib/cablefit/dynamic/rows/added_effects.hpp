@@ -40,6 +40,7 @@ struct DynamicParameter {
 struct AddedEffect {
   EffectInstance instance;
   Side side = Side::motor;
+  int joint = 0;  ///< from 0
   bool is_held = false;
   std::vector<std::size_t> moving_shapes;  ///< those with a column: continuous, and fitted
 
@@ -48,17 +49,32 @@ struct AddedEffect {
 
 /// Throws Error(usage) for effects that a fit of rows does not support: given twice, no torque (an
 /// error of the drive, other cables), a scale of torques, an event, a memory of time, or not
-/// defined on a rigid drive. Also for an effect that would keep its value but has none.
-void require_fittable(std::span<const EffectInstance> effects, bool rigid);
+/// defined on a rigid drive. Also for an effect that would keep its value but has none, and for
+/// friction on paths where none of `cables` passes several joints.
+void require_fittable(const EffectsPerJoint& effects, bool rigid, std::span<const Cable> cables);
 
-/// Those of the fittable `instances` that act in an equation of this side.
-std::vector<AddedEffect> effects_of_side(std::span<const EffectInstance> instances, Side side);
+/// Those of the joint's fittable `instances` that act in its equation of this side.
+std::vector<AddedEffect> effects_of_side(std::span<const EffectInstance> instances, Side side,
+                                         int joint);
 
-/// The parameters of an effect's columns.
-std::vector<DynamicParameter> parameters_of(const AddedEffect& effect);
+/// The parameters of an effect's columns, named as those of one of `n_joints` joints.
+std::vector<DynamicParameter> parameters_of(const AddedEffect& effect, int n_joints);
 
-/// Its columns over full-rate rows. `cables`: nullptr on a rigid drive.
-void fill_columns(const AddedEffect& effect, const Transmission* cables, const Signals& signals,
-                  std::size_t joint, Eigen::Ref<Eigen::MatrixXd> out);
+/// What effects of one joint depend on, over the rows of a window.
+struct JointMotion {
+  std::vector<JointState> states;
+  Eigen::ArrayXd q_direction, theta_direction;
+  double period = 0;      ///< s
+  bool is_rigid = false;  ///< its one axis is the motor
+};
+
+/// Of joint `joint`, at place `at` of the signals: its own, or that of a copy of all joints.
+/// `cables`: of all joints; nullptr on a rigid drive. `effects`: those that will need it.
+JointMotion joint_motion(const Transmission* cables, const Signals& signals, std::size_t at,
+                         int joint, std::span<const AddedEffect> effects);
+
+/// The columns of an effect over full-rate rows.
+void fill_columns(const AddedEffect& effect, const JointMotion& motion,
+                  Eigen::Ref<Eigen::MatrixXd> out);
 
 }  // namespace cablefit

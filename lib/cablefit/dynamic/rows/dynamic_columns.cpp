@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "cablefit/model/effects/effect_parameter.hpp"
+#include "cablefit/model/effects/effects_per_joint.hpp"
 #include "cablefit/model/model.hpp"
 
 namespace cablefit {
@@ -89,26 +89,35 @@ void add_effects(DynamicColumns& c, int joint) {
   }
 }
 
-/// What the joint has beyond (31), last.
-void add_added(DynamicColumns& c, std::span<const EffectInstance> added) {
-  c.added = effects_of_side(added, c.side);
-  for (const AddedEffect& effect : c.added)
-    for (DynamicParameter& p : parameters_of(effect)) {
-      p.axes = c.place.axes.of(c.place.joint);
+/// What a joint has beyond (31).
+void add_added(DynamicColumns& c, int joint, const EffectsPerJoint* added) {
+  if (added == nullptr || static_cast<std::size_t>(joint) >= added->size()) return;
+  for (AddedEffect& effect :
+       effects_of_side((*added)[static_cast<std::size_t>(joint)], c.side, joint)) {
+    for (DynamicParameter& p : parameters_of(effect, c.place.n_joints)) {
+      p.axes = c.place.axes.of(joint);
       c.parameters.push_back(std::move(p));
     }
+    c.added.push_back(std::move(effect));
+  }
 }
 
-void add_parameters(DynamicColumns& c, std::span<const EffectInstance> added) {
-  if (!is_of_arm(c)) {
-    add_effects(c, c.place.joint);
-    return add_added(c, added);
-  }
+/// Of the joint alone.
+void add_own_parameters(DynamicColumns& c, const EffectsPerJoint* added) {
+  add_effects(c, c.place.joint);
+  c.first_added = static_cast<Eigen::Index>(c.parameters.size());
+  add_added(c, c.place.joint, added);
+}
+
+void add_parameters(DynamicColumns& c, const EffectsPerJoint* added) {
+  if (!is_of_arm(c)) return add_own_parameters(c, added);
   for (const ParameterInfo& info : c.place.arm->base_parameters())
     c.parameters.push_back(
         {info, std::string(info.name), Axes::rotary, false, {}, MotionPart::joints});
   c.n_arm = static_cast<Eigen::Index>(c.parameters.size());
   for (int joint = 0; joint < c.place.n_joints; ++joint) add_effects(c, joint);
+  c.first_added = static_cast<Eigen::Index>(c.parameters.size());
+  for (int joint = 0; joint < c.place.n_joints; ++joint) add_added(c, joint, added);
 }
 
 Motion motion_of(Side side, const JointSignals& s) {
@@ -116,13 +125,29 @@ Motion motion_of(Side side, const JointSignals& s) {
           side == Side::link ? s.q_direction : s.theta_direction};
 }
 
-/// The columns of an arm's links, those of other joints' effects 0.
-void fill_arm(const DynamicColumns& c, const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
+/// The columns of an arm's links, those of other joints' effects 0. `at`: see effect_columns().
+void fill_arm(const DynamicColumns& c, const Signals& signals, std::size_t at,
+              Eigen::Ref<Eigen::MatrixXd> out) {
   std::vector<Motion> links;
-  for (const JointSignals& s : signals.joints) links.push_back(motion_of(c.side, s));
+  const std::size_t first = at - static_cast<std::size_t>(c.place.joint);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(c.place.n_joints); ++k)
+    links.push_back(motion_of(c.side, signals.joints[first + k]));
   out.setZero();
   c.place.arm->kind->regressor(c.place.arm->parameters, links, c.place.joint,
                                out.leftCols(c.n_arm));
+}
+
+/// The columns beyond (31) of the joint at place `at` of the signals. An arm's are 0 before.
+void fill_added(const DynamicColumns& c, const Signals& signals, std::size_t at,
+                Eigen::Ref<Eigen::MatrixXd> out) {
+  if (c.added.empty()) return;
+  const JointMotion motion = joint_motion(c.cables.get(), signals, at, c.place.joint, c.added);
+  Eigen::Index first = c.first_added;
+  for (const AddedEffect& effect : c.added) {
+    if (effect.joint == c.place.joint)
+      fill_columns(effect, motion, out.middleCols(first, effect.n_columns()));
+    first += effect.n_columns();
+  }
 }
 
 }  // namespace
@@ -138,15 +163,15 @@ Eigen::VectorXd elastic_coefficients(const ElasticFit& fit) {
 
 DynamicColumns dynamic_columns(Side side, const std::vector<const ElasticFit*>& fits,
                                ElasticDetail detail, const JointPlace& place,
-                               const AddedToJoint& added) {
+                               const AddedEffects& added) {
   DynamicColumns c;
   c.detail = detail;
   c.side = side;
   c.place = place;
   c.cables = added.cables;
-  if (!added.effects.empty() && c.cables == nullptr && !fits.empty())
-    c.cables = std::make_shared<const Transmission>(fits.front()->transmission);
   add_parameters(c, added.effects);
+  if (!c.added.empty() && c.cables == nullptr && !fits.empty())
+    c.cables = std::make_shared<const Transmission>(fits.front()->transmission);
   c.n_effects = static_cast<Eigen::Index>(c.parameters.size());
   c.count = c.n_effects;
   for (const ElasticFit* fit : fits) {
@@ -172,18 +197,14 @@ MotionColumn motion_column(const DynamicColumns& columns, std::size_t parameter)
 
 void effect_columns(const DynamicColumns& c, const Signals& signals, std::size_t joint,
                     Eigen::Ref<Eigen::MatrixXd> out) {
-  if (c.n_arm > 0) fill_arm(c, signals, out);
+  if (c.n_arm > 0) fill_arm(c, signals, joint, out);
   const Motion motion = motion_of(c.side, signals.joints[joint]);
   Eigen::Index first = c.first_effect;
   for (const Effect* effect : c.effects) fill_base_column(*effect, motion, out.col(first++));
-  for (const AddedEffect& effect : c.added) {
-    fill_columns(effect, c.cables.get(), signals, joint, out.middleCols(first, effect.n_columns()));
-    first += effect.n_columns();
-  }
+  fill_added(c, signals, joint, out);
 }
 
-void take_values(const DynamicColumns& columns, const Eigen::VectorXd& x,
-                 std::vector<EffectInstance>& added) {
+void take_values(const DynamicColumns& columns, const Eigen::VectorXd& x, EffectsPerJoint& added) {
   for (std::size_t k = 0; k < columns.parameters.size(); ++k) {
     const DynamicParameter& parameter = columns.parameters[k];
     const double found = x(static_cast<Eigen::Index>(k));

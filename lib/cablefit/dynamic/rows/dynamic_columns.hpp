@@ -30,7 +30,8 @@ struct JointPlace {
 };
 
 /// The link equations of coupled joints have the same columns, so that their rows can be stacked:
-/// base parameters of the arm, then each joint's effects, 0 in the rows of the other joints.
+/// base parameters of the arm, then each joint's effects, and those beyond (31); 0 in the rows of
+/// the other joints.
 struct DynamicColumns {
   Side side = Side::motor;
   JointPlace place;
@@ -38,7 +39,8 @@ struct DynamicColumns {
   std::vector<const Effect*> effects;        ///< of this joint
   Eigen::Index n_arm = 0;                    ///< base parameters of the arm, the first columns
   Eigen::Index first_effect = 0;             ///< of this joint
-  std::vector<AddedEffect> added;            ///< effects beyond (31); their columns follow
+  std::vector<AddedEffect> added;            ///< effects beyond (31), joint by joint
+  Eigen::Index first_added = 0;              ///< their columns follow
   std::shared_ptr<const Transmission> cables = {};  ///< of these effects; none: a rigid drive
   Eigen::Index n_effects = 0;  ///< number of all these columns, which come first
   ElasticDetail detail = ElasticDetail::coefficients;
@@ -52,17 +54,17 @@ struct DynamicColumns {
   Eigen::Index count = 0;
 };
 
-/// Effects of a joint beyond (31), with the values at which nonlinear parameters are linearised,
-/// and the cables that they depend on. None: those of the first fit.
-struct AddedToJoint {
-  std::span<const EffectInstance> effects = {};
+/// Effects beyond (31) of every joint, or none, with the values at which nonlinear parameters are
+/// linearised, and the cables that they depend on. No cables: those of the first fit.
+struct AddedEffects {
+  const EffectsPerJoint* effects = nullptr;
   std::shared_ptr<const Transmission> cables = {};
 };
 
 /// Columns of one side for the given stage-1 fits (none on a rigid drive).
 DynamicColumns dynamic_columns(Side side, const std::vector<const ElasticFit*>& fits,
                                ElasticDetail detail = ElasticDetail::coefficients,
-                               const JointPlace& place = {}, const AddedToJoint& added = {});
+                               const JointPlace& place = {}, const AddedEffects& added = {});
 
 /// `torque_held`: tau is not averaged over the triangle.
 Equation dynamic_equation(const DynamicColumns& columns, const std::vector<const ElasticFit*>& fits,
@@ -78,8 +80,7 @@ Eigen::VectorXd dynamic_response(const DynamicColumns& columns,
 MotionColumn motion_column(const DynamicColumns& columns, std::size_t parameter);
 
 /// Writes finite values of the effects' columns into the members of `added`.
-void take_values(const DynamicColumns& columns, const Eigen::VectorXd& x,
-                 std::vector<EffectInstance>& added);
+void take_values(const DynamicColumns& columns, const Eigen::VectorXd& x, EffectsPerJoint& added);
 
 /// Coefficients of a stage-1 fit in the order of its basis columns.
 Eigen::VectorXd elastic_coefficients(const ElasticFit& fit);

@@ -44,7 +44,7 @@ EquationRows make_equation(const DynamicJob& job, ElasticDetail detail, Side sid
   const ChosenSettings& settings = job.settings_of(joint);
   EquationRows e;
   e.columns = dynamic_columns(side, job.elastic, detail,
-                              {joint, job.n_joints(), job.arm(), job.rig().axes}, {job.added, {}});
+                              {joint, job.n_joints(), job.arm(), job.rig().axes}, {&job.added, {}});
   const double rest = side == Side::link ? settings.rest_speed_q : settings.rest_speed_theta;
   e.equation = dynamic_equation(e.columns, job.elastic, job.settings.rows.signal.torque_held, rest);
   if (side == Side::link) {

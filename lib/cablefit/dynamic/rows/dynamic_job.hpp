@@ -25,8 +25,8 @@ struct DynamicJob {
   ChosenSettings settings;
   std::vector<ChosenSettings> joint_settings;  ///< with several joints: the choice of each
   bool links_alone = false;  ///< every link is fitted as if the others did not move it
-  /// Effects beyond (31), with the values at which the columns are computed.
-  std::vector<EffectInstance> added = {};
+  /// Effects beyond (31) of every joint, with the values at which the columns are computed.
+  EffectsPerJoint added = {};
   const Arm* other_arm = nullptr;  ///< instead of the rig's
 
   int n_joints() const { return rig().n_joints(); }

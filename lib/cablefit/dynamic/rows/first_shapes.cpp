@@ -32,18 +32,19 @@ void append(std::vector<double>& all, const Eigen::ArrayXd& values) {
   all.insert(all.end(), sizes.begin(), sizes.end());
 }
 
-LogScale scale_of(const DynamicJob& job) {
+LogScale scale_of(const DynamicJob& job, int joint) {
   std::vector<double> speeds, deflections, torques;
   double low = kUnbounded, high = -kUnbounded;
   const SignalSettings& settings = job.settings.rows.signal;
   const Eigen::Index halo = row_halo(job.settings.rows, sample_rates(job.logs, job.wanted).highest);
   for (const PreliminaryWindow& p :
        preliminary_windows(job.logs, job.wanted, settings, halo, kWindows)) {
-    const JointSignals s = make_signals(p.window, job.logs[p.log].plan, settings).joints.front();
+    const Signals signals = make_signals(p.window, job.logs[p.log].plan, settings);
+    const JointSignals& s = signals.joints[static_cast<std::size_t>(joint)];
     append(speeds, s.thetad);
     append(torques, s.tau);
     if (!job.rigid)
-      append(deflections, s.theta - job.elastic.front()->transmission.encoder_zero()(0) - s.q);
+      append(deflections, job.elastic.front()->transmission.deflections(joint, s.q, s.theta));
     low = std::min(low, s.theta.minCoeff());
     high = std::max(high, s.theta.maxCoeff());
   }
@@ -90,41 +91,68 @@ void set_free(EffectInstance& effect) {
 
 /// Sum over the equations of the logarithm of what least squares leaves: each counts alike.
 double misfit(const DynamicJob& job) {
+  const std::vector<EquationRows> equations = preliminary_equations(job, kWindows);
+  const std::vector<LinearSolution> solutions = solve_equations(equations, job.elastic, 0);
   double sum = 0;
-  for (const EquationRows& e : preliminary_equations(job, kWindows))
-    sum += std::log(
-        std::max(solve_equation(e, job.elastic, 0).rss, std::numeric_limits<double>::min()));
+  for (std::size_t k = 0; k < equations.size(); ++k) {
+    const double rss = (equations[k].rows->r() * solutions[k].residual_combination).squaredNorm();
+    sum += std::log(std::max(rss, std::numeric_limits<double>::min()));
+  }
   return sum;
+}
+
+/// Tries `effect`, which has no values, as one more of the joint.
+void add_at_best(const EffectInstance& effect, const LogScale& scale, DynamicJob& job,
+                 std::vector<EffectInstance>& own) {
+  own.push_back(effect);
+  double least = kUnbounded;
+  std::vector<double> best;
+  for (const std::vector<double>& point : points_of(*effect.effect, scale)) {
+    set_values(own.back(), point);
+    const double found = misfit(job);
+    if (found < least || best.empty()) best = point;
+    least = std::min(least, found);
+  }
+  set_values(own.back(), best);
+}
+
+void add_one_by_one(const EffectsPerJoint& wanted, DynamicJob& job) {
+  for (std::size_t joint = 0; joint < wanted.size(); ++joint) {
+    const LogScale scale = scale_of(job, static_cast<int>(joint));
+    for (const EffectInstance& effect : wanted[joint])
+      if (is_blank(effect))
+        add_at_best(effect, scale, job, job.added[joint]);
+      else
+        job.added[joint].push_back(effect);
+  }
 }
 
 }  // namespace
 
+EffectsPerJoint with_values(EffectsPerJoint effects) {
+  for (std::vector<EffectInstance>& own : effects) std::erase_if(own, is_blank);
+  return effects;
+}
+
 void find_first_shapes(DynamicJob& job) {
-  if (std::none_of(job.added.begin(), job.added.end(), is_blank)) return;
-  const LogScale scale = scale_of(job);
-  const std::vector<EffectInstance> wanted = std::move(job.added);
-  job.added.clear();
-  for (const EffectInstance& effect : wanted) {
-    job.added.push_back(effect);
-    if (!is_blank(effect)) continue;
-    double least = kUnbounded;
-    std::vector<double> best;
-    for (const std::vector<double>& point : points_of(*effect.effect, scale)) {
-      set_values(job.added.back(), point);
-      const double found = misfit(job);
-      if (found < least || best.empty()) best = point;
-      least = std::min(least, found);
-    }
-    set_values(job.added.back(), best);
-  }
-  std::vector<EffectInstance> found = job.added;
-  for (const EquationRows& e : preliminary_equations(job, kWindows))
-    take_values(e.columns, solve_equation(e, job.elastic, 0).x, found);
-  for (std::size_t k = 0; k < wanted.size(); ++k)
-    if (is_blank(wanted[k])) {
-      job.added[k] = found[k];
-      set_free(job.added[k]);
-    }
+  const EffectsPerJoint wanted = job.added;
+  if (std::none_of(wanted.begin(), wanted.end(), [](const std::vector<EffectInstance>& own) {
+        return std::any_of(own.begin(), own.end(), is_blank);
+      }))
+    return;
+  for (std::vector<EffectInstance>& own : job.added) own.clear();
+  add_one_by_one(wanted, job);
+  EffectsPerJoint found = job.added;
+  const std::vector<EquationRows> equations = preliminary_equations(job, kWindows);
+  const std::vector<LinearSolution> solutions = solve_equations(equations, job.elastic, 0);
+  for (std::size_t k = 0; k < equations.size(); ++k)
+    take_values(equations[k].columns, solutions[k].x, found);
+  for (std::size_t joint = 0; joint < wanted.size(); ++joint)
+    for (std::size_t k = 0; k < wanted[joint].size(); ++k)
+      if (is_blank(wanted[joint][k])) {
+        job.added[joint][k] = found[joint][k];
+        set_free(job.added[joint][k]);
+      }
 }
 
 }  // namespace cablefit

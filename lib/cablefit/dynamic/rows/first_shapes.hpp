@@ -10,4 +10,7 @@ namespace cablefit {
 /// logs.
 void find_first_shapes(DynamicJob& job);
 
+/// Without those that have no values yet.
+EffectsPerJoint with_values(EffectsPerJoint effects);
+
 }  // namespace cablefit

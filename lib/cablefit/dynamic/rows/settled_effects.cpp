@@ -21,8 +21,7 @@ bool has_nonlinear(const std::vector<EquationRows>& equations) {
 
 /// Moves the effects of one equation to its solution; what that does not determine stays. The
 /// parameter that moved most; empty: none did by more than kStill.
-std::string move_effects(const DynamicColumns& columns, LinearSolution s,
-                         std::vector<EffectInstance>& added) {
+std::string move_effects(const DynamicColumns& columns, LinearSolution s, EffectsPerJoint& added) {
   std::string moved;
   double furthest = kStill;
   for (std::size_t k = 0; k < columns.parameters.size(); ++k) {
@@ -48,11 +47,11 @@ WindowCounts collect_settled(DynamicJob& job, std::vector<EquationRows>& equatio
     equations = make_equations(job);
     const WindowCounts windows = collect_rows(job, equations, Peaks::kept);
     if (!has_nonlinear(equations)) return windows;
-    std::vector<EffectInstance> added = job.added;
+    EffectsPerJoint added = job.added;
     std::string moving;
-    for (const EquationRows& e : equations)
-      if (const std::string moved =
-              move_effects(e.columns, solve_equation(e, job.elastic, 0), added);
+    const std::vector<LinearSolution> solutions = solve_equations(equations, job.elastic, 0);
+    for (std::size_t k = 0; k < equations.size(); ++k)
+      if (const std::string moved = move_effects(equations[k].columns, solutions[k], added);
           !moved.empty())
         moving = moved;
     if (moving.empty()) return windows;

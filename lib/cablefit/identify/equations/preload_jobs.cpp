@@ -7,6 +7,7 @@
 #include "cablefit/elastic/rows/blocked_rows.hpp"
 #include "cablefit/identify/equations/equilibrium.hpp"
 #include "cablefit/identify/equations/joint_radii.hpp"
+#include "cablefit/model/effects/effects_per_joint.hpp"
 #include "cablefit/model/rig/searched_radius.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
 
@@ -143,8 +144,8 @@ std::vector<PreloadFacts> preloads_of(std::span<const LogSurvey> logs,
        })) {
     PreloadFacts f;
     f.name = name;
-    f.added = options.effects;
     const Rig& rig = first_log_with(logs, parts_of(name)).plan.rig;
+    f.added = of_joints(options.effects, rig.n_joints());
     f.rig = rig;
     f.arm = rig.arm.kind != nullptr ? &rig.arm : nullptr;
     f.cables = unknown_cables(rig.n_joints());

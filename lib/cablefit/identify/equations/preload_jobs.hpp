@@ -28,7 +28,7 @@ struct PreloadFacts {
   std::vector<std::string> warnings;
   /// Effects beyond (31), with the values about which the columns are made, and the cables that
   /// they go by: as far as they are known.
-  std::vector<EffectInstance> added = {};
+  EffectsPerJoint added = {};
   std::shared_ptr<const Transmission> cables = {};
 };
 

@@ -4,7 +4,7 @@
 
 #include "cablefit/dynamic/rows/delay_hold.hpp"
 #include "cablefit/model/assembled_model.hpp"
-#include "cablefit/model/effects/effect_parameter.hpp"
+#include "cablefit/model/effects/effects_per_joint.hpp"
 
 namespace cablefit {
 namespace {
@@ -49,16 +49,18 @@ void require_inertias(const JointModel& axes, Parameters& parameters) {
 }
 
 /// Effects beyond (31) with what was estimated of them.
-std::vector<EffectInstance> added_of(const PreloadFacts& facts, Parameters& parameters) {
-  std::vector<EffectInstance> added = facts.added;
-  for (EffectInstance& effect : added)
-    for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
-      const ParameterInfo& info = effect.effect->parameters[k];
-      const auto e = parameters.find(added_parameter_name(*effect.effect, info));
-      if (!e) continue;  // held
-      effect.parameters[k] = *e;
-      effect.parameters[k].name = info.name;
-    }
+EffectsPerJoint added_of(const PreloadFacts& facts, Parameters& parameters) {
+  EffectsPerJoint added = facts.added;
+  const auto n_joints = static_cast<int>(added.size());
+  for (int joint = 0; joint < n_joints; ++joint)
+    for (EffectInstance& effect : added[static_cast<std::size_t>(joint)])
+      for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
+        const ParameterInfo& info = effect.effect->parameters[k];
+        const auto e = parameters.find(added_parameter_name(*effect.effect, info, joint, n_joints));
+        if (!e) continue;  // held
+        effect.parameters[k] = *e;
+        effect.parameters[k].name = info.name;
+      }
   return added;
 }
 
@@ -78,7 +80,7 @@ std::optional<Model> model_of(const IdentifyResult& result, const IdentifyPreloa
     if (!has_all(model, axes)) return std::nullopt;
     require_inertias(axes, parameters);
   }
-  model.joints.front().added = added_of(facts, parameters);
+  set_added_effects(added_of(facts, parameters), model);
   model.transmission = preload.transmission;
   model.elastic = elastic_estimates(preload.transmission, facts.rig, find);
   why_not = parameters.why_not();

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+#include <string_view>
+
 #include "cablefit/base/catalog.hpp"
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/quote.hpp"
@@ -43,9 +46,30 @@ EffectInstance blank_effect(const Effect& row) {
   return effect;
 }
 
-std::vector<EffectInstance> blank_effects(const std::vector<std::string>& names) {
-  std::vector<EffectInstance> effects;
-  for (const std::string& name : names) effects.push_back(blank_effect(effect_named(name)));
+WantedEffect wanted_effect(const std::string& name) {
+  const std::size_t space = name.find(' ');
+  if (space == std::string::npos) return {&effect_named(name), 0};
+  int joint = 0;
+  const char* const end = name.data() + name.size();
+  const auto [rest, failure] = std::from_chars(name.data() + space + 1, end, joint);
+  if (failure != std::errc{} || joint < 1 || std::string_view(rest, end) != "]")
+    throw usage_error(fmt::format("effect {} names no joint", cablefit::quoted(name)),
+                      "write stribeck[motor 2] for the second joint");
+  return {&effect_named(name.substr(0, space) + "]"), joint};
+}
+
+EffectsPerJoint blank_effects(const std::vector<std::string>& names, int n_joints) {
+  EffectsPerJoint effects(static_cast<std::size_t>(n_joints));
+  for (const std::string& name : names) {
+    const WantedEffect wanted = wanted_effect(name);
+    if (wanted.joint > n_joints)
+      throw usage_error(fmt::format("effect {}: the rig file has {} joint{}",
+                                    cablefit::quoted(name), n_joints, n_joints == 1 ? "" : "s"),
+                        "name one of its joints, or leave the number out for each of them");
+    for (int joint = 1; joint <= n_joints; ++joint)
+      if (wanted.joint == 0 || wanted.joint == joint)
+        effects[static_cast<std::size_t>(joint) - 1].push_back(blank_effect(*wanted.effect));
+  }
   return effects;
 }
 

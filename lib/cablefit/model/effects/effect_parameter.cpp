@@ -3,12 +3,20 @@
 #include <fmt/format.h>
 
 namespace cablefit {
+namespace {
+
+/// "f_v[2]" -> "f_v".
+std::string_view without_joint(std::string_view name) {
+  return name.ends_with(']') ? name.substr(0, name.rfind('[')) : name;
+}
+
+}  // namespace
 
 const ParameterInfo* effect_parameter(std::string_view name) {
+  const std::string_view base = without_joint(name);
   for (const Effect& row : candidate_effects())
     for (const ParameterInfo& info : row.parameters)
-      if (name == added_parameter_name(row, info)) return &info;
-  const std::string_view base = name.substr(0, name.find('['));
+      if (base == added_parameter_name(row, info)) return &info;
   for (const Effect& effect : base_effects())
     for (const ParameterInfo& info : effect.parameters)
       if (info.name == base) return &info;
@@ -17,14 +25,6 @@ const ParameterInfo* effect_parameter(std::string_view name) {
 
 std::string added_parameter_name(const Effect& row, const ParameterInfo& info) {
   return fmt::format("{}[{}].{}", row.name, to_string(row.site), info.name);
-}
-
-Estimate* find_parameter(std::vector<EffectInstance>& effects, std::string_view name) {
-  for (EffectInstance& effect : effects)
-    for (std::size_t k = 0; k < effect.parameters.size(); ++k)
-      if (name == added_parameter_name(*effect.effect, effect.effect->parameters[k]))
-        return &effect.parameters[k];
-  return nullptr;
 }
 
 }  // namespace cablefit

@@ -10,13 +10,12 @@
 
 namespace cablefit {
 
-/// "f_v", or "f_v[2]" of one of several joints. nullptr: no effect has it (a coefficient of a
-/// cable, theta_0).
+/// "f_v" or "stribeck[motor].a", of one of several joints with its index: "f_v[2]". nullptr: no
+/// effect has it (a coefficient of a cable, theta_0).
 const ParameterInfo* effect_parameter(std::string_view name);
 
-/// Name in results of a parameter of an effect beyond the paper's: "stribeck[motor].a".
+/// Name in results of a parameter of an effect beyond the paper's on a rig of one joint:
+/// "stribeck[motor].a".
 std::string added_parameter_name(const Effect& row, const ParameterInfo& info);
-/// The parameter of that name; nullptr: none of the effects has it.
-Estimate* find_parameter(std::vector<EffectInstance>& effects, std::string_view name);
 
 }  // namespace cablefit

@@ -80,7 +80,6 @@ void read_event(const JsonNode& node, EffectInstance& instance) {
 }
 
 EffectInstance read_refinement(const JsonNode& node, Axes axes, bool rigid) {
-  node.allow_only({"name", "side", "parameters", "event"});
   const Site site = choose(node.at("side"), kSites);
   const JsonNode& name = node.at("name");
   EffectInstance instance;
@@ -97,9 +96,26 @@ EffectInstance read_refinement(const JsonNode& node, Axes axes, bool rigid) {
 
 std::vector<EffectInstance> read_refinements(const JsonNode& node, Axes axes, bool rigid) {
   std::vector<EffectInstance> refinements;
-  for (const JsonNode& item : some_items(node))
+  for (const JsonNode& item : some_items(node)) {
+    item.allow_only({"name", "side", "parameters", "event"});
     refinements.push_back(read_refinement(item, axes, rigid));
+  }
   return refinements;
+}
+
+EffectsPerJoint read_effects_per_joint(const JsonNode& node, const Rig& rig, bool rigid) {
+  EffectsPerJoint effects(static_cast<std::size_t>(rig.n_joints()));
+  for (const JsonNode& item : some_items(node)) {
+    item.allow_only({"name", "side", "joint", "parameters", "event"});
+    const double joint =
+        rig.n_joints() == 1 ? number_or(item, "joint", 1) : item.at("joint").number();
+    if (!(joint >= 1) || joint != std::floor(joint) || joint > rig.n_joints())
+      throw item.at("joint").error("not the number of a joint",
+                                   fmt::format("expected 1 to {}", rig.n_joints()));
+    const int at = static_cast<int>(joint) - 1;
+    effects[static_cast<std::size_t>(at)].push_back(read_refinement(item, rig.axes.of(at), rigid));
+  }
+  return effects;
 }
 
 }  // namespace cablefit::model_file

@@ -32,6 +32,9 @@ Estimate read_strict_estimate(const JsonNode& node, std::string name, std::strin
 
 /// "refinements" of a joint: [{"name", "side", "parameters": {...}, "event": {"log", "time"}}].
 std::vector<EffectInstance> read_refinements(const JsonNode& node, Axes axes, bool rigid);
+/// The same of all joints in one list, each entry with its "joint" (from 1, which is also the
+/// default), as results have them.
+EffectsPerJoint read_effects_per_joint(const JsonNode& node, const Rig& rig, bool rigid);
 
 /// "covariance": {"parameters": [names], "matrix": [rows]}. Throws for another number of rows or
 /// columns than names.

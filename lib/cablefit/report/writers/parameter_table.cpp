@@ -49,10 +49,11 @@ std::size_t place_of(const Row& row) {
   return static_cast<std::size_t>(std::find(kPaper.begin(), kPaper.end(), name) - kPaper.begin());
 }
 
-/// "1" of "J_link[1]"; empty: there is one joint, or the parameter is of none.
+/// "[1]" of "J_link[1]" and of "stribeck[motor].v_s[1]"; empty: there is one joint, or the
+/// parameter is of none.
 std::string joint_of(const Row& row) {
-  const std::size_t at = row.name.find('[');
-  return at == std::string::npos ? "" : row.name.substr(at);
+  const std::size_t at = row.name.rfind('[');
+  return at == std::string::npos || row.name.back() != ']' ? "" : row.name.substr(at);
 }
 
 /// In the paper's order, joint by joint. The base parameters of an arm, which stand for J_link,

@@ -91,7 +91,7 @@ void read_model_parts(const JsonNode& node, const Rig& rig, DynamicFit& fit) {
     fit.elastic = read_stage1(*elastic, node, rig, fit.model);
   const JsonNode* effects = node.find("effects");
   if (effects != nullptr && !effects->items.empty())
-    fit.effects = model_file::read_refinements(*effects, rig.axes.all(), is_rigid_fit(fit, rig));
+    fit.effects = model_file::read_effects_per_joint(*effects, rig, is_rigid_fit(fit, rig));
   const JsonNode* covariance = node.find("covariance");
   if (covariance != nullptr && !covariance->is_null())
     fit.covariance = model_file::read_covariance(*covariance);

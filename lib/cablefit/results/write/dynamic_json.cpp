@@ -98,10 +98,11 @@ Json fit_json(const DynamicFit& fit) {
             {"weight", by_name(fit.weight)},
             {"condition", by_name(fit.condition)},
             {"effective_rows", by_name(fit.effective_rows)}};
-  if (!fit.effects.empty())
-    json["effects"] = list_of(fit.effects, [](const EffectInstance& effect) {
-      return model_file::refinement_json(effect);
-    });
+  for (std::size_t joint = 0; joint < fit.effects.size(); ++joint)
+    for (const EffectInstance& effect : fit.effects[joint]) {
+      json["effects"].push_back(model_file::refinement_json(effect));
+      if (fit.effects.size() > 1) json["effects"].back()["joint"] = joint + 1;
+    }
   if (fit.elastic) json["elastic"] = stage1_json(*fit.elastic);
   json["sd_reason"] = by_name(fit.sd_reason);
   json["systematic"] = {{"method_floor", by_name(fit.method_floor)},

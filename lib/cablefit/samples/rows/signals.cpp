@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace cablefit {
 namespace {
@@ -84,22 +83,25 @@ JointSignals joint_signals(const Eigen::MatrixXd& data, const LogPlan& plan, int
   return s;
 }
 
-void add_directions(std::vector<JointSignals>& joints, const Butterworth* low_pass,
-                    const Window& window) {
+void add_directions(std::vector<JointSignals>& joints, Eigen::Index n_rows,
+                    const SignalFilter& filter) {
   for (JointSignals& s : joints) {
-    Eigen::MatrixXd directions(window.data.rows(), 2);
+    Eigen::MatrixXd directions(n_rows, 2);
     directions.col(0) =
         s.qd.size() > 0 ? s.qd.sign().eval() : Eigen::ArrayXd::Zero(directions.rows()).eval();
     directions.col(1) = s.thetad.size() > 0 ? s.thetad.sign().eval()
                                             : Eigen::ArrayXd::Zero(directions.rows()).eval();
-    if (low_pass != nullptr)
-      low_pass->apply(directions, window.starts_segment, window.ends_segment);
+    filter.apply(directions);
     s.q_direction = directions.col(0);
     s.theta_direction = directions.col(1);
   }
 }
 
 }  // namespace
+
+void SignalFilter::apply(Eigen::Ref<Eigen::MatrixXd> columns) const {
+  if (low_pass) low_pass->apply(columns, starts_segment, ends_segment);
+}
 
 Eigen::Index Signals::n_rows() const {
   if (joints.empty()) return 0;
@@ -122,17 +124,16 @@ double bridge_seconds(const SignalSettings& settings) {
 Signals make_signals(const Window& window, const LogPlan& plan, const SignalSettings& settings) {
   Signals signals{window.first, window.begin, window.end, window.t0, window.period, {}};
   Eigen::MatrixXd data = window.data;
-  std::optional<Butterworth> low_pass;
-  if (settings.cutoff > 0) {
-    low_pass.emplace(settings.filter_order, settings.cutoff, 1 / window.period);
-    low_pass->apply(data, window.starts_segment, window.ends_segment);
-  }
+  signals.filter.starts_segment = window.starts_segment;
+  signals.filter.ends_segment = window.ends_segment;
+  if (settings.cutoff > 0)
+    signals.filter.low_pass.emplace(settings.filter_order, settings.cutoff, 1 / window.period);
+  signals.filter.apply(data);
   for (int joint = 0; joint < plan.rig.n_joints(); ++joint) {
     signals.joints.push_back(joint_signals(data, plan, joint, window.period, settings));
     signals.joints.back().approach = window.approach.col(joint).array().sign();
   }
-  if (!settings.quasi_static)
-    add_directions(signals.joints, low_pass ? &*low_pass : nullptr, window);
+  if (!settings.quasi_static) add_directions(signals.joints, data.rows(), signals.filter);
   return signals;
 }
 

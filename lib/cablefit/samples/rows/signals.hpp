@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "cablefit/samples/rows/butterworth.hpp"
@@ -33,11 +34,22 @@ struct JointSignals {
   Eigen::ArrayXd approach;  ///< -1, 0, 1: direction of the last motion of theta
 };
 
+/// The low-pass that made the signals of a window.
+struct SignalFilter {
+  std::optional<Butterworth> low_pass;  ///< none: no cut-off
+  bool starts_segment = false, ends_segment = false;
+
+  /// Filters every column in place. What is made of filtered signals and jumps is filtered again,
+  /// as the torque has been.
+  void apply(Eigen::Ref<Eigen::MatrixXd> columns) const;
+};
+
 struct Signals {
   Eigen::Index first = 0, begin = 0, end = 0;  ///< as in Window
   double t0 = 0, period = 0;
   std::vector<JointSignals> joints;
   double log_began = 0;  ///< s, in the time of t0
+  SignalFilter filter = {};
   Eigen::Index n_rows() const;
 };
 
