@@ -11,6 +11,7 @@
 #include "cablefit/base/parallel.hpp"
 #include "cablefit/base/random.hpp"
 #include "cablefit/design/curves/joint_curve.hpp"
+#include "cablefit/model/least_inertias.hpp"
 
 namespace cablefit {
 namespace {
@@ -29,12 +30,13 @@ constexpr double kFinestStep = 25e-6;  // s
 double resonance(const Model& model) {
   if (model.rigid) return 0;
   double lowest = kUnbounded;
+  const std::vector<double> links = link_inertias(model);
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
     const JointCurve curve(model.transmission, static_cast<int>(k));
     const double stiffness = (curve.stiffness(1e-6) + curve.stiffness(-1e-6)) / 2;
-    lowest = std::min(lowest, std::sqrt(stiffness * (1 / inertia_of(model.joints[k].motor) +
-                                                     1 / inertia_of(model.joints[k].link))) /
-                                  (2 * std::numbers::pi));
+    lowest = std::min(
+        lowest, std::sqrt(stiffness * (1 / inertia_of(model.joints[k].motor) + 1 / links[k])) /
+                    (2 * std::numbers::pi));
   }
   return lowest;
 }
@@ -67,7 +69,8 @@ class Judge {
         options_(options),
         shape_(shape),
         objective_(objective),
-        frame_(frame_of(model, options.limits)) {}
+        frame_(frame_of(model, options.limits)),
+        start_(at_rest(model, options.limits, kFinestStep)) {}
 
   std::optional<ExcitedMotion> motion(const Eigen::ArrayXXd& numbers, double step) const {
     Eigen::ArrayXXd unit;
@@ -76,7 +79,7 @@ class Judge {
       if (unit.size() == 0) unit.resize(own.size(), numbers.cols());
       unit.col(k) = own / std::max(1e-300, own.abs().maxCoeff());
     }
-    return motion_within(model_, options_.limits, unit, shape_.share(numbers.col(0)), step);
+    return motion_within(model_, options_.limits, start_, unit, shape_.share(numbers.col(0)), step);
   }
 
   /// The objectives of all, side by side.
@@ -115,6 +118,7 @@ class Judge {
   const MotionShape& shape_;
   const ExcitationObjective& objective_;
   ShapeFrame frame_;
+  SimulationInput start_;
 };
 
 /// Some of the numbers moved, mirrored back into 0 .. 1.

@@ -33,14 +33,20 @@ struct ExcitedMotion {
 
 /// The model with a controller to simulate with: the rig's, else a surrogate controller that
 /// follows its reference as fast as the motor's inertia allows (`words` says which). Throws
-/// Error(input) for what cannot be simulated: no inertias, links that move each other.
+/// Error(input) for a model without inertias, which cannot be simulated.
 Model excitable(const Model& model, double rate, std::string& words);
 
+/// The state in which a motion begins: at rest around the middle, cables and controller holding the
+/// load and the weight of an arm. Several joints, which cables may couple, are left to come to rest
+/// there for 2 s, in steps of `step` (s).
+SimulationInput at_rest(const Model& model, const ExcitationLimits& limits, double step);
+
 /// Largest share of a scaled reference at which no limit is broken, by the simulation itself: from
-/// rest in equilibrium, `shape` (rows x joints, around 0) times a factor, at most `share` of the
+/// `start`, `shape` (rows x joints, around 0) times a factor, at most `share` of the
 /// limits of position and speed. Nothing when even the equilibrium breaks one, or the loop is
 /// unstable. `step`: s, of the simulation.
 std::optional<ExcitedMotion> motion_within(const Model& model, const ExcitationLimits& limits,
+                                           const SimulationInput& start,
                                            const Eigen::ArrayXXd& shape, double share, double step);
 
 }  // namespace cablefit

@@ -1,5 +1,6 @@
 #include "cablefit/design/excitation/planned_fit.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cablefit/base/parallel.hpp"
@@ -139,11 +140,16 @@ struct Expected {
   double noise = 0;                  ///< rms in the rows
 };
 
+double rms_of(const Eigen::MatrixXd& noise) {
+  return std::sqrt(noise.squaredNorm() /
+                   static_cast<double>(std::max<Eigen::Index>(1, noise.size())));
+}
+
 /// `noise`: rows x draws; `left`: what the true parameters leave of the rows without noise.
 Expected expected_errors(const ScaledSolver& solver, const Eigen::MatrixXd& noise,
                          const Eigen::VectorXd& left) {
   Expected out;
-  out.noise = std::sqrt(noise.squaredNorm() / static_cast<double>(noise.size()));
+  out.noise = rms_of(noise);
   out.sd = solver.solve(noise).rowwise().norm() / std::sqrt(static_cast<double>(noise.cols()));
   out.floor = solver.solve(left);
   out.white = out.noise * solver.unit_sd();
@@ -164,25 +170,56 @@ FitPlanner::~FitPlanner() = default;
 
 double FitPlanner::cutoff() const { return settings_->job.settings.rows.signal.cutoff; }
 
-/// One equation of a motion, `rows` without noise.
-void FitPlanner::add_equation(std::size_t k, const EquationBatch& batch,
-                              const ExcitedMotion& motion, PlannedFit& planned) const {
+/// The rows of a system, those of several equations one below the other, each divided by its
+/// residual over that of the first, as stage 2 weights them.
+FitPlanner::PlannedRows FitPlanner::planned_rows(const std::vector<std::size_t>& system,
+                                                 const RowBatch& batch,
+                                                 const ExcitedMotion& motion) const {
   const Settings& s = *settings_;
-  const DynamicColumns& columns = s.equations[k].columns;
+  Eigen::Index n = 0;
+  for (const std::size_t k : system) n += batch.equations[k].rows.rows();
+  const EquationRows& first = s.equations[system.front()];
+  PlannedRows all{Eigen::MatrixXd(n, first.columns.count),
+                  Eigen::MatrixXd(n, s.noise[system.front()].cols()), Eigen::VectorXd(n)};
+  double squares = 0, first_rms = 0;
+  Eigen::Index at = 0;
+  for (const std::size_t k : system) {
+    const EquationBatch& own = batch.equations[k];
+    const Eigen::Index rows = own.rows.rows();
+    const Eigen::MatrixXd noise = s.noise_in(k, own.numbers);
+    const Eigen::VectorXd residual = own.rows * s.residual[k];
+    const double rms = std::hypot(rms_of(noise), rms_of(residual));
+    if (k == system.front()) first_rms = rms;
+    const double weight = rms > 0 && first_rms > 0 ? first_rms / rms : 1;
+    all.rows.middleRows(at, rows) = weight * own.rows;
+    all.noise.middleRows(at, rows) = weight * noise;
+    all.residual.segment(at, rows) = weight * residual;
+    squares += weight * weight * static_cast<double>(rows) *
+               motion.result.tau.col(s.equations[k].columns.place.joint).square().mean();
+    all.name += (all.name.empty() ? "" : " + ") + s.plain[k].name;
+    at += rows;
+  }
+  all.torque = std::sqrt(squares);
+  return all;
+}
+
+/// What a motion says of one system.
+void FitPlanner::add_system(const std::vector<std::size_t>& system, const RowBatch& batch,
+                            const ExcitedMotion& motion, PlannedFit& planned) const {
+  const Settings& s = *settings_;
+  const DynamicColumns& columns = s.equations[system.front()].columns;
   std::vector<Eigen::Index> wanted;
   for (Eigen::Index j = 0; j < columns.n_effects; ++j)
     if (!columns.parameters[static_cast<std::size_t>(j)].given) wanted.push_back(j);
-  const ScaledSolver solver(batch.rows(Eigen::all, wanted), kLeastRowsPlanned);
-  const double torque = std::sqrt(motion.result.tau.col(columns.place.joint).square().mean() *
-                                  static_cast<double>(batch.rows.rows()));
+  const PlannedRows all = planned_rows(system, batch, motion);
+  const ScaledSolver solver(all.rows(Eigen::all, wanted), kLeastRowsPlanned);
   Expected expected;
-  if (solver.determined())
-    expected = expected_errors(solver, s.noise_in(k, batch.numbers), batch.rows * s.residual[k]);
+  if (solver.determined()) expected = expected_errors(solver, all.noise, all.residual);
   for (std::size_t j = 0; j < wanted.size(); ++j) {
     const DynamicParameter& p = columns.parameters[static_cast<std::size_t>(wanted[j])];
     const auto at = static_cast<Eigen::Index>(j);
     PlannedParameter out;
-    out.equation = s.plain[k].name;
+    out.equation = all.name;
     out.name = p.name;
     out.unit = p.unit();
     out.value = value_of(s.model, p.name);
@@ -191,10 +228,11 @@ void FitPlanner::add_equation(std::size_t k, const EquationBatch& batch,
       out.sd = expected.sd(at);
       out.sd_white = expected.white(at);
       out.floor = expected.floor(at);
-      out.relative = out.error() / size_of(p, out.value, torque / solver.norms()(at));
+      out.relative = out.error() / size_of(p, out.value, all.torque / solver.norms()(at));
       if (p.is_inertia && planned.refused.empty())
-        planned.refused = refusal_of(batch.rows, columns, wanted[j], s.response_of(s.equations[k]),
-                                     out.value, expected.noise);
+        planned.refused =
+            refusal_of(all.rows, columns, wanted[j], s.response_of(s.equations[system.front()]),
+                       out.value, expected.noise);
     }
     planned.parameters.push_back(std::move(out));
   }
@@ -205,8 +243,8 @@ PlannedFit FitPlanner::fit(const ExcitedMotion& motion) const {
   const RowBatch batch =
       make_rows(window_of(motion, s.logs.front()), s.logs.front(), 0, s.job.settings.rows, s.plain);
   PlannedFit planned;
-  for (std::size_t k = 0; k < s.equations.size(); ++k)
-    add_equation(k, batch.equations[k], motion, planned);
+  for (const std::vector<std::size_t>& system : systems_of(s.equations))
+    add_system(system, batch, motion, planned);
   return planned;
 }
 

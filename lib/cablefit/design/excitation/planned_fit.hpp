@@ -12,7 +12,8 @@
 namespace cablefit {
 
 struct PlannedParameter {
-  std::string equation, name, unit;
+  std::string equation;  ///< "motor", or all links that move each other: "link[1] + link[2]"
+  std::string name, unit;
   double value = 0;     ///< of the model
   double sd = 0;        ///< of the estimate's scatter to expect; infinite when not shown
   double floor = 0;     ///< what the method adds without any noise (filters, kinks), of either sign
@@ -51,8 +52,17 @@ class FitPlanner {
 
  private:
   struct Settings;
-  void add_equation(std::size_t k, const EquationBatch& batch, const ExcitedMotion& motion,
-                    PlannedFit& planned) const;
+  struct PlannedRows {
+    Eigen::MatrixXd rows;      ///< rows x columns, without noise
+    Eigen::MatrixXd noise;     ///< rows x draws, N m
+    Eigen::VectorXd residual;  ///< of the model's own values, without noise, N m
+    std::string name = {};
+    double torque = 0;  ///< N m, root of the sum of squares
+  };
+  PlannedRows planned_rows(const std::vector<std::size_t>& system, const RowBatch& batch,
+                           const ExcitedMotion& motion) const;
+  void add_system(const std::vector<std::size_t>& system, const RowBatch& batch,
+                  const ExcitedMotion& motion, PlannedFit& planned) const;
   std::unique_ptr<Settings> settings_;
 };
 

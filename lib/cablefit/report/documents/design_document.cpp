@@ -282,9 +282,10 @@ Table excitation_table(const ExcitationPlan& plan) {
                                               : std::string(kNoNumber)});
   }
   table.notes.push_back(
-      "error: root of sd^2 + floor^2; sd: scatter from sensor noise; floor: error of "
-      "filters and of kinks where cables go slack, without noise; errors of stage 1 "
-      "and effects missing in the model are not included");
+      "error: root of sd^2 + floor^2; sd: scatter from sensor noise; floor: error of filters and "
+      "of kinks where cables go slack, without noise; not included: errors of stage 1, effects "
+      "missing in the model, and the bias of least squares from noise in the regressors "
+      "('--estimator iv' has none)");
   table.notes.push_back(fmt::format(
       "plain sine: {} Hz, all of the range at full speed{}", significant(plan.plain.hz, kFewDigits),
       plan.plain.fit.refused.empty()
