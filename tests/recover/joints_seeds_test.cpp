@@ -28,11 +28,12 @@ struct Trial {
   PlainRig plain;
   std::string more = {};
   double held = 0, blocked = 60, moving = 20;  ///< s
+  std::string estimator = "auto";
 };
 
-/// The arm has no other URDF.
 Rig rig_of(const Trial& trial, const TempFolder& folder) {
-  if (!trial.more.empty()) folder.write("arm.urdf", urdf_text(seven_joints(), "arm"));
+  if (const PlainArm* arm = trial.plain.link_dynamics.target<PlainArm>())
+    folder.write("arm.urdf", urdf_text(*arm, "arm"));
   return read_rig(folder.write("rig.json", rig_text(trial.plain, trial.more)));
 }
 
@@ -47,6 +48,7 @@ Tables run(const Trial& trial, unsigned n_runs) {
   const std::vector<double> at(plain.n(), trial.held);
   DynamicOptions options;
   options.models = {"poly"};
+  options.estimator = trial.estimator;
   Tables tables;
   for (unsigned seed = 1; seed <= n_runs; ++seed) {
     Bench bench;
@@ -120,6 +122,12 @@ TEST_CASE("intervals of an arm of seven joints", "[recover][monte-carlo]") {
   if (!reads_urdf()) return;
   check_coverage("  arm, 7 joints, 14 cables, URDF; 60 s blocked, 16 s moving",
                  {seven_joint_rig(), kUrdfArm, 0, 60, 16});
+}
+
+TEST_CASE("intervals of output error on links that move each other", "[recover][monte-carlo]") {
+  if (!reads_urdf()) return;
+  check_coverage("  finger by output error, 2 joints, 3 tendons, URDF; 60 s blocked, 20 s moving",
+                 {phalanges_rig(), kUrdfArm, 0, 60, 20, "output-error"});
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ TEST_CASE("stage 2 fits effects of links that move each other", "[refine]") {
   const Bench bench = bench_with(phalanges_rig(), hidden, kWithArm);
   const EffectsPerJoint effects =
       effects_at({"quadratic_drag[link 1]", "quadratic_drag[link 2]"}, {{0.1, 2}, {0.1, 2}}, 2);
-  const std::string estimator = GENERATE("wls", "iv");
+  const std::string estimator = GENERATE("wls", "iv", "output-error");
   CAPTURE(estimator);
   const DynamicFit fit = refitted(bench, effects, estimator).fits.at(0);
   CHECK(fit.estimator == estimator);

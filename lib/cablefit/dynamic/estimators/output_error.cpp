@@ -46,7 +46,6 @@ bool has_load(const DynamicJob& job) {
 /// Why these logs cannot be fitted by output error; empty when they can.
 std::string obstacle(const EstimationTask& task, const Model& start) {
   const DynamicJob& job = task.job;
-  if (job.is_coupled()) return "not made for links that move each other";
   if (job.rigid && any_effect(job.added) && has_load(job))
     return "an added effect of a rigid drive may depend on its load, and output error adds the "
            "logged load to the torque";
@@ -273,6 +272,20 @@ void note_stage1(const EstimationTask& task, const OutputErrorOptions& options,
                     shift.name, shift.from, shift.to, std::abs(shift.in_sd)));
 }
 
+/// Of an equation, or of all that share its parameters.
+void fill_parameters(const EstimationTask& task, const EquationRows& e, const OutputErrorFit& oe,
+                     const Estimation& start, DynamicFit& fit) {
+  for (Eigen::Index i = 0; i < e.columns.n_effects; ++i) {
+    const DynamicParameter& parameter = e.columns.parameters[static_cast<std::size_t>(i)];
+    fit.parameters.push_back(parameter.given ? *find_estimate(start.fit.parameters, parameter.name)
+                                             : estimate_of(task, e, i, oe));
+    fit.verdicts[parameter.name] = parameter.given ? "given"
+                                   : fit.parameters.back().not_identifiable.empty()
+                                       ? "identified"
+                                       : "not identifiable";
+  }
+}
+
 /// Everything but decisions and notes.
 void fill(const EstimationTask& task, const OutputErrorFit& oe, const Estimation& start,
           Estimation& out) {
@@ -280,19 +293,11 @@ void fill(const EstimationTask& task, const OutputErrorFit& oe, const Estimation
   if (const ElasticFit* stage1 = task.stage1())
     out.fit.elastic = refined_stage1(*stage1, oe, robust);
   const ElasticFit* elastic = out.fit.elastic ? &*out.fit.elastic : nullptr;
+  for (const std::vector<std::size_t>& system : systems_of(task.equations))
+    fill_parameters(task, task.equations[system.front()], oe, start, out.fit);
   for (std::size_t k = 0; k < task.equations.size(); ++k) {
     const EquationRows& e = task.equations[k];
     const std::string& name = e.equation.name;
-    for (Eigen::Index i = 0; i < e.columns.n_effects; ++i) {
-      const DynamicParameter& parameter = e.columns.parameters[static_cast<std::size_t>(i)];
-      out.fit.parameters.push_back(parameter.given
-                                       ? *find_estimate(start.fit.parameters, parameter.name)
-                                       : estimate_of(task, e, i, oe));
-      out.fit.verdicts[parameter.name] = parameter.given ? "given"
-                                         : out.fit.parameters.back().not_identifiable.empty()
-                                             ? "identified"
-                                             : "not identifiable";
-    }
     out.solutions.push_back(solution_of(task, e, oe, elastic, start.solutions[k]));
     add_errors(*e.rows, name, out.solutions.back(), out.fit);
     out.fit.sd_reason[name] = sd_reason_of(task, oe);

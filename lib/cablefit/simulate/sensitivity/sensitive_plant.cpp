@@ -61,9 +61,7 @@ bool SensitivePlant::set_parameters(const double* values) {
   for (std::size_t k = 0; k < moving_.size(); ++k)
     set_parameter_value(model_, moving_[k], values[k]);
   make_copies();
-  for (std::size_t axis = 0; axis < n_axes_; ++axis)
-    if (!(plant_.inertia(axis) > 0)) return false;
-  return true;
+  return plant_.is_sane();
 }
 
 void SensitivePlant::start(const double* position, const double* velocity, double t) {

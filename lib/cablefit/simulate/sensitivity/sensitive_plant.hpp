@@ -32,8 +32,8 @@ class SensitivePlant {
   std::size_t n_columns() const { return copies_.size(); }
   std::size_t first_input() const { return moving_.size(); }
 
-  /// Sets the parameters of `moving`, in order, and restarts. False: an axis
-  /// has no positive inertia.
+  /// Sets the parameters of `moving`, in order, and restarts. False: an axis has no positive
+  /// inertia, or M(q) of an arm is not positive definite.
   bool set_parameters(const double* values);
   const Model& model() const { return model_; }
 
