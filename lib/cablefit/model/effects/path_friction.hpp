@@ -37,11 +37,11 @@ class PathFriction {
  private:
   /// A pulley that a cable passes.
   struct Pulley {
-    std::size_t joint;
+    std::size_t joint = 0;
     double sign = 0;  ///< -1 .. 1: sgn(v_ik) after a short way
   };
   struct Path {
-    std::size_t cable;
+    std::size_t cable = 0;
     std::vector<Pulley> pulleys;  ///< from the base on
   };
 
