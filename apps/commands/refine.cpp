@@ -140,6 +140,10 @@ void sort_files(RefineCommand& command) {
   for (const std::string& path : command.files)
     (is_model(path) ? command.models : command.train).push_back(path);
   if (command.models.empty() && command.train.empty() && command.blocked.empty()) throw no_log();
+  if (command.models.empty() && !command.model.empty())
+    throw usage_error(
+        "--model names a fit of a result, and no result is given",
+        "give the result of 'cablefit dynamic', or drop --model: the logs then decide");
   const GivenLogs given[] = {
       {"--train", command.train}, {"--test", command.test}, {"--blocked", command.blocked}};
   require_distinct(given);
