@@ -32,8 +32,8 @@ Estimate read_strict_estimate(const JsonNode& node, std::string name, std::strin
 
 /// "refinements" of a joint: [{"name", "side", "parameters": {...}, "event": {"log", "time"}}].
 std::vector<EffectInstance> read_refinements(const JsonNode& node, Axes axes, bool rigid);
-/// The same of all joints in one list, each entry with its "joint" (from 1, which is also the
-/// default), as results have them.
+/// The same of all joints in one list, each entry with its "joint" (from 1; a rig of one joint may
+/// leave it out), as results have them. Throws for a joint that the rig lacks.
 EffectsPerJoint read_effects_per_joint(const JsonNode& node, const Rig& rig, bool rigid);
 
 /// "covariance": {"parameters": [names], "matrix": [rows]}. Throws for another number of rows or
