@@ -87,9 +87,9 @@ struct Hold {
 Hold fitted(const Logging& as_logged) {
   Open open = open_rig(as_logged);
   REQUIRE(is_hold_open(open.logs, open.models));
-  const auto decision = take_fitted_hold(open.logs, open.models);
+  const auto decisions = take_fitted_hold(open.logs, open.models);
   const Rig& rig = open.models.front().rig;
-  CHECK(decision.has_value() == (rig.torque_hold != TorqueHold::automatic));
+  CHECK(decisions.empty() == (rig.torque_hold == TorqueHold::automatic));
   CHECK(open.logs.blocked.front().plan.rig.torque_hold == rig.torque_hold);
   return {rig.torque_hold, rig.torque_period};
 }

@@ -33,6 +33,9 @@ struct JointModel {
   std::vector<EffectInstance> motor;  ///< for a rigid drive the effects of Side::rigid
   /// Beyond (31). The cables of the model already have its `change` rows.
   std::vector<EffectInstance> added = {};
+  /// The logs of this joint do not separate the cables that another joint's motor winds. refine
+  /// does not fit their coefficients here.
+  bool holds_passing_cables = false;
 };
 
 struct Model {

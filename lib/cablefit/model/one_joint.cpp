@@ -152,18 +152,26 @@ struct OwnCable {
   std::size_t place = 0;
 };
 
-/// Of every cable of the whole the joint that knows it best.
+/// Of every cable of the whole the joint that knows it best; one that holds it only where no other
+/// passes.
 std::vector<OwnCable> best_known(std::span<const Model> joints) {
   std::vector<OwnCable> best(joints.front().whole->transmission.cables.size());
   std::vector<double> least(best.size(), kUnbounded);
   for (const Model& one : joints) {
     const auto places = passing(one.whole->transmission, place(one.joint));
     for (std::size_t k = 0; k < places.size(); ++k) {
-      const double ratio = uncertainty(one, one.transmission.cables[k]);
+      const Cable& cable = one.transmission.cables[k];
+      if (is_held(one, cable)) continue;
+      const double ratio = uncertainty(one, cable);
       if (best[places[k]].joint != nullptr && !(ratio < least[places[k]])) continue;
       best[places[k]] = {&one, k};
       least[places[k]] = ratio;
     }
+  }
+  for (const Model& one : joints) {
+    const auto places = passing(one.whole->transmission, place(one.joint));
+    for (std::size_t k = 0; k < places.size(); ++k)
+      if (best[places[k]].joint == nullptr) best[places[k]] = {&one, k};
   }
   return best;
 }
@@ -306,6 +314,12 @@ Model one_joint(const Model& whole, int joint) {
   one.covariance = {};
   one.link_residual.clear();
   return one;
+}
+
+bool winds(const Cable& cable, int joint) { return cable.motor_side().passes(place(joint)); }
+
+bool is_held(const Model& one, const Cable& cable) {
+  return one.joints.front().holds_passing_cables && !winds(cable, 0);
 }
 
 std::vector<int> linked_joints(const Model& one) {

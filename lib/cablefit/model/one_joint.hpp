@@ -19,6 +19,11 @@ namespace cablefit {
 Model one_joint(const Model& whole, int joint);
 std::vector<Model> one_joint(std::span<const Model> models, int joint);
 
+/// Whether the motor of the joint (from 0, of those of the cable's maps) winds the cable.
+bool winds(const Cable& cable, int joint);
+/// Whether a cable of the model keeps its coefficients, see JointModel::holds_passing_cables.
+bool is_held(const Model& one, const Cable& cable);
+
 /// Joints (from 0) whose links move with this one: all of an arm, else those that its cables pass.
 /// With its own, ascending.
 std::vector<int> linked_joints(const Model& one);

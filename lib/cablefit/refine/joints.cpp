@@ -9,6 +9,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/model/one_joint.hpp"
+#include "cablefit/refine/held_cables.hpp"
 #include "cablefit/refine/kept_joint.hpp"
 #include "cablefit/refine/rig_error.hpp"
 #include "cablefit/refine/torque_gains.hpp"
@@ -230,22 +231,38 @@ struct JointRun {
   }
 };
 
+/// The logs to fit may separate cables that the training logs alone do not.
+RefineResult refined_joint(std::vector<Model> one, const RefineLogs& logs,
+                           const RefineOptions& options, const RefineOne& refine_one) {
+  try {
+    return refine_one(one, logs, options);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::not_identifiable || !hold_cables(one)) throw;
+  }
+  return refine_one(one, logs, options);
+}
+
 JointRun run_joints(std::span<const Model> given, const RefineLogs& logs,
                     const RefineOptions& options, const RefineOne& refine_one) {
   const std::vector<Model> own_given = without_shown_gains(given, logs);
   JointRun run{with_base_fits(own_given, logs), {}, {}};
   const std::vector<Model>& models = run.models;
+  std::vector<Model> refined = models;  // with the cables of joints that have been refined
   RefineOptions own = options;
   const ComparedTorques torques = compared_torques(models, logs, own.significance);
-  for (int joint = 0; joint < static_cast<int>(models.front().joints.size()); ++joint) {
-    RefineResult r;
+  run.joints.resize(models.front().joints.size());
+  for (const int joint : refining_order(models.front())) {
+    RefineResult& r = run.joints[static_cast<std::size_t>(joint)];
     const std::string& name = models.front().rig.joints[static_cast<std::size_t>(joint)];
     if (options.progress)
       own.progress = [&](std::string_view what, double share) {
         options.progress(fmt::format("joint {}, {}", name, what), share);
       };
     try {
-      r = refine_one(start_of(joint, models, torques), logs, own);
+      const std::vector<Model>& begun = holds_cables(models.front(), joint) ? refined : models;
+      r = refined_joint(start_of(joint, begun, torques), logs, own, refine_one);
+      warn_of_held_cables(r);
+      take_refined_cables(r.models, refined);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::not_identifiable) throw;
       if (!run.error) run.error = error;
@@ -256,7 +273,6 @@ JointRun run_joints(std::span<const Model> given, const RefineLogs& logs,
     }
     r.joint = joint + 1;
     r.joint_name = name;
-    run.joints.push_back(std::move(r));
   }
   for (RefineResult& r : run.joints) set_joint(r);
   if (run.is_refined()) name_torque_gains(logs, own.significance, run.joints);

@@ -17,10 +17,14 @@ bool is_hold_open(const RefineLogs& logs, const std::vector<Model>& models);
 
 /// How the torque is held by the time at which it acts: not at all, over a row of the log, or over
 /// a part of it, as where the log keeps every second or fourth row of a drive. Logs and models get
-/// that. Nothing where the torque acts at another time.
-std::optional<Decision> take_fitted_hold(RefineLogs& logs, std::vector<Model>& models);
+/// that, where no rig file says it. Nothing where the torque acts at another time.
+///
+/// A blocked log with longer rows than the moving ones keeps every n-th torque of the same drive,
+/// or comes from a slower drive. Where its torque acts no later, it is the same drive: logs and
+/// models get its period, where no rig file gives one.
+std::vector<Decision> take_fitted_hold(RefineLogs& logs, std::vector<Model>& models);
 
-/// The same by a delay of the torque that refine identified, where that means another hold: refine
+/// The hold by a delay of the torque that refine identified, where that means another hold: refine
 /// has to begin anew then.
 std::optional<Decision> take_found_hold(const RefineResult& result, RefineLogs& logs,
                                         std::vector<Model>& models);

@@ -6,6 +6,7 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/dynamic/dynamic_fit.hpp"
 #include "cablefit/identify/elastic_stage.hpp"
+#include "cablefit/refine/held_cables.hpp"
 #include "cablefit/refine/own_base.hpp"
 #include "cablefit/refine/search/model_set.hpp"
 #include "cablefit/refine/simpler_bases.hpp"
@@ -130,17 +131,19 @@ RefineResult missing_effects(const RefineLogs& logs, std::vector<Model> models,
   if (auto controller = take_found_controller(own_logs, base.models))
     base.decisions.push_back(*std::move(controller));
   if (auto replay = replayed_torque(own_logs)) base.decisions.push_back(*std::move(replay));
+  hold_undetermined_cables(base.models, own_logs);
   const bool hold_is_open = is_hold_open(own_logs, base.models);
-  auto hold = hold_is_open ? take_fitted_hold(own_logs, base.models) : std::nullopt;
+  std::vector<Decision> holds = take_fitted_hold(own_logs, base.models);
   const auto refined = [&] {
     return is_own ? refine_own(base, own_logs, options) : refine_from(base, own_logs, options);
   };
   RefineResult result = refined();
   if (auto other = hold_is_open ? take_found_hold(result, own_logs, base.models) : std::nullopt) {
-    hold = std::move(other);
+    holds = take_fitted_hold(own_logs, base.models);
+    holds.insert(holds.begin(), *std::move(other));
     result = refined();
   }
-  if (hold) base.decisions.push_back(*std::move(hold));
+  base.decisions.insert(base.decisions.end(), holds.begin(), holds.end());
   if (is_own) result.model_choice = "fitted to the logs";
   const bool is_unsure = std::any_of(
       base.models.begin(), base.models.end(),

@@ -56,14 +56,16 @@ void add_figures(ExcitationPlan& plan) {
     figure.x = {"time", "s"};
     figure.y = y;
     const double period = plan.motion.period;
+    const auto of_joint = [&](Eigen::Index k) {
+      return "joint " + plan.joints[static_cast<std::size_t>(k)];
+    };
+    const bool several = plan.joints.size() > 1;
     for (Eigen::Index k = 0; k < values.cols(); ++k)
-      figure.traces.push_back(thinned(
-          plan.joints.size() > 1 ? "joint " + plan.joints[static_cast<std::size_t>(k)] : "motor",
-          static_cast<int>(k) + 1, TraceStyle::line, period, values.col(k)));
-    if (reference != nullptr)
-      for (Eigen::Index k = 0; k < reference->cols(); ++k)
-        figure.traces.push_back(
-            thinned("reference", kMeasured, TraceStyle::broad, period, reference->col(k)));
+      figure.traces.push_back(thinned(several ? of_joint(k) : "motor", static_cast<int>(k) + 1,
+                                      TraceStyle::line, period, values.col(k)));
+    for (Eigen::Index k = 0; reference != nullptr && k < reference->cols(); ++k)
+      figure.traces.push_back(thinned(several ? "reference of " + of_joint(k) : "reference",
+                                      kMeasured, TraceStyle::broad, period, reference->col(k)));
     const double middle = reference != nullptr ? plan.limits.middle : 0;
     for (const double side : {-1.0, 1.0}) {
       Trace line;

@@ -31,9 +31,8 @@ RowStatistics joined_rows(const DynamicJob& job, const std::vector<EquationRows>
   for (const std::size_t k : system) {
     LinearProblem plain = instrumented_problem(job, equations[k], which);
     plain.instruments.clear();
-    const double rss = solve(rows[k].rows, plain).rss;
     parts.push_back(&rows[k].rows);
-    weights.push_back(rss > 0 ? static_cast<double>(rows[k].rows.n_rows()) / rss : 1);
+    weights.push_back(residual_weight(rows[k].rows, plain));
   }
   return RowStatistics::weighted(parts, weights);
 }

@@ -209,6 +209,11 @@ LinearSolution solve_equation(const EquationRows& e, const std::vector<const Ela
   return solve_rows(*e.rows, e.columns, elastic, which);
 }
 
+double residual_weight(const RowStatistics& rows, const LinearProblem& alone) {
+  const double rss = solve(rows, alone).rss;
+  return rss > 0 ? static_cast<double>(rows.n_rows()) / rss : 1;
+}
+
 SystemRows::SystemRows(const std::vector<EquationRows>& equations,
                        const std::vector<std::size_t>& system,
                        const std::vector<const ElasticFit*>& elastic, std::size_t which,
@@ -220,8 +225,9 @@ SystemRows::SystemRows(const std::vector<EquationRows>& equations,
   for (const std::size_t k : system) {
     const EquationRows& e = equations[k];
     rows.push_back(&*e.rows);
-    const double rss = weighting == Weighting::none ? 0 : solve_equation(e, elastic, which).rss;
-    weights.push_back(rss > 0 ? static_cast<double>(e.rows->n_rows()) / rss : 1);
+    weights.push_back(weighting == Weighting::none
+                          ? 1
+                          : residual_weight(*e.rows, problem_of(e.columns, elastic, which)));
   }
   joined_ = RowStatistics::weighted(rows, weights);
 }

@@ -71,6 +71,9 @@ enum class Peaks { unwanted, kept };
 WindowCounts collect_rows(const DynamicJob& job, std::vector<EquationRows>& equations,
                           Peaks peaks = Peaks::unwanted);
 
+/// 1/variance of what a fit to these rows alone leaves of them; 1 where it leaves nothing.
+double residual_weight(const RowStatistics& rows, const LinearProblem& alone);
+
 /// Weights of the equations relative to each other.
 enum class Weighting { none, by_residual };
 

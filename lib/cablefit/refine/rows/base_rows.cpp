@@ -36,6 +36,17 @@ void fill_elastic(const Model& model, const SmoothMotion& m, bool link,
   if (link) out = -out;
 }
 
+/// Columns of the cables (or K) that are fitted; what the held ones give is added to `given`.
+void fill_elastic(const Model& model, const SmoothMotion& m, bool link, const BaseLayout& c,
+                  Eigen::Ref<Eigen::MatrixXd> out, Eigen::Ref<Eigen::VectorXd> given) {
+  if (c.held.empty()) return fill_elastic(model, m, link, out);
+  Eigen::MatrixXd all(m.size(), n_elastic(model));
+  fill_elastic(model, m, link, all);
+  out = all(Eigen::all, c.elastic);
+  for (const BaseLayout::Held& held : c.held)
+    given += parameter_value(model, held.parameter) * all.col(held.column);
+}
+
 Eigen::ArrayXd response_of(RowKind kind, const SmoothMotion& m, const Model& model) {
   if (kind == RowKind::link) return m.tau_load;
   return model.rigid ? Eigen::ArrayXd(m.tau + m.tau_load) : m.tau;
@@ -70,7 +81,7 @@ void fill_link(const Model& model, const SmoothMotion& m, const BaseLayout& c,
   all.rightCols(1) = c.given->inertia * effects.col(at);
 }
 
-/// All columns, the response and the torque of a given inertia of one kind at the full rate.
+/// All columns, the response and the given torque of one kind at the full rate.
 Eigen::MatrixXd full_columns(RowKind kind, const SmoothMotion& m, const Model& model,
                              const BaseLayout& c) {
   const JointModel& axes = model.joints.front();
@@ -81,7 +92,8 @@ Eigen::MatrixXd full_columns(RowKind kind, const SmoothMotion& m, const Model& m
     fill_effects(axes.motor, {m.theta, m.thetad, m.thetadd, m.theta_direction},
                  all.middleCols(c.n_link, c.n_motor));
   }
-  fill_elastic(model, m, kind == RowKind::link, all.middleCols(c.n_link + c.n_motor, c.n_elastic));
+  fill_elastic(model, m, kind == RowKind::link, c,
+               all.middleCols(c.n_link + c.n_motor, c.n_elastic), all.col(c.n() + 1));
   all.col(c.n()) = response_of(kind, m, model).matrix();
   return all;
 }
@@ -157,7 +169,7 @@ BaseLayout base_layout(const Model& model) {
   layout.n_link = static_cast<Eigen::Index>(layout.arm.size() + axes.link.size());
   layout.has_given = model.is_coupled();
   layout.n_motor = static_cast<Eigen::Index>(axes.motor.size());
-  layout.n_elastic = n_elastic(model);
+  Eigen::Index column = 0;  // of the cables
   const std::optional<double> given = given_link_inertia(model);
   for (ModelParameter& p : model_parameters(model)) {
     const bool is_of_arm = p.kind == ParameterKind::arm &&
@@ -167,6 +179,13 @@ BaseLayout base_layout(const Model& model) {
                            p.kind == ParameterKind::stiffness ||
                            p.kind == ParameterKind::coefficient;
     if (!is_column) continue;
+    if (p.kind == ParameterKind::coefficient &&
+        is_held(model, model.transmission.cables[p.cable])) {
+      layout.held.push_back({column++, std::move(p)});
+      continue;
+    }
+    if (p.kind == ParameterKind::stiffness || p.kind == ParameterKind::coefficient)
+      layout.elastic.push_back(column++);
     const bool is_effect = p.kind == ParameterKind::effect;
     if (is_effect &&
         (p.on_link ? axes.link : axes.motor)[p.effect].effect->follows == MotionPart::direction)
@@ -180,6 +199,8 @@ BaseLayout base_layout(const Model& model) {
     }
     layout.parameters.push_back(std::move(p));
   }
+  layout.n_elastic = static_cast<Eigen::Index>(layout.elastic.size());
+  layout.has_given = layout.has_given || !layout.held.empty();
   return layout;
 }
 
@@ -273,7 +294,8 @@ std::vector<ReplacedColumns> columns_of_cables(const SmoothMotion& motion,
   std::vector<ReplacedColumns> replaced;
   for (const KindRows& k : kinds) {
     Eigen::MatrixXd elastic(positions.size(), layout.n_elastic);
-    fill_elastic(model, positions, k.kind == RowKind::link, elastic);
+    Eigen::VectorXd given = Eigen::VectorXd::Zero(positions.size());
+    fill_elastic(model, positions, k.kind == RowKind::link, layout, elastic, given);
     replaced.push_back({1 + before.n_link + before.n_motor, before.n_elastic,
                         apply_at(filter, elastic, thinned(k.at, every))});
   }

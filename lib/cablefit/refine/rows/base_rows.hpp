@@ -27,6 +27,13 @@ struct BaseLayout {
   /// For coupled links: the arm's base parameters that have columns in the link's equation, which
   /// are the first of the link's. The others keep the values of the model.
   std::vector<Eigen::Index> arm;
+  /// A coefficient of a cable that keeps the value of the model, see JointModel.
+  struct Held {
+    Eigen::Index column = 0;  ///< among those of all cables
+    ModelParameter parameter;
+  };
+  std::vector<Held> held;
+  std::vector<Eigen::Index> elastic;  ///< the other columns of all cables
   /// The link's equation has a torque without fitted parameters.
   bool has_given = false;
   Eigen::Index n_link = 0, n_motor = 0, n_elastic = 0;
@@ -47,8 +54,8 @@ struct KindRows {
   RowKind kind = RowKind::motor;
   std::vector<Eigen::Index> at;  ///< samples of the stretch
   Eigen::MatrixXd base;          ///< n_rows x layout.n()
-  Eigen::VectorXd response;      ///< n_rows, N m; without the torque of given inertias
-  Eigen::VectorXd given;         ///< torque of given inertias, N m; empty: there are none
+  Eigen::VectorXd response;      ///< n_rows, N m; without what is given
+  Eigen::VectorXd given;         ///< N m, torque of given inertias and held cables; or empty
   /// Part of the response, N m: the constant term of linearised corrections, so that value times
   /// column is the whole correction. Empty: there are none.
   Eigen::VectorXd linearised;
@@ -80,7 +87,7 @@ struct ReplacedColumns {
 
 /// Changes per kind of row where positions stay the same: another torque changes the response,
 /// other cables change the elastic columns. `kept`, `kinds`: rows with the columns of `before`,
-/// possibly followed by others; `motion`: theirs.
+/// possibly followed by others; `motion`: theirs. The torque of held cables stays as it is.
 std::vector<ReplacedColumns> columns_of_torque(const StretchRows& kept, const Recording& changed,
                                                const Model& model, const Smoothing& wanted,
                                                Evaluation evaluation);

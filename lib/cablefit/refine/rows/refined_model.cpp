@@ -10,6 +10,7 @@
 
 #include "cablefit/estimate/spread/long_run.hpp"
 #include "cablefit/model/effects/effect_parameter.hpp"
+#include "cablefit/model/one_joint.hpp"
 #include "cablefit/refine/rows/shape_moves.hpp"
 
 namespace cablefit {
@@ -92,7 +93,7 @@ void set_elastic_estimates(const Design& design, const FinalFit& fit, Model& mod
   };
   if (model.transmission.cables.empty()) add("K", "N m/rad");
   for (const Cable& cable : model.transmission.cables)
-    for (int i = 0; i < cable.n_coefficients(); ++i)
+    for (int i = 0; !is_held(model, cable) && i < cable.n_coefficients(); ++i)
       add(coefficient_name(cable, i, model.rig.cables_given),
           coefficient_unit(*cable.law, i, model.rig.cables_given));
   for (const Estimate& old : model.elastic) {

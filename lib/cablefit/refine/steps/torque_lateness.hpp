@@ -16,4 +16,14 @@ namespace cablefit {
 std::optional<TorqueLateness> fit_torque_lateness(std::span<const Model> models,
                                                   std::span<const LogSurvey> logs, double row);
 
+struct SplitLateness {
+  TorqueLateness moving, blocked;
+};
+
+/// The same with one lateness for the moving logs and one for the blocked logs. `row`,
+/// `blocked_row`: s, of either.
+std::optional<SplitLateness> fit_split_lateness(std::span<const Model> models,
+                                                std::span<const LogSurvey> logs, double row,
+                                                double blocked_row);
+
 }  // namespace cablefit

@@ -26,6 +26,12 @@ std::optional<int> drive_periods(const TorqueLateness& late, double row) {
   return nearest;
 }
 
+std::optional<bool> is_same_drive(const TorqueLateness& later, double row, double period) {
+  const double of_slower = 0.5 * (row - period);  // half of either hold
+  if (!(later.sd < of_slower / kSure)) return std::nullopt;
+  return later.seconds < 0.5 * of_slower;
+}
+
 FoundHold hold_of(int periods, double row) {
   return {periods > 0, periods > 1 ? row / periods : 0};
 }
