@@ -114,6 +114,20 @@ TEST_CASE("of a cable that passes two joints the better known coefficients stand
   CHECK(all.covariance.matrix == Eigen::Matrix3d{{4, 0, 0}, {0, 16, 2}, {0, 2, 25}});
 }
 
+TEST_CASE("a joint that holds a cable leaves it to the joint whose motor winds it", "[model]") {
+  const Model whole = finger();
+  Model first = one_joint(whole, 0), second = one_joint(whole, 1);
+  first.transmission.cables[0].coefficients[0] = 1.01e5;
+  second.transmission.cables[0].coefficients[0] = 0.99e5;  // its sd is not known
+  first.transmission.cables[0].motor_map[0] = round_pulley(0);
+  CHECK_FALSE(is_held(first, first.transmission.cables[0]));
+  first.joints.front().holds_passing_cables = true;
+  CHECK(is_held(first, first.transmission.cables[0]));
+  CHECK_FALSE(is_held(first, first.transmission.cables[1]));
+  const std::vector<Model> both = {first, second};
+  CHECK(joined(both).transmission.cables[0].coefficients[0] == 0.99e5);
+}
+
 /// Two links in a plane with gravity, values of the six base parameters.
 Model planar() {
   const TempFolder folder;

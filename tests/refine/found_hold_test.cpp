@@ -123,6 +123,15 @@ TEST_CASE("a hold that is found takes the place of another", "[refine]") {
   CHECK(rig.torque_period == 0);
 }
 
+// Half of a hold of 10 ms is 4.5 ms later than half of one of 1 ms.
+TEST_CASE("rows of a slower drive act later than those of the same drive", "[refine]") {
+  const double row = 0.01, period = 1e-3;
+  CHECK(is_same_drive({0.1e-3, 0.2e-3}, row, period) == true);
+  CHECK(is_same_drive({-1.2e-3, 0.2e-3}, row, period) == true);
+  CHECK(is_same_drive({4.4e-3, 0.2e-3}, row, period) == false);
+  CHECK_FALSE(is_same_drive({0.1e-3, 1.2e-3}, row, period).has_value());  // 4 sd apart, not less
+}
+
 TEST_CASE("a hold that a rig file gives stands", "[refine]") {
   Open open = open_rig(mean_torque);
   open.logs.test.front().plan.rig.torque_hold = TorqueHold::zoh;

@@ -196,7 +196,7 @@ FitPlanner::PlannedRows FitPlanner::planned_rows(const std::vector<std::size_t>&
     all.residual.segment(at, rows) = weight * residual;
     squares += weight * weight * static_cast<double>(rows) *
                motion.result.tau.col(s.equations[k].columns.place.joint).square().mean();
-    all.name += (all.name.empty() ? "" : " + ") + s.plain[k].name;
+    all.name = system.size() > 1 ? "links" : s.plain[k].name;
     at += rows;
   }
   all.torque = std::sqrt(squares);

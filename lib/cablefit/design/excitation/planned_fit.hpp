@@ -12,7 +12,7 @@
 namespace cablefit {
 
 struct PlannedParameter {
-  std::string equation;  ///< "motor", or all links that move each other: "link[1] + link[2]"
+  std::string equation;  ///< "motor[1]", or "links": all that move each other
   std::string name, unit;
   double value = 0;     ///< of the model
   double sd = 0;        ///< of the estimate's scatter to expect; infinite when not shown
