@@ -56,8 +56,8 @@ TEST_CASE("cables that only another joint's logs separate do not stop refine", "
   }
   CHECK(pairs.result.joints[0].warnings ==
         std::vector<std::string>{
-            "the logs do not separate the stiffness of pip, dip: that of the joints "
-            "whose motors wind them is used; move until one goes slack"});
+            "the logs do not separate the stiffness of pip, dip: the values of the joints whose "
+            "motors wind them are used; move until one goes slack"});
   // All cables of the joined model are those of the simulation, wherever they were fitted.
   const PlainRig truth = four_cable_finger();
   for (const PlainCable& cable : truth.cables)

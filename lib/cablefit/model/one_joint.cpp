@@ -152,8 +152,8 @@ struct OwnCable {
   std::size_t place = 0;
 };
 
-/// Of every cable of the whole the joint that knows it best; one that holds it only where no other
-/// passes.
+/// Of every cable of the whole the joint that knows it best. A joint that holds the cable counts
+/// only where the cable passes no other joint of these.
 std::vector<OwnCable> best_known(std::span<const Model> joints) {
   std::vector<OwnCable> best(joints.front().whole->transmission.cables.size());
   std::vector<double> least(best.size(), kUnbounded);
@@ -372,6 +372,14 @@ Model whole_of(const Model& model) {
     take_cable(model.transmission.cables[k], place(model.joint),
                whole.transmission.cables[places[k]]);
   return whole;
+}
+
+void take_wound_cables(const Model& one, Model& whole) {
+  const auto places = passing(whole.transmission, place(one.joint));
+  for (std::size_t k = 0; k < places.size(); ++k)
+    if (winds(one.transmission.cables[k], 0))
+      take_cable(one.transmission.cables[k], place(one.joint),
+                 whole.transmission.cables[places[k]]);
 }
 
 std::string name_in_whole(const Model& one, const std::string& name) {

@@ -19,7 +19,8 @@ namespace cablefit {
 Model one_joint(const Model& whole, int joint);
 std::vector<Model> one_joint(std::span<const Model> models, int joint);
 
-/// Whether the motor of the joint (from 0, of those of the cable's maps) winds the cable.
+/// Whether the motor of the joint winds the cable. `joint`: from 0, among those of the cable's
+/// maps.
 bool winds(const Cable& cable, int joint);
 /// Whether a cable of the model keeps its coefficients, see JointModel::holds_passing_cables.
 bool is_held(const Model& one, const Cable& cable);
@@ -48,6 +49,9 @@ std::vector<Eigen::Index> determined_arm_columns(const Model& one);
 /// The model that `model` was taken from, with its axes and cables in their places; itself, when it
 /// was not taken from any.
 Model whole_of(const Model& model);
+
+/// The cables that the joint's motor winds, from the joint to their places in `whole`.
+void take_wound_cables(const Model& one, Model& whole);
 
 /// A parameter of the model of one joint as the whole calls it: "f_s" is "f_s[2]", what belongs to
 /// a cable has one name.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <numeric>
 
 #include "cablefit/model/one_joint.hpp"
@@ -17,6 +16,12 @@ void set_holding(bool holds, int joint, std::vector<Model>& models) {
     model.joints[static_cast<std::size_t>(joint)].holds_passing_cables = holds;
 }
 
+/// Whether the model of one joint has cables that its motor does not wind.
+bool any_to_hold(const Model& one) {
+  const std::vector<Cable>& cables = one.transmission.cables;
+  return std::any_of(cables.begin(), cables.end(), [](const Cable& c) { return !winds(c, 0); });
+}
+
 std::vector<std::string> names_of_held(const Model& one) {
   std::vector<std::string> names;
   for (const Cable& cable : one.transmission.cables)
@@ -27,11 +32,9 @@ std::vector<std::string> names_of_held(const Model& one) {
 }  // namespace
 
 bool hold_cables(std::vector<Model>& one) {
-  if (one.front().joints.front().holds_passing_cables) return false;
+  if (holds_cables(one.front(), 0) || !any_to_hold(one.front())) return false;
   set_holding(true, 0, one);
-  if (!names_of_held(one.front()).empty()) return true;
-  set_holding(false, 0, one);
-  return false;
+  return true;
 }
 
 void hold_undetermined_cables(std::vector<Model>& models, const RefineLogs& logs) {
@@ -39,8 +42,7 @@ void hold_undetermined_cables(std::vector<Model>& models, const RefineLogs& logs
   for (int joint = 0; n > 1 && joint < n; ++joint) {
     set_holding(false, joint, models);
     const std::vector<Model> free = one_joint(models, joint);
-    std::vector<Model> held = free;
-    if (hold_cables(held) && !base_fit_of(free, logs)) set_holding(true, joint, models);
+    if (any_to_hold(free.front()) && !base_fit_of(free, logs)) set_holding(true, joint, models);
   }
 }
 
@@ -57,20 +59,7 @@ std::vector<int> refining_order(const Model& model) {
 }
 
 void take_refined_cables(const std::vector<Model>& one, std::vector<Model>& models) {
-  for (std::size_t m = 0; m < one.size() && m < models.size(); ++m) {
-    std::vector<Cable>& cables = models[m].transmission.cables;
-    for (const Cable& refined : one[m].transmission.cables) {
-      if (is_held(one[m], refined)) continue;
-      const auto same = std::find_if(cables.begin(), cables.end(),
-                                     [&](const Cable& c) { return c.name == refined.name; });
-      if (same == cables.end() || !winds(*same, one[m].joint)) continue;
-      same->law = refined.law;
-      same->order = refined.order;
-      same->toe = refined.toe;
-      same->coefficients = refined.coefficients;
-      same->initial_elongation = refined.initial_elongation;
-    }
-  }
+  for (std::size_t m = 0; m < one.size(); ++m) take_wound_cables(one[m], models[m]);
 }
 
 void warn_of_held_cables(RefineResult& result) {
@@ -78,8 +67,8 @@ void warn_of_held_cables(RefineResult& result) {
   const std::vector<std::string> names = names_of_held(result.models.front());
   if (names.empty()) return;
   result.warnings.push_back(
-      fmt::format("the logs do not separate the stiffness of {}: that of the joints "
-                  "whose motors wind them is used; move until one goes slack",
+      fmt::format("the logs do not separate the stiffness of {}: the values of the joints whose "
+                  "motors wind them are used; move until one goes slack",
                   fmt::join(names, ", ")));
 }
 

@@ -18,13 +18,15 @@ void hold_undetermined_cables(std::vector<Model>& models, const RefineLogs& logs
 /// Models of one joint hold cables from now on. False: they did already, or there are none to hold.
 bool hold_cables(std::vector<Model>& one);
 
+/// `joint`: from 0, among those of the model.
 bool holds_cables(const Model& model, int joint);
 
 /// The joints (from 0) in the order in which they are refined: those that hold cables last, with
 /// what the others have found.
 std::vector<int> refining_order(const Model& model);
 
-/// Models of all joints take the cables that a joint has refined. `one`: its models.
+/// Models of all joints take the cables that the motor of a refined joint winds. `one`: the models
+/// of that joint.
 void take_refined_cables(const std::vector<Model>& one, std::vector<Model>& models);
 
 /// Adds the warning to the result of a joint that holds cables which its logs load.

@@ -231,7 +231,7 @@ struct JointRun {
   }
 };
 
-/// The logs to fit may separate cables that the training logs alone do not.
+/// Holds cables where the training samples alone do not separate them.
 RefineResult refined_joint(std::vector<Model> one, const RefineLogs& logs,
                            const RefineOptions& options, const RefineOne& refine_one) {
   try {

@@ -20,7 +20,7 @@ const DisplacementMap& map_of(const Cable& cable, const Pulley& pulley, std::siz
 double sign_of(const Pulley& pulley) { return pulley.side == Side::link ? -1 : 1; }
 
 /// The number of the cable among those of one joint, which have its name; nothing: it does not pass
-/// the joint, or the joint holds it, and no column changes.
+/// the joint, or the joint holds it, so that no column changes.
 std::optional<std::size_t> place_in(const Model& one, const Pulley& pulley) {
   const std::string& name = one.whole->transmission.cables[pulley.cable].name;
   const std::vector<Cable>& cables = one.transmission.cables;

@@ -48,7 +48,7 @@ std::optional<Decision> take_hold(const TorqueLateness& late, double row, Refine
                   acts(late) + "; the rig file has no \"torque_hold\""};
 }
 
-/// What the joints show. All drives are taken to be of one kind: that with the least sd counts.
+/// The lateness of the joint with the least sd: all drives are assumed to be of one kind.
 template <typename Late, typename Fit>
 std::optional<Late> best_of_joints(const std::vector<Model>& models, Fit fit,
                                    double (*sd)(const Late&)) {
@@ -66,6 +66,7 @@ TorqueLateness later(const SplitLateness& late) {
   return {late.blocked.seconds - late.moving.seconds, std::hypot(late.blocked.sd, late.moving.sd)};
 }
 
+/// Sample periods, s.
 struct Rows {
   double moving = 0;
   std::optional<double> slow_blocked;  ///< nothing: blocked logs are not slower, or differ

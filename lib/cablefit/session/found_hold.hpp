@@ -19,9 +19,9 @@ bool is_hold_open(const RefineLogs& logs, const std::vector<Model>& models);
 /// a part of it, as where the log keeps every second or fourth row of a drive. Logs and models get
 /// that, where no rig file says it. Nothing where the torque acts at another time.
 ///
-/// A blocked log with longer rows than the moving ones keeps every n-th torque of the same drive,
-/// or comes from a slower drive. Where its torque acts no later, it is the same drive: logs and
-/// models get its period, where no rig file gives one.
+/// A blocked log with a longer sample period than the moving logs keeps every n-th torque of the
+/// same drive, or comes from a slower drive. It is the same drive where its torque acts no later.
+/// Logs and models then get the period of this drive, where no rig file gives one.
 std::vector<Decision> take_fitted_hold(RefineLogs& logs, std::vector<Model>& models);
 
 /// The hold by a delay of the torque that refine identified, where that means another hold: refine

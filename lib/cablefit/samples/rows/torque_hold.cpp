@@ -27,7 +27,7 @@ std::optional<int> drive_periods(const TorqueLateness& late, double row) {
 }
 
 std::optional<bool> is_same_drive(const TorqueLateness& later, double row, double period) {
-  const double of_slower = 0.5 * (row - period);  // half of either hold
+  const double of_slower = 0.5 * (row - period);  // a held torque acts half its hold late
   if (!(later.sd < of_slower / kSure)) return std::nullopt;
   return later.seconds < 0.5 * of_slower;
 }

@@ -19,9 +19,9 @@ struct TorqueLateness {
 /// known well enough.
 std::optional<int> drive_periods(const TorqueLateness& late, double row);
 
-/// Whether longer rows hold every n-th torque of a drive with this `period` (s), and not those of a
-/// drive that holds each over such a row. `later`: than the torque in rows of the drive's period.
-/// Nothing where it is not known well enough.
+/// Whether a log with a longer sample period (`row`, s) keeps every n-th torque of a drive that
+/// holds each for `period` (s), and not those of a drive that holds each for `row`. `later`: how
+/// much later the torque acts than in a log of that `period`. Nothing where its sd is too large.
 std::optional<bool> is_same_drive(const TorqueLateness& later, double row, double period);
 
 /// s, of a torque that is held over this share of a row; 0: it is not held.
