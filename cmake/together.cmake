@@ -16,19 +16,27 @@ function(cablefit_together target folder)
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   # Said of types that no other file knows, once their file is included by another.
-  target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
-foreach(folder design design/excitation dynamic dynamic/checks dynamic/loops dynamic/output_error dynamic/rows
-        elastic elastic/figures elastic/models estimate/fit estimate/solve estimate/spread estimate/tests
-        identify identify/elongations identify/equations identify/results refine refine/null refine/rows
-        refine/search refine/steps refine/verdict predict simulate)
+foreach(folder design design/excitation dynamic dynamic/checks dynamic/estimators dynamic/loops
+        dynamic/output_error dynamic/rows elastic elastic/figures elastic/models estimate/fit
+        estimate/solve estimate/spread estimate/tests identify identify/elongations identify/equations
+        identify/results model predict refine refine/null refine/rows refine/search refine/steps
+        refine/verdict report/documents report/sections report/writers samples/rows samples/survey
+        samples/weigh simulate)
   cablefit_together(cablefit lib/cablefit/${folder})
 endforeach()
-foreach(room design/curves design/loads elastic/bases elastic/checks elastic/estimates
-        elastic/rows elastic/zeros)
-  cablefit_together(cablefit lib/cablefit/${room} LETTERS a-z)
+foreach(folder base base/files campaign campaign/cells campaign/plan copies design/curves design/loads
+        dynamic/estimates elastic/bases elastic/checks elastic/estimates elastic/rows elastic/zeros log/json
+        model/effects model/file model/rig prove refine/figures report/page report/parts results
+        results/read samples samples/plan)
+  cablefit_together(cablefit lib/cablefit/${folder} LETTERS a-z)
 endforeach()
+# Rows of one table have functions of the same names.
+cablefit_together(cablefit lib/cablefit/model/arm LETTERS a-f r-s t-z)
+cablefit_together(cablefit lib/cablefit/model/catalogue LETTERS a-c)
 cablefit_together(cablefit lib/cablefit/results/write FILES "*_json.cpp")
 cablefit_together(cablefit_program apps/commands)
 cablefit_together(cablefit_program apps/options)
+cablefit_together(cablefit_program apps/output LETTERS a-z)

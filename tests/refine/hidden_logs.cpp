@@ -91,4 +91,10 @@ HiddenLogs hidden_logs(const std::vector<std::string>& effects, unsigned long se
   return out;
 }
 
+std::vector<LogSurvey> all_training(const RefineLogs& logs) {
+  std::vector<LogSurvey> all = logs.blocked;
+  all.insert(all.end(), logs.train.begin(), logs.train.end());
+  return all;
+}
+
 }  // namespace cablefit::test

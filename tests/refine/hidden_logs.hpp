@@ -20,4 +20,7 @@ struct HiddenLogs {
 HiddenLogs hidden_logs(const std::vector<std::string>& effects, unsigned long seed = 1,
                        const std::string& design = "short", double clutter = 0);
 
+/// The blocked logs and those to train on.
+std::vector<LogSurvey> all_training(const RefineLogs& logs);
+
 }  // namespace cablefit::test

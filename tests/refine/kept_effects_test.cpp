@@ -51,7 +51,7 @@ KeptBase kept_base(const std::vector<Model>& models, const RefineLogs& logs) {
                        smoothing_for(1e-3), {});
 }
 
-double truth(const HiddenLogs& hidden, std::size_t effect, std::string_view name) {
+double true_value(const HiddenLogs& hidden, std::size_t effect, std::string_view name) {
   for (const hidden::Coefficient& c : hidden.truth.effects.at(effect).coefficients)
     if (c.name == name) return c.value;
   FAIL("no coefficient " << name);
@@ -121,7 +121,7 @@ TEST_CASE("an event of an earlier refine is refused, and one base for two struct
 /// Columns of the base, so nothing of them is frozen; v_s of the file is off by half.
 TEST_CASE("a kept effect is fitted with the base, its shape follows", "[refine][kept]") {
   const HiddenLogs hidden = hidden_logs({"stribeck.motor=1"});
-  const double amplitude = truth(hidden, 0, "amplitude"), v_s = truth(hidden, 0, "v_s");
+  const double amplitude = true_value(hidden, 0, "amplitude"), v_s = true_value(hidden, 0, "v_s");
   const KeptBase kept = kept_base(
       with(hidden.models, instance_of("stribeck", Site::motor, {0.1, 1.5 * v_s, 2})), hidden.logs);
   CHECK(kept.warnings.empty());
@@ -224,8 +224,8 @@ TEST_CASE("a refined model is refined again: the second effect, then none",
   CHECK(names_in(two.models.front()) ==
         std::vector<std::string_view>{"quadratic_drag", "stribeck"});
   const Estimate& drag = parameter(two.kept[0].now.instance, "coefficient");
-  CHECK(drag.ci_low < truth(hidden, 1, "coefficient"));
-  CHECK(drag.ci_high > truth(hidden, 1, "coefficient"));
+  CHECK(drag.ci_low < true_value(hidden, 1, "coefficient"));
+  CHECK(drag.ci_high > true_value(hidden, 1, "coefficient"));
   CHECK(drag.sd < 0.02 * drag.value);
   CHECK(two.kept[0].given[0].value == parameter(one.effects[0].instance, "coefficient").value);
   // As if both had been named in one go: the gap begins where the first run ended.
@@ -266,7 +266,7 @@ TEST_CASE("two more effects are named beside one that the model has", "[refine][
   INFO(result.reason);
   REQUIRE(result.kept.size() == 1);
   const Estimate& drag = parameter(result.kept[0].now.instance, "coefficient");
-  CHECK(std::abs(drag.value - truth(hidden, 0, "coefficient")) < 4 * drag.sd);
+  CHECK(std::abs(drag.value - true_value(hidden, 0, "coefficient")) < 4 * drag.sd);
   REQUIRE(result.effects.size() == 2);
   std::vector<std::string_view> names = names_in(result.models.front());
   CHECK(names.front() == "quadratic_drag");
@@ -315,7 +315,7 @@ TEST_CASE("models of two preloads are refined again with one coefficient", "[ref
   REQUIRE(result.kept.size() == 1);
   // As in hide_and_name_test.cpp, where it is found.
   CHECK(parameter(result.kept[0].now.instance, "mu").value ==
-        Approx(truth(hidden, 0, "mu")).epsilon(0.01));
+        Approx(true_value(hidden, 0, "mu")).epsilon(0.01));
   REQUIRE(result.models.size() == 2);
   for (const Model& model : result.models)
     CHECK(names_in(model) == std::vector<std::string_view>{"tension_friction"});

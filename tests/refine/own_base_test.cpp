@@ -129,11 +129,11 @@ RefineResult refined(const std::string& text, std::vector<LogSurvey> RefineLogs:
 /// A blocked sweep up and down on one side of zero; in the last third on the other, if asked for.
 std::string one_sided_sweep(bool both_sides) {
   constexpr double kStiffness = 50, kOther = 80, kFriction = 0.2, kPeak = 0.1;  // N m/rad, N m, rad
-  constexpr double kPeriod = 0.01, kRamp = 5, kSeconds = 60;
+  constexpr double kSamplePeriod = 0.01, kRamp = 5, kSeconds = 60;
   Random random(1, 5);
   std::string rows = "t,q,theta,tau\n";
-  for (int i = 0; i * kPeriod < kSeconds; ++i) {
-    const double t = i * kPeriod, ramp = std::fmod(t, 2 * kRamp) / kRamp;  // up, then down
+  for (int i = 0; i * kSamplePeriod < kSeconds; ++i) {
+    const double t = i * kSamplePeriod, ramp = std::fmod(t, 2 * kRamp) / kRamp;  // up, then down
     const double side = both_sides && t >= 2 * kSeconds / 3 ? -1 : 1;
     const double theta = side * kPeak * (ramp < 1 ? ramp : 2 - ramp);
     const double direction = side * (ramp < 1 ? 1 : -1);

@@ -14,12 +14,6 @@ using namespace cablefit::test;
 
 namespace {
 
-std::vector<LogSurvey> all_training(const RefineLogs& logs) {
-  std::vector<LogSurvey> all = logs.blocked;
-  all.insert(all.end(), logs.train.begin(), logs.train.end());
-  return all;
-}
-
 BaseFit base_of(const HiddenLogs& hidden, const std::vector<LogSurvey>& logs) {
   return fit_base(
       make_design(hidden.models,

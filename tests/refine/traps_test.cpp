@@ -11,12 +11,6 @@ using namespace cablefit::test;
 
 namespace {
 
-std::vector<LogSurvey> all_training(const RefineLogs& logs) {
-  std::vector<LogSurvey> all = logs.blocked;
-  all.insert(all.end(), logs.train.begin(), logs.train.end());
-  return all;
-}
-
 Design design_of(const HiddenLogs& hidden, const std::vector<Model>& models,
                  Smoothing smoothing = smoothing_for(1e-3)) {
   return make_design(

@@ -1,12 +1,16 @@
 // Column names as CSV header cells and JSON keys have them.
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
 #include "cablefit/log/log_reader.hpp"
 
 namespace cablefit {
+
+/// More are no log of a rig.
+inline constexpr std::size_t kMostColumns = 10'000;
 
 /// "theta [deg]" or "theta(deg)" -> name "theta", unit "deg". An index ("q[1]") belongs to the
 /// name.

@@ -12,7 +12,6 @@
 namespace cablefit {
 namespace {
 
-constexpr std::size_t kMaxColumns = 10'000;
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
 bool next_content_line(LineBuffer& lines, std::string_view& line) {
@@ -33,7 +32,7 @@ bool is_number(const Cell& cell) {
 }
 
 void check_cells(const std::vector<Cell>& cells, const Place& place) {
-  if (cells.size() > kMaxColumns) {
+  if (cells.size() > kMostColumns) {
     throw input_error(place, "more than 10000 columns", "is this a log with one row per sample?");
   }
   if (std::all_of(cells.begin(), cells.end(), is_number)) {
@@ -95,7 +94,7 @@ CsvHeader read_csv_header(LineBuffer& lines, const std::string& path, const LogT
     throw input_error(place, "lines end in CR alone", "save the file with LF or CRLF line ends");
   }
   CsvHeader header{{path, {}, std::nullopt}, find_delimiter(line)};
-  const auto cells = split_header(line, header.delimiter, kMaxColumns + 1);
+  const auto cells = split_header(line, header.delimiter, kMostColumns + 1);
   check_cells(cells, place);
   for (const Cell& cell : cells) {
     header.log.columns.push_back(to_column_header(cell.text, {path, place.line, cell.offset + 1}));

@@ -6,7 +6,7 @@
 namespace cablefit {
 namespace {
 
-const std::vector<ArmKind>& table() {
+const std::vector<ArmKind>& arm_rows() {
   static const std::vector<ArmKind> kRows{arms::independent(), arms::planar_two_joint(),
                                           arms::serial(), arms::urdf()};
   return kRows;
@@ -14,7 +14,7 @@ const std::vector<ArmKind>& table() {
 
 }  // namespace
 
-std::span<const ArmKind> arm_kinds() { return table(); }
+std::span<const ArmKind> arm_kinds() { return arm_rows(); }
 
 const ArmKind& find_arm_kind(std::string_view name) { return find_row(arm_kinds(), "arm", name); }
 

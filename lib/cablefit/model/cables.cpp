@@ -11,7 +11,7 @@
 namespace cablefit {
 namespace {
 
-const std::vector<CableLaw>& table() {
+const std::vector<CableLaw>& cable_law_rows() {
   static const std::vector<CableLaw> kRows{laws::linear(), laws::polynomial(), laws::strand(),
                                            laws::spline()};
   return kRows;
@@ -87,7 +87,7 @@ Eigen::VectorXd or_zero(const Eigen::VectorXd& values, int n) {
 
 }  // namespace
 
-std::span<const CableLaw> cable_laws() { return table(); }
+std::span<const CableLaw> cable_laws() { return cable_law_rows(); }
 
 const CableLaw& find_cable_law(std::string_view name) {
   return find_row(cable_laws(), "cable law", name);

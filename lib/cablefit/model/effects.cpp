@@ -72,7 +72,7 @@ namespace {
 
 constexpr std::size_t kMostOwn = 64;  // rows stay where they are: models point to them
 
-std::vector<Effect>& table() {
+std::vector<Effect>& effect_rows() {
   static std::vector<Effect> all = [] {
     const std::vector<Effect> more = rows::candidates();
     std::vector<Effect> rows = rows::base();
@@ -145,7 +145,7 @@ double ShapeGrid::factor(const LogScale& scale) const {
   return 1;
 }
 
-std::span<const Effect> effects() { return table(); }
+std::span<const Effect> effects() { return effect_rows(); }
 
 std::span<const Effect> base_effects() { return effects().first(n_base()); }
 
@@ -182,7 +182,7 @@ void require_candidate(const Effect& row) {
 
 void add_effect(const Effect& row) {
   require_candidate(row);
-  std::vector<Effect>& all = table();
+  std::vector<Effect>& all = effect_rows();
   const bool is_there = std::any_of(all.begin(), all.end(), [&](const Effect& other) {
     return other.name == row.name && other.site == row.site;
   });

@@ -6,7 +6,7 @@
 namespace cablefit {
 namespace {
 
-const std::vector<LoadLaw>& table() {
+const std::vector<LoadLaw>& load_law_rows() {
   static const std::vector<LoadLaw> kRows{laws::column(),   laws::constant(), laws::hanging_mass(),
                                           laws::pendulum(), laws::table(),    laws::none()};
   return kRows;
@@ -14,7 +14,7 @@ const std::vector<LoadLaw>& table() {
 
 }  // namespace
 
-std::span<const LoadLaw> load_laws() { return table(); }
+std::span<const LoadLaw> load_laws() { return load_law_rows(); }
 
 const LoadLaw& find_load_law(std::string_view name) { return find_row(load_laws(), "load", name); }
 

@@ -6,14 +6,14 @@
 namespace cablefit {
 namespace {
 
-const std::vector<MapKind>& table() {
+const std::vector<MapKind>& map_kind_rows() {
   static const std::vector<MapKind> kRows{maps::radius(), maps::polynomial(), maps::table()};
   return kRows;
 }
 
 }  // namespace
 
-std::span<const MapKind> map_kinds() { return table(); }
+std::span<const MapKind> map_kinds() { return map_kind_rows(); }
 
 const MapKind& find_map_kind(std::string_view name) {
   return find_row(map_kinds(), "displacement map", name);

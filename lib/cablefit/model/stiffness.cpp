@@ -6,7 +6,7 @@
 namespace cablefit {
 namespace {
 
-constexpr double kRounding = 1e-9;  // of the largest eigenvalue
+constexpr double kRoundedEigenvalue = 1e-9;  // of the largest eigenvalue
 
 /// The linear model: tau_m = K phi, tau_l = N K phi, phi = theta - N q.
 StiffnessMatrices of_spring(const Transmission& spring) {
@@ -67,7 +67,7 @@ StiffnessMatrices stiffness_matrices(const Transmission& transmission, const Eig
 StiffnessModes stiffness_modes(const StiffnessMatrices& matrices) {
   const Eigen::VectorXd all = eigenvalues_of(matrices.energy_hessian());
   return {eigenvalues_of(matrices.motor_theta), eigenvalues_of(-matrices.link_q),
-          all.minCoeff() >= -kRounding * all.cwiseAbs().maxCoeff()};
+          all.minCoeff() >= -kRoundedEigenvalue * all.cwiseAbs().maxCoeff()};
 }
 
 double motor_stiffness(const Transmission& transmission, int joint, double phi) {

@@ -10,6 +10,9 @@
 
 namespace cablefit {
 
+/// Streams of random numbers of one run, and of the run with noise alone.
+inline constexpr std::uint64_t kDisturbances = 1, kSensors = 2, kStage1 = 3, kCalibration = 4;
+
 /// What a run found; a complaint instead when there is nothing.
 struct ProofRun {
   std::vector<Estimate> parameters;

@@ -14,11 +14,8 @@
 namespace cablefit {
 namespace {
 
-/// Streams of random numbers of one run, and of the run with noise alone.
-constexpr std::uint64_t kDisturbances = 1, kSensors = 2, kStage1 = 3, kCalibration = 4;
-
 /// Everything that the runs of one fit share.
-struct Plan {
+struct DynamicPlan {
   SimulatedCopy moving;
   std::optional<SimulatedCopy> blocked;  ///< none: stage 1 is drawn
   CopyDisturbance disturbance;
@@ -52,7 +49,7 @@ CopyDisturbance disturbances_of(const std::map<std::string, ResidualColour>& mea
   return disturbance;
 }
 
-ProofRun run_once(const Plan& plan, std::uint64_t seed) {
+ProofRun run_once(const DynamicPlan& plan, std::uint64_t seed) {
   ProofRun run;
   try {
     Random disturbances(seed, kDisturbances), sensors(seed, kSensors), draws(seed, kStage1);
@@ -93,7 +90,7 @@ double cutoff_of(const DynamicPreload& preload, std::span<const LogSurvey> logs,
 }
 
 void add_blocked(const ProveStage1& stage1, const DynamicPreload& preload, const Model& model,
-                 const CopyDrive& drive, Plan& plan) {
+                 const CopyDrive& drive, DynamicPlan& plan) {
   const PartFilter wanted = parts_of(Phase::blocked, preload.name);
   if (stage1.logs.empty() || !has_part(stage1.logs, wanted)) {
     plan.moving.notes.emplace_back("stage 1 drawn from its covariance");
@@ -105,10 +102,10 @@ void add_blocked(const ProveStage1& stage1, const DynamicPreload& preload, const
   plan.moving.notes.emplace_back("stage 1 rerun on simulated blocked logs");
 }
 
-Plan make_plan(std::span<const LogSurvey> logs, const ProveStage1& stage1,
-               const DynamicOptions& options, const ProveOptions& prove, const Model& model,
-               const DynamicPreload& preload, const DynamicFit& fit) {
-  Plan plan;
+DynamicPlan make_plan(std::span<const LogSurvey> logs, const ProveStage1& stage1,
+                      const DynamicOptions& options, const ProveOptions& prove, const Model& model,
+                      const DynamicPreload& preload, const DynamicFit& fit) {
+  DynamicPlan plan;
   plan.options = options;
   plan.options.models = {fit.model};
   plan.options.method_floor = fit.method_floor;  // a property of the motion, which the runs share
@@ -155,7 +152,7 @@ void prove_dynamic(std::span<const LogSurvey> logs, const ProveStage1& stage1,
         fit.warnings.push_back("not proved: " + why_not);
         continue;
       }
-      const Plan plan = make_plan(logs, stage1, options, prove, model, preload, fit);
+      const DynamicPlan plan = make_plan(logs, stage1, options, prove, model, preload, fit);
       fit.proof = prove_by_runs(fit.parameters, prove, plan.moving.notes,
                                 [&plan](std::uint64_t seed) { return run_once(plan, seed); });
       widen(fit.parameters, *fit.proof);

@@ -14,8 +14,6 @@
 namespace cablefit {
 namespace {
 
-constexpr std::uint64_t kDisturbances = 1, kSensors = 2, kCalibration = 4;  // as in prove.cpp
-constexpr std::size_t kLags = 64;
 constexpr int kFilterOrder = 4;
 constexpr double kWidestBand = 0.4;  // of the rate, for the low-pass
 
@@ -158,16 +156,17 @@ ElasticOptions options_of_runs(const ElasticOptions& options, const ElasticPrelo
   return same;
 }
 
-struct Plan {
+struct ElasticPlan {
   SimulatedCopy copy;
   std::vector<SimulationResult> motions;  ///< without a disturbance
   ArModel disturbance;
   ElasticOptions options;
 };
 
-Plan make_plan(std::span<const LogSurvey> logs, const ElasticOptions& options,
-               const ProveOptions& prove, const ElasticPreload& preload, const ElasticFit& fit) {
-  Plan plan;
+ElasticPlan make_plan(std::span<const LogSurvey> logs, const ElasticOptions& options,
+                      const ProveOptions& prove, const ElasticPreload& preload,
+                      const ElasticFit& fit) {
+  ElasticPlan plan;
   plan.options = options_of_runs(options, preload, fit);
   const ElasticJob job = make_job(logs, plan.options, preload.name);
   for (std::size_t k = 0; k < logs.size(); ++k) {
@@ -200,7 +199,7 @@ Plan make_plan(std::span<const LogSurvey> logs, const ElasticOptions& options,
   return plan;
 }
 
-ProofRun run_once(const Plan& plan, const std::string& model, std::uint64_t seed) {
+ProofRun run_once(const ElasticPlan& plan, const std::string& model, std::uint64_t seed) {
   ProofRun run;
   try {
     Random disturbances(seed, kDisturbances), sensors(seed, kSensors);
@@ -245,7 +244,7 @@ void prove_elastic(std::span<const LogSurvey> logs, const ElasticOptions& option
             "the rig file to prove the fit");
         continue;
       }
-      const Plan plan = make_plan(logs, options, prove, preload, fit);
+      const ElasticPlan plan = make_plan(logs, options, prove, preload, fit);
       fit.proof = prove_by_runs(proved(fit), prove, plan.copy.notes, [&](std::uint64_t seed) {
         return run_once(plan, fit.model, seed);
       });

@@ -9,8 +9,6 @@
 namespace cablefit {
 namespace {
 
-constexpr std::size_t kLags = 64;
-
 /// rows * this = residual of the fit's values.
 Eigen::VectorXd residual_combination(const DynamicColumns& columns, const DynamicJob& job,
                                      const DynamicFit& fit) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <span>
 #include <string>
@@ -10,6 +11,8 @@
 #include "cablefit/dynamic/dynamic_fit.hpp"
 
 namespace cablefit {
+
+inline constexpr std::size_t kLags = 64;  ///< of an autocovariance
 
 /// Of one equation: residual torque on the grid of the rows used.
 struct ResidualColour {

@@ -74,9 +74,9 @@ bool is_old_and_unlocked(const fs::path& path) {
 }
 
 void look_for_leftovers(const fs::path& folder) {
-  static std::mutex mutex;
+  static std::mutex guard;
   static std::set<fs::path> seen;
-  const std::lock_guard lock(mutex);
+  const std::lock_guard lock(guard);
   if (!seen.insert(folder).second) return;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();

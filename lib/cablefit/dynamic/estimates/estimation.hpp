@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "cablefit/dynamic/rows/dynamic_job.hpp"
@@ -17,6 +18,10 @@ struct EstimationTask {
 
   /// Stage 1 of this model; nullptr for a rigid drive.
   const ElasticFit* stage1() const { return job.rigid ? nullptr : job.elastic[model]; }
+  /// "controller"; of several models "controller, poly".
+  std::string decision_name(const std::string& what) const {
+    return job.models.size() < 2 ? what : what + ", " + job.models[model];
+  }
 };
 
 struct Estimation {

@@ -20,11 +20,6 @@ namespace {
 
 constexpr double kSignificant = 0.05;
 
-std::string label(const EstimationTask& task, const char* what) {
-  if (task.job.models.size() < 2) return what;
-  return fmt::format("{}, {}", what, task.job.models[task.model]);
-}
-
 /// "link 9432 rows, motor 5573": not those of least squares.
 std::string rows_of(const EstimationTask& task, const IvFit& fit) {
   std::string text;
@@ -38,7 +33,7 @@ std::string rows_of(const EstimationTask& task, const IvFit& fit) {
 void note_controller(const EstimationTask& task, const LoopPlan& plan, Estimation& out) {
   out.fit.warnings.insert(out.fit.warnings.end(), plan.warnings.begin(), plan.warnings.end());
   if (!plan.fitted) return;
-  out.decisions.push_back({label(task, "controller"), "found from the logs",
+  out.decisions.push_back({task.decision_name("controller"), "found from the logs",
                            plan.fitted->text(task.job.rig().axes.all()) +
                                "; in the rig file: " + controller_text(plan.fitted->controller)});
 }
@@ -46,7 +41,7 @@ void note_controller(const EstimationTask& task, const LoopPlan& plan, Estimatio
 void note_instruments(const EstimationTask& task, const LoopPlan& plan, const IvFit& fit,
                       Estimation& out) {
   out.decisions.push_back(
-      {label(task, "instruments"),
+      {task.decision_name("instruments"),
        fmt::format("{} simulation{}", fit.n_simulations, fit.n_simulations == 1 ? "" : "s"),
        fmt::format("{}; rows by {} rest: {}", source_of_instruments(plan),
                    keeps_disturbances_out(plan.kind) ? "its" : "its and the drive's",
@@ -192,7 +187,7 @@ void set_verdict(const EstimationTask& task, const System& system, const std::st
 Estimation stay_with_least_squares(const EstimationTask& task, const std::string& why) {
   Estimation out = least_squares_fit(task, Weighting::by_residual);
   out.fit.estimator = "wls";
-  out.decisions.push_back({label(task, "estimator"), "wls", "no instruments: " + why});
+  out.decisions.push_back({task.decision_name("estimator"), "wls", "no instruments: " + why});
   for (const EquationRows& e : task.equations)
     out.fit.verdicts[verdict_key(e)] = "not tested, no instruments: " + why;
   return out;
@@ -301,7 +296,7 @@ Estimation estimate_automatically(const EstimationTask& task) {
   Estimation out;
   out.fit.estimator = decided.any_uses() ? "iv" : "wls";
   out.decisions.push_back(
-      {label(task, "estimator"), out.fit.estimator,
+      {task.decision_name("estimator"), out.fit.estimator,
        fmt::format("Durbin-Wu-Hausman: {}{}", all_p(task, judgements), test.note)});
   std::vector<EquationInfluence> influences;
   const std::vector<System> systems = systems_of(task);

@@ -30,11 +30,6 @@ constexpr double kWrongNoise = 1.5;   // whitened rms, 1 when the noise levels a
 // Of whitened residuals from row to row, 0 when the model is right and the torque noise white.
 constexpr double kWrongModel = 0.3;
 
-std::string label(const EstimationTask& task, const char* what) {
-  if (task.job.models.size() < 2) return what;
-  return fmt::format("{}, {}", what, task.job.models[task.model]);
-}
-
 /// A load torque that logs give, and no law of the rig file.
 bool has_load(const DynamicJob& job) {
   const LoadLaw* law = job.rig().load.law;
@@ -66,7 +61,7 @@ std::string obstacle(const EstimationTask& task, const Model& start) {
 Estimation stay_with_least_squares(const EstimationTask& task, Estimation start,
                                    const std::string& why) {
   start.fit.estimator = "wls";
-  start.decisions.push_back({label(task, "estimator"), "wls", "no output error: " + why});
+  start.decisions.push_back({task.decision_name("estimator"), "wls", "no output error: " + why});
   return start;
 }
 
@@ -223,7 +218,7 @@ void note_fit(const EstimationTask& task, const FittedRows& rows, const LoopPlan
               const OutputErrorFit& oe, Estimation& out) {
   const Axes axes = task.job.rig().axes.all();
   out.decisions.push_back(
-      {label(task, "output error"),
+      {task.decision_name("output error"),
        fmt::format("{} rounds, {} simulations", oe.n_rounds, oe.n_passes),
        fmt::format("started from the wls fit; torque noise {} {} by maximum likelihood, encoder "
                    "noise {} {}; whitened residual {:.3g}{}",
@@ -231,7 +226,7 @@ void note_fit(const EstimationTask& task, const FittedRows& rows, const LoopPlan
                    per_axis(task, oe.noise.position), unit_for(axes, "rad"), oe.residual_rms,
                    rows.note)});
   if (!oe.instruments.empty())
-    out.decisions.push_back({label(task, "instruments"),
+    out.decisions.push_back({task.decision_name("instruments"),
                              oe.instrumented ? source_of_instruments(loop) : "none",
                              oe.instruments});
   out.fit.warnings.insert(out.fit.warnings.end(), oe.warnings.begin(), oe.warnings.end());
@@ -257,11 +252,12 @@ void note_stage1(const EstimationTask& task, const OutputErrorOptions& options,
   if (task.job.rigid) return;
   const Stage1Shift shift = largest_shift(options.prior, oe);
   if (shift.name.empty()) {
-    out.decisions.push_back({label(task, "elastic coefficients"), "held", "stage 1 gives no sd"});
+    out.decisions.push_back(
+        {task.decision_name("elastic coefficients"), "held", "stage 1 gives no sd"});
     return;
   }
   out.decisions.push_back(
-      {label(task, "elastic coefficients"), "fitted",
+      {task.decision_name("elastic coefficients"), "fitted",
        fmt::format("with stage 1 and its robust covariance as prior; l_o and theta_0 held; {} "
                    "changes most, by {:+.2f} sd of stage 1",
                    shift.name, shift.in_sd)});

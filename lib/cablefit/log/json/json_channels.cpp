@@ -17,7 +17,6 @@
 namespace cablefit {
 namespace {
 
-constexpr std::size_t kMaxColumns = 10'000;
 constexpr std::array<std::string_view, 6> kDocumentKeys{"channels", "sample_rate", "units",
                                                         "name",     "comment",     "meta"};
 constexpr std::array<std::string_view, 2> kChannelKeys{"values", "unit"};
@@ -169,12 +168,12 @@ class ChannelsLayout final : public JsonLayout {
     const Place place{table_.path, at.line, at.column};
     check_name_length(name, place);
     check_name_length(unit, place);
-    if (units_.size() == kMaxColumns) throw error(at, "more than 10000 units", "is this a log?");
+    if (units_.size() == kMostColumns) throw error(at, "more than 10000 units", "is this a log?");
     units_.push_back({name, unit, at});
   }
 
   void begin_column(TextPosition at) {
-    if (table_.columns.size() == kMaxColumns) {
+    if (table_.columns.size() == kMostColumns) {
       throw error(at, "more than 10000 channels", "is this a log?");
     }
     check_name_length(key_, {table_.path, at.line, at.column});

@@ -13,8 +13,6 @@
 namespace cablefit {
 namespace {
 
-constexpr std::size_t kMaxColumns = 10'000;
-
 // The first record says which columns there are; every other record needs the same keys, in any
 // order. Rows go to the spill file whole, each followed by its line number.
 class RecordsLayout final : public JsonLayout {
@@ -101,7 +99,7 @@ class RecordsLayout final : public JsonLayout {
   std::size_t add_column(const std::string& name, TextPosition at) {
     const auto known = std::find(keys_.begin(), keys_.end(), name);
     if (known != keys_.end()) return static_cast<std::size_t>(known - keys_.begin());
-    if (keys_.size() == kMaxColumns) {
+    if (keys_.size() == kMostColumns) {
       throw error(at, "more than 10000 columns", "is this a log with one record per sample?");
     }
     check_name_length(name, {table_.path, at.line, at.column});

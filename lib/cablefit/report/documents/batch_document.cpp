@@ -14,7 +14,6 @@
 namespace cablefit {
 namespace {
 
-constexpr int kDigits = 3;
 constexpr std::size_t kMostCellsInFull = 12;
 constexpr const char* kFailed = "FAILED";
 

@@ -14,7 +14,6 @@
 namespace cablefit {
 namespace {
 
-constexpr int kDigits = 4;
 constexpr double kDegrees = 180 / 3.14159265358979323846;
 
 /// How a part is called within its log.
@@ -45,7 +44,7 @@ Table logs_table(const CheckResult& result) {
       const bool known = !part.excitation.channel.empty();
       table.rows.push_back(
           {log.path, part_name(part), std::string(to_string(s.phase)),
-           significant(s.t_last - s.t_first, kDigits), significant(1 / s.period, kDigits),
+           significant(s.t_last - s.t_first, kFineDigits), significant(1 / s.period, kFineDigits),
            fmt::format("{}", s.n_gaps), known ? percent(part.excitation.share_at_rest) : kNoNumber,
            known ? significant(part.excitation.fastest, 3) : kNoNumber, good_for(part)});
     }
@@ -71,13 +70,13 @@ Table parts_table(const CheckedLog& log) {
     const PartSurvey& s = part.survey;
     const CheckedExcitation& e = part.excitation;
     const bool known = !e.channel.empty();
-    table.rows.push_back({part_name(part), std::string(to_string(s.phase)),
-                          fmt::format("{}", s.n_rows), significant(s.t_last - s.t_first, kDigits),
-                          significant(1 / s.period, kDigits), percent(s.jitter),
-                          percent(s.worst_jitter), fmt::format("{}", s.n_gaps),
-                          known ? percent(e.share_at_rest) : kNoNumber,
-                          known ? significant(e.fastest, 3) : kNoNumber,
-                          known ? fmt::format("{}", e.speed_bands) : kNoNumber, good_for(part)});
+    table.rows.push_back(
+        {part_name(part), std::string(to_string(s.phase)), fmt::format("{}", s.n_rows),
+         significant(s.t_last - s.t_first, kFineDigits), significant(1 / s.period, kFineDigits),
+         percent(s.jitter), percent(s.worst_jitter), fmt::format("{}", s.n_gaps),
+         known ? percent(e.share_at_rest) : kNoNumber,
+         known ? significant(e.fastest, 3) : kNoNumber,
+         known ? fmt::format("{}", e.speed_bands) : kNoNumber, good_for(part)});
   }
   for (const Decision& decision : log.decisions)
     table.notes.push_back(
@@ -97,7 +96,7 @@ Table channels_table(const CheckedLog& log) {
     for (const CheckedChannel& channel : part.channels) {
       const ChannelSurvey& s = channel.survey;
       table.rows.push_back({part_name(part), channel.name, channel.unit,
-                            significant(s.min, kDigits), significant(s.max, kDigits),
+                            significant(s.min, kFineDigits), significant(s.max, kFineDigits),
                             channel.is_angle ? significant(kDegrees * s.range(), 3) : kNoNumber,
                             significant(s.quantum, 2), significant(s.noise, 2),
                             percent(s.at_limits)});
@@ -194,7 +193,8 @@ void add_tidy_rows(Table& table, const CheckedLog& log, const CheckedPart& part)
 
 /// "0.3": a size of which one digit may be right.
 std::string size_text(const PredictedParameter& p) {
-  return p.determined == Determined::given ? significant(p.size, kDigits) : significant(p.size, 1);
+  return p.determined == Determined::given ? significant(p.size, kFineDigits)
+                                           : significant(p.size, 1);
 }
 
 std::string sd_number(double sd) {

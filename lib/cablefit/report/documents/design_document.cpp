@@ -17,7 +17,6 @@
 namespace cablefit {
 namespace {
 
-constexpr int kDigits = 4;
 constexpr int kFewDigits = 3;
 
 constexpr double kNothing = 1e-9;  // rounding of what is 0
@@ -50,9 +49,9 @@ struct Words {
     return columns;
   }
   std::vector<std::string> key(const DesignPoint& point, const DesignJoint& joint) const {
-    std::vector<std::string> cells = {significant(1e3 * point.l_o, kDigits) +
+    std::vector<std::string> cells = {significant(1e3 * point.l_o, kFineDigits) +
                                       (point.is_own ? " own" : "")};
-    if (several_radii()) cells.push_back(significant(point.radius_factor, kDigits));
+    if (several_radii()) cells.push_back(significant(point.radius_factor, kFineDigits));
     if (several_joints()) cells.push_back(joint.name);
     return cells;
   }
@@ -90,13 +89,14 @@ Table preload_table(const Words& words) {
                           {"stiffness", "least", words.stiffness},
                           {"stiffness", "most", words.stiffness}});
   for_each_joint(words.result, [&](const DesignPoint& point, const DesignJoint& joint) {
-    add_row(
-        table, words.key(point, joint),
-        {few(joint.closure_torque), few(1e3 * joint.closure_low), few(1e3 * joint.closure_high),
-         joint.slack_first.empty() ? kNoNumber : joint.slack_first,
-         significant(joint.stiffness_zero, kDigits), significant(joint.stiffness_low, kDigits),
-         significant(joint.stiffness_high, kDigits), significant(joint.stiffness_least, kDigits),
-         significant(joint.stiffness_most, kDigits)});
+    add_row(table, words.key(point, joint),
+            {few(joint.closure_torque), few(1e3 * joint.closure_low), few(1e3 * joint.closure_high),
+             joint.slack_first.empty() ? kNoNumber : joint.slack_first,
+             significant(joint.stiffness_zero, kFineDigits),
+             significant(joint.stiffness_low, kFineDigits),
+             significant(joint.stiffness_high, kFineDigits),
+             significant(joint.stiffness_least, kFineDigits),
+             significant(joint.stiffness_most, kFineDigits)});
   });
   table.notes.push_back(
       fmt::format("torque: {:g} {}; l_o: initial elongation of cable {}, the "
@@ -183,8 +183,8 @@ Table spread_table(const Words& words) {
     const auto sd = [](double value) { return significant(value, 2); };
     add_row(table, words.key(point, joint),
             {few(joint.closure_torque), sd(joint.sd->closure_torque),
-             significant(joint.stiffness_zero, kDigits), sd(joint.sd->stiffness_zero),
-             significant(joint.stiffness_high, kDigits), sd(joint.sd->stiffness_high),
+             significant(joint.stiffness_zero, kFineDigits), sd(joint.sd->stiffness_zero),
+             significant(joint.stiffness_high, kFineDigits), sd(joint.sd->stiffness_high),
              joint.friction ? few(100 * joint.friction->efficiency_driving) : kNoNumber,
              sd(100 * joint.sd->efficiency_driving)});
   });
@@ -203,8 +203,8 @@ Table tension_table(const Words& words) {
     for (std::size_t k = 0; k < joint.tensions.size(); ++k) {
       const TensionRange& t = joint.tensions[k];
       add_row(table, words.key(point, joint),
-              {t.cable, significant(1e3 * point.initial_elongations[k], kDigits), few(t.preload),
-               few(t.least), few(t.largest)});
+              {t.cable, significant(1e3 * point.initial_elongations[k], kFineDigits),
+               few(t.preload), few(t.least), few(t.largest)});
     }
   });
   return table;
@@ -214,9 +214,9 @@ std::string needed_text(const Words& words, const NeededPreload& needed) {
   if (!std::isfinite(needed.l_o)) return "none is enough";
   std::string text;
   for (std::size_t k = 0; k < needed.initial_elongations.size(); ++k)
-    text +=
-        fmt::format("{}l_o[{}] = {} {}", k > 0 ? ", " : "", words.result.cables[k],
-                    significant(1e3 * needed.initial_elongations[k], kDigits), words.elongation);
+    text += fmt::format("{}l_o[{}] = {} {}", k > 0 ? ", " : "", words.result.cables[k],
+                        significant(1e3 * needed.initial_elongations[k], kFineDigits),
+                        words.elongation);
   return text +
          fmt::format(" keeps all cables taut up to {:g} {}", words.result.torque, words.torque);
 }
@@ -226,7 +226,7 @@ void add_claim(const Words& words, Document& document) {
   const auto text = [&](const DesignPoint& point) {
     const DesignJoint& joint = point.joints.front();
     return fmt::format("l_o {} {}: linear {}, piecewise linear {} {}",
-                       significant(1e3 * point.l_o, kDigits), words.elongation,
+                       significant(1e3 * point.l_o, kFineDigits), words.elongation,
                        few(joint.model("linear").max_error),
                        few(joint.model("piecewise linear").max_error), words.torque);
   };
@@ -275,7 +275,7 @@ Table excitation_table(const ExcitationPlan& plan) {
   for (std::size_t k = 0; k < plan.fit.parameters.size(); ++k) {
     const PlannedParameter& p = plan.fit.parameters[k];
     table.rows.push_back(
-        {p.equation, p.name, p.unit, significant(p.value, kDigits), significant(p.error(), 2),
+        {p.equation, p.name, p.unit, significant(p.value, kFineDigits), significant(p.error(), 2),
          significant(100 * p.error() / std::abs(p.value), 2), significant(p.sd, 2),
          significant(std::abs(p.floor), 2), significant(p.sd_white, 2),
          k < plan.plain.fit.parameters.size() ? significant(plan.plain.fit.parameters[k].error(), 2)

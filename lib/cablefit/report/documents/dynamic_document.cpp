@@ -18,8 +18,6 @@
 namespace cablefit {
 namespace {
 
-constexpr int kErrorDigits = 3;
-
 std::set<std::string> all_equations(const DynamicResult& result) {
   std::set<std::string> equations;
   for (const DynamicPreload& preload : result.preloads) {
@@ -49,9 +47,9 @@ Table error_table(const DynamicResult& result) {
         const auto found = fit.torque_error.find(equation);
         const bool has = found != fit.torque_error.end();
         const TorqueError error = has ? found->second : TorqueError{};
-        row.push_back(has ? significant(error.rms, kErrorDigits) : kNoNumber);
-        row.push_back(has ? significant(error.max_abs, kErrorDigits) : kNoNumber);
-        row.push_back(has ? significant(100 * error.relative, kErrorDigits) : kNoNumber);
+        row.push_back(has ? significant(error.rms, kDigits) : kNoNumber);
+        row.push_back(has ? significant(error.max_abs, kDigits) : kNoNumber);
+        row.push_back(has ? significant(100 * error.relative, kDigits) : kNoNumber);
       }
       table.rows.push_back(row);
     }
@@ -102,7 +100,7 @@ Table suspect_table(const DynamicResult& result) {
         table.rows.push_back({preload.name, fit.model, span.equation,
                               span.run.empty() ? span.log : span.log + ", run " + span.run,
                               fmt::format("{:.3f}", span.from), fmt::format("{:.3f}", span.to),
-                              significant(span.largest, kErrorDigits)});
+                              significant(span.largest, kDigits)});
   return table;
 }
 
@@ -166,7 +164,7 @@ std::vector<Table> sweep_tables(const DynamicResult& result) {
     for (const std::string& parameter : fit.sweep->parameters) table.rows.push_back({parameter});
     for (const SweepPoint& point : fit.sweep->points) {
       if (point.setting != setting) continue;
-      table.columns.push_back({setting, significant(point.value, kErrorDigits), ""});
+      table.columns.push_back({setting, significant(point.value, kDigits), ""});
       for (std::size_t k = 0; k < table.rows.size(); ++k)
         table.rows[k].push_back(
             std::isfinite(point.change[k]) ? fmt::format("{:+.2f}", point.change[k]) : kNoNumber);
@@ -266,7 +264,7 @@ std::string residual_text(const DynamicPreload& preload, const DynamicFit& fit) 
   std::string text;
   for (const auto& [equation, error] : fit.torque_error)
     text += fmt::format("{}{} {} {} rms ({} %{})", text.empty() ? "" : ", ", equation,
-                        significant(error.rms, kErrorDigits), equation_unit(preload, equation),
+                        significant(error.rms, kDigits), equation_unit(preload, equation),
                         significant(100 * error.relative, 2), text.empty() ? " of the torque" : "");
   return text;
 }
@@ -296,7 +294,7 @@ void add_answers(const DynamicPreload& preload, const DynamicFit& fit, Document&
     document.summary.push_back(
         {is_first ? preload.name : "",
          fmt::format("{}: residual {} {} rms, {} % of the torque{}", equation,
-                     significant(error.rms, kErrorDigits), equation_unit(preload, equation),
+                     significant(error.rms, kDigits), equation_unit(preload, equation),
                      significant(100 * error.relative, 2), depends)});
   }
 }

@@ -15,9 +15,7 @@
 namespace cablefit {
 namespace {
 
-constexpr int kErrorDigits = 3;
-
-std::string error_text(double error) { return significant(error, kErrorDigits); }
+std::string error_text(double error) { return significant(error, kDigits); }
 
 /// "0.012 +- 0.003", "-" when the fit has no such parameter. `scale`: mrad instead of rad.
 std::string estimate_text(const ElasticFit& fit, const std::string& name, double scale,
@@ -211,8 +209,8 @@ Table slack_table(const ElasticResult& result) {
       for (const SlackPoint& point :
            slack_points(fit.transmission, preload.deflection_low, preload.deflection_high)) {
         table.rows.push_back({preload.name, fit.model, fit.transmission.cables[point.cable].name,
-                              significant(1e3 * point.deflection, kErrorDigits),
-                              significant(point.motor, kErrorDigits),
+                              significant(1e3 * point.deflection, kDigits),
+                              significant(point.motor, kDigits),
                               point.slack_above ? "above" : "below"});
       }
     }

@@ -11,7 +11,6 @@
 namespace cablefit {
 namespace {
 
-constexpr int kErrorDigits = 3;
 constexpr int kRsdDigits = 2;
 constexpr double kMilli = 1e3;
 constexpr double kEquilibriumMet = 1e-9;  // N m
@@ -148,7 +147,7 @@ Table elongation_table(const IdentifyResult& result) {
       }
       row.push_back(e != nullptr && !e->not_identifiable.empty()
                         ? kNoNumber
-                        : significant(cable.force(l), kErrorDigits));
+                        : significant(cable.force(l), kDigits));
       table.rows.push_back(row);
     }
   table.notes = notes.lines();
@@ -216,8 +215,8 @@ Table dynamics_table(const IdentifyResult& result) {
 }
 
 std::string range_text(double low, double high) {
-  return fmt::format("{} .. {}", significant(kMilli * low, kErrorDigits),
-                     significant(kMilli * high, kErrorDigits));
+  return fmt::format("{} .. {}", significant(kMilli * low, kDigits),
+                     significant(kMilli * high, kDigits));
 }
 
 /// The linear model's K on the range of each preload.
@@ -248,8 +247,8 @@ Table slack_table(const IdentifyResult& result) {
   for (const IdentifyPreload& preload : result.preloads)
     for (const SlackPoint& point : preload.slack)
       table.rows.push_back({preload.name, preload.transmission.cables[point.cable].name,
-                            significant(kMilli * point.deflection, kErrorDigits),
-                            significant(point.motor, kErrorDigits),
+                            significant(kMilli * point.deflection, kDigits),
+                            significant(point.motor, kDigits),
                             point.slack_above ? "above" : "below"});
   return table;
 }
@@ -264,10 +263,9 @@ Table equation_table(const IdentifyResult& result) {
   for (const IdentifyPreload& preload : result.preloads)
     for (const IdentifyEquation& e : preload.equations)
       table.rows.push_back(
-          {preload.name, e.name, significant(e.rms, kErrorDigits),
-           std::to_string(e.counts.rows_used), std::to_string(e.counts.rows_at_rest),
-           std::to_string(e.counts.rows_not_used), fmt::format("{:.0f}", e.effective_rows),
-           significant(e.weight, kErrorDigits)});
+          {preload.name, e.name, significant(e.rms, kDigits), std::to_string(e.counts.rows_used),
+           std::to_string(e.counts.rows_at_rest), std::to_string(e.counts.rows_not_used),
+           fmt::format("{:.0f}", e.effective_rows), significant(e.weight, kDigits)});
   return table;
 }
 
@@ -295,7 +293,7 @@ std::string residual_text(const IdentifyPreload& preload, Axes axes) {
       most = std::max(most, e.rms);
     }
     if (most < least) continue;
-    const std::string from = significant(least, kErrorDigits), to = significant(most, kErrorDigits);
+    const std::string from = significant(least, kDigits), to = significant(most, kDigits);
     text += fmt::format("{} {} {} {} rms", text.empty() ? "residual:" : ",", side,
                         from == to ? to : from + " .. " + to, torque_unit(axes));
   }
@@ -339,7 +337,7 @@ Headline headline_of(const IdentifyResult& result) {
   std::vector<NamedNumber> residuals;
   for (const IdentifyPreload& preload : result.preloads)
     for (const IdentifyEquation& e : preload.equations)
-      if (e.side == "motor") residuals.push_back({preload.name, significant(e.rms, kErrorDigits)});
+      if (e.side == "motor") residuals.push_back({preload.name, significant(e.rms, kDigits)});
   if (!residuals.empty())
     headline.numbers.push_back(
         {"residual, motor equation",

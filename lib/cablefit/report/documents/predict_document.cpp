@@ -11,11 +11,7 @@
 namespace cablefit {
 namespace {
 
-constexpr int kDigits = 3;
-constexpr int kTimeDigits = 5;
 constexpr std::size_t kMostContacts = 5;  // of a joint, on the screen
-
-std::string count(std::size_t n) { return fmt::format("{}", n); }
 
 Table signal_table(const PredictResult& result) {
   Table table;
@@ -51,8 +47,8 @@ Table torque_table(const PredictResult& result) {
       const bool first = &torque == &part.torques.front();
       table.rows.push_back({first ? cell_name(result.parts, part) : "",
                             torque.signal + (torque.is_measured ? "" : " *"), torque.unit,
-                            torque.method, count(torque.n_rows), significant(torque.rms, kDigits),
-                            significant(torque.max_abs, kDigits),
+                            torque.method, std::to_string(torque.n_rows),
+                            significant(torque.rms, kDigits), significant(torque.max_abs, kDigits),
                             significant(torque.t_of_max, kTimeDigits),
                             significant(100 * torque.relative, kDigits)});
     }
@@ -79,10 +75,10 @@ Table watch_table(const PredictResult& result) {
       table.rows.push_back(
           {cell_name(result.parts, part), watch.joint,
            significant(watch.detector.threshold, kDigits),
-           significant(watch.detector.torque, kDigits), count(watch.n_windows),
-           count(watch.n_alarms), significant(watch.expected_alarms, 2),
-           watch.quiet_windows ? count(*watch.quiet_windows) : std::string(kNoNumber),
-           watch.false_alarms ? count(*watch.false_alarms) : std::string(kNoNumber),
+           significant(watch.detector.torque, kDigits), std::to_string(watch.n_windows),
+           std::to_string(watch.n_alarms), significant(watch.expected_alarms, 2),
+           watch.quiet_windows ? std::to_string(*watch.quiet_windows) : std::string(kNoNumber),
+           watch.false_alarms ? std::to_string(*watch.false_alarms) : std::string(kNoNumber),
            significant(watch.seconds_not_watched, kDigits)});
   table.notes = {
       "detected: smallest contact torque that is found; expected: alarms without any contact; "
@@ -140,7 +136,7 @@ std::string contacts_text(const PredictResult& result) {
     }
   if (n_windows == 0) return "";
   return fmt::format("{} in {} windows of {:g} s; {} s at rest are not monitored",
-                     n_contacts == 0 ? "none" : count(n_contacts), n_windows, window,
+                     n_contacts == 0 ? "none" : std::to_string(n_contacts), n_windows, window,
                      significant(at_rest, 2));
 }
 
@@ -168,7 +164,8 @@ Headline headline_of(const PredictResult& result) {
   if (relative > 0)
     headline.numbers.push_back(
         {"largest error against a sensor", significant(100 * relative, kDigits) + " %"});
-  if (n_watched > 0) headline.numbers.push_back({"contacts of the link", count(n_contacts)});
+  if (n_watched > 0)
+    headline.numbers.push_back({"contacts of the link", std::to_string(n_contacts)});
   headline.verdict = n_watched == 0    ? "elastic torques predicted"
                      : n_contacts == 0 ? "no contact of the link"
                                        : fmt::format("{} contact{} of the link", n_contacts,

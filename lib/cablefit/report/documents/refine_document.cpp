@@ -12,7 +12,6 @@
 namespace cablefit {
 namespace {
 
-constexpr int kDigits = 3;
 constexpr std::size_t kRankedRows = 8;
 
 std::string number(double value) { return significant(value, kDigits); }

@@ -13,9 +13,6 @@ namespace {
 
 constexpr int kGapDigits = 3;
 constexpr int kShareDigits = 3;
-constexpr int kTimeDigits = 5;
-
-std::string count(std::size_t n) { return fmt::format("{}", n); }
 
 Table band_table(const SimulateResult& result) {
   Table table;
@@ -81,8 +78,8 @@ Table part_table(const SimulateResult& result) {
     table.rows.push_back(
         {cell_name(result.parts, part), part.preload, part.phase,
          part.window_seconds > 0 ? significant(part.window_seconds, kGapDigits) : kNoNumber,
-         count(part.n_windows), count(part.n_rows), count(part.counts.rows_resampled),
-         count(part.counts.rows_too_short),
+         std::to_string(part.n_windows), std::to_string(part.n_rows),
+         std::to_string(part.counts.rows_resampled), std::to_string(part.counts.rows_too_short),
          part.closure_share ? significant(100 * *part.closure_share, kShareDigits) : kNoNumber});
   }
   return table;
@@ -116,10 +113,11 @@ Table tidy_gaps(const SimulateResult& result) {
     for (const SignalGap& gap : part.gaps) {
       table.rows.push_back(
           {part.log, part.preload, part.phase, part.run, result.model_name,
-           std::string(part.mode()), exact(part.window_seconds), count(part.n_rows), gap.signal,
-           gap.unit, exact(gap.rms), exact(gap.max_abs), exact(gap.t_of_max), exact(gap.relative),
-           exact(gap.noise), exact(gap.t_of_worst_window), exact(gap.worst_window_rms),
-           gap.band ? exact(gap.band->half_width) : "", gap.band ? exact(gap.band->inside) : ""});
+           std::string(part.mode()), exact(part.window_seconds), std::to_string(part.n_rows),
+           gap.signal, gap.unit, exact(gap.rms), exact(gap.max_abs), exact(gap.t_of_max),
+           exact(gap.relative), exact(gap.noise), exact(gap.t_of_worst_window),
+           exact(gap.worst_window_rms), gap.band ? exact(gap.band->half_width) : "",
+           gap.band ? exact(gap.band->inside) : ""});
     }
   }
   return table;

@@ -8,8 +8,12 @@ namespace cablefit {
 /// "-": there is no number.
 inline constexpr const char* kNoNumber = "-";
 
+/// Significant digits of errors, gaps and shares; of what is planned or measured; of times.
+inline constexpr int kDigits = 3, kFineDigits = 4, kTimeDigits = 5;
+
 /// `n_digits` significant digits, without an exponent between 1e-5 and 1e7. NaN gives "-".
 std::string significant(double value, int n_digits);
+inline std::string short_number(double value) { return significant(value, kDigits); }
 
 /// The value up to the second digit of its sd: 1367.71 with sd 1.234 is "1367.7". Four significant
 /// digits when there is no sd.

@@ -12,7 +12,6 @@
 namespace cablefit {
 namespace {
 
-constexpr int kDigits = 3;
 constexpr double kMilli = 1e3;
 
 std::string range_text(double low, double high) {

@@ -17,12 +17,9 @@
 namespace cablefit {
 namespace {
 
-constexpr int kDigits = 3;
 constexpr std::string_view kFrequency = "frequency";  // whose variable is Hz
 constexpr std::size_t kPlaces = 2;                    // where the gap is, in the story
 constexpr double kMovedSd = 2;
-
-std::string number(double value) { return significant(value, kDigits); }
 
 std::string percent(double share) {
   if (std::isnan(share)) return "an unknown share";
@@ -55,7 +52,7 @@ std::vector<SummaryLine> where_lines(const RefineResult& result) {
                      "there, noise floor {}",
                      r.equation, regime_text(r, result.axes), percent(r.share_of_squared_gap),
                      percent(r.share_of_rows), r.regime == kFrequency ? "band" : "rows",
-                     number(r.rms), torque_unit(result.axes), number(r.noise))});
+                     short_number(r.rms), torque_unit(result.axes), short_number(r.noise))});
   }
   return lines;
 }
@@ -164,7 +161,7 @@ SummaryLine rivals_line(const NamedEffect& effect, const RefineResult& result, b
 std::string date_text(const EffectInstance& event, const RefineResult& result) {
   const std::string& path = result.inputs.at(event.event_log).path;
   if (event.event_time > 0)
-    return fmt::format("at {} s of {}{}", number(event.event_time), path,
+    return fmt::format("at {} s of {}{}", short_number(event.event_time), path,
                        event.ends_with_log ? ", until that log ends" : "");
   return (event.ends_with_log ? "in all of " : "from the beginning of ") + path +
          (event.ends_with_log ? "" : " on");
@@ -184,7 +181,7 @@ void add_effect_lines(const RefineResult& result, std::vector<SummaryLine>& line
     std::string text = fmt::format("{}: {}; {}", name, row.equation, parameters_text(effect));
     if (row.is_event) text += "; " + date_text(effect.instance, result);
     if (effect.torque_rms > 0)
-      text += fmt::format("; carries {} {} rms", number(effect.torque_rms),
+      text += fmt::format("; carries {} {} rms", short_number(effect.torque_rms),
                           torque_unit(axes_of_joint(result, effect.joint)));
     lines.push_back({"effect", text});
     lines.push_back(evidence_line(effect, result.held_out_blocks));
@@ -194,11 +191,11 @@ void add_effect_lines(const RefineResult& result, std::vector<SummaryLine>& line
 }
 
 std::string interval_text(const std::array<double, 2>& ci) {
-  return ci[1] > ci[0] ? fmt::format(" ({} .. {})", number(ci[0]), number(ci[1])) : "";
+  return ci[1] > ci[0] ? fmt::format(" ({} .. {})", short_number(ci[0]), short_number(ci[1])) : "";
 }
 
 std::string before_after(double before, double after, bool changed) {
-  return changed ? number(before) + " -> " + number(after) : number(before);
+  return changed ? short_number(before) + " -> " + short_number(after) : short_number(before);
 }
 
 SummaryLine gap_line(const RefineResult& result) {
@@ -209,7 +206,7 @@ SummaryLine gap_line(const RefineResult& result) {
       fmt::format("torque, {} rms: train {}, test {}{}, noise floor {}", torque_unit(result.axes),
                   before_after(gap.train_before, gap.train_after, changed),
                   before_after(gap.test_before, gap.test_after, changed),
-                  interval_text(gap.test_after_ci), number(gap.noise_floor)) +
+                  interval_text(gap.test_after_ci), short_number(gap.noise_floor)) +
           (result.held_out_blocks ? fmt::format("; test: the last third of every {} log",
                                                 result.elastic_only ? "blocked" : "moving")
                                   : "")};
@@ -241,7 +238,7 @@ SummaryLine simulation_line(const RefineResult& result) {
               "of the test logs, {} rms: {}{}, noise floor {}", unit_for(result.axes, "mrad"),
               before_after(1e3 * gap.test_before, 1e3 * gap.test_after, !result.effects.empty()),
               interval_text({1e3 * gap.test_after_ci[0], 1e3 * gap.test_after_ci[1]}),
-              number(1e3 * gap.noise_floor)) +
+              short_number(1e3 * gap.noise_floor)) +
               replay_text(result)};
 }
 
@@ -250,26 +247,26 @@ SummaryLine remainder_line(const RefineResult& result) {
   std::string text;
   if (result.elastic_only)
     return {"remainder", fmt::format("blocked {} {} rms above the noise floor",
-                                     number(result.remainder_blocked), unit)};
-  if (!result.rigid) text = fmt::format("link {} {}, ", number(result.remainder_link), unit);
+                                     short_number(result.remainder_blocked), unit)};
+  if (!result.rigid) text = fmt::format("link {} {}, ", short_number(result.remainder_link), unit);
   return {"remainder", text + fmt::format("motor {} {} rms above the noise floor",
-                                          number(result.remainder_motor), unit)};
+                                          short_number(result.remainder_motor), unit)};
 }
 
 std::string unexplained_text(const Unexplained& found, Axes axes) {
   const std::string size =
-      fmt::format("{} {} rms above the noise floor", number(found.rms), torque_unit(axes));
+      fmt::format("{} {} rms above the noise floor", short_number(found.rms), torque_unit(axes));
   const std::string share = percent(found.share_of_squared_gap);
   if (found.kind == "mode")
     return fmt::format(
         "{} equation, {}: like a mode of {} Hz and damping ratio {}, {} {}, excited by "
         "the motion ({} of it)",
-        found.equation, size, number(found.frequency), significant(found.damping, 2),
+        found.equation, size, short_number(found.frequency), significant(found.damping, 2),
         significant(found.inertia, 2), unit_for(axes, "kg m^2"), share);
   if (found.kind == "hum")
     return fmt::format(
         "{} equation, {}: like a tone of {} Hz, independent of the motion ({} of it)",
-        found.equation, size, number(found.frequency), share);
+        found.equation, size, short_number(found.frequency), share);
   return fmt::format(
       "{} equation, {}: low-frequency disturbance (correlation time {} s), no line, no mode",
       found.equation, size, significant(found.correlation_time, 2));
@@ -299,10 +296,10 @@ std::string regime_text(const Regime& regime, Axes axes) {
   if (regime.regime == "direction")
     return fmt::format("{} = {}", regime.variable, regime.from < -0.5 ? -1 : 1);
   if (regime.regime == kFrequency)
-    return fmt::format("from {} to {} Hz", number(regime.from), number(regime.to));
+    return fmt::format("from {} to {} Hz", short_number(regime.from), short_number(regime.to));
   const std::string unit = regime_unit(regime.regime, axes);
-  return fmt::format("{} from {} to {}{}{}", regime.variable, number(regime.from),
-                     number(regime.to), unit.empty() ? "" : " ", unit);
+  return fmt::format("{} from {} to {}{}{}", regime.variable, short_number(regime.from),
+                     short_number(regime.to), unit.empty() ? "" : " ", unit);
 }
 
 double moved_sd(const ParameterShift& shift) { return (shift.after - shift.before) / shift.sd; }
@@ -340,7 +337,8 @@ Headline refine_headline(const RefineResult& result) {
                                 numbers(result.simulation, 1e3, unit_for(result.axes, "mrad"))});
   if (result.torque.known)
     headline.numbers.push_back(
-        {"noise floor, torque", fmt::format("{} {}", number(result.torque.noise_floor), torque)});
+        {"noise floor, torque",
+         fmt::format("{} {}", short_number(result.torque.noise_floor), torque)});
   return headline;
 }
 

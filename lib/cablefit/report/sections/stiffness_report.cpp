@@ -8,13 +8,11 @@
 namespace cablefit {
 namespace {
 
-constexpr int kDigits = 4;
-
-std::string number(double value) { return significant(value == 0 ? 0 : value, kDigits); }
+std::string fine(double value) { return significant(value == 0 ? 0 : value, kFineDigits); }
 
 std::string numbers(const Eigen::VectorXd& values, double scale = 1) {
   std::string text;
-  for (const double value : values) text += (text.empty() ? "" : ", ") + number(scale * value);
+  for (const double value : values) text += (text.empty() ? "" : ", ") + fine(scale * value);
   return text;
 }
 
@@ -44,8 +42,8 @@ Table matrix_table(const PoseStiffness& pose, const Units& units) {
   const auto add = [&](const char* name, const Eigen::MatrixXd& q, const Eigen::MatrixXd& theta) {
     for (Eigen::Index j = 0; j < n; ++j) {
       std::vector<std::string> row = {label(name, j)};
-      for (Eigen::Index k = 0; k < n; ++k) row.push_back(number(q(j, k)));
-      for (Eigen::Index k = 0; k < n; ++k) row.push_back(number(theta(j, k)));
+      for (Eigen::Index k = 0; k < n; ++k) row.push_back(fine(q(j, k)));
+      for (Eigen::Index k = 0; k < n; ++k) row.push_back(fine(theta(j, k)));
       table.rows.push_back(std::move(row));
     }
   };
@@ -69,8 +67,8 @@ Table cable_table(const PoseStiffness& pose, const DesignResult& result, const U
                    {"", "stiffness", units.cable}};
   for (Eigen::Index k = 0; k < pose.elongation.size(); ++k)
     table.rows.push_back({result.cables[static_cast<std::size_t>(k)],
-                          number(1e3 * pose.elongation(k)), number(pose.tension(k)),
-                          number(pose.stiffness(k))});
+                          fine(1e3 * pose.elongation(k)), fine(pose.tension(k)),
+                          fine(pose.stiffness(k))});
   return table;
 }
 
@@ -81,7 +79,7 @@ Table along_table(const StiffnessAlong& along, const Units& units) {
                    {"d tau_m/d theta", "least", units.stiffness},
                    {"d tau_m/d theta", "largest", units.stiffness}};
   for (Eigen::Index k = 0; k < along.least.size(); ++k)
-    table.rows.push_back({std::to_string(k + 1), number(along.least(k)), number(along.largest(k))});
+    table.rows.push_back({std::to_string(k + 1), fine(along.least(k)), fine(along.largest(k))});
   const auto percent = [&](std::size_t n) {
     return 100 * static_cast<double>(n) /
            static_cast<double>(std::max<std::size_t>(1, along.n_samples));
@@ -89,7 +87,7 @@ Table along_table(const StiffnessAlong& along, const Units& units) {
   table.notes = {
       fmt::format("eigenvalues of d tau_m/d theta: {} .. {} {}; all cables taut in {:.1f} "
                   "% of {} samples, passive in {:.1f} %",
-                  number(along.least_eigenvalue), number(along.largest_eigenvalue), units.stiffness,
+                  fine(along.least_eigenvalue), fine(along.largest_eigenvalue), units.stiffness,
                   percent(along.n_closure), along.n_samples, percent(along.n_passive))};
   return table;
 }
@@ -103,8 +101,8 @@ Table balance_table(const Balance& balance, const Units& units) {
                    {"in equilibrium", "l_o", units.elongation},
                    {"in equilibrium", "tension", units.tension}};
   for (const BalancedCable& cable : balance.cables)
-    table.rows.push_back({cable.name, number(1e3 * cable.l_o), number(cable.tension),
-                          number(1e3 * cable.balanced_l_o), number(cable.balanced_tension)});
+    table.rows.push_back({cable.name, fine(1e3 * cable.l_o), fine(cable.tension),
+                          fine(1e3 * cable.balanced_l_o), fine(cable.balanced_tension)});
   table.notes = {fmt::format("now the preload alone makes {} {} on the link and {} {} on the motor",
                              numbers(balance.link), units.torque, numbers(balance.motor),
                              units.torque)};

@@ -11,10 +11,6 @@
 namespace cablefit {
 namespace {
 
-constexpr int kDigits = 3;
-
-std::string number(double value) { return significant(value, kDigits); }
-
 std::string torque_unit_of(const DynamicResult& result) {
   return torque_unit(axes_of(result.preloads));
 }
@@ -73,8 +69,8 @@ Table summary_table(const DynamicResult& result) {
       if (e.conditions.empty()) continue;
       const ConditionError& all = e.conditions.front();
       const ConditionError* worst = worst_of(e);
-      table.rows.push_back({preload.name, e.model, e.equation, number(all.rms), number(all.fitted),
-                            number(all.floor), all.verdict,
+      table.rows.push_back({preload.name, e.model, e.equation, short_number(all.rms),
+                            short_number(all.fitted), short_number(all.floor), all.verdict,
                             worst == nullptr ? kNoNumber : condition_text(*worst)});
     }
   }
@@ -84,9 +80,10 @@ Table summary_table(const DynamicResult& result) {
 void add_conditions(Table& table, const DynamicPreload& preload, const JudgedEquation& e) {
   for (const ConditionError& c : e.conditions)
     table.rows.push_back({preload.name, e.model, e.equation, c.condition, c.value,
-                          std::to_string(c.n_rows), number(c.rms), number(c.mean),
-                          number(c.max_abs), number(100 * c.relative), number(c.fitted),
-                          number(c.linear), number(c.zero), number(c.floor), c.verdict});
+                          std::to_string(c.n_rows), short_number(c.rms), short_number(c.mean),
+                          short_number(c.max_abs), short_number(100 * c.relative),
+                          short_number(c.fitted), short_number(c.linear), short_number(c.zero),
+                          short_number(c.floor), c.verdict});
 }
 
 Table test_table(const std::string& title) {
@@ -198,9 +195,9 @@ std::vector<std::string> validation_warnings(const DynamicPreload& preload) {
         "{}, {} equation: {} on held-out logs: {} instead of {} {} rms; worst: "
         "{}{}, {} instead of {} {}",
         e.model, e.equation, e.conditions.front().fails ? "fails" : "is worse in places",
-        number(e.conditions.front().rms), number(e.conditions.front().fitted), unit,
-        worst->condition, worst->value.empty() ? "" : " " + worst->value, number(worst->rms),
-        number(worst->fitted), unit));
+        short_number(e.conditions.front().rms), short_number(e.conditions.front().fitted), unit,
+        worst->condition, worst->value.empty() ? "" : " " + worst->value, short_number(worst->rms),
+        short_number(worst->fitted), unit));
   }
   return warnings;
 }

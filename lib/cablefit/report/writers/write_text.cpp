@@ -9,7 +9,7 @@
 namespace cablefit {
 namespace {
 
-std::string decision_text(const DecisionLine& line) {
+std::string decision_lines(const DecisionLine& line) {
   std::string text = where_text(line) + line.name + " = " + line.value;
   if (!line.reason.empty()) text += " (" + line.reason + ")";
   return wrapped("  ", printable(text), 4);
@@ -54,7 +54,7 @@ std::string write_text(const Document& document) {
   if (!document.decisions.empty()) {
     begin_block();
     text += "Choices\n";
-    for (const DecisionLine& line : document.decisions) text += decision_text(line);
+    for (const DecisionLine& line : document.decisions) text += decision_lines(line);
   }
   if (!document.warnings.empty()) begin_block();
   for (const std::string& warning : document.warnings) {

@@ -15,11 +15,11 @@ constexpr double kOtherUnit =
 
 constexpr double kNoSlope = 0.3;     // of a log that only seems blocked
 constexpr double kDeadRange = 0.05;  // rad; less is a deflection
-constexpr Eigen::Index kFewBlocks = 50;
+constexpr Eigen::Index kFewSamples = 50;
 
 /// The link was taken for blocked since q stands still, but tau does not follow theta.
 bool has_dead_q(const PartSurvey& survey, const CoarsePart::Joint& joint, const CoarseLine& line) {
-  return !survey.phase_given && joint.tau.size() > kFewBlocks &&
+  return !survey.phase_given && joint.tau.size() > kFewSamples &&
          std::abs(line.correlation) < kNoSlope && coarse_range(joint.theta) > kDeadRange;
 }
 

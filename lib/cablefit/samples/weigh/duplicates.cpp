@@ -7,13 +7,13 @@
 namespace cablefit::weighing {
 namespace {
 
-constexpr double kRounding = 1e-6;  // of the range: another number of digits
+constexpr double kSameDigits = 1e-6;  // of the range: another number of digits
 
 bool same_values(const Eigen::ArrayXd& a, const Eigen::ArrayXd& b) {
   if (a.size() != b.size()) return false;
   if (a.size() == 0) return true;
   const double range = coarse_range(a);
-  return ((a - b).abs() <= kRounding * range).all();
+  return ((a - b).abs() <= kSameDigits * range).all();
 }
 
 /// A channel that stands still says nothing; one that moves must be there.

@@ -8,15 +8,13 @@
 #include <span>
 
 #include "cablefit/samples/weigh/checks.hpp"
+#include "cablefit/samples/weigh/limits.hpp"
 #include "cablefit/samples/weigh/stiff_motors.hpp"
 
 namespace cablefit::weighing {
 namespace {
 
-constexpr double kFollows = 0.95;                  // correlation of theta and q of one joint
-constexpr double kLowRatio = 0.5, kHighRatio = 2;  // stretch and resonance stay within
-constexpr double kSameUnit = 0.03;                 // relative deviation from a unit's factor
-constexpr double kMostTurns = 2;                   // of a link that cables hold
+constexpr double kMostTurns = 2;  // of a link that cables hold
 constexpr double kOddTurns = 1;
 constexpr double kMostDeflection = 2;  // rad, against a blocked link
 constexpr double kLinkMoves = 0.05;  // rad; the compliance of what blocks a link lets it move less
@@ -27,8 +25,6 @@ constexpr double kSine = 0.95;  // correlation of a position and its acceleratio
 constexpr double kStandsOut = 0.2;
 constexpr double kSameMotion = 0.995;  // correlation of a link that only looks blocked
 constexpr double kStandsStill = 0.02;  // of the other position's range
-constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr Eigen::Index kFewBlocks = 20;
 
 struct UnitRatio {
   double ratio;

@@ -1,17 +1,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "cablefit/samples/weigh/checks.hpp"
+#include "cablefit/samples/weigh/limits.hpp"
 
 namespace cablefit::weighing {
 namespace {
-
-constexpr double kFollows = 0.95;  // correlation of theta and its reference
-constexpr double kLowRatio = 0.5, kHighRatio = 2;
-constexpr double kSameUnit = 0.03;  // relative deviation from a unit's factor
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 /// Odd only: a controller's reference need not be theta's.
 Finding odd_reference(const LogPlan& plan, const CoarsePart& part, int joint,

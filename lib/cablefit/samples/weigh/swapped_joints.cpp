@@ -6,16 +6,15 @@
 #include <utility>
 
 #include "cablefit/samples/weigh/checks.hpp"
+#include "cablefit/samples/weigh/limits.hpp"
 #include "cablefit/samples/weigh/stiff_motors.hpp"
 
 namespace cablefit::weighing {
 namespace {
 
-constexpr double kFollows = 0.95;  // correlation of theta and q of one joint
 // Elastic cables, friction and other joints lower the correlation of joints that are not swapped:
 // the swap has to explain at least this many times as much of the motion that is left.
 constexpr double kFarBetter = 5;
-constexpr Eigen::Index kFewBlocks = 20;
 
 /// Correlation of the motors of two joints with where stiff cables would have them.
 using Pair = std::array<double, 2>;
