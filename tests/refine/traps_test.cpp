@@ -84,6 +84,7 @@ TEST_CASE("draws follow the motion where the rig's loop would not", "[refine][tr
   };
   CHECK_FALSE(follows(1));
   CHECK(follows(0.1));
+  CHECK(follows(1e4));  // not stable
 }
 
 /// rms of what theta - q does around 33 Hz: second differences over 15 ms.

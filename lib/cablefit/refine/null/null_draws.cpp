@@ -107,6 +107,17 @@ struct CopiedLogs {
   int threads;
 };
 
+/// Nothing where the loop is not stable.
+template <typename Run>
+std::optional<std::vector<SimulationResult>> if_stable(Run run) {
+  try {
+    return run();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::not_identifiable) throw;
+    return {};
+  }
+}
+
 /// The copy follows the measured motion where the rig's controller does not move it so: `follows`.
 PreloadCopy make_preload_copy(const CopiedLogs& of, std::size_t m, bool* follows) {
   const Model& model = of.models[m];
@@ -123,14 +134,14 @@ PreloadCopy make_preload_copy(const CopiedLogs& of, std::size_t m, bool* follows
     Random calibration(1, kCalibration);
     return run_copy(copy.copy, {}, calibration, of.threads);
   };
-  auto motions = run(false);
+  auto motions = if_stable([&] { return run(false); });
   const std::vector<LogPlan>& plans = copy.copy.plans;
   const bool has_controller = std::any_of(plans.begin(), plans.end(), has_reference);
-  if (has_controller && !move_alike(copy.copy, motions, model.joint, of.smoothing)) {
+  if (!motions || (has_controller && !move_alike(copy.copy, *motions, model.joint, of.smoothing))) {
     motions = run(true);
     *follows = true;
   }
-  choose_sensors(copy.copy, motions);
+  choose_sensors(copy.copy, *motions);
   for (std::size_t k = 0; k < of.logs.size(); ++k)
     if (std::any_of(copy.copy.stretches.begin(), copy.copy.stretches.end(),
                     [k](const CopyStretch& stretch) { return stretch.log == k; }))
