@@ -3,17 +3,11 @@
 // effect on another. Internal to refine/.
 #pragma once
 
-#include <functional>
 #include <span>
 
-#include "cablefit/refine/refine_options.hpp"
-#include "cablefit/refine/refine_result.hpp"
+#include "cablefit/refine/joint_run.hpp"
 
 namespace cablefit {
-
-/// Refines models of one joint each.
-using RefineOne =
-    std::function<RefineResult(std::span<const Model>, const RefineLogs&, const RefineOptions&)>;
 
 /// Refines one joint after the other. The significance level of each joint is the given one over
 /// their number (Bonferroni 1936). A joint that cannot be refined does not stop the others. An

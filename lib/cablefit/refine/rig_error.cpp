@@ -39,6 +39,66 @@ double test_excess(const std::vector<RefineResult>& of, const std::vector<Refine
   return sum;
 }
 
+std::size_t n_effects(const std::vector<RefineResult>& joints) {
+  std::size_t n = 0;
+  for (const RefineResult& joint : joints) n += joint.effects.size();
+  return n;
+}
+
+/// What the right values change and leave, larger than the noise: something else is missing, or the
+/// value takes the place of others that are wrong.
+bool leaves_unexplained(const std::vector<RefineResult>& given,
+                        const std::vector<RefineResult>& right) {
+  constexpr double kChanged = 0.02, kTwiceTheNoise = 2;
+  for (std::size_t k = 0; k < given.size(); ++k)
+    if (is_done(given[k]) && right[k].rho_after > kTwiceTheNoise &&
+        std::abs(right[k].rho_before - given[k].rho_before) > kChanged * given[k].rho_before)
+      return true;
+  return false;
+}
+
+/// The gap of joints that could be refined with the given values.
+struct Left {
+  double same = 0;   ///< what counts as no gap
+  double given = 0;  ///< after the effects that were found with the given values
+
+  explicit Left(const std::vector<RefineResult>& results)
+      : same(kSame * excess(results, results, &RefineResult::rho_before)),
+        given(excess(results, results, &RefineResult::rho_after)) {}
+  bool is_none() const { return given <= 2 * same; }
+
+ private:
+  static constexpr double kSame = 0.02;
+};
+
+bool is_rival(const RigError& error, const Rival& rival) {
+  return error.name == rival.name && to_string(error.instance.effect->site) == rival.side &&
+         *error.joint + 1 == rival.joint;
+}
+
+/// `is_only`: no other value is wrong, so that the results of refine show what this one does.
+NamedEffect named_effect(const RigError& error, bool is_only,
+                         const std::vector<RefineResult>& given,
+                         const std::vector<RefineResult>& right) {
+  NamedEffect effect;
+  effect.instance = error.instance;
+  effect.derived = error.given;
+  effect.rivals = error.rivals;
+  const auto joint = static_cast<std::size_t>(*error.joint);
+  effect.joint = static_cast<int>(joint) + 1;
+  const double before = test_excess(given, right), after = test_excess(right, given);
+  effect.evidence.gain = is_only && before > 0 ? 1 - after / before : error.share;
+  effect.evidence.p_value = error.chance;
+  effect.evidence.inclusion = 1;
+  const RefineResult &own_given = given[joint], &own = right[joint];
+  effect.evidence.rho_before = is_done(own_given) ? own_given.rho_before : own.rho_before;
+  effect.evidence.rho_after = own.rho_before;
+  if (is_only && own_given.torque.known && own.torque.known)
+    effect.torque_rms = std::sqrt(std::max(
+        0.0, std::pow(own_given.torque.test_before, 2) - std::pow(own.torque.test_before, 2)));
+  return effect;
+}
+
 /// The gaps of a joint before are those with the values of the rig file.
 void take_before(const RefineResult& given, RefineResult& right) {
   if (!is_done(given) || !is_done(right)) return;
@@ -86,20 +146,38 @@ bool take_arm(const RefineLogs& logs, int threads, std::vector<Model>& models) {
   }
 }
 
-bool is_explained(const std::vector<RefineResult>& given, const std::vector<RefineResult>& right) {
-  constexpr double kSame = 0.02;  // of the gap
-  for (std::size_t k = 0; k < given.size(); ++k)
+bool RigErrorSearch::has(std::string_view name, Site site, std::optional<int> joint) const {
+  return std::any_of(found.begin(), found.end(), [&](const RigError* error) {
+    return error->name == name && error->instance.effect->site == site &&
+           (!joint || error->joint == joint);
+  });
+}
+
+bool may_explain(const std::vector<RefineResult>& given, std::size_t n_errors) {
+  return n_errors == 1 || n_errors <= n_effects(given) || !Left(given).is_none() ||
+         !std::all_of(given.begin(), given.end(), is_done);
+}
+
+bool is_explained(const std::vector<RefineResult>& given, const std::vector<RefineResult>& right,
+                  std::size_t n_errors) {
+  bool any_opened = false;
+  for (std::size_t k = 0; k < given.size(); ++k) {
     if (is_done(given[k]) && !is_done(right[k])) return false;
-  const auto n_effects = [](const std::vector<RefineResult>& joints) {
-    std::size_t n = 0;
-    for (const RefineResult& joint : joints) n += joint.effects.size();
-    return n;
-  };
-  const bool is_simpler = n_effects(right) + 1 <= n_effects(given);
-  const double before = excess(given, given, &RefineResult::rho_before);
-  const double left = excess(given, given, &RefineResult::rho_after) + kSame * before;
-  return excess(right, given, &RefineResult::rho_before) <= left ||
-         (is_simpler && excess(right, given, &RefineResult::rho_after) <= left);
+    if (is_done(given[k]) || !is_done(right[k])) continue;
+    if (right[k].verdict == Verdict::unexplained) return false;
+    any_opened = true;
+  }
+  if (leaves_unexplained(given, right)) return false;
+  const Left shown(given);
+  const double left = excess(right, given, &RefineResult::rho_after);
+  // With the given values a joint could not even be refined.
+  if (any_opened) return left <= shown.given + shown.same;
+  if (n_effects(right) + n_errors <= n_effects(given) && left <= shown.given + shown.same)
+    return true;
+  if (n_errors == 1)
+    return excess(right, given, &RefineResult::rho_before) <= shown.given + shown.same;
+  // Several right values fit more: they count where effects alone leave a gap and these do not.
+  return left <= shown.same && !shown.is_none() && n_effects(right) <= n_effects(given);
 }
 
 int listing_joint(const RigError& error, const std::vector<RefineResult>& given,
@@ -117,30 +195,25 @@ int listing_joint(const RigError& error, const std::vector<RefineResult>& given,
   return most;
 }
 
-void name_rig_error(const RigError& error, const std::vector<RefineResult>& given,
-                    std::vector<RefineResult>& right) {
-  NamedEffect effect;
-  effect.instance = error.instance;
-  effect.derived = error.given;
-  effect.rivals = error.rivals;
-  const int joint = listing_joint(error, given, right);
-  effect.joint = joint + 1;
-  const double before = test_excess(given, right), after = test_excess(right, given);
-  effect.evidence.gain = before > 0 ? 1 - after / before : error.share;
-  effect.evidence.p_value = error.chance;
-  effect.evidence.inclusion = 1;
-  RefineResult& own = right[static_cast<std::size_t>(joint)];
-  const RefineResult& own_given = given[static_cast<std::size_t>(joint)];
-  effect.evidence.rho_before = is_done(own_given) ? own_given.rho_before : own.rho_before;
-  effect.evidence.rho_after = own.rho_before;
-  if (own_given.torque.known && own.torque.known)
-    effect.torque_rms = std::sqrt(std::max(
-        0.0, std::pow(own_given.torque.test_before, 2) - std::pow(own.torque.test_before, 2)));
+void name_rig_errors(const std::vector<RigError>& errors, const std::vector<RefineResult>& given,
+                     std::vector<RefineResult>& right) {
+  std::vector<NamedEffect> effects;
+  for (const RigError& error : errors) {
+    effects.push_back(named_effect(error, errors.size() == 1, given, right));
+    std::erase_if(effects.back().rivals, [&](const Rival& rival) {
+      return std::any_of(errors.begin(), errors.end(),
+                         [&](const RigError& other) { return is_rival(other, rival); });
+    });
+  }
   for (std::size_t k = 0; k < right.size(); ++k) take_before(given[k], right[k]);
-  own.reason = own.verdict == Verdict::none ? error.reason : error.reason + "; " + own.reason;
-  if (!effect.rivals.empty()) own.next_experiment = effect.instance.effect->experiment;
-  own.effects.insert(own.effects.begin(), std::move(effect));
-  own.verdict = verdict_by_rivals(own);
+  for (std::size_t k = errors.size(); k-- > 0;) {
+    RefineResult& own = right[static_cast<std::size_t>(effects[k].joint - 1)];
+    const std::string& reason = errors[k].reason;
+    own.reason = own.verdict == Verdict::none ? reason : reason + "; " + own.reason;
+    if (!effects[k].rivals.empty()) own.next_experiment = effects[k].instance.effect->experiment;
+    own.effects.insert(own.effects.begin(), std::move(effects[k]));
+    own.verdict = verdict_by_rivals(own);
+  }
 }
 
 }  // namespace cablefit

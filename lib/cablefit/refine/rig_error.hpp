@@ -3,10 +3,12 @@
 // model/catalogue/rig_errors.cpp. Internal to refine/.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cablefit/refine/refine_options.hpp"
@@ -14,7 +16,10 @@
 
 namespace cablefit {
 
+struct RigErrorSearch;
+
 struct RigError {
+  std::string name;                  ///< as that of a rival: "cable_radius[flexor]"
   EffectInstance instance;           ///< the right values; its row is one of rig_errors()
   std::vector<Estimate> given;       ///< the values of the rig file
   std::function<void(Rig&)> change;  ///< gives a rig the right values
@@ -24,6 +29,9 @@ struct RigError {
   double share = 0;                  ///< of the squared residual that the right values remove
   std::vector<Rival> rivals = {};    ///< errors that explain the logs as well
   std::string reason;                ///< for the verdict
+  /// The same value again, where `given` of the search has it and others right. Nothing where it
+  /// is not determined.
+  std::function<std::optional<RigError>(const RigErrorSearch&)> again = {};
 };
 
 /// What the search for such an error starts from.
@@ -33,6 +41,10 @@ struct RigErrorSearch {
   const RefineLogs& logs;
   double significance = 0;
   int threads = 1;
+  std::span<const RigError* const> found = {};  ///< their values are right in `given`
+
+  /// Whether this error is found. `joint`: none where there is one for all joints.
+  bool has(std::string_view name, Site site, std::optional<int> joint) const;
 };
 
 /// Errors that are significant, by the share of the residual that they remove, largest first.
@@ -48,16 +60,20 @@ RefineLogs with_rig(RefineLogs logs, const std::function<void(Rig&)>& change);
 /// determines all of them. False: the logs do not determine them, and the models are as before.
 bool take_arm(const RefineLogs& logs, int threads, std::vector<Model>& models);
 
-/// Whether the right values explain the logs as well as the effects that were identified with the
-/// given ones. `given`, `right`: results of each joint with either.
-bool is_explained(const std::vector<RefineResult>& given, const std::vector<RefineResult>& right);
+/// Whether right values of so many errors could be the answer at all, whatever they leave.
+bool may_explain(const std::vector<RefineResult>& given, std::size_t n_errors);
+
+/// Whether the right values of so many errors explain the logs as well as the effects that were
+/// identified with the given ones. `given`, `right`: results of each joint with either.
+bool is_explained(const std::vector<RefineResult>& given, const std::vector<RefineResult>& right,
+                  std::size_t n_errors);
 
 /// The joint (from 0) whose result lists the error.
 int listing_joint(const RigError& error, const std::vector<RefineResult>& given,
                   const std::vector<RefineResult>& right);
 
-/// Adds the error to the results with the right values. Gaps before are those with the given ones.
-void name_rig_error(const RigError& error, const std::vector<RefineResult>& given,
-                    std::vector<RefineResult>& right);
+/// Adds the errors to the results with all right values. Gaps before are those with the given ones.
+void name_rig_errors(const std::vector<RigError>& errors, const std::vector<RefineResult>& given,
+                     std::vector<RefineResult>& right);
 
 }  // namespace cablefit

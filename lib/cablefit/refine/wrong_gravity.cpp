@@ -113,6 +113,7 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
+constexpr const char* kName = "gravity_direction";
 constexpr std::array kComponents = {'x', 'y', 'z'};
 
 std::vector<Estimate> components(const std::string& name, const Eigen::Vector3d& gravity) {
@@ -127,8 +128,7 @@ std::vector<Estimate> components(const std::string& name, const Eigen::Vector3d&
 }
 
 EffectInstance instance_of(const Direction& right) {
-  EffectInstance instance{&rig_error_row("gravity_direction", Site::link),
-                          components("g", right.gravity)};
+  EffectInstance instance{&rig_error_row(kName, Site::link), components("g", right.gravity)};
   Eigen::Matrix<double, 3, 2> slope;  // of the components, per radian
   for (Eigen::Index k = 0; k < 2; ++k) slope.col(k) = right.last.axes.col(k).cross(right.gravity);
   const Eigen::Matrix3d covariance = slope * right.last.covariance * slope.transpose();
@@ -140,34 +140,48 @@ EffectInstance instance_of(const Direction& right) {
   return instance;
 }
 
-}  // namespace
-
-std::optional<RigError> wrong_gravity(const RigErrorSearch& search) {
+/// `given`: in the rig file. Nothing where the logs do not determine the masses with either.
+std::optional<RigError> error_of(const RigErrorSearch& search, const Eigen::Vector3d& given,
+                                 const Direction& right) {
   constexpr double kDegree = 57.295779513082323;
   constexpr int kAngles = 2;
-  if (!has_gravity(search.fitted.front().rig)) return {};
-  const Eigen::Vector3d given = gravity_of(search.fitted.front().rig);
   const auto given_fit = fit_at(search, given);
-  if (!given_fit) return {};
-  const auto right = least_near(search, best_start(search, given, given_fit->fit));
-  if (!right) return {};
-  const double angle = angle_between(given, right->gravity), sd = sd_towards(*right, given);
+  auto right_fit = fit_at(search, right.gravity);
+  if (!given_fit || !right_fit) return {};
+  const double angle = angle_between(given, right.gravity), sd = sd_towards(right, given);
   RigError error;
-  error.chance = std::min(1.0, kAngles * t_tail(angle / sd, right->last.dof));
-  if (!(error.chance < search.significance)) return {};
-  auto right_fit = fit_at(search, right->gravity);
-  if (!right_fit) return {};
+  error.name = kName;
+  error.chance = std::min(1.0, kAngles * t_tail(angle / sd, right.last.dof));
   const double before = squares_of(given_fit->fit, right_fit->fit);
   if (before > 0)
     error.share = std::max(0.0, 1 - squares_of(right_fit->fit, right_fit->fit) / before);
-  error.change = change_to(right->gravity);
+  error.change = change_to(right.gravity);
   error.models = std::move(right_fit->models);
-  error.instance = instance_of(*right);
+  error.instance = instance_of(right);
   error.given = components("given", given);
   error.reason = fmt::format(
       "the weight of the links shows gravity {:.3g} deg (sd {:.1g} deg) from the direction in the "
       "rig file",
       kDegree * angle, kDegree * sd);
+  error.again = [given,
+                 gravity = right.gravity](const RigErrorSearch& other) -> std::optional<RigError> {
+    const auto anew = least_near(other, gravity);
+    return anew ? error_of(other, given, *anew) : std::nullopt;
+  };
+  return error;
+}
+
+}  // namespace
+
+std::optional<RigError> wrong_gravity(const RigErrorSearch& search) {
+  if (!has_gravity(search.fitted.front().rig) || search.has(kName, Site::link, {})) return {};
+  const Eigen::Vector3d given = gravity_of(search.fitted.front().rig);
+  const auto given_fit = fit_at(search, given);
+  if (!given_fit) return {};
+  const auto right = least_near(search, best_start(search, given, given_fit->fit));
+  if (!right) return {};
+  auto error = error_of(search, given, *right);
+  if (!error || !(error->chance < search.significance)) return {};
   return error;
 }
 

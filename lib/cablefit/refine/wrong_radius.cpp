@@ -169,19 +169,41 @@ bool is_as_good(const Fitted& one, const Fitted& best) {
   return difference.in_sd() < kSameSd || difference.sum < kSameShare * best.given;
 }
 
+const Effect& row_of(const Pulley& pulley) {
+  return rig_error_row("cable_radius", site_of(pulley.side));
+}
+
+/// "radius[flexor]".
+std::string with_cable(std::string_view name, const Pulley& pulley, const Model& model) {
+  return fmt::format("{}[{}]", name, model.transmission.cables[pulley.cable].name);
+}
+
+/// "cable_radius[flexor]".
+std::string name_of(const Pulley& pulley, const Model& model) {
+  return with_cable(row_of(pulley).name, pulley, model);
+}
+
 struct WrongRadius {
   Pulley pulley;
   double given = 0, radius = 0, sd = 0;  ///< m, signed
   double dof = 1;                        ///< of the t distribution of the radius
-  double chance = 1;
+  std::size_t n_tried = 1;
   double share = 0;            ///< on held-out blocks
   std::vector<Pulley> rivals;  ///< whose radius explains the logs as well
+
+  /// That the radius differs so much where it is right, of as many as were tried.
+  double chance() const {
+    return std::min(1.0, static_cast<double>(n_tried) * t_tail(std::abs(radius - given) / sd, dof));
+  }
 };
 
 /// The pulley whose radius explains most. Nothing where none is significant.
 std::optional<WrongRadius> best_radius(const RigErrorSearch& search) {
   const std::vector<Model>& models = search.fitted;
-  const std::vector<Pulley> pulleys = pulleys_of(models.front());
+  std::vector<Pulley> pulleys = pulleys_of(models.front());
+  std::erase_if(pulleys, [&](const Pulley& pulley) {
+    return search.has(name_of(pulley, models.front()), site_of(pulley.side), pulley.joint);
+  });
   if (pulleys.empty()) return {};
   const RadiusFit fit(models, search.logs);
   const std::vector<Promise> promises = most_promising(fit, pulleys);
@@ -198,12 +220,11 @@ std::optional<WrongRadius> best_radius(const RigErrorSearch& search) {
   wrong.radius = wrong.given + best->change;
   wrong.sd = best->near.sd;
   wrong.dof = best->near.dof;
-  wrong.chance = std::min(1.0, static_cast<double>(promises.size()) *
-                                   t_tail(std::abs(best->change) / wrong.sd, wrong.dof));
+  wrong.n_tried = promises.size();
   wrong.share = best->fall() / best->given;
   for (const Fitted& one : found)
     if (&one != best && is_as_good(one, *best)) wrong.rivals.push_back(one.pulley);
-  if (!(wrong.chance < search.significance)) return {};
+  if (!(wrong.chance() < search.significance)) return {};
   return wrong;
 }
 
@@ -252,15 +273,6 @@ std::vector<Model> with_right_radius(const RigErrorSearch& search, WrongRadius& 
   return models;
 }
 
-const Effect& row_of(const Pulley& pulley) {
-  return rig_error_row("cable_radius", site_of(pulley.side));
-}
-
-/// "radius[flexor]".
-std::string with_cable(std::string_view name, const Pulley& pulley, const Model& model) {
-  return fmt::format("{}[{}]", name, model.transmission.cables[pulley.cable].name);
-}
-
 Estimate radius_estimate(std::string_view name, double value, const Pulley& pulley,
                          const Model& model) {
   Estimate e;
@@ -275,7 +287,7 @@ std::vector<Rival> rivals_of(const WrongRadius& wrong, const Model& model) {
   for (const Pulley& pulley : wrong.rivals) {
     const Effect& row = row_of(pulley);
     Rival& rival = rivals.emplace_back();
-    rival.name = with_cable(row.name, pulley, model);
+    rival.name = name_of(pulley, model);
     rival.side = to_string(row.site);
     rival.gain = wrong.share;
     rival.experiment = row.experiment;
@@ -292,28 +304,57 @@ std::string reason_of(const WrongRadius& wrong, const Model& model) {
       1e3 * wrong.radius, 1e6 * wrong.sd, 1e3 * wrong.given);
 }
 
+/// Those that still explain the logs as well where other values of the rig are right.
+std::vector<Pulley> rivals_left(const RigErrorSearch& search, const WrongRadius& wrong) {
+  if (wrong.rivals.empty()) return {};
+  const RadiusFit fit(
+      with_radius({search.given.begin(), search.given.end()}, wrong.pulley, wrong.given),
+      search.logs);
+  const auto of = [&](const Pulley& pulley) {
+    const auto promise = promise_of(fit, pulley);
+    return promise ? fitted(fit, *promise) : std::nullopt;
+  };
+  const auto own = of(wrong.pulley);
+  std::vector<Pulley> left;
+  for (const Pulley& pulley : wrong.rivals) {
+    const auto other = of(pulley);
+    if (!own || !other || is_as_good(*other, *own)) left.push_back(pulley);
+  }
+  return left;
+}
+
+/// `wrong`: begun with, and fitted again with what is given.
+RigError error_of(const RigErrorSearch& search, WrongRadius wrong) {
+  RigError error;
+  error.name = name_of(wrong.pulley, search.given.front());
+  error.models = with_right_radius(search, wrong);
+  error.change = change_of(wrong);
+  const Model& model = error.models.front();
+  const Effect& row = row_of(wrong.pulley);
+  Estimate radius = radius_estimate(row.parameters.front().name, wrong.radius, wrong.pulley, model);
+  radius.sd = wrong.sd;
+  set_interval(radius, wrong.dof);
+  error.instance = {&row, {radius}};
+  error.given = {radius_estimate("given", wrong.given, wrong.pulley, model)};
+  error.joint = wrong.pulley.joint;
+  error.chance = wrong.chance();
+  error.share = wrong.share;
+  error.rivals = rivals_of(wrong, model);
+  error.reason = reason_of(wrong, model);
+  error.again = [wrong](const RigErrorSearch& other) {
+    WrongRadius anew = wrong;
+    anew.rivals = rivals_left(other, wrong);
+    return error_of(other, std::move(anew));
+  };
+  return error;
+}
+
 }  // namespace
 
 std::optional<RigError> wrong_radius(const RigErrorSearch& search) {
   auto wrong = best_radius(search);
   if (!wrong) return {};
-  RigError error;
-  error.models = with_right_radius(search, *wrong);
-  error.change = change_of(*wrong);
-  const Model& model = error.models.front();
-  const Effect& row = row_of(wrong->pulley);
-  Estimate radius =
-      radius_estimate(row.parameters.front().name, wrong->radius, wrong->pulley, model);
-  radius.sd = wrong->sd;
-  set_interval(radius, wrong->dof);
-  error.instance = {&row, {radius}};
-  error.given = {radius_estimate("given", wrong->given, wrong->pulley, model)};
-  error.joint = wrong->pulley.joint;
-  error.chance = wrong->chance;
-  error.share = wrong->share;
-  error.rivals = rivals_of(*wrong, model);
-  error.reason = reason_of(*wrong, model);
-  return error;
+  return error_of(search, *std::move(wrong));
 }
 
 }  // namespace cablefit

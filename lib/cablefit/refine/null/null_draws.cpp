@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/copies/simulated_copy.hpp"
@@ -105,11 +106,12 @@ struct CopiedLogs {
   const PartFilter& wanted;
   const Smoothing& smoothing;
   int threads;
+  bool may_diverge = false;  ///< then the copies follow the measured motion
 };
 
 /// Nothing where the loop is not stable.
 template <typename Run>
-std::optional<std::vector<SimulationResult>> if_stable(Run run) {
+auto if_stable(Run run) -> std::optional<decltype(run())> {
   try {
     return run();
   } catch (const Error& error) {
@@ -134,7 +136,8 @@ PreloadCopy make_preload_copy(const CopiedLogs& of, std::size_t m, bool* follows
     Random calibration(1, kCalibration);
     return run_copy(copy.copy, {}, calibration, of.threads);
   };
-  auto motions = if_stable([&] { return run(false); });
+  std::optional<std::vector<SimulationResult>> motions =
+      of.may_diverge ? if_stable([&] { return run(false); }) : run(false);
   const std::vector<LogPlan>& plans = copy.copy.plans;
   const bool has_controller = std::any_of(plans.begin(), plans.end(), has_reference);
   if (!motions || (has_controller && !move_alike(copy.copy, *motions, model.joint, of.smoothing))) {
@@ -168,18 +171,23 @@ NullBench::NullBench(std::span<const Model> models, std::span<const LogSurvey> l
     parts_->blocked = make_blocked_copy(parts_->models, std::move(all), smoothing);
     return;
   }
-  try {
-    parts_->copies = make_copies({models, logs, wanted, smoothing, threads}, &parts_->follows);
-  } catch (const Error& error) {
-    // A loop at the rate of a slow blocked log need not be stable. What is left moves.
-    std::erase_if(all, [](const Stretch& stretch) { return !stretch.blocked; });
-    if (error.kind() != ErrorKind::not_identifiable || all.empty()) throw;
-    parts_->blocked = make_blocked_copy(parts_->models, std::move(all), smoothing);
-    const PartFilter moving = [&](const PartSurvey& part) {
-      return wanted(part) && part.phase != Phase::blocked;
-    };
-    parts_->copies = make_copies({models, logs, moving, smoothing, threads}, &parts_->follows);
+  const CopiedLogs of{models, logs, wanted, smoothing, threads};
+  if (auto copies = if_stable([&] { return make_copies(of, &parts_->follows); })) {
+    parts_->copies = *std::move(copies);
+    return;
   }
+  // A loop at the rate of a slow blocked log need not be stable. What is left moves.
+  const PartFilter moving = [&](const PartSurvey& part) {
+    return wanted(part) && part.phase != Phase::blocked;
+  };
+  const CopiedLogs of_moving{models, logs, moving, smoothing, threads};
+  std::erase_if(all, [](const Stretch& stretch) { return !stretch.blocked; });
+  auto copies = all.empty() ? std::nullopt
+                            : if_stable([&] { return make_copies(of_moving, &parts_->follows); });
+  if (!all.empty()) parts_->blocked = make_blocked_copy(parts_->models, std::move(all), smoothing);
+  CopiedLogs diverging = of_moving;
+  diverging.may_diverge = true;
+  parts_->copies = copies ? *std::move(copies) : make_copies(diverging, &parts_->follows);
 }
 
 NullBench::~NullBench() = default;

@@ -52,7 +52,7 @@ class NullBench {
 
   /// Whether the draws follow the measured motion. They do where the rig's controller with the
   /// logs' reference does not move the model as the robot moved, for example because a torque was
-  /// added to its command.
+  /// added to its command, or where the loop is not stable.
   bool follows() const;
 
   /// One draw as logs, by model.
