@@ -276,6 +276,21 @@ std::string story_of(const RefineResult& result) {
   return story;
 }
 
+TEST_CASE("what several joints show has no share of resamples") {
+  RefineResult r = named();
+  RefineEvidence& evidence = r.effects.front().evidence;
+  evidence.inclusion = kNone;
+  evidence.n_draws = 0;
+  evidence.is_beside_others = true;
+  const std::string text = write_text(on_screen(refine_document(r, kFiles)));
+  CHECK(text.find("removes 24 % of the squared residual on held-out data, the other values right; "
+                  "p") != std::string::npos);
+  CHECK(text.find("the best in") == std::string::npos);
+  const json j = json::parse(refine_json(r, kFiles));
+  CHECK(j["effects"][0]["evidence"]["inclusion"].is_null());
+  CHECK(test::schema_errors("refine", refine_json(r, kFiles)) == "");
+}
+
 TEST_CASE("parameters that do not move are one line, not a table") {
   RefineResult r = named();
   CHECK_THAT(story_of(r), !Catch::Matchers::Contains("no parameter moved"));

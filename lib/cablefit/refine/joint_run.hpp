@@ -34,6 +34,8 @@ struct JointRun {
   }
 };
 
+/// Refines one joint after the other, those that hold cables last. A joint that cannot be refined
+/// does not stop the others. `given`: models of all joints, one per preload.
 JointRun run_joints(std::span<const Model> given, const RefineLogs& logs,
                     const RefineOptions& options, const RefineOne& refine_one);
 

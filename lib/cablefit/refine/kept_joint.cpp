@@ -11,6 +11,7 @@
 #include "cablefit/refine/rows/physical_values.hpp"
 #include "cablefit/refine/rows/refined_model.hpp"
 #include "cablefit/refine/steps/elastic_stage.hpp"
+#include "cablefit/refine/undetermined.hpp"
 
 namespace cablefit {
 namespace {
@@ -29,14 +30,11 @@ std::optional<KeptBase> base_of(const std::vector<Model>& models, const RefineLo
 }  // namespace
 
 std::optional<BaseFit> base_fit_of(const std::vector<Model>& models, const RefineLogs& logs) {
-  try {
+  return unless_undetermined([&]() -> std::optional<BaseFit> {
     auto kept = base_of(models, logs, {});
     if (!kept) return {};
     return std::move(kept->base);
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::not_identifiable) throw;
-    return {};
-  }
+  });
 }
 
 std::vector<std::optional<BaseFit>> base_fits_of(const std::vector<Model>& models,
@@ -54,17 +52,14 @@ std::vector<std::optional<BaseFit>> base_fits_of(const std::vector<Model>& model
 std::optional<std::vector<Model>> base_estimates(const std::vector<Model>& models,
                                                  const RefineLogs& logs) {
   const ScanSettings settings;
-  try {
+  return unless_undetermined([&]() -> std::optional<std::vector<Model>> {
     const auto kept = base_of(models, logs, settings);
     if (!kept) return {};
     const BaseFit& base = kept->base;
     FinalFit fit = final_fit(kept->bare, base.design, base.levels, settings.block_seconds);
     take_physical(base.design, settings.block_seconds, base.levels, base.fit.x, fit);
     return refined_models(base.design, fit);
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::not_identifiable) throw;
-    return {};
-  }
+  });
 }
 
 namespace {

@@ -46,8 +46,11 @@ struct RefineEvidence {
   double rho_before = 0, rho_after = 0;  ///< weighted squared residual over the floor
   double p_value = 1;                    ///< by parametric bootstrap of the whole pipeline
   bool is_fitted_tail = false;           ///< p of a distribution fitted to the draws, not counted
-  double inclusion = 0;
+  double inclusion = 0;  ///< as of a rival; NaN: found from several joints, without resamples
   std::size_t n_draws = 0;
+  /// One of several values of the rig file: `gain` is that of base fits with the others right, a
+  /// share of the squared residual.
+  bool is_beside_others = false;
 };
 
 struct NamedEffect {

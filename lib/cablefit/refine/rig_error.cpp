@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/refine/own_base.hpp"
@@ -89,7 +90,8 @@ NamedEffect named_effect(const RigError& error, bool is_only,
   const double before = test_excess(given, right), after = test_excess(right, given);
   effect.evidence.gain = is_only && before > 0 ? 1 - after / before : error.share;
   effect.evidence.p_value = error.chance;
-  effect.evidence.inclusion = 1;
+  effect.evidence.inclusion = std::numeric_limits<double>::quiet_NaN();
+  effect.evidence.is_beside_others = !is_only;
   const RefineResult &own_given = given[joint], &own = right[joint];
   effect.evidence.rho_before = is_done(own_given) ? own_given.rho_before : own.rho_before;
   effect.evidence.rho_after = own.rho_before;

@@ -92,7 +92,7 @@ bool are_listed(const Steps& steps) {
 
 struct Explanation {
   Steps steps;
-  bool is_whole = false;
+  bool is_whole = false;  ///< the steps explain what the joints show
 };
 
 /// The steps and more, so that right values explain what the joints show after the first
@@ -122,7 +122,8 @@ Explanation explanation(const Steps& steps, const Attempt& given, std::size_t n_
   return longer.is_whole ? longer : Explanation{std::move(first)};
 }
 
-/// For the joint that would list the error, where a joint has a remainder that nothing explains.
+/// Warns at the joint that would list the error, where a joint has a remainder that nothing
+/// explains.
 void warn_of(const RigError& error, std::vector<RefineResult>& joints) {
   if (std::none_of(joints.begin(), joints.end(),
                    [](const RefineResult& r) { return r.unexplained.has_value(); }))

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "cablefit/estimate/fit/parameter_estimate.hpp"
@@ -197,7 +198,7 @@ void add_torque_gain(const JointScale& scale, const Model& agreed, const RefineL
   effect.evidence.rho_before = gap.train * r.rho_after;
   effect.evidence.rho_after = r.rho_after;
   effect.evidence.p_value = scale.chance;
-  effect.evidence.inclusion = 1;
+  effect.evidence.inclusion = std::numeric_limits<double>::quiet_NaN();
   widen_before(gap, r);
   take_scale(scale, effect.instance, r);
   const std::string reason = fmt::format(

@@ -11,6 +11,7 @@
 #include "cablefit/refine/null/blocked_copy.hpp"
 #include "cablefit/refine/rows/kernel.hpp"
 #include "cablefit/refine/rows/levels.hpp"
+#include "cablefit/refine/undetermined.hpp"
 
 namespace cablefit {
 namespace {
@@ -109,17 +110,6 @@ struct CopiedLogs {
   bool may_diverge = false;  ///< then the copies follow the measured motion
 };
 
-/// Nothing where the loop is not stable.
-template <typename Run>
-auto if_stable(Run run) -> std::optional<decltype(run())> {
-  try {
-    return run();
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::not_identifiable) throw;
-    return {};
-  }
-}
-
 /// The copy follows the measured motion where the rig's controller does not move it so: `follows`.
 PreloadCopy make_preload_copy(const CopiedLogs& of, std::size_t m, bool* follows) {
   const Model& model = of.models[m];
@@ -136,8 +126,9 @@ PreloadCopy make_preload_copy(const CopiedLogs& of, std::size_t m, bool* follows
     Random calibration(1, kCalibration);
     return run_copy(copy.copy, {}, calibration, of.threads);
   };
-  std::optional<std::vector<SimulationResult>> motions =
-      of.may_diverge ? if_stable([&] { return run(false); }) : run(false);
+  using Motions = std::optional<std::vector<SimulationResult>>;
+  const auto by_controller = [&]() -> Motions { return run(false); };
+  Motions motions = of.may_diverge ? unless_undetermined(by_controller) : by_controller();
   const std::vector<LogPlan>& plans = copy.copy.plans;
   const bool has_controller = std::any_of(plans.begin(), plans.end(), has_reference);
   if (!motions || (has_controller && !move_alike(copy.copy, *motions, model.joint, of.smoothing))) {
@@ -171,8 +162,13 @@ NullBench::NullBench(std::span<const Model> models, std::span<const LogSurvey> l
     parts_->blocked = make_blocked_copy(parts_->models, std::move(all), smoothing);
     return;
   }
-  const CopiedLogs of{models, logs, wanted, smoothing, threads};
-  if (auto copies = if_stable([&] { return make_copies(of, &parts_->follows); })) {
+  // Nothing where a loop is not stable.
+  const auto copies_of = [&](const PartFilter& some) {
+    return unless_undetermined([&]() -> std::optional<std::vector<PreloadCopy>> {
+      return make_copies({models, logs, some, smoothing, threads}, &parts_->follows);
+    });
+  };
+  if (auto copies = copies_of(wanted)) {
     parts_->copies = *std::move(copies);
     return;
   }
@@ -180,14 +176,12 @@ NullBench::NullBench(std::span<const Model> models, std::span<const LogSurvey> l
   const PartFilter moving = [&](const PartSurvey& part) {
     return wanted(part) && part.phase != Phase::blocked;
   };
-  const CopiedLogs of_moving{models, logs, moving, smoothing, threads};
   std::erase_if(all, [](const Stretch& stretch) { return !stretch.blocked; });
-  auto copies = all.empty() ? std::nullopt
-                            : if_stable([&] { return make_copies(of_moving, &parts_->follows); });
+  auto copies = all.empty() ? std::nullopt : copies_of(moving);
   if (!all.empty()) parts_->blocked = make_blocked_copy(parts_->models, std::move(all), smoothing);
-  CopiedLogs diverging = of_moving;
-  diverging.may_diverge = true;
-  parts_->copies = copies ? *std::move(copies) : make_copies(diverging, &parts_->follows);
+  parts_->copies =
+      copies ? *std::move(copies)
+             : make_copies({models, logs, moving, smoothing, threads, true}, &parts_->follows);
 }
 
 NullBench::~NullBench() = default;

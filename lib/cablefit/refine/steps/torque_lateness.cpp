@@ -7,6 +7,7 @@
 #include "cablefit/base/error.hpp"
 #include "cablefit/refine/null/null_draws.hpp"
 #include "cablefit/refine/rows/stretches.hpp"
+#include "cablefit/refine/undetermined.hpp"
 
 namespace cablefit {
 namespace {
@@ -54,17 +55,6 @@ std::optional<BlockFit> fit_of(const DelayedRows& rows) {
 TorqueLateness lateness_at(Eigen::Index at, const BlockFit& fit, const Rig& rig, double row) {
   return {torque_lateness(rig, row) * row + fit.x(at),
           std::sqrt(std::max(0.0, fit.covariance(at, at)))};
-}
-
-/// Nothing where the logs do not determine the models.
-template <typename Fit>
-auto unless_undetermined(Fit fit) -> decltype(fit()) {
-  try {
-    return fit();
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::not_identifiable) throw;
-    return std::nullopt;
-  }
 }
 
 }  // namespace

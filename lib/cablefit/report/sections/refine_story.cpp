@@ -119,13 +119,16 @@ bool is_over(const NamedEffect& effect, bool held_out_blocks) {
 
 SummaryLine evidence_line(const NamedEffect& effect, bool held_out_blocks) {
   const RefineEvidence& evidence = effect.evidence;
-  const std::string gain =
-      is_over(effect, held_out_blocks)
-          ? "an event, judged on the log in which it happens"
-          : fmt::format("removes {} of the squared gap above the noise floor on held-out data",
-                        percent(evidence.gain));
-  return {"evidence", fmt::format("{}; {}; the best in {} of resamples", gain,
-                                  chance_text(evidence), percent(evidence.inclusion))};
+  const std::string of = evidence.is_beside_others
+                             ? "residual on held-out data, the other values right"
+                             : "gap above the noise floor on held-out data";
+  std::string text = is_over(effect, held_out_blocks)
+                         ? "an event, judged on the log in which it happens"
+                         : fmt::format("removes {} of the squared {}", percent(evidence.gain), of);
+  text += "; " + chance_text(evidence);
+  if (std::isfinite(evidence.inclusion))
+    text += fmt::format("; the best in {} of resamples", percent(evidence.inclusion));
+  return {"evidence", text};
 }
 
 /// Whether it was not found by a search among simulated data sets, but from several joints.

@@ -12,7 +12,7 @@ inline constexpr double kFollows = 0.95;
 inline constexpr double kLowRatio = 0.5, kHighRatio = 2;
 /// Relative deviation of a slope from a unit's factor.
 inline constexpr double kSameUnit = 0.03;
-/// Of a radian.
+/// In a radian.
 inline constexpr double kDegrees = 180 / std::numbers::pi;
 /// Of coarse samples: fewer show no correlation.
 inline constexpr Eigen::Index kFewBlocks = 20;
