@@ -22,7 +22,8 @@ endfunction()
 foreach(folder design design/excitation dynamic dynamic/checks dynamic/estimators dynamic/loops
         dynamic/output_error dynamic/rows elastic elastic/figures elastic/models estimate/fit
         estimate/solve estimate/spread estimate/tests identify identify/elongations identify/equations
-        identify/results model predict refine refine/null refine/rows refine/search refine/steps
+        identify/results model predict refine refine/bases refine/null refine/rig_errors refine/rows
+        refine/search refine/steps
         refine/verdict report/documents report/sections report/writers samples/rows samples/survey
         samples/weigh simulate)
   cablefit_together(cablefit lib/cablefit/${folder})

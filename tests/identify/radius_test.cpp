@@ -8,7 +8,7 @@
 #include "cablefit/identify/identify.hpp"
 #include "cablefit/model/rig/searched_radius.hpp"
 #include "cablefit/model/rig_facts.hpp"
-#include "cablefit/refine/own_base.hpp"
+#include "cablefit/refine/bases/own_base.hpp"
 #include "cablefit/report/documents/identify_document.hpp"
 #include "cablefit/report/writers/writers.hpp"
 #include "cablefit/results/elastic_models.hpp"

@@ -1,5 +1,5 @@
 // refine from logs alone, and with values that a robot cannot have.
-#include "cablefit/refine/own_base.hpp"
+#include "cablefit/refine/bases/own_base.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

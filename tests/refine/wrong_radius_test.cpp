@@ -1,7 +1,7 @@
 // A radius that is not that of the rig file, of one pulley of a finger with two joints.
 #include <catch2/catch.hpp>
 
-#include "cablefit/refine/radius_fit.hpp"
+#include "cablefit/refine/rig_errors/radius_fit.hpp"
 #include "tests/refine/refined_finger.hpp"
 
 namespace cablefit::test {

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "cablefit/model/one_joint.hpp"
-#include "cablefit/refine/kept_joint.hpp"
+#include "cablefit/refine/bases/kept_joint.hpp"
 
 namespace cablefit {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "cablefit/model/one_joint.hpp"
+#include "cablefit/refine/bases/kept_joint.hpp"
 #include "cablefit/refine/held_cables.hpp"
-#include "cablefit/refine/kept_joint.hpp"
 #include "cablefit/refine/torque_gains.hpp"
 
 namespace cablefit {

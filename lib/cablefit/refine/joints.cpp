@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "cablefit/model/one_joint.hpp"
-#include "cablefit/refine/rig_error_steps.hpp"
+#include "cablefit/refine/rig_errors/rig_error_steps.hpp"
 
 namespace cablefit {
 namespace {

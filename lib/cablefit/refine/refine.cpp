@@ -6,12 +6,12 @@
 #include <array>
 #include <cmath>
 
+#include "cablefit/refine/bases/own_base.hpp"
 #include "cablefit/refine/bounded_work.hpp"
 #include "cablefit/refine/figures/refine_figures.hpp"
 #include "cablefit/refine/gap_levels.hpp"
 #include "cablefit/refine/joints.hpp"
 #include "cablefit/refine/null/kept_effects.hpp"
-#include "cablefit/refine/own_base.hpp"
 #include "cablefit/refine/rows/physical_values.hpp"
 #include "cablefit/refine/rows/refined_model.hpp"
 #include "cablefit/refine/steps/best_shapes.hpp"

@@ -10,7 +10,7 @@
 #include "cablefit/estimate/fit/parameter_estimate.hpp"
 #include "cablefit/model/effects/effect_parameter.hpp"
 #include "cablefit/model/one_joint.hpp"
-#include "cablefit/refine/kept_joint.hpp"
+#include "cablefit/refine/bases/kept_joint.hpp"
 #include "cablefit/refine/scaled_torque.hpp"
 #include "cablefit/refine/shared_gap.hpp"
 #include "cablefit/refine/verdict/conclusion.hpp"

@@ -1,4 +1,4 @@
-#include "cablefit/refine/rig_error.hpp"
+#include "cablefit/refine/rig_errors/rig_error.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <limits>
 
 #include "cablefit/base/error.hpp"
-#include "cablefit/refine/own_base.hpp"
+#include "cablefit/refine/bases/own_base.hpp"
+#include "cablefit/refine/rig_errors/wrong_gravity.hpp"
+#include "cablefit/refine/rig_errors/wrong_radius.hpp"
 #include "cablefit/refine/verdict/conclusion.hpp"
-#include "cablefit/refine/wrong_gravity.hpp"
-#include "cablefit/refine/wrong_radius.hpp"
 
 namespace cablefit {
 namespace {
@@ -72,24 +72,24 @@ struct Left {
   static constexpr double kSame = 0.02;
 };
 
-bool is_rival(const RigError& error, const Rival& rival) {
-  return error.name == rival.name && to_string(error.instance.effect->site) == rival.side &&
-         *error.joint + 1 == rival.joint;
+bool is_rival(const WrongValue& value, const Rival& rival) {
+  return value.name == rival.name && to_string(value.instance.effect->site) == rival.side &&
+         *value.joint + 1 == rival.joint;
 }
 
 /// `is_only`: no other value is wrong, so that the results of refine show what this one does.
-NamedEffect named_effect(const RigError& error, bool is_only,
+NamedEffect named_effect(const WrongValue& value, bool is_only,
                          const std::vector<RefineResult>& given,
                          const std::vector<RefineResult>& right) {
   NamedEffect effect;
-  effect.instance = error.instance;
-  effect.derived = error.given;
-  effect.rivals = error.rivals;
-  const auto joint = static_cast<std::size_t>(*error.joint);
+  effect.instance = value.instance;
+  effect.derived = value.given;
+  effect.rivals = value.rivals;
+  const auto joint = static_cast<std::size_t>(*value.joint);
   effect.joint = static_cast<int>(joint) + 1;
   const double before = test_excess(given, right), after = test_excess(right, given);
-  effect.evidence.gain = is_only && before > 0 ? 1 - after / before : error.share;
-  effect.evidence.p_value = error.chance;
+  effect.evidence.gain = is_only && before > 0 ? 1 - after / before : value.share;
+  effect.evidence.p_value = value.chance;
   effect.evidence.inclusion = std::numeric_limits<double>::quiet_NaN();
   effect.evidence.is_beside_others = !is_only;
   const RefineResult &own_given = given[joint], &own = right[joint];
@@ -119,8 +119,9 @@ std::vector<RigError> rig_errors_of(const RigErrorSearch& search) {
   std::vector<RigError> all;
   for (const auto find : kSearches)
     if (auto error = find(search)) all.push_back(*std::move(error));
-  std::stable_sort(all.begin(), all.end(),
-                   [](const RigError& a, const RigError& b) { return a.share > b.share; });
+  std::stable_sort(all.begin(), all.end(), [](const RigError& a, const RigError& b) {
+    return a.values.front().share > b.values.front().share;
+  });
   return all;
 }
 
@@ -149,19 +150,19 @@ bool take_arm(const RefineLogs& logs, int threads, std::vector<Model>& models) {
 }
 
 bool RigErrorSearch::has(std::string_view name, Site site, std::optional<int> joint) const {
-  return std::any_of(found.begin(), found.end(), [&](const RigError* error) {
-    return error->name == name && error->instance.effect->site == site &&
-           (!joint || error->joint == joint);
+  return std::any_of(found.begin(), found.end(), [&](const WrongValue* value) {
+    return value->name == name && value->instance.effect->site == site &&
+           (!joint || value->joint == joint);
   });
 }
 
-bool may_explain(const std::vector<RefineResult>& given, std::size_t n_errors) {
-  return n_errors == 1 || n_errors <= n_effects(given) || !Left(given).is_none() ||
+bool may_explain(const std::vector<RefineResult>& given, std::size_t n_values) {
+  return n_values == 1 || n_values <= n_effects(given) || !Left(given).is_none() ||
          !std::all_of(given.begin(), given.end(), is_done);
 }
 
 bool is_explained(const std::vector<RefineResult>& given, const std::vector<RefineResult>& right,
-                  std::size_t n_errors) {
+                  std::size_t n_values) {
   bool any_opened = false;
   for (std::size_t k = 0; k < given.size(); ++k) {
     if (is_done(given[k]) && !is_done(right[k])) return false;
@@ -174,17 +175,17 @@ bool is_explained(const std::vector<RefineResult>& given, const std::vector<Refi
   const double left = excess(right, given, &RefineResult::rho_after);
   // With the given values a joint could not even be refined.
   if (any_opened) return left <= shown.given + shown.same;
-  if (n_effects(right) + n_errors <= n_effects(given) && left <= shown.given + shown.same)
+  if (n_effects(right) + n_values <= n_effects(given) && left <= shown.given + shown.same)
     return true;
-  if (n_errors == 1)
+  if (n_values == 1)
     return excess(right, given, &RefineResult::rho_before) <= shown.given + shown.same;
   // Several right values fit more: they count where effects alone leave a gap and these do not.
   return left <= shown.same && !shown.is_none() && n_effects(right) <= n_effects(given);
 }
 
-int listing_joint(const RigError& error, const std::vector<RefineResult>& given,
+int listing_joint(const WrongValue& value, const std::vector<RefineResult>& given,
                   const std::vector<RefineResult>& right) {
-  if (error.joint) return *error.joint;
+  if (value.joint) return *value.joint;
   int most = 0;
   double largest = 0;
   for (std::size_t k = 0; k < given.size(); ++k) {
@@ -197,20 +198,20 @@ int listing_joint(const RigError& error, const std::vector<RefineResult>& given,
   return most;
 }
 
-void name_rig_errors(const std::vector<RigError>& errors, const std::vector<RefineResult>& given,
+void name_rig_errors(const std::vector<WrongValue>& values, const std::vector<RefineResult>& given,
                      std::vector<RefineResult>& right) {
   std::vector<NamedEffect> effects;
-  for (const RigError& error : errors) {
-    effects.push_back(named_effect(error, errors.size() == 1, given, right));
+  for (const WrongValue& value : values) {
+    effects.push_back(named_effect(value, values.size() == 1, given, right));
     std::erase_if(effects.back().rivals, [&](const Rival& rival) {
-      return std::any_of(errors.begin(), errors.end(),
-                         [&](const RigError& other) { return is_rival(other, rival); });
+      return std::any_of(values.begin(), values.end(),
+                         [&](const WrongValue& other) { return is_rival(other, rival); });
     });
   }
   for (std::size_t k = 0; k < right.size(); ++k) take_before(given[k], right[k]);
-  for (std::size_t k = errors.size(); k-- > 0;) {
+  for (std::size_t k = values.size(); k-- > 0;) {
     RefineResult& own = right[static_cast<std::size_t>(effects[k].joint - 1)];
-    const std::string& reason = errors[k].reason;
+    const std::string& reason = values[k].reason;
     own.reason = own.verdict == Verdict::none ? reason : reason + "; " + own.reason;
     if (!effects[k].rivals.empty()) own.next_experiment = effects[k].instance.effect->experiment;
     own.effects.insert(own.effects.begin(), std::move(effects[k]));

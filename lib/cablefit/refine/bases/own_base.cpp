@@ -1,4 +1,4 @@
-#include "cablefit/refine/own_base.hpp"
+#include "cablefit/refine/bases/own_base.hpp"
 
 #include <fmt/format.h>
 

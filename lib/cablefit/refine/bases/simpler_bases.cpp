@@ -1,4 +1,4 @@
-#include "cablefit/refine/simpler_bases.hpp"
+#include "cablefit/refine/bases/simpler_bases.hpp"
 
 #include <fmt/format.h>
 

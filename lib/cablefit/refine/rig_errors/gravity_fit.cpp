@@ -1,15 +1,13 @@
-#include "cablefit/refine/gravity_fit.hpp"
+#include "cablefit/refine/rig_errors/gravity_fit.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "cablefit/model/arm/serial_arm.hpp"
 #include "cablefit/model/one_joint.hpp"
-#include "cablefit/refine/kept_joint.hpp"
+#include "cablefit/refine/bases/kept_joint.hpp"
+#include "cablefit/refine/rig_errors/common_columns.hpp"
 #include "cablefit/refine/rows/kernel.hpp"
 
 namespace cablefit {
@@ -54,42 +52,6 @@ VariantColumns tilt_columns(const Design& design, const Eigen::Vector3d& gravity
   return all;
 }
 
-/// Of the two angles, without the parameters of the joints; summed over joints.
-struct NormalEquations {
-  Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
-  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();  ///< sum over blocks of right right'
-  Eigen::Vector2d right = Eigen::Vector2d::Zero();    ///< right-hand side
-  double squares = 0;                                 ///< of the two columns, weighted
-  double n_blocks = 0;                                ///< with rows of a moving link
-};
-
-/// The part of the last two columns that is not made of those of the base.
-void add_joint(const BaseFit& base, const BlockGrams& grams, NormalEquations& sum) {
-  const Eigen::Index n = base.grams.n_columns;
-  const Eigen::MatrixXd all = weighted_sum(grams, base.levels).bottomRightCorner(n + 2, n + 2);
-  const Eigen::VectorXd scale = all.diagonal().unaryExpr(
-      [](double square) { return square > 0 ? 1 / std::sqrt(square) : 1.0; });
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * all * scale.asDiagonal();
-  Eigen::MatrixXd own(n + 2, 2);  // combination of columns
-  own.topRows(n) = -scaled.topLeftCorner(n, n).ldlt().solve(scaled.topRightCorner(n, 2));
-  own.bottomRows(2).setIdentity();
-  own = scale.asDiagonal() * own * scale.tail(2).cwiseInverse().asDiagonal();
-  sum.matrix += own.transpose() * all * own;
-  sum.squares += all.diagonal().tail(2).sum();
-  Eigen::VectorXd residual(n + 3);  // response minus columns
-  residual << 1, -base.fit.x, 0, 0;
-  for (const BlockGrams::Block& block : grams.blocks) {
-    Eigen::Vector2d right = Eigen::Vector2d::Zero();
-    for (std::size_t kind = 0; kind < block.gram.size(); ++kind)
-      if (block.gram[kind].size() > 0)
-        right += own.transpose() * block.gram[kind].bottomRows(n + 2) * residual /
-                 (base.levels[kind] * base.levels[kind]);
-    sum.right += right;
-    sum.scatter += right * right.transpose();
-    if (block.n_rows[static_cast<std::size_t>(RowKind::link)] > 0) sum.n_blocks += 1;
-  }
-}
-
 }  // namespace
 
 bool has_gravity(const Rig& rig) {
@@ -121,24 +83,22 @@ std::optional<Tilt> GravityFit::tilt() const {
   Tilt tilt;
   tilt.axes.col(0) = gravity.unitOrthogonal();
   tilt.axes.col(1) = gravity.normalized().cross(tilt.axes.col(0));
-  NormalEquations sum;
+  CommonColumns angles(2);
   const double block_seconds = ScanSettings{}.block_seconds;
   for (const std::optional<BaseFit>& base : joints_)
     if (base) {
       const Design& design = base->design;
-      add_joint(*base,
-                extended(base->grams, design.rows, design.stretches,
-                         tilt_columns(design, gravity, tilt.axes), block_seconds),
-                sum);
+      angles.add_joint(extended(base->grams, design.rows, design.stretches,
+                                tilt_columns(design, gravity, tilt.axes), block_seconds),
+                       base->levels, base->fit.x);
     }
-  const double own = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(sum.matrix).eigenvalues()(0);
-  if (!(own > kOwnPart * sum.squares)) return {};
-  const Eigen::Matrix2d inverse = sum.matrix.inverse();
-  tilt.angles = inverse * sum.right;
-  tilt.covariance = (1 + kRepeated * sum.n_blocks) * inverse * sum.scatter * inverse;
-  tilt.dof = std::max(1.0, sum.n_blocks - 2);
-  const bool is_determined =
-      tilt.angles.allFinite() && (tilt.covariance.diagonal().array() < kMostSd * kMostSd).all();
+  const auto step = angles.step({0, 1}, kOwnPart);
+  if (!step) return {};
+  tilt.angles = step->change;
+  const double n_blocks = step->n_blocks.minCoeff();
+  tilt.covariance = (1 + kRepeated * n_blocks) * step->covariance;
+  tilt.dof = n_blocks - 2;
+  const bool is_determined = (tilt.covariance.diagonal().array() < kMostSd * kMostSd).all();
   if (!is_determined) return {};
   return tilt;
 }

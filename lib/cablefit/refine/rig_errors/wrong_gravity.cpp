@@ -1,4 +1,4 @@
-#include "cablefit/refine/wrong_gravity.hpp"
+#include "cablefit/refine/rig_errors/wrong_gravity.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "cablefit/estimate/fit/parameter_estimate.hpp"
 #include "cablefit/estimate/spread/tail_probability.hpp"
-#include "cablefit/refine/gravity_fit.hpp"
+#include "cablefit/refine/rig_errors/gravity_fit.hpp"
 
 namespace cablefit {
 namespace {
@@ -150,16 +150,17 @@ std::optional<RigError> error_of(const RigErrorSearch& search, const Eigen::Vect
   if (!given_fit || !right_fit) return {};
   const double angle = angle_between(given, right.gravity), sd = sd_towards(right, given);
   RigError error;
-  error.name = kName;
-  error.chance = std::min(1.0, kAngles * t_tail(angle / sd, right.last.dof));
+  WrongValue& value = error.values.emplace_back();
+  value.name = kName;
+  value.chance = std::min(1.0, kAngles * t_tail(angle / sd, right.last.dof));
   const double before = squares_of(given_fit->fit, right_fit->fit);
   if (before > 0)
-    error.share = std::max(0.0, 1 - squares_of(right_fit->fit, right_fit->fit) / before);
+    value.share = std::max(0.0, 1 - squares_of(right_fit->fit, right_fit->fit) / before);
   error.change = change_to(right.gravity);
   error.models = std::move(right_fit->models);
-  error.instance = instance_of(right);
-  error.given = components("given", given);
-  error.reason = fmt::format(
+  value.instance = instance_of(right);
+  value.given = components("given", given);
+  value.reason = fmt::format(
       "the weight of the links shows gravity {:.3g} deg (sd {:.1g} deg) from the direction in the "
       "rig file",
       kDegree * angle, kDegree * sd);
@@ -181,7 +182,7 @@ std::optional<RigError> wrong_gravity(const RigErrorSearch& search) {
   const auto right = least_near(search, best_start(search, given, given_fit->fit));
   if (!right) return {};
   auto error = error_of(search, given, *right);
-  if (!error || !(error->chance < search.significance)) return {};
+  if (!error || !(error->values.front().chance < search.significance)) return {};
   return error;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cablefit/refine/own_base.hpp"
+#include "cablefit/refine/bases/own_base.hpp"
 
 namespace cablefit {
 

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "cablefit/refine/rig_error.hpp"
+#include "cablefit/refine/rig_errors/rig_error.hpp"
 
 namespace cablefit {
 

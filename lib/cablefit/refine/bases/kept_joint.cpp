@@ -1,4 +1,4 @@
-#include "cablefit/refine/kept_joint.hpp"
+#include "cablefit/refine/bases/kept_joint.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -6,8 +6,8 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/model/one_joint.hpp"
+#include "cablefit/refine/bases/own_base.hpp"
 #include "cablefit/refine/null/kept_effects.hpp"
-#include "cablefit/refine/own_base.hpp"
 #include "cablefit/refine/rows/physical_values.hpp"
 #include "cablefit/refine/rows/refined_model.hpp"
 #include "cablefit/refine/steps/elastic_stage.hpp"

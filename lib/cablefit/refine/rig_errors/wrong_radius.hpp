@@ -5,11 +5,12 @@
 
 #include <optional>
 
-#include "cablefit/refine/rig_error.hpp"
+#include "cablefit/refine/rig_errors/rig_error.hpp"
 
 namespace cablefit {
 
-/// The pulley whose radius explains most. Nothing where none is significant.
+/// The pulley whose radius explains most; several where none alone is significant. Nothing where
+/// they are not either.
 std::optional<RigError> wrong_radius(const RigErrorSearch& search);
 
 }  // namespace cablefit
