@@ -11,24 +11,31 @@ namespace {
 using namespace cablefit;
 using namespace cablefit::test;
 
-std::vector<Window> every_third(const LogSurvey& log, bool at_once) {
+struct Chosen {
   std::vector<Window> windows;
-  int n = 0;
-  const auto chosen = [&](const WindowPlace&) { return n++ % 3 == 1; };
-  const auto keep = [&](const Window& window) { windows.push_back(window); };
-  if (at_once) {
-    for_chosen_windows(log, kAllParts, 10, 0, chosen, keep);
-  } else {
-    for_each_window(log, kAllParts, 0, 10, 0, [&](Window&& window) {
-      if (chosen(window)) keep(window);
-      return true;
-    });
-  }
-  return windows;
+  WindowCounts counts;
+};
+
+Chosen every_nth(const LogSurvey& log, int n, Eigen::Index halo, bool at_once) {
+  Chosen out;
+  int k = 0;
+  const auto chosen = [&](const WindowPlace&) { return k++ % n == n / 2; };
+  const auto keep = [&](Window&& window) {
+    out.windows.push_back(std::move(window));
+    return true;
+  };
+  out.counts = at_once ? for_chosen_windows(log, kAllParts, halo, 10, 0, chosen, keep)
+                       : for_each_window(log, kAllParts, halo, 10, 0, [&](Window&& window) {
+                           return !chosen(window) || keep(std::move(window));
+                         });
+  return out;
 }
 
-void check_same(const LogSurvey& log) {
-  const std::vector<Window> found = every_third(log, true), expected = every_third(log, false);
+void check_same(const LogSurvey& log, int n, Eigen::Index halo) {
+  const Chosen at_once = every_nth(log, n, halo, true), one_by_one = every_nth(log, n, halo, false);
+  CHECK(at_once.counts.rows_out == one_by_one.counts.rows_out);
+  CHECK(at_once.counts.segments == one_by_one.counts.segments);
+  const std::vector<Window>&found = at_once.windows, &expected = one_by_one.windows;
   REQUIRE(found.size() == expected.size());
   REQUIRE(!found.empty());
   for (std::size_t k = 0; k < found.size(); ++k) {
@@ -41,6 +48,12 @@ void check_same(const LogSurvey& log) {
   }
 }
 
+void check_same(const LogSurvey& log) {
+  check_same(log, 3, 0);
+  check_same(log, 2, 200);
+  check_same(log, 1, 40);  // windows side by side have rows in common
+}
+
 /// Rows [from, to) moved in time, s.
 Columns moved(Columns log, std::size_t from, std::size_t to, double by) {
   for (std::size_t i = from; i < to; ++i) log.columns[0].second[i] += by;
@@ -50,7 +63,7 @@ Columns moved(Columns log, std::size_t from, std::size_t to, double by) {
 TEST_CASE("chosen windows are those of all windows", "[samples]") {
   const Eigen::Index n = 5 * kWindowRows;
   const auto n_rows = static_cast<std::size_t>(n);
-  for (const Eigen::Index more : {-1, 0, 1, 17}) {
+  for (const Eigen::Index more : {-1, 0, 1, 17, 40, 41, 200, 201}) {
     Bench bench;
     check_same(bench.add_text(noisy_log(n + more, 6000).csv()));
   }

@@ -119,13 +119,7 @@ std::vector<VariableTest> new_tests(const JudgedRows& rows, Eigen::Index n_regre
 std::vector<double> sampled_column(const JudgedRows& rows, Eigen::Index column, std::size_t most) {
   const Eigen::Index step =
       std::max<Eigen::Index>(1, divided_up(rows.n_rows, static_cast<Eigen::Index>(most)));
-  std::vector<double> values;
-  Eigen::Index row = 0;
-  rows.rows->for_each([&](const Eigen::MatrixXd& batch, std::span<const Eigen::Index>) {
-    for (Eigen::Index i = 0; i < batch.rows(); ++i, ++row)
-      if (row % step == 0) values.push_back(batch(i, column));
-  });
-  return values;
+  return rows.rows->every(step, column);
 }
 
 namespace {

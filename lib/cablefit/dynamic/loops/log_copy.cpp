@@ -61,8 +61,11 @@ std::vector<LogSurvey> stretches_of(std::span<const LogSurvey> logs, const PartF
       const int stretch = windows++ / kStretchWindows;
       return std::floor((stretch + 1) * share) > std::floor(stretch * share);
     };
-    for_chosen_windows(log, wanted, 2 * kDifferenceEdge + 2, bridge, chosen,
-                       [&](const Window& window) { copy.add(window); });
+    for_chosen_windows(log, wanted, 0, 2 * kDifferenceEdge + 2, bridge, chosen,
+                       [&](Window&& window) {
+                         copy.add(window);
+                         return true;
+                       });
     all.push_back(copy.finish());
   }
   return all;

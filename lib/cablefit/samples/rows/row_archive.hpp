@@ -17,6 +17,9 @@ class RowArchive {
   /// Throws Error(output) when the temporary folder has no room.
   void append(const EquationBatch& batch);
 
+  /// One value of every step-th row, counted over all batches, without reading the others.
+  std::vector<double> every(Eigen::Index step, Eigen::Index column) const;
+
   /// look(rows, numbers) on every batch appended, in order.
   template <class Look>
   void for_each(Look look) const {

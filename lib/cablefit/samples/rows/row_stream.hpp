@@ -8,11 +8,13 @@
 
 #include "cablefit/base/parallel.hpp"
 #include "cablefit/samples/rows/equation_rows.hpp"
+#include "cablefit/samples/survey/chosen_windows.hpp"
 
 namespace cablefit {
 
 /// Processes all wanted rows of all logs in order: map(RowBatch) on worker threads, reduce(its
-/// result) in order on this thread. `keep`: windows for which it returns false are skipped.
+/// result) in order on this thread. `keep`: windows for which it returns false are skipped, and the
+/// others have no Window::approach.
 template <class Map, class Reduce>
 WindowCounts stream_rows(std::span<const LogSurvey> logs, const PartFilter& wanted,
                          const RowSettings& settings, std::span<const Equation> equations,
@@ -35,11 +37,12 @@ WindowCounts stream_rows(std::span<const LogSurvey> logs, const PartFilter& want
       if (rate == 0) continue;
       const Eigen::Index halo = row_halo(settings, rate);
       const Eigen::Index edge = at_rate(settings, lowest).drop_edge;
-      const WindowCounts counts = for_each_window(
-          logs[k], wanted, halo, 2 * edge + 2 * kDifferenceEdge + settings.decimate,
-          bridge_seconds(settings.signal), [&](Window&& window) {
-            return (keep && !keep(window)) || emit(Item{k, offset, std::move(window)});
-          });
+      const Eigen::Index min_rows = 2 * edge + 2 * kDifferenceEdge + settings.decimate;
+      const double bridge = bridge_seconds(settings.signal);
+      const auto take = [&](Window&& window) { return emit(Item{k, offset, std::move(window)}); };
+      const WindowCounts counts =
+          keep ? for_chosen_windows(logs[k], wanted, halo, min_rows, bridge, keep, take)
+               : for_each_window(logs[k], wanted, halo, min_rows, bridge, take);
       total.rows_read += counts.rows_read;
       total.rows_resampled += counts.rows_resampled;
       total.rows_too_short += counts.rows_too_short;

@@ -18,16 +18,18 @@ class SteadySegment {
  public:
   SteadySegment(const SampleStore& samples, std::span<const SamplePiece> pieces)
       : samples_(samples), pieces_(pieces) {
-    for (const SamplePiece& piece : pieces) n_rows_ += piece.n_rows;
+    for (const SamplePiece& piece : pieces) {
+      firsts_.push_back(n_rows_);
+      n_rows_ += piece.n_rows;
+    }
   }
 
   Eigen::Index n_rows() const { return n_rows_; }
   double first_time() {
-    Eigen::MatrixXd rows;
-    samples_.read(pieces_.front(), rows);
-    return rows(0, 0);
+    load(0);
+    return rows_(0, 0);
   }
-  /// Channels of rows [begin, end), which lies behind those read before.
+  /// Channels of rows [begin, end).
   Eigen::MatrixXd read(Eigen::Index begin, Eigen::Index end) {
     Eigen::MatrixXd data;
     for (Eigen::Index at = begin; at < end;) {
@@ -43,71 +45,87 @@ class SteadySegment {
  private:
   /// The piece with row `at` to rows_.
   void load(Eigen::Index at) {
-    if (at < from_ + rows_.rows()) return;
-    from_ += rows_.rows();
-    while (at >= from_ + pieces_[next_].n_rows) from_ += pieces_[next_++].n_rows;
-    samples_.read(pieces_[next_++], rows_);
+    if (at >= from_ && at < from_ + rows_.rows()) return;
+    const auto piece = std::upper_bound(firsts_.begin(), firsts_.end(), at) - 1;
+    from_ = *piece;
+    samples_.read(pieces_[static_cast<std::size_t>(piece - firsts_.begin())], rows_);
   }
 
   const SampleStore& samples_;
   std::span<const SamplePiece> pieces_;
+  std::vector<Eigen::Index> firsts_;  // row of each piece
   Eigen::Index n_rows_ = 0;
   Eigen::MatrixXd rows_;   // of the last piece read
   Eigen::Index from_ = 0;  // its first row
-  std::size_t next_ = 0;   // the piece behind it
 };
 
-void add_segment(SteadySegment& segment, const PartSurvey& part, Window window,
-                 const std::function<bool(const WindowPlace&)>& chosen,
-                 const std::function<void(const Window&)>& sink) {
-  window.period = part.period;
+/// Which windows, and what becomes of them.
+struct Choice {
+  Eigen::Index halo, min_rows;
+  const std::function<bool(const WindowPlace&)>& chosen;
+  const std::function<bool(Window&&)>& sink;
+};
+
+/// The windows of one segment; false when the sink wants no more.
+bool add_segment(SteadySegment& segment, const LogSurvey& log, Window window,
+                 const Choice& choice) {
+  window.period = log.parts[window.part].period;
   window.t0 = segment.first_time();
-  for (; window.begin < segment.n_rows(); window.begin = window.end) {
-    window.end = std::min(segment.n_rows(), window.begin + kWindowRows);
-    window.first = window.begin;
-    window.starts_segment = window.begin == 0;
-    window.ends_segment = window.end == segment.n_rows();
-    if (!chosen(window)) continue;
-    window.data = segment.read(window.begin, window.end);
-    sink(window);
+  const Eigen::Index n_rows = segment.n_rows();
+  for (; window.begin < n_rows; window.begin = window.end) {
+    const Eigen::Index data_end = window.begin + kWindowRows + choice.halo;
+    window.ends_segment = n_rows <= data_end;
+    window.end = window.ends_segment ? n_rows : window.begin + kWindowRows;
+    window.first = std::max<Eigen::Index>(0, window.begin - choice.halo);
+    window.starts_segment = window.first == 0;
+    if (!choice.chosen(window)) continue;
+    Window one = window;
+    one.data = segment.read(window.first, std::min(n_rows, data_end));
+    one.approach = Eigen::MatrixXd::Zero(one.data.rows(), log.plan.rig.n_joints());
+    if (!choice.sink(std::move(one))) return false;
   }
+  return true;
 }
 
 /// Pieces of the wanted parts; one after the other that follow each other are a segment.
-void for_steady_segments(const LogSurvey& log, std::span<const SamplePiece> pieces,
-                         Eigen::Index min_rows,
-                         const std::function<bool(const WindowPlace&)>& chosen,
-                         const std::function<void(const Window&)>& sink) {
+WindowCounts for_steady_segments(const LogSurvey& log, std::span<const SamplePiece> pieces,
+                                 const Choice& choice) {
+  WindowCounts counts;
   Window window;
   for (std::size_t begin = 0; begin < pieces.size();) {
     std::size_t end = begin + 1;
     while (end < pieces.size() && pieces[end].follows) ++end;
     SteadySegment segment(*log.samples, pieces.subspan(begin, end - begin));
+    const auto n_rows = static_cast<std::size_t>(segment.n_rows());
     window.part = pieces[begin].part;
-    if (segment.n_rows() >= min_rows)
-      add_segment(segment, log.parts[window.part], window, chosen, sink);
+    counts.rows_out += n_rows;
+    if (segment.n_rows() < choice.min_rows)
+      counts.rows_too_short += n_rows;
+    else if (++counts.segments; !add_segment(segment, log, window, choice))
+      return counts;
     ++window.segment;
     window.rows_before += segment.n_rows();
     begin = end;
   }
+  return counts;
 }
 
 }  // namespace
 
-void for_chosen_windows(const LogSurvey& log, const std::function<bool(const PartSurvey&)>& wanted,
-                        Eigen::Index min_rows, double bridge,
-                        const std::function<bool(const WindowPlace&)>& chosen,
-                        const std::function<void(const Window&)>& sink) {
+WindowCounts for_chosen_windows(const LogSurvey& log,
+                                const std::function<bool(const PartSurvey&)>& wanted,
+                                Eigen::Index halo, Eigen::Index min_rows, double bridge,
+                                const std::function<bool(const WindowPlace&)>& chosen,
+                                const std::function<bool(Window&&)>& sink) {
   std::vector<SamplePiece> pieces;
   for (const SamplePiece& piece : log.samples->pieces())
     if (wanted(log.parts[piece.part])) pieces.push_back(piece);
   const bool steady = std::all_of(pieces.begin(), pieces.end(), [&](const SamplePiece& piece) {
     return is_steady(log.parts[piece.part]);
   });
-  if (steady) return for_steady_segments(log, pieces, min_rows, chosen, sink);
-  for_each_window(log, wanted, 0, min_rows, bridge, [&](Window&& window) {
-    if (chosen(window)) sink(window);
-    return true;
+  if (steady) return for_steady_segments(log, pieces, {halo, min_rows, chosen, sink});
+  return for_each_window(log, wanted, halo, min_rows, bridge, [&](Window&& window) {
+    return !chosen(window) || sink(std::move(window));
   });
 }
 

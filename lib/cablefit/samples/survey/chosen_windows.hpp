@@ -7,12 +7,13 @@
 
 namespace cablefit {
 
-/// As for_each_window() without a halo, but only the windows for which `chosen` is true, and
-/// without Window::approach. `chosen` is asked for each window in order. Of a part whose clock is
-/// even and never stops no other samples are read.
-void for_chosen_windows(const LogSurvey& log, const std::function<bool(const PartSurvey&)>& wanted,
-                        Eigen::Index min_rows, double bridge,
-                        const std::function<bool(const WindowPlace&)>& chosen,
-                        const std::function<void(const Window&)>& sink);
+/// As for_each_window(), but only the windows for which `chosen` is true, and without
+/// Window::approach. `chosen` is asked for each window in order. Of a part whose clock is even and
+/// never stops no other samples are read, nor counted as read.
+WindowCounts for_chosen_windows(const LogSurvey& log,
+                                const std::function<bool(const PartSurvey&)>& wanted,
+                                Eigen::Index halo, Eigen::Index min_rows, double bridge,
+                                const std::function<bool(const WindowPlace&)>& chosen,
+                                const std::function<bool(Window&&)>& sink);
 
 }  // namespace cablefit

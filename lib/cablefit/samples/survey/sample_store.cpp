@@ -73,7 +73,8 @@ void SampleStore::append(std::size_t part, bool follows,
       values_.append({rows.col(k).data(), static_cast<std::size_t>(rows.rows())});
 }
 
-void SampleStore::read(const SamplePiece& piece, Eigen::MatrixXd& rows) const {
+void SampleStore::read(const SamplePiece& piece, Eigen::MatrixXd& rows,
+                       const std::vector<bool>& wanted) const {
   rows.resize(piece.n_rows, n_columns_);
   Head head = empty_head(n_columns_);
   values_.read(piece.place, head);
@@ -81,7 +82,8 @@ void SampleStore::read(const SamplePiece& piece, Eigen::MatrixXd& rows) const {
   for (Eigen::Index k = 0; k < n_columns_; ++k) {
     if (is_written(head, k)) {
       const auto n = static_cast<std::size_t>(piece.n_rows);
-      values_.read(place, {rows.col(k).data(), n});
+      if (wanted.empty() || wanted[static_cast<std::size_t>(k)])
+        values_.read(place, {rows.col(k).data(), n});
       place += n;
     } else if (k == 0) {
       rows.col(0) = times(head[0], head[1], piece.n_rows);

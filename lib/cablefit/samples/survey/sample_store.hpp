@@ -25,8 +25,10 @@ class SampleStore {
   void append(std::size_t part, bool follows, const Eigen::Ref<const Eigen::MatrixXd>& rows);
 
   const std::vector<SamplePiece>& pieces() const { return pieces_; }
-  /// Overwrites `rows`. Several threads may read at once.
-  void read(const SamplePiece& piece, Eigen::MatrixXd& rows) const;
+  /// Overwrites `rows`; of columns that are not `wanted` (empty: all) with anything. Several
+  /// threads may read at once.
+  void read(const SamplePiece& piece, Eigen::MatrixXd& rows,
+            const std::vector<bool>& wanted = {}) const;
 
  private:
   Eigen::Index n_columns_ = 0;

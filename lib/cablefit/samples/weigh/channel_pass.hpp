@@ -16,13 +16,15 @@ template <class State>
 void over_channels(const LogSurvey& log, bool (*wanted)(const Slot&),
                    std::vector<std::vector<State>>& states) {
   using Values = Eigen::Map<const Eigen::ArrayXd>;
+  std::vector<bool> columns{true};  // the first is the time
+  for (const Slot& slot : log.plan.slots) columns.push_back(wanted(slot));
   Eigen::MatrixXd rows;
   std::size_t row = 0;
   for (const SamplePiece& piece : log.samples->pieces()) {
     std::vector<State>& part = states[piece.part];
-    log.samples->read(piece, rows);
+    log.samples->read(piece, rows, columns);
     for (std::size_t k = 0; k < part.size(); ++k) {
-      if (!wanted(log.plan.slots[k])) continue;
+      if (!columns[k + 1]) continue;
       if (!piece.follows) part[k].begin();
       const auto column = static_cast<Eigen::Index>(k) + 1;
       part[k].add(Values(rows.data(), rows.rows()), Values(rows.col(column).data(), rows.rows()),
