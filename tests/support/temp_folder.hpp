@@ -16,10 +16,12 @@ class TempFolder {
  public:
   TempFolder() {
     static std::atomic<int> counter{0};
-    const std::string name =
-        "cablefit-test-" + std::to_string(::getpid()) + '-' + std::to_string(counter++);
-    path_ = std::filesystem::temp_directory_path() / name;
-    std::filesystem::create_directories(path_);
+    // A process that was killed leaves its folder, and its number comes again.
+    do {
+      const std::string name =
+          "cablefit-test-" + std::to_string(::getpid()) + '-' + std::to_string(counter++);
+      path_ = std::filesystem::temp_directory_path() / name;
+    } while (!std::filesystem::create_directory(path_));
   }
   ~TempFolder() { std::filesystem::remove_all(path_); }
   TempFolder(const TempFolder&) = delete;
