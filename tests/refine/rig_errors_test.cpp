@@ -27,6 +27,18 @@ void check_value(const Estimate& e, double right) {
   CHECK(e.sd < 1e-3 * 0.01);
 }
 
+/// These radii and nothing else are named.
+void check_radii(const RefineResult& result, const std::map<std::string, double>& right) {
+  CHECK(result.verdict == Verdict::named);
+  REQUIRE(result.effects.size() == right.size());
+  const auto radii = radii_of(result);
+  for (const auto& [name, radius] : right) {
+    INFO(name);
+    REQUIRE(radii.count(name) == 1);
+    check_value(radii.at(name), radius);
+  }
+}
+
 void check_no_gap(const RefineResult& result) {
   for (const RefineResult& joint : result.joints) {
     CHECK(joint.not_refined.empty());
@@ -76,13 +88,8 @@ TEST_CASE("two wrong radii are identified together", "[refine]") {
   hidden.cables[1].link[1] = round_map(-0.0093);  // -0.009 in the rig file
   hidden.cables[0].motor[0] = round_map(0.0102);
   const RefineResult result = refined(hidden).result;
-  CHECK(result.verdict == Verdict::named);
-  REQUIRE(result.effects.size() == 2);
-  const auto radii = radii_of(result);
-  REQUIRE(radii.count("link radius[extensor], joint 2") == 1);
-  REQUIRE(radii.count("motor radius[flexor], joint 1") == 1);
-  check_value(radii.at("link radius[extensor], joint 2"), -0.0093);
-  check_value(radii.at("motor radius[flexor], joint 1"), 0.0102);
+  check_radii(result, {{"link radius[extensor], joint 2", -0.0093},
+                       {"motor radius[flexor], joint 1", 0.0102}});
   check_no_gap(result);
 }
 
@@ -115,13 +122,8 @@ TEST_CASE("radii of one joint that are wrong together are identified", "[refine]
   hidden.cables[0].link[1] = round_map(0.0072);  // 0.007 in the rig file
   hidden.cables[1].link[1] = round_map(-0.0093);
   const RefineResult result = refined(hidden).result;
-  CHECK(result.verdict == Verdict::named);
-  REQUIRE(result.effects.size() == 2);
-  const auto radii = radii_of(result);
-  REQUIRE(radii.count("link radius[flexor], joint 2") == 1);
-  REQUIRE(radii.count("link radius[extensor], joint 2") == 1);
-  check_value(radii.at("link radius[flexor], joint 2"), 0.0072);
-  check_value(radii.at("link radius[extensor], joint 2"), -0.0093);
+  check_radii(result, {{"link radius[flexor], joint 2", 0.0072},
+                       {"link radius[extensor], joint 2", -0.0093}});
   check_no_gap(result);
 }
 
@@ -131,13 +133,9 @@ TEST_CASE("three radii that are wrong together are identified", "[refine]") {
   hidden.cables[0].motor[0] = round_map(0.0102);
   hidden.cables[1].link[1] = round_map(-0.0093);
   const RefineResult result = refined(hidden).result;
-  CHECK(result.verdict == Verdict::named);
-  REQUIRE(result.effects.size() == 3);
-  const auto radii = radii_of(result);
-  REQUIRE(radii.size() == 3);
-  check_value(radii.at("link radius[flexor], joint 2"), 0.0071);
-  check_value(radii.at("motor radius[flexor], joint 1"), 0.0102);
-  check_value(radii.at("link radius[extensor], joint 2"), -0.0093);
+  check_radii(result, {{"link radius[flexor], joint 2", 0.0071},
+                       {"motor radius[flexor], joint 1", 0.0102},
+                       {"link radius[extensor], joint 2", -0.0093}});
   check_no_gap(result);
 }
 

@@ -127,11 +127,10 @@ bool is_within(const CommonStep& step, double n_sd) {
   return (step.change.array().abs() <= n_sd * step.covariance.diagonal().array().sqrt()).all();
 }
 
+/// `near`: the step that is left.
 std::optional<FittedRadii> at_minimum(const RadiusFit& fit, const RadiusChanges& changes,
                                       std::optional<CommonStep> near) {
-  RadiusChanges none = changes;
-  for (RadiusChange& change : none) change.by = 0;
-  const auto given = sum_at(fit, none);
+  const auto given = sum_at(fit, unchanged(changes));
   auto errors = fit.errors(changes, true);
   if (!given || !near || !errors) return {};
   return FittedRadii{changes, *std::move(near), *std::move(errors), *given};
@@ -184,8 +183,6 @@ class Promises {
 
 }  // namespace
 
-std::vector<Pulley> FittedRadii::pulleys() const { return pulleys_in(changes); }
-
 double FittedRadii::sd(std::size_t k) const {
   const auto at = static_cast<Eigen::Index>(k);
   return std::sqrt(std::max(0.0, near.covariance(at, at)));
@@ -193,6 +190,11 @@ double FittedRadii::sd(std::size_t k) const {
 
 double FittedRadii::dof(std::size_t k) const {
   return near.n_blocks(static_cast<Eigen::Index>(k)) - static_cast<double>(changes.size());
+}
+
+RadiusChanges unchanged(RadiusChanges radii) {
+  for (RadiusChange& radius : radii) radius.by = 0;
+  return radii;
 }
 
 std::optional<CommonStep> step_of(const RadiusFit& fit, const RadiusChanges& changes) {
@@ -203,15 +205,14 @@ std::optional<CommonStep> step_of(const RadiusFit& fit, const RadiusChanges& cha
   return slopes->step(all, kLeastOwn);
 }
 
-SingleRadii single_radii(const RadiusFit& fit, const std::vector<Pulley>& pulleys) {
+std::vector<FittedRadii> single_radii(const RadiusFit& fit, const std::vector<Pulley>& pulleys) {
   const std::vector<Promise> promises = most_promising(fit, pulleys);
-  SingleRadii found{{}, promises.size()};
+  std::vector<FittedRadii> found;
   for (std::size_t k = 0; k < std::min(kLookedAt, promises.size()); ++k) {
     const RadiusChanges least{{promises[k].pulley, least_along(fit, promises[k])}};
-    if (auto one = at_minimum(fit, least, step_of(fit, least)))
-      found.best.push_back(*std::move(one));
+    if (auto one = at_minimum(fit, least, step_of(fit, least))) found.push_back(*std::move(one));
   }
-  sort_by_fall(found.best);
+  sort_by_fall(found);
   return found;
 }
 
@@ -239,7 +240,7 @@ std::optional<FittedRadii> fitted_radii(const RadiusFit& fit, RadiusChanges chan
 
 std::vector<FittedRadii> with_one_more(const RadiusFit& fit, const FittedRadii& radii,
                                        const std::vector<Pulley>& pulleys) {
-  const std::vector<Pulley> own = radii.pulleys();
+  const std::vector<Pulley> own = pulleys_in(radii.changes);
   RadiusChanges all = radii.changes;
   for (const Pulley& pulley : pulleys)
     if (std::find(own.begin(), own.end(), pulley) == own.end()) all.push_back({pulley, 0});

@@ -14,7 +14,6 @@ struct FittedRadii {
   RadiusFit::Errors errors;
   double given = 0;  ///< squared residual with the given radii
 
-  std::vector<Pulley> pulleys() const;
   double fall() const { return given - errors.sum(); }
   /// Of the radius with this number, m.
   double sd(std::size_t k) const;
@@ -22,12 +21,8 @@ struct FittedRadii {
   double dof(std::size_t k) const;
 };
 
-/// One radius each, the best first.
-struct SingleRadii {
-  std::vector<FittedRadii> best;
-  std::size_t n_tried = 0;
-};
-SingleRadii single_radii(const RadiusFit& fit, const std::vector<Pulley>& pulleys);
+/// One radius each: of the pulleys that promise most, the best first.
+std::vector<FittedRadii> single_radii(const RadiusFit& fit, const std::vector<Pulley>& pulleys);
 
 /// Several radii from these on (Gauss-Newton, steps that are halved until the residual falls).
 /// Nothing where the rows do not determine them together, or where the steps do not end.
@@ -43,6 +38,9 @@ std::vector<FittedRadii> radius_pairs(const RadiusFit& fit, const std::vector<Pu
 /// Whether both leave the same on the same joints, to within the scatter over blocks of time, or to
 /// 2 % of what the radius in which they differ removes. `fall_before`: without that radius.
 bool is_as_good(const FittedRadii& one, const FittedRadii& best, double fall_before);
+
+/// These radii as the rig file has them.
+RadiusChanges unchanged(RadiusChanges radii);
 
 /// The next step of these radii.
 std::optional<CommonStep> step_of(const RadiusFit& fit, const RadiusChanges& changes);

@@ -84,7 +84,7 @@ RadiusChanges changes_of(const WrongRadii& wrong) {
   return changes;
 }
 
-/// Those that no error has which was found already, and whose turn is known.
+/// Pulleys without those of the errors that were found, and without those whose turn is not known.
 std::vector<Pulley> pulleys_left(const RigErrorSearch& search, const RadiusFit& fit) {
   const Model& model = fit.model();
   std::vector<Pulley> pulleys = pulleys_of(model);
@@ -143,18 +143,18 @@ std::optional<std::vector<Pulley>> rivals_among(const RadiusFit& fit, const Fitt
 std::optional<WrongRadii> best_radius(const RigErrorSearch& search) {
   const RadiusFit fit(search.fitted, search.logs);
   const std::vector<Pulley> pulleys = pulleys_left(search, fit);
-  const SingleRadii found = single_radii(fit, pulleys);
-  if (found.best.empty() || !(found.best.front().fall() > 0)) return {};
-  const FittedRadii& best = found.best.front();
+  const std::vector<FittedRadii> found = single_radii(fit, pulleys);
+  if (found.empty() || !(found.front().fall() > 0)) return {};
+  const FittedRadii& best = found.front();
   WrongRadii wrong = to_wrong_radii(best, pulleys.size(), fit.model());
-  for (const FittedRadii& one : found.best)
+  for (const FittedRadii& one : found)
     if (&one != &best && is_as_good(one, best, 0))
       wrong.all.front().rivals.push_back(one.changes.front().pulley);
   return wrong;
 }
 
-/// These radii and one more that is wrong together with them, or as many others that are better.
-/// Nothing where no other is.
+/// These radii and one more that is wrong together with them, or as many others that remove more.
+/// Nothing where one of them is not significant.
 std::optional<WrongRadii> and_one_more(const RigErrorSearch& search, const WrongRadii& wrong) {
   const RadiusFit fit(search.fitted, search.logs);
   const std::vector<Pulley> pulleys = pulleys_left(search, fit);
@@ -217,8 +217,7 @@ bool take_step(const CommonStep& step, WrongRadii& wrong) {
 /// then; the first ones had the gap of the wrong radii in them.
 std::vector<Model> with_right_radii(const RigErrorSearch& search, WrongRadii& wrong) {
   constexpr int kSteps = 6;
-  RadiusChanges none = changes_of(wrong);
-  for (RadiusChange& change : none) change.by = 0;
+  const RadiusChanges none = unchanged(changes_of(wrong));
   std::vector<Model> models = with_radii({search.given.begin(), search.given.end()}, wrong);
   for (int i = 0; i < kSteps; ++i) {
     if (models.front().is_coupled())
@@ -282,8 +281,8 @@ void keep_rivals(const RigErrorSearch& search, WrongRadii& wrong) {
       continue;
     }
     std::erase_if(rivals, [&](const Pulley& pulley) {
-      const SingleRadii other = single_radii(fit, {pulley});
-      return !other.best.empty() && !is_as_good(other.best.front(), *own, 0);
+      const std::vector<FittedRadii> other = single_radii(fit, {pulley});
+      return !other.empty() && !is_as_good(other.front(), *own, 0);
     });
   }
 }
