@@ -94,6 +94,17 @@ TEST_CASE("a common value that nothing shows is not determined", "[refine]") {
   CHECK_FALSE(step_of(joints, {0, 1}));
 }
 
+TEST_CASE("the combination of common values that shows most is what the joints do not hide",
+          "[refine]") {
+  Eigen::MatrixXd rows = random_rows(6);
+  rows.rightCols(1) = -0.75 * rows.col(1 + kOwn);  // together they are seen as 1, -0.75
+  const OneJoint joint = one_joint(rows, 1);
+  CommonColumns columns(kCommon);
+  columns.add_joint(joint.grams, joint.levels, joint.x);
+  const Eigen::VectorXd most = columns.most_shown();
+  CHECK((most * most(0) / std::abs(most(0)) - Eigen::Vector2d(0.8, -0.6)).norm() < 1e-9);
+}
+
 TEST_CASE("common values are determined where another joint separates them", "[refine]") {
   Eigen::MatrixXd rows = random_rows(4);
   rows.rightCols(1) = 2 * rows.col(1 + kOwn);

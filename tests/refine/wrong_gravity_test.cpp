@@ -6,9 +6,8 @@
 namespace cablefit::test {
 namespace {
 
-/// The thumb with its base turned.
-PlainRig leaning(double angle, const Eigen::Vector3d& about) {
-  PlainRig rig = thumb_rig();
+/// The rig with its base turned.
+PlainRig leaning(PlainRig rig, double angle, const Eigen::Vector3d& about) {
   PlainArm& arm = *rig.link_dynamics.target<PlainArm>();
   arm.gravity = Eigen::AngleAxisd(angle, about) * arm.gravity;
   return rig;
@@ -42,11 +41,30 @@ void check_direction(const PlainRig& hidden) {
 }
 
 TEST_CASE("the direction of gravity on a base that leans is identified", "[refine]") {
-  check_direction(leaning(0.1, Eigen::Vector3d::UnitX()));
+  check_direction(leaning(thumb_rig(), 0.1, Eigen::Vector3d::UnitX()));
 }
 
 TEST_CASE("an arm that hangs from the ceiling is identified", "[refine]") {
-  check_direction(leaning(3.1, Eigen::Vector3d::UnitY()));
+  check_direction(leaning(thumb_rig(), 3.1, Eigen::Vector3d::UnitY()));
+}
+
+TEST_CASE("an arm that moves in a plane shows its lean in that plane", "[refine]") {
+  const RefineResult result =
+      refined_arm(leaning(phalanges_rig(), 0.1, Eigen::Vector3d::UnitY())).result;
+  REQUIRE(result.effects.size() == 1);
+  CHECK(result.effects[0].instance.effect->name == "gravity_direction");
+  CHECK(result.effects[0].evidence.gain > 0.99);
+  const std::vector<Estimate>& g = result.effects[0].instance.parameters;
+  const double right[] = {-9.80665 * std::sin(0.1), 0, -9.80665 * std::cos(0.1)};
+  for (const std::size_t in_plane : {0u, 2u}) {
+    CHECK(std::abs(g.at(in_plane).value - right[in_plane]) < 3 * g.at(in_plane).sd);
+    CHECK(g.at(in_plane).sd < 0.02);
+  }
+  // A lean out of the plane only scales the weights.
+  CHECK(g.at(1).value == 0);
+  CHECK(std::isnan(g.at(1).sd));
+  const auto joint = static_cast<std::size_t>(result.effects[0].joint - 1);
+  CHECK(result.joints.at(joint).reason.ends_with("about the one axis that the logs determine"));
 }
 
 TEST_CASE("on a thumb that stands as its rig file says nothing is missing", "[refine]") {

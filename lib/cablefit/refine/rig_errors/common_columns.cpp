@@ -48,6 +48,11 @@ void CommonColumns::add_joint(const BlockGrams& grams, const KindLevels& levels,
   }
 }
 
+Eigen::VectorXd CommonColumns::most_shown() const {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(matrix_);
+  return parts.eigenvectors().rightCols(1);
+}
+
 std::optional<CommonStep> CommonColumns::step(const std::vector<Eigen::Index>& of,
                                               double least_own) const {
   const auto n = static_cast<Eigen::Index>(of.size());

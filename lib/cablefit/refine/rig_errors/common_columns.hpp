@@ -28,6 +28,10 @@ class CommonColumns {
   /// torque per unit of each value. `x`: its own parameters.
   void add_joint(const BlockGrams& grams, const KindLevels& levels, const Eigen::VectorXd& x);
 
+  /// Of all combinations of the values (unit vectors), the one whose column is largest beside the
+  /// joints' own ones. The values have one unit.
+  Eigen::VectorXd most_shown() const;
+
   /// Of these values alone, which have one unit. Nothing where a combination of their columns has
   /// less than `least_own` of their squares beside the joints' own columns, or where a value shows
   /// in no more blocks than there are values.

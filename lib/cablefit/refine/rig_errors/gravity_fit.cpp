@@ -3,11 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "cablefit/model/arm/serial_arm.hpp"
 #include "cablefit/model/one_joint.hpp"
 #include "cablefit/refine/bases/kept_joint.hpp"
-#include "cablefit/refine/rig_errors/common_columns.hpp"
 #include "cablefit/refine/rows/kernel.hpp"
 
 namespace cablefit {
@@ -16,8 +17,6 @@ namespace {
 // Of errors that repeat in every block, over the scatter between blocks, as variances: smoothed
 // motion has such errors, and no scatter shows them. By 12 simulated thumbs.
 constexpr double kRepeated = 0.1;
-
-using Axes3 = Eigen::Matrix<double, 3, 2>;
 
 /// Torque of the links' weights on the joint where gravity is this, N m at every sample.
 Eigen::VectorXd weight_on(Model one, const SmoothMotion& motion, const Eigen::Vector3d& gravity) {
@@ -33,17 +32,18 @@ Eigen::VectorXd weight_on(Model one, const SmoothMotion& motion, const Eigen::Ve
 
 /// Torque per radian about each axis, in the rows of every stretch.
 VariantColumns tilt_columns(const Design& design, const Eigen::Vector3d& gravity,
-                            const Axes3& axes) {
+                            const Eigen::Matrix3Xd& axes) {
   VariantColumns all;
   for (std::size_t s = 0; s < design.rows.size(); ++s) {
     const StretchRows& rows = design.rows[s];
     const Model& one = design.models[design.stretches[s].model];
     auto& kinds = all.emplace_back();
     for (const KindRows& kind : rows.kinds) {
-      Eigen::MatrixXd& columns = kinds.emplace_back(Eigen::MatrixXd::Zero(kind.base.rows(), 2));
+      Eigen::MatrixXd& columns =
+          kinds.emplace_back(Eigen::MatrixXd::Zero(kind.base.rows(), axes.cols()));
       if (kind.kind != RowKind::link) continue;
-      Eigen::MatrixXd torque(rows.motion->size(), 2);
-      for (Eigen::Index k = 0; k < 2; ++k)
+      Eigen::MatrixXd torque(rows.motion->size(), axes.cols());
+      for (Eigen::Index k = 0; k < axes.cols(); ++k)
         torque.col(k) = weight_on(one, *rows.motion, axes.col(k).cross(gravity));
       columns =
           apply_at(gaussian(design.smoothing_of(s).columns, rows.motion->period), torque, kind.at);
@@ -76,31 +76,46 @@ Eigen::Vector3d Tilt::turned(const Eigen::Vector3d& gravity) const {
 GravityFit::GravityFit(const std::vector<Model>& models, const RefineLogs& logs)
     : models_(models), joints_(base_fits_of(models, logs)) {}
 
-std::optional<Tilt> GravityFit::tilt() const {
-  constexpr double kMostSd = 0.5;    // rad
-  constexpr double kOwnPart = 1e-6;  // of a column's square; less is rounding
+CommonColumns GravityFit::columns_about(const Eigen::Matrix3Xd& axes) const {
   const Eigen::Vector3d gravity = gravity_of(models_.front().rig);
-  Tilt tilt;
-  tilt.axes.col(0) = gravity.unitOrthogonal();
-  tilt.axes.col(1) = gravity.normalized().cross(tilt.axes.col(0));
-  CommonColumns angles(2);
   const double block_seconds = ScanSettings{}.block_seconds;
+  CommonColumns columns(axes.cols());
   for (const std::optional<BaseFit>& base : joints_)
     if (base) {
       const Design& design = base->design;
-      angles.add_joint(extended(base->grams, design.rows, design.stretches,
-                                tilt_columns(design, gravity, tilt.axes), block_seconds),
-                       base->levels, base->fit.x);
+      columns.add_joint(extended(base->grams, design.rows, design.stretches,
+                                 tilt_columns(design, gravity, axes), block_seconds),
+                        base->levels, base->fit.x);
     }
-  const auto step = angles.step({0, 1}, kOwnPart);
+  return columns;
+}
+
+std::optional<Tilt> GravityFit::tilt_about(Eigen::Matrix3Xd axes,
+                                           const CommonColumns& columns) const {
+  constexpr double kMostSd = 0.5;    // rad
+  constexpr double kOwnPart = 1e-6;  // of a column's square; less is rounding
+  std::vector<Eigen::Index> all(static_cast<std::size_t>(axes.cols()));
+  std::iota(all.begin(), all.end(), 0);
+  const auto step = columns.step(all, kOwnPart);
   if (!step) return {};
-  tilt.angles = step->change;
+  Tilt tilt{std::move(axes), step->change, {}, 1};
   const double n_blocks = step->n_blocks.minCoeff();
   tilt.covariance = (1 + kRepeated * n_blocks) * step->covariance;
-  tilt.dof = n_blocks - 2;
+  tilt.dof = n_blocks - static_cast<double>(tilt.angles.size());
   const bool is_determined = (tilt.covariance.diagonal().array() < kMostSd * kMostSd).all();
   if (!is_determined) return {};
   return tilt;
+}
+
+std::optional<Tilt> GravityFit::tilt() const {
+  const Eigen::Vector3d gravity = gravity_of(models_.front().rig);
+  Eigen::Matrix3Xd axes(3, 2);
+  axes.col(0) = gravity.unitOrthogonal();
+  axes.col(1) = gravity.normalized().cross(axes.col(0));
+  const CommonColumns columns = columns_about(axes);
+  if (auto both = tilt_about(axes, columns)) return both;
+  axes = axes * columns.most_shown();
+  return tilt_about(axes, columns_about(axes));
 }
 
 }  // namespace cablefit

@@ -8,6 +8,7 @@
 #include "cablefit/model/model.hpp"
 #include "cablefit/refine/null/null_draws.hpp"
 #include "cablefit/refine/refine_options.hpp"
+#include "cablefit/refine/rig_errors/common_columns.hpp"
 
 namespace cablefit {
 
@@ -18,11 +19,13 @@ Eigen::Vector3d gravity_of(const Rig& rig);
 /// The arm then has the base parameters that this direction asks for.
 void set_gravity(Rig& rig, const Eigen::Vector3d& gravity);
 
-/// A change of the direction of gravity, by its angles (rad) about two axes.
+/// A change of the direction of gravity, by its angles (rad) about the axes that the rows
+/// determine: two, or one on an arm that moves in a plane, whose weights a lean out of the plane
+/// only scales.
 struct Tilt {
-  Eigen::Matrix<double, 3, 2> axes;  ///< unit vectors in the frame of the arm's base
-  Eigen::Vector2d angles;
-  Eigen::Matrix2d covariance;  ///< rad^2, by the scatter over blocks of time
+  Eigen::Matrix3Xd axes;  ///< unit vectors in the frame of the arm's base
+  Eigen::VectorXd angles;
+  Eigen::MatrixXd covariance;  ///< rad^2, by the scatter over blocks of time
   double dof = 1;              ///< of the t distributions of the angles
 
   Eigen::Vector3d turned(const Eigen::Vector3d& gravity) const;
@@ -37,11 +40,14 @@ class GravityFit {
   const std::vector<std::optional<BaseFit>>& joints() const { return joints_; }
 
   /// The change that lets the residual of all joints fall most, to first order (Gauss-Newton). The
-  /// linear parameters of every joint are fitted anew. Nothing where the rows do not determine it
-  /// to within half a radian.
+  /// linear parameters of every joint are fitted anew. Nothing where the rows do not determine any
+  /// angle to within half a radian.
   std::optional<Tilt> tilt() const;
 
  private:
+  CommonColumns columns_about(const Eigen::Matrix3Xd& axes) const;
+  std::optional<Tilt> tilt_about(Eigen::Matrix3Xd axes, const CommonColumns& columns) const;
+
   std::vector<Model> models_;
   std::vector<std::optional<BaseFit>> joints_;
 };

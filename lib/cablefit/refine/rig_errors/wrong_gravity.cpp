@@ -94,7 +94,7 @@ std::optional<Direction> least_near(const RigErrorSearch& search, Eigen::Vector3
     const auto tilt = here ? here->fit.tilt() : std::nullopt;
     if (!tilt) return {};
     gravity = tilt->turned(gravity);
-    const Eigen::Array2d sd = tilt->covariance.diagonal().array().sqrt();
+    const Eigen::ArrayXd sd = tilt->covariance.diagonal().array().sqrt();
     if ((tilt->angles.array().abs() < kNearSd * sd).all()) return Direction{gravity, *tilt};
   }
   return {};
@@ -103,9 +103,9 @@ std::optional<Direction> least_near(const RigErrorSearch& search, Eigen::Vector3
 /// Of the angle to another direction, rad.
 double sd_towards(const Direction& from, const Eigen::Vector3d& other) {
   const Eigen::Vector3d turn = from.gravity.cross(other);
-  const Eigen::Vector2d part = turn.norm() > 0
-                                   ? Eigen::Vector2d(from.last.axes.transpose() * turn.normalized())
-                                   : Eigen::Vector2d(1, 0);
+  const Eigen::Vector3d axis =
+      turn.norm() > 0 ? Eigen::Vector3d(turn.normalized()) : Eigen::Vector3d(from.last.axes.col(0));
+  const Eigen::VectorXd part = from.last.axes.transpose() * axis;
   return std::sqrt(part.dot(from.last.covariance * part));
 }
 
@@ -127,12 +127,21 @@ std::vector<Estimate> components(const std::string& name, const Eigen::Vector3d&
   return all;
 }
 
+/// Whether gravity moves along this component where the arm leans about an axis that the logs do
+/// not determine: that axis and the one that they determine are level and perpendicular.
+bool is_undetermined(const Direction& right, Eigen::Index component) {
+  constexpr double kSome = 1e-3;
+  return right.last.axes.cols() == 1 && std::abs(right.last.axes(component, 0)) > kSome;
+}
+
 EffectInstance instance_of(const Direction& right) {
   EffectInstance instance{&rig_error_row(kName, Site::link), components("g", right.gravity)};
-  Eigen::Matrix<double, 3, 2> slope;  // of the components, per radian
-  for (Eigen::Index k = 0; k < 2; ++k) slope.col(k) = right.last.axes.col(k).cross(right.gravity);
-  const Eigen::Matrix3d covariance = slope * right.last.covariance * slope.transpose();
+  Eigen::Matrix3Xd slopes = right.last.axes;  // of the components, per radian
+  for (Eigen::Index k = 0; k < slopes.cols(); ++k)
+    slopes.col(k) = right.last.axes.col(k).cross(right.gravity);
+  const Eigen::Matrix3d covariance = slopes * right.last.covariance * slopes.transpose();
   for (Eigen::Index k = 0; k < 3; ++k) {
+    if (is_undetermined(right, k)) continue;
     Estimate& e = instance.parameters[static_cast<std::size_t>(k)];
     e.sd = std::sqrt(std::max(0.0, covariance(k, k)));
     set_interval(e, right.last.dof);
@@ -144,15 +153,15 @@ EffectInstance instance_of(const Direction& right) {
 std::optional<RigError> error_of(const RigErrorSearch& search, const Eigen::Vector3d& given,
                                  const Direction& right) {
   constexpr double kDegree = 57.295779513082323;
-  constexpr int kAngles = 2;
   const auto given_fit = fit_at(search, given);
   auto right_fit = fit_at(search, right.gravity);
   if (!given_fit || !right_fit) return {};
   const double angle = angle_between(given, right.gravity), sd = sd_towards(right, given);
+  const auto n_angles = static_cast<double>(right.last.angles.size());
   RigError error;
   WrongValue& value = error.values.emplace_back();
   value.name = kName;
-  value.chance = std::min(1.0, kAngles * t_tail(angle / sd, right.last.dof));
+  value.chance = std::min(1.0, n_angles * t_tail(angle / sd, right.last.dof));
   const double before = squares_of(given_fit->fit, right_fit->fit);
   if (before > 0)
     value.share = std::max(0.0, 1 - squares_of(right_fit->fit, right_fit->fit) / before);
@@ -162,8 +171,9 @@ std::optional<RigError> error_of(const RigErrorSearch& search, const Eigen::Vect
   value.given = components("given", given);
   value.reason = fmt::format(
       "the weight of the links shows gravity {:.3g} deg (sd {:.1g} deg) from the direction in the "
-      "rig file",
-      kDegree * angle, kDegree * sd);
+      "rig file{}",
+      kDegree * angle, kDegree * sd,
+      n_angles > 1 ? "" : ", about the one axis that the logs determine");
   error.again = [given,
                  gravity = right.gravity](const RigErrorSearch& other) -> std::optional<RigError> {
     const auto anew = least_near(other, gravity);
