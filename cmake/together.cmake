@@ -15,6 +15,9 @@ function(cablefit_together target folder)
     set_source_files_properties(${sources} PROPERTIES UNITY_GROUP "${folder}/${letters}")
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # Memory to collect in: less often, a tenth of the time of large files.
+  target_compile_options(${target} PRIVATE
+                         $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
   # Said of types that no other file knows, once their file is included by another.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()

@@ -281,8 +281,10 @@ double plain_mode(const PlainRig& rig, const PlainArm& arm, double theta) {
         arm.torques(zero, zero, Eigen::Vector2d::Unit(k)) - arm.torques(zero, zero, zero);
     inertia(2 + k, 2 + k) = rig.joints[static_cast<std::size_t>(k)].J_motor;
   }
-  const Eigen::Matrix4d both = inertia.ldlt().solve(stiffness);
-  return std::sqrt(both.eigenvalues().real().maxCoeff());
+  // Both are symmetric: of L^-1 K L^-T with inertia = L L^T.
+  const Eigen::MatrixXd half = Eigen::Matrix4d(inertia.llt().matrixL()).inverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(half * stiffness * half.transpose());
+  return std::sqrt(modes.eigenvalues().maxCoeff());
 }
 
 TEST_CASE("the step of an arm goes by its stiffest mode", "[simulate]") {

@@ -37,7 +37,7 @@ double slowest_direction(const Eigen::MatrixXd& r) {
   if (used.empty()) return 1;
   Eigen::MatrixXd scaled = r(Eigen::all, used);
   scaled.colwise().normalize();
-  const double least = scaled.bdcSvd().singularValues().minCoeff();
+  const double least = Eigen::JacobiSVD<Eigen::MatrixXd>(scaled).singularValues().minCoeff();
   return least > 0 ? 1 / (least * least) : std::numeric_limits<double>::infinity();
 }
 
