@@ -275,6 +275,15 @@ std::string unexplained_text(const Unexplained& found, Axes axes) {
       found.equation, size, significant(found.correlation_time, 2));
 }
 
+/// "[flexor]" where its only parameter is a value of this cable: a joint can have several.
+std::string of_cable(const NamedEffect& effect) {
+  const std::vector<Estimate>& parameters = effect.instance.parameters;
+  if (parameters.size() != 1) return "";
+  const std::string& name = parameters.front().name;
+  const std::size_t open = name.find('[');
+  return open == std::string::npos ? "" : name.substr(open);
+}
+
 bool shifts_any(const RefineResult& result) {
   return std::any_of(result.shifts.begin(), result.shifts.end(), is_shifted);
 }
@@ -292,7 +301,8 @@ std::string effect_text(std::string_view name, std::string_view side, int joint,
 
 std::string effect_text(const NamedEffect& effect, const RefineResult& result) {
   const Effect& row = *effect.instance.effect;
-  return effect_text(row.name, to_string(row.site), effect.joint, result);
+  return effect_text(std::string(row.name) + of_cable(effect), to_string(row.site), effect.joint,
+                     result);
 }
 
 std::string regime_text(const Regime& regime, Axes axes) {
