@@ -1,4 +1,4 @@
-# Where files use the same templates (Eigen's decompositions, options of CLI11, JSON), those of a folder
+# Where files use the same templates (Eigen's expressions, options of CLI11, JSON), those of a folder
 # that begin with neighbouring letters are compiled together: the templates once, not once a file. Names
 # in their anonymous namespaces have to differ then. FILES: those that the pattern matches; LETTERS: only
 # those that begin so.
@@ -15,7 +15,7 @@ function(cablefit_together target folder)
     set_source_files_properties(${sources} PROPERTIES UNITY_GROUP "${folder}/${letters}")
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  # Memory to collect in: less often, a tenth of the time of large files.
+  # gcc then looks for garbage from 512 MB on: a tenth of the time of large files.
   target_compile_options(${target} PRIVATE
                          $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
   # Said of types that no other file knows, once their file is included by another.

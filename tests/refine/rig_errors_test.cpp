@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
+#include <set>
 
 #include "cablefit/refine/rig_errors/rig_error.hpp"
+#include "cablefit/report/sections/refine_story.hpp"
 #include "tests/refine/refined_finger.hpp"
 
 namespace cablefit::test {
@@ -94,17 +96,17 @@ TEST_CASE("two wrong radii are identified together", "[refine]") {
 }
 
 TEST_CASE("a wrong radius is identified on a base that leans", "[refine]") {
-  PlainRig hidden = thumb_rig();
+  PlainRig hidden = phalanges_rig();
   PlainArm& arm = *hidden.link_dynamics.target<PlainArm>();
-  arm.gravity = Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()) * arm.gravity;
+  arm.gravity = Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY()) * arm.gravity;
   hidden.cables[1].link[1] = round_map(1.03 * hidden.cables[1].link[1].radius[0]);
-  const RefineResult result = refined_thumb(hidden).result;
+  const RefineResult result = refined_arm(hidden).result;
   CHECK(result.verdict == Verdict::named);
   REQUIRE(result.effects.size() == 2);
   for (const NamedEffect& effect : result.effects) CHECK(effect.rivals.empty());
   const auto radii = radii_of(result);
-  REQUIRE(radii.count("link radius[extensor1], joint 2") == 1);
-  check_value(radii.at("link radius[extensor1], joint 2"), hidden.cables[1].link[1].radius[0]);
+  REQUIRE(radii.count("link radius[extensor], joint 2") == 1);
+  check_value(radii.at("link radius[extensor], joint 2"), hidden.cables[1].link[1].radius[0]);
   const auto gravity = std::find_if(
       result.effects.begin(), result.effects.end(),
       [](const NamedEffect& e) { return e.instance.effect->name == "gravity_direction"; });
@@ -125,6 +127,10 @@ TEST_CASE("radii of one joint that are wrong together are identified", "[refine]
   check_radii(result, {{"link radius[flexor], joint 2", 0.0072},
                        {"link radius[extensor], joint 2", -0.0093}});
   check_no_gap(result);
+  std::set<std::string> labels;
+  for (const NamedEffect& effect : result.effects) labels.insert(effect_text(effect, result));
+  CHECK(labels ==
+        std::set<std::string>{"cable_radius[flexor] (link 2)", "cable_radius[extensor] (link 2)"});
 }
 
 TEST_CASE("three radii that are wrong together are identified", "[refine]") {

@@ -1,4 +1,4 @@
-// A thumb whose base leans or hangs, which its rig file does not say.
+// An arm whose base leans or hangs, which its rig file does not say.
 #include <catch2/catch.hpp>
 
 #include "tests/refine/refined_finger.hpp"
@@ -54,6 +54,7 @@ TEST_CASE("an arm that moves in a plane shows its lean in that plane", "[refine]
   REQUIRE(result.effects.size() == 1);
   CHECK(result.effects[0].instance.effect->name == "gravity_direction");
   CHECK(result.effects[0].evidence.gain > 0.99);
+  CHECK(result.effects[0].evidence.p_value < 1e-6);
   const std::vector<Estimate>& g = result.effects[0].instance.parameters;
   const double right[] = {-9.80665 * std::sin(0.1), 0, -9.80665 * std::cos(0.1)};
   for (const std::size_t in_plane : {0u, 2u}) {
@@ -63,6 +64,7 @@ TEST_CASE("an arm that moves in a plane shows its lean in that plane", "[refine]
   // A lean out of the plane only scales the weights.
   CHECK(g.at(1).value == 0);
   CHECK(std::isnan(g.at(1).sd));
+  CHECK(g.at(1).not_identifiable == "the logs do not determine the lean about the other axis");
   const auto joint = static_cast<std::size_t>(result.effects[0].joint - 1);
   CHECK(result.joints.at(joint).reason.ends_with("about the one axis that the logs determine"));
 }

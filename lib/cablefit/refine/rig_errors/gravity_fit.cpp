@@ -52,6 +52,22 @@ VariantColumns tilt_columns(const Design& design, const Eigen::Vector3d& gravity
   return all;
 }
 
+std::optional<Tilt> tilt_about(Eigen::Matrix3Xd axes, const CommonColumns& columns) {
+  constexpr double kMostSd = 0.5;    // rad
+  constexpr double kOwnPart = 1e-6;  // of a column's square; less is rounding
+  std::vector<Eigen::Index> all(static_cast<std::size_t>(axes.cols()));
+  std::iota(all.begin(), all.end(), 0);
+  const auto step = columns.step(all, kOwnPart);
+  if (!step) return {};
+  Tilt tilt{std::move(axes), step->change, {}, 1};
+  const double n_blocks = step->n_blocks.minCoeff();
+  tilt.covariance = (1 + kRepeated * n_blocks) * step->covariance;
+  tilt.dof = n_blocks - static_cast<double>(tilt.angles.size());
+  const bool is_determined = (tilt.covariance.diagonal().array() < kMostSd * kMostSd).all();
+  if (!is_determined) return {};
+  return tilt;
+}
+
 }  // namespace
 
 bool has_gravity(const Rig& rig) {
@@ -90,31 +106,12 @@ CommonColumns GravityFit::columns_about(const Eigen::Matrix3Xd& axes) const {
   return columns;
 }
 
-std::optional<Tilt> GravityFit::tilt_about(Eigen::Matrix3Xd axes,
-                                           const CommonColumns& columns) const {
-  constexpr double kMostSd = 0.5;    // rad
-  constexpr double kOwnPart = 1e-6;  // of a column's square; less is rounding
-  std::vector<Eigen::Index> all(static_cast<std::size_t>(axes.cols()));
-  std::iota(all.begin(), all.end(), 0);
-  const auto step = columns.step(all, kOwnPart);
-  if (!step) return {};
-  Tilt tilt{std::move(axes), step->change, {}, 1};
-  const double n_blocks = step->n_blocks.minCoeff();
-  tilt.covariance = (1 + kRepeated * n_blocks) * step->covariance;
-  tilt.dof = n_blocks - static_cast<double>(tilt.angles.size());
-  const bool is_determined = (tilt.covariance.diagonal().array() < kMostSd * kMostSd).all();
-  if (!is_determined) return {};
-  return tilt;
-}
-
-std::optional<Tilt> GravityFit::tilt() const {
+std::optional<Tilt> GravityFit::tilt(Angles angles) const {
   const Eigen::Vector3d gravity = gravity_of(models_.front().rig);
   Eigen::Matrix3Xd axes(3, 2);
   axes.col(0) = gravity.unitOrthogonal();
   axes.col(1) = gravity.normalized().cross(axes.col(0));
-  const CommonColumns columns = columns_about(axes);
-  if (auto both = tilt_about(axes, columns)) return both;
-  axes = axes * columns.most_shown();
+  if (angles == Angles::most_shown) axes = axes * columns_about(axes).most_shown();
   return tilt_about(axes, columns_about(axes));
 }
 

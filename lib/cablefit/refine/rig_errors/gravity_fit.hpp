@@ -31,6 +31,8 @@ struct Tilt {
   Eigen::Vector3d turned(const Eigen::Vector3d& gravity) const;
 };
 
+enum class Angles { both, most_shown };
+
 class GravityFit {
  public:
   /// `models`: of all joints, one per preload, with the masses of the arm.
@@ -40,13 +42,12 @@ class GravityFit {
   const std::vector<std::optional<BaseFit>>& joints() const { return joints_; }
 
   /// The change that lets the residual of all joints fall most, to first order (Gauss-Newton). The
-  /// linear parameters of every joint are fitted anew. Nothing where the rows do not determine any
+  /// linear parameters of every joint are fitted anew. Nothing where the rows do not determine each
   /// angle to within half a radian.
-  std::optional<Tilt> tilt() const;
+  std::optional<Tilt> tilt(Angles angles) const;
 
  private:
   CommonColumns columns_about(const Eigen::Matrix3Xd& axes) const;
-  std::optional<Tilt> tilt_about(Eigen::Matrix3Xd axes, const CommonColumns& columns) const;
 
   std::vector<Model> models_;
   std::vector<std::optional<BaseFit>> joints_;

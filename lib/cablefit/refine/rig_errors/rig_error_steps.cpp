@@ -53,6 +53,7 @@ bool is_same(const WrongValue& one, const WrongValue& other) {
   constexpr double kNearSd = 0.1;
   for (std::size_t k = 0; k < one.instance.parameters.size(); ++k) {
     const Estimate &a = one.instance.parameters[k], &b = other.instance.parameters[k];
+    if (std::isnan(b.sd)) continue;  // not determined
     if (!(std::abs(a.value - b.value) <= kNearSd * b.sd)) return false;
   }
   return true;
@@ -149,55 +150,104 @@ std::optional<RigError> next_of(const RigError& error, const RigErrorSearch& sea
   return error.with_one_more(search);
 }
 
-/// Values by name, side and joint. Which of them were right in a run of refine before?
+/// Values by name, side and joint, those fitted together in one text. Which of them were right in a
+/// run of refine before?
 using Tried = std::set<std::vector<std::string>>;
+
+std::string text_of(const RigError& error) {
+  std::vector<std::string> names;
+  for (const WrongValue& value : error.values)
+    names.push_back(fmt::format("{} {} {}", value.name, to_string(value.instance.effect->site),
+                                value.joint.value_or(-1)));
+  std::sort(names.begin(), names.end());
+  return fmt::format("{}", fmt::join(names, ", "));
+}
 
 /// Whether the values of the steps and the error are new.
 bool is_new(const Steps& steps, const RigError& error, Tried& tried) {
-  std::vector<std::string> names;
-  const auto add = [&](const WrongValue& value) {
-    names.push_back(fmt::format("{} {} {}", value.name, to_string(value.instance.effect->site),
-                                value.joint.value_or(-1)));
-  };
-  for (const WrongValue* value : values_of(steps, steps.size())) add(*value);
-  for (const WrongValue& value : error.values) add(value);
+  std::vector<std::string> names{text_of(error)};
+  for (const Step& step : steps) names.push_back(text_of(step.error));
   std::sort(names.begin(), names.end());
   return tried.insert(std::move(names)).second;
 }
 
-/// The steps and more, so that right values explain what the joints show after the first
-/// `n_accepted` of them: the value that removes most, or several of one kind that are wrong
-/// together. Otherwise the steps and the single value that removes most. `given`: with the rig file
-/// as it is.
-Explanation explanation(const Steps& steps, const Attempt& given, std::size_t n_accepted,
-                        const Refiner& refiner, Tried& tried) {
-  const Attempt& start = steps.empty() ? given : steps.back().right;
-  const Shown shown(steps, given, n_accepted);
-  const auto found = values_of(steps, steps.size());
-  RigErrorSearch search = refiner.search(start, start.run.models);
-  search.found = found;
-  search.n_most = shown.n_most_beside(found.size());
-  if (search.n_most == 0) return {steps};
-  const std::vector<RigError> errors = rig_errors_of(search);
+/// A search for more steps, so that right values explain what the joints show after the first
+/// `n_accepted` ones.
+struct StepSearch {
+  const Attempt& given;  ///< with the rig file as it is
+  std::size_t n_accepted;
+  const Refiner& refiner;
+  Tried& tried;
+};
+
+/// One more value; otherwise the steps and the one that removes most, if that is much.
+Explanation explained_by_one(const Steps& steps, const std::vector<RigError>& errors,
+                             const StepSearch& search) {
+  const Attempt& start = steps.empty() ? search.given : steps.back().right;
+  const Shown shown(steps, search.given, search.n_accepted);
   Steps first;
   for (const RigError& error : errors) {
-    if (!is_new(steps, error, tried)) continue;
-    Steps more = with_error(steps, start, error, refiner);
+    if (!is_new(steps, error, search.tried)) continue;
+    Steps more = with_error(steps, start, error, search.refiner);
     if (shown.is_explained_by(more)) return {std::move(more), true};
     const bool is_large = error.values.size() == 1 && error.values.front().share > kFirstShare;
     if (first.empty() && !more.empty() && is_large) first = std::move(more);
   }
-  for (const RigError& error : errors) {
-    auto several = next_of(error, search);
-    for (; several; several = next_of(*several, search)) {
-      if (!is_new(steps, *several, tried)) continue;
-      Steps more = with_error(steps, start, *several, refiner);
+  if (first.empty()) return {steps};
+  return {std::move(first)};
+}
+
+/// Errors beside the steps, and the search that found them.
+struct Beside {
+  std::vector<const WrongValue*> found;
+  RigErrorSearch search;
+  std::vector<RigError> errors;
+};
+
+Beside beside(const Steps& steps, const StepSearch& search) {
+  const Attempt& start = steps.empty() ? search.given : steps.back().right;
+  const Shown shown(steps, search.given, search.n_accepted);
+  Beside all{values_of(steps, steps.size()), search.refiner.search(start, start.run.models), {}};
+  all.search.found = all.found;
+  all.search.n_most = shown.n_most_beside(all.found.size());
+  if (all.search.n_most > 0) all.errors = rig_errors_of(all.search);
+  return all;
+}
+
+/// Several values of one kind that are wrong together.
+Explanation explained_by_several(const Steps& steps, const Beside& from, const StepSearch& search) {
+  const Attempt& start = steps.empty() ? search.given : steps.back().right;
+  const Shown shown(steps, search.given, search.n_accepted);
+  for (const RigError& error : from.errors) {
+    auto several = next_of(error, from.search);
+    for (; several; several = next_of(*several, from.search)) {
+      if (!is_new(steps, *several, search.tried)) continue;
+      Steps more = with_error(steps, start, *several, search.refiner);
       if (shown.is_explained_by(more)) return {std::move(more), true};
     }
   }
-  if (first.empty()) return {steps};
-  Explanation longer = explanation(first, given, n_accepted, refiner, tried);
-  return longer.is_whole ? longer : Explanation{std::move(first)};
+  return {steps};
+}
+
+/// Whether beside a wrong radius the direction of gravity removes more than another radius.
+bool is_gravity_next(const std::vector<RigError>& errors) {
+  return !errors.empty() && errors.front().values.front().name == "gravity_direction";
+}
+
+/// By the value that removes most, by several of one kind that are wrong together, or by the value
+/// that removes most and others. Otherwise the steps and the single value that removes most.
+/// `from`: beside the steps.
+Explanation explanation(const Steps& steps, const Beside& from, const StepSearch& search) {
+  Explanation one = explained_by_one(steps, from.errors, search);
+  if (one.is_whole) return one;
+  const auto several = [&] { return explained_by_several(steps, from, search); };
+  if (one.steps.size() == steps.size()) return several();
+  const Beside next = beside(one.steps, search);
+  const auto longer = [&] { return explanation(one.steps, next, search); };
+  const bool is_longer_first = is_gravity_next(next.errors);
+  Explanation whole = is_longer_first ? longer() : several();
+  if (!whole.is_whole) whole = is_longer_first ? several() : longer();
+  return whole.is_whole ? whole : one;
 }
 
 /// Warns at the joint that would list the value, where a joint has a remainder that nothing
@@ -232,7 +282,8 @@ JointRun without_rig_errors(std::span<const Model> models, const RefineLogs& log
   Steps steps;
   while ((steps.empty() ? given : steps.back().right).run.any_gap()) {
     Tried tried;
-    Explanation more = explanation(steps, given, steps.size(), refiner, tried);
+    const StepSearch search{given, steps.size(), refiner, tried};
+    Explanation more = explanation(steps, beside(steps, search), search);
     if (!more.is_whole) {
       if (more.steps.size() > steps.size())
         warn_of(more.steps[steps.size()].error.values.front(),

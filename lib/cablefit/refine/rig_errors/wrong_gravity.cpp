@@ -85,13 +85,22 @@ struct Direction {
   Tilt last;  ///< the step to it
 };
 
-/// Where the residual is least; nothing where the steps do not end.
-std::optional<Direction> least_near(const RigErrorSearch& search, Eigen::Vector3d gravity) {
-  constexpr int kSteps = 8;
+/// Where the residual is least; nothing where the steps do not end. Both angles, or the one that
+/// the logs determine: then from the start on, as a poor step of both would stay in the answer.
+std::optional<Direction> least_near(const RigErrorSearch& search, const Eigen::Vector3d& start) {
+  constexpr int kSteps = 16;
   constexpr double kNearSd = 0.1;
+  Angles angles = Angles::both;
+  Eigen::Vector3d gravity = start;
   for (int i = 0; i < kSteps; ++i) {
     const auto here = fit_at(search, gravity);
-    const auto tilt = here ? here->fit.tilt() : std::nullopt;
+    if (!here) return {};
+    const auto tilt = here->fit.tilt(angles);
+    if (!tilt && angles == Angles::both) {
+      angles = Angles::most_shown;
+      gravity = start;
+      continue;
+    }
     if (!tilt) return {};
     gravity = tilt->turned(gravity);
     const Eigen::ArrayXd sd = tilt->covariance.diagonal().array().sqrt();
@@ -100,12 +109,15 @@ std::optional<Direction> least_near(const RigErrorSearch& search, Eigen::Vector3
   return {};
 }
 
-/// Of the angle to another direction, rad.
+/// Of the angle to another direction, rad. Infinite where the turn to it is not about an axis that
+/// the logs determine.
 double sd_towards(const Direction& from, const Eigen::Vector3d& other) {
+  constexpr double kAbout = 0.99;  // cosine
   const Eigen::Vector3d turn = from.gravity.cross(other);
   const Eigen::Vector3d axis =
       turn.norm() > 0 ? Eigen::Vector3d(turn.normalized()) : Eigen::Vector3d(from.last.axes.col(0));
   const Eigen::VectorXd part = from.last.axes.transpose() * axis;
+  if (part.norm() < kAbout) return kUnbounded;
   return std::sqrt(part.dot(from.last.covariance * part));
 }
 
@@ -127,8 +139,7 @@ std::vector<Estimate> components(const std::string& name, const Eigen::Vector3d&
   return all;
 }
 
-/// Whether gravity moves along this component where the arm leans about an axis that the logs do
-/// not determine: that axis and the one that they determine are level and perpendicular.
+/// With one angle: a lean about the other axis moves gravity along the axis of this one.
 bool is_undetermined(const Direction& right, Eigen::Index component) {
   constexpr double kSome = 1e-3;
   return right.last.axes.cols() == 1 && std::abs(right.last.axes(component, 0)) > kSome;
@@ -141,8 +152,11 @@ EffectInstance instance_of(const Direction& right) {
     slopes.col(k) = right.last.axes.col(k).cross(right.gravity);
   const Eigen::Matrix3d covariance = slopes * right.last.covariance * slopes.transpose();
   for (Eigen::Index k = 0; k < 3; ++k) {
-    if (is_undetermined(right, k)) continue;
     Estimate& e = instance.parameters[static_cast<std::size_t>(k)];
+    if (is_undetermined(right, k)) {
+      e.not_identifiable = "the logs do not determine the lean about the other axis";
+      continue;
+    }
     e.sd = std::sqrt(std::max(0.0, covariance(k, k)));
     set_interval(e, right.last.dof);
   }

@@ -8,8 +8,8 @@
 
 namespace cablefit {
 
-/// Of an arm with a chain of joints. Nothing where the logs do not determine a direction, or the
-/// rig file's is as good.
+/// Of an arm with a chain of joints. Nothing where the logs determine no angle to the direction
+/// of the rig file, or it is as good.
 std::optional<RigError> wrong_gravity(const RigErrorSearch& search);
 
 }  // namespace cablefit

@@ -19,6 +19,7 @@ std::string side_text(std::string_view side, int joint, const RefineResult& resu
 /// "stribeck (motor)", "stribeck (motor 2)".
 std::string effect_text(std::string_view name, std::string_view side, int joint,
                         const RefineResult& result);
+/// With the cable of a wrong radius: "cable_radius[flexor] (link 2)".
 std::string effect_text(const NamedEffect& effect, const RefineResult& result);
 
 /// "thetad from -0.386 to 0.208 rad/s", "negative direction of thetad".
