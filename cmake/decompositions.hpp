@@ -1,6 +1,6 @@
 // Eigen's decompositions of MatrixXd, compiled once in decompositions.cpp: a file that only uses
-// one is built in two thirds of the time. For the precompiled headers; who uses a decomposition
-// includes its header of Eigen.
+// one is built in two thirds of the time. The precompiled headers include this header. A file that
+// uses a decomposition includes the header of Eigen.
 #pragma once
 
 #include <Eigen/Cholesky>

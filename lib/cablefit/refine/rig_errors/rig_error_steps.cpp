@@ -229,9 +229,10 @@ Explanation explained_by_several(const Steps& steps, const Beside& from, const S
   return {steps};
 }
 
-/// Whether beside a wrong radius the direction of gravity removes more than another radius.
-bool is_gravity_next(const std::vector<RigError>& errors) {
-  return !errors.empty() && errors.front().values.front().name == "gravity_direction";
+/// Whether the value that removes most is the only one of its kind. Further values of the kind
+/// found before may only stand for it.
+bool is_single_kind_first(const std::vector<RigError>& errors) {
+  return !errors.empty() && !errors.front().with_one_more;
 }
 
 /// By the value that removes most, by several of one kind that are wrong together, or by the value
@@ -244,7 +245,7 @@ Explanation explanation(const Steps& steps, const Beside& from, const StepSearch
   if (one.steps.size() == steps.size()) return several();
   const Beside next = beside(one.steps, search);
   const auto longer = [&] { return explanation(one.steps, next, search); };
-  const bool is_longer_first = is_gravity_next(next.errors);
+  const bool is_longer_first = is_single_kind_first(next.errors);
   Explanation whole = is_longer_first ? longer() : several();
   if (!whole.is_whole) whole = is_longer_first ? several() : longer();
   return whole.is_whole ? whole : one;

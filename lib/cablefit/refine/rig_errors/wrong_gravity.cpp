@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "cablefit/estimate/fit/parameter_estimate.hpp"
 #include "cablefit/estimate/spread/tail_probability.hpp"
@@ -85,8 +86,8 @@ struct Direction {
   Tilt last;  ///< the step to it
 };
 
-/// Where the residual is least; nothing where the steps do not end. Both angles, or the one that
-/// the logs determine: then from the start on, as a poor step of both would stay in the answer.
+/// Where the residual is least; nothing where the steps do not end. Where the logs determine one
+/// angle only, the steps begin again from the start: a poor step of both would stay in the answer.
 std::optional<Direction> least_near(const RigErrorSearch& search, const Eigen::Vector3d& start) {
   constexpr int kSteps = 16;
   constexpr double kNearSd = 0.1;
@@ -95,11 +96,10 @@ std::optional<Direction> least_near(const RigErrorSearch& search, const Eigen::V
   for (int i = 0; i < kSteps; ++i) {
     const auto here = fit_at(search, gravity);
     if (!here) return {};
-    const auto tilt = here->fit.tilt(angles);
-    if (!tilt && angles == Angles::both) {
-      angles = Angles::most_shown;
-      gravity = start;
-      continue;
+    auto tilt = here->fit.tilt(angles);
+    if (!tilt && std::exchange(angles, Angles::most_shown) == Angles::both) {
+      if (std::exchange(gravity, start) != start) continue;
+      tilt = here->fit.tilt(angles);
     }
     if (!tilt) return {};
     gravity = tilt->turned(gravity);
