@@ -69,6 +69,25 @@ TEST_CASE("an arm that moves in a plane shows its lean in that plane", "[refine]
   CHECK(result.joints.at(joint).reason.ends_with("about the one axis that the logs determine"));
 }
 
+TEST_CASE("a planar arm shows its weight where the rig file says that it has none", "[refine]") {
+  // Gravity along the joints' axes: without weights the fit cannot even be simulated.
+  const char* const along_axes =
+      R"( "arm": {"type": "urdf", "file": "finger.urdf", "gravity": [0, 9.80665, 0]},)";
+  const RefineResult result = refined_rig(phalanges_rig(), phalanges_rig(), along_axes).result;
+  CHECK(result.verdict == Verdict::named);
+  REQUIRE(result.effects.size() == 1);
+  CHECK(result.effects[0].instance.effect->name == "gravity_direction");
+  CHECK(result.effects[0].evidence.p_value < 1e-6);
+  const std::vector<Estimate>& g = result.effects[0].instance.parameters;
+  CHECK(std::abs(g.at(0).value) < 3 * g.at(0).sd);
+  CHECK(g.at(0).sd < 0.02);
+  CHECK(g.at(2).value == Approx(-9.80665).epsilon(1e-4));
+  const auto joint = static_cast<std::size_t>(result.effects[0].joint - 1);
+  CHECK(result.joints.at(joint).reason ==
+        "the weight of the links shows gravity 90 deg from the direction in the rig file; the logs "
+        "determine a part of this turn only");
+}
+
 TEST_CASE("on a thumb that stands as its rig file says nothing is missing", "[refine]") {
   const RefineResult result = refined_thumb(thumb_rig()).result;
   CHECK(result.verdict == Verdict::none);

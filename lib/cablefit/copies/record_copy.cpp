@@ -176,8 +176,10 @@ std::vector<SimulationResult> run_copy(const SimulatedCopy& copy,
     options.link_blocked = run.stretch->link_blocked;
     SimulationResult motion = simulate(model, run.input, options);
     if (motion.diverged_at)
-      throw Error(ErrorKind::not_identifiable, fmt::format("the simulated loop of {} diverged",
-                                                           copy.plans[run.stretch->log].path));
+      throw Error(ErrorKind::not_identifiable,
+                  fmt::format("the simulated loop of {} diverged; a value of the rig file may be "
+                              "wrong (gravity, a radius, a unit)",
+                              copy.plans[run.stretch->log].path));
     return on_rows_of_log(std::move(motion), *run.stretch);
   });
 }

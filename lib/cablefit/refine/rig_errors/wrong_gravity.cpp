@@ -34,16 +34,35 @@ std::optional<FitAtGravity> fit_at(const RigErrorSearch& search, const Eigen::Ve
   return FitAtGravity{std::move(models), std::move(fit)};
 }
 
-/// Squared residuals of all joints on held-out blocks, with the weights that `weights` has.
-double squares_of(const GravityFit& fit, const GravityFit& weights) {
-  double sum = 0;
-  for (std::size_t k = 0; k < fit.joints().size(); ++k) {
-    const std::optional<BaseFit>&own = fit.joints()[k], &other = weights.joints()[k];
-    if (!other) continue;
-    const auto again = own ? fit_blocks(own->grams, other->levels) : std::nullopt;
-    sum += again ? again->held_out.sum() : kUnbounded;
+/// Squared residuals of all joints on held-out blocks, with the weights of the right fit.
+struct Fall {
+  double given = 0, right = 0;
+  double n_blocks = 0;
+
+  double share() const { return given > 0 ? std::max(0.0, 1 - right / given) : 0; }
+  /// Of such a fall by the two angles of a direction where the given one is right: an F test that
+  /// takes a block for one observation.
+  double chance() const {
+    constexpr double kAngles = 2;
+    const double dof = n_blocks - kAngles;
+    return dof > 0 ? f_tail((given - right) / kAngles / (right / dof), kAngles, dof) : 1;
   }
-  return sum;
+};
+
+Fall fall_between(const GravityFit& given, const GravityFit& right) {
+  const auto error = [](const std::optional<BaseFit>& base, const KindLevels& levels) {
+    const auto fit = base ? fit_blocks(base->grams, levels) : std::nullopt;
+    return fit ? fit->held_out.sum() : kUnbounded;
+  };
+  Fall fall;
+  for (std::size_t k = 0; k < right.joints().size(); ++k) {
+    const std::optional<BaseFit>& own = right.joints()[k];
+    if (!own) continue;
+    fall.given += error(given.joints()[k], own->levels);
+    fall.right += error(own, own->levels);
+    fall.n_blocks = std::max(fall.n_blocks, static_cast<double>(own->fit.held_out.size()));
+  }
+  return fall;
 }
 
 /// Minus the logarithm of the likelihood, where every kind of row has the level of its own
@@ -121,6 +140,23 @@ double sd_towards(const Direction& from, const Eigen::Vector3d& other) {
   return std::sqrt(part.dot(from.last.covariance * part));
 }
 
+bool is_known(double sd) { return sd < kUnbounded; }
+
+/// Of such an angle where the rig file is right. Where the angle has no sd, by the fall of the
+/// residual; the search has begun at every axis of the base.
+double chance_of(double angle, double sd, const Direction& right, const Fall& fall) {
+  constexpr double kStarts = 6;
+  const auto n_angles = static_cast<double>(right.last.angles.size());
+  return std::min(
+      1.0, is_known(sd) ? n_angles * t_tail(angle / sd, right.last.dof) : kStarts * fall.chance());
+}
+
+/// For the reason: how much of the turn the logs determine.
+std::string part_shown(const Direction& right, double sd) {
+  if (!is_known(sd)) return "; the logs determine a part of this turn only";
+  return right.last.angles.size() > 1 ? "" : ", about the one axis that the logs determine";
+}
+
 double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
@@ -171,23 +207,20 @@ std::optional<RigError> error_of(const RigErrorSearch& search, const Eigen::Vect
   auto right_fit = fit_at(search, right.gravity);
   if (!given_fit || !right_fit) return {};
   const double angle = angle_between(given, right.gravity), sd = sd_towards(right, given);
-  const auto n_angles = static_cast<double>(right.last.angles.size());
+  const Fall fall = fall_between(given_fit->fit, right_fit->fit);
   RigError error;
   WrongValue& value = error.values.emplace_back();
   value.name = kName;
-  value.chance = std::min(1.0, n_angles * t_tail(angle / sd, right.last.dof));
-  const double before = squares_of(given_fit->fit, right_fit->fit);
-  if (before > 0)
-    value.share = std::max(0.0, 1 - squares_of(right_fit->fit, right_fit->fit) / before);
+  value.chance = chance_of(angle, sd, right, fall);
+  value.share = fall.share();
   error.change = change_to(right.gravity);
   error.models = std::move(right_fit->models);
   value.instance = instance_of(right);
   value.given = components("given", given);
   value.reason = fmt::format(
-      "the weight of the links shows gravity {:.3g} deg (sd {:.1g} deg) from the direction in the "
-      "rig file{}",
-      kDegree * angle, kDegree * sd,
-      n_angles > 1 ? "" : ", about the one axis that the logs determine");
+      "the weight of the links shows gravity {:.3g} deg{} from the direction in the rig file{}",
+      kDegree * angle, is_known(sd) ? fmt::format(" (sd {:.1g} deg)", kDegree * sd) : "",
+      part_shown(right, sd));
   error.again = [given,
                  gravity = right.gravity](const RigErrorSearch& other) -> std::optional<RigError> {
     const auto anew = least_near(other, gravity);
