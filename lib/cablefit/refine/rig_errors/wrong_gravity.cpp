@@ -40,8 +40,8 @@ struct Fall {
   double n_blocks = 0;
 
   double share() const { return given > 0 ? std::max(0.0, 1 - right / given) : 0; }
-  /// Of such a fall by the two angles of a direction where the given one is right: an F test that
-  /// takes a block for one observation.
+  /// How probable such a fall is where the given direction is right and two angles are free: an F
+  /// test that takes a block for one observation.
   double chance() const {
     constexpr double kAngles = 2;
     const double dof = n_blocks - kAngles;
@@ -142,8 +142,8 @@ double sd_towards(const Direction& from, const Eigen::Vector3d& other) {
 
 bool is_known(double sd) { return sd < kUnbounded; }
 
-/// Of such an angle where the rig file is right. Where the angle has no sd, by the fall of the
-/// residual; the search has begun at every axis of the base.
+/// How probable such an angle is where the rig file is right. An angle without sd is judged by the
+/// fall of the residual, once for each axis of the base at which the search may begin.
 double chance_of(double angle, double sd, const Direction& right, const Fall& fall) {
   constexpr double kStarts = 6;
   const auto n_angles = static_cast<double>(right.last.angles.size());
