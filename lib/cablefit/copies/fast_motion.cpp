@@ -37,12 +37,14 @@ Eigen::VectorXd elastic_torque(const Model& model, const LogPlan& plan,
   const Coupling coupling(model.transmission);
   const std::size_t n = model.joints.size();
   std::vector<double> q(n), theta(n), link(n), motor(n);
+  std::vector<Pull> cables(coupling.n_cables());
   for (Eigen::Index i = 0; i < torque.size(); ++i) {
     for (std::size_t k = 0; k < n; ++k) {
       q[k] = measured(i, plan.find(Channel::q, static_cast<int>(k)));
       theta[k] = measured(i, plan.find(Channel::theta, static_cast<int>(k)));
     }
-    coupling.torques(q.data(), theta.data(), link.data(), motor.data());
+    coupling.pull(q.data(), theta.data(), cables.data());
+    coupling.torques(q.data(), theta.data(), cables.data(), link.data(), motor.data());
     torque(i) = motor[static_cast<std::size_t>(joint)];
   }
   return torque;

@@ -53,7 +53,7 @@ double Coupling::elongation(const Strand& strand, const double* q, const double*
          cable.link_side().displacement(as_they_are(q));
 }
 
-void Coupling::look(std::size_t joint, const double* q, const double* theta,
+void Coupling::look(std::size_t joint, const double* q, const double* theta, const Pull* cables,
                     JointState& state) const {
   const auto angle = turned(theta);
   state.deflection = angle(joint) - q[joint];
@@ -64,16 +64,16 @@ void Coupling::look(std::size_t joint, const double* q, const double* theta,
     return;
   }
   state.stiffness = state.tension = 0;
-  for (const Strand& strand : cables_) {
+  for (std::size_t i = 0; i < cables_.size(); ++i) {
+    const Strand& strand = cables_[i];
     const SideMaps motor = maps_[strand.maps].motor_side();
     const double radius =
         strand.round ? motor_radius_[strand.first_joint + joint] : motor.radius(joint, angle);
     if (strand.round && radius == 0) continue;  // another joint's cable
-    const double l = stretch(strand, q, theta);
-    const double force = combine(strand, strand.basis, l);
-    state.stiffness += radius * radius * combine(strand, strand.slope, l);
-    if (!strand.round) state.stiffness += motor.radius_slope(joint, angle) * force;
-    state.tension += std::abs(radius) * force;
+    const auto& [elongation, tension] = cables[i];
+    state.stiffness += radius * radius * combine(strand, strand.slope, elongation);
+    if (!strand.round) state.stiffness += motor.radius_slope(joint, angle) * tension;
+    state.tension += std::abs(radius) * tension;
   }
 }
 

@@ -9,18 +9,26 @@
 
 namespace cablefit {
 
+/// Of one cable at some positions.
+struct Pull {
+  double elongation = 0;  ///< m (joint space rad)
+  double tension = 0;     ///< N (joint space N m)
+};
+
 class Coupling {
  public:
   explicit Coupling(const Transmission& transmission);
 
   std::size_t n_cables() const { return cables_.size(); }
 
-  /// tau_elas_l and tau_elas_m (N m, n_joints each) at these positions (rad).
-  void torques(const double* q, const double* theta, double* link, double* motor) const;
+  /// Of all cables at these positions (rad).
+  void pull(const double* q, const double* theta, Pull* cables) const;
+  /// tau_elas_l and tau_elas_m (N m, n_joints each) at the positions of `cables`.
+  void torques(const double* q, const double* theta, const Pull* cables, double* link,
+               double* motor) const;
   /// As set_elastic of effects.hpp, but for tau_elas, which `torques` gives.
-  void look(std::size_t joint, const double* q, const double* theta, JointState& state) const;
-  /// Tension of one cable (N; joint space N m).
-  double tension(std::size_t cable, const double* q, const double* theta) const;
+  void look(std::size_t joint, const double* q, const double* theta, const Pull* cables,
+            JointState& state) const;
 
  private:
   using LawFunction = void (*)(const LawShape& shape, double l, double* values);
@@ -84,13 +92,15 @@ inline double Coupling::combine(const Strand& strand, LawFunction values_of, dou
   return sum;
 }
 
-inline double Coupling::tension(std::size_t cable, const double* q, const double* theta) const {
-  const Strand& strand = cables_[cable];
-  return combine(strand, strand.basis, stretch(strand, q, theta));
+inline void Coupling::pull(const double* q, const double* theta, Pull* cables) const {
+  for (std::size_t i = 0; i < cables_.size(); ++i) {
+    cables[i].elongation = stretch(cables_[i], q, theta);
+    cables[i].tension = combine(cables_[i], cables_[i].basis, cables[i].elongation);
+  }
 }
 
-inline void Coupling::torques(const double* q, const double* theta, double* link,
-                              double* motor) const {
+inline void Coupling::torques(const double* q, const double* theta, const Pull* cables,
+                              double* link, double* motor) const {
   for (std::size_t k = 0; k < stiffness_.size(); ++k) {
     motor[k] = stiffness_[k] * deflection(k, q, theta);
     link[k] = reduction_[k] * motor[k];
@@ -98,7 +108,7 @@ inline void Coupling::torques(const double* q, const double* theta, double* link
   if (cables_.empty()) return;
   for (std::size_t k = 0; k < n_joints_; ++k) link[k] = motor[k] = 0.0;
   for (std::size_t i = 0; i < cables_.size(); ++i) {
-    const double f = tension(i, q, theta);
+    const double f = cables[i].tension;
     if (!cables_[i].round) {
       add_by_maps(cables_[i], f, q, theta, link, motor);
       continue;

@@ -65,7 +65,8 @@ Plant::Plant(const Model& model, const SimulationInput& input, bool link_blocked
   elastic_motor_.resize(n);
   extra_.resize(link_.size() + motor_.size());
   no_load_.resize(n);
-  tension_.resize(coupling_.n_cables());
+  pulls_.resize(coupling_.n_cables());
+  if (!path_.is_empty()) tension_.resize(coupling_.n_cables());
   if (model.is_coupled() && !is_rigid_) {
     arm_.emplace(model.rig.arm, model.arm, link_);
     arm_->start(q_.data(), qd_.data());
@@ -124,7 +125,9 @@ void Plant::step_elastic(const double* tau, const double* tau_load, double h) {
     theta_[k] += 0.5 * h * thetad_[k];
     q_[k] += 0.5 * h * qd_[k];
   }
-  coupling_.torques(q_.data(), theta_.data(), elastic_link_.data(), elastic_motor_.data());
+  coupling_.pull(q_.data(), theta_.data(), pulls_.data());
+  coupling_.torques(q_.data(), theta_.data(), pulls_.data(), elastic_link_.data(),
+                    elastic_motor_.data());
   if (!refined_.empty()) {
     advance_refined(tau, tau_load, h);
     return;
@@ -168,7 +171,7 @@ JointState Plant::middle_of_step(std::size_t joint, double load, double h) const
     state.tau_elas = -load;
     return state;
   }
-  coupling_.look(joint, q_.data(), theta_.data(), state);
+  coupling_.look(joint, q_.data(), theta_.data(), pulls_.data(), state);
   state.tau_elas = elastic_motor_[joint];
   if (!path_.is_empty()) state.path_friction = path_.on_link(joint, q_, tension_);
   return state;
@@ -177,8 +180,7 @@ JointState Plant::middle_of_step(std::size_t joint, double load, double h) const
 void Plant::advance_path(double h) {
   if (path_.is_empty()) return;
   if (!link_blocked_) path_.advance(q_, qd_, h);
-  for (std::size_t i = 0; i < tension_.size(); ++i)
-    tension_[i] = coupling_.tension(i, q_.data(), theta_.data());
+  for (std::size_t i = 0; i < tension_.size(); ++i) tension_[i] = pulls_[i].tension;
 }
 
 void Plant::advance_refined(const double* tau, const double* tau_load, double h) {
@@ -245,15 +247,14 @@ bool Plant::is_sane() const {
          (arm_ ? arm_->is_sane() : all_have_inertia(link_)) && all_have_inertia(motor_);
 }
 
-void Plant::record(Eigen::Index row, SimulationResult* result) const {
+void Plant::record(Eigen::Index row, SimulationResult* result) {
   write_row(is_rigid_ ? theta_ : q_, row, &result->q);
   write_row(is_rigid_ ? thetad_ : qd_, row, &result->qd);
   write_row(theta_, row, &result->theta);
   write_row(thetad_, row, &result->thetad);
-  for (std::size_t i = 0; i < coupling_.n_cables(); ++i) {
-    result->tension(row, static_cast<Eigen::Index>(i)) =
-        coupling_.tension(i, q_.data(), theta_.data());
-  }
+  coupling_.pull(q_.data(), theta_.data(), pulls_.data());
+  for (std::size_t i = 0; i < pulls_.size(); ++i)
+    result->tension(row, static_cast<Eigen::Index>(i)) = pulls_[i].tension;
 }
 
 }  // namespace cablefit

@@ -41,7 +41,7 @@ class Plant {
   /// Every state is finite and within +-1e6, every inertia positive; of a coupled arm M(q).
   bool is_sane() const;
   /// Writes positions, velocities and tensions into row `row` of the result.
-  void record(Eigen::Index row, SimulationResult* result) const;
+  void record(Eigen::Index row, SimulationResult* result);
 
  private:
   double load_at(double position) const {
@@ -68,6 +68,7 @@ class Plant {
   std::optional<CoupledLinks> arm_;
   Coupling coupling_;
   std::vector<double> q_, qd_, theta_, thetad_;
+  std::vector<Pull> pulls_;                           ///< of the present step
   std::vector<double> elastic_link_, elastic_motor_;  ///< N m, of the present step
   std::vector<RefinedJoint> refined_;                 ///< empty: the model has none
   PathFriction path_;
