@@ -86,6 +86,8 @@ TEST_CASE("a planar arm shows its weight where the rig file says that it has non
   CHECK(result.joints.at(joint).reason ==
         "the weight of the links shows gravity 90 deg from the direction in the rig file; the logs "
         "determine a part of this turn only");
+  CHECK(std::isnan(result.torque.test_before));  // with the given direction no joint was refined
+  CHECK(result.torque.test_after < 1.2 * result.torque.noise_floor);
 }
 
 TEST_CASE("on a thumb that stands as its rig file says nothing is missing", "[refine]") {

@@ -167,6 +167,26 @@ TEST_CASE("what a refinement does not know is null") {
   CHECK(j["parameter_shifts"][0]["sd"].is_null());
 }
 
+TEST_CASE("a gap before that is not known is null, and the text says so") {
+  RefineResult r = named();
+  r.rho_before = r.effects.front().evidence.rho_before = kNone;
+  r.torque.train_before = r.torque.test_before = kNone;
+  r.torque.test_before_ci = {kNone, kNone};
+  const std::string text = refine_json(r, kFiles);
+  CHECK(test::schema_errors("refine", text) == "");
+  const json j = json::parse(text);
+  CHECK(j["rho"]["before"].is_null());
+  CHECK(j["effects"][0]["evidence"]["rho_before"].is_null());
+  CHECK(j["gap"]["torque"]["test_before"].is_null());
+  CHECK(j["gap"]["torque"]["test_after"] == 0.1016);
+  const std::vector<SummaryLine> story = refine_story(r, kFiles);
+  const auto gap = std::find_if(story.begin(), story.end(),
+                                [](const SummaryLine& line) { return line.label == "gap"; });
+  REQUIRE(gap != story.end());
+  CHECK(gap->text ==
+        "torque, N m rms: train not known -> 0.0864, test not known -> 0.102, noise floor 0.0854");
+}
+
 TEST_CASE("derived amplitudes stand among the parameters, and an event has its log and time") {
   RefineResult r = named();
   r.effects.front().derived = {test::estimate("amplitude", "N m", 0.5, 0.1)};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cablefit/model/one_joint.hpp"
 #include "cablefit/refine/rig_errors/rig_error_steps.hpp"
@@ -103,12 +104,17 @@ std::string reasons_of(const std::vector<RefineResult>& joints) {
   return text;
 }
 
+/// Not known where the joint could not be refined with the values of the rig file.
+double gap_before(const RefineResult& r) {
+  return std::isnan(r.rho_before) ? std::numeric_limits<double>::infinity() : r.rho_before;
+}
+
 /// Where the joint says so most: the largest squared gap, then the first.
 const RefineResult& leading(const std::vector<RefineResult>& joints, Verdict verdict) {
   const RefineResult* best = nullptr;
   for (const RefineResult& r : joints) {
     const bool wanted = r.not_refined.empty() && r.verdict == verdict;
-    if (wanted && (best == nullptr || r.rho_before > best->rho_before)) best = &r;
+    if (wanted && (best == nullptr || gap_before(r) > gap_before(*best))) best = &r;
   }
   return best != nullptr ? *best : joints.front();
 }

@@ -43,9 +43,10 @@ struct Rival {
 
 struct RefineEvidence {
   double gain = 0;  ///< share of the squared gap above the floor that it removes, on held-out data
-  double rho_before = 0, rho_after = 0;  ///< weighted squared residual over the floor
-  double p_value = 1;                    ///< by parametric bootstrap of the whole pipeline
-  bool is_fitted_tail = false;           ///< p of a distribution fitted to the draws, not counted
+  /// Weighted squared residual over the floor. Before: NaN as in GapStory.
+  double rho_before = 0, rho_after = 0;
+  double p_value = 1;           ///< by parametric bootstrap of the whole pipeline
+  bool is_fitted_tail = false;  ///< p of a distribution fitted to the draws, not counted
   double inclusion = 0;  ///< as of a rival; NaN: found from several joints, without resamples
   std::size_t n_draws = 0;
   /// One of several values of the rig file: `gain` is that of base fits with the others right, a
@@ -79,7 +80,8 @@ struct RefineStep {
   int joint = 1;  ///< from 1
 };
 
-/// rms of a gap before and after, N m or rad. The floor is that of the test rows.
+/// rms of a gap before and after, N m or rad. The floor is that of the test rows. Before: NaN where
+/// the joint could not be refined with the values of the rig file.
 struct GapStory {
   double train_before = 0, train_after = 0, test_before = 0, test_after = 0, noise_floor = 0;
   std::array<double, 2> test_before_ci{}, test_after_ci{};  ///< 95 %, block bootstrap

@@ -18,6 +18,8 @@ namespace {
 constexpr std::optional<RigError> (*kSearches[])(const RigErrorSearch&) = {wrong_radius,
                                                                            wrong_gravity};
 
+constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+
 bool is_done(const RefineResult& joint) { return joint.not_refined.empty(); }
 
 /// What is above the floor, over the joints that `given` has results of.
@@ -90,10 +92,10 @@ NamedEffect named_effect(const WrongValue& value, bool is_only,
   const double before = test_excess(given, right), after = test_excess(right, given);
   effect.evidence.gain = is_only && before > 0 ? 1 - after / before : value.share;
   effect.evidence.p_value = value.chance;
-  effect.evidence.inclusion = std::numeric_limits<double>::quiet_NaN();
+  effect.evidence.inclusion = kNotKnown;
   effect.evidence.is_beside_others = !is_only;
   const RefineResult &own_given = given[joint], &own = right[joint];
-  effect.evidence.rho_before = is_done(own_given) ? own_given.rho_before : own.rho_before;
+  effect.evidence.rho_before = is_done(own_given) ? own_given.rho_before : kNotKnown;
   effect.evidence.rho_after = own.rho_before;
   if (is_only && own_given.torque.known && own.torque.known)
     effect.torque_rms = std::sqrt(std::max(
@@ -101,15 +103,17 @@ NamedEffect named_effect(const WrongValue& value, bool is_only,
   return effect;
 }
 
-/// The gaps of a joint before are those with the values of the rig file.
+/// The gaps of a joint before are those with the values of the rig file. Not known where the joint
+/// could not be refined with these.
 void take_before(const RefineResult& given, RefineResult& right) {
-  if (!is_done(given) || !is_done(right)) return;
-  right.rho_before = given.rho_before;
+  if (!is_done(right)) return;
+  right.rho_before = is_done(given) ? given.rho_before : kNotKnown;
   for (GapStory RefineResult::*gap : {&RefineResult::torque, &RefineResult::simulation}) {
-    if (!(given.*gap).known || !(right.*gap).known) continue;
-    (right.*gap).train_before = (given.*gap).train_before;
-    (right.*gap).test_before = (given.*gap).test_before;
-    (right.*gap).test_before_ci = (given.*gap).test_before_ci;
+    const bool is_known = is_done(given) && (given.*gap).known;
+    (right.*gap).train_before = is_known ? (given.*gap).train_before : kNotKnown;
+    (right.*gap).test_before = is_known ? (given.*gap).test_before : kNotKnown;
+    (right.*gap).test_before_ci =
+        is_known ? (given.*gap).test_before_ci : std::array{kNotKnown, kNotKnown};
   }
 }
 

@@ -34,7 +34,8 @@ std::optional<FitAtGravity> fit_at(const RigErrorSearch& search, const Eigen::Ve
   return FitAtGravity{std::move(models), std::move(fit)};
 }
 
-/// Squared residuals of all joints on held-out blocks, with the weights of the right fit.
+/// Squared residuals on held-out blocks, with the weights of the right fit, of the joints that have
+/// a fit with either direction.
 struct Fall {
   double given = 0, right = 0;
   double n_blocks = 0;
@@ -50,16 +51,15 @@ struct Fall {
 };
 
 Fall fall_between(const GravityFit& given, const GravityFit& right) {
-  const auto error = [](const std::optional<BaseFit>& base, const KindLevels& levels) {
-    const auto fit = base ? fit_blocks(base->grams, levels) : std::nullopt;
-    return fit ? fit->held_out.sum() : kUnbounded;
-  };
   Fall fall;
   for (std::size_t k = 0; k < right.joints().size(); ++k) {
-    const std::optional<BaseFit>& own = right.joints()[k];
-    if (!own) continue;
-    fall.given += error(given.joints()[k], own->levels);
-    fall.right += error(own, own->levels);
+    const std::optional<BaseFit>&before = given.joints()[k], &own = right.joints()[k];
+    if (!before || !own) continue;
+    const auto given_fit = fit_blocks(before->grams, own->levels);
+    const auto right_fit = fit_blocks(own->grams, own->levels);
+    if (!given_fit || !right_fit) continue;
+    fall.given += given_fit->held_out.sum();
+    fall.right += right_fit->held_out.sum();
     fall.n_blocks = std::max(fall.n_blocks, static_cast<double>(own->fit.held_out.size()));
   }
   return fall;

@@ -102,7 +102,7 @@ SummaryLine kept_line(const KeptEffect& kept, const RefineResult& result) {
 /// Where none of the draws came as far, p says of what: a fit, and no more than the draws support.
 std::string chance_text(const RefineEvidence& e) {
   if (e.n_draws == 0)
-    return fmt::format("p {} {:.1g} (t test of what joints share)",
+    return fmt::format("p {} {:.1g} (test of what joints share)",
                        e.p_value < kLeastTestP ? "<" : "=", std::max(e.p_value, kLeastTestP));
   const double least = least_tail(e.n_draws);
   const bool is_least = e.is_fitted_tail && e.p_value <= least;
@@ -197,8 +197,10 @@ std::string interval_text(const std::array<double, 2>& ci) {
   return ci[1] > ci[0] ? fmt::format(" ({} .. {})", short_number(ci[0]), short_number(ci[1])) : "";
 }
 
+/// Not known before: where the joint could not be refined with the values of the rig file.
 std::string before_after(double before, double after, bool changed) {
-  return changed ? short_number(before) + " -> " + short_number(after) : short_number(before);
+  if (!changed) return short_number(before);
+  return (std::isnan(before) ? "not known" : short_number(before)) + " -> " + short_number(after);
 }
 
 SummaryLine gap_line(const RefineResult& result) {
