@@ -243,6 +243,12 @@ TEST_CASE("a rig with every part survives the model file") {
   CHECK(back.rig.joints == model.rig.joints);
   CHECK(back.rig.search_elongation == std::vector<bool>{false, true, false});
   CHECK(model_json(back) == model_json(model));
+  model.rig.controller->joints = std::vector<Controller>(2, *model.rig.controller);
+  model.rig.controller->joints[1].kp = 90;
+  const Model by_joint = read_back(model);
+  CHECK(by_joint.rig.controller->of(0).kp == 300);
+  CHECK(by_joint.rig.controller->of(1).kp == 90);
+  CHECK(by_joint.rig.controller->of(1).limit == 20);
   model.rig.controller.reset();
   model.rig.open_loop = true;
   CHECK(read_back(model).rig.open_loop);

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "cablefit/base/json/json_document.hpp"
+#include "tests/support/message.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace {
@@ -122,6 +123,34 @@ TEST_CASE("a torque may be a command, which no controller made") {
   CHECK_FALSE(rig.controller);
   CHECK_FALSE(parse_rig(parse_json(R"({"controller": {"kp": 3}})", "rig.json")).open_loop);
   CHECK_FALSE(default_rig().open_loop);
+}
+
+TEST_CASE("each joint may have a controller of its own") {
+  const std::string joints = R"("joints": [{"name": "a"}, {"name": "b"}])";
+  const auto read = [&](const std::string& controllers) {
+    return parse_rig(
+        parse_json("{" + joints + ", \"controller\": " + controllers + "}", "rig.json"));
+  };
+  const Rig rig = read(R"([{"kp": 90, "kd": 1, "limit": 5}, {"type": "pid", "kp": 40, "ki": 2}])");
+  REQUIRE(rig.controller);
+  CHECK(rig.controller->of(0).kp == 90);
+  CHECK(rig.controller->of(0).limit == 5);
+  CHECK(rig.controller->of(1).kp == 40);
+  CHECK(rig.controller->of(1).ki == 2);
+  CHECK(rig.controller->reference == "theta_ref");
+  const Rig common = read(R"({"kp": 7})");
+  CHECK(common.controller->joints.empty());
+  CHECK(common.controller->of(1).kp == 7);
+
+  CHECK(message_of([&] { (void)read(R"([{"kp": 9}])"); }) ==
+        "rig.json:1:58: 1 controller(s), expected 2; give one per joint, or one for all joints "
+        "without a list");
+  CHECK(message_of([&] { (void)read(R"([{"kp": 9}, {"type": "open_loop"}])"); }) ==
+        "rig.json:1:70: \"open_loop\" for one joint only; give {\"type\": \"open_loop\"} without a "
+        "list: it holds for all joints");
+  CHECK(message_of([&] { (void)read(R"([{"kp": 9}, {"kp": 9, "period": 0.001}])"); }) ==
+        "rig.json:1:70: \"period\" or \"reference\" differs from that of the first joint; give all "
+        "joints the same; columns of the reference are numbered by joint");
 }
 
 TEST_CASE("a single joint may be numbered, and radii be scalars") {

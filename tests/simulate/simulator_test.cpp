@@ -39,6 +39,29 @@ TEST_CASE("a PD controller holds its reference", "[simulate]") {
   CHECK(result.tau.abs().maxCoeff() <= 250);
 }
 
+TEST_CASE("each joint has its own controller", "[simulate]") {
+  const Controller weak = pd(200, 2), strong = pd(800, 6);
+  Model one = spring_joint({0.3, 5, 3}, {0.01, 1, 2, 0}, 2000);
+  SimulationInput input = quiet_input(300, 1e-3);
+  input.theta_ref = Eigen::ArrayXXd::Constant(300, 1, 0.2);
+  Model two = one;
+  two.rig.joints = {"1", "2"};
+  two.joints.push_back(one.joints[0]);
+  two.transmission.n_joints = 2;
+  two.transmission.theta_0 = Eigen::Vector2d::Zero();
+  two.transmission.linear_stiffness = Eigen::Vector2d(2000, 2000);
+  two.rig.controller = controller_of({weak, strong});
+  SimulationInput both = quiet_input(300, 1e-3, 2);
+  both.theta_ref = Eigen::ArrayXXd::Constant(300, 2, 0.2);
+  const SimulationResult result = simulate(two, both, closed_loop());
+  for (const Eigen::Index joint : {0, 1}) {
+    one.rig.controller = joint == 0 ? weak : strong;
+    const SimulationResult alone = simulate(one, input, closed_loop());
+    CHECK((result.theta.col(joint) == alone.theta.col(0)).all());
+    CHECK((result.tau.col(joint) == alone.tau.col(0)).all());
+  }
+}
+
 TEST_CASE("the controller sees theta in steps of the encoder", "[simulate]") {
   Model model = rigid_drive({0.1, 1, 2, 0});
   model.rig.controller = pd(100, 0);

@@ -88,6 +88,7 @@ Rig one_joint(const Rig& whole, int joint) {
   one.sensors = about(whole.sensors, std::to_string(joint + 1));
   one.cad = about(whole.cad, fmt::format("[{}]", joint + 1));
   one.transmission = one_joint(whole.transmission, joint);
+  if (whole.controller) one.controller = whole.controller->of(place(joint));
   std::vector<double>& inertias = one.arm.parameters.J_link;
   if (!inertias.empty()) inertias = {inertias[place(joint)]};
   one.search_elongation.clear();

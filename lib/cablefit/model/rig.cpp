@@ -53,6 +53,12 @@ Axes axes_of(const JointAxes& joints, const Cable& cable) {
   return joints.of(joint);
 }
 
+Controller controller_of(std::vector<Controller> joints) {
+  Controller all = joints.front();
+  if (joints.size() > 1) all.joints = std::move(joints);
+  return all;
+}
+
 Rig default_rig() {
   Rig rig;
   set_default_cables(&rig);
@@ -88,7 +94,7 @@ Rig parse_rig(const JsonNode& node) {
   }
   if (const JsonNode* arm = node.find("arm")) rig.arm = rig_parts::read_arm(*arm, rig);
   if (const JsonNode* controller = node.find("controller")) {
-    rig.controller = rig_parts::read_controller(*controller);
+    rig.controller = rig_parts::read_controller(*controller, n);
     rig.open_loop = !rig.controller;
   }
   if (const JsonNode* sensors = node.find("sensors")) {

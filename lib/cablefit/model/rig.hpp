@@ -38,7 +38,15 @@ struct Controller {
   double limit = kUnbounded;            ///< |tau| <= limit, N m
   double period = 0;                    ///< s; 0: the log's
   std::string reference = "theta_ref";  ///< column
+  /// One per joint, where they differ: their laws and limits instead of this one's. Period and
+  /// reference are the same. Empty: one law for all joints.
+  std::vector<Controller> joints = {};
+
+  const Controller& of(std::size_t joint) const { return joints.empty() ? *this : joints[joint]; }
 };
+
+/// One for all joints. They must agree on period and reference.
+Controller controller_of(std::vector<Controller> joints);
 
 class JsonNode;
 

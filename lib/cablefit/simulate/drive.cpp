@@ -121,21 +121,21 @@ void ControllerDrive::command(Eigen::Index row, Eigen::Index step,
   const double fraction = static_cast<double>(step) / steps_per_row_;
   for (std::size_t k = 0; k < tau_.size(); ++k) {
     const auto joint = static_cast<Eigen::Index>(k);
+    const Controller& law = controller_.of(k);
     Memory& last = memory_[k];
     const double reference = between_rows(block_->theta_ref, row, fraction, joint);
     const double error = reference - measured(theta[k], k);
     const double reference_rate = (reference - last.reference) / period_;
-    const double feed =
-        controller_.feed_position * (reference - last.first_reference) +
-        controller_.feed_velocity * reference_rate +
-        controller_.feed_acceleration * (reference_rate - last.reference_rate) / period_;
-    const double tau = controller_.kp * error + controller_.ki * last.integral +
-                       controller_.kd * ((error - last.error) / period_) + feed;
-    if (std::abs(tau) < controller_.limit) last.integral += period_ * error;  // no wind-up
+    const double feed = law.feed_position * (reference - last.first_reference) +
+                        law.feed_velocity * reference_rate +
+                        law.feed_acceleration * (reference_rate - last.reference_rate) / period_;
+    const double tau =
+        law.kp * error + law.ki * last.integral + law.kd * ((error - last.error) / period_) + feed;
+    if (std::abs(tau) < law.limit) last.integral += period_ * error;  // no wind-up
     last.error = error;
     last.reference = reference;
     last.reference_rate = reference_rate;
-    tau_[k] = std::clamp(tau, -controller_.limit, controller_.limit);
+    tau_[k] = std::clamp(tau, -law.limit, law.limit);
   }
   if (drive_.is_needed()) drive_.command(tau_);
 }

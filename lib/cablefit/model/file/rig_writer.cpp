@@ -26,7 +26,7 @@ Json load_json(const Load& load) {
   return json;
 }
 
-Json controller_json(const Controller& controller) {
+Json law_json(const Controller& controller) {
   const bool is_pd = controller.type == "pd";
   Json json{{"type", is_pd ? "pd" : "pid"}, {"kp", controller.kp}, {"kd", controller.kd}};
   if (!is_pd) {  // a cascade is the same law in other words
@@ -39,6 +39,13 @@ Json controller_json(const Controller& controller) {
   if (controller.period > 0) json["period"] = controller.period;
   json["reference"] = controller.reference;
   return json;
+}
+
+Json controller_json(const Controller& controller) {
+  if (controller.joints.empty()) return law_json(controller);
+  Json list = Json::array();
+  for (const Controller& joint : controller.joints) list.push_back(law_json(joint));
+  return list;
 }
 
 Json arm_json(const Arm& arm) {

@@ -101,9 +101,8 @@ void read_cascade(const JsonNode& node, Controller& controller) {
   controller.feed_position = kv * ki * (fed - 1);
 }
 
-}  // namespace
-
-std::optional<Controller> read_controller(const JsonNode& node) {
+/// None: "open_loop".
+std::optional<Controller> read_gains(const JsonNode& node) {
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kTypes{
       {{"pd", "pd"}, {"pid", "pid"}, {"cascade", "cascade"}, {"open_loop", "open_loop"}}};
   Controller controller;
@@ -133,6 +132,31 @@ std::optional<Controller> read_controller(const JsonNode& node) {
   if (const JsonNode* period = node.find("period")) controller.period = period->positive();
   controller.reference = text_or(node, "reference", controller.reference);
   return controller;
+}
+
+/// The law of one of several joints.
+Controller read_joint_gains(const JsonNode& node) {
+  if (const auto law = read_gains(node)) return *law;
+  throw node.error("\"open_loop\" for one joint only",
+                   "give {\"type\": \"open_loop\"} without a list: it holds for all joints");
+}
+
+}  // namespace
+
+std::optional<Controller> read_controller(const JsonNode& node, int n_joints) {
+  if (!node.is_array()) return read_gains(node);
+  if (node.items.size() != static_cast<std::size_t>(n_joints))
+    throw node.error(fmt::format("{} controller(s), expected {}", node.items.size(), n_joints),
+                     "give one per joint, or one for all joints without a list");
+  std::vector<Controller> laws;
+  for (const JsonNode& item : node.items) {
+    laws.push_back(read_joint_gains(item));
+    if (laws.back().period != laws.front().period ||
+        laws.back().reference != laws.front().reference)
+      throw item.error("\"period\" or \"reference\" differs from that of the first joint",
+                       "give all joints the same; columns of the reference are numbered by joint");
+  }
+  return controller_of(std::move(laws));
 }
 
 std::map<std::string, double> read_cad(const JsonNode& node, const Rig& rig) {

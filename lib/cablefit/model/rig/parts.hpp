@@ -19,8 +19,8 @@ ReferencePose read_reference(const JsonNode& node, int n_joints);
 Load read_load(const JsonNode& node, int n_joints, Axes axes);
 /// "arm": how the links move each other; needs the joints.
 Arm read_arm(const JsonNode& node, const Rig& rig);
-/// "controller"; none is one of type "open_loop".
-std::optional<Controller> read_controller(const JsonNode& node);
+/// "controller", or a list with one for each joint; none is one of type "open_loop".
+std::optional<Controller> read_controller(const JsonNode& node, int n_joints);
 /// "sensors": resolution and noise per numeric channel.
 std::map<std::string, SensorInfo> read_sensors(const JsonNode& node, int n_joints);
 /// "cad": values by parameter name; needs the joints and cables, which name the parameters.
