@@ -45,7 +45,7 @@ struct Controller {
   const Controller& of(std::size_t joint) const { return joints.empty() ? *this : joints[joint]; }
 };
 
-/// One for all joints. They must agree on period and reference.
+/// All of these in one, the first for joint 1. They have the same period and reference.
 Controller controller_of(std::vector<Controller> joints);
 
 class JsonNode;

@@ -68,7 +68,7 @@ class Plant {
   std::optional<CoupledLinks> arm_;
   Coupling coupling_;
   std::vector<double> q_, qd_, theta_, thetad_;
-  std::vector<Pull> pulls_;                           ///< of the present step
+  std::vector<Pull> pulls_;  ///< of the present step, or row that is recorded
   std::vector<double> elastic_link_, elastic_motor_;  ///< N m, of the present step
   std::vector<RefinedJoint> refined_;                 ///< empty: the model has none
   PathFriction path_;

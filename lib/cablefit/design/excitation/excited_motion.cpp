@@ -67,7 +67,7 @@ SimulationInput resting_alone(const Model& model, const ExcitationLimits& limits
       model.rigid ? Eigen::VectorXd(Eigen::VectorXd::Zero(n)) : model.transmission.encoder_zero();
   const Eigen::VectorXd held = held_torques(model, limits);
   for (Eigen::Index k = 0; k < n; ++k) {
-    const double droop = held(k) / model.rig.controller->kp;
+    const double droop = held(k) / model.rig.controller->of(static_cast<std::size_t>(k)).kp;
     const double phi = model.rigid ? 0
                                    : JointCurve(model.transmission, static_cast<int>(k))
                                          .deflection_at(held(k))
@@ -127,6 +127,7 @@ SimulationInput at_rest(const Model& model, const ExcitationLimits& limits, doub
   held.tau_load = Eigen::ArrayXXd::Constant(rows, n, load_on(model, limits, limits.middle));
   Model settled = model;
   settled.rig.controller->ki = 0;  // a motion begins with an empty integral
+  for (Controller& joint : settled.rig.controller->joints) joint.ki = 0;
   const SimulationResult end = simulate(settled, held, in_closed_loop(step));
   if (end.diverged_at) return start;  // and so will every motion
   start.q0 = end.q.bottomRows(1).transpose();

@@ -101,7 +101,7 @@ void read_cascade(const JsonNode& node, Controller& controller) {
   controller.feed_position = kv * ki * (fed - 1);
 }
 
-/// None: "open_loop".
+/// One controller; none: "open_loop".
 std::optional<Controller> read_gains(const JsonNode& node) {
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kTypes{
       {{"pd", "pd"}, {"pid", "pid"}, {"cascade", "cascade"}, {"open_loop", "open_loop"}}};
