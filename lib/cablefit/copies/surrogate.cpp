@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "cablefit/copies/fast_motion.hpp"
-#include "cablefit/model/least_inertias.hpp"
+#include "cablefit/model/joint_inertias.hpp"
 
 namespace cablefit {
 namespace {
@@ -21,7 +21,7 @@ constexpr double kCommandPeriod = 1e-3;  // s
 constexpr double kSame = 0.95;           // of a row: a command that is held about as long as it
 
 /// A PD controller of kBandwidth, as damped as the motor's inertia allows.
-Controller surrogate(const LeastInertias& inertias, double period) {
+Controller surrogate(const JointInertias& inertias, double period) {
   const double omega = 2 * std::numbers::pi * kBandwidth;
   Controller controller;
   controller.kd = std::min(2 * inertias.all * omega, kLargestGain * inertias.motor / period);
@@ -84,7 +84,9 @@ void follow_measured(const Model& model, const LogPlan& plan, const CopyDrive& d
   stretch.fine = commands_per_row(stretch.period, drive.torque_held && !is_held_shorter);
   stretch.late = is_held_shorter ? 0.5 * drive.torque_period : 0;
   const double period = stretch.input.period = stretch.period / stretch.fine;
-  const Controller controller = surrogate(least_inertias(model, stretch.link_blocked), period);
+  const Controller controller = controller_by_inertias(
+      model, stretch.link_blocked,
+      [period](const JointInertias& inertias) { return surrogate(inertias, period); });
   const int n_joints = plan.rig.n_joints();
   stretch.input.theta_ref.resize((stretch.measured.rows() - 1) * stretch.fine + 1, n_joints);
   for (int joint = 0; joint < n_joints; ++joint) {
@@ -100,7 +102,8 @@ void follow_measured(const Model& model, const LogPlan& plan, const CopyDrive& d
     }
     both = refined(both, stretch.fine);
     stretch.input.theta_ref.col(joint) =
-        reference_for(both.col(0).array(), both.col(1).array(), controller, period);
+        reference_for(both.col(0).array(), both.col(1).array(),
+                      controller.of(static_cast<std::size_t>(joint)), period);
   }
   stretch.rig.controller = controller;
   stretch.rig.sensors.clear();  // it reads theta as it is; what is recorded is rounded all the same

@@ -6,7 +6,7 @@
 #include "cablefit/design/curves/joint_curve.hpp"
 #include "cablefit/design/design_friction.hpp"
 #include "cablefit/design/design_sweep.hpp"
-#include "cablefit/model/least_inertias.hpp"
+#include "cablefit/model/joint_inertias.hpp"
 
 namespace cablefit {
 namespace {

@@ -11,7 +11,7 @@
 #include "cablefit/base/parallel.hpp"
 #include "cablefit/base/random.hpp"
 #include "cablefit/design/curves/joint_curve.hpp"
-#include "cablefit/model/least_inertias.hpp"
+#include "cablefit/model/joint_inertias.hpp"
 
 namespace cablefit {
 namespace {

@@ -1,15 +1,17 @@
 #include "cablefit/design/excitation/excited_motion.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/design/curves/joint_curve.hpp"
 #include "cablefit/model/arm/arm_dynamics.hpp"
-#include "cablefit/model/least_inertias.hpp"
+#include "cablefit/model/joint_inertias.hpp"
 
 namespace cablefit {
 namespace {
@@ -22,14 +24,24 @@ constexpr double kSurrogateBandwidth = 15;  // Hz
 constexpr double kLargestGain = 0.3;        // kd period / J_motor; a sampled loop is unstable at 2
 
 /// A PD controller, damped for what swings along and stable with the motor alone.
-Controller surrogate(const Model& model, double period) {
-  const auto [motor, all] = least_inertias(model);
+Controller surrogate(const JointInertias& inertias, double period) {
+  const auto [motor, all] = inertias;
   const double omega = 2 * std::numbers::pi * kSurrogateBandwidth;
   Controller c;
   c.kd = std::min(2 * kDamping * all * omega, kLargestGain * motor / period);
   c.kp = std::min(all * omega * omega, c.kd * omega / (2 * kDamping));
   c.period = period;
   return c;
+}
+
+/// "kp 1.2, kd 0.03", of several joints "kp 1.2, 0.7, kd 0.03, 0.02".
+std::string gains_text(const Controller& controller, std::size_t n_joints) {
+  std::vector<double> kp, kd;
+  for (std::size_t k = 0; k < n_joints; ++k) {
+    kp.push_back(controller.of(k).kp);
+    kd.push_back(controller.of(k).kd);
+  }
+  return fmt::format("kp {:.3g}, kd {:.3g}", fmt::join(kp, ", "), fmt::join(kd, ", "));
 }
 
 double load_on(const Model& model, const ExcitationLimits& limits, double q) {
@@ -111,9 +123,11 @@ Model excitable(const Model& model, double rate, std::string& words) {
     words = "the rig's controller";
     return moved;
   }
-  moved.rig.controller = surrogate(model, 1 / rate);
-  words = fmt::format("a surrogate controller (kp {:.3g}, kd {:.3g}), as the rig has no controller",
-                      moved.rig.controller->kp, moved.rig.controller->kd);
+  moved.rig.controller = controller_by_inertias(
+      model, false,
+      [rate](const JointInertias& inertias) { return surrogate(inertias, 1 / rate); });
+  words = fmt::format("a surrogate controller ({}), as the rig has no controller",
+                      gains_text(*moved.rig.controller, model.joints.size()));
   return moved;
 }
 

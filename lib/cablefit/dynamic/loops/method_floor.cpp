@@ -16,6 +16,8 @@ namespace {
 // s; second order in the step: 1e-4 of the resonance's period costs nothing beside a filter.
 constexpr double kStep = 100e-6;
 constexpr double kAside = 16;  // encoder steps that a draw's motion is moved by, at most
+// Of the largest measured motion, rms: a copy further from it shows errors of another experiment.
+constexpr double kOffTrack = 0.3;
 
 /// The logs of the job, or stretches of them where they are long.
 struct CopiedLogs {
@@ -36,6 +38,29 @@ CopiedLogs logs_to_copy(const DynamicJob& job) {
         stretches_of(job.logs, job.wanted, out.share, bridge_seconds(job.settings.rows.signal));
   out.logs = out.stretches.empty() ? job.logs : std::span<const LogSurvey>(out.stretches);
   return out;
+}
+
+double rms(const Eigen::ArrayXd& x) { return std::sqrt(x.square().mean()); }
+
+/// Throws Error(not_identifiable) for a copy whose motors do not follow the measured motion.
+void require_that_it_follows(const SimulatedCopy& copy,
+                             const std::vector<SimulationResult>& motions) {
+  const auto measured = [&](std::size_t k, int joint) {
+    const CopyStretch& stretch = copy.stretches[k];
+    return stretch.measured.col(copy.plans[stretch.log].find(Channel::theta, joint)).array();
+  };
+  const int n_joints = copy.model.rig.n_joints();
+  double way = 0, off = 0;
+  for (std::size_t k = 0; k < motions.size(); ++k)
+    for (int joint = 0; joint < n_joints; ++joint) {
+      const Eigen::ArrayXd theta = measured(k, joint);
+      way = std::max(way, rms(theta - theta.mean()));
+      off = std::max(off, rms(motions[k].theta.col(joint) - theta));
+    }
+  if (off > kOffTrack * way)
+    throw Error(ErrorKind::not_identifiable,
+                fmt::format("the simulated copy leaves the measured motion by {:.2g} of its size",
+                            off / way));
 }
 
 /// Positions as the encoders show them, torques as they are.
@@ -122,6 +147,7 @@ CopyDraws::CopyDraws(const DynamicJob& job, const Model& model, bool exact, bool
   copy_ = make_copy(model, copied.logs, job.wanted,
                     {signal.torque_held, signal.torque_period, signal.cutoff, true, kStep});
   motions_ = run_copy(copy_, {}, random_, job.options.samples.threads);
+  require_that_it_follows(copy_, motions_);
 }
 
 void CopyDraws::for_each(const std::function<void(const CopyDraw&)>& use) {

@@ -9,7 +9,7 @@
 
 #include "cablefit/base/parallel.hpp"
 #include "cablefit/dynamic/loops/log_copy.hpp"
-#include "cablefit/model/least_inertias.hpp"
+#include "cablefit/model/joint_inertias.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
 #include "cablefit/samples/rows/butterworth.hpp"
 #include "cablefit/samples/survey/noise.hpp"
@@ -38,8 +38,8 @@ std::string no_known_loop(const LogPlan& plan) {
 
 /// Follows its reference within the bandwidth, whatever inertia swings along; damped for the motor
 /// alone, which is what it turns above the resonance.
-Controller surrogate(const Model& model, double bandwidth, double h) {
-  const auto [motor, total] = least_inertias(model);  // of the lightest joint: stable for all
+Controller surrogate(const JointInertias& inertias, double bandwidth, double h) {
+  const auto [motor, total] = inertias;
   const double omega = 2 * std::numbers::pi * bandwidth;
   Controller c;
   c.kd = std::min(2 * kDamping * total * omega, kLargestGain * motor / h);
@@ -118,7 +118,10 @@ class LogLoop {
     Model model = model_;
     if (plan_.kind == LoopKind::surrogate) {
       const double n = std::max(1.0, std::ceil(window.period / options_.step - 1e-6));
-      model.rig.controller = surrogate(model_, plan_.bandwidth, window.period / n);
+      model.rig.controller =
+          controller_by_inertias(model_, false, [&](const JointInertias& inertias) {
+            return surrogate(inertias, plan_.bandwidth, window.period / n);
+          });
     }
     const Eigen::Index rows = window.data.rows() - (window.begin - window.first);
     SimulationInput first = input(window, reference, std::min<Eigen::Index>(2, rows));

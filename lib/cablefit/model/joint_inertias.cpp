@@ -1,6 +1,7 @@
-#include "cablefit/model/least_inertias.hpp"
+#include "cablefit/model/joint_inertias.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "cablefit/model/arm/arm_dynamics.hpp"
 
@@ -20,15 +21,22 @@ std::vector<double> link_inertias(const Model& model) {
   return inertias;
 }
 
-LeastInertias least_inertias(const Model& model, bool link_blocked) {
-  LeastInertias least;
+std::vector<JointInertias> joint_inertias(const Model& model, bool link_blocked) {
   const std::vector<double> links = link_inertias(model);
+  std::vector<JointInertias> inertias;
   for (std::size_t k = 0; k < links.size(); ++k) {
     const double motor = inertia_of(model.joints[k].motor);
-    least.motor = std::min(least.motor, motor);
-    least.all = std::min(least.all, motor + (link_blocked ? 0 : links[k]));
+    inertias.push_back({motor, motor + (link_blocked ? 0 : std::max(0.0, links[k]))});
   }
-  return least;
+  return inertias;
+}
+
+Controller controller_by_inertias(const Model& model, bool link_blocked,
+                                  const std::function<Controller(const JointInertias&)>& law) {
+  std::vector<Controller> controllers;
+  for (const JointInertias& inertias : joint_inertias(model, link_blocked))
+    controllers.push_back(law(inertias));
+  return controller_of(std::move(controllers));
 }
 
 }  // namespace cablefit
