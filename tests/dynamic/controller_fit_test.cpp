@@ -46,9 +46,9 @@ struct LawLog {
 ControllerFit found_in(const LawLog& law) {
   Bench bench;
   bench.add_text(law.columns().csv());
-  const std::optional<ControllerFit> fit = fit_controller(bench.logs(), all_parts);
+  const std::optional<ControllerFits> fit = fit_controllers(bench.logs(), all_parts);
   REQUIRE(fit.has_value());
-  return *fit;
+  return fit->joints.at(0);
 }
 
 // 20 s of 0.3 N m: kp e is 6 N m rms, so that kp has an sd of 0.3/6/sqrt(20000) = 4e-4 of it; kd
@@ -77,26 +77,70 @@ TEST_CASE("controllers are found from reference, position and torque", "[dynamic
   CHECK_THAT(cascade.controller.feed_acceleration, Catch::WithinRel(0.05, 0.05));
 }
 
+/// Two joints, the second with `second`; what the rig file says is of both.
+Columns of_two_joints(const LawLog& first, const LawLog& second) {
+  Columns both = first.columns();
+  const Columns other = second.columns();
+  for (auto& [name, values] : both.columns)
+    if (name != "t") name += "1";
+  both.columns.push_back({"q1", std::vector<double>(both.columns[0].second.size(), 0.0)});
+  for (const auto& [name, values] : other.columns)
+    if (name != "t") both.columns.push_back({name + "2", values});
+  both.columns.push_back({"q2", std::vector<double>(both.columns[0].second.size(), 0.0)});
+  return both;
+}
+
+TEST_CASE("controllers are found and checked joint by joint", "[dynamic]") {
+  Bench bench;
+  bench.rig.joints = {"1", "2"};
+  bench.add_text(of_two_joints({400, 6}, {90, 2, 300}).csv());
+  const std::optional<ControllerFits> found = fit_controllers(bench.logs(), all_parts);
+  REQUIRE(found.has_value());
+  REQUIRE(found->joints.size() == 2);
+  CHECK(found->all_fit());
+  const Controller both = found->controller();
+  CHECK_THAT(both.of(0).kp, Catch::WithinRel(400, 0.005));
+  CHECK(both.of(0).ki == 0);
+  CHECK_THAT(both.of(1).kp, Catch::WithinRel(90, 0.02));
+  CHECK_THAT(both.of(1).kd, Catch::WithinRel(2, 0.05));
+  CHECK_THAT(both.of(1).ki, Catch::WithinRel(300, 0.05));
+
+  Controller given;
+  given.kp = 400;
+  given.kd = 6;
+  Bench other;
+  other.rig.joints = bench.rig.joints;
+  other.rig.controller = given;  // of both joints: wrong on the second
+  other.add_text(of_two_joints({400, 6}, {90, 2}).csv());
+  const std::optional<ControllerFits> checked = check_controllers(other.logs(), all_parts);
+  REQUIRE(checked.has_value());
+  CHECK(checked->joints.at(0).fits());
+  CHECK_FALSE(checked->joints.at(1).fits());
+  CHECK_FALSE(checked->all_fit());
+  CHECK(checked->text({}).find("joint 1: kp 400 N m/rad, kd 6 N m s/rad; ") == 0);
+  CHECK(checked->text({}, true).find("joint 2: kp 400 N m/rad, kd 6 N m s/rad; ") == 0);
+}
+
 TEST_CASE("the torque misfit separates a right controller from a wrong one", "[dynamic]") {
   Bench bench;
   bench.rig.controller.emplace();
   bench.rig.controller->kp = 400;
   bench.rig.controller->kd = 6;
   bench.add_text(LawLog{400, 6}.columns().csv());
-  const std::optional<ControllerFit> right = check_controller(bench.logs(), all_parts);
+  const std::optional<ControllerFits> right = check_controllers(bench.logs(), all_parts);
   REQUIRE(right.has_value());
-  CHECK(right->fits());
-  CHECK_THAT(right->misfit, Catch::WithinRel(0.3, 0.02));
+  CHECK(right->all_fit());
+  CHECK_THAT(right->joints.at(0).misfit, Catch::WithinRel(0.3, 0.02));
 
   Bench other;
   other.rig = bench.rig;
   other.rig.controller->kp = 800;  // of another unit, say
   other.add_text(LawLog{400, 6}.columns().csv());
-  const std::optional<ControllerFit> wrong = check_controller(other.logs(), all_parts);
+  const std::optional<ControllerFits> wrong = check_controllers(other.logs(), all_parts);
   REQUIRE(wrong.has_value());
-  CHECK_FALSE(wrong->fits());
-  CHECK(wrong->misfit > 3);
-  CHECK(wrong->text(Axes::rotary).find("kp 800 N m/rad, kd 6 N m s/rad; its torque is ") == 0);
+  CHECK_FALSE(wrong->all_fit());
+  CHECK(wrong->joints.at(0).misfit > 3);
+  CHECK(wrong->text({}).find("kp 800 N m/rad, kd 6 N m s/rad; its torque is ") == 0);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "tests/support/plain_rigs.hpp"
 #include "tests/support/recover.hpp"
 
 namespace {
@@ -32,6 +33,27 @@ TEST_CASE("the controller of the shipped logs is found where the rig names none"
     REQUIRE(rig->controller);
     CHECK(rig->controller->kp == Approx(truth.kp).epsilon(0.01));
     CHECK(rig->controller->kd == Approx(truth.kd).epsilon(0.02));
+  }
+}
+
+TEST_CASE("controllers of a finger are found joint by joint", "[refine]") {
+  PlainRig rig = tendon_finger();
+  rig.logs_reference = true;
+  Bench bench;
+  bench.rig = read_rig(bench.folder().write("rig.json", rig_text(rig, "")));
+  RefineLogs logs;
+  logs.train = {bench.add_text(moving_log(rig, 10, 5))};
+  std::vector<Model> models(1);
+  models[0].rig = bench.rig;
+  const auto decision = take_found_controller(logs, models);
+  REQUIRE(decision);
+  CHECK(decision->value.find("joint 1: kp ") == 0);
+  CHECK(decision->value.find("; joint 2: kp ") != std::string::npos);
+  REQUIRE(models[0].rig.controller);
+  for (std::size_t joint = 0; joint < rig.n(); ++joint) {
+    const Controller& own = models[0].rig.controller->of(joint);
+    CHECK(own.kp == Approx(rig.joints[joint].kp).epsilon(0.01));
+    CHECK(own.kd == Approx(rig.joints[joint].kd).epsilon(0.02));
   }
 }
 

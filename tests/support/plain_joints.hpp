@@ -87,9 +87,10 @@ struct PlainRig {
   std::vector<PlainCable> cables;
   LinkDynamics link_dynamics;
   HiddenTorque hidden = {};
-  double torque_noise = 0.05;  ///< sd, N m
-  double load_noise = 0;       ///< sd of the sensor of tau_load, N m
-  double quantum = 1.2e-5;     ///< of encoders of 19 bit, rad
+  double torque_noise = 0.05;   ///< sd, N m
+  double load_noise = 0;        ///< sd of the sensor of tau_load, N m
+  double quantum = 1.2e-5;      ///< of encoders of 19 bit, rad
+  bool logs_reference = false;  ///< in moving logs
 
   std::size_t n() const { return joints.size(); }
 };
@@ -123,17 +124,20 @@ inline double sign_of(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 
 class PlainLog {
  public:
-  PlainLog(const PlainRig& rig, unsigned seed) : rig_(rig), random_(seed) {
+  PlainLog(const PlainRig& rig, unsigned seed, bool with_reference = false)
+      : rig_(rig), random_(seed) {
     const auto add = [&](const char* name) {
       for (std::size_t j = 0; j < rig.n(); ++j)
         text_ += rig.n() > 1 ? fmt::format(",{}{}", name, j + 1) : fmt::format(",{}", name);
     };
     text_ = "t";
     for (const char* name : {"q", "theta", "tau", "tau_load"}) add(name);
+    if (with_reference) add("theta_ref");
     text_ += '\n';
   }
   void add(double t, const std::vector<double>& q, const std::vector<double>& theta,
-           const std::vector<double>& tau, const std::vector<double>& load) {
+           const std::vector<double>& tau, const std::vector<double>& load,
+           const std::vector<double>& reference = {}) {
     text_ += fmt::format("{:.4f}", t);
     for (const double x : q) text_ += fmt::format(",{:.9f}", stepped(x));
     for (const double x : theta) text_ += fmt::format(",{:.9f}", stepped(x));
@@ -144,6 +148,7 @@ class PlainLog {
     for (const double x : load)
       text_ +=
           fmt::format(",{:.6f}", rig_.load_noise > 0 ? x + rig_.load_noise * normal_(random_) : x);
+    for (const double x : reference) text_ += fmt::format(",{:.9f}", x);
     text_ += '\n';
   }
   const std::string& text() const { return text_; }
@@ -262,12 +267,12 @@ inline std::string moving_log(const PlainRig& rig, double seconds, unsigned seed
   constexpr int kSteps = 20;
   constexpr double kStep = kPeriod / kSteps;
   const std::size_t n = rig.n();
-  PlainLog log(rig, seed);
+  PlainLog log(rig, seed, rig.logs_reference);
   PlainState x(4 * n, 0.0);
   std::vector<double> before(n, 0.0);
   for (int i = 0; i < static_cast<int>(seconds / kPeriod); ++i) {
     const double t = i * kPeriod;
-    std::vector<double> tau(n), load(n);
+    std::vector<double> tau(n), load(n), references(n);
     for (std::size_t j = 0; j < n; ++j) {
       const double fade = std::min(1.0, t);
       const double shift = 0.7 * static_cast<double>(j);
@@ -276,6 +281,7 @@ inline std::string moving_log(const PlainRig& rig, double seconds, unsigned seed
                                 0.3 * std::sin(2 * M_PI * (0.83 + 0.11 * shift) * t + shift) +
                                 0.2 * std::sin(2 * M_PI * (1.9 + 0.13 * shift) * t + 2 * shift) +
                                 0.03 * std::sin(2 * M_PI * (7.3 + 0.9 * shift) * t));
+      references[j] = reference;
       const double error = reference - x[2 * n + j];
       tau[j] = rig.joints[j].kp * error +
                (i > 0 ? rig.joints[j].kd * (error - before[j]) / kPeriod : 0.0);
@@ -283,7 +289,8 @@ inline std::string moving_log(const PlainRig& rig, double seconds, unsigned seed
       load[j] = load_at(rig, j, t);
     }
     // The log has the torque that acts from t on, without noise added to what the motor does.
-    log.add(t, part(x, n, 0), part(x, n, 2), tau, load);
+    log.add(t, part(x, n, 0), part(x, n, 2), tau, load,
+            rig.logs_reference ? references : std::vector<double>());
     for (int step = 0; step < kSteps; ++step) x = runge_kutta(rig, x, t + step * kStep, kStep, tau);
   }
   return log.text();

@@ -16,8 +16,8 @@ bool says_how_it_is_driven(const Rig& rig) { return rig.controller || rig.open_l
 bool has_other_gains(LogSurvey log, const Controller& controller) {
   if (has_phase(log, Phase::moving)) return false;
   log.plan.rig.controller = controller;
-  const auto fit = check_controller({&log, 1}, [](const PartSurvey&) { return true; });
-  return fit && !fit->fits();
+  const auto fit = check_controllers({&log, 1}, [](const PartSurvey&) { return true; });
+  return fit && !fit->all_fit();
 }
 
 }  // namespace
@@ -26,20 +26,21 @@ std::optional<Decision> take_found_controller(RefineLogs& logs, std::vector<Mode
   std::vector<LogSurvey> moving;
   std::copy_if(logs.train.begin(), logs.train.end(), std::back_inserter(moving),
                [](const LogSurvey& log) { return has_phase(log, Phase::moving); });
-  if (moving.empty() || moving.front().plan.rig.n_joints() > 1) return std::nullopt;
+  if (moving.empty()) return std::nullopt;
   for (const auto* some : {&logs.train, &logs.test, &logs.blocked})
     for (const LogSurvey& log : *some)
       if (says_how_it_is_driven(log.plan.rig)) return std::nullopt;
   for (const Model& model : models)
     if (says_how_it_is_driven(model.rig)) return std::nullopt;
 
-  const std::optional<ControllerFit> found = fit_controller(moving, is_moving);
-  if (!found || !found->fits()) return std::nullopt;
+  const std::optional<ControllerFits> found = fit_controllers(moving, is_moving);
+  if (!found || !found->all_fit()) return std::nullopt;
+  const Controller controller = found->controller();
   for (auto* some : {&logs.train, &logs.test, &logs.blocked})
     for (LogSurvey& log : *some)
-      if (!has_other_gains(log, found->controller)) log.plan.rig.controller = found->controller;
-  for (Model& model : models) model.rig.controller = found->controller;
-  return Decision{"controller", found->text(models.front().rig.axes.all()),
+      if (!has_other_gains(log, controller)) log.plan.rig.controller = controller;
+  for (Model& model : models) model.rig.controller = controller;
+  return Decision{"controller", found->text(models.front().rig.axes),
                   "found from reference, position and torque of the training logs, as the rig file "
                   "names none"};
 }

@@ -1,4 +1,4 @@
-// The position controller of logs whose rig file names none. Internal to session/.
+// The position controllers of logs whose rig file names none. Internal to session/.
 #pragma once
 
 #include <optional>
@@ -10,9 +10,9 @@
 
 namespace cablefit {
 
-/// Gives the logs and the models the controller that made the torque of the moving training logs,
-/// so that their closed loop can be simulated: a replay of the torque drifts. One joint. Nothing
-/// where a rig file names a controller, or none explains the torque; nothing is changed then.
+/// Gives the logs and the models the controllers that made the torques of the moving training logs,
+/// so that their closed loop can be simulated: a replay of the torque drifts. Nothing where a rig
+/// file names a controller, or none explains the torque of a joint; nothing is changed then.
 std::optional<Decision> take_found_controller(RefineLogs& logs, std::vector<Model>& models);
 
 }  // namespace cablefit

@@ -34,8 +34,8 @@ void note_controller(const EstimationTask& task, const LoopPlan& plan, Estimatio
   out.fit.warnings.insert(out.fit.warnings.end(), plan.warnings.begin(), plan.warnings.end());
   if (!plan.fitted) return;
   out.decisions.push_back({task.decision_name("controller"), "found from the logs",
-                           plan.fitted->text(task.job.rig().axes.all()) +
-                               "; in the rig file: " + controller_text(plan.fitted->controller)});
+                           plan.fitted->text(task.job.rig().axes) +
+                               "; in the rig file: " + controller_text(plan.fitted->controller())});
 }
 
 void note_instruments(const EstimationTask& task, const LoopPlan& plan, const IvFit& fit,

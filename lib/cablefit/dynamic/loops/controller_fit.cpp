@@ -1,11 +1,13 @@
 #include "cablefit/dynamic/loops/controller_fit.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "cablefit/copies/simulated_copy.hpp"
@@ -43,9 +45,9 @@ const std::array<Law, 6> kLaws = {{
 
 /// Rows of one stretch, the last column the torque; each column about its mean, so that an offset
 /// and what an integral began with do not matter.
-Eigen::MatrixXd law_rows(const LogPlan& plan, const CopyStretch& stretch, double lag) {
+Eigen::MatrixXd law_rows(const LogPlan& plan, const CopyStretch& stretch, int joint, double lag) {
   const auto column = [&](Channel channel) -> Eigen::VectorXd {
-    return stretch.measured.col(plan.find(channel, 0));
+    return stretch.measured.col(plan.find(channel, joint));
   };
   const Eigen::VectorXd reference = column(Channel::theta_ref);
   const Eigen::VectorXd error = reference - column(Channel::theta), tau = column(Channel::tau);
@@ -69,11 +71,11 @@ Eigen::MatrixXd law_rows(const LogPlan& plan, const CopyStretch& stretch, double
 }
 
 bool has_channels(const LogPlan& plan) {
-  return plan.rig.n_joints() == 1 && plan.has(Channel::theta_ref) && plan.has(Channel::theta) &&
-         plan.has(Channel::tau);
+  return plan.has_for_all(Channel::theta_ref) && plan.has_for_all(Channel::theta) &&
+         plan.has_for_all(Channel::tau);
 }
 
-/// R of all rows, by lag; none where a log has not what it takes.
+/// R of all rows of one joint, by lag.
 struct LawRows {
   std::array<StreamingQr, kLags.size()> by_lag{StreamingQr(kColumns + 1), StreamingQr(kColumns + 1),
                                                StreamingQr(kColumns + 1)};
@@ -82,26 +84,32 @@ struct LawRows {
   double torque() const { return by_lag[0].r().col(kColumns).norm() / std::sqrt(n); }
 };
 
-std::optional<LawRows> rows_of(std::span<const LogSurvey> logs, const PartFilter& wanted) {
-  LawRows all;
+void add_rows(const LogSurvey& log, const CopyStretch& stretch, int joint, LawRows& all) {
+  for (std::size_t lag = 0; lag < kLags.size(); ++lag) {
+    const Eigen::MatrixXd rows = law_rows(log.plan, stretch, joint, kLags[lag]);
+    if (rows.rows() == 0) continue;
+    all.by_lag[lag].add(rows);
+    if (lag == 0) all.n += static_cast<double>(rows.rows());
+  }
+  const auto tau = static_cast<std::size_t>(log.plan.find(Channel::tau, joint));
+  all.noise = std::max(all.noise, log.parts[stretch.part].channels[tau].noise);
+}
+
+/// Of every joint. None where a log lacks a channel, or where there are too few rows.
+std::optional<std::vector<LawRows>> rows_of(std::span<const LogSurvey> logs,
+                                            const PartFilter& wanted) {
+  std::vector<LawRows> joints;
   for (std::size_t k = 0; k < logs.size(); ++k) {
     const LogSurvey& log = logs[k];
     if (std::none_of(log.parts.begin(), log.parts.end(), wanted)) continue;
     if (!has_channels(log.plan)) return std::nullopt;
-    for (const PartSurvey& part : log.parts)
-      if (wanted(part))
-        all.noise = std::max(
-            all.noise, part.channels[static_cast<std::size_t>(log.plan.find(Channel::tau))].noise);
+    joints.resize(static_cast<std::size_t>(log.plan.rig.n_joints()));
     for (const CopyStretch& stretch : read_stretches(log, k, wanted))
-      for (std::size_t lag = 0; lag < kLags.size(); ++lag) {
-        const Eigen::MatrixXd rows = law_rows(log.plan, stretch, kLags[lag]);
-        if (rows.rows() == 0) continue;
-        all.by_lag[lag].add(rows);
-        if (lag == 0) all.n += static_cast<double>(rows.rows());
-      }
+      for (std::size_t joint = 0; joint < joints.size(); ++joint)
+        add_rows(log, stretch, static_cast<int>(joint), joints[joint]);
   }
-  if (!(all.n > 10 * kColumns)) return std::nullopt;
-  return all;
+  if (joints.empty() || !(joints.front().n > 10 * kColumns)) return std::nullopt;
+  return joints;
 }
 
 double misfit_of(const LawRows& rows, const Eigen::VectorXd& gains) {
@@ -146,6 +154,19 @@ std::optional<ControllerFit> fit_law(const LawRows& rows, const Law& law) {
   return best;
 }
 
+/// The simplest law that explains about as much as the richest.
+std::optional<ControllerFit> simplest_fit(const LawRows& rows) {
+  const std::optional<ControllerFit> richest = fit_law(rows, kLaws.back());
+  std::optional<ControllerFit> best;
+  for (const Law& law : kLaws) {
+    const std::optional<ControllerFit> fit = fit_law(rows, law);
+    if (!fit) continue;
+    if (!best || fit->misfit * kSimplerBy < best->misfit) best = fit;
+    if (richest && best->misfit <= kSimplerBy * richest->misfit) break;
+  }
+  return best;
+}
+
 }  // namespace
 
 bool ControllerFit::fits() const {
@@ -170,32 +191,56 @@ std::string ControllerFit::text(Axes axes) const {
   return text;
 }
 
-std::optional<ControllerFit> check_controller(std::span<const LogSurvey> logs,
-                                              const PartFilter& wanted) {
+bool ControllerFits::all_fit() const {
+  return std::all_of(joints.begin(), joints.end(),
+                     [](const ControllerFit& joint) { return joint.fits(); });
+}
+
+Controller ControllerFits::controller() const {
+  std::vector<Controller> controllers;
+  for (const ControllerFit& joint : joints) controllers.push_back(joint.controller);
+  return controller_of(std::move(controllers));
+}
+
+std::string ControllerFits::text(const JointAxes& axes, bool only_wrong) const {
+  std::vector<std::string> texts;
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    if (only_wrong && joints[k].fits()) continue;
+    const std::string which = joints.size() > 1 ? fmt::format("joint {}: ", k + 1) : "";
+    texts.push_back(which + joints[k].text(axes.of(static_cast<int>(k))));
+  }
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
+std::optional<ControllerFits> check_controllers(std::span<const LogSurvey> logs,
+                                                const PartFilter& wanted) {
   const Controller* controller = nullptr;
   for (const LogSurvey& log : logs)
     if (log.plan.rig.controller && std::any_of(log.parts.begin(), log.parts.end(), wanted))
       controller = &*log.plan.rig.controller;
   if (controller == nullptr) return std::nullopt;
-  const std::optional<LawRows> rows = rows_of(logs, wanted);
+  const std::optional<std::vector<LawRows>> rows = rows_of(logs, wanted);
   if (!rows) return std::nullopt;
-  return ControllerFit{*controller, misfit_of(*rows, gains_of(*controller)), rows->torque(),
-                       rows->noise};
+  ControllerFits fits;
+  for (std::size_t k = 0; k < rows->size(); ++k) {
+    const LawRows& joint = (*rows)[k];
+    const Controller& own = controller->of(k);
+    fits.joints.push_back({own, misfit_of(joint, gains_of(own)), joint.torque(), joint.noise});
+  }
+  return fits;
 }
 
-std::optional<ControllerFit> fit_controller(std::span<const LogSurvey> logs,
-                                            const PartFilter& wanted) {
-  const std::optional<LawRows> rows = rows_of(logs, wanted);
+std::optional<ControllerFits> fit_controllers(std::span<const LogSurvey> logs,
+                                              const PartFilter& wanted) {
+  const std::optional<std::vector<LawRows>> rows = rows_of(logs, wanted);
   if (!rows) return std::nullopt;
-  const std::optional<ControllerFit> richest = fit_law(*rows, kLaws.back());
-  std::optional<ControllerFit> best;
-  for (const Law& law : kLaws) {
-    const std::optional<ControllerFit> fit = fit_law(*rows, law);
-    if (!fit) continue;
-    if (!best || fit->misfit * kSimplerBy < best->misfit) best = fit;
-    if (richest && best->misfit <= kSimplerBy * richest->misfit) break;
+  ControllerFits fits;
+  for (const LawRows& joint : *rows) {
+    const std::optional<ControllerFit> fit = simplest_fit(joint);
+    if (!fit) return std::nullopt;
+    fits.joints.push_back(*fit);
   }
-  return best;
+  return fits;
 }
 
 }  // namespace cablefit

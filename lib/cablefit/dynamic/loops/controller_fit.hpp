@@ -1,17 +1,18 @@
-// The position controller that computed a log's torque: the rig's, checked against the log, or one
-// identified from the log.
+// The position controllers that computed a log's torques: the rig's, checked against the log, or
+// those identified from the log.
 #pragma once
 
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "cablefit/base/axes.hpp"
 #include "cablefit/samples/rows/equation_rows.hpp"
 
 namespace cablefit {
 
-/// How well a controller's law explains the measured torque.
+/// How well the controller of one joint explains its measured torque.
 struct ControllerFit {
   Controller controller;
   double misfit = 0;  ///< N m rms, of the torque by this law from reference and position
@@ -26,17 +27,29 @@ struct ControllerFit {
 };
 inline constexpr double kControllerNoise = 2, kControllerShare = 0.05;
 
-/// Torque misfit of the rig's controller on the wanted parts of the logs, one joint. None where a
-/// log lacks the controller, its reference, theta or tau.
-std::optional<ControllerFit> check_controller(std::span<const LogSurvey> logs,
-                                              const PartFilter& wanted);
+/// Of every joint, the first for joint 1.
+struct ControllerFits {
+  std::vector<ControllerFit> joints;
 
-/// The simplest of PD, PID, velocity feedback, cascade and feed-forward laws (see Controller) whose
-/// misfit is within kSimplerBy of that of the richest law. Fitted by least squares on the rows as
-/// logged, with the torque acting at once, half a row or a row later. None where a log of one joint
-/// lacks theta_ref, theta or tau, or where no law has positive gains.
-std::optional<ControllerFit> fit_controller(std::span<const LogSurvey> logs,
-                                            const PartFilter& wanted);
+  bool all_fit() const;
+  Controller controller() const;
+  /// As that of one joint, of several with "joint 2: " before each. `only_wrong`: those that do not
+  /// fit.
+  std::string text(const JointAxes& axes, bool only_wrong = false) const;
+};
+
+/// Torque misfits of the rig's controller on the wanted parts of the logs. None where a log lacks
+/// the controller, or theta_ref, theta or tau of a joint.
+std::optional<ControllerFits> check_controllers(std::span<const LogSurvey> logs,
+                                                const PartFilter& wanted);
+
+/// Of every joint the simplest of PD, PID, velocity feedback, cascade and feed-forward laws (see
+/// Controller) whose misfit is within kSimplerBy of that of the richest law. Fitted by least
+/// squares on the rows as logged, with the torque acting at once, half a row or a row later. None
+/// where a log lacks theta_ref, theta or tau of a joint, or where no law of a joint has positive
+/// gains.
+std::optional<ControllerFits> fit_controllers(std::span<const LogSurvey> logs,
+                                              const PartFilter& wanted);
 inline constexpr double kSimplerBy = 1.03;
 
 }  // namespace cablefit

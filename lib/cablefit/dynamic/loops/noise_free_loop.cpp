@@ -61,7 +61,7 @@ class LogLoop {
           double step)
       : log_(log), model_(model), plan_(plan), copy_(log, true) {
     model_.rig.sensors.clear();  // no quantisation in the loop either
-    if (plan.fitted) model_.rig.controller = plan.fitted->controller;
+    if (plan.fitted) model_.rig.controller = plan.fitted->controller();
     options_.closed_loop = plan.kind != LoopKind::command;
     options_.hold_torque = torque_held;
     options_.step = step;
@@ -215,7 +215,7 @@ constexpr double kControllerRows = 250000;
 /// Whether the rig's controller made the torque; else whether one can be found that did.
 void look_at_controller(const DynamicJob& job, std::span<const LogSurvey> logs, bool open_loop,
                         LoopPlan& plan) {
-  if (open_loop || job.n_joints() > 1) return;
+  if (open_loop) return;
   double all = 0;
   for (const LogSurvey& log : logs)
     for (const PartSurvey& part : log.parts)
@@ -226,15 +226,15 @@ void look_at_controller(const DynamicJob& job, std::span<const LogSurvey> logs, 
                         bridge_seconds(job.settings.rows.signal));
   const std::span<const LogSurvey> looked_at = some.empty() ? logs : some;
   if (plan.kind == LoopKind::known) {
-    const std::optional<ControllerFit> given = check_controller(looked_at, job.wanted);
-    if (!given || given->fits()) return;
+    const std::optional<ControllerFits> given = check_controllers(looked_at, job.wanted);
+    if (!given || given->all_fit()) return;
     plan.kind = LoopKind::surrogate;
     plan.reason = fmt::format("the rig's controller does not reproduce the log's torque ({})",
-                              given->text(job.rig().axes.all()));
+                              given->text(job.rig().axes, true));
     plan.warnings.push_back(plan.reason + ": it is not used; check its gains, units and reference");
   }
-  const std::optional<ControllerFit> found = fit_controller(looked_at, job.wanted);
-  if (!found || !found->fits()) return;
+  const std::optional<ControllerFits> found = fit_controllers(looked_at, job.wanted);
+  if (!found || !found->all_fit()) return;
   plan.kind = LoopKind::known;
   plan.fitted = found;
 }

@@ -27,7 +27,7 @@ struct LoopPlan {
   double bandwidth = 0;  ///< Hz, of the smoothed theta
   /// The controller identified from the logs, for a known loop where the rig file has none that
   /// explains their torque.
-  std::optional<ControllerFit> fitted = {};
+  std::optional<ControllerFits> fitted = {};
   std::vector<std::string> warnings = {};
 };
 
