@@ -60,12 +60,6 @@ bool leaves_unexplained(const std::vector<RefineResult>& given,
   return false;
 }
 
-/// Whether what is left of an equation matters.
-bool is_material(const RefineResult& joint) {
-  return std::any_of(joint.remainders.begin(), joint.remainders.end(),
-                     [](const EquationRemainder& e) { return e.above >= e.material; });
-}
-
 /// The gap of joints that could be refined with the given values.
 struct Left {
   double same = 0;   ///< what counts as no gap
@@ -177,7 +171,7 @@ bool is_explained(const std::vector<RefineResult>& given, const std::vector<Refi
   for (std::size_t k = 0; k < given.size(); ++k) {
     if (is_done(given[k]) && !is_done(right[k])) return false;
     if (is_done(given[k]) || !is_done(right[k])) continue;
-    if (right[k].verdict == Verdict::unexplained && is_material(right[k])) return false;
+    if (right[k].verdict == Verdict::unexplained) return false;
     any_opened = true;
   }
   if (leaves_unexplained(given, right)) return false;

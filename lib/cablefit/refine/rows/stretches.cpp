@@ -7,6 +7,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/model/one_joint.hpp"
+#include "cablefit/refine/rows/rough_start.hpp"
 #include "cablefit/samples/survey/gapless_rows.hpp"
 
 namespace cablefit {
@@ -92,6 +93,7 @@ void read_log(const LogSurvey& log, std::size_t number, std::span<const Model> m
     require_channels(log.plan, model, stretch.blocked);
     stretch.recording = recording_of(run, log.plan, model);
     complete(model, log.plan.rig, stretch);
+    if (!stretch.blocked) stretch.rows_from = rough_start(stretch.recording);
   });
 }
 

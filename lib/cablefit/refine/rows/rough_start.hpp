@@ -1,0 +1,16 @@
+// The start of a recording that is far rougher than the rest of it. Internal to refine/.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "cablefit/model/effects.hpp"
+
+namespace cablefit {
+
+/// Number of samples at the start that rows must leave out; 0: none. A robot that is let go away
+/// from its equilibrium, or whose drive is switched on, moves faster there than anywhere later. The
+/// kernels do not resolve that, and simulated data sets start from an estimated state, so that they
+/// do not repeat it.
+Eigen::Index rough_start(const Recording& recording);
+
+}  // namespace cablefit
