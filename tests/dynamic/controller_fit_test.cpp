@@ -105,6 +105,17 @@ TEST_CASE("controllers are found and checked joint by joint", "[dynamic]") {
   CHECK_THAT(both.of(1).kd, Catch::WithinRel(2, 0.05));
   CHECK_THAT(both.of(1).ki, Catch::WithinRel(300, 0.05));
 
+  // One that stands still shows none, and its noise is not taken for one.
+  Columns still = of_two_joints({400, 6}, {90, 2});
+  Normal normal(3);
+  for (auto& [name, values] : still.columns)
+    if (name.ends_with("2"))
+      for (double& value : values) value = name == "tau2" ? 0.3 * normal() : 1e-5 * normal();
+  Bench resting;
+  resting.rig.joints = bench.rig.joints;
+  resting.add_text(still.csv());
+  CHECK_FALSE(fit_controllers(resting.logs(), all_parts));
+
   Controller given;
   given.kp = 400;
   given.kd = 6;

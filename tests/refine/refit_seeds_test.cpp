@@ -1,6 +1,7 @@
 // A model with two effects is fitted anew to many logs of the second simulator, each of another rig
 // and with other noise: the intervals of these estimators cover the truth.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <string>
@@ -20,6 +21,7 @@ using namespace cablefit::test;
 struct Inside {
   double n = 0, inside = 0;
   double undetermined = 0;  ///< by these logs: no interval
+  double squared = 0;       ///< sum of (error / sd)^2
 
   void add(const Estimate& e, double truth) {
     if (!e.not_identifiable.empty()) {
@@ -27,6 +29,7 @@ struct Inside {
       return;
     }
     ++n;
+    squared += (e.value - truth) / e.sd * ((e.value - truth) / e.sd);
     inside += e.ci_low <= truth && truth <= e.ci_high ? 1 : 0;
   }
   double share() const { return inside / n; }
@@ -100,11 +103,16 @@ TEST_CASE("intervals of a model with two effects cover the truth", "[refine][slo
       all.add(*e, value);
     }
   }
-  std::printf("  %s: %.1f %% of %.0f inside their 95 %% interval, %.0f more not determined\n",
-              estimator.c_str(), 100 * all.share(), all.n, all.undetermined);
+  std::printf(
+      "  %s: %.1f %% of %.0f inside their 95 %% interval, errors of %.2f sd rms; %.0f more are "
+      "not determined\n",
+      estimator.c_str(), 100 * all.share(), all.n, std::sqrt(all.squared / all.n),
+      all.undetermined);
   for (const auto& [name, table] : tables)
     std::printf("    %-32s %3.0f %% of %.0f\n", name.c_str(), 100 * table.share(), table.n);
   CHECK(all.share() > (full_monte_carlo() ? 0.9 : 0.8));
+  CHECK(std::sqrt(all.squared / all.n) > 0.5);  // intervals that are far too wide cover too
+  CHECK(all.undetermined < 0.25 * (all.n + all.undetermined));
 }
 
 }  // namespace

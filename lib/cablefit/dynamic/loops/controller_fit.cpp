@@ -27,6 +27,7 @@ enum Column : Eigen::Index {
   kColumns
 };
 
+constexpr double kShown = 0.5;  // of the torque, rms: a law that leaves more fits its noise
 constexpr std::array<double, 3> kLags = {0, 0.5, 1};  // rows from command to torque
 
 /// A law by the columns that it has; simple ones first.
@@ -103,7 +104,9 @@ std::optional<std::vector<LawRows>> rows_of(std::span<const LogSurvey> logs,
     const LogSurvey& log = logs[k];
     if (std::none_of(log.parts.begin(), log.parts.end(), wanted)) continue;
     if (!has_channels(log.plan)) return std::nullopt;
-    joints.resize(static_cast<std::size_t>(log.plan.rig.n_joints()));
+    const auto n_joints = static_cast<std::size_t>(log.plan.rig.n_joints());
+    if (!joints.empty() && joints.size() != n_joints) return std::nullopt;
+    joints.resize(n_joints);
     for (const CopyStretch& stretch : read_stretches(log, k, wanted))
       for (std::size_t joint = 0; joint < joints.size(); ++joint)
         add_rows(log, stretch, static_cast<int>(joint), joints[joint]);
@@ -237,7 +240,7 @@ std::optional<ControllerFits> fit_controllers(std::span<const LogSurvey> logs,
   ControllerFits fits;
   for (const LawRows& joint : *rows) {
     const std::optional<ControllerFit> fit = simplest_fit(joint);
-    if (!fit) return std::nullopt;
+    if (!fit || fit->misfit > kShown * fit->torque) return std::nullopt;
     fits.joints.push_back(*fit);
   }
   return fits;

@@ -22,7 +22,8 @@ struct ControllerFit {
   /// The misfit is within kControllerNoise of the noise plus kControllerShare of the torque, added
   /// in squares.
   bool fits() const;
-  /// "kp 424 N m/rad, kd 5.1 N m s/rad; torque within 0.33 N m rms, 1.1 sd of its noise"
+  /// "kp 424 N m/rad, kd 5.1 N m s/rad; its torque is 0.33 N m rms from the measured one, 1.1 sd of
+  /// the noise"
   std::string text(Axes axes) const;
 };
 inline constexpr double kControllerNoise = 2, kControllerShare = 0.05;
@@ -46,8 +47,8 @@ std::optional<ControllerFits> check_controllers(std::span<const LogSurvey> logs,
 /// Of every joint the simplest of PD, PID, velocity feedback, cascade and feed-forward laws (see
 /// Controller) whose misfit is within kSimplerBy of that of the richest law. Fitted by least
 /// squares on the rows as logged, with the torque acting at once, half a row or a row later. None
-/// where a log lacks theta_ref, theta or tau of a joint, or where no law of a joint has positive
-/// gains.
+/// where a log lacks theta_ref, theta or tau of a joint, or where no law with positive gains
+/// explains the torque of a joint, as of one that stands still.
 std::optional<ControllerFits> fit_controllers(std::span<const LogSurvey> logs,
                                               const PartFilter& wanted);
 inline constexpr double kSimplerBy = 1.03;

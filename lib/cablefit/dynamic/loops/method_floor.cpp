@@ -16,8 +16,11 @@ namespace {
 // s; second order in the step: 1e-4 of the resonance's period costs nothing beside a filter.
 constexpr double kStep = 100e-6;
 constexpr double kAside = 16;  // encoder steps that a draw's motion is moved by, at most
-// Of the largest measured motion, rms: a copy further from it shows errors of another experiment.
+// Of a joint's motion, rms: a copy further from it shows the errors of another experiment.
 constexpr double kOffTrack = 0.3;
+// Of the largest motion of a joint in the same unit: a joint that moves less is taken to move so
+// much.
+constexpr double kHardlyMoves = 0.1;
 
 /// The logs of the job, or stretches of them where they are long.
 struct CopiedLogs {
@@ -40,27 +43,46 @@ CopiedLogs logs_to_copy(const DynamicJob& job) {
   return out;
 }
 
-double rms(const Eigen::ArrayXd& x) { return std::sqrt(x.square().mean()); }
+/// Of all stretches of a copy: how far a motor moved, and how far the simulated one is from it;
+/// squared and summed over the rows.
+struct Track {
+  double way = 0, off = 0;
+};
+
+std::vector<Track> tracks_of(const SimulatedCopy& copy,
+                             const std::vector<SimulationResult>& motions) {
+  std::vector<Track> tracks(static_cast<std::size_t>(copy.model.rig.n_joints()));
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    const CopyStretch& stretch = copy.stretches[k];
+    if (!stretch.rig.controller) continue;  // a command is replayed, and drifts
+    for (std::size_t joint = 0; joint < tracks.size(); ++joint) {
+      const auto at = static_cast<int>(joint);
+      const Eigen::ArrayXd theta =
+          stretch.measured.col(copy.plans[stretch.log].find(Channel::theta, at)).array();
+      tracks[joint].way += (theta - theta.mean()).square().sum();
+      tracks[joint].off += (motions[k].theta.col(at) - theta).square().sum();
+    }
+  }
+  return tracks;
+}
 
 /// Throws Error(not_identifiable) for a copy whose motors do not follow the measured motion.
 void require_that_it_follows(const SimulatedCopy& copy,
                              const std::vector<SimulationResult>& motions) {
-  const auto measured = [&](std::size_t k, int joint) {
-    const CopyStretch& stretch = copy.stretches[k];
-    return stretch.measured.col(copy.plans[stretch.log].find(Channel::theta, joint)).array();
-  };
-  const int n_joints = copy.model.rig.n_joints();
-  double way = 0, off = 0;
-  for (std::size_t k = 0; k < motions.size(); ++k)
-    for (int joint = 0; joint < n_joints; ++joint) {
-      const Eigen::ArrayXd theta = measured(k, joint);
-      way = std::max(way, rms(theta - theta.mean()));
-      off = std::max(off, rms(motions[k].theta.col(joint) - theta));
-    }
-  if (off > kOffTrack * way)
-    throw Error(ErrorKind::not_identifiable,
-                fmt::format("the simulated copy leaves the measured motion by {:.2g} of its size",
-                            off / way));
+  const std::vector<Track> tracks = tracks_of(copy, motions);
+  const JointAxes& axes = copy.model.rig.axes;
+  for (std::size_t joint = 0; joint < tracks.size(); ++joint) {
+    const auto at = static_cast<int>(joint);
+    double way = tracks[joint].way;
+    for (std::size_t k = 0; k < tracks.size(); ++k)
+      if (axes.of(static_cast<int>(k)) == axes.of(at))
+        way = std::max(way, kHardlyMoves * kHardlyMoves * tracks[k].way);
+    if (way > 0 && tracks[joint].off > kOffTrack * kOffTrack * way)
+      throw Error(ErrorKind::not_identifiable,
+                  fmt::format("the simulated copy leaves the measured motion of joint {} by {:.2g} "
+                              "of its size",
+                              joint + 1, std::sqrt(tracks[joint].off / way)));
+  }
 }
 
 /// Positions as the encoders show them, torques as they are.

@@ -8,21 +8,20 @@
 namespace cablefit {
 namespace {
 
-constexpr double kRough = 3;       // times the largest acceleration later
-constexpr double kQuiet = 20;      // kernel widths without such an acceleration end the start
-constexpr Eigen::Index kPart = 4;  // the start is within one of so many parts of a recording
+constexpr double kRough = 3;       // times the largest acceleration later: it happens once only
+constexpr double kLongest = 0.06;  // s: what oscillates longer is slow enough for the kernels
 
 /// Samples up to the last rough one of the start; 0: none is rough.
 Eigen::Index rough_samples(const Eigen::ArrayXd& positions, const Smoothing& smoothing,
                            double period) {
   const Kernel curvature = gaussian_curvature(smoothing.signals, period);
   const Eigen::Index n = positions.size(), reach = curvature.reach();
-  if (n < 2 * kPart * reach) return 0;
+  const auto end = static_cast<Eigen::Index>(kLongest / period);
+  if (n < 2 * (end + reach)) return 0;
   const Eigen::ArrayXd acceleration = apply(curvature, positions).abs();
-  const double later = acceleration.segment(n / kPart, n - n / kPart - reach).maxCoeff();
-  const auto quiet = static_cast<Eigen::Index>(kQuiet * smoothing.signals / period);
+  const double later = acceleration.segment(end, n - end - reach).maxCoeff();
   Eigen::Index last = 0;
-  for (Eigen::Index i = reach; i < n / kPart && i <= std::max(last, reach) + quiet; ++i)
+  for (Eigen::Index i = reach; i < end; ++i)
     if (acceleration(i) > kRough * later) last = i;
   return last;
 }

@@ -93,7 +93,8 @@ void read_log(const LogSurvey& log, std::size_t number, std::span<const Model> m
     require_channels(log.plan, model, stretch.blocked);
     stretch.recording = recording_of(run, log.plan, model);
     complete(model, log.plan.rig, stretch);
-    if (!stretch.blocked) stretch.rows_from = rough_start(stretch.recording);
+    const bool begins_part = stretch.t0 < stretch.part_begin + 0.5 * run.period;
+    if (begins_part && !stretch.blocked) stretch.rows_from = rough_start(stretch.recording);
   });
 }
 
@@ -158,7 +159,7 @@ std::vector<Stretch> hold_out(std::vector<Stretch>& stretches, double share, Hol
     const auto kept = static_cast<Eigen::Index>(std::clamp(samples, 0.0, static_cast<double>(n)));
     if (kept < n) {
       held.push_back(stretch);
-      held.back().rows_from = kept;
+      held.back().rows_from = std::max(kept, stretch.rows_from);
     }
     for (Eigen::ArrayXd Recording::*signal :
          {&Recording::q, &Recording::theta, &Recording::tau, &Recording::tau_load})
