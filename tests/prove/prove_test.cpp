@@ -187,16 +187,33 @@ TEST_CASE("stage 1 is proved on its own motion") {
     CHECK(one.parameters[k].bias == again.parameters[k].bias);
 }
 
-TEST_CASE("stage 1 of several joints is not proved, and says so") {
+// Two joints with cables in common: the same bounds for each parameter, of both.
+TEST_CASE("stage 1 of several joints is proved on its own motion") {
   const std::vector<LogSurvey> logs = {shipped("two_joints/finger/blocked.csv")};
-  ElasticResult result = fit_elastic(logs, {});
+  ElasticOptions options;
+  ElasticResult result = fit_elastic(logs, options);
   ProveOptions prove;
-  prove.n_runs = 2;
-  prove_elastic(logs, {}, prove, result);
-  const ElasticFit& fit = result.preloads.at(0).fits.back();
-  CHECK(!fit.proof);
-  CHECK(std::find(fit.warnings.begin(), fit.warnings.end(),
-                  "not proved: --prove of stage 1 supports one joint") != fit.warnings.end());
+  prove.n_runs = 40;
+  prove.threads = 2;
+  prove_elastic(logs, options, prove, result);
+  const ElasticFit& fit = *result.preloads.at(0).find("poly");
+  REQUIRE(fit.proof);
+  print(*fit.proof);
+  INFO(fit.proof->first_failure);
+  CHECK(fit.proof->n_failed == 0);
+  const auto has = [&](const char* name) {
+    return std::any_of(fit.proof->parameters.begin(), fit.proof->parameters.end(),
+                       [&](const ProvedParameter& p) { return p.name == name; });
+  };
+  for (const char* name : {"k[flexor]_0", "k[pip]_0", "offset[1]", "offset[2]"}) CHECK(has(name));
+  CHECK_FALSE(has("f_sm[2]"));
+  for (const ProvedParameter& p : fit.proof->parameters) {
+    INFO(p.name);
+    CHECK(p.n_covered >= 33);
+    CHECK(std::abs(p.bias) < 4 * p.standard_error + 0.5 * p.mean_sd);
+    CHECK(p.scatter > 0.3 * p.mean_sd);
+    CHECK(p.scatter < 1.4 * p.mean_sd);
+  }
 }
 
 }  // namespace

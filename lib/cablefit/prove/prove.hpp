@@ -38,8 +38,7 @@ void prove_dynamic(std::span<const LogSurvey> logs, const ProveStage1& stage1,
 /// The same of stage 1, whose link stands still: the motion is that of the logs, and every fit's
 /// elastic torque, friction and offset make the torque that goes with it. `result` came from
 /// fit_elastic(logs, options); the runs keep its order and what it took the zero for. f_sm is left
-/// out: the copies give it 1 % lower than the log, and why is not known yet. A fit of several
-/// joints gets a warning instead.
+/// out: the copies give it 1 % lower than the log, and why is not known yet.
 void prove_elastic(std::span<const LogSurvey> logs, const ElasticOptions& options,
                    const ProveOptions& prove, ElasticResult& result);
 
