@@ -12,9 +12,13 @@ bool is_moving(const PartSurvey& part) { return part.phase == Phase::moving; }
 
 bool says_how_it_is_driven(const Rig& rig) { return rig.controller || rig.open_loop; }
 
-/// A blocked sweep may have been driven with other gains.
+/// Whether the controller was found from it.
+bool is_source(const LogSurvey& log, bool trains) {
+  return trains && has_phase(log, Phase::moving);
+}
+
+/// A blocked sweep or a test log may have been driven with other gains.
 bool has_other_gains(LogSurvey log, const Controller& controller) {
-  if (has_phase(log, Phase::moving)) return false;
   log.plan.rig.controller = controller;
   const auto fit = check_controllers({&log, 1}, [](const PartSurvey&) { return true; });
   return fit && !fit->all_fit();
@@ -38,7 +42,8 @@ std::optional<Decision> take_found_controller(RefineLogs& logs, std::vector<Mode
   const Controller controller = found->controller();
   for (auto* some : {&logs.train, &logs.test, &logs.blocked})
     for (LogSurvey& log : *some)
-      if (!has_other_gains(log, controller)) log.plan.rig.controller = controller;
+      if (is_source(log, some == &logs.train) || !has_other_gains(log, controller))
+        log.plan.rig.controller = controller;
   for (Model& model : models) model.rig.controller = controller;
   return Decision{"controller", found->text(models.front().rig.axes),
                   "found from reference, position and torque of the training logs, as the rig file "

@@ -193,12 +193,26 @@ Estimation stay_with_least_squares(const EstimationTask& task, const std::string
   return out;
 }
 
+bool any_weak(const IvFit& fit) {
+  return std::any_of(fit.solutions.begin(), fit.solutions.end(), has_weak_instruments);
+}
+
+/// By the planned loop, or where one of a controller that was found makes no instruments, by a
+/// surrogate: `plan` becomes what was used.
+IvFit fit_by_loop(const EstimationTask& task, std::span<const LogSurvey> logs,
+                  const std::vector<LinearSolution>& plain, LoopPlan& plan) {
+  IvFit fit = fit_by_instruments(task.job, logs, task.equations, plain, task.model, plan);
+  if (!plan.fitted || (fit.failure.empty() && !any_weak(fit))) return fit;
+  plan = without_found_controller(std::move(plan));
+  return fit_by_instruments(task.job, logs, task.equations, plain, task.model, plan);
+}
+
 Estimation estimate_iv(const EstimationTask& task) {
   const DynamicJob& job = task.job;
-  const LoopPlan plan = plan_loop(job, job.logs);
+  LoopPlan plan = plan_loop(job, job.logs);
   if (plan.kind == LoopKind::none) return stay_with_least_squares(task, plan.reason);
   const std::vector<LinearSolution> plain = least_squares_of(task);
-  const IvFit fit = fit_by_instruments(job, job.logs, task.equations, plain, task.model, plan);
+  const IvFit fit = fit_by_loop(task, job.logs, plain, plan);
   if (!fit.failure.empty()) return stay_with_least_squares(task, fit.failure);
   Estimation out;
   std::vector<EquationInfluence> influences;
@@ -266,15 +280,14 @@ Decided decide(const EstimationTask& task, const LoopPlan& plan, const TestRows&
 Estimation estimate_automatically(const EstimationTask& task) {
   const DynamicJob& job = task.job;
   const TestRows test = rows_for_test(job);
-  const LoopPlan plan = plan_loop(job, test.logs(job));
+  LoopPlan plan = plan_loop(job, test.logs(job));
   if (plan.kind == LoopKind::none) return stay_with_least_squares(task, plan.reason);
   const std::vector<LinearSolution> plain = least_squares_of(task);
-  IvFit fit = fit_by_instruments(job, test.logs(job), task.equations, plain, task.model, plan);
+  IvFit fit = fit_by_loop(task, test.logs(job), plain, plan);
   if (!fit.failure.empty()) return stay_with_least_squares(task, fit.failure);
-  for (const LinearSolution& solution : fit.solutions)
-    if (has_weak_instruments(solution))
-      return stay_with_least_squares(task,
-                                     "the simulated loop does not reproduce the measured motion");
+  if (any_weak(fit))
+    return stay_with_least_squares(task,
+                                   "the simulated loop does not reproduce the measured motion");
   Decided decided = decide(task, plan, test, plain, fit);
   bool of_stretches = !test.stretches.empty();
   if (of_stretches && decided.any_uses()) {

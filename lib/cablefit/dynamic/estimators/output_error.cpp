@@ -229,7 +229,8 @@ void note_fit(const EstimationTask& task, const FittedRows& rows, const LoopPlan
     out.decisions.push_back({task.decision_name("instruments"),
                              oe.instrumented ? source_of_instruments(loop) : "none",
                              oe.instruments});
-  out.fit.warnings.insert(out.fit.warnings.end(), oe.warnings.begin(), oe.warnings.end());
+  for (const auto* warnings : {&loop.warnings, &oe.warnings})
+    out.fit.warnings.insert(out.fit.warnings.end(), warnings->begin(), warnings->end());
   if (any_effect(task.job.added))
     out.fit.warnings.emplace_back(
         "output error: the intervals of effects that act at low speed are too narrow; compare with "

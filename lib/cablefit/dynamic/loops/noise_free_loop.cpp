@@ -32,8 +32,12 @@ constexpr Eigen::Index kMinRows = 8;  // of a stretch, as of a part
 std::string no_known_loop(const LogPlan& plan) {
   if (plan.rig.open_loop) return "some logs in open loop, others not";
   if (!plan.rig.controller) return "no controller in the rig file";
-  if (plan.has_for_all(Channel::theta_ref)) return "";
-  return fmt::format("no reference '{}' in the log", plan.rig.controller->reference);
+  const int n_joints = plan.rig.n_joints();
+  for (int joint = 0; joint < n_joints; ++joint)
+    if (!plan.has(Channel::theta_ref, joint))
+      return fmt::format("no reference '{}'{} in the log", plan.rig.controller->reference,
+                         n_joints > 1 ? fmt::format(" of joint {}", joint + 1) : "");
+  return "";
 }
 
 /// Follows its reference within the bandwidth, whatever inertia swings along; damped for the motor
@@ -265,14 +269,21 @@ LoopPlan plan_loop(const DynamicJob& job, std::span<const LogSurvey> logs) {
     plan.kind = LoopKind::command;
     return plan;
   }
-  look_at_controller(job, logs, n_commanded > 0, plan);
-  if (plan.kind == LoopKind::known) return plan;
   const double rate = sample_rates(logs, job.wanted).lowest;
   double cutoff = job.settings.rows.signal.cutoff;
   for (int joint = 0; joint < job.n_joints(); ++joint)
     cutoff = std::min(cutoff, job.settings_of(joint).rows.signal.cutoff);
   plan.bandwidth =
       cutoff > 0 ? std::min(kSurrogateShare * cutoff, 0.4 * rate) : kUnfilteredShare * rate;
+  look_at_controller(job, logs, n_commanded > 0, plan);
+  return plan;
+}
+
+LoopPlan without_found_controller(LoopPlan plan) {
+  plan.kind = LoopKind::surrogate;
+  plan.reason = fmt::format("{}the controller found from the logs does not move the model so",
+                            plan.reason.empty() ? "" : plan.reason + "; ");
+  plan.fitted.reset();
   return plan;
 }
 

@@ -24,7 +24,7 @@ enum class LoopKind {
 struct LoopPlan {
   LoopKind kind = LoopKind::none;
   std::string reason;    ///< why it is not the known loop, or why there is none
-  double bandwidth = 0;  ///< Hz, of the smoothed theta
+  double bandwidth = 0;  ///< Hz, of the smoothed theta that a surrogate follows
   /// The controller identified from the logs, for a known loop where the rig file has none that
   /// explains their torque.
   std::optional<ControllerFits> fitted = {};
@@ -41,6 +41,10 @@ inline bool keeps_disturbances_out(LoopKind kind) {
 /// controller of the rig file that does not explain the logs' torque is not used, with a warning.
 /// Then, and where the rig file has none, a controller is identified from the logs.
 LoopPlan plan_loop(const DynamicJob& job, std::span<const LogSurvey> logs);
+
+/// The surrogate instead of a controller that was found from the logs: of a log with fewer samples
+/// than the controller had periods, say, its law fits, but is not stable or moves otherwise.
+LoopPlan without_found_controller(LoopPlan plan);
 
 /// The source of the instruments and the disturbances that they exclude, in words. Not for a plan
 /// without a loop.

@@ -1,5 +1,9 @@
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "cablefit/model/file/controller_text.hpp"
 #include "cablefit/model/file/writer.hpp"
@@ -166,8 +170,25 @@ Json rig_json(const Rig& rig) {
 
 namespace cablefit {
 
+namespace {
+
+/// With six digits of each gain: more are not known, and nobody wants to read them.
+Controller rounded(Controller c) {
+  for (double Controller::*gain :
+       {&Controller::kp, &Controller::kd, &Controller::ki, &Controller::feed_position,
+        &Controller::feed_velocity, &Controller::feed_acceleration})
+    c.*gain = std::stod(fmt::format("{:.6g}", c.*gain));
+  std::transform(c.joints.begin(), c.joints.end(), c.joints.begin(), rounded);
+  return c;
+}
+
+}  // namespace
+
 std::string controller_text(const Controller& controller) {
-  return model_file::controller_json(controller).dump();
+  // One entry a line, then on one line: with blanks where it may be broken.
+  std::string text = model_file::controller_json(rounded(controller)).dump(0);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
 }
 
 }  // namespace cablefit
