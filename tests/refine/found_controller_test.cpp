@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <sstream>
 #include <string>
 
 #include "tests/support/plain_rigs.hpp"
@@ -55,6 +57,38 @@ TEST_CASE("controllers of a finger are found joint by joint", "[refine]") {
     CHECK(own.kp == Approx(rig.joints[joint].kp).epsilon(0.01));
     CHECK(own.kd == Approx(rig.joints[joint].kd).epsilon(0.02));
   }
+}
+
+/// The header and every tenth row.
+std::string every_tenth(const std::string& log) {
+  std::istringstream lines(log);
+  std::string line, thinned;
+  for (int i = -1; std::getline(lines, line); ++i)
+    if (i < 0 || i % 10 == 0) thinned += line + '\n';
+  return thinned;
+}
+
+// A drive of 1 kHz logged at 100 Hz: the law found in it fits, but is unstable at that period.
+TEST_CASE("a controller found in a slow log gives way to a surrogate", "[refine]") {
+  PlainRig rig = three_coupled_cables();
+  rig.logs_reference = true;
+  Bench bench;
+  bench.rig = read_rig(bench.folder().write("rig.json", rig_text(rig, "")));
+  bench.add_text(blocked_log(rig, {0.1, 0.1}, 60, 11));
+  bench.add_text(every_tenth(moving_log(rig, 20, 12)));
+  const ElasticResult elastic = fit_elastic(bench.logs(), {});
+  DynamicOptions options;
+  options.models = {"poly"};
+  options.estimator = "iv";
+  const DynamicResult result = fit_dynamic(bench.logs(), elastic, options);
+  const DynamicPreload& preload = result.preloads.at(0);
+  const Estimate* motor = find_estimate(preload.fits.at(0).parameters, "J_motor[1]");
+  REQUIRE(motor != nullptr);
+  CHECK(motor->not_identifiable.empty());
+  CHECK(std::any_of(preload.decisions.begin(), preload.decisions.end(), [](const Decision& d) {
+    return d.reason.find("the controller found from the logs does not move the model") !=
+           std::string::npos;
+  }));
 }
 
 /// A slow sweep of the blocked link by a drive of stiffness `kp`.

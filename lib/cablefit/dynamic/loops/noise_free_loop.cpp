@@ -281,8 +281,9 @@ LoopPlan plan_loop(const DynamicJob& job, std::span<const LogSurvey> logs) {
 
 LoopPlan without_found_controller(LoopPlan plan) {
   plan.kind = LoopKind::surrogate;
-  plan.reason = fmt::format("{}the controller found from the logs does not move the model so",
-                            plan.reason.empty() ? "" : plan.reason + "; ");
+  plan.reason =
+      fmt::format("{}the controller found from the logs does not move the model as the robot moved",
+                  plan.reason.empty() ? "" : plan.reason + "; ");
   plan.fitted.reset();
   return plan;
 }
