@@ -91,6 +91,16 @@ HiddenLogs hidden_logs(const std::vector<std::string>& effects, unsigned long se
   return out;
 }
 
+EffectInstance effect_at(std::string_view name, Site site, const std::vector<double>& values) {
+  EffectInstance effect{&find_candidate(name, site), {}};
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    Estimate& e = effect.parameters.emplace_back();
+    e.name = effect.effect->parameters[k].name;
+    e.value = values[k];
+  }
+  return effect;
+}
+
 std::vector<LogSurvey> all_training(const RefineLogs& logs) {
   std::vector<LogSurvey> all = logs.blocked;
   all.insert(all.end(), logs.train.begin(), logs.train.end());

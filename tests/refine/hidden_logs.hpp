@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cablefit/refine/refine.hpp"
@@ -19,6 +20,9 @@ struct HiddenLogs {
 /// 6 s, unless it says otherwise.
 HiddenLogs hidden_logs(const std::vector<std::string>& effects, unsigned long seed = 1,
                        const std::string& design = "short", double clutter = 0);
+
+/// A row of the catalogue with these values of its parameters.
+EffectInstance effect_at(std::string_view name, Site site, const std::vector<double>& values);
 
 /// The blocked logs and those to train on.
 std::vector<LogSurvey> all_training(const RefineLogs& logs);

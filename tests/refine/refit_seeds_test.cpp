@@ -49,17 +49,8 @@ std::map<std::string, double> truth_of(const HiddenLogs& logs) {
 
 /// As `refine` would have named them; their values begin off the truth.
 std::vector<EffectInstance> begun_off(const std::map<std::string, double>& truth) {
-  const auto instance = [](const char* name, Site site, const std::vector<double>& values) {
-    EffectInstance effect{&find_candidate(name, site), {}};
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      Estimate& e = effect.parameters.emplace_back();
-      e.name = effect.effect->parameters[k].name;
-      e.value = values[k];
-    }
-    return effect;
-  };
-  return {instance("stribeck", Site::motor, {0.1, 1.3 * truth.at("stribeck[motor].v_s"), 2}),
-          instance("quadratic_drag", Site::link, {0.1, 2})};
+  return {effect_at("stribeck", Site::motor, {0.1, 1.3 * truth.at("stribeck[motor].v_s"), 2}),
+          effect_at("quadratic_drag", Site::link, {0.1, 2})};
 }
 
 std::vector<Estimate> fitted(const HiddenLogs& logs, const std::vector<EffectInstance>& effects,
@@ -67,9 +58,7 @@ std::vector<Estimate> fitted(const HiddenLogs& logs, const std::vector<EffectIns
   if (estimator == "identify") {
     IdentifyOptions options;
     options.effects = {effects};
-    std::vector<LogSurvey> all = logs.logs.blocked;
-    all.insert(all.end(), logs.logs.train.begin(), logs.logs.train.end());
-    const IdentifyResult result = identify(all, options);
+    const IdentifyResult result = identify(all_training(logs.logs), options);
     std::vector<Estimate> found = result.parameters;
     const std::vector<Estimate>& own = result.preloads.at(0).parameters;
     found.insert(found.end(), own.begin(), own.end());

@@ -14,16 +14,6 @@ namespace {
 using namespace cablefit;
 using namespace cablefit::test;
 
-EffectInstance instance(std::string_view name, Site site, const std::vector<double>& values) {
-  EffectInstance effect{&find_candidate(name, site), {}};
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    Estimate& e = effect.parameters.emplace_back();
-    e.name = effect.effect->parameters[k].name;
-    e.value = values[k];
-  }
-  return effect;
-}
-
 double truth_of(const HiddenLogs& logs, std::size_t effect, const std::string& name) {
   for (const hidden::Coefficient& c : logs.truth.effects[effect].coefficients)
     if (c.name == name) return c.value;
@@ -48,8 +38,8 @@ TEST_CASE("stage 2 finds the values of two effects of a model", "[refine]") {
   const double v_s = truth_of(logs, 0, "v_s");
   // It starts 40 % off, with no idea of the amplitudes.
   const DynamicFit fit = refitted(logs,
-                                  {instance("stribeck", Site::motor, {0.1, 1.4 * v_s, 2}),
-                                   instance("quadratic_drag", Site::link, {0.1, 2})},
+                                  {effect_at("stribeck", Site::motor, {0.1, 1.4 * v_s, 2}),
+                                   effect_at("quadratic_drag", Site::link, {0.1, 2})},
                                   estimator);
   if (estimator != "auto") CHECK(fit.estimator == estimator);  // none fell back to another
   const std::vector<std::pair<std::string, double>> truth = {
@@ -80,8 +70,8 @@ TEST_CASE("stage 2 without the effects is wrong where they are", "[refine]") {
   const HiddenLogs logs = hidden_logs({"stribeck.motor=1", "quadratic_drag.link=1"}, 3, "full");
   const DynamicFit plain = refitted(logs, {}, "wls");
   const DynamicFit with = refitted(logs,
-                                   {instance("stribeck", Site::motor, {0.1, 0.1, 2}),
-                                    instance("quadratic_drag", Site::link, {0.1, 2})},
+                                   {effect_at("stribeck", Site::motor, {0.1, 0.1, 2}),
+                                    effect_at("quadratic_drag", Site::link, {0.1, 2})},
                                    "wls");
   CHECK(with.torque_error.at("motor").rms < 0.9 * plain.torque_error.at("motor").rms);
   CHECK(with.torque_error.at("link").rms < 0.9 * plain.torque_error.at("link").rms);
@@ -90,17 +80,17 @@ TEST_CASE("stage 2 without the effects is wrong where they are", "[refine]") {
 TEST_CASE("what stage 2 cannot fit of a model is refused by name", "[refine]") {
   const HiddenLogs logs = hidden_logs({});
   CHECK_THROWS_WITH(
-      refitted(logs, {instance("encoder_delay", Site::sensor, {1e-3})}, "wls"),
+      refitted(logs, {effect_at("encoder_delay", Site::sensor, {1e-3})}, "wls"),
       "'encoder_delay' (sensor) is not fitted here: it is an error of a sensor or of the drive; "
       "correct the log by its rig file, or drop it from the model; 'cablefit refine' fits it");
-  CHECK_THROWS_WITH(refitted(logs, {instance("creep", Site::transmission, {1e-5, 3, 0})}, "wls"),
+  CHECK_THROWS_WITH(refitted(logs, {effect_at("creep", Site::transmission, {1e-5, 3, 0})}, "wls"),
                     "'creep' (transmission) is not fitted here: its memory is longer than the "
                     "blocks in which logs are read; drop it from the model; 'cablefit refine' fits "
                     "it");
 }
 
 TEST_CASE("what acts between the sides is held at the model's values", "[refine]") {
-  const auto effects = std::vector{instance("cable_damping", Site::transmission, {3})};
+  const auto effects = std::vector{effect_at("cable_damping", Site::transmission, {3})};
   for (const Side side : {Side::link, Side::motor}) {
     const std::vector<AddedEffect> own = effects_of_side(effects, side, 0);
     REQUIRE(own.size() == 1);

@@ -197,8 +197,8 @@ bool any_weak(const IvFit& fit) {
   return std::any_of(fit.solutions.begin(), fit.solutions.end(), has_weak_instruments);
 }
 
-/// By the planned loop, or where one of a controller that was found makes no instruments, by a
-/// surrogate: `plan` becomes what was used.
+/// By the planned loop. Where a found controller gives weak instruments or none, by a surrogate.
+/// `plan` becomes the plan that was used.
 IvFit fit_by_loop(const EstimationTask& task, std::span<const LogSurvey> logs,
                   const std::vector<LinearSolution>& plain, LoopPlan& plan) {
   IvFit fit = fit_by_instruments(task.job, logs, task.equations, plain, task.model, plan);

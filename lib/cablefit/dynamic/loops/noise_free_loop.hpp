@@ -42,8 +42,8 @@ inline bool keeps_disturbances_out(LoopKind kind) {
 /// Then, and where the rig file has none, a controller is identified from the logs.
 LoopPlan plan_loop(const DynamicJob& job, std::span<const LogSurvey> logs);
 
-/// The surrogate instead of a controller that was found from the logs: of a log with fewer samples
-/// than the controller had periods, say, its law fits, but is not stable or moves otherwise.
+/// The surrogate instead of a controller that was found from the logs. Where a log has fewer
+/// samples than the controller had periods, the law fits, but may be unstable at that period.
 LoopPlan without_found_controller(LoopPlan plan);
 
 /// The source of the instruments and the disturbances that they exclude, in words. Not for a plan
