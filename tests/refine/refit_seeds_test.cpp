@@ -73,7 +73,7 @@ std::vector<Estimate> fitted(const HiddenLogs& logs, const std::vector<EffectIns
 }
 
 TEST_CASE("intervals of a model with two effects cover the truth", "[refine][slow]") {
-  const std::string estimator = GENERATE("wls", "iv", "auto", "identify");
+  const std::string estimator = GENERATE("wls", "iv", "auto", "identify", "output-error");
   CAPTURE(estimator);
   const unsigned long runs = full_monte_carlo() ? 50 : 3;
   std::map<std::string, Inside> tables;

@@ -50,7 +50,7 @@ std::map<std::string, double> measured_floor(const EstimationTask& task,
 void add_systematic(const EstimationTask& task, bool by_filtered_rows, Estimation& estimation) {
   DynamicFit& fit = estimation.fit;
   if (!task.job.options.robust_sd) return;
-  std::string note;
+  std::string note = estimation.floor_note;
   if (task.job.options.method_floor)
     fit.method_floor = *task.job.options.method_floor;
   else if (by_filtered_rows)

@@ -30,6 +30,8 @@ struct Estimation {
   std::vector<LinearSolution> solutions;
   std::vector<Decision> decisions;           ///< choices of the estimator, with the reason
   std::optional<JointEstimates> joint = {};  ///< for derived quantities, where they are known
+  /// How the estimator itself measured fit.method_floor, or why it could not; empty: it did not.
+  std::string floor_note = {};
 };
 
 }  // namespace cablefit

@@ -10,6 +10,7 @@
 
 #include "cablefit/dynamic/estimates/estimates.hpp"
 #include "cablefit/dynamic/estimators/least_squares_fit.hpp"
+#include "cablefit/dynamic/estimators/output_error_floor.hpp"
 #include "cablefit/dynamic/estimators/rows.hpp"
 #include "cablefit/dynamic/loops/log_copy.hpp"
 #include "cablefit/dynamic/loops/model_of_solutions.hpp"
@@ -233,8 +234,8 @@ void note_fit(const EstimationTask& task, const FittedRows& rows, const LoopPlan
     out.fit.warnings.insert(out.fit.warnings.end(), warnings->begin(), warnings->end());
   if (any_effect(task.job.added))
     out.fit.warnings.emplace_back(
-        "output error: the intervals of effects that act at low speed are too narrow; compare with "
-        "--estimator iv");
+        "output error: the intervals of effects that act at low speed may be too narrow; compare "
+        "with --estimator iv");
   if (oe.residual_rms > kWrongNoise || oe.residual_rms < 1 / kWrongNoise)
     out.fit.warnings.push_back(
         fmt::format("the residual of output error is {:.2g} times the assumed noise: the model or "
@@ -322,6 +323,17 @@ JointEstimates joint_estimates_of(const OutputErrorFit& oe, const DynamicFit& fi
   return joint;
 }
 
+/// Of effects, which may bend at low speed. What the user gives is used as it is.
+void add_floor(const EstimationTask& task, const OutputErrorOptions& options,
+               const OutputErrorFit& oe, Estimation& out) {
+  const DynamicOptions& asked = task.job.options;
+  if (!any_effect(task.job.added) || !oe.converged || !asked.robust_sd || asked.method_floor)
+    return;
+  OutputErrorFloor floor = output_error_floor(task.job, oe, options);
+  out.fit.method_floor = std::move(floor.sd);
+  out.floor_note = std::move(floor.note);
+}
+
 Estimation estimate(const EstimationTask& task) {
   Estimation start = least_squares_fit(task, Weighting::by_residual);
   const DynamicJob& job = task.job;
@@ -342,6 +354,7 @@ Estimation estimate(const EstimationTask& task) {
   out.joint = joint_estimates_of(oe, out.fit);
   note_fit(task, rows, loop, oe, out);
   note_stage1(task, options, oe, out);
+  add_floor(task, options, oe, out);
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cablefit/dynamic/loops/log_copy.hpp"
 #include "cablefit/dynamic/loops/model_of_solutions.hpp"
@@ -85,13 +86,17 @@ void require_that_it_follows(const SimulatedCopy& copy,
   }
 }
 
-/// Positions as the encoders show them, torques as they are.
-void choose_encoders(SimulatedCopy& copy, const std::vector<SimulationResult>& motions) {
+/// Positions as the encoders show them, torques as they are, but for this noise.
+void choose_encoders(SimulatedCopy& copy, const std::vector<SimulationResult>& motions,
+                     const std::vector<double>& torque_noise) {
   choose_sensors(copy, motions);
   for (std::size_t log = 0; log < copy.plans.size(); ++log)
     for (std::size_t k = 0; k < copy.plans[log].slots.size(); ++k) {
-      const Channel channel = copy.plans[log].slots[k].channel;
-      if (channel != Channel::q && channel != Channel::theta) copy.sensors[log][k] = {};
+      const Slot& slot = copy.plans[log].slots[k];
+      if (slot.channel == Channel::q || slot.channel == Channel::theta) continue;
+      copy.sensors[log][k] = {};
+      if (slot.channel == Channel::tau && !torque_noise.empty())
+        copy.sensors[log][k].noise = torque_noise[static_cast<std::size_t>(slot.joint)];
     }
 }
 
@@ -161,8 +166,9 @@ Eigen::VectorXd error_of(const LinearSolution& found, const LinearSolution& trut
 
 }  // namespace
 
-CopyDraws::CopyDraws(const DynamicJob& job, const Model& model, bool exact, bool rounded)
-    : rounded_(rounded), exact_(exact), random_(1) {
+CopyDraws::CopyDraws(const DynamicJob& job, const Model& model, bool exact, bool rounded,
+                     std::vector<double> torque_noise)
+    : rounded_(rounded), exact_(exact), torque_noise_(std::move(torque_noise)), random_(1) {
   const CopiedLogs copied = logs_to_copy(job);
   share_ = copied.share;
   const SignalSettings& signal = job.settings.rows.signal;
@@ -175,7 +181,7 @@ CopyDraws::CopyDraws(const DynamicJob& job, const Model& model, bool exact, bool
 void CopyDraws::for_each(const std::function<void(const CopyDraw&)>& use) {
   if (exact_) use({record_copy(copy_, motions_, random_), true, 1, share_});
   if (!rounded_) return;
-  choose_encoders(copy_, motions_);
+  choose_encoders(copy_, motions_, torque_noise_);
   for (int draw = 0; draw < kFloorDraws; ++draw)
     use({record_copy(copy_, moved_aside(copy_, motions_, random_), random_), false,
          1.0 / kFloorDraws, share_});

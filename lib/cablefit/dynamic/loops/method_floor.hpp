@@ -24,12 +24,16 @@ struct CopyDraw {
 class CopyDraws {
  public:
   /// Throws Error(not_identifiable) where the motion cannot be simulated. `job` must outlive it.
-  CopyDraws(const DynamicJob& job, const Model& model, bool exact, bool rounded);
+  /// `torque_noise`: N m, sd of the white noise on the torque of each joint in the rounded copies;
+  /// empty: their torques are exact.
+  CopyDraws(const DynamicJob& job, const Model& model, bool exact, bool rounded,
+            std::vector<double> torque_noise = {});
   void for_each(const std::function<void(const CopyDraw&)>& use);
 
  private:
   bool rounded_, exact_;
   double share_ = 1;
+  std::vector<double> torque_noise_;
   Random random_;
   SimulatedCopy copy_;
   std::vector<SimulationResult> motions_;
