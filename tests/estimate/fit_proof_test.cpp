@@ -101,10 +101,25 @@ TEST_CASE("a bias is told in sd") {
   CHECK(q.verdict.find("; biased by +1.0 sd") != std::string::npos);
 }
 
+TEST_CASE("an sd far below the scatter is reported, though the intervals cover") {
+  std::vector<Estimate> runs_of_one_degree = runs(200, 5, 0.1);
+  for (Estimate& e : runs_of_one_degree) {  // t of one degree of freedom
+    e.ci_low = e.value - 12.7 * 0.2;
+    e.ci_high = e.value + 12.7 * 0.2;
+  }
+  const ProvedParameter p = judge_runs(truth_of(5), runs_of_one_degree);
+  CHECK(p.factor == 1);
+  CHECK(p.verdict.find("; scatters by ") != std::string::npos);
+  CHECK(p.scatter / p.mean_sd == Approx(10).margin(1.7));
+}
+
 TEST_CASE("runs without a number are not counted") {
   std::vector<Estimate> some = runs(30, 5, 1);
   some[3] = truth_of(std::nan(""));
-  CHECK(judge_runs(truth_of(5), some).n_runs == 29);
+  const ProvedParameter p = judge_runs(truth_of(5), some);
+  CHECK(p.n_runs == 29);
+  CHECK(p.n_open == 1);
+  CHECK(p.verdict.ends_with("; 1 of 30 runs do not determine it"));
   CHECK(judge_runs(truth_of(5), {}).verdict == "no run determined it");
 }
 

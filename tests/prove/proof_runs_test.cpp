@@ -19,3 +19,22 @@ TEST_CASE("where every run failed nothing is proved", "[prove]") {
   CHECK(proof.first_failure == "no stage 1");
   CHECK(proof.verdict == "not proved: no run ended with estimates");
 }
+
+TEST_CASE("a parameter that most runs do not determine is reported", "[prove]") {
+  Estimate stiffness;
+  stiffness.name = "K";
+  stiffness.value = 2000;
+  stiffness.sd = 10;
+  stiffness.ci_low = 1980;
+  stiffness.ci_high = 2020;
+  ProveOptions options;
+  options.n_runs = 4;
+  options.seed = 0;
+  const FitProof proof = prove_by_runs({stiffness}, options, {}, [&](std::uint64_t seed) {
+    return seed == 0 ? ProofRun{{stiffness}, ""} : ProofRun{};
+  });
+  CHECK(proof.parameters.at(0).n_open == 3);
+  CHECK(proof.parameters.at(0).verdict == "covers; 3 of 4 runs do not determine it");
+  CHECK(proof.verdict ==
+        "the 95 % intervals contain the true values; most runs do not determine K");
+}

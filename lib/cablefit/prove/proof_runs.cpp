@@ -14,10 +14,12 @@ std::string verdict_of(const FitProof& proof) {
   const bool any = std::any_of(proof.parameters.begin(), proof.parameters.end(),
                                [](const ProvedParameter& p) { return p.n_runs > 0; });
   if (!any) return "not proved: no run ended with estimates";
-  std::vector<std::string> narrow, biased;
+  std::vector<std::string> narrow, biased, scattered, open;
   for (const ProvedParameter& p : proof.parameters) {
     if (p.factor > 1) narrow.push_back(p.name);
     if (p.verdict.find("biased") != std::string::npos) biased.push_back(p.name);
+    if (p.verdict.find("scatters") != std::string::npos) scattered.push_back(p.name);
+    if (p.n_open > p.n_runs) open.push_back(p.name);
   }
   std::string text = narrow.empty()
                          ? "the 95 % intervals contain the true values"
@@ -25,6 +27,10 @@ std::string verdict_of(const FitProof& proof) {
                                        fmt::join(narrow, ", "));
   if (!biased.empty())
     text += fmt::format("; {} wrong by more than half an sd on average", fmt::join(biased, ", "));
+  if (!scattered.empty())
+    text += fmt::format("; the sd of {} are too small for {} scatter", fmt::join(scattered, ", "),
+                        scattered.size() == 1 ? "its" : "their");
+  if (!open.empty()) text += fmt::format("; most runs do not determine {}", fmt::join(open, ", "));
   return text;
 }
 
@@ -55,8 +61,10 @@ FitProof prove_by_runs(const std::vector<Estimate>& truth, const ProveOptions& o
   for (const Estimate& e : truth) {
     if (!e.not_identifiable.empty() || !(e.sd > 0)) continue;
     std::vector<Estimate> found;
-    for (const ProofRun& one : runs)
-      if (const Estimate* same = find_estimate(one.parameters, e.name)) found.push_back(*same);
+    for (const ProofRun& one : runs) {
+      const Estimate* same = find_estimate(one.parameters, e.name);
+      if (one.failure.empty()) found.push_back(same != nullptr ? *same : Estimate{});
+    }
     proof.parameters.push_back(judge_runs(e, found));
   }
   proof.verdict = verdict_of(proof);

@@ -1,7 +1,5 @@
 #include "cablefit/prove/prove.hpp"
 
-#include <fmt/format.h>
-
 #include <optional>
 
 #include "cablefit/base/error.hpp"
@@ -26,11 +24,12 @@ struct DynamicPlan {
 
 /// What noise and rounding do not explain of the residuals is a disturbance.
 CopyDisturbance disturbances_of(const std::map<std::string, ResidualColour>& measured,
-                                const std::map<std::string, ResidualColour>& by_noise, int n_joints,
-                                std::vector<std::string>& notes) {
+                                const std::map<std::string, ResidualColour>& by_noise,
+                                const Rig& rig, std::vector<std::string>& notes) {
+  const auto n_joints = static_cast<std::size_t>(rig.n_joints());
   CopyDisturbance disturbance;
-  disturbance.motor.resize(static_cast<std::size_t>(n_joints));
-  disturbance.link.resize(static_cast<std::size_t>(n_joints));
+  disturbance.motor.resize(n_joints);
+  disturbance.link.resize(n_joints);
   for (const auto& [name, colour] : measured) {
     Eigen::VectorXd left = colour.autocovariance;
     const auto noise = by_noise.find(name);
@@ -40,11 +39,8 @@ CopyDisturbance disturbances_of(const std::map<std::string, ResidualColour>& mea
     const ArModel model = fit_ar(left, colour.period, colour.n_values);
     auto& of_side = colour.side == Side::link ? disturbance.link : disturbance.motor;
     of_side[static_cast<std::size_t>(colour.joint)] = model;
-    const double total = std::sqrt(colour.autocovariance(0));
-    notes.push_back(
-        fmt::format("{} equation: residual {:.3g} rms, of which {:.3g} are simulated "
-                    "as a disturbance, autoregressive of order {}",
-                    name, total, model.sd, model.coefficients.size()));
+    notes.push_back(disturbance_note(name + " equation", std::sqrt(colour.autocovariance(0)), model,
+                                     torque_unit(rig.axes.of(colour.joint))));
   }
   return disturbance;
 }
@@ -129,7 +125,7 @@ DynamicPlan make_plan(std::span<const LogSurvey> logs, const ProveStage1& stage1
   const auto by_noise = residual_colours(record_copy(plan.moving, quiet, calibration), preload.name,
                                          elastic, fit, colours);
   plan.disturbance = disturbances_of(residual_colours(logs, preload.name, elastic, fit, colours),
-                                     by_noise, model.rig.n_joints(), plan.moving.notes);
+                                     by_noise, model.rig, plan.moving.notes);
   if (plan.elastic != nullptr) add_blocked(stage1, preload, model, drive, plan);
   return plan;
 }

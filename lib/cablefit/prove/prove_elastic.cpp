@@ -199,14 +199,6 @@ ArModel disturbance_of(const Colour& measured, const Colour& by_noise) {
   return fit_ar(left, measured.period, measured.n_values);
 }
 
-std::string note_of(const Colour& measured, const ArModel& disturbance, int joint, int n_joints) {
-  return fmt::format(
-      "{}residual {:.3g} rms, of which {:.3g} are simulated as a disturbance, autoregressive of "
-      "order {}",
-      n_joints > 1 ? fmt::format("joint {}: ", joint + 1) : "",
-      std::sqrt(measured.autocovariance(0)), disturbance.sd, disturbance.coefficients.size());
-}
-
 ElasticPlan make_plan(std::span<const LogSurvey> logs, const ElasticOptions& options,
                       const ProveOptions& prove, const ElasticPreload& preload,
                       const ElasticFit& fit) {
@@ -238,8 +230,11 @@ ElasticPlan make_plan(std::span<const LogSurvey> logs, const ElasticOptions& opt
   const std::vector<Colour> by_noise = colours_of(quiet, plan.options, preload.name, fit);
   for (std::size_t k = 0; k < measured.size(); ++k) {
     plan.disturbances.push_back(disturbance_of(measured[k], by_noise[k]));
+    const auto joint = static_cast<int>(k);
     plan.copy.notes.push_back(
-        note_of(measured[k], plan.disturbances.back(), static_cast<int>(k), n_joints));
+        disturbance_note(n_joints > 1 ? fmt::format("joint {}", joint + 1) : "",
+                         std::sqrt(measured[k].autocovariance(0)), plan.disturbances.back(),
+                         torque_unit(logs.front().plan.rig.axes.of(joint))));
   }
   return plan;
 }

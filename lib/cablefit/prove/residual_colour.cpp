@@ -1,5 +1,7 @@
 #include "cablefit/prove/residual_colour.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "cablefit/dynamic/rows/dynamic_job.hpp"
@@ -27,6 +29,17 @@ struct Piece {
 };
 
 }  // namespace
+
+std::string disturbance_note(const std::string& of, double residual, const ArModel& disturbance,
+                             const std::string& unit) {
+  std::string text =
+      fmt::format("{}{}residual {:.3g} {} rms", of, of.empty() ? "" : ": ", residual, unit);
+  if (!(disturbance.sd > 0)) return text + ", which the sensors' noise explains";
+  const std::size_t order = disturbance.coefficients.size();
+  return text +
+         fmt::format(", of which a disturbance of {:.3g} {} is simulated, {}", disturbance.sd, unit,
+                     order == 0 ? "white" : fmt::format("autoregressive of order {}", order));
+}
 
 std::map<std::string, ResidualColour> residual_colours(std::span<const LogSurvey> logs,
                                                        const std::string& preload,

@@ -28,6 +28,10 @@ inline bool is_same_grid(double period, double other) {
   return std::abs(period - other) < 1e-6 * other;
 }
 
+/// "link equation: residual 0.17 N m rms, of which a disturbance of 0.01 N m is simulated, ...".
+std::string disturbance_note(const std::string& of, double residual, const ArModel& disturbance,
+                             const std::string& unit);
+
 /// The fit's residuals on logs of one preload, with the settings that stage 2 chooses for them. By
 /// the name of the equation.
 std::map<std::string, ResidualColour> residual_colours(std::span<const LogSurvey> logs,

@@ -32,6 +32,7 @@ struct ProvedParameter {
   ShareBand coverage_band;    ///< 95 % band of the coverage
   double factor = 1;          ///< factor >= 1 on sd and interval that makes the intervals cover
   std::string verdict;        ///< "covers", "too narrow: ..."; also states a bias
+  std::size_t n_open = 0;     ///< runs that ended without determining it
 
   double coverage() const {
     return n_runs > 0 ? static_cast<double>(n_covered) / static_cast<double>(n_runs) : 0;
