@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -11,6 +12,7 @@ namespace {
 constexpr double kReturned = 0.05;  // of the range: the motion is closed
 constexpr double kNegative = -0.1;  // of the work exchanged; delays alone make less
 constexpr double kClearlyNegative = -0.3;
+constexpr double kOwnWork = 0.3;  // of the joint that exchanges most: less may be others' work
 constexpr double kMostLoad = 10;  // mean square, of the torque's
 constexpr Eigen::Index kFewBlocksOfWork = 40;
 
@@ -58,15 +60,27 @@ Work drive_work(const CoarsePart::Joint& joint, Channel channel, Eigen::Index n)
   return work;
 }
 
-/// The joint whose drive brakes; -1: all drive. Joints hand work to one another, so that of several
-/// one has to brake clearly.
-int braking_joint(const CoarsePart& part, Channel channel, Eigen::Index n, Work& work) {
+/// A drive that takes work, and whether other joints may give it: one that holds still while they
+/// move it through cables or links.
+struct Braking {
+  int joint = -1;  ///< -1: all drive
+  Work work;
+  bool may_be_moved = false;
+};
+
+/// Joints hand work to one another, so that of several one has to brake clearly.
+Braking braking_joint(const CoarsePart& part, Channel channel, Eigen::Index n) {
   const double limit = part.joints.size() == 1 ? kNegative : kClearlyNegative;
+  Braking found;
+  double most = 0;
   for (std::size_t j = 0; j < part.joints.size(); ++j) {
-    work = drive_work(part.joints[j], channel, n);
-    if (work.share() < limit) return static_cast<int>(j);
+    const Work work = drive_work(part.joints[j], channel, n);
+    most = std::max(most, work.exchanged);
+    const bool more = found.joint < 0 || work.exchanged > found.work.exchanged;
+    if (work.share() < limit && more) found = {static_cast<int>(j), work, false};
   }
-  return -1;
+  found.may_be_moved = found.work.exchanged < kOwnWork * most;
+  return found;
 }
 
 }  // namespace
@@ -80,18 +94,18 @@ Findings work(const Logs& logs) {
     if (!plan.has_for_all(channel)) continue;
     const Eigen::Index n = closed_blocks(part, channel);
     if (n < kFewBlocksOfWork) continue;
-    Work work;
-    const int joint = braking_joint(part, channel, n, work);
-    if (joint < 0) continue;
-    const std::string tau = weighed_name(plan, Channel::tau, joint);
+    const Braking braking = braking_joint(part, channel, n);
+    if (braking.joint < 0) continue;
+    const std::string tau = weighed_name(plan, Channel::tau, braking.joint);
     findings.push_back(
         {part.log,
          {},
-         true,
+         !braking.may_be_moved,
          fmt::format("{0} brakes: over a closed motion it does {1:.3g} J of work, of {2:.3g} J "
-                     "exchanged; the sign of {0} is reversed against the positions",
-                     tau, work.drive, work.exchanged),
-         mending_line(plan, Channel::tau, joint, -1)});
+                     "exchanged; {3}the sign of {0} is reversed against the positions",
+                     tau, braking.work.drive, braking.work.exchanged,
+                     braking.may_be_moved ? "other joints move this one, or " : ""),
+         mending_line(plan, Channel::tau, braking.joint, -1)});
   }
   return findings;
 }
