@@ -50,6 +50,21 @@ TEST_CASE("a lone speed is integrated, a lone position beside a torque is the dr
   CHECK_FALSE(no_torque.has(Channel::theta));
 }
 
+TEST_CASE("the controller's own reference comes before a column theta_ref", "[samples]") {
+  Rig rig = default_rig();
+  rig.controller.emplace();
+  rig.controller->reference = "command";
+  const auto column = [&](const std::string& header) {
+    const LogPlan plan = Logs().plan(header + "\n0,0,0,0,0\n", rig);
+    const int slot = plan.find(Channel::theta_ref);
+    return slot < 0 ? -1 : static_cast<int>(plan.slots.at(static_cast<std::size_t>(slot)).column);
+  };
+  CHECK(column("t,theta,tau,theta_ref,command") == 4);
+  CHECK(column("t,theta,tau,theta_ref,other") == -1);
+  rig.columns["theta_ref"].column = "theta_ref";
+  CHECK(column("t,theta,tau,theta_ref,command") == 3);
+}
+
 TEST_CASE("a rig file maps names, signs, scales, units and shifts", "[samples]") {
   Rig rig = default_rig();
   rig.columns["tau"] = {"i_q", -0.083, 0, "N m"};

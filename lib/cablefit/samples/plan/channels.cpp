@@ -44,6 +44,13 @@ std::optional<std::size_t> reference_column(const LogHeader& header, const Rig& 
   return find_column(header, rig.n_joints() == 1 ? name : fmt::format("{}{}", name, joint + 1));
 }
 
+/// Whether the controller names another column than theta_ref, and the rig file's columns do not.
+bool names_own_reference(const Rig& rig, const std::vector<std::string>& names) {
+  if (!rig.controller || rig.controller->reference == Controller{}.reference) return false;
+  return std::none_of(names.begin(), names.end(),
+                      [&](const std::string& name) { return rig.columns.contains(name); });
+}
+
 void require_no_dates(const ColumnHeader& cell) {
   if (!cell.is_date) return;
   throw input_error(cell.place,
@@ -83,6 +90,11 @@ void resolve_channel(LogPlan& plan, const ChannelInfo& info, int joint) {
   const Dimension& dimension = rig.axes.of(joint) == Axes::linear ? info.linear : info.rotary;
   std::vector<std::string> names = {fmt::format("{}{}", info.name, joint + 1)};
   if (rig.n_joints() == 1) names.insert(names.begin(), std::string(info.name));
+  if (info.channel == Channel::theta_ref && names_own_reference(rig, names)) {
+    if (const auto column = reference_column(plan.header, rig, joint))
+      plan.slots.push_back(make_slot(plan, info, joint, *column, names.back()));
+    return;  // a column theta_ref is not the one that the controller follows
+  }
   for (const std::string& name : names) {
     if (auto absent = absent_column(plan.header, rig, name); absent && is_optional(info.channel)) {
       if (!plan.absent) plan.absent.emplace(*absent);
@@ -93,9 +105,6 @@ void resolve_channel(LogPlan& plan, const ChannelInfo& info, int joint) {
       return;
     }
   }
-  if (info.channel != Channel::theta_ref) return;
-  if (const auto column = reference_column(plan.header, rig, joint))
-    plan.slots.push_back(make_slot(plan, info, joint, *column, names.back()));
 }
 
 // A rigid drive has one position, under any name in the log. A speed gives it except for its zero.
