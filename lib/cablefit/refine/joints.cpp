@@ -86,12 +86,16 @@ Verdict verdict_of(const std::vector<RefineResult>& joints) {
   return Verdict::none;
 }
 
-/// "named on joints 2 and 4, none on joint 1".
+std::string_view word_of(const RefineResult& r) {
+  if (!r.not_refined.empty()) return "not refined";
+  return r.verdict == Verdict::none ? "nothing missing" : to_string(r.verdict);
+}
+
+/// "named on joints 2, 4; nothing missing on joint 1".
 std::string reasons_of(const std::vector<RefineResult>& joints) {
   std::vector<std::pair<std::string, std::vector<std::string>>> groups;
   for (const RefineResult& r : joints) {
-    const std::string word =
-        r.not_refined.empty() ? std::string(to_string(r.verdict)) : "not refined";
+    const std::string word(word_of(r));
     auto group = std::find_if(groups.begin(), groups.end(),
                               [&](const auto& other) { return other.first == word; });
     if (group == groups.end()) group = groups.insert(groups.end(), {word, {}});

@@ -242,7 +242,8 @@ RefineState prepare(RefineBench& bench, std::span<const Model> models, const Ref
     test = hold_out(train, kHeldOutShare, bench.elastic_only ? HoldOut::all : HoldOut::moving);
     if (train.empty() || !are_enough(models, train, test, wanted))
       throw input_error({}, "the last third of the logs, held out, has too few rows to judge by",
-                        "record longer, or give other logs with --test");
+                        logs.test.empty() ? "record longer, or give other logs with --test"
+                                          : "record longer: the test logs move too little, too");
   }
   const std::vector<Model> bases =
       bench.elastic_only ? with_visible_effects({models.begin(), models.end()}, train, wanted,
