@@ -162,6 +162,37 @@ TEST_CASE("a solution on its bound gets profiles with the honest scale", "[estim
   }
 }
 
+// y = 2 x1 + noise; x2 is all but x1, so that the logs determine only the sum of a and b. The
+// constraint b >= 0 makes the sd of a small.
+TEST_CASE("a value that only a bound determines is not identifiable", "[estimate]") {
+  Normal normal(1703);
+  Eigen::MatrixXd rows(400, 3);
+  std::vector<Eigen::Index> numbers;
+  for (int i = 0; i < 400; ++i) {
+    rows(i, 0) = std::sin(0.31 * i);
+    rows(i, 1) = rows(i, 0) + 1e-5 * std::cos(0.31 * i);
+    rows(i, 2) = 2 * rows(i, 0) - 0.01 * std::cos(0.31 * i) + normal();
+    numbers.push_back(i);
+  }
+  RowStatistics statistics(3, 400);
+  statistics.add(rows, numbers);
+  LinearProblem problem{{0, 1}, {"a", "b"}, {}, Eigen::Vector3d(0, 0, 1)};
+  problem.constraints = Eigen::RowVector2d(0, 1);
+  LinearSolution s = solve(statistics, problem);
+  REQUIRE_FALSE(s.active_constraints.empty());
+  const auto a_of = [&] {
+    return estimate_of({"a", "a", "N m", "", -kUnbounded}, Axes::rotary, s, 0, {});
+  };
+  const Estimate given_bound = a_of();
+  CHECK(given_bound.value == Approx(2).margin(5 * given_bound.sd));
+  CHECK(given_bound.sd < 0.2);
+  s.profile = profile_intervals(statistics, problem, s, true);
+  const Estimate a = a_of();
+  CHECK(a.not_identifiable.starts_with("bounds of others alone determine it: 95 % interval -"));
+  CHECK(std::isnan(a.value));
+  CHECK(std::isnan(a.sd));
+}
+
 // Of one block and one bound the joint problem is the linear one; its HAC is of the residual of the
 // fit without bounds, the other's of the one with: 20 %.
 TEST_CASE("profiles of a joint problem agree with those of one equation", "[estimate]") {
