@@ -81,6 +81,35 @@ TEST_CASE("results of several joints are read back as they were") {
         estimate(dynamic.preloads.at(0).fits.at(1).parameters, "J_link[2]").value);
 }
 
+TEST_CASE("a curve of coefficients that are not identifiable is read back whole") {
+  const TwoJoints two;
+  ElasticResult elastic = fit_elastic(two.bench.logs(), {});
+  for (ElasticFit& fit : elastic.preloads.at(0).fits)
+    if (fit.model == "poly")
+      for (std::size_t k = 0; k < 2; ++k) {
+        Estimate& e = fit.parameters.at(k);
+        e.value = e.sd = e.ci_low = e.ci_high = std::nan("");
+        e.not_identifiable = "is not separable from the other in these logs";
+      }
+  const std::string text = elastic_json(elastic);
+  CHECK(schema_errors("elastic", text) == "");
+  const ElasticResult back = parse_elastic_result(parse_json(text, "elastic.json"));
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto coefficients_of = [&](const ElasticResult& result) {
+      return result.preloads.at(0).find("poly")->transmission.cables.at(k).coefficients;
+    };
+    CHECK(coefficients_of(back).front() > 0);
+    CHECK(coefficients_of(back) == coefficients_of(elastic));
+  }
+  const std::string dynamic = dynamic_json(fit_dynamic(two.bench.logs(), back, both_models()));
+  CHECK(dynamic == dynamic_json(fit_dynamic(two.bench.logs(), elastic, both_models())));
+  CHECK(schema_errors("dynamic", dynamic) == "");
+  std::string choice;
+  const Model model = parse_model(parse_json(dynamic, "dynamic.json"), "", "poly", choice);
+  CHECK(model.transmission.cables.at(0).coefficients ==
+        elastic.preloads.at(0).find("poly")->transmission.cables.at(0).coefficients);
+}
+
 TEST_CASE("effects of several joints are read back on their joints") {
   const TwoJoints two;
   DynamicOptions options;

@@ -54,6 +54,26 @@ void take_transmission(const Rig& rig, const MissingCoefficient& missing, Elasti
   for (Cable& cable : fit.transmission.cables) take_cable(fit, missing, rig.cables_given, cable);
 }
 
+/// The curve that was fitted, where some of its coefficients have no value of their own: only the
+/// torque of all together is determined.
+void take_curve(const JsonNode& node, ElasticFit& fit) {
+  const JsonNode* given = node.find("curve_coefficients");
+  std::vector<Cable>& cables = fit.transmission.cables;
+  if (given == nullptr || cables.empty()) return;
+  if (!given->is_array() || given->items.size() != cables.size())
+    throw given->error(
+        fmt::format("expected a list of coefficients for each of {} cables", cables.size()),
+        "run `cablefit elastic` again");
+  for (std::size_t k = 0; k < cables.size(); ++k) {
+    const std::vector<double> own = given->items[k].numbers();
+    if (own.size() != cables[k].coefficients.size())
+      throw given->items[k].error(
+          fmt::format("{} coefficients, expected {}", own.size(), cables[k].coefficients.size()),
+          "run `cablefit elastic` again");
+    cables[k].coefficients = own;
+  }
+}
+
 void take_theta_0(const JsonNode& node, ElasticFit& fit) {
   const int n = fit.transmission.n_joints;
   fit.transmission.theta_0 = fit.transmission.encoder_zero();
@@ -122,6 +142,7 @@ int read_order(const JsonNode& node) {
 void read_curve(const JsonNode& node, const Rig& rig, const MissingCoefficient& missing,
                 ElasticFit& fit) {
   take_transmission(rig, missing, fit);
+  take_curve(node, fit);
   take_theta_0(node, fit);
   const JsonNode* offset = node.find("offset");
   if (offset != nullptr && !offset->is_array()) fit.offset = offset->number();

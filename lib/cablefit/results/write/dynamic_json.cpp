@@ -31,10 +31,13 @@ Json by_name(const std::map<std::string, Value>& values) {
 }
 
 Json stage1_json(const ElasticFit& fit) {
-  return Json{{"order", fit.order},
-              {"theta_0", result_json::per_joint(fit.transmission.encoder_zero())},
-              {"offset", result_json::offset(fit)},
-              {"parameters", result_json::parameters(fit.parameters)}};
+  Json json{{"order", fit.order},
+            {"theta_0", result_json::per_joint(fit.transmission.encoder_zero())},
+            {"offset", result_json::offset(fit)},
+            {"parameters", result_json::parameters(fit.parameters)}};
+  if (const Json curve = result_json::curve_coefficients(fit); !curve.is_null())
+    json["curve_coefficients"] = curve;
+  return json;
 }
 
 Json suspects_json(const std::vector<SuspectSpan>& spans) {

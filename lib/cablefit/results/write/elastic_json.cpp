@@ -78,6 +78,8 @@ Json fit_json(const ElasticPreload& preload, const ElasticFit& fit) {
             {"condition", fit.condition},
             {"warnings", fit.warnings}};
   for (const Cable& cable : fit.transmission.cables) json["orders"].push_back(cable.order);
+  if (const Json curve = result_json::curve_coefficients(fit); !curve.is_null())
+    json["curve_coefficients"] = curve;
   if (!fit.misfit.empty()) json["misfit"] = list_of(fit.misfit.points, misfit_json);
   if (fit.proof) json["prove"] = result_json::proof(*fit.proof);
   if (!fit.joints.empty()) json["joints"] = list_of(fit.joints, joint_errors_json);

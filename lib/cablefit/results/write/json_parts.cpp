@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -109,6 +110,20 @@ Json row_counts(const RowCounts& counts) {
               {"rows_at_rest", counts.rows_at_rest},
               {"rows_not_used", counts.rows_not_used},
               {"rows_at_edges", counts.rows_at_edges}};
+}
+
+Json curve_coefficients(const ElasticFit& fit) {
+  Json list;
+  std::size_t n = 0;  // coefficients are the first parameters
+  for (const Cable& cable : fit.transmission.cables) {
+    list.push_back(cable.coefficients);
+    n += cable.coefficients.size();
+  }
+  const auto first = fit.parameters.begin();
+  const auto last = first + static_cast<std::ptrdiff_t>(std::min(n, fit.parameters.size()));
+  const bool all_known =
+      std::all_of(first, last, [](const Estimate& e) { return e.not_identifiable.empty(); });
+  return all_known ? Json() : list;
 }
 
 Json offset(const ElasticFit& fit) {

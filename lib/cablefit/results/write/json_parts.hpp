@@ -28,6 +28,9 @@ Json rig(const std::string& path);
 Json linear_motion(Axes axes);
 /// One number, or a list when there are several joints.
 Json per_joint(const Eigen::VectorXd& values);
+/// Per cable the coefficients of the fitted curve, where some are not identifiable and so have no
+/// value of their own; null: all have one.
+Json curve_coefficients(const ElasticFit& fit);
 /// The drive's offset, or a list of several joints', null where there is none.
 Json offset(const ElasticFit& fit);
 
