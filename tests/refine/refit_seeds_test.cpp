@@ -69,7 +69,13 @@ std::vector<Estimate> fitted(const HiddenLogs& logs, const std::vector<EffectIns
   options.estimator = estimator;
   options.effects = {effects};
   const ElasticResult curve = curve_of(logs.models.front());
-  return fit_dynamic(logs.logs.train, curve, options).preloads.at(0).fits.at(0).parameters;
+  const DynamicResult result = fit_dynamic(logs.logs.train, curve, options);
+  const DynamicFit& fit = result.preloads.at(0).fits.at(0);
+  if (estimator == "output-error") {  // no fall back, and its own bias is in the intervals
+    CHECK(fit.estimator == estimator);
+    CHECK(fit.method_floor.at("stribeck[motor].amplitude") > 0);
+  }
+  return fit.parameters;
 }
 
 TEST_CASE("intervals of a model with two effects cover the truth", "[refine][slow]") {

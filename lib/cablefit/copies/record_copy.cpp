@@ -48,7 +48,7 @@ const Eigen::ArrayXXd* truth_of(const SimulationResult& motion, Channel channel)
 Eigen::ArrayXd measure(const Eigen::ArrayXd& truth, const CopySensor& sensor, Random& random) {
   Eigen::ArrayXd out = truth;
   for (Eigen::Index i = 0; i < out.size(); ++i) {
-    if (sensor.noise > 0) out(i) += sensor.noise * random.normal();
+    if (sensor.noise != 0) out(i) += sensor.noise * random.normal();
     if (sensor.quantum > 0) out(i) = sensor.quantum * std::round(out(i) / sensor.quantum);
   }
   return out;

@@ -30,8 +30,8 @@ struct CopyStretch {
   bool hold_torque = true;  ///< of a command
 };
 
-/// How a log's channels are measured: noise of sd `noise` is added, then values are rounded to
-/// `quantum`.
+/// How a log's channels are measured: noise of sd `noise` is added (negative: with the opposite
+/// sign), then values are rounded to `quantum`.
 struct CopySensor {
   double quantum = 0, noise = 0;
 };

@@ -27,6 +27,7 @@ namespace {
 // evenly spaced stretches, which leaves J_motor of the paper's rig 0.02 % uncertain.
 constexpr double kMostRows = 600000;
 constexpr double kFarFromStage1 = 3;  // sd of stage 1
+constexpr double kNoShape = 1;        // relative sd of a shape such as v_s
 constexpr double kWrongNoise = 1.5;   // whitened rms, 1 when the noise levels are right
 // Of whitened residuals from row to row, 0 when the model is right and the torque noise white.
 constexpr double kWrongModel = 0.3;
@@ -138,9 +139,13 @@ double lower_of(const EquationRows& e, Eigen::Index k) {
 /// Why this estimate is not reliable; empty when it is.
 std::string doubt(const EquationRows& e, Eigen::Index k, const OutputErrorFit& oe,
                   const Estimate& found) {
-  if (!found.not_identifiable.empty()) return found.not_identifiable;
   const DynamicParameter& parameter = e.columns.parameters[static_cast<std::size_t>(k)];
+  if (parameter.is_nonlinear && found.not_identifiable.starts_with("its column is zero"))
+    return "the coefficient of its effect is 0";
+  if (!found.not_identifiable.empty()) return found.not_identifiable;
   const bool is_inertia = parameter.is_inertia;
+  if (parameter.is_nonlinear && found.sd > kNoShape * std::abs(found.value))
+    return "its sd is larger than its value: the logs do not determine it";
   if (parameter.is_nonlinear && !found.active_bound.empty())
     return fmt::format("it is at the end of its range, {}: the logs do not determine it",
                        found.active_bound);
@@ -185,8 +190,10 @@ LinearSolution solution_of(const EstimationTask& task, const EquationRows& e,
   for (std::size_t k = 0; k < e.columns.parameters.size(); ++k) {
     const DynamicParameter& parameter = e.columns.parameters[k];
     const auto i = static_cast<Eigen::Index>(k);
-    if (!parameter.given)
-      solution.x(i) = find_estimate(oe.parameters, parameter.name)->value - parameter.origin;
+    if (!parameter.given) {
+      const double value = find_estimate(oe.parameters, parameter.name)->value;
+      solution.x(i) = std::isfinite(value) ? value - parameter.origin : 0;
+    }
     solution.residual_combination(i) = -(parameter.given ? *parameter.given : solution.x(i));
   }
   solution.rss = (e.rows->r() * solution.residual_combination).squaredNorm();

@@ -25,12 +25,19 @@ void move_prior(const OutputErrorFit& fit, GaussianPrior& prior) {
       prior.mean[static_cast<Eigen::Index>(k)] = e->value;
 }
 
+/// Mean error of a parameter over the copies that determine it.
+struct MeanError {
+  double sum = 0, weight = 0;
+};
+
 void add_errors(const OutputErrorFit& found, const OutputErrorFit& truth, double weight,
-                std::map<std::string, double>& mean) {
+                std::map<std::string, MeanError>& means) {
   for (const Estimate& e : found.parameters) {
     const Estimate* simulated = find_estimate(truth.parameters, e.name);
     if (!e.not_identifiable.empty() || !simulated->not_identifiable.empty()) continue;
-    mean[e.name] += weight * (e.value - simulated->value);
+    MeanError& mean = means[e.name];
+    mean.sum += weight * (e.value - simulated->value);
+    mean.weight += weight;
   }
 }
 
@@ -41,16 +48,19 @@ OutputErrorFloor output_error_floor(const DynamicJob& job, const OutputErrorFit&
   OutputErrorFloor floor;
   options.force_sd = fit.noise.force;
   move_prior(fit, options.prior);
+  const Eigen::MatrixXd prior = options.prior.covariance;
+  std::map<std::string, MeanError> means;
   try {
     CopyDraws draws(job, fit.model, false, true, torque_noise_of(fit, job.n_joints()));
     draws.for_each([&](const CopyDraw& draw) {
+      options.prior.covariance = prior / draw.share;  // as heavy beside the rows as in the fit
       const OutputErrorFit found =
           fit_output_error(fit.model, measured_stretches(job, draw.logs), options);
       if (!found.converged) throw Error(ErrorKind::not_identifiable, found.message);
-      add_errors(found, fit, draw.weight, floor.sd);
+      add_errors(found, fit, draw.weight, means);
     });
-    for (auto& [name, sd] : floor.sd) sd = std::abs(sd);
-    floor.note = "fit of simulated copies of the motion, with noise";
+    for (const auto& [name, mean] : means) floor.sd[name] = std::abs(mean.sum) / mean.weight;
+    floor.note = "fit of two simulated copies of the motion, with opposite noise";
   } catch (const Error& error) {
     floor = {{}, fmt::format("not measured: {}", error.what())};
   }

@@ -1,9 +1,8 @@
-// Error of output error itself where friction bends within the noise of the velocity: its filter is
-// linear in the state (prediction_filter.hpp). No residual shows it.
+// Bias of output error where friction is nonlinear within the noise of the velocity: its filter
+// linearises the model about the motion (prediction_filter.hpp). No residual shows it.
 #pragma once
 
 #include <map>
-#include <span>
 #include <string>
 
 #include "cablefit/dynamic/output_error/output_error.hpp"
@@ -16,9 +15,9 @@ struct OutputErrorFloor {
   std::string note;                  ///< how it was measured, or why it was not
 };
 
-/// Simulates the measured motion with the fitted model, with the noise levels that the fit found,
-/// and fits kFloorDraws such copies. The mean error is the bias of the method, and what is left of
-/// the noise. `options`: of the fit.
+/// Simulates the measured motion with the fitted model, with white torque noise of the motors at
+/// the fitted level and with the encoders' steps, and fits a pair of such copies (CopyDraws). The
+/// mean error is the bias. `options`: of the fit.
 OutputErrorFloor output_error_floor(const DynamicJob& job, const OutputErrorFit& fit,
                                     OutputErrorOptions options);
 

@@ -182,9 +182,22 @@ void CopyDraws::for_each(const std::function<void(const CopyDraw&)>& use) {
   if (exact_) use({record_copy(copy_, motions_, random_), true, 1, share_});
   if (!rounded_) return;
   choose_encoders(copy_, motions_, torque_noise_);
+  if (!torque_noise_.empty()) {
+    use_noisy_pair(use);
+    return;
+  }
   for (int draw = 0; draw < kFloorDraws; ++draw)
     use({record_copy(copy_, moved_aside(copy_, motions_, random_), random_), false,
          1.0 / kFloorDraws, share_});
+}
+
+void CopyDraws::use_noisy_pair(const std::function<void(const CopyDraw&)>& use) {
+  const std::vector<SimulationResult> moved = moved_aside(copy_, motions_, random_);
+  Random same = random_;
+  use({record_copy(copy_, moved, random_), false, 0.5, share_});
+  for (std::vector<CopySensor>& log : copy_.sensors)
+    for (CopySensor& sensor : log) sensor.noise = -sensor.noise;
+  use({record_copy(copy_, moved, same), false, 0.5, share_});
 }
 
 MethodFloor method_floor(const DynamicJob& job, const std::vector<EquationRows>& equations,

@@ -20,17 +20,22 @@ struct CopyDraw {
 };
 
 /// The copies of a job's motion: at most kFloorRows rows, in stretches over all logs. There is one
-/// `exact` copy and kFloorDraws `rounded` ones, with fixed seeds.
+/// `exact` copy and kFloorDraws `rounded` ones, with fixed seeds. With torque noise there are two
+/// rounded ones: the second has the noise of the first with the opposite sign, so that of the mean
+/// error of both, errors linear in the noise cancel (antithetic variates, Hammersley & Morton
+/// 1956).
 class CopyDraws {
  public:
   /// Throws Error(not_identifiable) where the motion cannot be simulated. `job` must outlive it.
-  /// `torque_noise`: N m, sd of the white noise on the torque of each joint in the rounded copies;
-  /// empty: their torques are exact.
+  /// `torque_noise`: N m, sd of the white noise on the torque of each joint; empty: torques are
+  /// exact.
   CopyDraws(const DynamicJob& job, const Model& model, bool exact, bool rounded,
             std::vector<double> torque_noise = {});
   void for_each(const std::function<void(const CopyDraw&)>& use);
 
  private:
+  void use_noisy_pair(const std::function<void(const CopyDraw&)>& use);
+
   bool rounded_, exact_;
   double share_ = 1;
   std::vector<double> torque_noise_;
