@@ -110,6 +110,24 @@ TEST_CASE("a curve of coefficients that are not identifiable is read back whole"
         elastic.preloads.at(0).find("poly")->transmission.cables.at(0).coefficients);
 }
 
+TEST_CASE("a result without the curve of coefficients that are not separable is refused") {
+  const TwoJoints two;
+  ElasticResult elastic = fit_elastic(two.bench.logs(), {});
+  for (ElasticFit& fit : elastic.preloads.at(0).fits)
+    if (fit.model == "poly") {
+      fit.parameters.at(0).value = std::nan("");
+      fit.parameters.at(0).not_identifiable = "is not separable from the other in these logs";
+    }
+  std::string text = elastic_json(elastic);
+  const std::size_t at = text.find("\"curve_coefficients\"");
+  REQUIRE(at != std::string::npos);
+  text.replace(at, 20, "\"curve_coefficient_\"");
+  const std::string name = elastic.preloads.at(0).find("poly")->parameters.at(0).name;
+  CHECK(message_of([&] { parse_elastic_result(parse_json(text, "elastic.json")); }, "")
+            .find(name + " is not identifiable, and 'curve_coefficients' is missing") !=
+        std::string::npos);
+}
+
 TEST_CASE("effects of several joints are read back on their joints") {
   const TwoJoints two;
   DynamicOptions options;

@@ -203,6 +203,7 @@ DynamicPreload fit_preload(DynamicJob job, const ElasticResult& elastic) {
   note_extrapolations(job, equations, elastic, preload);
   keep_causes(job, equations, elastic, preload);
   refuse_doubtful(elastic, preload);
+  note_open_curves(job, preload);
   note_blocked_friction(job, elastic, preload);
   preload.decisions.insert(preload.decisions.begin(), job.settings.decisions.begin(),
                            job.settings.decisions.end());

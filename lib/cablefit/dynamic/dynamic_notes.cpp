@@ -1,6 +1,7 @@
 #include "cablefit/dynamic/dynamic_notes.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -95,6 +96,25 @@ void note_extrapolations(const DynamicJob& job, const std::vector<EquationRows>&
     if (!warning.empty()) warnings.push_back(std::move(warning));
   }
   preload.warnings.insert(preload.warnings.begin(), warnings.begin(), warnings.end());
+}
+
+void note_open_curves(const DynamicJob& job, DynamicPreload& preload) {
+  if (job.rigid) return;
+  for (const ElasticFit* fit : job.elastic) {
+    std::vector<std::string> open;
+    std::size_t k = 0;  // coefficients are the first parameters
+    for (const Cable& cable : fit->transmission.cables)
+      for (const double coefficient : cable.coefficients) {
+        if (k == fit->parameters.size()) break;
+        const Estimate& e = fit->parameters[k++];
+        if (coefficient != 0 && !e.not_identifiable.empty()) open.push_back(e.name);
+      }
+    if (open.empty()) continue;
+    preload.warnings.push_back(
+        fmt::format("{}: stage 1 does not determine {}: offsets depend on which of the equal "
+                    "curves is used; let the cables go slack in a blocked log",
+                    fit->model, fmt::join(open, ", ")));
+  }
 }
 
 void note_blocked_friction(const DynamicJob& job, const ElasticResult& elastic,

@@ -9,6 +9,9 @@ namespace cablefit {
 void note_extrapolations(const DynamicJob& job, const std::vector<EquationRows>& equations,
                          const ElasticResult& elastic, DynamicPreload& preload);
 
+/// Warns of a stage 1 that left coefficients of taut cables open: its curve is one of several.
+void note_open_curves(const DynamicJob& job, DynamicPreload& preload);
+
 /// Warns when the motor's dry friction differs from that of stage 1.
 void note_blocked_friction(const DynamicJob& job, const ElasticResult& elastic,
                            DynamicPreload& preload);

@@ -68,7 +68,8 @@ ElasticFit refined_stage1(const ElasticFit& stage1, const OutputErrorFit& fit, b
   refined.transmission = fit.model.transmission;
   for (Estimate& e : refined.parameters) {
     const Estimate* found = find_estimate(fit.parameters, e.name);
-    if (found != nullptr && found->not_identifiable.empty()) take_estimate(*found, robust, e);
+    if (found == nullptr || !found->not_identifiable.empty()) continue;
+    if (e.not_identifiable.empty()) take_estimate(*found, robust, e);
   }
   const std::vector<ModelParameter> coefficients = coefficients_of(fit.model);
   const Eigen::MatrixXd& covariance = robust ? fit.covariance : fit.covariance_white;

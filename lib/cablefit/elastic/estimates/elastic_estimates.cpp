@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "cablefit/elastic/estimates/elastic_quantities.hpp"
@@ -162,6 +163,16 @@ std::vector<Estimate> derived_of(const ElasticJob& job, const LinearSolution& s,
   return all;
 }
 
+/// Of many curves that fit the logs equally, the constraint chose one.
+void refuse_value(Estimate& e) {
+  Estimate refused;
+  refused.name = e.name;
+  refused.symbol = e.symbol;
+  refused.unit = e.unit;
+  refused.not_identifiable = "only the constraint that cables pull determines it in these logs";
+  e = refused;
+}
+
 /// The motor's viscous friction, of whichever joint.
 bool is_speed(const ElasticCandidate& candidate, std::size_t k) {
   return k >= candidate.n_elastic && without_index(candidate.names[k]) == "f_vm";
@@ -210,6 +221,7 @@ ElasticFit make_fit(const ElasticJob& job, const ElasticCandidate& candidate,
     Estimate e = estimate_of({name, name, unit, "", candidate.lower[k]}, axes, s, index,
                              {job.options.robust_sd});
     const bool is_nuisance = k >= candidate.n_elastic;
+    if (!is_nuisance && is_held_by_bounds(e, s.degrees_of_freedom)) refuse_value(e);
     const int joint = is_nuisance ? joint_of(name) : 0;
     const double zero = rows.transmission.theta_0(joint);
     const bool is_zero = is_nuisance && without_index(name) == "theta_0";

@@ -8,6 +8,12 @@
 #include "cablefit/estimate/spread/long_run.hpp"
 
 namespace cablefit {
+namespace {
+
+// Of the widths of an interval by the profile and by the sd: an sd a tenth as large says nothing.
+constexpr double kBoundsDecide = 10;
+
+}  // namespace
 
 void set_interval(Estimate& e, double degrees_of_freedom, double lower) {
   const double t = t_quantile_975(degrees_of_freedom);
@@ -37,25 +43,10 @@ void widen_interval(Estimate& e, double factor) {
   if (!cut_off) e.ci_low = e.value - factor * (e.value - e.ci_low);
 }
 
-namespace {
-
-// Of the widths of an interval by the profile and by the sd, which holds the active bounds fixed.
-constexpr double kBoundsDecide = 100;
-
-/// A value that bounds of other parameters alone determine: its sd says nothing.
-void refuse_value_of_bounds(double t, Estimate& e) {
-  if (!e.profiled || !(e.ci_high - e.ci_low > kBoundsDecide * 2 * t * e.sd)) return;
-  Estimate refused;
-  refused.name = e.name;
-  refused.symbol = e.symbol;
-  refused.unit = e.unit;
-  refused.not_identifiable =
-      fmt::format("bounds of others alone determine it: 95 % interval {:.2g} to {:.2g}{}{}",
-                  e.ci_low, e.ci_high, e.unit.empty() ? "" : " ", e.unit);
-  e = refused;
+bool is_held_by_bounds(const Estimate& e, double degrees_of_freedom) {
+  const double width = 2 * t_quantile_975(degrees_of_freedom) * e.sd;
+  return e.profiled && e.sd > 0 && e.ci_high - e.ci_low > kBoundsDecide * width;
 }
-
-}  // namespace
 
 Estimate estimate_of(const ParameterInfo& info, Axes axes, const LinearSolution& s, Eigen::Index k,
                      const SdChoice& choice) {
@@ -85,7 +76,6 @@ Estimate estimate_of(const ParameterInfo& info, Axes axes, const LinearSolution&
   if (!s.profile.empty())
     set_profile(e, s.profile[at], choice.robust ? choice.extra_variance / s.covariance(k, k) : 0,
                 info.lower);
-  refuse_value_of_bounds(t_quantile_975(s.degrees_of_freedom), e);
   return e;
 }
 

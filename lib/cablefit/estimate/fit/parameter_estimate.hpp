@@ -30,9 +30,12 @@ void set_profile(Estimate& e, const ProfileInterval& profile, double extra, doub
 void widen_interval(Estimate& e, double factor);
 
 /// Parameter `k` of the solution, its interval by profile where the solution has profiles. On its
-/// bound, 0, see set_on_bound(). Held at 0 by constraints instead, it has no sd. Not identifiable
-/// where the profile is 100 times wider than the sd, which holds the active bounds fixed.
+/// bound, 0, see set_on_bound(). Held at 0 by constraints instead, it has no sd.
 Estimate estimate_of(const ParameterInfo& info, Axes axes, const LinearSolution& solution,
                      Eigen::Index k, const SdChoice& choice);
+
+/// Whether the active bounds determine the value: its interval by profile, in which they may be
+/// left, is ten times wider than the one by its sd, which holds them fixed.
+bool is_held_by_bounds(const Estimate& e, double degrees_of_freedom);
 
 }  // namespace cablefit

@@ -29,12 +29,8 @@ void take_cable(const ElasticFit& fit, const MissingCoefficient& missing, bool c
   cable.order = 1;
   while (cable.order < cable.law->max_order && cable.n_coefficients() < count) ++cable.order;
   cable.coefficients.clear();
-  for (int k = 0; k < cable.n_coefficients(); ++k) {
-    // A cable that stage 1 never pulled has no coefficients: it counts as slack, and a note says
-    // so.
-    const double value = value_of(fit, name(k), missing);
-    cable.coefficients.push_back(std::isnan(value) ? 0 : value);
-  }
+  for (int k = 0; k < cable.n_coefficients(); ++k)
+    cable.coefficients.push_back(value_of(fit, name(k), missing));
   if (const Estimate* l_o = find_estimate(fit.parameters, elongation_name(cable))) {
     cable.initial_elongation = l_o->value;
   }
@@ -54,12 +50,32 @@ void take_transmission(const Rig& rig, const MissingCoefficient& missing, Elasti
   for (Cable& cable : fit.transmission.cables) take_cable(fit, missing, rig.cables_given, cable);
 }
 
+/// Without the curve: a cable that stage 1 never pulled has no coefficients and counts as slack,
+/// and a note says so. Coefficients that are only not separable are not 0.
+void require_curve(const MissingCoefficient& missing, bool cable_space, ElasticFit& fit) {
+  for (Cable& cable : fit.transmission.cables)
+    for (int k = 0; k < cable.n_coefficients(); ++k) {
+      double& coefficient = cable.coefficients[static_cast<std::size_t>(k)];
+      if (!std::isnan(coefficient)) continue;
+      const Estimate* e = find_estimate(fit.parameters, coefficient_name(cable, k, cable_space));
+      if (e->not_identifiable.find("separable") != std::string::npos)
+        throw missing.place->error(
+            fmt::format("{} is not identifiable, and 'curve_coefficients' is missing", e->name),
+            std::string(missing.hint));
+      coefficient = 0;
+    }
+}
+
 /// The curve that was fitted, where some of its coefficients have no value of their own: only the
 /// torque of all together is determined.
-void take_curve(const JsonNode& node, ElasticFit& fit) {
+void take_curve(const JsonNode& node, const MissingCoefficient& missing, bool cable_space,
+                ElasticFit& fit) {
   const JsonNode* given = node.find("curve_coefficients");
   std::vector<Cable>& cables = fit.transmission.cables;
-  if (given == nullptr || cables.empty()) return;
+  if (given == nullptr) {
+    require_curve(missing, cable_space, fit);
+    return;
+  }
   if (!given->is_array() || given->items.size() != cables.size())
     throw given->error(
         fmt::format("expected a list of coefficients for each of {} cables", cables.size()),
@@ -142,7 +158,7 @@ int read_order(const JsonNode& node) {
 void read_curve(const JsonNode& node, const Rig& rig, const MissingCoefficient& missing,
                 ElasticFit& fit) {
   take_transmission(rig, missing, fit);
-  take_curve(node, fit);
+  take_curve(node, missing, rig.cables_given, fit);
   take_theta_0(node, fit);
   const JsonNode* offset = node.find("offset");
   if (offset != nullptr && !offset->is_array()) fit.offset = offset->number();
