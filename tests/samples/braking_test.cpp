@@ -10,8 +10,8 @@ namespace {
 using namespace cablefit;
 using namespace cablefit::test;
 
-/// 20 s of two joints without cables between them: each drive works against its own friction, and
-/// the torque of the first takes work from a motion of this amplitude, rad.
+/// 20 s of two joints: the second drive works against friction, the torque of the first takes work
+/// from a motion of this amplitude, rad.
 std::string log_text(double way) {
   std::string text = "t,theta1,theta2,tau1,tau2\n";
   for (int i = 0; i <= 4000; ++i) {
@@ -26,10 +26,19 @@ struct Told {
   std::vector<std::string> warnings;
 };
 
-Told told(double way) {
+constexpr const char* kAlone =
+    R"({"schema": "cablefit/rig/1", "joints": [{"name": "a"}, {"name": "b"}]})";
+// A cable of the first motor passes both links.
+constexpr const char* kCoupled =
+    R"({"schema": "cablefit/rig/1", "joints": [{"name": "a"}, {"name": "b"}],
+  "cables": [{"name": "1", "motor_radius": [0.01, 0], "link_radius": [0.01, 0.01]},
+             {"name": "2", "motor_radius": [-0.01, 0], "link_radius": [-0.01, 0]},
+             {"name": "3", "motor_radius": [0, 0.01], "link_radius": [0, 0.01]},
+             {"name": "4", "motor_radius": [0, -0.01], "link_radius": [0, -0.01]}]})";
+
+Told told(const char* rig_text, double way) {
   const TempFolder folder;
-  const std::string rig = folder.write(
-      "rig.json", R"({"schema": "cablefit/rig/1", "joints": [{"name": "a"}, {"name": "b"}]})");
+  const std::string rig = folder.write("rig.json", rig_text);
   std::vector<LogSurvey> logs{survey_file(folder.write("a.csv", log_text(way)), read_rig(rig))};
   Told told;
   told.error = message_of([&] { weigh_logs(logs); }, folder.path());
@@ -38,15 +47,21 @@ Told told(double way) {
 }
 
 TEST_CASE("a joint that others move may brake", "[samples]") {
-  const Told large = told(0.5), small = told(0.02);
-  CHECK(large.error ==
-        "a.csv: tau1 brakes: over a closed motion it does -15.7 J of work, of 15.7 J exchanged; "
-        "the sign of tau1 is reversed against the positions; write \"tau1\": {\"column\": "
-        "\"tau1\", \"scale\": -1} in the rig file's columns");
-  CHECK(small.error == "no error");
-  REQUIRE(small.warnings.size() == 1);
-  CHECK(small.warnings.front().find(
-            "other joints move this one, or the sign of tau1 is reversed") != std::string::npos);
+  const std::string reversed = "the sign of tau1 is reversed against the positions";
+  // Nothing hands work to a joint without a cable or masses in common with others.
+  const Told alone = told(kAlone, 0.5);
+  CHECK(alone.error ==
+        "a.csv: tau1 brakes: over a closed motion it does -15.7 J of work, of 15.7 J exchanged; " +
+            reversed +
+            "; write \"tau1\": {\"column\": \"tau1\", \"scale\": -1} in the rig file's columns");
+  CHECK(told(kAlone, 0.02).error.find(reversed) != std::string::npos);
+  // The other drive may give this work, but not more than it does itself, 47 J.
+  const Told moved = told(kCoupled, 0.5);
+  CHECK(moved.error == "no error");
+  REQUIRE(moved.warnings.size() == 1);
+  CHECK(moved.warnings.front().find("other joints move this one, or " + reversed) !=
+        std::string::npos);
+  CHECK(told(kCoupled, 2).error.find(reversed) != std::string::npos);
 }
 
 }  // namespace

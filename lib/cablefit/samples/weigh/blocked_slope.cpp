@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <Eigen/QR>
 #include <cmath>
 #include <map>
 
@@ -10,6 +11,7 @@ namespace {
 
 constexpr double kRounding = 1e-9;   // of theta: a smaller range is no motion
 constexpr double kClearSlope = 0.7;  // correlation of torque and deflection
+constexpr double kClearSd = 10;      // of a slope beside others: friction is no white noise
 constexpr double kOtherUnit =
     5;  // ratio of the slopes of two logs; a cable that softens stays below
 
@@ -21,6 +23,53 @@ constexpr Eigen::Index kFewSamples = 50;
 bool has_dead_q(const PartSurvey& survey, const CoarsePart::Joint& joint, const CoarseLine& line) {
   return !survey.phase_given && joint.tau.size() > kFewSamples &&
          std::abs(line.correlation) < kNoSlope && coarse_range(joint.theta) > kDeadRange;
+}
+
+/// Of several joints with blocked links, d tau_j / d theta_j of a fit to all thetas: positive for
+/// whatever cables the joints share, as (6) is convex. 0: the log does not determine it.
+double own_slope(const CoarsePart& part, std::size_t joint) {
+  const Eigen::ArrayXd& tau = part.joints[joint].tau;
+  const auto n = static_cast<Eigen::Index>(part.joints.size());
+  Eigen::MatrixXd columns(tau.size(), n + 1);
+  columns.col(n).setOnes();
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Eigen::ArrayXd& theta = part.joints[static_cast<std::size_t>(k)].theta;
+    const double middle = theta.size() > 0 ? theta.abs().maxCoeff() : 0;
+    if (theta.size() != tau.size() || coarse_range(theta) <= kRounding * middle) return 0;
+    columns.col(k) = theta - theta.mean();
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+  if (tau.size() <= n + 1 || qr.rank() <= n) return 0;
+  const Eigen::VectorXd x = qr.solve(tau.matrix());
+  const double left = (tau.matrix() - columns * x).squaredNorm();
+  const double all = (tau - tau.mean()).square().sum();
+  if (left > (1 - kClearSlope * kClearSlope) * all) return 0;
+  const Eigen::MatrixXd upper = qr.matrixR().topRows(n + 1).triangularView<Eigen::Upper>();
+  const Eigen::MatrixXd root = qr.colsPermutation() * upper.triangularView<Eigen::Upper>().solve(
+                                                          Eigen::MatrixXd::Identity(n + 1, n + 1));
+  const auto own = static_cast<Eigen::Index>(joint);
+  const double variance =
+      left / static_cast<double>(tau.size() - n - 1) * root.row(own).squaredNorm();
+  return std::abs(x(own)) > kClearSd * std::sqrt(variance) ? x(own) : 0;
+}
+
+/// Joints whose torque falls as their own drive winds up.
+void add_reversed_joints(const CoarsePart& part, const LogPlan& plan, Findings& findings) {
+  for (std::size_t j = 0; j < part.joints.size(); ++j) {
+    const double slope = own_slope(part, j);
+    if (!(slope < 0)) continue;
+    const int joint = static_cast<int>(j);
+    const std::string tau = weighed_name(plan, Channel::tau, joint),
+                      theta = weighed_name(plan, Channel::theta, joint);
+    findings.push_back(
+        {part.log,
+         {},
+         true,
+         fmt::format("{0} falls as {1} grows while the links are blocked (slope {2:.3g} {3}): {0} "
+                     "or {1} is reversed",
+                     tau, theta, slope, unit_for(plan.rig.axes.of(joint), "N m/rad")),
+         mending_line(plan, Channel::tau, joint, -1) + ", or the same of " + theta});
+  }
 }
 
 struct BlockedSlope {
@@ -35,7 +84,11 @@ Findings blocked_slope(const Logs& logs) {
   std::map<std::string, BlockedSlope> first;  // by rig, preload and joint
   for (const CoarsePart& part : logs.parts) {
     const LogPlan& plan = logs.plan(part);
-    if (logs.survey(part).phase != Phase::blocked || plan.rig.n_joints() > 1) continue;
+    if (logs.survey(part).phase != Phase::blocked) continue;
+    if (plan.rig.n_joints() > 1) {
+      add_reversed_joints(part, plan, findings);
+      continue;
+    }
     const CoarsePart::Joint& joint = part.joints.front();
     if (joint.tau.size() == 0 || joint.theta.size() == 0) continue;
     const CoarseLine line = coarse_line(joint.theta, joint.tau);

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "cablefit/base/quote.hpp"
 #include "cablefit/samples/weigh/checks.hpp"
 #include "cablefit/samples/weigh/limits.hpp"
 
@@ -31,6 +34,27 @@ Finding odd_reference(const LogPlan& plan, const CoarsePart& part, int joint,
                                usual_slope_error(line.correlation), "ratio"));
 }
 
+/// The controller's own reference is not in the log, and a column theta_ref is.
+std::optional<Finding> missing_reference(const LogPlan& plan, std::size_t log) {
+  if (!plan.rig.controller) return {};
+  const std::string& name = plan.rig.controller->reference;
+  const std::string usual = Controller{}.reference;
+  const std::string number = plan.rig.n_joints() == 1 ? "" : "1";
+  const std::vector<ColumnHeader>& columns = plan.header.columns;
+  const bool has_usual =
+      std::any_of(columns.begin(), columns.end(), [&](const ColumnHeader& column) {
+        return column.name == usual || column.name == usual + "1";
+      });
+  if (name == usual || plan.has(Channel::theta_ref) || !has_usual) return {};
+  return Finding{log,
+                 {},
+                 false,
+                 fmt::format("the controller's reference {} is not a column of the log, and {} is "
+                             "not used",
+                             quoted(name + number), usual),
+                 fmt::format("write the column's name as \"reference\", or \"{}\"", usual)};
+}
+
 }  // namespace
 
 Findings reference(const Logs& logs) {
@@ -38,6 +62,7 @@ Findings reference(const Logs& logs) {
   for (const CoarsePart& part : logs.parts) {
     if (logs.survey(part).phase != Phase::moving) continue;
     const LogPlan& plan = logs.plan(part);
+    if (const auto missing = missing_reference(plan, part.log)) findings.push_back(*missing);
     for (int j = 0; j < plan.rig.n_joints(); ++j) {
       const CoarsePart::Joint& joint = part.joints[static_cast<std::size_t>(j)];
       if (joint.theta.size() == 0 || joint.theta_ref.size() == 0) continue;

@@ -12,7 +12,6 @@ namespace {
 constexpr double kReturned = 0.05;  // of the range: the motion is closed
 constexpr double kNegative = -0.1;  // of the work exchanged; delays alone make less
 constexpr double kClearlyNegative = -0.3;
-constexpr double kOwnWork = 0.3;  // of the joint that exchanges most: less may be others' work
 constexpr double kMostLoad = 10;  // mean square, of the torque's
 constexpr Eigen::Index kFewBlocksOfWork = 40;
 
@@ -60,8 +59,20 @@ Work drive_work(const CoarsePart::Joint& joint, Channel channel, Eigen::Index n)
   return work;
 }
 
-/// A drive that takes work, and whether other joints may give it: one that holds still while they
-/// move it through cables or links.
+/// Whether a cable or masses hand work from one joint to another.
+bool are_coupled(const Rig& rig) {
+  if (rig.arm.kind != nullptr) return true;
+  const std::vector<Cable>& cables = rig.transmission.cables;
+  return std::any_of(cables.begin(), cables.end(), [&](const Cable& cable) {
+    int passed = 0;
+    for (int joint = 0; joint < rig.n_joints(); ++joint)
+      passed += cable.passes(static_cast<std::size_t>(joint)) ? 1 : 0;
+    return passed > 1;
+  });
+}
+
+/// A drive that takes work, and whether other joints may give it: through cables or masses, and all
+/// drives together work against friction.
 struct Braking {
   int joint = -1;  ///< -1: all drive
   Work work;
@@ -69,17 +80,18 @@ struct Braking {
 };
 
 /// Joints hand work to one another, so that of several one has to brake clearly.
-Braking braking_joint(const CoarsePart& part, Channel channel, Eigen::Index n) {
+Braking braking_joint(const CoarsePart& part, Channel channel, Eigen::Index n, const Rig& rig) {
   const double limit = part.joints.size() == 1 ? kNegative : kClearlyNegative;
   Braking found;
-  double most = 0;
+  Work all;
   for (std::size_t j = 0; j < part.joints.size(); ++j) {
     const Work work = drive_work(part.joints[j], channel, n);
-    most = std::max(most, work.exchanged);
+    all.drive += work.drive;
+    all.load += work.load;
     const bool more = found.joint < 0 || work.exchanged > found.work.exchanged;
     if (work.share() < limit && more) found = {static_cast<int>(j), work, false};
   }
-  found.may_be_moved = found.work.exchanged < kOwnWork * most;
+  found.may_be_moved = all.drive + all.load > 0 && are_coupled(rig);
   return found;
 }
 
@@ -94,7 +106,7 @@ Findings work(const Logs& logs) {
     if (!plan.has_for_all(channel)) continue;
     const Eigen::Index n = closed_blocks(part, channel);
     if (n < kFewBlocksOfWork) continue;
-    const Braking braking = braking_joint(part, channel, n);
+    const Braking braking = braking_joint(part, channel, n, plan.rig);
     if (braking.joint < 0) continue;
     const std::string tau = weighed_name(plan, Channel::tau, braking.joint);
     findings.push_back(
@@ -105,7 +117,8 @@ Findings work(const Logs& logs) {
                      "exchanged; {3}the sign of {0} is reversed against the positions",
                      tau, braking.work.drive, braking.work.exchanged,
                      braking.may_be_moved ? "other joints move this one, or " : ""),
-         mending_line(plan, Channel::tau, braking.joint, -1)});
+         braking.may_be_moved ? "check a log in which this joint moves alone"
+                              : mending_line(plan, Channel::tau, braking.joint, -1)});
   }
   return findings;
 }

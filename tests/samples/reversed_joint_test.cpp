@@ -1,0 +1,72 @@
+// Signs and references of shipped logs that their rig files have wrong.
+#include "cablefit/samples/weigh/weigh.hpp"
+#include "tests/support/message.hpp"
+#include "tests/support/recover.hpp"
+
+namespace {
+
+using namespace cablefit;
+using namespace cablefit::test;
+
+struct Told {
+  std::string error;
+  std::vector<std::string> warnings;
+};
+
+/// `more`: keys of the set's rig file.
+Told told(const std::string& set, const std::string& log, const std::string& more) {
+  const std::string from = std::string(CABLEFIT_DATA) + "/two_joints/" + set;
+  const TempFolder folder;
+  std::string rig = content_of(from + "/rig.json");
+  rig.insert(1, more);
+  folder.write("rig.json", rig);
+  for (const std::string& file : {log, std::string("finger.urdf")})
+    folder.write(file, content_of(from + '/' + file));
+  const std::string path = folder.file(log);
+  Told told;
+  told.error = message_of(
+      [&] {
+        std::vector<LogSurvey> logs{survey_file(path, rig_for_log(path, ""))};
+        weigh_logs(logs);
+        told.warnings = logs.front().warnings;
+      },
+      folder.path());
+  return told;
+}
+
+TEST_CASE("a reversed torque or drive of a joint with blocked links is refused", "[samples]") {
+  for (const char* const set : {"finger", "pairs", "phalanges"}) {
+    CAPTURE(set);
+    CHECK(told(set, "blocked.csv", "").error == "no error");
+    for (const char* const channel : {"tau1", "tau2", "theta1", "theta2"}) {
+      const std::string joint(1, std::string(channel).back());
+      const std::string error =
+          told(set, "blocked.csv",
+               fmt::format(R"("columns": {{"{0}": {{"column": "{0}", "scale": -1}}}}, )", channel))
+              .error;
+      CAPTURE(channel, error);
+      CHECK(error.find("tau" + joint + " falls as theta" + joint +
+                       " grows while the links are blocked") != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("a controller's reference that the log lacks is reported", "[samples]") {
+  const std::string from = std::string(CABLEFIT_DATA) + "/low/";
+  const TempFolder folder;
+  std::string rig = content_of(from + "rig.json");
+  const std::string usual = R"("reference": "theta_ref")";
+  REQUIRE(rig.find(usual) != std::string::npos);
+  rig.replace(rig.find(usual), usual.size(), R"("reference": "command")");
+  folder.write("rig.json", rig);
+  const std::string path = folder.write("moving.csv", content_of(from + "moving_load30.csv"));
+  std::vector<LogSurvey> logs{survey_file(path, rig_for_log(path, ""))};
+  weigh_logs(logs);
+  REQUIRE(logs.front().warnings.size() == 1);
+  CHECK(logs.front().warnings.front().find(
+            "the controller's reference 'command' is not a column of the log, and theta_ref is not "
+            "used; write the column's name as \"reference\", or \"theta_ref\"") !=
+        std::string::npos);
+}
+
+}  // namespace
