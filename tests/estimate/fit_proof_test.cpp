@@ -119,7 +119,7 @@ TEST_CASE("runs without a number are not counted") {
   const ProvedParameter p = judge_runs(truth_of(5), some);
   CHECK(p.n_runs == 29);
   CHECK(p.n_open == 1);
-  CHECK(p.verdict.ends_with("; 1 of 30 runs do not determine it"));
+  CHECK(p.verdict.ends_with("; not determined in 1 of 30 runs"));
   CHECK(judge_runs(truth_of(5), {}).verdict == "no run determined it");
 }
 

@@ -34,7 +34,7 @@ TEST_CASE("a parameter that most runs do not determine is reported", "[prove]") 
     return seed == 0 ? ProofRun{{stiffness}, ""} : ProofRun{};
   });
   CHECK(proof.parameters.at(0).n_open == 3);
-  CHECK(proof.parameters.at(0).verdict == "covers; 3 of 4 runs do not determine it");
+  CHECK(proof.parameters.at(0).verdict == "covers; not determined in 3 of 4 runs");
   CHECK(proof.verdict ==
         "the 95 % intervals contain the true values; most runs do not determine K");
 }

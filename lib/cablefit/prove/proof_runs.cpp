@@ -28,8 +28,8 @@ std::string verdict_of(const FitProof& proof) {
   if (!biased.empty())
     text += fmt::format("; {} wrong by more than half an sd on average", fmt::join(biased, ", "));
   if (!scattered.empty())
-    text += fmt::format("; the sd of {} are too small for {} scatter", fmt::join(scattered, ", "),
-                        scattered.size() == 1 ? "its" : "their");
+    text +=
+        fmt::format("; the scatter of {} is more than twice the sd", fmt::join(scattered, ", "));
   if (!open.empty()) text += fmt::format("; most runs do not determine {}", fmt::join(open, ", "));
   return text;
 }

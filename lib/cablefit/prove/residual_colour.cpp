@@ -34,10 +34,10 @@ std::string disturbance_note(const std::string& of, double residual, const ArMod
                              const std::string& unit) {
   std::string text =
       fmt::format("{}{}residual {:.3g} {} rms", of, of.empty() ? "" : ": ", residual, unit);
-  if (!(disturbance.sd > 0)) return text + ", which the sensors' noise explains";
+  if (!(disturbance.sd > 0)) return text + "; as large in a simulated copy without disturbance";
   const std::size_t order = disturbance.coefficients.size();
   return text +
-         fmt::format(", of which a disturbance of {:.3g} {} is simulated, {}", disturbance.sd, unit,
+         fmt::format("; simulated disturbance: {:.3g} {} rms, {}", disturbance.sd, unit,
                      order == 0 ? "white" : fmt::format("autoregressive of order {}", order));
 }
 

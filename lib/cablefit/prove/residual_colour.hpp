@@ -28,7 +28,7 @@ inline bool is_same_grid(double period, double other) {
   return std::abs(period - other) < 1e-6 * other;
 }
 
-/// "link equation: residual 0.17 N m rms, of which a disturbance of 0.01 N m is simulated, ...".
+/// "link equation: residual 0.17 N m rms; simulated disturbance: 0.01 N m rms, white".
 std::string disturbance_note(const std::string& of, double residual, const ArModel& disturbance,
                              const std::string& unit);
 

@@ -13,7 +13,8 @@ namespace {
 constexpr double kLevel = 0.95;
 constexpr double kBiasNoted = 0.5;  // sd; a larger bias above three standard errors is reported
 constexpr double kStandardErrors = 3;
-// Of the scatter to the mean sd. A right sd of 5 runs has this ratio in 1 of 1000 proofs.
+// Of the scatter to the mean sd, with its factor. Where the sd is right, 5 runs have this ratio
+// with a probability of 1 in 1000.
 constexpr double kScatterNoted = 2.2;
 constexpr std::size_t kScatterRuns = 5;
 
@@ -48,10 +49,10 @@ void describe(ProvedParameter& p) {
   const double off = std::abs(p.bias);
   if (off > kBiasNoted * p.mean_sd && off > kStandardErrors * p.standard_error)
     p.verdict += fmt::format("; biased by {:+.1f} sd", p.bias / p.mean_sd);
-  if (p.n_runs >= kScatterRuns && p.scatter > kScatterNoted * p.mean_sd)
+  if (p.n_runs >= kScatterRuns && p.scatter > kScatterNoted * p.factor * p.mean_sd)
     p.verdict += fmt::format("; scatters by {:.1f} sd", p.scatter / p.mean_sd);
   if (p.n_open > 0)
-    p.verdict += fmt::format("; {} of {} runs do not determine it", p.n_open, p.n_open + p.n_runs);
+    p.verdict += fmt::format("; not determined in {} of {} runs", p.n_open, p.n_open + p.n_runs);
 }
 
 }  // namespace
@@ -82,7 +83,9 @@ ProvedParameter judge_runs(const Estimate& truth, std::span<const Estimate> esti
     p.n_covered += ratios.back() <= 1;
   }
   p.n_runs = ratios.size();
-  p.n_open = estimates.size() - p.n_runs;
+  p.n_open = static_cast<std::size_t>(
+      std::count_if(estimates.begin(), estimates.end(),
+                    [](const Estimate& e) { return !std::isfinite(e.value); }));
   if (p.n_runs > 0) {
     const auto n = static_cast<double>(p.n_runs);
     p.bias = sum / n;

@@ -32,17 +32,17 @@ struct ProvedParameter {
   ShareBand coverage_band;    ///< 95 % band of the coverage
   double factor = 1;          ///< factor >= 1 on sd and interval that makes the intervals cover
   std::string verdict;        ///< "covers", "too narrow: ..."; also states a bias
-  std::size_t n_open = 0;     ///< runs that ended without determining it
+  std::size_t n_open = 0;     ///< runs that ended without a value of it
 
   double coverage() const {
     return n_runs > 0 ? static_cast<double>(n_covered) / static_cast<double>(n_runs) : 0;
   }
 };
 
-/// `estimates`: one per run; those without a number are not counted. The intervals are too narrow
-/// when the band of their coverage ends below 95 %. The factor is then the one that would make them
-/// cover, from the order statistics of |estimate - truth| / half width (split conformal prediction,
-/// Vovk et al. 2005: the ceil(0.95 (n + 1))-th smallest).
+/// `estimates`: one per run that ended; `n_open` counts those without a value. The intervals are
+/// too narrow when the band of their coverage ends below 95 %. The factor is then the one that
+/// would make them cover, from the order statistics of |estimate - truth| / half width (split
+/// conformal prediction, Vovk et al. 2005: the ceil(0.95 (n + 1))-th smallest).
 ProvedParameter judge_runs(const Estimate& truth, std::span<const Estimate> estimates);
 
 /// Result of refits to simulated logs of the fitted model.
