@@ -17,7 +17,7 @@ Rival candidate(const std::string& name, const std::string& side, double gain) {
 
 /// A constant torque was identified in a gap of `rho` squared floors; a load scale closes 8 % of
 /// it less and is in one group with it, a gravity imbalance closes as much and is in none.
-std::vector<Rival> rivals(double rho, double less, bool from_base) {
+std::vector<Rival> rivals(double rho, double less, bool from_base, bool is_alias = false) {
   RefineResult result;
   NamedEffect named;
   named.instance.effect = &find_candidate("constant_torque", Site::link);
@@ -29,6 +29,7 @@ std::vector<Rival> rivals(double rho, double less, bool from_base) {
   NotSeparable group;
   group.effects = {"constant_torque (link)", "load_scale (link)"};
   group.from_base = from_base;
+  group.is_alias = is_alias;
   result.not_separable = {group};
   add_inseparable_rivals(result);
   add_inseparable_rivals(result);  // nobody twice
@@ -43,5 +44,14 @@ TEST_CASE("what the logs do not separate is listed where it closes nearly as muc
   CHECK(listed[0].name == "load_scale");
   CHECK(rivals(10, 0.12, false).empty());
   CHECK(rivals(1.5, 0.12, false).size() == 1);  // a tenth of the floor is a fifth of that gap
-  CHECK(rivals(10, 0.08, true).empty());
+}
+
+TEST_CASE("beside an effect that is nearly in the model all are listed that close as much",
+          "[refine]") {
+  const std::vector<Rival> listed = rivals(10, 0.08, true);
+  REQUIRE(listed.size() == 2);
+  CHECK(listed[0].name == "gravity_imbalance");
+  CHECK(listed[1].name == "load_scale");
+  CHECK(rivals(10, 0.12, true).size() == 1);
+  CHECK(rivals(10, 0.08, true, true).empty());  // aliases are not separable by rule
 }

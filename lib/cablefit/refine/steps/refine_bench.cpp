@@ -243,7 +243,7 @@ RefineState prepare(RefineBench& bench, std::span<const Model> models, const Ref
     if (train.empty() || !are_enough(models, train, test, wanted))
       throw input_error({}, "the last third of the logs, held out, has too few rows to judge by",
                         logs.test.empty() ? "record longer, or give other logs with --test"
-                                          : "record longer: the test logs move too little, too");
+                                          : "record longer; the test logs are too short as well");
   }
   const std::vector<Model> bases =
       bench.elastic_only ? with_visible_effects({models.begin(), models.end()}, train, wanted,

@@ -6,9 +6,10 @@
 
 namespace cablefit {
 
-/// Adds to the rivals of the first effect those of its groups in `not_separable` that explain
-/// nearly as much. The difference between their fits is then smaller than the errors from rounding
-/// and filters.
+/// Adds to the rivals of the first effect those that explain nearly as much and are in one of its
+/// groups in `not_separable`. The difference between their fits is then smaller than the errors
+/// from rounding and filters. Of an effect that is nearly in the model, all that explain nearly as
+/// much: what is left of it is similar to what is left of others.
 void add_inseparable_rivals(RefineResult& result);
 
 }  // namespace cablefit
