@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -12,6 +13,8 @@
 
 namespace cablefit {
 namespace {
+
+constexpr double kFarBeyond = 10;  // an interval so many times as wide as the values themselves
 
 /// A coefficient of a cable.
 struct Coefficient {
@@ -163,6 +166,19 @@ std::vector<Estimate> derived_of(const ElasticJob& job, const LinearSolution& s,
   return all;
 }
 
+/// A coefficient that the constraint holds at 0 although the logs allow values far beyond those of
+/// the same power of l.
+bool is_open_at_bound(const ElasticCandidate& candidate, const LinearSolution& s, const Estimate& e,
+                      std::size_t k) {
+  const std::optional<Coefficient> own = coefficient_at(candidate, k);
+  if (!own || !s.at_bound[k] || !e.profiled) return false;
+  double largest = 0;
+  for (std::size_t j = 0; j < candidate.n_elastic; ++j)
+    if (coefficient_at(candidate, j)->index == own->index)
+      largest = std::max(largest, std::abs(s.x(static_cast<Eigen::Index>(j))));
+  return e.ci_high - e.ci_low > kFarBeyond * largest;
+}
+
 /// Of many curves that fit the logs equally, the constraint chose one.
 void refuse_value(Estimate& e) {
   Estimate refused;
@@ -221,7 +237,9 @@ ElasticFit make_fit(const ElasticJob& job, const ElasticCandidate& candidate,
     Estimate e = estimate_of({name, name, unit, "", candidate.lower[k]}, axes, s, index,
                              {job.options.robust_sd});
     const bool is_nuisance = k >= candidate.n_elastic;
-    if (!is_nuisance && is_held_by_bounds(e, s.degrees_of_freedom)) refuse_value(e);
+    if (!is_nuisance &&
+        (is_held_by_bounds(e, s.degrees_of_freedom) || is_open_at_bound(candidate, s, e, k)))
+      refuse_value(e);
     const int joint = is_nuisance ? joint_of(name) : 0;
     const double zero = rows.transmission.theta_0(joint);
     const bool is_zero = is_nuisance && without_index(name) == "theta_0";
@@ -234,7 +252,7 @@ ElasticFit make_fit(const ElasticJob& job, const ElasticCandidate& candidate,
       e.ci_low += zero;
       e.ci_high += zero;
     }
-    if (s.at_bound[k] && candidate.lower[k] == -kUnbounded)
+    if (s.at_bound[k] && candidate.lower[k] == -kUnbounded && e.not_identifiable.empty())
       e.active_bound = hold_text(candidate, k);
     if (is_nuisance && without_index(e.name) == "theta_0")
       fit.transmission.theta_0(joint) = e.value;
