@@ -91,6 +91,8 @@ TEST_CASE("a curve of coefficients that are not identifiable is read back whole"
         e.value = e.sd = e.ci_low = e.ci_high = std::nan("");
         e.not_identifiable = "is not separable from the other in these logs";
       }
+  for (Estimate& e : elastic.preloads.at(0).fits.back().parameters)
+    if (e.name == "offset[1]") e.not_identifiable = "is not separable from the curve in these logs";
   const std::string text = elastic_json(elastic);
   CHECK(schema_errors("elastic", text) == "");
   const ElasticResult back = parse_elastic_result(parse_json(text, "elastic.json"));
@@ -101,7 +103,15 @@ TEST_CASE("a curve of coefficients that are not identifiable is read back whole"
     CHECK(coefficients_of(back).front() > 0);
     CHECK(coefficients_of(back) == coefficients_of(elastic));
   }
-  const std::string dynamic = dynamic_json(fit_dynamic(two.bench.logs(), back, both_models()));
+  const DynamicResult moving = fit_dynamic(two.bench.logs(), back, both_models());
+  const DynamicPreload& preload = moving.preloads.at(0);
+  CHECK(estimate(preload.fits.at(1).parameters, "offset[1]").not_identifiable ==
+        "stage 1 does not separate it from its curve");
+  CHECK(estimate(preload.fits.at(1).parameters, "offset[2]").not_identifiable.empty());
+  CHECK(std::any_of(preload.warnings.begin(), preload.warnings.end(), [](const std::string& text) {
+    return text.starts_with("poly: stage 1 does not determine ");
+  }));
+  const std::string dynamic = dynamic_json(moving);
   CHECK(dynamic == dynamic_json(fit_dynamic(two.bench.logs(), elastic, both_models())));
   CHECK(schema_errors("dynamic", dynamic) == "");
   std::string choice;

@@ -98,22 +98,50 @@ void note_extrapolations(const DynamicJob& job, const std::vector<EquationRows>&
   preload.warnings.insert(preload.warnings.begin(), warnings.begin(), warnings.end());
 }
 
+namespace {
+
+/// Coefficients that stage 1 left open, of cables that pull.
+std::vector<std::string> open_coefficients(const ElasticFit& stage1) {
+  std::vector<std::string> open;
+  std::size_t k = 0;  // coefficients are the first parameters
+  for (const Cable& cable : stage1.transmission.cables)
+    for (const double coefficient : cable.coefficients) {
+      if (k == stage1.parameters.size()) break;
+      const Estimate& e = stage1.parameters[k++];
+      if (coefficient != 0 && !e.not_identifiable.empty()) open.push_back(e.name);
+    }
+  return open;
+}
+
+/// An offset that stage 1 does not separate from its curve is that of the chosen curve.
+void refuse_offsets(const ElasticFit& stage1, DynamicFit& fit) {
+  for (Estimate& e : fit.parameters) {
+    const Estimate* same = find_estimate(stage1.parameters, e.name);
+    if (!e.name.starts_with("offset") || same == nullptr || same->not_identifiable.empty())
+      continue;
+    Estimate refused;
+    refused.name = e.name;
+    refused.symbol = e.symbol;
+    refused.unit = e.unit;
+    refused.not_identifiable = "stage 1 does not separate it from its curve";
+    e = refused;
+    fit.verdicts[e.name] = "not identifiable";
+  }
+}
+
+}  // namespace
+
 void note_open_curves(const DynamicJob& job, DynamicPreload& preload) {
   if (job.rigid) return;
-  for (const ElasticFit* fit : job.elastic) {
-    std::vector<std::string> open;
-    std::size_t k = 0;  // coefficients are the first parameters
-    for (const Cable& cable : fit->transmission.cables)
-      for (const double coefficient : cable.coefficients) {
-        if (k == fit->parameters.size()) break;
-        const Estimate& e = fit->parameters[k++];
-        if (coefficient != 0 && !e.not_identifiable.empty()) open.push_back(e.name);
-      }
+  for (std::size_t m = 0; m < job.models.size() && m < job.elastic.size(); ++m) {
+    const std::vector<std::string> open = open_coefficients(*job.elastic[m]);
     if (open.empty()) continue;
+    for (DynamicFit& fit : preload.fits)
+      if (fit.model == job.models[m]) refuse_offsets(*job.elastic[m], fit);
     preload.warnings.push_back(
         fmt::format("{}: stage 1 does not determine {}: offsets depend on which of the equal "
                     "curves is used; let the cables go slack in a blocked log",
-                    fit->model, fmt::join(open, ", ")));
+                    job.models[m], fmt::join(open, ", ")));
   }
 }
 

@@ -9,7 +9,8 @@ namespace cablefit {
 void note_extrapolations(const DynamicJob& job, const std::vector<EquationRows>& equations,
                          const ElasticResult& elastic, DynamicPreload& preload);
 
-/// Warns of a stage 1 that left coefficients of taut cables open: its curve is one of several.
+/// Warns of a stage 1 that left coefficients of taut cables open: its curve is one of several, and
+/// offsets that it does not separate from the curve are refused.
 void note_open_curves(const DynamicJob& job, DynamicPreload& preload);
 
 /// Warns when the motor's dry friction differs from that of stage 1.

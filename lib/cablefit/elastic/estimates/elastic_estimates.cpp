@@ -237,7 +237,7 @@ ElasticFit make_fit(const ElasticJob& job, const ElasticCandidate& candidate,
     Estimate e = estimate_of({name, name, unit, "", candidate.lower[k]}, axes, s, index,
                              {job.options.robust_sd});
     const bool is_nuisance = k >= candidate.n_elastic;
-    if (!is_nuisance &&
+    if ((!is_nuisance || without_index(name) == "offset") &&
         (is_held_by_bounds(e, s.degrees_of_freedom) || is_open_at_bound(candidate, s, e, k)))
       refuse_value(e);
     const int joint = is_nuisance ? joint_of(name) : 0;
@@ -256,7 +256,7 @@ ElasticFit make_fit(const ElasticJob& job, const ElasticCandidate& candidate,
       e.active_bound = hold_text(candidate, k);
     if (is_nuisance && without_index(e.name) == "theta_0")
       fit.transmission.theta_0(joint) = e.value;
-    if (e.name == "offset") fit.offset = e.value;
+    if (e.name == "offset") fit.offset = s.x(index);  // of the curve, where it has no value itself
     fit.parameters.push_back(std::move(e));
   }
   fit.derived = derived_of(job, s, rows, fit);
