@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cablefit/dynamic/estimates/estimates.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
 
 namespace cablefit {
@@ -70,6 +71,31 @@ bool is_far_beyond(const DynamicJob& job, const std::vector<EquationRows>& equat
   return false;
 }
 
+/// Coefficients that stage 1 left open, of cables that pull.
+std::vector<std::string> open_coefficients(const ElasticFit& stage1) {
+  std::vector<std::string> open;
+  std::size_t k = 0;  // coefficients are the first parameters
+  for (const Cable& cable : stage1.transmission.cables)
+    for (const double coefficient : cable.coefficients) {
+      if (k == stage1.parameters.size()) break;
+      const Estimate& e = stage1.parameters[k++];
+      if (coefficient != 0 && !e.not_identifiable.empty()) open.push_back(e.name);
+    }
+  return open;
+}
+
+/// An offset that stage 1 does not separate from its curve is that of the chosen curve.
+void refuse_offsets(const ElasticFit& stage1, DynamicFit& fit) {
+  for (Estimate& e : fit.parameters) {
+    const Estimate* same = find_estimate(stage1.parameters, e.name);
+    if (!e.name.starts_with("offset") || same == nullptr || same->not_identifiable.empty())
+      continue;
+    refuse(e, "stage 1 does not separate it from its curve");
+    fit.verdicts[e.name] = "not identifiable";
+    fit.covariance = {};
+  }
+}
+
 /// The equation of a fit that explains least, among those that explain little; nullptr: none does.
 const JudgedEquation* worst_equation(const DynamicPreload& preload, const std::string& model) {
   const JudgedEquation* worst = nullptr;
@@ -97,39 +123,6 @@ void note_extrapolations(const DynamicJob& job, const std::vector<EquationRows>&
   }
   preload.warnings.insert(preload.warnings.begin(), warnings.begin(), warnings.end());
 }
-
-namespace {
-
-/// Coefficients that stage 1 left open, of cables that pull.
-std::vector<std::string> open_coefficients(const ElasticFit& stage1) {
-  std::vector<std::string> open;
-  std::size_t k = 0;  // coefficients are the first parameters
-  for (const Cable& cable : stage1.transmission.cables)
-    for (const double coefficient : cable.coefficients) {
-      if (k == stage1.parameters.size()) break;
-      const Estimate& e = stage1.parameters[k++];
-      if (coefficient != 0 && !e.not_identifiable.empty()) open.push_back(e.name);
-    }
-  return open;
-}
-
-/// An offset that stage 1 does not separate from its curve is that of the chosen curve.
-void refuse_offsets(const ElasticFit& stage1, DynamicFit& fit) {
-  for (Estimate& e : fit.parameters) {
-    const Estimate* same = find_estimate(stage1.parameters, e.name);
-    if (!e.name.starts_with("offset") || same == nullptr || same->not_identifiable.empty())
-      continue;
-    Estimate refused;
-    refused.name = e.name;
-    refused.symbol = e.symbol;
-    refused.unit = e.unit;
-    refused.not_identifiable = "stage 1 does not separate it from its curve";
-    e = refused;
-    fit.verdicts[e.name] = "not identifiable";
-  }
-}
-
-}  // namespace
 
 void note_open_curves(const DynamicJob& job, DynamicPreload& preload) {
   if (job.rigid) return;
