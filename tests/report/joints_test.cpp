@@ -108,9 +108,10 @@ TEST_CASE("a curve of coefficients that are not identifiable is read back whole"
   CHECK(estimate(preload.fits.at(1).parameters, "offset[1]").not_identifiable ==
         "stage 1 does not separate it from its curve");
   CHECK(estimate(preload.fits.at(1).parameters, "offset[2]").not_identifiable.empty());
-  CHECK(std::any_of(preload.warnings.begin(), preload.warnings.end(), [](const std::string& text) {
-    return text.starts_with("poly: stage 1 does not determine ");
-  }));
+  CHECK(
+      std::any_of(preload.warnings.begin(), preload.warnings.end(), [](const std::string& warning) {
+        return warning.starts_with("poly: stage 1 does not determine ");
+      }));
   const std::string dynamic = dynamic_json(moving);
   CHECK(dynamic == dynamic_json(fit_dynamic(two.bench.logs(), elastic, both_models())));
   CHECK(schema_errors("dynamic", dynamic) == "");
