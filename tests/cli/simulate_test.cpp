@@ -62,9 +62,10 @@ TEST_CASE("what simulate refuses") {
   check_refused("cablefit simulate model.json short.csv --trajectories rows.csv", 3,
                 "short.csv:1: missing column 'theta', needed for the initial state of a "
                 "simulation; add it, or map it in a rig file; columns are t, q");
-  check_refused("cablefit simulate model.json blocked.csv --mode closed-loop", 3,
-                "blocked.csv: no reference 'theta_ref' in the log; a closed loop needs both; or "
-                "replay the torque");
+  check_refused(
+      "cablefit simulate model.json blocked.csv --mode closed-loop", 3,
+      "blocked.csv: no reference 'theta_ref' in the log; a closed loop needs a controller in "
+      "the rig file and its reference in the log; or replay the torque");
 }
 
 TEST_CASE("no file of a simulation takes the place of another") {

@@ -61,8 +61,25 @@ TEST_CASE("the controller's own reference comes before a column theta_ref", "[sa
   };
   CHECK(column("t,theta,tau,theta_ref,command") == 4);
   CHECK(column("t,theta,tau,theta_ref,other") == -1);
+  rig.controller->reference = "command [deg]";
+  CHECK(column("t,theta,tau,theta_ref,command [deg]") == 4);
+  CHECK(column("t,theta,tau,theta_ref,command [rad]") == -1);
   rig.columns["theta_ref"].column = "theta_ref";
   CHECK(column("t,theta,tau,theta_ref,command") == 3);
+}
+
+TEST_CASE("every joint has a reference of its own", "[samples]") {
+  Rig rig = default_rig();
+  rig.joints = {"a", "b"};
+  rig.controller.emplace();
+  rig.controller->reference = "command [deg]";
+  CHECK(reference_name(rig, 1) == "command2 [deg]");
+  const auto missing = [&](const std::string& header) {
+    return missing_reference(Logs().plan(header + "\n0,0,0,0,0,0,0\n", rig));
+  };
+  const std::string channels = "t,theta1,theta2,tau1,tau2,command1 [deg],";
+  CHECK(missing(channels + "command2 [deg]") == "");
+  CHECK(missing(channels + "command2") == "no reference 'command2 [deg]' in the log");
 }
 
 TEST_CASE("a rig file maps names, signs, scales, units and shifts", "[samples]") {

@@ -34,16 +34,44 @@ Told told(const std::string& set, const std::string& log, const std::string& mor
   return told;
 }
 
+std::string reversed(const std::string& channel) {
+  return fmt::format(R"("columns": {{"{0}": {{"column": "{0}", "scale": -1}}}}, )", channel);
+}
+
+TEST_CASE("a reversed torque of one of several moving joints is refused", "[samples]") {
+  for (const char* const set : {"finger", "pairs", "phalanges"}) {
+    CAPTURE(set);
+    CHECK(told(set, "moving.csv", "").error == "no error");
+    for (const char* const joint : {"1", "2"}) {
+      const std::string tau = std::string("tau") + joint, theta = std::string("theta") + joint;
+      const std::string error = told(set, "moving.csv", reversed(tau)).error;
+      CAPTURE(error);
+      CHECK(error.starts_with("moving.csv: " + tau + " falls as " + theta + " speeds up, and as " +
+                              theta + " grows while the links stay"));
+      CHECK(error.ends_with(
+          tau + " or " + theta + " is reversed; write \"" + tau + "\": {\"column\": \"" + tau +
+          "\", \"scale\": 1} in the rig file's columns, or the same of " + theta));
+    }
+  }
+}
+
+TEST_CASE("a reversed link of several moving joints is refused", "[samples]") {
+  for (const char* const set : {"finger", "pairs", "phalanges"})
+    for (const char* const q : {"q1", "q2"}) {
+      const std::string error = told(set, "moving.csv", reversed(q)).error;
+      CAPTURE(set, q, error);
+      CHECK(error.starts_with("moving.csv: " + std::string(q) + " is reversed: the "));
+      CHECK(error.find("write \"" + std::string(q) + "\": {") != std::string::npos);
+    }
+}
+
 TEST_CASE("a reversed torque or drive of a joint with blocked links is refused", "[samples]") {
   for (const char* const set : {"finger", "pairs", "phalanges"}) {
     CAPTURE(set);
     CHECK(told(set, "blocked.csv", "").error == "no error");
     for (const char* const channel : {"tau1", "tau2", "theta1", "theta2"}) {
       const std::string joint(1, std::string(channel).back());
-      const std::string error =
-          told(set, "blocked.csv",
-               fmt::format(R"("columns": {{"{0}": {{"column": "{0}", "scale": -1}}}}, )", channel))
-              .error;
+      const std::string error = told(set, "blocked.csv", reversed(channel)).error;
       CAPTURE(channel, error);
       CHECK(error.find("tau" + joint + " falls as theta" + joint +
                        " grows while the links are blocked") != std::string::npos);

@@ -90,7 +90,9 @@ TEST_CASE("else the torque is replayed, in windows", "[simulate]") {
   CHECK(decision(experiment, "torque hold") ==
         "zoh (default; use --torque-hold none for a measured current)");
   CHECK(no_reference.message(true_model("low"), in_mode(ReplayMode::closed_loop)) ==
-        "log.csv: no reference 'goal' in the log; a closed loop needs both; or replay the torque");
+        "log.csv: no reference 'goal' in the log; a closed loop needs a controller in the rig file "
+        "and "
+        "its reference in the log; or replay the torque");
 }
 
 TEST_CASE("options overrule", "[simulate]") {

@@ -133,7 +133,8 @@ void note_open_curves(const DynamicJob& job, DynamicPreload& preload) {
       if (fit.model == job.models[m]) refuse_offsets(*job.elastic[m], fit);
     preload.warnings.push_back(
         fmt::format("{}: stage 1 does not determine {}: offsets depend on which of the equal "
-                    "curves is used; let the cables go slack in a blocked log",
+                    "curves is used, and K_rest, f_0 and zeta are not given; let the cables go "
+                    "slack in a blocked log",
                     job.models[m], fmt::join(open, ", ")));
   }
 }

@@ -58,7 +58,9 @@ FitProof prove_by_runs(const std::vector<Estimate>& truth, const ProveOptions& o
     if (one.failure.empty()) continue;
     if (proof.n_failed++ == 0) proof.first_failure = one.failure;
   }
+  std::vector<std::string> undetermined;
   for (const Estimate& e : truth) {
+    if (!e.not_identifiable.empty()) undetermined.push_back(e.name);
     if (!e.not_identifiable.empty() || !(e.sd > 0)) continue;
     std::vector<Estimate> found;
     for (const ProofRun& one : runs) {
@@ -67,6 +69,9 @@ FitProof prove_by_runs(const std::vector<Estimate>& truth, const ProveOptions& o
     }
     proof.parameters.push_back(judge_runs(e, found));
   }
+  if (!undetermined.empty())
+    proof.notes.push_back(fmt::format("the fit does not determine {}, so that is not tested",
+                                      fmt::join(undetermined, ", ")));
   proof.verdict = verdict_of(proof);
   return proof;
 }

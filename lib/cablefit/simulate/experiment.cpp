@@ -36,7 +36,9 @@ void choose_mode(const LogPlan& plan, const ReplayOptions& options, Experiment& 
   const std::string obstacle = no_closed_loop(plan);
   const bool given = options.mode != ReplayMode::automatic;
   if (options.mode == ReplayMode::closed_loop && !obstacle.empty()) {
-    throw input_error({plan.path}, obstacle, "a closed loop needs both; or replay the torque");
+    throw input_error({plan.path}, obstacle,
+                      "a closed loop needs a controller in the rig file and its reference in the "
+                      "log; or replay the torque");
   }
   experiment.simulation.closed_loop = options.mode != ReplayMode::torque && obstacle.empty();
   if (experiment.simulation.closed_loop) {
@@ -121,8 +123,7 @@ void require_channels(const Model& model, const LogPlan& plan, const PartSurvey&
 std::string no_closed_loop(const LogPlan& plan) {
   if (plan.rig.open_loop) return "the rig file says that the torque is a command";
   if (!plan.rig.controller) return "no controller in the rig file";
-  if (plan.has_for_all(Channel::theta_ref)) return "";
-  return fmt::format("no reference '{}' in the log", plan.rig.controller->reference);
+  return missing_reference(plan);
 }
 
 bool is_of_model(const Model& model, const PartSurvey& part) {

@@ -32,12 +32,7 @@ constexpr Eigen::Index kMinRows = 8;  // of a stretch, as of a part
 std::string no_known_loop(const LogPlan& plan) {
   if (plan.rig.open_loop) return "some logs in open loop, others not";
   if (!plan.rig.controller) return "no controller in the rig file";
-  const int n_joints = plan.rig.n_joints();
-  for (int joint = 0; joint < n_joints; ++joint)
-    if (!plan.has(Channel::theta_ref, joint))
-      return fmt::format("no reference '{}'{} in the log", plan.rig.controller->reference,
-                         n_joints > 1 ? fmt::format(" of joint {}", joint + 1) : "");
-  return "";
+  return missing_reference(plan);
 }
 
 /// Follows its reference within the bandwidth, whatever inertia swings along; damped for the motor

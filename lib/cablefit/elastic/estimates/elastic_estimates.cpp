@@ -73,16 +73,27 @@ Estimate zero_of_line(const LinearSolution& s, Eigen::Index k, Eigen::Index cons
   return e;
 }
 
-/// Coefficients of one cable are always strongly correlated: one warning, not one per pair.
-std::vector<std::string> worth_saying(const std::vector<std::string>& warnings,
-                                      const ElasticCandidate& candidate) {
+bool is_named(const std::string& warning, const std::string& parameter) {
+  return warning.find(parameter + ' ') != std::string::npos;
+}
+
+/// Coefficients of one cable are always strongly correlated: one warning, not one per pair. That a
+/// parameter is correlated says nothing of one that is refused.
+std::vector<std::string> worth_saying(std::vector<std::string> warnings,
+                                      const ElasticCandidate& candidate,
+                                      const std::vector<std::string>& refused) {
+  std::erase_if(warnings, [&](const std::string& warning) {
+    return warning.find("strongly correlated") != std::string::npos &&
+           std::any_of(refused.begin(), refused.end(),
+                       [&](const std::string& name) { return is_named(warning, name); });
+  });
   std::vector<std::string> kept;
   if (candidate.model == "linear") return warnings;
   std::size_t between_coefficients = 0;
   for (const std::string& warning : warnings) {
     std::size_t elastic = 0;
     for (std::size_t k = 0; k < candidate.n_elastic; ++k)
-      elastic += warning.find(fmt::format("{} ", candidate.names[k])) != std::string::npos;
+      elastic += is_named(warning, candidate.names[k]) ? 1 : 0;
     if (elastic >= 2) {
       ++between_coefficients;
     } else {
@@ -179,6 +190,14 @@ bool is_open_at_bound(const ElasticCandidate& candidate, const LinearSolution& s
   return e.ci_high - e.ci_low > kFarBeyond * largest;
 }
 
+/// Of the first `n` parameters.
+std::vector<std::string> refused_names(const ElasticFit& fit, std::size_t n) {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < std::min(n, fit.parameters.size()); ++k)
+    if (!fit.parameters[k].not_identifiable.empty()) names.push_back(fit.parameters[k].name);
+  return names;
+}
+
 /// Of many curves that fit the logs equally, the constraint chose one.
 void refuse_value(Estimate& e) {
   Estimate refused;
@@ -227,7 +246,6 @@ ElasticFit make_fit(const ElasticJob& job, const ElasticCandidate& candidate,
   fit.offset = rows.offset.value_or(0);
   fit.transmission = fitted_transmission(candidate, s.x);
   fit.covariance = (job.options.robust_sd ? s.covariance : s.covariance_white).topLeftCorner(n, n);
-  fit.warnings = worth_saying(s.warnings, candidate);
   for (std::size_t k = 0; k < candidate.names.size(); ++k) {
     const std::string& name = candidate.names[k];
     if (is_speed(candidate, k)) continue;  // a sweep this slow only keeps it out of f_sm
@@ -259,6 +277,11 @@ ElasticFit make_fit(const ElasticJob& job, const ElasticCandidate& candidate,
     if (e.name == "offset") fit.offset = s.x(index);  // of the curve, where it has no value itself
     fit.parameters.push_back(std::move(e));
   }
+  fit.warnings = worth_saying(s.warnings, candidate, refused_names(fit, fit.parameters.size()));
+  if (!fit.transmission.cables.empty() && !refused_names(fit, candidate.n_elastic).empty())
+    fit.warnings.emplace_back(
+        "K_rest and slack points are not given: they follow from coefficients that these logs do "
+        "not determine");
   fit.derived = derived_of(job, s, rows, fit);
   if (!s.active_constraints.empty()) note_active_bounds(job, candidate, s, rows, fit);
   return fit;

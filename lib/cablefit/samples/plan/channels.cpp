@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cablefit/base/quote.hpp"
+#include "cablefit/log/column_header.hpp"
 #include "cablefit/samples/plan/plan_parts.hpp"
 
 namespace cablefit {
@@ -34,14 +35,6 @@ constexpr std::array<ChannelInfo, 6> kInfo = {{
 const ChannelInfo& info_of(Channel channel) {
   return *std::find_if(kInfo.begin(), kInfo.end(),
                        [&](const ChannelInfo& row) { return row.channel == channel; });
-}
-
-// The controller names the column of its reference itself; on a rig of several joints the joint's
-// number follows the name. A log need not have it.
-std::optional<std::size_t> reference_column(const LogHeader& header, const Rig& rig, int joint) {
-  if (!rig.controller) return std::nullopt;
-  const std::string& name = rig.controller->reference;
-  return find_column(header, rig.n_joints() == 1 ? name : fmt::format("{}{}", name, joint + 1));
 }
 
 /// Whether the controller names another column than theta_ref, and the rig file's columns do not.
@@ -91,7 +84,7 @@ void resolve_channel(LogPlan& plan, const ChannelInfo& info, int joint) {
   std::vector<std::string> names = {fmt::format("{}{}", info.name, joint + 1)};
   if (rig.n_joints() == 1) names.insert(names.begin(), std::string(info.name));
   if (info.channel == Channel::theta_ref && names_own_reference(rig, names)) {
-    if (const auto column = reference_column(plan.header, rig, joint))
+    if (const auto column = find_column(plan.header, reference_name(rig, joint)))
       plan.slots.push_back(make_slot(plan, info, joint, *column, names.back()));
     return;  // a column theta_ref is not the one that the controller follows
   }
@@ -191,6 +184,21 @@ LogPlan plan_columns(LogHeader header, const Rig& rig, const Reading& reading) {
             "rename columns or map them in a rig file ('cablefit init' writes one); columns are {}",
             names_of(plan.header)));
   return plan;
+}
+
+std::string reference_name(const Rig& rig, int joint) {
+  const std::string& name = rig.controller->reference;
+  if (rig.n_joints() == 1) return name;
+  const ColumnHeader cell = to_column_header(name, {});
+  return fmt::format("{}{}{}", cell.name, joint + 1,
+                     cell.unit.empty() ? "" : fmt::format(" [{}]", cell.unit));
+}
+
+std::string missing_reference(const LogPlan& plan) {
+  if (!plan.rig.controller || plan.has_for_all(Channel::theta_ref)) return "";
+  return fmt::format(
+      "no reference {} in the log",
+      cablefit::quoted(reference_name(plan.rig, first_without(plan, Channel::theta_ref, false))));
 }
 
 double LogPlan::time_origin(double first) const {

@@ -109,6 +109,14 @@ void require_channel(const LogPlan& plan, Channel channel, std::string_view why,
 void require_measured(const LogPlan& plan, Channel channel, std::string_view why,
                       std::string_view hint = "add it, or map it in a rig file");
 
+/// The column that a joint's controller reads its reference from, as the rig file and the joint's
+/// number name it: "cmd2", with its unit "cmd2 [deg]". The rig has a controller.
+std::string reference_name(const Rig& rig, int joint);
+
+/// "no reference 'cmd2' in the log", of the first joint without one; empty: every joint has one, or
+/// the rig has no controller.
+std::string missing_reference(const LogPlan& plan);
+
 /// For code that supports one joint only. Throws Error(input) for a rig with more. `what` names the
 /// unsupported part: "'--zero theta_0' supports one joint".
 void require_one_joint(const LogPlan& plan, std::string_view what = "fits support one joint");

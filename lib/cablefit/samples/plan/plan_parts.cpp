@@ -9,6 +9,7 @@
 
 #include "cablefit/base/catalog.hpp"
 #include "cablefit/base/quote.hpp"
+#include "cablefit/log/column_header.hpp"
 #include "cablefit/samples/plan/unit_suffix.hpp"
 
 namespace cablefit::plan_parts {
@@ -65,9 +66,17 @@ void require_one_unit(LogPlan& plan, const ColumnHeader& cell, const ColumnMappi
 }  // namespace
 
 std::optional<std::size_t> find_column(const LogHeader& header, std::string_view name) {
-  for (std::size_t k = 0; k < header.columns.size(); ++k)
-    if (header.columns[k].name == name) return k;
-  return std::nullopt;
+  const auto place_of = [&](auto is_it) -> std::optional<std::size_t> {
+    const auto found = std::find_if(header.columns.begin(), header.columns.end(), is_it);
+    if (found == header.columns.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - header.columns.begin());
+  };
+  if (const auto place = place_of([&](const ColumnHeader& c) { return c.name == name; }))
+    return place;
+  const ColumnHeader cell = to_column_header(name, {});
+  if (cell.unit.empty()) return std::nullopt;
+  return place_of(
+      [&](const ColumnHeader& c) { return c.name == cell.name && c.unit == cell.unit; });
 }
 
 std::uint64_t header_line(const LogHeader& header) {

@@ -18,7 +18,7 @@ inline bool is_torque(const Dimension& dimension) {
   return dimension == kTorque || dimension == kForce;
 }
 
-/// The column of this name.
+/// The column of this name, which may come with its unit, as the header has it: "theta [deg]".
 std::optional<std::size_t> find_column(const LogHeader& header, std::string_view name);
 
 /// The first names of a log's columns, for messages.

@@ -1,17 +1,16 @@
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <cmath>
 #include <map>
 
 #include "cablefit/samples/weigh/checks.hpp"
+#include "cablefit/samples/weigh/clear_slopes.hpp"
 
 namespace cablefit::weighing {
 namespace {
 
 constexpr double kRounding = 1e-9;   // of theta: a smaller range is no motion
 constexpr double kClearSlope = 0.7;  // correlation of torque and deflection
-constexpr double kClearSd = 10;      // of a slope beside others: friction is no white noise
 constexpr double kOtherUnit =
     5;  // ratio of the slopes of two logs; a cable that softens stays below
 
@@ -30,27 +29,14 @@ bool has_dead_q(const PartSurvey& survey, const CoarsePart::Joint& joint, const 
 double own_slope(const CoarsePart& part, std::size_t joint) {
   const Eigen::ArrayXd& tau = part.joints[joint].tau;
   const auto n = static_cast<Eigen::Index>(part.joints.size());
-  Eigen::MatrixXd columns(tau.size(), n + 1);
-  columns.col(n).setOnes();
+  Eigen::MatrixXd columns(tau.size(), n);
   for (Eigen::Index k = 0; k < n; ++k) {
     const Eigen::ArrayXd& theta = part.joints[static_cast<std::size_t>(k)].theta;
-    const double middle = theta.size() > 0 ? theta.abs().maxCoeff() : 0;
-    if (theta.size() != tau.size() || coarse_range(theta) <= kRounding * middle) return 0;
-    columns.col(k) = theta - theta.mean();
+    if (theta.size() != tau.size()) return 0;
+    columns.col(k) = theta;
   }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
-  if (tau.size() <= n + 1 || qr.rank() <= n) return 0;
-  const Eigen::VectorXd x = qr.solve(tau.matrix());
-  const double left = (tau.matrix() - columns * x).squaredNorm();
-  const double all = (tau - tau.mean()).square().sum();
-  if (left > (1 - kClearSlope * kClearSlope) * all) return 0;
-  const Eigen::MatrixXd upper = qr.matrixR().topRows(n + 1).triangularView<Eigen::Upper>();
-  const Eigen::MatrixXd root = qr.colsPermutation() * upper.triangularView<Eigen::Upper>().solve(
-                                                          Eigen::MatrixXd::Identity(n + 1, n + 1));
-  const auto own = static_cast<Eigen::Index>(joint);
-  const double variance =
-      left / static_cast<double>(tau.size() - n - 1) * root.row(own).squaredNorm();
-  return std::abs(x(own)) > kClearSd * std::sqrt(variance) ? x(own) : 0;
+  const Eigen::VectorXd slopes = clear_slopes(columns, tau);
+  return slopes.size() == 0 ? 0 : slopes(static_cast<Eigen::Index>(joint));
 }
 
 /// Joints whose torque falls as their own drive winds up.

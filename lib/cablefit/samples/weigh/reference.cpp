@@ -35,11 +35,10 @@ Finding odd_reference(const LogPlan& plan, const CoarsePart& part, int joint,
 }
 
 /// The controller's own reference is not in the log, and a column theta_ref is.
-std::optional<Finding> missing_reference(const LogPlan& plan, std::size_t log) {
+std::optional<Finding> other_reference(const LogPlan& plan, std::size_t log) {
   if (!plan.rig.controller) return {};
   const std::string& name = plan.rig.controller->reference;
   const std::string usual = Controller{}.reference;
-  const std::string number = plan.rig.n_joints() == 1 ? "" : "1";
   const std::vector<ColumnHeader>& columns = plan.header.columns;
   const bool has_usual =
       std::any_of(columns.begin(), columns.end(), [&](const ColumnHeader& column) {
@@ -51,7 +50,7 @@ std::optional<Finding> missing_reference(const LogPlan& plan, std::size_t log) {
                  false,
                  fmt::format("the controller's reference {} is not a column of the log, and {} is "
                              "not used",
-                             quoted(name + number), usual),
+                             quoted(reference_name(plan.rig, 0)), usual),
                  fmt::format("write the column's name as \"reference\", or \"{}\"", usual)};
 }
 
@@ -62,7 +61,7 @@ Findings reference(const Logs& logs) {
   for (const CoarsePart& part : logs.parts) {
     if (logs.survey(part).phase != Phase::moving) continue;
     const LogPlan& plan = logs.plan(part);
-    if (const auto missing = missing_reference(plan, part.log)) findings.push_back(*missing);
+    if (const auto other = other_reference(plan, part.log)) findings.push_back(*other);
     for (int j = 0; j < plan.rig.n_joints(); ++j) {
       const CoarsePart::Joint& joint = part.joints[static_cast<std::size_t>(j)];
       if (joint.theta.size() == 0 || joint.theta_ref.size() == 0) continue;

@@ -19,13 +19,14 @@ struct WeighingRow {
 };
 
 /// Causes before their consequences.
-constexpr std::array<WeighingRow, 14> kWeighings = {{{weighing::clock, true, true},
+constexpr std::array<WeighingRow, 15> kWeighings = {{{weighing::clock, true, true},
                                                      {weighing::spikes, true, true},
                                                      {weighing::jumps, true, true},
                                                      {weighing::swapped_joints, false, true},
                                                      {weighing::positions, false, true},
                                                      {weighing::velocity, false, false},
                                                      {weighing::reference, false, false},
+                                                     {weighing::motor_slopes, false, true},
                                                      {weighing::work, false, true},
                                                      {weighing::deflection, false, true},
                                                      {weighing::blocked_slope, false, true},
