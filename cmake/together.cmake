@@ -22,19 +22,18 @@ function(cablefit_together target folder)
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
-foreach(folder design design/excitation dynamic dynamic/checks dynamic/estimators dynamic/loops
-        dynamic/output_error dynamic/rows elastic elastic/figures elastic/models estimate/fit
-        estimate/solve estimate/spread estimate/tests identify identify/elongations identify/equations
-        identify/results model predict refine refine/bases refine/null refine/rig_errors refine/rows
-        refine/search refine/steps
-        refine/verdict report/documents report/sections report/writers samples/rows samples/survey
-        samples/weigh simulate)
+foreach(folder design design/excitation dynamic/checks dynamic/estimators dynamic/rows elastic
+        elastic/figures elastic/models identify/elongations refine/verdict report/documents
+        report/sections samples/weigh)
   cablefit_together(cablefit lib/cablefit/${folder})
 endforeach()
 foreach(folder base base/files campaign campaign/cells campaign/plan copies design/curves design/loads
-        dynamic/estimates elastic/bases elastic/checks elastic/estimates elastic/rows elastic/zeros log/json
-        model/effects model/file model/rig prove refine/figures report/page report/parts results
-        results/read samples samples/plan)
+        dynamic dynamic/estimates dynamic/loops dynamic/output_error elastic/bases elastic/checks
+        elastic/estimates elastic/rows elastic/zeros estimate/fit estimate/solve estimate/spread
+        estimate/tests identify identify/equations identify/results log/json model model/effects
+        model/file model/rig predict prove refine refine/bases refine/figures refine/null
+        refine/rig_errors refine/rows refine/search refine/steps report/page report/parts report/writers
+        results results/read samples samples/plan samples/rows samples/survey simulate)
   cablefit_together(cablefit lib/cablefit/${folder} LETTERS a-z)
 endforeach()
 # Rows of one table have functions of the same names.

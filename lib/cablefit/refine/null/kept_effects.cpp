@@ -22,10 +22,10 @@ double value_at(const EffectInstance& instance, std::size_t parameter) {
 
 /// Whether the row takes all of the dry friction of its axis.
 bool takes_all_dry(const EffectInstance& instance, const Model& model) {
-  constexpr double kAll = 1 - 1e-9;  // they are two numbers of a file
+  constexpr double kWhole = 1 - 1e-9;  // they are two numbers of a file
   const BaseLayout layout = base_layout(model);
   const Eigen::Index dry = instance.effect->site == Site::link ? layout.dry_link : layout.dry_motor;
-  return dry >= 0 && value_at(instance, 0) >= kAll * base_values(layout, model)(dry);
+  return dry >= 0 && value_at(instance, 0) >= kWhole * base_values(layout, model)(dry);
 }
 
 bool is_plain(const EffectInstance& instance, const Model& model) {

@@ -29,9 +29,10 @@ void ChannelScan::look_at_differences(const Values& x) {
   const Eigen::Index n = n_known_ + x.size();
   if (recent_.size() < n) recent_.conservativeResize(n);
   recent_.segment(n_known_, x.size()) = x;
+  double quantum = quantum_, sum_d6 = sum_d6_;  // copies stay in registers
   for (Eigen::Index i = std::max<Eigen::Index>(1, n_known_); i < n; ++i) {
     const double step = std::abs(recent_(i) - recent_(i - 1));
-    if (step < quantum_ && step > 0) quantum_ = step;
+    if (step < quantum && step > 0) quantum = step;
   }
   const Eigen::Index m = n - kOrder;
   // One after the other: how many values come at a time is as the reader of a file has them, and
@@ -39,8 +40,10 @@ void ChannelScan::look_at_differences(const Values& x) {
   for (Eigen::Index i = 0; i < m; ++i) {
     const double* const x6 = recent_.data() + i;
     const double d6 = x6[0] + x6[6] - 6 * (x6[1] + x6[5]) + 15 * (x6[2] + x6[4]) - 20 * x6[3];
-    sum_d6_ += d6 * d6;
+    sum_d6 += d6 * d6;
   }
+  quantum_ = quantum;
+  sum_d6_ = sum_d6;
   n_d6_ += std::max<Eigen::Index>(0, m);
   n_known_ = std::min(n, kOrder);
   std::copy_n(recent_.data() + n - n_known_, n_known_, recent_.data());

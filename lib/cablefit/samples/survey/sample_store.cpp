@@ -31,7 +31,9 @@ bool is_written(const Head& head, Eigen::Index k) { return std::isnan(entry(head
 
 /// Row i at (first + i)/rate: the nearest number to what a log prints that counts its rows.
 Eigen::ArrayXd times(double rate, double first, Eigen::Index n) {
-  return (first + Eigen::ArrayXd::LinSpaced(n, 0, static_cast<double>(n - 1))) / rate;
+  Eigen::ArrayXd t(n);
+  for (int i = 0; i < static_cast<int>(n); ++i) t(i) = (first + i) / rate;
+  return t;
 }
 
 bool are_same(const Column& a, const Column& b) {
