@@ -63,6 +63,27 @@ TEST_CASE("a sweep in one direction does not give f_sm and says so", "[elastic]"
   check_recovered(four.find("poly")->parameters, truth, 3);
 }
 
+TEST_CASE("what follows from coefficients that are not determined is said to be left out",
+          "[elastic]") {
+  // Both cables stay taut: only the sum of their stiffnesses shows.
+  Bench bench;
+  bench.rig.cables_given = true;
+  for (Cable& cable : bench.rig.transmission.cables) {
+    cable.order = 1;
+    cable.initial_elongation = 0.2;
+  }
+  bench.add(sweep_log([](double phi) { return 3000 * phi; }, 2.778, 0.3, 6, 4100));
+  const ElasticPreload one = fit_elastic(bench.logs(), {}).preloads.at(0);
+  const ElasticFit& poly = one.fits.back();
+  CAPTURE(poly.warnings);
+  CHECK_FALSE(poly.parameters.front().not_identifiable.empty());
+  CHECK(poly.derived.empty());
+  CHECK(warns(poly.warnings,
+              "K_rest and slack points are not given: they follow from coefficients "
+              "that these logs do not determine"));
+  CHECK_FALSE(warns(poly.warnings, "strongly correlated"));
+}
+
 TEST_CASE("a log of plateaus still gives the stiffness", "[elastic]") {
   const truth::Rig rig = truth::Rig::low();
   const ElasticPreload found = fit(blocked(rig, 4110, true));

@@ -38,3 +38,23 @@ TEST_CASE("a parameter that most runs do not determine is reported", "[prove]") 
   CHECK(proof.verdict ==
         "the 95 % intervals contain the true values; most runs do not determine K");
 }
+
+TEST_CASE("what the fit does not determine is not tested, and the proof says so", "[prove]") {
+  Estimate open;
+  open.name = "K1_0";
+  open.not_identifiable = "is not separable";
+  Estimate stiffness;
+  stiffness.name = "K";
+  stiffness.value = stiffness.ci_low = stiffness.ci_high = 2000;
+  stiffness.sd = 10;
+  ProveOptions options;
+  options.n_runs = 3;
+  const auto proof_of = [&](const std::vector<Estimate>& truth) {
+    return prove_by_runs(truth, options, {}, [&](std::uint64_t) { return ProofRun{truth, ""}; });
+  };
+  const FitProof some = proof_of({open, stiffness});
+  CHECK(some.parameters.size() == 1);
+  CHECK(some.notes == std::vector<std::string>{"not tested: K1_0 (not determined by the fit)"});
+  CHECK(some.verdict == "the 95 % intervals contain the true values");
+  CHECK(proof_of({open}).verdict == "not proved: the fit determines no parameter");
+}

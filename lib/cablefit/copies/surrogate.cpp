@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "cablefit/copies/fast_motion.hpp"
 #include "cablefit/model/joint_inertias.hpp"
@@ -12,23 +11,12 @@
 namespace cablefit {
 namespace {
 
-constexpr double kBandwidth = 5;      // Hz: slower than most joint controllers, so that little of a
-                                      // disturbance comes back that did not before
-constexpr double kLargestGain = 0.3;  // kd period / J_motor; a sampled loop is unstable at 2
+constexpr double kBandwidth = 5;  // Hz: slower than most joint controllers, so that little of a
+                                  // disturbance comes back that did not before
 // Of a torque that is not held: commands in a row of the log, an even number, at least this often.
 constexpr int kLeastCommands = 4;
 constexpr double kCommandPeriod = 1e-3;  // s
 constexpr double kSame = 0.95;           // of a row: a command that is held about as long as it
-
-/// A PD controller of kBandwidth, as damped as the motor's inertia allows.
-Controller surrogate(const JointInertias& inertias, double period) {
-  const double omega = 2 * std::numbers::pi * kBandwidth;
-  Controller controller;
-  controller.kd = std::min(2 * inertias.all * omega, kLargestGain * inertias.motor / period);
-  controller.kp = controller.kd * omega / 2;
-  controller.period = period;
-  return controller;
-}
 
 /// theta_ref with which the controller's torque at theta is exactly tau: theta + e, where
 /// kp e_i + kd (e_i - e_(i-1)) / period = tau_i.
@@ -84,9 +72,10 @@ void follow_measured(const Model& model, const LogPlan& plan, const CopyDrive& d
   stretch.fine = commands_per_row(stretch.period, drive.torque_held && !is_held_shorter);
   stretch.late = is_held_shorter ? 0.5 * drive.torque_period : 0;
   const double period = stretch.input.period = stretch.period / stretch.fine;
-  const Controller controller = controller_by_inertias(
-      model, stretch.link_blocked,
-      [period](const JointInertias& inertias) { return surrogate(inertias, period); });
+  const Controller controller =
+      controller_by_inertias(model, stretch.link_blocked, [period](const JointInertias& inertias) {
+        return pd_controller(inertias, kBandwidth, 1, period);
+      });
   const int n_joints = plan.rig.n_joints();
   stretch.input.theta_ref.resize((stretch.measured.rows() - 1) * stretch.fine + 1, n_joints);
   for (int joint = 0; joint < n_joints; ++joint) {

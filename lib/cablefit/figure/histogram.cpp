@@ -1,13 +1,14 @@
 #include "cablefit/figure/histogram.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace cablefit {
 namespace {
 
 constexpr std::size_t kBins = 80;
 constexpr double kWidth = 2 * kHistogramReach / static_cast<double>(kBins);
-constexpr double kPi = 3.14159265358979323846;
+using std::numbers::pi;
 
 }  // namespace
 
@@ -40,7 +41,7 @@ void Histogram::draw_normal(Trace& trace) {
   for (std::size_t k = 0; k <= kBins; ++k) {
     const double z = -kHistogramReach + static_cast<double>(k) * kWidth;
     trace.x.push_back(z);
-    trace.y.push_back(std::exp(-z * z / 2) / std::sqrt(2 * kPi));
+    trace.y.push_back(std::exp(-z * z / 2) / std::sqrt(2 * pi));
   }
 }
 

@@ -16,7 +16,6 @@
 namespace cablefit {
 namespace {
 
-constexpr double kWideBand = 0.15;  // of the rate: the widest band the differences allow
 constexpr std::size_t kMinRows = 10;
 
 PartFilter moving_parts(const std::string& preload) {
@@ -134,8 +133,7 @@ JointRecord first_moving_record(std::span<const LogSurvey> logs, const IdentifyO
   dynamic.samples = options.samples;
   DynamicJob job{logs, dynamic, facts.name, moving_parts(facts.name), {}, {}, false, {}, {}};
   require_motion(job);
-  SampleOptions wide = options.samples;
-  if (!wide.cutoff) wide.cutoff = kWideBand * sample_rates(logs, job.wanted).lowest;
+  const SampleOptions wide = with_wide_band(options.samples, sample_rates(logs, job.wanted).lowest);
   choose_joint_settings(job, wide, std::vector<double>(static_cast<std::size_t>(job.n_joints())));
   job.settings.rows.signal.torque_period = facts.rig.torque_period;
   job.settings.rows.signal.torque_held =

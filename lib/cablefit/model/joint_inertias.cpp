@@ -1,6 +1,7 @@
 #include "cablefit/model/joint_inertias.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 #include "cablefit/model/arm/arm_dynamics.hpp"
@@ -29,6 +30,18 @@ std::vector<JointInertias> joint_inertias(const Model& model, bool link_blocked)
     inertias.push_back({motor, motor + (link_blocked ? 0 : std::max(0.0, links[k]))});
   }
   return inertias;
+}
+
+Controller pd_controller(const JointInertias& inertias, double bandwidth, double damping,
+                         double period) {
+  constexpr double kLargestGain = 0.3;  // kd period / J_motor; a sampled loop is unstable at 2
+  const double omega = 2 * std::numbers::pi * bandwidth;
+  Controller controller;
+  controller.kd =
+      std::min(2 * damping * inertias.all * omega, kLargestGain * inertias.motor / period);
+  controller.kp = controller.kd * omega / (2 * damping);
+  controller.period = period;
+  return controller;
 }
 
 Controller controller_by_inertias(const Model& model, bool link_blocked,

@@ -19,6 +19,11 @@ struct JointInertias {
 /// Per joint. A link that is blocked, or whose fitted inertia is negative, adds none.
 std::vector<JointInertias> joint_inertias(const Model& model, bool link_blocked = false);
 
+/// A PD controller of a bandwidth in Hz and a damping ratio of all that the joint moves; where that
+/// asks too much of a motor alone at this period, s, as damped as its inertia allows.
+Controller pd_controller(const JointInertias& inertias, double bandwidth, double damping,
+                         double period);
+
 /// A controller of each joint, as `law` makes it from what that joint has to move. All have the
 /// same period and reference.
 Controller controller_by_inertias(const Model& model, bool link_blocked,

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include "cablefit/model/model_parameters.hpp"
+#include "cablefit/simulate/simulate_result.hpp"
 
 namespace cablefit {
 namespace {
-
-constexpr double kNormal975 = 1.959964;
 
 /// The model with the covariance of its elastic parameters alone: nothing else moves what is
 /// predicted here.

@@ -70,9 +70,10 @@ FitProof prove_by_runs(const std::vector<Estimate>& truth, const ProveOptions& o
     proof.parameters.push_back(judge_runs(e, found));
   }
   if (!undetermined.empty())
-    proof.notes.push_back(fmt::format("the fit does not determine {}, so that is not tested",
-                                      fmt::join(undetermined, ", ")));
-  proof.verdict = verdict_of(proof);
+    proof.notes.push_back(
+        fmt::format("not tested: {} (not determined by the fit)", fmt::join(undetermined, ", ")));
+  proof.verdict =
+      proof.parameters.empty() ? "not proved: the fit determines no parameter" : verdict_of(proof);
   return proof;
 }
 

@@ -4,18 +4,15 @@
 #include <cmath>
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/copies/fast_motion.hpp"
 #include "cablefit/copies/simulated_copy.hpp"
 #include "cablefit/elastic/rows/blocked_rows.hpp"
 #include "cablefit/prove/proof_runs.hpp"
 #include "cablefit/prove/residual_colour.hpp"
 #include "cablefit/samples/rows/agreement.hpp"
-#include "cablefit/samples/rows/butterworth.hpp"
 
 namespace cablefit {
 namespace {
-
-constexpr int kFilterOrder = 4;
-constexpr double kWidestBand = 0.4;  // of the rate, for the low-pass
 
 /// Torque of the fit on one joint besides the elastic one.
 struct Friction {
@@ -43,9 +40,7 @@ Eigen::ArrayXXd smooth(const CopyStretch& stretch, const LogPlan& plan, Channel 
   Eigen::MatrixXd columns(stretch.measured.rows(), plan.rig.n_joints());
   for (int joint = 0; joint < plan.rig.n_joints(); ++joint)
     columns.col(joint) = stretch.measured.col(plan.find(channel, joint));
-  if (cutoff > 0 && cutoff < kWidestBand / stretch.period)
-    Butterworth(kFilterOrder, cutoff, 1 / stretch.period).apply(columns, true, true);
-  return columns.array();
+  return cablefit::smooth(columns, stretch.period, cutoff).array();
 }
 
 // Of the speed below which stage 1 leaves rows out: slower ones rest. What is measured there is

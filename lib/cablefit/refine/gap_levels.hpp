@@ -14,4 +14,7 @@ inline constexpr double kVisibleGap = 1.1;
 /// Above this an effect remains that was not identified.
 inline constexpr double kRemainder = 1.2;
 
+/// Of the squared gap: a band or a regime with less of it is not told.
+inline constexpr double kToldShare = 0.1;
+
 }  // namespace cablefit

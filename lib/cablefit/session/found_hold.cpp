@@ -11,20 +11,18 @@
 namespace cablefit {
 namespace {
 
-constexpr double kSame = 1.01;  // clocks are never quite alike
-
 /// s, of logs of this phase; nothing where they differ.
 std::optional<double> row_of(std::span<const LogSurvey> logs, Phase phase) {
   const RateRange rates =
       sample_rates(logs, [phase](const PartSurvey& part) { return part.phase == phase; });
-  if (!(rates.highest > 0) || rates.highest > kSame * rates.lowest) return std::nullopt;
+  if (!(rates.highest > 0) || rates.highest > kSameRate * rates.lowest) return std::nullopt;
   return 1 / rates.highest;
 }
 
 /// s, of blocked logs where they are slower than the moving ones.
 std::optional<double> slow_blocked_row(const RefineLogs& logs, double moving) {
   const std::optional<double> row = row_of(logs.fitted(), Phase::blocked);
-  return row && *row > kSame * moving ? row : std::nullopt;
+  return row && *row > kSameRate * moving ? row : std::nullopt;
 }
 
 void set_hold(const FoundHold& hold, RefineLogs& logs, std::vector<Model>& models) {

@@ -37,8 +37,10 @@ void choose_mode(const LogPlan& plan, const ReplayOptions& options, Experiment& 
   const bool given = options.mode != ReplayMode::automatic;
   if (options.mode == ReplayMode::closed_loop && !obstacle.empty()) {
     throw input_error({plan.path}, obstacle,
-                      "a closed loop needs a controller in the rig file and its reference in the "
-                      "log; or replay the torque");
+                      plan.rig.open_loop
+                          ? "replay the torque"
+                          : "a closed loop needs a controller in the rig file and its reference in "
+                            "the log; or replay the torque");
   }
   experiment.simulation.closed_loop = options.mode != ReplayMode::torque && obstacle.empty();
   if (experiment.simulation.closed_loop) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "cablefit/base/error.hpp"
@@ -21,18 +20,6 @@ constexpr double kSettling = 2;   // s
 constexpr double kMargin = 0.99;  // of the limit that was broken, at the next try
 constexpr double kDamping = 0.7;
 constexpr double kSurrogateBandwidth = 15;  // Hz
-constexpr double kLargestGain = 0.3;        // kd period / J_motor; a sampled loop is unstable at 2
-
-/// A PD controller, damped for what swings along and stable with the motor alone.
-Controller surrogate(const JointInertias& inertias, double period) {
-  const auto [motor, all] = inertias;
-  const double omega = 2 * std::numbers::pi * kSurrogateBandwidth;
-  Controller c;
-  c.kd = std::min(2 * kDamping * all * omega, kLargestGain * motor / period);
-  c.kp = std::min(all * omega * omega, c.kd * omega / (2 * kDamping));
-  c.period = period;
-  return c;
-}
 
 /// "kp 1.2, kd 0.03", of several joints "kp 1.2, 0.7, kd 0.03, 0.02".
 std::string gains_text(const Controller& controller, std::size_t n_joints) {
@@ -123,9 +110,10 @@ Model excitable(const Model& model, double rate, std::string& words) {
     words = "the rig's controller";
     return moved;
   }
-  moved.rig.controller = controller_by_inertias(
-      model, false,
-      [rate](const JointInertias& inertias) { return surrogate(inertias, 1 / rate); });
+  moved.rig.controller =
+      controller_by_inertias(model, false, [rate](const JointInertias& inertias) {
+        return pd_controller(inertias, kSurrogateBandwidth, kDamping, 1 / rate);
+      });
   words = fmt::format("a surrogate controller ({}), as the rig has no controller",
                       gains_text(*moved.rig.controller, model.joints.size()));
   return moved;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -15,15 +16,14 @@
 namespace cablefit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr int kPreliminaryWindows = 8;
-constexpr double kWideBand = 0.15;  // of the rate: the widest band the differences allow
 
 // f0 of the elastic drive needs inertias, which are what is looked for. A first fit with a generous
 // band gives them; the CAD values are never used.
 double resonance(double stiffness, double j_link, double j_motor) {
   if (!(j_link > 0) || !(j_motor > 0) || !(stiffness > 0)) return 0;
-  return std::sqrt(stiffness * (1 / j_motor + 1 / j_link)) / (2 * kPi);
+  return std::sqrt(stiffness * (1 / j_motor + 1 / j_link)) / (2 * pi);
 }
 
 /// The stiffness at the middle of the torque range used, for f0: of one joint (from 0), the others
@@ -39,12 +39,6 @@ const ElasticPreload* stage1_of(const ElasticResult& elastic, const std::string&
   for (const ElasticPreload& stage1 : elastic.preloads)
     if (stage1.name == preload) return &stage1;
   return nullptr;
-}
-
-SampleOptions wide_band(const DynamicJob& job, double rate) {
-  SampleOptions wide = job.options.samples;
-  if (!wide.cutoff) wide.cutoff = kWideBand * rate;
-  return wide;
 }
 
 /// Free resonance of every joint by a preliminary fit with the job's settings; 0: it lies beyond
@@ -86,7 +80,7 @@ bool is_noise_limited(const DynamicJob& job) {
 /// that, a second look goes by it.
 std::vector<double> choose_by_resonances(DynamicJob& job, const ElasticResult& elastic) {
   const double rate = sample_rates(job.logs, job.wanted).lowest;
-  choose_joint_settings(job, wide_band(job, rate),
+  choose_joint_settings(job, with_wide_band(job.options.samples, rate),
                         std::vector<double>(static_cast<std::size_t>(job.n_joints())));
   std::vector<double> resonances = preliminary_resonances(job, elastic);
   choose_joint_settings(job, job.options.samples, resonances);

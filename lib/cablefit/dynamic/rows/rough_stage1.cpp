@@ -11,7 +11,6 @@ namespace cablefit {
 namespace {
 
 constexpr int kPreliminaryWindows = 8;
-constexpr double kWideBand = 0.15;  // of the rate: the widest band the differences allow
 
 ElasticFit blank_fit(const Rig& rig) {
   ElasticFit fit;
@@ -81,8 +80,8 @@ ElasticPreload ranges_of(const std::vector<const EquationRows*>& motors, const s
 ElasticResult rough_stage1(DynamicJob& job) {
   ElasticFit fit = blank_fit(job.rig());
   job.elastic = {&fit};
-  SampleOptions wide = job.options.samples;
-  if (!wide.cutoff) wide.cutoff = kWideBand * sample_rates(job.logs, job.wanted).lowest;
+  const SampleOptions wide =
+      with_wide_band(job.options.samples, sample_rates(job.logs, job.wanted).lowest);
   choose_joint_settings(job, wide, std::vector<double>(static_cast<std::size_t>(job.n_joints())));
   job.settings.rows.signal.torque_held = job.rig().torque_hold == TorqueHold::zoh;
   const std::vector<EquationRows> preliminary = preliminary_equations(job, kPreliminaryWindows);

@@ -73,19 +73,31 @@ Estimate zero_of_line(const LinearSolution& s, Eigen::Index k, Eigen::Index cons
   return e;
 }
 
-bool is_named(const std::string& warning, const std::string& parameter) {
-  return warning.find(parameter + ' ') != std::string::npos;
+/// How many of the names the warning says to be correlated: "A, B and C are strongly correlated".
+std::size_t count_correlated(const std::string& warning, const std::vector<std::string>& names) {
+  const std::string group = warning.substr(0, warning.find("are strongly correlated"));
+  return static_cast<std::size_t>(
+      std::count_if(names.begin(), names.end(), [&](const std::string& name) {
+        return group.find(name + ' ') != std::string::npos ||
+               group.find(name + ',') != std::string::npos;
+      }));
 }
 
-/// Coefficients of one cable are always strongly correlated: one warning, not one per pair. That a
-/// parameter is correlated says nothing of one that is refused.
+/// Whether less than two of the correlated parameters have a value.
+bool is_of_refused(const std::string& warning, const std::vector<std::string>& names,
+                   const std::vector<std::string>& refused) {
+  if (warning.find("are strongly correlated") == std::string::npos) return false;
+  const std::size_t n_refused = count_correlated(warning, refused);
+  return n_refused > 0 && count_correlated(warning, names) < n_refused + 2;
+}
+
+/// Coefficients of one cable are always strongly correlated: one warning, not one per pair, and
+/// none of parameters that are refused.
 std::vector<std::string> worth_saying(std::vector<std::string> warnings,
                                       const ElasticCandidate& candidate,
                                       const std::vector<std::string>& refused) {
   std::erase_if(warnings, [&](const std::string& warning) {
-    return warning.find("strongly correlated") != std::string::npos &&
-           std::any_of(refused.begin(), refused.end(),
-                       [&](const std::string& name) { return is_named(warning, name); });
+    return is_of_refused(warning, candidate.names, refused);
   });
   std::vector<std::string> kept;
   if (candidate.model == "linear") return warnings;
@@ -93,7 +105,7 @@ std::vector<std::string> worth_saying(std::vector<std::string> warnings,
   for (const std::string& warning : warnings) {
     std::size_t elastic = 0;
     for (std::size_t k = 0; k < candidate.n_elastic; ++k)
-      elastic += is_named(warning, candidate.names[k]) ? 1 : 0;
+      elastic += warning.find(fmt::format("{} ", candidate.names[k])) != std::string::npos;
     if (elastic >= 2) {
       ++between_coefficients;
     } else {
@@ -281,7 +293,7 @@ ElasticFit make_fit(const ElasticJob& job, const ElasticCandidate& candidate,
   if (!fit.transmission.cables.empty() && !refused_names(fit, candidate.n_elastic).empty())
     fit.warnings.emplace_back(
         "K_rest and slack points are not given: they follow from coefficients that these logs do "
-        "not determine");
+        "not determine; let the cables go slack in a blocked log");
   fit.derived = derived_of(job, s, rows, fit);
   if (!s.active_constraints.empty()) note_active_bounds(job, candidate, s, rows, fit);
   return fit;

@@ -11,7 +11,6 @@ namespace {
 
 constexpr int kSteps = 200;
 constexpr double kNoteRoom = 0.06;  // of the torque's range, from its ends
-constexpr double kNoteWidth = 0.1;  // of the range, below which a zone has no room for a word
 
 double motor_torque(const Transmission& transmission, const Cable& cable, double phi) {
   const double theta = transmission.reference_theta()(0) + phi;
@@ -44,7 +43,7 @@ void add_zones(const Transmission& transmission, const Trace& all, Figure& figur
     if (zone.slack.empty())  // from corner to corner of a torque that grows
       add_box(zone, motor_torque(transmission, zone.low), motor_torque(transmission, zone.high),
               area);
-    if (zone.high - zone.low > kNoteWidth * (high - low))
+    if (has_room(zone, low, high))
       figure.notes.push_back(zone_note(transmission, zone, *least, *most));
   }
   if (area.x.empty()) return;

@@ -20,6 +20,11 @@ std::vector<CableZone> zones_of(const Transmission& transmission, double low, do
 /// Where a cable goes slack, by the names of the cables.
 std::vector<Mark> slack_marks(const Transmission& transmission, double low, double high);
 
+/// Whether a zone of an axis from `low` to `high` is wide enough for a word.
+inline bool has_room(const CableZone& zone, double low, double high) {
+  return zone.high - zone.low > 0.1 * (high - low);
+}
+
 /// "all taut", "slack: 1".
 std::string zone_text(const CableZone& zone);
 

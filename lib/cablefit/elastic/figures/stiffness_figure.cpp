@@ -11,7 +11,6 @@ constexpr int kSteps = 100;          // of each zone
 constexpr double kHair = 1e-9;       // of a zone: on either side of a jump
 constexpr double kHeadroom = 1.05;   // of the largest stiffness
 constexpr double kNoteHeight = 0.1;  // of the same
-constexpr double kNoteWidth = 0.1;   // of the range
 
 /// Over every zone from end to end, so that a jump is one.
 std::vector<double> positions_of(const std::vector<CableZone>& zones) {
@@ -61,7 +60,7 @@ Figure stiffness_figure(const Transmission& transmission, double low, double hig
   Trace area{"all taut: force closure", TraceStyle::area, kReference, {}, {}, {}, {}, {}};
   for (const CableZone& zone : zones) {
     if (zone.slack.empty()) add_box(zone, 0, most, area);
-    if (zone.high - zone.low > kNoteWidth * (high - low))
+    if (has_room(zone, low, high))
       figure.notes.push_back({(zone.low + zone.high) / 2, kNoteHeight * most, zone_text(zone)});
   }
   if (!area.x.empty()) figure.traces.insert(figure.traces.begin(), std::move(area));

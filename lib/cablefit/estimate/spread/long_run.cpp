@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "cablefit/estimate/spread/autoregression.hpp"
@@ -11,7 +12,7 @@
 namespace cablefit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr double kMaxSum = 0.97;             // of the coefficients that prewhiten
 constexpr Eigen::Index kEntriesPerLag = 16;  // of the series, for each order
 
@@ -24,8 +25,8 @@ double lag1_correlation(const Eigen::Ref<const Eigen::VectorXd>& x) {
 
 double quadratic_spectral(double x) {
   if (std::abs(x) < 1e-8) return 1;
-  const double a = 6 * kPi * x / 5;
-  return 25 / (12 * kPi * kPi * x * x) * (std::sin(a) / a - std::cos(a));
+  const double a = 6 * pi * x / 5;
+  return 25 / (12 * pi * pi * x * x) * (std::sin(a) / a - std::cos(a));
 }
 
 /// Takes out of a series what its own past predicts.

@@ -8,8 +8,6 @@
 namespace cablefit {
 namespace {
 
-constexpr double kBlockSeconds = 2;  // any: blocks are added up
-
 /// As the simulated logs have them.
 Eigen::VectorXd recorded_values(const Design& base, Eigen::VectorXd x) {
   forget_unrecorded(base, x);
@@ -31,12 +29,11 @@ Design BaseDraws::design(std::uint64_t seed) const {
 }
 
 BaseFit BaseDraws::fitted(std::uint64_t seed, const KindLevels* levels) const {
-  return fit_base(design(seed), kBlockSeconds, levels);
+  return fit_base(design(seed), kAnyBlock, levels);
 }
 
 KindLevels BaseDraws::unfitted(std::uint64_t seed) const {
-  const Design drawn = design(seed);
-  return rms_of(block_grams(drawn.rows, drawn.stretches, kBlockSeconds), x_);
+  return rms_of(block_grams(design(seed), kAnyBlock), x_);
 }
 
 NullDraw BaseDraws::searched(std::uint64_t seed, const KindLevels& levels,

@@ -18,6 +18,9 @@ namespace cablefit {
 
 struct RigErrorSearch;
 
+/// Of its sd: a value that changes less has settled.
+inline constexpr double kSettledSd = 0.1;
+
 struct WrongValue {
   std::string name;                ///< as that of a rival: "cable_radius[flexor]"
   EffectInstance instance;         ///< the right values; its row is one of rig_errors()

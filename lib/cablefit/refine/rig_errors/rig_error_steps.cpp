@@ -50,11 +50,10 @@ std::vector<const WrongValue*> values_of(const Steps& steps, std::size_t n_steps
 }
 
 bool is_same(const WrongValue& one, const WrongValue& other) {
-  constexpr double kNearSd = 0.1;
   for (std::size_t k = 0; k < one.instance.parameters.size(); ++k) {
     const Estimate &a = one.instance.parameters[k], &b = other.instance.parameters[k];
     if (std::isnan(b.sd)) continue;  // not determined
-    if (!(std::abs(a.value - b.value) <= kNearSd * b.sd)) return false;
+    if (!(std::abs(a.value - b.value) <= kSettledSd * b.sd)) return false;
   }
   return true;
 }

@@ -109,7 +109,6 @@ struct Direction {
 /// angle only, the steps begin again from the start: a poor step of both would stay in the answer.
 std::optional<Direction> least_near(const RigErrorSearch& search, const Eigen::Vector3d& start) {
   constexpr int kSteps = 16;
-  constexpr double kNearSd = 0.1;
   Angles angles = Angles::both;
   Eigen::Vector3d gravity = start;
   for (int i = 0; i < kSteps; ++i) {
@@ -123,7 +122,7 @@ std::optional<Direction> least_near(const RigErrorSearch& search, const Eigen::V
     if (!tilt) return {};
     gravity = tilt->turned(gravity);
     const Eigen::ArrayXd sd = tilt->covariance.diagonal().array().sqrt();
-    if ((tilt->angles.array().abs() < kNearSd * sd).all()) return Direction{gravity, *tilt};
+    if ((tilt->angles.array().abs() < kSettledSd * sd).all()) return Direction{gravity, *tilt};
   }
   return {};
 }

@@ -200,7 +200,6 @@ std::vector<Model> with_radii(std::vector<Model> models, const WrongRadii& wrong
 
 /// Whether the radii moved by less than a part of their sd.
 bool take_step(const CommonStep& step, WrongRadii& wrong) {
-  constexpr double kNearSd = 0.1;
   bool is_near = true;
   for (std::size_t k = 0; k < wrong.all.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(k);
@@ -208,7 +207,7 @@ bool take_step(const CommonStep& step, WrongRadii& wrong) {
     one.radius += step.change(at);
     one.scatter = std::sqrt(step.covariance(at, at));
     one.dof = step.n_blocks(at) - static_cast<double>(wrong.all.size());
-    is_near = is_near && std::abs(step.change(at)) < kNearSd * one.scatter;
+    is_near = is_near && std::abs(step.change(at)) < kSettledSd * one.scatter;
   }
   return is_near;
 }

@@ -27,6 +27,9 @@ struct BlockGrams {
 /// Number of blocks with rows.
 Eigen::Index count_blocks(const BlockGrams& grams);
 
+/// s, where all blocks are added up: any would do.
+inline constexpr double kAnyBlock = 2;
+
 /// Gram matrices of blocks of `block_seconds`. Consecutive rows stay together, because residuals
 /// are correlated.
 BlockGrams block_grams(const std::vector<StretchRows>& rows, const std::vector<Stretch>& stretches,

@@ -125,7 +125,7 @@ FinalFit final_fit(const Design& undone, const Design& design, const KindLevels&
     }
   FinalFit fit;
   fit.x = solve_scaled(a, b).x;
-  fit.rms = rms_of(block_grams(design.rows, design.stretches, block_seconds), fit.x);
+  fit.rms = rms_of(block_grams(design, block_seconds), fit.x);
   const BlockGrams grams = with_shape_columns(undone, design, fit.x, block_seconds);
   fit.covariance = determined_covariance(grams, levels, p, rows_per_value(design.smoothing));
   fit.degrees_of_freedom = std::max(

@@ -65,7 +65,7 @@ double RowGap::quantile(double level, std::uint64_t seed) const {
 
 RowGap gap_of(const Design& design, const Eigen::VectorXd& x, const KindLevels& floor,
               double block_seconds) {
-  return gap_of(block_grams(design.rows, design.stretches, block_seconds), x, floor);
+  return gap_of(block_grams(design, block_seconds), x, floor);
 }
 
 RowGap gap_of(BlockGrams grams, const Eigen::VectorXd& x, const KindLevels& floor) {

@@ -44,8 +44,7 @@ void add_motor_effects(Model& model) {
 /// positive counts as 0. Nothing: all are visible.
 const Effect* least_visible(const Design& design, double block_seconds) {
   const std::vector<EffectInstance>& motor = design.models.front().joints.front().motor;
-  const auto fit =
-      fit_blocks(block_grams(design.rows, design.stretches, block_seconds), {1, 1, 1}, false);
+  const auto fit = fit_blocks(block_grams(design, block_seconds), {1, 1, 1}, false);
   if (!fit) return motor.size() > 1 ? motor.front().effect : nullptr;
   const Effect* least = nullptr;
   double fewest = kVisibleSd;

@@ -26,16 +26,10 @@ struct Fitted {
   BlockGrams grams;
 };
 
-constexpr double kBlockSeconds = 2;  // any: all blocks are added up
-
-BlockGrams grams_of(const Design& design) {
-  return block_grams(design.rows, design.stretches, kBlockSeconds);
-}
-
 /// The rival fitted to its logs and the run together: what it cannot bend to is what separates it
 /// apart. Its first values where that is singular.
 Eigen::VectorXd refitted(const Fitted& fitted, const Design& trial, const KindLevels& floor) {
-  BlockGrams both = grams_of(trial);
+  BlockGrams both = block_grams(trial, kAnyBlock);
   both.blocks.insert(both.blocks.end(), fitted.grams.blocks.begin(), fitted.grams.blocks.end());
   const auto fit = fit_blocks(both, floor, false);
   return fit ? fit->x : fitted.rival->x;
@@ -68,7 +62,7 @@ std::optional<RunChoice> decisive_run(const Design& design, const Eigen::VectorX
   const Model model = models_with(with_variant(design, best.variant, x), best.x).front();
   std::vector<Fitted> fitted;
   for (const Candidate* rival : rivals)
-    fitted.push_back({rival, grams_of(with_variant(design, rival->variant, x))});
+    fitted.push_back({rival, block_grams(with_variant(design, rival->variant, x), kAnyBlock)});
   std::optional<RunChoice> choice;
   double most = 0;
   for (std::size_t k = 0; k < runs.size(); ++k) {

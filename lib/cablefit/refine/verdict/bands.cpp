@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::size_t kLags = 96;
 constexpr Eigen::Index kBands = 48;
-constexpr double kLeastShare = 0.1;    // of the gap
 constexpr double kStandsOut = 4;       // times the floor's power there
 constexpr std::size_t kMostBands = 2;  // per equation
 
@@ -63,7 +62,7 @@ void add_bands(const ResidualMemory& seen, const ResidualMemory& noise, RowKind 
     r.share_of_rows = static_cast<double>(run.last + 1 - run.first) / static_cast<double>(kBands);
     r.rms = std::sqrt(run.gap);
     r.noise = std::sqrt(run.floor);
-    if (r.share_of_squared_gap > kLeastShare) out.push_back(std::move(r));
+    if (r.share_of_squared_gap > kToldShare) out.push_back(std::move(r));
   }
 }
 

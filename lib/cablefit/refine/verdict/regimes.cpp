@@ -11,7 +11,6 @@ namespace {
 
 constexpr int kCells = 12;
 constexpr double kOverItsRows = 1.5;  // times its share of the rows
-constexpr double kLeastShare = 0.1;   // of the gap
 
 struct Point {
   double value, squared;
@@ -63,7 +62,7 @@ void add_regimes(std::vector<Point> points, RowKind kind, const RegimeVariable& 
     r.share_of_rows = rows / n;
     r.rms = std::sqrt(squares / rows);
     r.noise = floor;
-    if (r.share_of_squared_gap > kLeastShare &&
+    if (r.share_of_squared_gap > kToldShare &&
         r.share_of_squared_gap > kOverItsRows * r.share_of_rows)
       out.push_back(std::move(r));
   }

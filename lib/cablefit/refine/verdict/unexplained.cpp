@@ -221,7 +221,7 @@ Mode strongest_mode(const Design& design, const Eigen::VectorXd& x, const Equati
   Mode best;
   if (gap.kind == RowKind::blocked) return best;
   const Effect& row = attached_mass(gap.kind == RowKind::link);
-  const BlockGrams grams = block_grams(design.rows, design.stretches, block_seconds);
+  const BlockGrams grams = block_grams(design, block_seconds);
   const auto without = fit_blocks(grams, floor, false);  // x may be of other weights
   if (!without) return best;
   const double squares = without->squares[static_cast<std::size_t>(gap.kind)];

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include "cablefit/report/parts/document_parts.hpp"
@@ -14,7 +15,7 @@
 namespace cablefit {
 namespace {
 
-constexpr double kDegrees = 180 / 3.14159265358979323846;
+constexpr double kDegrees = 180 / std::numbers::pi;
 
 /// How a part is called within its log.
 std::string part_name(const CheckedPart& part) {

@@ -5,11 +5,12 @@
 #include <cassert>
 #include <cmath>
 #include <complex>
+#include <numbers>
 
 namespace cablefit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr int kAtOnce =
     4;  // columns filtered side by side, so that the recursion fills the pipeline
 using Lane = Eigen::Array<double, kAtOnce, 1>;
@@ -60,11 +61,11 @@ void pass(const std::vector<Biquad>& sections, Lane* x, std::size_t n, std::ptrd
 
 Butterworth::Butterworth(int order, double cutoff, double rate) {
   assert(order >= 1 && cutoff > 0 && cutoff < rate / 2);
-  const double warped = std::tan(kPi * cutoff / rate);
+  const double warped = std::tan(pi * cutoff / rate);
   double slowest = 0;
   for (int k = 0; k < (order + 1) / 2; ++k) {
     const bool single = order % 2 == 1 && k == order / 2;
-    const double angle = kPi * (2.0 * k + 1) / (2.0 * order);
+    const double angle = pi * (2.0 * k + 1) / (2.0 * order);
     Biquad c;
     if (single) {
       const double a0 = 1 + warped;

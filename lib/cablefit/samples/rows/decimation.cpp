@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "cablefit/base/lanes.hpp"
 
@@ -113,7 +114,7 @@ Stencil cut_stencil(const Eigen::VectorXd& inside, Eigen::Index from, bool avera
 }  // namespace
 
 Decimation::Decimation(int factor, int lobes) : factor_(factor), lobes_(lobes) {
-  constexpr double pi = 3.14159265358979323846;
+  using std::numbers::pi;
   const Eigen::Index half = half_width();
   taps_.resize(2 * half + 1);
   for (Eigen::Index k = -half; k <= half; ++k) {

@@ -158,8 +158,7 @@ RowBatch rows_of(const Window& window, const LogSurvey& log, Eigen::Index number
 }  // namespace
 
 RowSettings at_rate(RowSettings settings, double rate) {
-  constexpr double kSame = 1.01;  // clocks are never quite alike
-  if (!(settings.rate > 0) || rate <= kSame * settings.rate) return settings;
+  if (!(settings.rate > 0) || rate <= kSameRate * settings.rate) return settings;
   const auto scaled = [&](Eigen::Index rows) {
     return static_cast<Eigen::Index>(std::ceil(static_cast<double>(rows) * rate / settings.rate));
   };

@@ -15,6 +15,9 @@
 
 namespace cablefit {
 
+/// Ratio of two rates that count as one: clocks are never quite alike.
+inline constexpr double kSameRate = 1.01;
+
 /// All numbers that decide which rows result. SI; counts of rows are in raw samples.
 struct RowSettings {
   SignalSettings signal;

@@ -23,6 +23,10 @@ struct SampleOptions {
   int threads = 1;
 };
 
+/// The same where a cut-off is given; else with the widest band that the differences allow at
+/// `rate`, Hz.
+SampleOptions with_wide_band(SampleOptions options, double rate);
+
 struct ChosenSettings {
   RowSettings rows;
   double cutoff_q = 0;          ///< Hz, for equations with the second derivative of q; 0: no filter

@@ -16,7 +16,6 @@ constexpr double kSamplesPerPeriod = 2.5;  // rows per period of the cut-off aft
 // leaves J_link within 0.03 %; a quarter left 0.4 % at the high preload, 6 % of the rows of a
 // blocked sweep (half a period) carried 97 % of its residual.
 constexpr double kSmear = 1;
-constexpr double kRateSpread = 1.01;  // rates closer than this are one
 
 /// Options that no log can meet.
 void check_options(std::span<const LogSurvey> logs, const PartFilter& wanted,
@@ -64,7 +63,7 @@ void add_reading(std::span<const LogSurvey> logs, const PartFilter& wanted,
   }
 }
 
-bool are_one(const RateRange& rates) { return rates.highest <= kRateSpread * rates.lowest; }
+bool are_one(const RateRange& rates) { return rates.highest <= kSameRate * rates.lowest; }
 
 }  // namespace
 
@@ -137,6 +136,12 @@ void choose_edges(ChosenSettings& chosen, const SampleOptions& options, const Ra
                  : kDifferenceEdge;
   decide(chosen, "edge rows", std::to_string(rows.drop_edge),
          cutoff > 0 ? "two periods of the cut-off" : "rows that differences do not reach");
+}
+
+SampleOptions with_wide_band(SampleOptions options, double rate) {
+  constexpr double kWideBand = 0.15;  // of the rate: the widest band the differences allow
+  if (!options.cutoff) options.cutoff = kWideBand * rate;
+  return options;
 }
 
 }  // namespace cablefit

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "cablefit/samples/weigh/checks.hpp"
-#include "cablefit/samples/weigh/clear_slopes.hpp"
+#include "cablefit/samples/weigh/fitted_slopes.hpp"
 
 namespace cablefit::weighing {
 namespace {
@@ -35,8 +35,9 @@ double own_slope(const CoarsePart& part, std::size_t joint) {
     if (theta.size() != tau.size()) return 0;
     columns.col(k) = theta;
   }
-  const Eigen::VectorXd slopes = clear_slopes(columns, tau);
-  return slopes.size() == 0 ? 0 : slopes(static_cast<Eigen::Index>(joint));
+  const FittedSlopes slopes = fitted_slopes(columns, tau);
+  const auto own = static_cast<Eigen::Index>(joint);
+  return slopes.is_known() && slopes.is_clear(own) ? slopes.value(own) : 0;
 }
 
 /// Joints whose torque falls as their own drive winds up.

@@ -26,7 +26,7 @@ Findings positions(const Logs& logs);       ///< theta against q: sign, degrees,
 Findings velocity(const Logs& logs);        ///< w against the derivative of the position
 Findings reference(const Logs& logs);       ///< theta_ref against theta
 Findings blocked_slope(const Logs& logs);   ///< tau against theta while the link is blocked
-Findings motor_slopes(const Logs& logs);    ///< tau against the acceleration, theta and q
+Findings motor_slopes(const Logs& logs);    ///< tau against theta and q
 Findings work(const Logs& logs);            ///< the drive's work over a closed motion
 Findings deflection(const Logs& logs);      ///< tau against theta - q
 Findings load_balance(const Logs& logs);    ///< tau against the known load

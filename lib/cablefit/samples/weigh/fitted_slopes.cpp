@@ -1,4 +1,4 @@
-#include "cablefit/samples/weigh/clear_slopes.hpp"
+#include "cablefit/samples/weigh/fitted_slopes.hpp"
 
 #include <Eigen/QR>
 #include <cmath>
@@ -8,8 +8,8 @@ namespace cablefit {
 namespace {
 
 constexpr double kRounding = 1e-9;  // of the largest value: less is no variation
-constexpr double kClearSd = 10;     // friction, which the scatter holds, is no white noise
 constexpr double kMostLeft = 0.5;   // of the variance
+constexpr Eigen::Index kRowsPerColumn = 5;
 
 /// Columns about their means, of unit norm, and those left out that do not vary.
 struct ScaledColumns {
@@ -34,12 +34,13 @@ ScaledColumns scaled(const Eigen::MatrixXd& columns) {
 
 }  // namespace
 
-Eigen::VectorXd clear_slopes(const Eigen::MatrixXd& columns, const Eigen::VectorXd& y) {
-  if (y.size() <= columns.cols() + 1) return {};
+FittedSlopes fitted_slopes(const Eigen::MatrixXd& columns, const Eigen::VectorXd& y) {
+  if (y.size() < kRowsPerColumn * (columns.cols() + 1)) return {};
   const auto [scaled_columns, kept, norms] = scaled(columns);
   const auto n = static_cast<Eigen::Index>(kept.size());
+  if (n == 0) return {};
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled_columns);
-  if (n == 0 || qr.rank() < n) return {};
+  if (qr.rank() < n) return {};
   const Eigen::VectorXd about = y.array() - y.mean();
   const Eigen::VectorXd x = qr.solve(about);
   const double left = (about - scaled_columns * x).squaredNorm();
@@ -48,10 +49,11 @@ Eigen::VectorXd clear_slopes(const Eigen::MatrixXd& columns, const Eigen::Vector
       qr.matrixR().topRows(n).triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(n, n));
   const Eigen::VectorXd sd = std::sqrt(left / static_cast<double>(y.size() - n - 1)) *
                              (qr.colsPermutation() * root).rowwise().norm();
-  Eigen::VectorXd slopes = Eigen::VectorXd::Zero(columns.cols());
+  FittedSlopes slopes{Eigen::VectorXd::Zero(columns.cols()), Eigen::VectorXd::Zero(columns.cols())};
   for (Eigen::Index k = 0; k < n; ++k) {
     const auto at = static_cast<std::size_t>(k);
-    if (std::abs(x(k)) > kClearSd * sd(k)) slopes(kept[at]) = x(k) / norms[at];
+    slopes.value(kept[at]) = x(k) / norms[at];
+    slopes.sd(kept[at]) = sd(k) / norms[at];
   }
   return slopes;
 }
