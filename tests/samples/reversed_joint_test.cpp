@@ -48,11 +48,11 @@ TEST_CASE("a reversed torque of one of several moving joints is refused", "[samp
       const std::string tau = std::string("tau") + joint, theta = std::string("theta") + joint;
       const std::string error = told(set, "moving.csv", reversed(tau)).error;
       CAPTURE(error);
-      CHECK(error.starts_with("moving.csv: " + tau + " falls as " + theta +
-                              " grows while the links stay (slope -"));
-      CHECK(error.ends_with(
-          tau + " or " + theta + " is reversed; write \"" + tau + "\": {\"column\": \"" + tau +
-          "\", \"scale\": 1} in the rig file's columns, or the same of " + theta));
+      const std::string q = std::string("q") + joint;
+      CHECK(error.starts_with("moving.csv: " + tau + " is reversed against " + q + " and " + theta +
+                              ": it falls as " + theta + " grows while the links stay (slope -"));
+      CHECK(error.ends_with("; write \"" + tau + "\": {\"column\": \"" + tau +
+                            "\", \"scale\": 1} in the rig file's columns"));
     }
   }
 }
@@ -62,7 +62,33 @@ TEST_CASE("a reversed link that moves like a sine is refused by the torques", "[
     return told(set, "moving.csv", reversed(q)).error;
   };
   for (const auto& [set, q] : {std::pair{"finger", "q1"}, {"pairs", "q2"}, {"phalanges", "q1"}})
-    CHECK(refusal(set, q).find("and the torques confirm it; write") != std::string::npos);
+    CHECK(refusal(set, q).find(std::string(q) + " is reversed: the motors are ") !=
+          std::string::npos);
+}
+
+TEST_CASE("a joint that is reversed against its cables is refused", "[samples]") {
+  const auto refusal = [](const std::string& set, const std::vector<std::string>& channels) {
+    std::string columns;
+    for (const std::string& channel : channels)
+      columns += fmt::format(R"({}"{}": {{"column": "{}", "scale": -1}})",
+                             columns.empty() ? "" : ", ", channel, channel);
+    return told(set, "moving.csv", "\"columns\": {" + columns + "}, ").error;
+  };
+  // A cable over both joints shows the whole joint; the other one turned would be the same.
+  for (const std::string set : {"finger", "pairs", "phalanges"})
+    for (const std::string joint : {"1", "2"}) {
+      const std::string error = refusal(set, {"q" + joint, "theta" + joint, "tau" + joint});
+      CAPTURE(set, joint, error);
+      CHECK(error.starts_with("moving.csv: q1, theta1 and tau1 are reversed against the cables: "));
+      CHECK(
+          error.ends_with("and the same of theta1 and tau1, or all of a joint that shares its "
+                          "cables"));
+    }
+  // All of them turned is another way to count the angles.
+  CHECK(refusal("finger", {"q1", "q2", "theta1", "theta2", "tau1", "tau2"}) == "no error");
+  // A motor wired backwards, on a motion like a sine.
+  CHECK(refusal("pairs", {"q2", "tau2"}).find("q2 is reversed: the motors are ") !=
+        std::string::npos);
 }
 
 /// A log of 20 s at 200 Hz: joint 1 holds by a PD controller with this delay in steps, joint 2 that

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kRounding = 1e-9;  // of the largest value: less is no variation
 constexpr double kMostLeft = 0.5;   // of the variance
-constexpr Eigen::Index kRowsPerColumn = 5;
+constexpr Eigen::Index kRowsPerColumn = 10;
 
 /// Columns about their means, of unit norm, and those left out that do not vary.
 struct ScaledColumns {

@@ -6,7 +6,7 @@
 
 namespace cablefit {
 
-/// Per column; 0 for one that does not vary. No values where there are fewer than five rows per
+/// Per column; 0 for one that does not vary. No values where there are fewer than ten rows per
 /// column, where no column varies or they are dependent, and where they leave more than half of the
 /// variance.
 struct FittedSlopes {

@@ -34,24 +34,24 @@ Finding odd_reference(const LogPlan& plan, const CoarsePart& part, int joint,
                                usual_slope_error(line.correlation), "ratio"));
 }
 
-/// The controller's own reference is not in the log, and a column theta_ref is.
-std::optional<Finding> other_reference(const LogPlan& plan, std::size_t log) {
-  if (!plan.rig.controller) return {};
-  const std::string& name = plan.rig.controller->reference;
+/// The controller's own reference is not in the log; a column theta_ref may be.
+std::optional<Finding> other_reference(const LogPlan& plan, std::size_t log, int joint) {
   const std::string usual = Controller{}.reference;
+  if (!plan.rig.controller || plan.rig.controller->reference == usual) return {};
+  if (plan.has(Channel::theta_ref, joint)) return {};
   const std::vector<ColumnHeader>& columns = plan.header.columns;
   const bool has_usual =
       std::any_of(columns.begin(), columns.end(), [&](const ColumnHeader& column) {
         return column.name == usual || column.name == usual + "1";
       });
-  if (name == usual || plan.has(Channel::theta_ref) || !has_usual) return {};
   return Finding{log,
                  {},
                  false,
-                 fmt::format("the controller's reference {} is not a column of the log, and {} is "
-                             "not used",
-                             quoted(reference_name(plan.rig, 0)), usual),
-                 fmt::format("write the column's name as \"reference\", or \"{}\"", usual)};
+                 fmt::format("the controller's reference {} is not a column of the log{}",
+                             quoted(reference_name(plan.rig, joint)),
+                             has_usual ? ", and " + usual + " is not used" : ""),
+                 fmt::format("write the column's name as \"reference\"{}",
+                             has_usual ? ", or \"" + usual + "\"" : "")};
 }
 
 }  // namespace
@@ -61,9 +61,9 @@ Findings reference(const Logs& logs) {
   for (const CoarsePart& part : logs.parts) {
     if (logs.survey(part).phase != Phase::moving) continue;
     const LogPlan& plan = logs.plan(part);
-    if (const auto other = other_reference(plan, part.log)) findings.push_back(*other);
     for (int j = 0; j < plan.rig.n_joints(); ++j) {
       const CoarsePart::Joint& joint = part.joints[static_cast<std::size_t>(j)];
+      if (const auto other = other_reference(plan, part.log, j)) findings.push_back(*other);
       if (joint.theta.size() == 0 || joint.theta_ref.size() == 0) continue;
       const CoarseLine line = coarse_line(joint.theta, joint.theta_ref);
       if (std::abs(line.correlation) < kFollows) continue;

@@ -29,7 +29,7 @@ constexpr std::array<WeighingRow, 15> kWeighings = {{{weighing::clock, true, tru
                                                      {weighing::work, false, true},
                                                      {weighing::deflection, false, true},
                                                      {weighing::blocked_slope, false, true},
-                                                     {weighing::motor_slopes, false, true},
+                                                     {weighing::reversed_joints, false, true},
                                                      {weighing::load_balance, false, true},
                                                      {weighing::saturation, true, false},
                                                      {weighing::duplicates, false, false},
