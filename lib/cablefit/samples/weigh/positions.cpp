@@ -6,6 +6,8 @@
 #include <numbers>
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
 
 #include "cablefit/samples/weigh/checks.hpp"
 #include "cablefit/samples/weigh/limits.hpp"
@@ -129,16 +131,20 @@ std::optional<Finding> swapped_columns(const LogPlan& plan, const CoarsePart& pa
   return std::nullopt;
 }
 
+/// Of a motor wired backwards theta and tau are reversed, which looks the same as a reversed q.
 Finding turned_position(const LogPlan& plan, const CoarsePart& part, int j, double slope) {
   const CoarsePart::Joint& joint = part.joints[static_cast<std::size_t>(j)];
+  const auto name = [&](Channel channel) { return weighed_name(plan, channel, j); };
   const Channel turned = drive_turns_back(part, joint) ? Channel::theta : Channel::q;
-  return {
-      part.log,
-      {},
-      true,
-      fmt::format("{} is reversed: the slope of {} on {} is {:.2f}", weighed_name(plan, turned, j),
-                  weighed_name(plan, Channel::theta, j), weighed_name(plan, Channel::q, j), slope),
-      mending_line(plan, turned, j, -1)};
+  std::string remedy = mending_line(plan, turned, j, -1);
+  if (turned == Channel::q && joint.tau.size() > 0)
+    remedy += fmt::format(", or the same of {} and {}", name(Channel::theta), name(Channel::tau));
+  return {part.log,
+          {},
+          true,
+          fmt::format("{} is reversed: the slope of {} on {} is {:.2f}", name(turned),
+                      name(Channel::theta), name(Channel::q), slope),
+          std::move(remedy)};
 }
 
 /// Of a single sine near a resonance q and theta differ in size and sign for a good reason.

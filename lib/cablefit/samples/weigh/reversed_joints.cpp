@@ -76,18 +76,18 @@ Torques torques_say(const TorqueSlopes& slopes, const Eigen::MatrixXd& stiff, in
   return agreement < 0 ? Torques::wrong : agreement > 0 ? Torques::right : Torques::silent;
 }
 
-/// A joint whose motors follow the links with other signs. Of a link that swings against its motor,
-/// beyond the resonance, the torques say that the signs are right.
-struct TurnedJoint {
-  Turn turn;
-  double as_it_is = 0, turned = 0;  ///< distances
-};
-
 /// Whether torque and theta of a motor have the same sign, as far as is known.
 bool is_torque_of_motor(const TorqueSlopes& slopes, int joint) {
   return !(slopes.is_clear(joint) && slopes.theta(joint, joint) < 0);
 }
 
+struct TurnedJoint {
+  Turn turn;
+  double as_it_is = 0, turned = 0;  ///< distances
+};
+
+/// A joint whose motors follow the links with other signs. Of a link that swings against its motor,
+/// beyond the resonance, the torques say that the signs are right.
 std::optional<TurnedJoint> turned_joint(const CoarsePart& part, const TorqueSlopes& slopes,
                                         const Eigen::MatrixXd& stiff, int joint) {
   const auto off = [&](Turn turn) { return distance(part, stiff, joint, turn); };
@@ -110,11 +110,11 @@ std::optional<TurnedJoint> turned_joint(const CoarsePart& part, const TorqueSlop
 }
 
 Finding turned_finding(const LogPlan& plan, const CoarsePart& part, const TurnedJoint& found,
-                       bool is_torque_of_motor, int joint) {
+                       bool with_tau, int joint) {
   const auto name = [&](Channel channel) { return weighed_name(plan, channel, joint); };
   const auto mend = [&](Channel channel) { return mending_line(plan, channel, joint, -1); };
   const std::string q = name(Channel::q), theta = name(Channel::theta), tau = name(Channel::tau);
-  const std::string drive = is_torque_of_motor ? theta + " and " + tau : theta;
+  const std::string drive = with_tau ? theta + " and " + tau : theta;
   std::string what, remedy;
   if (found.turn.q && found.turn.theta) {
     what = fmt::format("{}, {} and {} are reversed against the cables", q, theta, tau);
@@ -124,8 +124,8 @@ Finding turned_finding(const LogPlan& plan, const CoarsePart& part, const Turned
     what = q + " is reversed";
     remedy = fmt::format("{}, or the same of {}", mend(Channel::q), drive);
   } else {
-    what = drive + (is_torque_of_motor ? " are reversed" : " is reversed");
-    remedy = mend(Channel::theta) + (is_torque_of_motor ? ", and the same of " + tau : "");
+    what = drive + (with_tau ? " are reversed" : " is reversed");
+    remedy = mend(Channel::theta) + (with_tau ? ", and the same of " + tau : "");
   }
   return {part.log,
           {},
