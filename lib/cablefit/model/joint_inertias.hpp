@@ -19,8 +19,8 @@ struct JointInertias {
 /// Per joint. A link that is blocked, or whose fitted inertia is negative, adds none.
 std::vector<JointInertias> joint_inertias(const Model& model, bool link_blocked = false);
 
-/// A PD controller of a bandwidth in Hz and a damping ratio of all that the joint moves; where that
-/// asks too much of a motor alone at this period, s, as damped as its inertia allows.
+/// A PD controller with a bandwidth, Hz, and a damping ratio for all that the joint moves. Its
+/// derivative gain stays below what is stable for the motor alone at this period, s.
 Controller pd_controller(const JointInertias& inertias, double bandwidth, double damping,
                          double period);
 
