@@ -130,10 +130,12 @@ Collected collect(const ElasticJob& job, const Transmission& transmission,
                   const Transmission* preliminary) {
   Collected all;
   for (int joint = 0; joint < transmission.n_joints; ++joint)
-    for (const bool sliding : {true, false})
+    for (const bool sliding : {true, false}) {
       all.equations.push_back(blocked_equation(
           transmission, preliminary, sliding, job.rest_speeds[static_cast<std::size_t>(joint)],
           job.still_speeds[static_cast<std::size_t>(joint)], joint));
+      all.equations.back().shares_columns = !sliding;  // of the same joint
+    }
   const Eigen::Index expected = expected_rows(job.logs, job.wanted, job.settings.rows);
   const RowStatistics blank(blocked_columns(transmission).count, expected);
   all.statistics.assign(all.equations.size(), blank);
@@ -210,6 +212,7 @@ BlockedRows take_joint(Collected& all, const Transmission& transmission, int joi
   blocked.plateaus = sliding < kSlidingShare * (sliding + holding);
   const std::size_t chosen = first + (blocked.plateaus ? 1 : 0);
   blocked.equations = {all.equations[chosen]};
+  blocked.equations.front().shares_columns = false;  // it now stands alone
   blocked.rows = std::move(all.statistics[chosen]);
   blocked.archive = std::move(all.archives[chosen]);
   blocked.counts = all.counts[chosen];

@@ -223,13 +223,8 @@ Equation blocked_equation(const Transmission& transmission, const Transmission* 
                            false);  // quasi-static: no difference
   const std::optional<Transmission> curve =
       preliminary ? std::optional(*preliminary) : std::nullopt;
-  // The direction is decimated as the torque is: beside a reversal both pass through zero.
-  equation.prepare = [rest_speed, own](Signals& signals) {
-    JointSignals& s = signals.joints[own];
-    s.theta_direction = branch(s, rest_speed);
-  };
-  equation.fill = [transmission, c, curve, joint, own](const Signals& signals,
-                                                       Eigen::Ref<Eigen::MatrixXd> out) {
+  equation.fill = [transmission, c, curve, joint, own, rest_speed](
+                      const Signals& signals, Eigen::Ref<Eigen::MatrixXd> out) {
     const JointSignals& s = signals.joints[own];
     clear_others(c, out);
     fill_elongations(transmission, c, signals.joints, out);
@@ -237,7 +232,8 @@ Equation blocked_equation(const Transmission& transmission, const Transmission* 
     elastic_basis(transmission, signals.joints, ElasticSide::motor, joint,
                   out.middleCols(c.basis, c.n_basis));
     out.col(c.offset).setOnes();
-    out.col(c.direction) = s.theta_direction;
+    // Decimated as the torque is: beside a reversal both pass through zero.
+    out.col(c.direction) = branch(s, rest_speed);
     out.col(c.speed) = s.thetad;
     const Eigen::Index first_zero = c.zero - joint;
     if (curve)

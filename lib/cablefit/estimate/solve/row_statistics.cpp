@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cablefit/estimate/solve/cell_places.hpp"
+#include "cablefit/estimate/solve/tall_gram.hpp"
 #include "cablefit/estimate/solve/tall_qr.hpp"
 
 namespace cablefit {
@@ -86,7 +87,8 @@ void RowStatistics::add_to_cells(const Rows& rows, std::span<const Eigen::Index>
       cells_.push_back({id, 0, Eigen::MatrixXd::Zero(n_columns_, n_columns_)});
     GramCell& cell = cells_.back();
     const auto part = rows.middleRows(begin, end - begin);
-    cell.gram.noalias() += part.transpose() * part;
+    add_gram(part, cell.gram);
+    cell.gram.triangularView<Eigen::StrictlyLower>() = cell.gram.transpose();
     cell.n_rows += end - begin;
     begin = end;
   }

@@ -79,20 +79,32 @@ ChosenRows choose_rows(const Equation& equation, const Signals& signals, const W
   return chosen;
 }
 
-Eigen::MatrixXd columns_of(const Equation& equation, const Signals& signals) {
-  Eigen::MatrixXd columns(signals.n_rows(), static_cast<Eigen::Index>(equation.columns.size()));
-  equation.fill(signals, columns);
-  return columns;
-}
+/// Columns over the rows of a window, formed when the first row of them is wanted.
+struct FullColumns {
+  const Signals* signals = nullptr;
+  Eigen::MatrixXd values;
 
-EquationBatch equation_rows(const Equation& equation, const Signals& signals,
+  const Eigen::MatrixXd& of(const Equation& equation) {
+    if (values.size() == 0) {
+      values.resize(signals->n_rows(), static_cast<Eigen::Index>(equation.columns.size()));
+      equation.fill(*signals, values);
+    }
+    return values;
+  }
+};
+
+EquationBatch equation_rows(const Equation& equation, FullColumns& columns,
                             const WindowPlace& window, Eigen::Index number_offset,
                             const RowSettings& settings) {
-  const ChosenRows chosen = choose_rows(equation, signals, window, settings);
+  const ChosenRows chosen = choose_rows(equation, *columns.signals, window, settings);
   EquationBatch batch;
   batch.counts = chosen.counts;
+  if (chosen.centres.empty()) {
+    batch.rows.resize(0, static_cast<Eigen::Index>(equation.columns.size()));
+    return batch;
+  }
   batch.rows = Decimation(settings.decimate)
-                   .apply(columns_of(equation, signals), chosen.centres, chosen.first, chosen.last,
+                   .apply(columns.of(equation), chosen.centres, chosen.first, chosen.last,
                           equation.averaged);
   for (const Eigen::Index at : chosen.centres) {
     batch.numbers.push_back(number_offset +
@@ -140,6 +152,7 @@ RowBatch rows_of(const Window& window, const LogSurvey& log, Eigen::Index number
   batch.part = window.part;
   // Equations of one cut-off share their signals.
   std::map<double, Signals> signals;
+  FullColumns columns;
   for (const Equation& equation : equations) {
     const RowSettings own = with_cutoff(settings, equation.cutoff);
     auto found = signals.find(own.signal.cutoff);
@@ -147,10 +160,8 @@ RowBatch rows_of(const Window& window, const LogSurvey& log, Eigen::Index number
       found = signals.emplace(own.signal.cutoff, make_signals(window, log.plan, own.signal)).first;
       found->second.log_began = log.parts.front().t_first;
     }
-    std::optional<Signals> prepared;
-    if (equation.prepare) equation.prepare(prepared.emplace(found->second));
-    batch.equations.push_back(
-        equation_rows(equation, prepared ? *prepared : found->second, window, number_offset, own));
+    if (!equation.shares_columns || columns.signals == nullptr) columns = {&found->second, {}};
+    batch.equations.push_back(equation_rows(equation, columns, window, number_offset, own));
   }
   return batch;
 }

@@ -40,10 +40,11 @@ struct Equation {
   std::string name;  ///< "link", "motor", "blocked"
   std::vector<std::string> columns;
   std::vector<bool> averaged;  ///< per column: averaged over the triangle (all but a held torque)
-  /// Converts signals of the full rate to those that `fill` needs; empty: no change.
-  std::function<void(Signals&)> prepare;
   /// Writes rows x columns.
   std::function<void(const Signals&, Eigen::Ref<Eigen::MatrixXd>)> fill;
+  /// Its columns and its cut-off are those of the equation before it, formed once; only `speed`,
+  /// `use` and `rest_speed` are its own.
+  bool shares_columns = false;
   double cutoff = 0;      ///< Hz, low-pass of this equation; 0: that of the settings
   double rest_speed = 0;  ///< rad/s; slower rows are dropped; 0: all rows are kept
   /// Speed that decides on rest, n rows.

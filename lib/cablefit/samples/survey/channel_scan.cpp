@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace cablefit {
 namespace {
@@ -21,32 +22,53 @@ void ChannelScan::look_at_limits(const Values& x) {
   const double low = x.minCoeff(), high = x.maxCoeff();
   if (low < min_) min_ = low, at_min_ = 0;
   if (high > max_) max_ = high, at_max_ = 0;
-  if (low == min_) at_min_ += (x == min_).count();
-  if (high == max_) at_max_ += (x == max_).count();
+  const auto count = [&](double limit) { return low == high ? x.size() : (x == limit).count(); };
+  if (low == min_) at_min_ += count(min_);
+  if (high == max_) at_max_ += count(max_);
 }
 
 void ChannelScan::look_at_differences(const Values& x) {
   const Eigen::Index n = n_known_ + x.size();
   if (recent_.size() < n) recent_.conservativeResize(n);
   recent_.segment(n_known_, x.size()) = x;
-  double quantum = quantum_, sum_d6 = sum_d6_;  // copies stay in registers
-  for (Eigen::Index i = std::max<Eigen::Index>(1, n_known_); i < n; ++i) {
-    const double step = std::abs(recent_(i) - recent_(i - 1));
-    if (step < quantum && step > 0) quantum = step;
-  }
-  const Eigen::Index m = n - kOrder;
-  // One after the other: how many values come at a time is as the reader of a file has them, and
-  // must not show in the rounding.
-  for (Eigen::Index i = 0; i < m; ++i) {
-    const double* const x6 = recent_.data() + i;
-    const double d6 = x6[0] + x6[6] - 6 * (x6[1] + x6[5]) + 15 * (x6[2] + x6[4]) - 20 * x6[3];
-    sum_d6 += d6 * d6;
-  }
-  quantum_ = quantum;
-  sum_d6_ = sum_d6;
-  n_d6_ += std::max<Eigen::Index>(0, m);
+  look_at_steps(std::max<Eigen::Index>(1, n_known_), n);
+  add_sixth_differences(n - kOrder);
   n_known_ = std::min(n, kOrder);
   std::copy_n(recent_.data() + n - n_known_, n_known_, recent_.data());
+}
+
+void ChannelScan::look_at_steps(Eigen::Index begin, Eigen::Index end) {
+  const Eigen::Index n = end - begin;
+  if (n <= 0) return;
+  const auto steps = (recent_.segment(begin, n) - recent_.segment(begin - 1, n)).abs();
+  // All at once first: most values have no step below the smallest one seen.
+  if (!(steps.minCoeff() < quantum_)) return;
+  double quantum = quantum_;  // a copy stays in a register
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double step = steps(i);
+    quantum = step < quantum && step > 0 ? step : quantum;
+  }
+  quantum_ = quantum;
+}
+
+void ChannelScan::add_sixth_differences(Eigen::Index n) {
+  const auto square = [this](Eigen::Index i) {
+    const double* const x = recent_.data() + i;
+    const double d = x[0] + x[6] - 6 * (x[1] + x[5]) + 15 * (x[2] + x[4]) - 20 * x[3];
+    return d * d;
+  };
+  // Four sums side by side. Which one a difference goes to depends on its number in the log: how
+  // many values come at a time is as the reader of a file has them, and must not show in the
+  // rounding.
+  Eigen::Index i = 0;
+  for (; i < n && n_d6_ % kSums != 0; ++i) sums_d6_[n_d6_++ % kSums] += square(i);
+  std::array<double, kSums> sums = sums_d6_;
+  const Eigen::Index begin = i;
+  for (; i + kSums <= n; i += kSums)
+    for (Eigen::Index k = 0; k < kSums; ++k) sums[k] += square(i + k);
+  n_d6_ += i - begin;
+  sums_d6_ = sums;
+  for (; i < n; ++i) sums_d6_[n_d6_++ % kSums] += square(i);
 }
 
 ChannelSurvey ChannelScan::result() const {
@@ -55,7 +77,10 @@ ChannelSurvey ChannelScan::result() const {
   s.min = min_;
   s.max = max_;
   s.quantum = std::isfinite(quantum_) ? quantum_ : 0;
-  if (n_d6_ > 0) s.noise = std::sqrt(sum_d6_ / static_cast<double>(n_d6_) / kVarianceGain);
+  if (n_d6_ > 0) {
+    const double sum = std::accumulate(sums_d6_.begin(), sums_d6_.end(), 0.0);
+    s.noise = std::sqrt(sum / static_cast<double>(n_d6_) / kVarianceGain);
+  }
   if (max_ > min_) s.at_limits = static_cast<double>(at_min_ + at_max_) / static_cast<double>(n_);
   return s;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <limits>
 
 namespace cablefit {
@@ -29,9 +30,14 @@ class ChannelScan {
  private:
   void look_at_limits(const Values& x);
   void look_at_differences(const Values& x);
+  /// Steps to the values [begin, end) of recent_, each from the one before.
+  void look_at_steps(Eigen::Index begin, Eigen::Index end);
+  /// The first n that recent_ gives.
+  void add_sixth_differences(Eigen::Index n);
 
   double min_ = std::numeric_limits<double>::infinity(), max_ = -min_, quantum_ = min_;
-  double sum_d6_ = 0;
+  static constexpr Eigen::Index kSums = 4;
+  std::array<double, kSums> sums_d6_{};
   Eigen::Index n_ = 0, n_d6_ = 0, at_min_ = 0, at_max_ = 0;
   Eigen::ArrayXd recent_;     // the last values known, then those being added
   Eigen::Index n_known_ = 0;  // values at the front of recent_ that differences may reach back to
