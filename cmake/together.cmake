@@ -1,19 +1,10 @@
-# Where files use the same templates (Eigen's expressions, options of CLI11, JSON), those of a folder
-# that begin with neighbouring letters are compiled together: the templates once, not once a file. Names
-# in their anonymous namespaces have to differ then. FILES: those that the pattern matches; LETTERS: only
-# those that begin so.
-function(cablefit_together target folder)
-  cmake_parse_arguments(PARSE_ARGV 2 only "" "FILES" "LETTERS")
-  if(NOT only_FILES)
-    set(only_FILES "*.cpp")
-  endif()
-  if(NOT only_LETTERS)
-    set(only_LETTERS a-f g-o p-z)
-  endif()
-  foreach(letters ${only_LETTERS})
-    file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/[${letters}]${only_FILES})
-    set_source_files_properties(${sources} PROPERTIES UNITY_GROUP "${folder}/${letters}")
-  endforeach()
+# Files that use the same templates (Eigen's expressions, options of CLI11, JSON) are compiled together:
+# the templates once, not once a file. Names in their anonymous namespaces have to differ then. A group
+# takes about half a minute.
+function(cablefit_together target group)  # then patterns of files
+  list(TRANSFORM ARGN PREPEND ${PROJECT_SOURCE_DIR}/)
+  file(GLOB sources CONFIGURE_DEPENDS ${ARGN})
+  set_source_files_properties(${sources} PROPERTIES UNITY_GROUP ${group})
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   # gcc then collects its garbage only from 512 MB on. This saves a tenth of the time of large files.
   target_compile_options(${target} PRIVATE
@@ -22,24 +13,38 @@ function(cablefit_together target folder)
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
-foreach(folder design design/excitation dynamic/checks dynamic/estimators dynamic/rows elastic
-        elastic/figures elastic/models identify/elongations refine/verdict report/documents
-        report/sections samples/weigh)
-  cablefit_together(cablefit lib/cablefit/${folder})
-endforeach()
-foreach(folder base base/files campaign campaign/cells campaign/plan copies design/curves design/loads
-        dynamic dynamic/estimates dynamic/loops dynamic/output_error elastic/bases elastic/checks
-        elastic/estimates elastic/rows elastic/zeros estimate/fit estimate/solve estimate/spread
-        estimate/tests identify identify/equations identify/results log/json model model/effects
-        model/file model/rig predict prove refine refine/bases refine/figures refine/null
-        refine/rig_errors refine/rows refine/search refine/steps report/page report/parts report/writers
-        results results/read samples samples/plan samples/rows samples/survey simulate)
-  cablefit_together(cablefit lib/cablefit/${folder} LETTERS a-z)
-endforeach()
-# Rows of one table have functions of the same names.
-cablefit_together(cablefit lib/cablefit/model/arm LETTERS a-f r-s t-z)
-cablefit_together(cablefit lib/cablefit/model/catalogue LETTERS a-c)
-cablefit_together(cablefit lib/cablefit/results/write FILES "*_json.cpp")
-cablefit_together(cablefit_program apps/commands)
-cablefit_together(cablefit_program apps/options)
-cablefit_together(cablefit_program apps/output LETTERS a-z)
+# Folders of a room of the library; "." are its own files.
+function(cablefit_room_together target group room)
+  list(TRANSFORM ARGN REPLACE "(.+)" "lib/cablefit/${room}/\\1/*.cpp")
+  cablefit_together(${target} ${group} ${ARGN})
+endfunction()
+
+cablefit_room_together(cablefit refine refine . rig_errors bases)
+cablefit_room_together(cablefit refine_rows refine rows null search)
+cablefit_room_together(cablefit refine_verdict refine steps verdict figures)
+cablefit_room_together(cablefit dynamic_output_error dynamic output_error)
+cablefit_room_together(cablefit dynamic dynamic . checks estimates)
+cablefit_room_together(cablefit dynamic_rows dynamic rows loops estimators)
+cablefit_room_together(cablefit model model . effects file rig)
+# Rows of one table have functions of the same names: those of some tables stay alone.
+cablefit_together(cablefit model_arm lib/cablefit/model/arm/[abrs]*.cpp
+                  lib/cablefit/model/arm/urdf_*.cpp)
+cablefit_together(cablefit model_catalogue lib/cablefit/model/catalogue/[a-c]*.cpp)
+cablefit_room_together(cablefit elastic elastic . bases checks estimates figures models rows zeros)
+cablefit_room_together(cablefit estimate_fit estimate fit solve)
+cablefit_room_together(cablefit estimate_tests estimate tests spread)
+cablefit_room_together(cablefit identify identify . elongations equations results)
+cablefit_room_together(cablefit design design . curves excitation loads)
+cablefit_room_together(cablefit samples samples . plan rows survey weigh)
+cablefit_room_together(cablefit report report . documents page parts sections writers)
+cablefit_room_together(cablefit results results . read write)
+cablefit_room_together(cablefit campaign campaign . cells compare plan)
+cablefit_room_together(cablefit simulate simulate . sensitivity)
+cablefit_room_together(cablefit log log . json)
+cablefit_room_together(cablefit base base . files json)
+cablefit_room_together(cablefit figure figure .)
+cablefit_room_together(cablefit predict predict .)
+cablefit_together(cablefit session lib/cablefit/session/*.cpp lib/cablefit/copies/*.cpp
+                  lib/cablefit/prove/*.cpp)
+cablefit_together(cablefit_program commands apps/commands/*.cpp)
+cablefit_together(cablefit_program options apps/*.cpp apps/options/*.cpp apps/output/*.cpp)

@@ -55,7 +55,7 @@ const Command& find_command(const std::string& name) {
     if (command.name == name) return command;
     known.push_back(command.name);
   }
-  throw usage_error("unknown command " + cablefit::quoted(name), suggestion(name, known));
+  throw usage_error("unknown command " + in_quotes(name), suggestion(name, known));
 }
 
 std::string overview() {

@@ -69,7 +69,7 @@ std::vector<double> parse_list(const std::string& option, const std::string& tex
   }
   const std::vector<std::string> parts = parts_of(text, ':');
   if (parts.size() != 3)
-    throw usage_error(fmt::format("{} cannot be {}", option, cablefit::quoted(text)),
+    throw usage_error(fmt::format("{} cannot be {}", option, in_quotes(text)),
                       "give FROM:TO:N, how many values from where to where, or a list A,B,C");
   const double from = parse_number(option, parts[0], range);
   const double to = parse_number(option, parts[1], range);
@@ -251,7 +251,7 @@ void check_excite(const DesignCommand& command, const std::string& model) {
   };
   for (const std::string& other : others)
     if (!other.empty() && whole(other) == whole(command.excite))
-      throw usage_error(fmt::format("the reference would overwrite {}", cablefit::quoted(other)),
+      throw usage_error(fmt::format("the reference would overwrite {}", in_quotes(other)),
                         "choose another --excite");
 }
 
@@ -271,7 +271,7 @@ Eigen::VectorXd parse_angles(const std::string& text, int n_joints) {
 PoseStiffness at_pose(const Transmission& transmission, const std::string& text) {
   const std::vector<std::string> sides = parts_of(text, ':');
   if (sides.size() != 2)
-    throw usage_error(fmt::format("--pose cannot be {}", cablefit::quoted(text)),
+    throw usage_error(fmt::format("--pose cannot be {}", in_quotes(text)),
                       "give Q1,Q2,..:THETA1,THETA2,..");
   return stiffness_at_pose(transmission, "at the pose",
                            parse_angles(sides[0], transmission.n_joints),

@@ -343,9 +343,9 @@ std::vector<LogSurvey> campaign_logs(const CommonOptions& options) {
   for (const CampaignCell& cell : read_campaign(kCampaignHere).cells) {
     if (!options.preload.empty() && options.preload != cell.preload) continue;
     if (!preloads.insert(cell.preload).second)
-      throw usage_error(fmt::format("{} has several cells of preload {}", kCampaignHere,
-                                    cablefit::quoted(cell.preload)),
-                        "give the logs of one cell, or fit every cell by 'cablefit batch'");
+      throw usage_error(
+          fmt::format("{} has several cells of preload {}", kCampaignHere, in_quotes(cell.preload)),
+          "give the logs of one cell, or fit every cell by 'cablefit batch'");
     for (const auto* paths : {&cell.blocked, &cell.moving})
       for (const std::string& path : *paths)
         if (seen.insert(path).second)

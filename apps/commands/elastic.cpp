@@ -82,13 +82,13 @@ void add_elastic_options(CLI::App& app, ElasticOptions& elastic, ElongationMode&
 std::pair<double, double> parse_range(const std::string& option, const std::string& text) {
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos)
-    throw usage_error(fmt::format("{} cannot be {}", option, cablefit::quoted(text)),
+    throw usage_error(fmt::format("{} cannot be {}", option, in_quotes(text)),
                       "give LOW:HIGH, two deflections in rad");
   const std::pair<double, double> range = {
       parse_number(option, text.substr(0, colon), kAnyNumber),
       parse_number(option, text.substr(colon + 1), kAnyNumber)};
   if (range.first < range.second) return range;
-  throw usage_error(fmt::format("{} cannot be {}", option, cablefit::quoted(text)),
+  throw usage_error(fmt::format("{} cannot be {}", option, in_quotes(text)),
                     "the first deflection is the smaller one");
 }
 

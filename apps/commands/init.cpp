@@ -40,7 +40,7 @@ void refuse_to_overwrite(const InitCommand& command, const std::string& campaign
   if (!fs::is_directory(command.folder, ignored))
     throw input_error({command.folder, 0, 0}, "no such folder", "name a folder with logs");
   if (fs::exists(campaign, ignored) && !command.force && !command.dry_run)
-    throw usage_error(fmt::format("{} already exists", cablefit::quoted(campaign)),
+    throw usage_error(fmt::format("{} already exists", in_quotes(campaign)),
                       "move it, or replace it with --force");
 }
 

@@ -31,8 +31,7 @@ std::string wanted_text(const char* kind, Range range) {
 }
 
 Error bad_value(const std::string& option, const std::string& text, const std::string& wanted) {
-  return usage_error(fmt::format("{} cannot be {}", option, cablefit::quoted(text)),
-                     "give " + wanted);
+  return usage_error(fmt::format("{} cannot be {}", option, in_quotes(text)), "give " + wanted);
 }
 
 /// Every option of the command, for a near match.
@@ -47,14 +46,14 @@ std::vector<std::string> option_names(const CLI::App& app) {
 Error unknown_option(const CLI::App& app, const std::string& argument) {
   std::error_code ignored;
   if (std::filesystem::exists(argument, ignored)) {
-    return usage_error("unknown option " + cablefit::quoted(argument),
+    return usage_error("unknown option " + in_quotes(argument),
                        "for a file of that name write ./" + argument);
   }
   const std::string name = argument.substr(0, argument.find('='));
   const std::vector<std::string> names = option_names(app);
   const std::vector<std::string_view> known(names.begin(), names.end());
   const auto nearest = nearest_name(name, known);
-  return usage_error("unknown option " + cablefit::quoted(name),
+  return usage_error("unknown option " + in_quotes(name),
                      nearest ? fmt::format("did you mean '{}'?", *nearest)
                              : fmt::format("see '{} --help'", app.get_name()));
 }
@@ -93,7 +92,7 @@ std::vector<std::string> parts_of(const std::string& text, char at) {
 void require_known(const std::string& what, const std::string& text,
                    const std::vector<std::string>& known) {
   if (std::find(known.begin(), known.end(), text) != known.end()) return;
-  throw usage_error(fmt::format("unknown {} {}", what, cablefit::quoted(text)),
+  throw usage_error(fmt::format("unknown {} {}", what, in_quotes(text)),
                     suggestion(text, std::vector<std::string_view>(known.begin(), known.end())));
 }
 
@@ -176,7 +175,7 @@ bool parse(CLI::App& app, const Arguments& arguments) {
     if (extra.starts_with('-')) throw unknown_option(app, extra);
   }
   if (!extras.empty()) {
-    throw usage_error("unexpected argument " + cablefit::quoted(extras.front()),
+    throw usage_error("unexpected argument " + in_quotes(extras.front()),
                       fmt::format("see '{} --help'", app.get_name()));
   }
   return true;

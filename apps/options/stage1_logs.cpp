@@ -4,6 +4,7 @@
 
 #include "cablefit/base/files/digest.hpp"
 #include "cablefit/base/json/json_document.hpp"
+#include "cablefit/base/json/schemas.hpp"
 #include "cablefit/campaign/compare/recorded_estimates.hpp"
 
 namespace cablefit::apps {
@@ -61,9 +62,8 @@ Stage1Logs stage1_logs(const std::string& result_path) {
   Stage1Logs logs;
   const JsonNode root = read_json_file(result_path);
   const std::string schema = schema_of(root);
-  if (schema == "cablefit/elastic/1" || schema == "cablefit/identify/1")
-    take_inputs(root, result_path, logs);
-  if (schema != "cablefit/dynamic/1") return logs;
+  if (schema == kElasticSchema || schema == kIdentifySchema) take_inputs(root, result_path, logs);
+  if (schema != kDynamicSchema) return logs;
   for (const JsonNode& input : root.at("inputs").items) {
     if (input.at("rows").number() != 0) continue;  // a log
     std::string why;
@@ -75,7 +75,7 @@ Stage1Logs stage1_logs(const std::string& result_path) {
       continue;
     }
     const JsonNode elastic = read_json_file(path);
-    if (schema_of(elastic) == "cablefit/elastic/1") take_inputs(elastic, path, logs);
+    if (schema_of(elastic) == kElasticSchema) take_inputs(elastic, path, logs);
   }
   return logs;
 }

@@ -23,7 +23,7 @@
 namespace cablefit::apps {
 namespace {
 
-std::string quoted_path(const std::string& path) { return cablefit::quoted(path); }
+std::string quoted_path(const std::string& path) { return in_quotes(path); }
 
 bool is_stdout(const std::string& path) { return path == "-"; }
 

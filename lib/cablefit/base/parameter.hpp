@@ -9,6 +9,8 @@
 namespace cablefit {
 
 inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+/// What is not known, or is not there.
+inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 /// A row of a table of parameters. `unit` is for a rotary axis; unit_for() gives the others.
 struct ParameterInfo {

@@ -110,7 +110,7 @@ std::string shortened(std::string_view text) {
   return shown;
 }
 
-std::string quoted(std::string_view text) { return fmt::format("'{}'", shortened(text)); }
+std::string in_quotes(std::string_view text) { return fmt::format("'{}'", shortened(text)); }
 
 std::string isolated(std::string_view text) {
   constexpr std::string_view kBegin = "\u2068", kEnd = "\u2069";

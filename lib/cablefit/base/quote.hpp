@@ -14,7 +14,7 @@ std::string printable(std::string_view text);
 std::string shortened(std::string_view text);
 
 /// shortened() in single quotes.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 /// Valid UTF-8 with each run of right-to-left letters between U+2068 and U+2069 (first strong
 /// isolate): the run cannot reorder the text beside it, in HTML and SVG as in their attributes.

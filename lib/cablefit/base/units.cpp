@@ -37,7 +37,7 @@ class UnitParser {
 
   Unit parse() {
     const Unit unit = parse_product();
-    if (!rest_.empty()) throw malformed(fmt::format("has {} out of place", quoted(rest_)));
+    if (!rest_.empty()) throw malformed(fmt::format("has {} out of place", in_quotes(rest_)));
     return unit;
   }
 
@@ -63,7 +63,7 @@ class UnitParser {
     if (skip("1")) return {};
     const std::string_view word = take_word();
     if (word.empty()) {
-      throw malformed("lacks a unit at " + (rest_.empty() ? "its end" : quoted(rest_)));
+      throw malformed("lacks a unit at " + (rest_.empty() ? "its end" : in_quotes(rest_)));
     }
     const int exponent = parse_exponent();
     const auto unit = word_to_unit(word, exponent);
@@ -143,11 +143,11 @@ class UnitParser {
   }
 
   std::string unknown(std::string_view word) const {
-    const std::string what = "unknown unit " + quoted(word);
-    return word == whole_ ? what : what + " in " + quoted(whole_);
+    const std::string what = "unknown unit " + in_quotes(word);
+    return word == whole_ ? what : what + " in " + in_quotes(whole_);
   }
   Error malformed(const std::string& what) const {
-    return input_error({}, "unit " + quoted(whole_) + ' ' + what,
+    return input_error({}, "unit " + in_quotes(whole_) + ' ' + what,
                        "write it as N m, rad/s or m/s^2");
   }
 
@@ -161,7 +161,7 @@ Unit parse_unit(std::string_view text) {
   const std::string_view unit = trimmed(text);
   if (unit.empty() || unit == "-") return {};
   if (unit.size() > kMaxUnitBytes) {
-    throw input_error({}, "unit " + quoted(unit) + " is too long", "write it as N m or rad/s");
+    throw input_error({}, "unit " + in_quotes(unit) + " is too long", "write it as N m or rad/s");
   }
   return UnitParser(unit).parse();
 }

@@ -169,7 +169,7 @@ BatchCell run_cell(const Campaign& campaign, const std::string& name, const Batc
     if (cell.name == name) return run_one(campaign, cell, options, was_there);
     known.push_back(cell.name);
   }
-  throw usage_error(fmt::format("the campaign has no cell {}", cablefit::quoted(name)),
+  throw usage_error(fmt::format("the campaign has no cell {}", in_quotes(name)),
                     suggestion(name, known));
 }
 

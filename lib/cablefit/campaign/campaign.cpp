@@ -6,14 +6,13 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/json/json_document.hpp"
+#include "cablefit/base/json/schemas.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/campaign/plan/campaign_cell.hpp"
 #include "cablefit/model/effects/effect_names.hpp"
 
 namespace cablefit {
 namespace {
-
-constexpr std::string_view kSchema = "cablefit/campaign/1";
 
 CampaignLimits read_limits(const JsonNode& node) {
   node.allow_only({"rsd_percent", "torque_error", "drift", "new_effect"});
@@ -34,8 +33,7 @@ void read_models(const JsonNode& node, Campaign& campaign) {
   for (const JsonNode& item : node.items) {
     const std::string& model = item.text();
     if (model != "linear" && model != "poly")
-      throw item.error(fmt::format("unknown model {}", cablefit::quoted(model)),
-                       "known: linear, poly");
+      throw item.error(fmt::format("unknown model {}", in_quotes(model)), "known: linear, poly");
     campaign.models.push_back(model);
   }
   if (campaign.models.empty())
@@ -52,8 +50,7 @@ void read_effects(const JsonNode& node, Campaign& campaign) {
       throw item.error(error.what(), "see 'cablefit list effects'");
     }
     if (std::find(campaign.effects.begin(), campaign.effects.end(), name) != campaign.effects.end())
-      throw item.error(fmt::format("effect {} is given twice", cablefit::quoted(name)),
-                       "leave one out");
+      throw item.error(fmt::format("effect {} is given twice", in_quotes(name)), "leave one out");
     campaign.effects.push_back(name);
   }
   if (!campaign.effects.empty() && campaign.models != std::vector<std::string>{"poly"})
@@ -65,10 +62,9 @@ void read_effects(const JsonNode& node, Campaign& campaign) {
 Campaign parse_campaign(const JsonNode& root, const FindFiles& find_files) {
   root.allow_only({"schema", "name", "cells", "models", "estimator", "effects", "limits"});
   const JsonNode& schema = root.at("schema");
-  if (schema.text() != kSchema)
-    throw schema.error(
-        fmt::format("'schema' is {}, not a campaign", cablefit::quoted(schema.text())),
-        fmt::format("a campaign file says \"{}\"", kSchema));
+  if (schema.text() != kCampaignSchema)
+    throw schema.error(fmt::format("'schema' is {}, not a campaign", in_quotes(schema.text())),
+                       fmt::format("a campaign file says \"{}\"", kCampaignSchema));
   Campaign campaign;
   campaign.path = root.place.file;
   if (const JsonNode* name = root.find("name")) campaign.name = name->text();

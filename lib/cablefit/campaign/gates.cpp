@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "cablefit/base/json/json_document.hpp"
+#include "cablefit/base/json/schemas.hpp"
+#include "cablefit/base/parameter.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/campaign/batch_reader.hpp"
 #include "cablefit/campaign/cells/cell_fit.hpp"
@@ -16,7 +18,6 @@ namespace {
 
 constexpr double kChanceSds = 3;  // a change this small is chance
 constexpr double kWorse = 2;      // times the sd of the baseline
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Whether a percentage of the parameter's value says anything.
 bool is_physical(std::string_view name) {
@@ -138,7 +139,7 @@ Gate refine_gate(const BatchCell& cell, const CellRefine& refine) {
   Gate g{"new_effect", cell.name, 0, static_cast<double>(refine.effects.size()), false, ""};
   g.passed = refine.error.empty() && refine.effects.empty();
   if (!refine.error.empty()) {
-    g.value = kNone;
+    g.value = kNotKnown;
     g.text =
         fmt::format("FAILED: {}: new_effect: refine has no verdict: {}", cell.name, refine.error);
   } else if (!refine.effects.empty()) {
@@ -156,17 +157,16 @@ Gate refine_gate(const BatchCell& cell, const CellRefine& refine) {
 
 /// What could not be fitted has not met its limits.
 Gate missing_gate(const BatchCell& cell) {
-  return {kFittedGate, cell.name, kNone,
-          kNone,       false,     fmt::format("FAILED: {}: could not be fitted", cell.name)};
+  return {kFittedGate, cell.name, kNotKnown,
+          kNotKnown,   false,     fmt::format("FAILED: {}: could not be fitted", cell.name)};
 }
 
 JsonNode read_baseline(const std::string& path) {
   JsonNode root = read_json_file(path);
   const JsonNode& schema = root.at("schema");
-  if (schema.text() != "cablefit/batch/1")
-    throw schema.error(
-        fmt::format("'schema' is {}, not a batch result", cablefit::quoted(schema.text())),
-        "keep the batch.json of a good run as the baseline");
+  if (schema.text() != kBatchSchema)
+    throw schema.error(fmt::format("'schema' is {}, not a batch result", in_quotes(schema.text())),
+                       "keep the batch.json of a good run as the baseline");
   return root;
 }
 

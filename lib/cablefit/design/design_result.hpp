@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cablefit/base/axes.hpp"
+#include "cablefit/base/parameter.hpp"
 #include "cablefit/design/collision.hpp"
 #include "cablefit/design/excitation/excitation_plan.hpp"
 #include "cablefit/design/friction_curves.hpp"
@@ -19,8 +20,6 @@
 #include "cablefit/samples/rows/settings.hpp"
 
 namespace cablefit {
-
-inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 /// What a user pays for a model of the elastic torque that is simpler than the cables.
 struct ModelCost {

@@ -186,7 +186,7 @@ void warn_of_soft_cables(const Model& model, double torque, DesignResult& result
           "the force of cable {} falls as it is stretched, with l_o = 0: probably the "
           "cables were preloaded in the logs; design from a fit without preload, or one "
           "of `identify`, which finds l_o",
-          quoted(cable.name)));
+          in_quotes(cable.name)));
 }
 
 /// Of the model's rig: the same joints, and l_o in the same unit.
@@ -195,7 +195,7 @@ void require_joints_of(const Model& model, const std::vector<Model>& fitted) {
     throw Error(
         ErrorKind::input,
         fmt::format("the fit of preload {} has {}; give --fitted a result of the model's rig",
-                    quoted(fit.preload), what));
+                    in_quotes(fit.preload), what));
   };
   const auto unit = [](const Model& one) { return one.rig.cables_given ? "m" : "rad"; };
   for (const Model& fit : fitted) {

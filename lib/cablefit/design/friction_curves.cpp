@@ -14,7 +14,7 @@
 namespace cablefit {
 namespace {
 
-constexpr double kAlike = 0.02;         // of an l_o: one preload
+constexpr double kAlikePreload = 0.02;  // of an l_o: one preload
 constexpr double kSmallest = 1e-9;      // m (rad): no preload
 constexpr double kSignificance = 0.05;  // of a misfit
 constexpr double kTwoSided = 1.96;
@@ -171,7 +171,8 @@ FrictionValue value_within(double value, double sd, double reach) {
 }  // namespace
 
 bool same_preload(double l_o, double other) {
-  return std::abs(l_o - other) <= kSmallest + kAlike * std::max(std::abs(l_o), std::abs(other));
+  return std::abs(l_o - other) <=
+         kSmallest + kAlikePreload * std::max(std::abs(l_o), std::abs(other));
 }
 
 std::vector<FrictionCurve> friction_curves(std::span<const Model> fitted) {

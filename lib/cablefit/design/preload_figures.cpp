@@ -10,7 +10,7 @@
 namespace cablefit {
 namespace {
 
-constexpr int kSteps = 40;
+constexpr int kSweepSteps = 40;
 constexpr double kReach = 1.96;  // sd of a 95 % interval
 constexpr const char* kFittedSection = "Fitted preloads";
 
@@ -56,7 +56,7 @@ std::vector<double> grid_of(const DesignResult& result) {
   low = std::max(0.0, low - more);
   high += more;
   std::vector<double> grid;
-  for (int i = 0; i <= kSteps; ++i) grid.push_back(low + (high - low) * i / kSteps);
+  for (int i = 0; i <= kSweepSteps; ++i) grid.push_back(low + (high - low) * i / kSweepSteps);
   return grid;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cablefit/base/parameter.hpp"
 #include "cablefit/estimate/solve/identifiability.hpp"
 
 namespace cablefit {
@@ -13,7 +14,6 @@ namespace {
 
 constexpr double kNothingTold = 0.5;  // of its size: two sd reach 0
 constexpr double kNegligible = 0.01;  // of the torque
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 double root_mean_square(const RowStatistics& rows, const Eigen::VectorXd& combination) {
   const double n = static_cast<double>(std::max<Eigen::Index>(1, rows.n_rows()));
@@ -138,7 +138,7 @@ std::string_view to_string(Determined determined) {
 
 double PredictedParameter::relative_sd() const {
   const double sd = std::isfinite(sd_first_look) ? sd_first_look : sd_best;
-  return size != 0 && std::isfinite(sd) ? sd / std::abs(size) : kNone;
+  return size != 0 && std::isfinite(sd) ? sd / std::abs(size) : kNotKnown;
 }
 
 }  // namespace cablefit

@@ -6,11 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "cablefit/base/parameter.hpp"
 #include "cablefit/base/window_mean.hpp"
 
 namespace cablefit {
-
-inline constexpr double kNotThere = std::numeric_limits<double>::quiet_NaN();
 
 /// Torque error on the rows of one condition, N m (N on a linear axis).
 struct ConditionError {
@@ -19,9 +18,9 @@ struct ConditionError {
   double rms = 0, mean = 0, max_abs = 0;
   double relative = 0;  ///< rms of the error over rms of the torque to be explained
   double zero = 0;      ///< rms of a model that predicts 0: that of the torque to be explained
-  double linear = kNotThere;  ///< rms of the linear model; NaN: this is it, or there is none
+  double linear = kNotKnown;  ///< rms of the linear model; NaN: this is it, or there is none
   double fitted = 0;          ///< rms on the fitted rows, of the same condition where they have it
-  double floor = kNotThere;   ///< rms of the best possible model; NaN: measured by log only
+  double floor = kNotKnown;   ///< rms of the best possible model; NaN: measured by log only
   bool fails = false;         ///< significantly and materially worse than `fitted`
   std::string verdict;        ///< "fails, 3.2 times" the rms in `fitted`
 

@@ -24,7 +24,6 @@
 namespace cablefit {
 namespace {
 
-constexpr double kArbitraryZero = 0.05;  // of the peak torque: a larger offset is an encoder zero
 constexpr int kZeroIterations = 6;
 
 /// The data of one preload on the way to a result.
@@ -35,14 +34,6 @@ struct Stage1 {
 
   std::span<const Nuisance> nuisances() const { return {&nuisance, 1}; }
 };
-
-constexpr int kPreliminaryOrder = 2;
-
-std::vector<int> preliminary_orders(const Stage1& stage) {
-  const ElasticJob& job = stage.job;
-  return job.orders.empty() ? std::vector<int>(job.basis.cables.size(), kPreliminaryOrder)
-                            : job.orders;
-}
 
 /// The torque at zero deflection, by the constant of the straight line, is an encoder's zero rather
 /// than a drive's offset. A curve with a kink at zero is far from its straight line there, so the
@@ -60,7 +51,7 @@ bool zero_is_arbitrary(const Stage1& stage, const LinearSolution& line) {
   };
   if (!is_large(line.x(1))) return false;
   const ElasticCandidate curve =
-      poly_candidate(stage.job, stage.rows, preliminary_orders(stage), stage.nuisances());
+      poly_candidate(stage.job, stage.rows, preliminary_orders(stage.job), stage.nuisances());
   return is_large(solve_plain(stage.rows, curve).x(static_cast<Eigen::Index>(curve.n_elastic)));
 }
 
@@ -76,7 +67,7 @@ void find_zero(Stage1& stage, const LinearSolution& line) {
     preliminary.theta_0 = Eigen::VectorXd::Constant(preliminary.n_joints, zero);
     stage.rows = collect_blocked(stage.job, zero, &preliminary);
     const ElasticCandidate curve =
-        poly_candidate(stage.job, stage.rows, preliminary_orders(stage), stage.nuisances());
+        poly_candidate(stage.job, stage.rows, preliminary_orders(stage.job), stage.nuisances());
     const LinearSolution s = solve_plain(stage.rows, curve);
     const double step = s.x(static_cast<Eigen::Index>(curve.n_elastic));
     preliminary = fitted_transmission(curve, s.x);

@@ -122,6 +122,8 @@ struct ElasticPreload {
   const ElasticFit* find(const std::string& model) const;
 };
 
+/// Whether the fit is a constant stiffness, without cables.
+inline bool is_linear(const ElasticFit& fit) { return fit.transmission.cables.empty(); }
 /// "order 2"; "orders 2, 1" where they differ between cables.
 std::string order_text(const ElasticFit& fit);
 /// "linear", "poly, order 2".

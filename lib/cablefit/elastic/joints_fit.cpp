@@ -15,15 +15,13 @@
 namespace cablefit {
 namespace {
 
-constexpr double kArbitraryZero = 0.05;  // of the torque's spread: a larger offset is reported
 constexpr double kLeastVariance =
     1e-12;  // of the torque's mean square: residuals that are rounding
-constexpr int kJointsPreliminaryOrder = 2;
 constexpr int kJointsZeroIterations = 10;
 constexpr double kZeroFound = 1e-3;  // of the noise, in deflection
 
 /// One preload on the way to a result.
-struct Stage1 {
+struct JointsStage {
   ElasticJob job;
   std::vector<BlockedRows> joints;
   BlockedRows all;  ///< of all joints, weighted
@@ -33,7 +31,7 @@ struct Stage1 {
   int n_joints() const { return job.basis.n_joints; }
 };
 
-void look_at_branches(Stage1& stage, int joint, ElasticPreload& preload) {
+void look_at_branches(JointsStage& stage, int joint, ElasticPreload& preload) {
   const auto k = static_cast<std::size_t>(joint);
   Nuisance& nuisance = stage.nuisance[k];
   nuisance.branches = has_both_branches(stage.joints[k], joint);
@@ -49,7 +47,7 @@ void look_at_branches(Stage1& stage, int joint, ElasticPreload& preload) {
 }
 
 /// Variance of what the cables leave of one joint's torque when fitted to that joint alone.
-double own_variance(const Stage1& stage, const BlockedRows& rows) {
+double own_variance(const JointsStage& stage, const BlockedRows& rows) {
   const LinearSolution s = solve_plain(
       rows, poly_candidate(stage.job, rows, orders_of(stage.job.basis), stage.nuisance));
   const auto n = static_cast<double>(s.n_rows);
@@ -58,7 +56,7 @@ double own_variance(const Stage1& stage, const BlockedRows& rows) {
 }
 
 /// 1/variance of every joint, scaled so that weighted residuals are as large as plain ones.
-std::vector<double> weights_of(const Stage1& stage) {
+std::vector<double> weights_of(const JointsStage& stage) {
   std::vector<double> weights;
   double total = 0, rows = 0;
   for (const BlockedRows& joint : stage.joints) {
@@ -72,12 +70,12 @@ std::vector<double> weights_of(const Stage1& stage) {
 }
 
 /// Puts the rows of all joints together, by weights that know which frictions are fitted.
-void weigh(Stage1& stage) {
+void weigh(JointsStage& stage) {
   stage.weights = weights_of(stage);
   stage.all = stack(stage.joints, stage.weights);
 }
 
-void collect_rows(Stage1& stage, ElasticPreload& preload) {
+void collect_rows(JointsStage& stage, ElasticPreload& preload) {
   stage.joints = collect_joints(stage.job, Eigen::VectorXd::Zero(stage.n_joints()), nullptr);
   stage.nuisance.resize(stage.joints.size());
   for (int joint = 0; joint < stage.n_joints(); ++joint) {
@@ -91,7 +89,7 @@ void collect_rows(Stage1& stage, ElasticPreload& preload) {
 }
 
 /// Places of the parameters of that name among those of the candidate, by joint.
-std::vector<Eigen::Index> places_of(const Stage1& stage, const ElasticCandidate& candidate,
+std::vector<Eigen::Index> places_of(const JointsStage& stage, const ElasticCandidate& candidate,
                                     const char* name) {
   std::vector<Eigen::Index> places;
   for (int joint = 0; joint < stage.n_joints(); ++joint) {
@@ -102,16 +100,10 @@ std::vector<Eigen::Index> places_of(const Stage1& stage, const ElasticCandidate&
   return places;
 }
 
-std::vector<int> preliminary_orders(const Stage1& stage) {
-  const ElasticJob& job = stage.job;
-  return job.orders.empty() ? std::vector<int>(job.basis.cables.size(), kJointsPreliminaryOrder)
-                            : job.orders;
-}
-
 /// Gauss-Newton on the encoder zeros of all joints, as of one: every zero with its own column.
 /// Leaves `stage` with the rows about the last zeros; returns the logarithm of the joints' residual
 /// variances, infinite where there is none.
-double settle_zeros(Stage1& stage, Transmission preliminary, const Eigen::VectorXd& width,
+double settle_zeros(JointsStage& stage, Transmission preliminary, const Eigen::VectorXd& width,
                     Eigen::VectorXd& zeros) {
   for (int iteration = 0; iteration < kJointsZeroIterations && zeros.allFinite(); ++iteration) {
     preliminary.theta_0 = zeros;
@@ -120,7 +112,7 @@ double settle_zeros(Stage1& stage, Transmission preliminary, const Eigen::Vector
     stage.joints = collect_joints(stage.job, zeros, &preliminary);
     weigh(stage);
     const ElasticCandidate curve =
-        poly_candidate(stage.job, stage.all, preliminary_orders(stage), stage.nuisance);
+        poly_candidate(stage.job, stage.all, preliminary_orders(stage.job), stage.nuisance);
     const LinearSolution s = solve_plain(stage.all, curve);
     const Eigen::VectorXd step = s.x(places_of(stage, curve, "theta_0"));
     preliminary = fitted_transmission(curve, s.x);
@@ -134,7 +126,7 @@ double settle_zeros(Stage1& stage, Transmission preliminary, const Eigen::Vector
 
 /// There may be several minima: begun where the straight lines cross zero, and at the encoders' own
 /// zeros.
-void find_zeros(Stage1& stage) {
+void find_zeros(JointsStage& stage) {
   const ElasticCandidate line = linear_candidate(stage.all, stage.nuisance);
   const LinearSolution straight = solve_candidate(stage.all, line);
   const Eigen::VectorXd stiffness = straight.x.head(stage.n_joints());
@@ -150,7 +142,7 @@ void find_zeros(Stage1& stage) {
 }
 
 /// --zero theta_0: of every joint its encoder's zero instead of the drive's offset.
-void choose_zeros(Stage1& stage, ElasticPreload& preload) {
+void choose_zeros(JointsStage& stage, ElasticPreload& preload) {
   if (stage.job.options.zero != ZeroMode::theta_0) return;
   preload.decisions.push_back({"zero", "theta_0", "given"});
   for (Nuisance& nuisance : stage.nuisance) nuisance.theta_0 = true;
@@ -158,7 +150,7 @@ void choose_zeros(Stage1& stage, ElasticPreload& preload) {
 }
 
 /// What the rows show that are fitted in the end.
-void describe_rows(const Stage1& stage, ElasticPreload& preload) {
+void describe_rows(const JointsStage& stage, ElasticPreload& preload) {
   for (std::size_t k = 0; k < stage.joints.size(); ++k) {
     preload.joints[k].counts = stage.joints[k].counts;
     preload.joints[k].deflection_low = stage.joints[k].deflection_low;
@@ -179,7 +171,7 @@ double offset_of(const ElasticFit& fit, int joint, int n_joints) {
 }
 
 /// An encoder's zero is looked for when asked; what looks like one is reported.
-void note_zero(const Stage1& stage, int joint, ElasticPreload& preload) {
+void note_zero(const JointsStage& stage, int joint, ElasticPreload& preload) {
   const BlockedRows& rows = stage.joints[static_cast<std::size_t>(joint)];
   const BlockedColumns c = rows.columns.of_joint(joint);
   const double offset = offset_of(preload.fits.back(), joint, stage.n_joints());
@@ -193,7 +185,7 @@ void note_zero(const Stage1& stage, int joint, ElasticPreload& preload) {
                     joint + 1, offset, torque_unit(stage.job.rig().axes.of(joint))));
 }
 
-void note_joints(const Stage1& stage, ElasticPreload& preload) {
+void note_joints(const JointsStage& stage, ElasticPreload& preload) {
   const ElasticFit& best = *preload.find(preload.selected);
   for (int joint = 0; joint < stage.n_joints(); ++joint) {
     const auto k = static_cast<std::size_t>(joint);
@@ -211,7 +203,7 @@ void note_joints(const Stage1& stage, ElasticPreload& preload) {
   }
 }
 
-void draw(const Stage1& stage, const std::vector<ElasticCandidate>& candidates,
+void draw(const JointsStage& stage, const std::vector<ElasticCandidate>& candidates,
           const std::vector<LinearSolution>& solutions, ElasticPreload& preload) {
   for (int joint = 0; joint < stage.n_joints(); ++joint)
     for (Figure& figure : elastic_figures(stage.job, stage.joints[static_cast<std::size_t>(joint)],
@@ -224,7 +216,7 @@ void draw(const Stage1& stage, const std::vector<ElasticCandidate>& candidates,
 ElasticPreload fit_joints(ElasticJob job, const std::string& name) {
   ElasticPreload preload = begin_preload(job, name);
   require_motion(job);
-  Stage1 stage{std::move(job), {}, {}, {}, {}};
+  JointsStage stage{std::move(job), {}, {}, {}, {}};
   collect_rows(stage, preload);
   choose_zeros(stage, preload);
   describe_rows(stage, preload);

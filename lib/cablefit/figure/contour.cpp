@@ -6,6 +6,8 @@
 #include <set>
 #include <utility>
 
+#include "cablefit/base/parameter.hpp"
+
 namespace cablefit {
 namespace {
 
@@ -88,13 +90,12 @@ Eigen::VectorXd framed(const Eigen::VectorXd& places) {
 
 void draw_zero_lines(const Eigen::VectorXd& x, const Eigen::VectorXd& y,
                      const Eigen::MatrixXd& values, Trace& trace) {
-  constexpr double kBreak = std::numeric_limits<double>::quiet_NaN();
   const auto add = [&](double at_x, double at_y) {
     trace.x.push_back(at_x);
     trace.y.push_back(at_y);
   };
   for (const std::vector<Edge>& line : lines_of(pieces_of(values))) {
-    if (!trace.x.empty()) add(kBreak, kBreak);
+    if (!trace.x.empty()) add(kNotKnown, kNotKnown);
     for (const Edge& edge : line) {
       const Node end{edge.upright ? edge.i : edge.i + 1, edge.upright ? edge.j + 1 : edge.j};
       const double a = values(edge.i, edge.j), b = values(end.i, end.j);

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "cablefit/base/parameter.hpp"
+
 namespace cablefit {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kRounding = 1.001;  // so that two rows a spacing apart never skip a bucket
 
 void add_point(double x, double y, Trace& trace) {
@@ -63,7 +64,7 @@ void ThinnedLine::draw(Trace& trace) const {
     if (buckets_[k].filled) {
       draw_bucket(buckets_[k], after_hole && before_hole, trace);
     } else if (!after_hole) {
-      add_point(begin_ + static_cast<double>(k) * width_, kNone, trace);
+      add_point(begin_ + static_cast<double>(k) * width_, kNotKnown, trace);
     }
   }
 }

@@ -4,14 +4,13 @@
 
 #include <algorithm>
 
+#include "cablefit/identify/equations/preload_jobs.hpp"
 #include "cablefit/identify/identify.hpp"
 #include "cablefit/model/rig/searched_radius.hpp"
 #include "cablefit/model/rig_facts.hpp"
 
 namespace cablefit {
 namespace {
-
-constexpr int kDefaultOrder = 2;  // as in identify()
 
 bool is_elongation(const Estimate& e) { return e.name.starts_with("l_o["); }
 

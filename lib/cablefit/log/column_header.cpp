@@ -45,14 +45,14 @@ ColumnHeader to_column_header(std::string_view text, const Place& place) {
 
 void check_name_length(std::string_view text, const Place& place) {
   if (text.size() <= kMaxNameBytes) return;
-  throw input_error(place, quoted(text) + " is longer than 1000 bytes", "is this a log?");
+  throw input_error(place, in_quotes(text) + " is longer than 1000 bytes", "is this a log?");
 }
 
 void check_names(const std::vector<ColumnHeader>& columns, const Place& header_place) {
   std::unordered_set<std::string_view> names;
   for (const ColumnHeader& column : columns) {
     if (column.name.empty() || names.insert(column.name).second) continue;
-    throw input_error(column.place, "column " + quoted(column.name) + " appears twice",
+    throw input_error(column.place, "column " + in_quotes(column.name) + " appears twice",
                       "rename one of them");
   }
   if (names.empty()) {

@@ -15,7 +15,7 @@ namespace {
 
 std::string label(const LogHeader& header, std::size_t column) {
   const std::string& name = header.columns[column].name;
-  return name.empty() ? std::to_string(column + 1) : quoted(name);
+  return name.empty() ? std::to_string(column + 1) : in_quotes(name);
 }
 
 bool is_number(std::string_view text, const LogHeader& header) {
@@ -35,7 +35,7 @@ Error number_complaint(const std::string& text, const LogHeader& header, std::si
                        const Place& place) {
   const std::string column = label(header, k);
   if (text.empty()) return input_error(place, "empty cell in column " + column, kMissingHint);
-  const std::string what = quoted(text) + " in column " + column;
+  const std::string what = in_quotes(text) + " in column " + column;
   if (is_missing_cell(text)) return input_error(place, what + " is not a number", kMissingHint);
   if (header.columns[k].is_date)
     return input_error(place, what + " is not a date", "write dates as 2026-11-09T10:00:00.125Z");

@@ -25,7 +25,7 @@ bool next_content_line(LineBuffer& lines, std::string_view& line) {
   return false;
 }
 
-bool is_number(const Cell& cell) {
+bool holds_number(const Cell& cell) {
   double value = 0;
   const char* end = cell.text.data() + cell.text.size();
   return read_number(cell.text.data(), end, value) == end;
@@ -35,7 +35,7 @@ void check_cells(const std::vector<Cell>& cells, const Place& place) {
   if (cells.size() > kMostColumns) {
     throw input_error(place, "more than 10000 columns", "is this a log with one row per sample?");
   }
-  if (std::all_of(cells.begin(), cells.end(), is_number)) {
+  if (std::all_of(cells.begin(), cells.end(), holds_number)) {
     throw input_error(
         place, "no header line; the first line holds numbers only",
         "name the columns, as t,q,theta,tau (a line that starts with # is a comment)");

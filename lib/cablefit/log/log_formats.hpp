@@ -13,6 +13,9 @@ namespace cablefit {
 inline constexpr const char* kMissingHint =
     "fill it, or leave the row out by --missing drop, or hold the value before by --missing hold";
 
+/// What a log is recognised by: its first bytes.
+inline constexpr std::size_t kHeadBytes = 1u << 16;
+
 struct LogFormatRow {
   LogFormat format;
   std::unique_ptr<LogReader> (*open)(std::unique_ptr<ByteSource> source, const std::string& path,

@@ -8,8 +8,6 @@
 namespace cablefit {
 namespace {
 
-constexpr std::size_t kHeadBytes = 1u << 16;
-
 void check_is_text(std::string_view head, const std::string& path) {
   if (head.empty()) {
     throw input_error({path}, "file is empty", "give a log with a header line and samples");

@@ -18,7 +18,7 @@ std::uint32_t Words::find_or_add(std::string_view word) {
 Error too_many_words(const ColumnHeader& column) {
   return input_error(column.place,
                      fmt::format("column {} holds more than {} different texts, or 16 MiB of them",
-                                 quoted(column.name), Words::kMaxWords - 1),
+                                 in_quotes(column.name), Words::kMaxWords - 1),
                      "use a column of labels, one per run");
 }
 

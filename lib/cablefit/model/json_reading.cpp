@@ -11,8 +11,7 @@ namespace cablefit {
 
 void fail_unknown(const JsonNode& node, std::string_view kind, std::string_view name,
                   std::span<const std::string_view> known) {
-  throw node.error(fmt::format("unknown {} {}", kind, cablefit::quoted(name)),
-                   suggestion(name, known));
+  throw node.error(fmt::format("unknown {} {}", kind, in_quotes(name)), suggestion(name, known));
 }
 
 std::vector<double> n_numbers(const JsonNode& node, int n) {
@@ -46,8 +45,7 @@ std::string unique_name(const JsonNode& object, const std::vector<std::string>& 
   const std::string& name = node.text();
   if (name.empty()) throw node.error("empty name", "give it a name, e.g. \"1\"");
   if (std::find(taken.begin(), taken.end(), name) != taken.end()) {
-    throw node.error(fmt::format("{} appears twice", cablefit::quoted(name)),
-                     "give each its own name");
+    throw node.error(fmt::format("{} appears twice", in_quotes(name)), "give each its own name");
   }
   return name;
 }
@@ -55,7 +53,7 @@ std::string unique_name(const JsonNode& object, const std::vector<std::string>& 
 void check_schema(const JsonNode& object, std::string_view schema) {
   const JsonNode* node = object.find("schema");
   if (node && node->text() != schema) {
-    throw node->error(fmt::format("schema {}", cablefit::quoted(node->text())),
+    throw node->error(fmt::format("schema {}", in_quotes(node->text())),
                       fmt::format("expected '{}'", schema));
   }
 }

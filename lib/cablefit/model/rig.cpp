@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 
+#include "cablefit/base/json/schemas.hpp"
 #include "cablefit/model/json_reading.hpp"
 #include "cablefit/model/rig/parts.hpp"
 
@@ -69,7 +70,7 @@ Rig parse_rig(const JsonNode& node) {
   node.allow_only({"schema", "name", "preload", "columns", "sample_rate", "motion", "torque_hold",
                    "torque_period", "load", "controller", "sensors", "cad", "joints", "cables",
                    "reference_pose", "arm"});
-  check_schema(node, "cablefit/rig/1");
+  check_schema(node, kRigSchema);
   Rig rig;
   rig.path = node.place.file;
   rig.name = text_or(node, "name", "");

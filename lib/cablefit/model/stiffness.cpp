@@ -70,6 +70,10 @@ StiffnessModes stiffness_modes(const StiffnessMatrices& matrices) {
           all.minCoeff() >= -kRoundedEigenvalue * all.cwiseAbs().maxCoeff()};
 }
 
+double free_resonance(double stiffness, double j_motor, double j_link) {
+  return std::sqrt(stiffness * (1 / j_motor + 1 / j_link)) / (2 * std::numbers::pi);
+}
+
 double motor_stiffness(const Transmission& transmission, int joint, double phi) {
   Eigen::VectorXd theta = transmission.reference_theta() + transmission.encoder_zero();
   theta(joint) += phi;

@@ -40,6 +40,10 @@ StiffnessModes stiffness_modes(const StiffnessMatrices& matrices);
 Eigen::VectorXd cable_stiffnesses(const Transmission& transmission, const Eigen::VectorXd& q,
                                   const Eigen::VectorXd& theta);
 
+/// Hz, of a motor and a link (kg m^2) on one spring (N m/rad) that swing freely:
+/// sqrt(K (1/J_m + 1/J_l))/(2 pi).
+double free_resonance(double stiffness, double j_motor, double j_link);
+
 /// d tau_m/dtheta of one joint (from 0) turned by phi from the reference pose, the others in it.
 double motor_stiffness(const Transmission& transmission, int joint, double phi);
 

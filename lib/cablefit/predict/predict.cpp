@@ -28,8 +28,8 @@ std::vector<bool> wanted_parts(const Model& model, const LogSurvey& log, Predict
     if (wanted[k]) continue;
     wanted[k] = !has_own;
     result.warnings.push_back(fmt::format(
-        "{}: preload {} is {}, the model is of {}", log.plan.path, quoted(log.parts[k].preload),
-        has_own ? "left out" : "predicted all the same", quoted(model.preload)));
+        "{}: preload {} is {}, the model is of {}", log.plan.path, in_quotes(log.parts[k].preload),
+        has_own ? "left out" : "predicted all the same", in_quotes(model.preload)));
   }
   return wanted;
 }

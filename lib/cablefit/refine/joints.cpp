@@ -34,7 +34,7 @@ void append_lists(const RefineResult& r, RefineResult& all) {
 
 /// Root mean square over the joints for which `known`.
 template <typename Known, typename Get>
-double rms_over(const std::vector<RefineResult>& joints, Known known, Get get) {
+double rms_of_joints(const std::vector<RefineResult>& joints, Known known, Get get) {
   double squares = 0, n = 0;
   for (const RefineResult& r : joints)
     if (known(r)) {
@@ -51,11 +51,11 @@ GapStory rms_gap(const std::vector<RefineResult>& joints, GapStory RefineResult:
   for (double GapStory::*value :
        {&GapStory::train_before, &GapStory::train_after, &GapStory::test_before,
         &GapStory::test_after, &GapStory::noise_floor})
-    all.*value = rms_over(joints, known, [&](const RefineResult& r) { return r.*gap.*value; });
+    all.*value = rms_of_joints(joints, known, [&](const RefineResult& r) { return r.*gap.*value; });
   for (auto interval : {&GapStory::test_before_ci, &GapStory::test_after_ci})
     for (std::size_t i = 0; i < 2; ++i)
-      (all.*interval)[i] =
-          rms_over(joints, known, [&](const RefineResult& r) { return (r.*gap.*interval)[i]; });
+      (all.*interval)[i] = rms_of_joints(
+          joints, known, [&](const RefineResult& r) { return (r.*gap.*interval)[i]; });
   return all;
 }
 
@@ -64,7 +64,8 @@ void take_gaps(RefineResult& all) {
   for (double RefineResult::*value :
        {&RefineResult::remainder_link, &RefineResult::remainder_motor, &RefineResult::floor_link,
         &RefineResult::floor_motor, &RefineResult::remainder_blocked, &RefineResult::floor_blocked})
-    all.*value = rms_over(all.joints, is_done, [&](const RefineResult& r) { return r.*value; });
+    all.*value =
+        rms_of_joints(all.joints, is_done, [&](const RefineResult& r) { return r.*value; });
   all.torque = rms_gap(all.joints, &RefineResult::torque);
   all.simulation = rms_gap(all.joints, &RefineResult::simulation);
   double before = 0, after = 0, n = 0;

@@ -22,7 +22,7 @@ constexpr std::string_view kScaleClass = "scale";
 // A load checks a torque where it is above the noise of its sensor and a part of the torque.
 constexpr double kAboveNoise = 20, kPartOfTorque = 0.05;
 // Factors of torque and load that are one: sd, and what no sd contains.
-constexpr double kSureSd = 4, kSameFactor = 0.01;
+constexpr double kSameGainSd = 4, kSameFactor = 0.01;
 
 const Effect& torque_gain() { return find_candidate("torque_gain", Site::drive); }
 const Effect& load_scale() { return find_candidate("load_scale", Site::link); }
@@ -221,7 +221,7 @@ void decide_scale(const JointScale& scale, NamedEffect& own, RefineResult& r) {
   if (scale.is_off()) {
     const Estimate& a = own.instance.parameters.front();
     const double one = std::abs(std::log(scale.scale * (1 - a.value)));
-    if (!(one < kSameFactor + kSureSd * std::hypot(scale.sd / scale.scale, a.sd))) {
+    if (!(one < kSameFactor + kSameGainSd * std::hypot(scale.sd / scale.scale, a.sd))) {
       r.warnings.push_back(fmt::format(
           "the values that it shares with other joints are {:.4g} times as large; neither a "
           "wrong torque nor a wrong load alone explains that; check both",

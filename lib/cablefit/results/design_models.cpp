@@ -6,6 +6,7 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/json/json_document.hpp"
+#include "cablefit/base/json/schemas.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/model/rig/searched_radius.hpp"
 #include "cablefit/results/read_model.hpp"
@@ -15,7 +16,7 @@ namespace {
 
 bool is_rig(const JsonNode& root) {
   const JsonNode* schema = root.find("schema");
-  if (schema != nullptr && schema->is_string()) return schema->text() == "cablefit/rig/1";
+  if (schema != nullptr && schema->is_string()) return schema->text() == kRigSchema;
   return root.find("cables") != nullptr && root.find("transmission") == nullptr;
 }
 
@@ -29,16 +30,16 @@ Model model_of_rig(const JsonNode& root, std::string& choice) {
                       "give \"cables\" with \"coefficients\", or a model file or a result");
   for (std::size_t k = 0; k < model.transmission.cables.size(); ++k)
     if (model.transmission.cables[k].coefficients.empty())
-      throw input_error(root.at("cables").items[k].place,
-                        fmt::format("cable {} has no coefficients",
-                                    cablefit::quoted(model.transmission.cables[k].name)),
-                        "give \"coefficients\": [N/m, N/m^2, ...], or a fitted model");
+      throw input_error(
+          root.at("cables").items[k].place,
+          fmt::format("cable {} has no coefficients", in_quotes(model.transmission.cables[k].name)),
+          "give \"coefficients\": [N/m, N/m^2, ...], or a fitted model");
   const SearchedRadii searched = searched_radii(model.transmission);
   for (std::size_t k = 0; k < searched.size(); ++k)
     if (searched[k])
       throw input_error(root.at("cables").items[k].at("motor_radius").place,
                         fmt::format("the motor radius of cable {} is searched",
-                                    cablefit::quoted(model.transmission.cables[k].name)),
+                                    in_quotes(model.transmission.cables[k].name)),
                         "give it in m, or the result of 'cablefit identify'");
   choice = fmt::format("the cables of rig {}", root.place.file);
   return model;
@@ -49,7 +50,7 @@ std::vector<std::string> names_of_preloads(const JsonNode& root) {
   const JsonNode* preloads = root.find("preloads");
   const JsonNode* schema = root.find("schema");
   const bool is_stage1 =
-      schema != nullptr && schema->is_string() && schema->text() == "cablefit/elastic/1";
+      schema != nullptr && schema->is_string() && schema->text() == kElasticSchema;
   std::vector<std::string> names;
   if (is_stage1 || preloads == nullptr || !preloads->is_array()) return names;
   for (const JsonNode& item : preloads->items) names.push_back(item.at("name").text());
@@ -78,9 +79,9 @@ void require_cables(const Model& model, const std::string& path) {
     throw input_error({path}, "a rigid drive has no cables to design",
                       "give a model of the elastic drive (--model poly)");
   if (model.transmission.cables.empty())
-    throw input_error(
-        {path}, fmt::format("model {} is one spring, without cables", cablefit::quoted(model.name)),
-        "choose one with cables, --model poly");
+    throw input_error({path},
+                      fmt::format("model {} is one spring, without cables", in_quotes(model.name)),
+                      "choose one with cables, --model poly");
 }
 
 std::vector<Model> read_fitted_models(const std::vector<std::string>& paths,

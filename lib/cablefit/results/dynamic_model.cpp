@@ -63,7 +63,7 @@ void require_known(const JsonNode& list, const std::vector<Estimate>& known) {
     const std::string& name = item.at("name").text();
     const Estimate* e = find_estimate(known, name);
     if (e == nullptr)
-      throw item.error(fmt::format("parameter {} belongs to no effect", cablefit::quoted(name)),
+      throw item.error(fmt::format("parameter {} belongs to no effect", in_quotes(name)),
                        "see `cablefit list effects`");
     (void)model_file::read_estimate(item, name, e->symbol, e->unit);
   }

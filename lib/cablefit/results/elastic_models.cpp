@@ -4,13 +4,13 @@
 
 #include "cablefit/base/error.hpp"
 #include "cablefit/base/json/json_document.hpp"
+#include "cablefit/base/json/schemas.hpp"
 #include "cablefit/model/file/parts.hpp"
 #include "cablefit/results/read/elastic_reader.hpp"
 
 namespace cablefit {
 namespace {
 
-constexpr std::string_view kSchema = "cablefit/elastic/1";
 constexpr std::string_view kPreferred = "poly";  // as of a result of stage 2
 
 const ElasticFit& pick(const ElasticPreload& preload, const std::string& wanted,
@@ -47,7 +47,7 @@ Model model_of(const ElasticPreload& preload, const ElasticFit& fit, const Rig& 
 bool is_elastic_result(const std::string& path) {
   const JsonNode root = read_json_file(path);
   const JsonNode* schema = root.is_object() ? root.find("schema") : nullptr;
-  return schema != nullptr && schema->is_string() && schema->text() == kSchema;
+  return schema != nullptr && schema->is_string() && schema->text() == kElasticSchema;
 }
 
 std::vector<Model> read_elastic_models(const std::string& path, const std::string& preload,

@@ -13,13 +13,13 @@ Model read_identify_model(const JsonNode& root, const model_file::Wanted& wanted
   const std::string& name = preload.at("name").text();
   const JsonNode* node = preload.find("model");
   if (node == nullptr)
-    throw preload.error(fmt::format("preload {} has no model", cablefit::quoted(name)),
+    throw preload.error(fmt::format("preload {} has no model", in_quotes(name)),
                         fmt::format("run `cablefit identify` again, or take the model_{}.json "
                                     "that it wrote beside this file",
                                     name));
   if (node->is_null())
     throw node->error(
-        fmt::format("the dynamics of preload {} were not identified", cablefit::quoted(name)),
+        fmt::format("the dynamics of preload {} were not identified", in_quotes(name)),
         "run `cablefit identify` on moving logs with tau, and see what it says of them");
   Model model = model_file::read_model_file(*node, {"", wanted.model}, choice);
   *choice = fmt::format("{}, model '{}'",

@@ -30,7 +30,7 @@ const JsonNode& pick(const JsonNode& list, std::string_view key, std::string_vie
 
 std::string describe(const JsonNode& list, const JsonNode& taken, std::string_view what,
                      std::string_view key, std::string_view wanted) {
-  std::string text = fmt::format("{} {}", what, cablefit::quoted(taken.at(key).text()));
+  std::string text = fmt::format("{} {}", what, in_quotes(taken.at(key).text()));
   if (!wanted.empty() || list.items.size() < 2) return text;
   std::string others;
   for (const JsonNode& item : list.items)

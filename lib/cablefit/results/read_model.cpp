@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "cablefit/base/json/schemas.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/results/result_models.hpp"
 
@@ -13,11 +14,10 @@ namespace {
 
 using Reader = Model (*)(const JsonNode&, const model_file::Wanted&, std::string*);
 
-constexpr std::string_view kDynamicSchema = "cablefit/dynamic/1";
 constexpr std::array<std::pair<std::string_view, Reader>, 3> kReaders{
-    {{model_file::kModelSchema, model_file::read_model_file},
+    {{kModelSchema, model_file::read_model_file},
      {kDynamicSchema, result_file::read_dynamic_model},
-     {"cablefit/identify/1", result_file::read_identify_model}}};
+     {kIdentifySchema, result_file::read_identify_model}}};
 
 }  // namespace
 
@@ -32,9 +32,9 @@ Model parse_model(const JsonNode& root, const std::string& preload, const std::s
   for (const auto& [name, reader] : kReaders) {
     if (schema.text() == name) return reader(root, {preload, model, completeness}, &choice);
   }
-  throw schema.error(fmt::format("schema {} is not a model", cablefit::quoted(schema.text())),
+  throw schema.error(fmt::format("schema {} is not a model", in_quotes(schema.text())),
                      fmt::format("expected '{}', or '{}' as `cablefit dynamic` writes it",
-                                 model_file::kModelSchema, kDynamicSchema));
+                                 kModelSchema, kDynamicSchema));
 }
 
 std::vector<Model> read_models(const std::string& path, const std::string& preload,

@@ -18,7 +18,7 @@ namespace {
 constexpr double kMostlyAtRest = 0.8;
 constexpr double kFewSteps = 100;  // a position that spans fewer encoder steps
 
-std::string unit_of(Channel channel, Axes axes) {
+std::string usual_unit(Channel channel, Axes axes) {
   const bool is_torque = channel == Channel::tau || channel == Channel::tau_load;
   if (is_torque) return torque_unit(axes);
   if (channel == Channel::w) return unit_for(axes, "rad/s");
@@ -39,7 +39,7 @@ std::vector<CheckedChannel> channels_of(const LogSurvey& log, const PartSurvey& 
     const Slot& slot = log.plan.slots[k];
     if (slot.integrated) continue;
     const std::string name = indexed_name(slot.channel, slot.joint, rig);
-    const std::string unit = unit_of(slot.channel, rig.axes.of(slot.joint));
+    const std::string unit = usual_unit(slot.channel, rig.axes.of(slot.joint));
     channels.push_back({name, unit, unit == "rad", part.channels[k]});
   }
   return channels;
@@ -244,7 +244,7 @@ void note_unchecked_scale(std::span<const LogSurvey> logs, std::vector<std::stri
           "{} is {:g} times column {}, and no log has a known load to check this factor: if it "
           "is "
           "wrong, so are all stiffnesses, inertias and frictions; record a log with a known load",
-          channel, mapping.scale, cablefit::quoted(mapping.column)));
+          channel, mapping.scale, in_quotes(mapping.column)));
       return;
     }
 }

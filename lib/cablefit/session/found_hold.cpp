@@ -65,7 +65,7 @@ TorqueLateness later(const SplitLateness& late) {
 }
 
 /// Sample periods, s.
-struct Rows {
+struct HoldRows {
   double moving = 0;
   std::optional<double> slow_blocked;  ///< nothing: blocked logs are not slower, or differ
 };
@@ -75,7 +75,8 @@ struct Lateness {
   std::optional<SplitLateness> split;  ///< where blocked logs are slower
 };
 
-Lateness lateness_of(const RefineLogs& logs, const std::vector<Model>& models, const Rows& rows) {
+Lateness lateness_of(const RefineLogs& logs, const std::vector<Model>& models,
+                     const HoldRows& rows) {
   const std::vector<LogSurvey> fitted = logs.fitted();
   Lateness late;
   if (rows.slow_blocked)
@@ -98,8 +99,8 @@ Lateness lateness_of(const RefineLogs& logs, const std::vector<Model>& models, c
 }
 
 /// The period of the drive for slow blocked logs too.
-std::optional<Decision> take_period(const SplitLateness& split, const Rows& rows, RefineLogs& logs,
-                                    std::vector<Model>& models) {
+std::optional<Decision> take_period(const SplitLateness& split, const HoldRows& rows,
+                                    RefineLogs& logs, std::vector<Model>& models) {
   if (models.front().rig.torque_hold == TorqueHold::none) return std::nullopt;  // just found
   if (!is_same_drive(later(split), *rows.slow_blocked, rows.moving).value_or(false))
     return std::nullopt;
@@ -147,7 +148,7 @@ std::vector<Decision> take_fitted_hold(RefineLogs& logs, std::vector<Model>& mod
   const bool period_is_open = is_period_open(logs, models);
   const std::optional<double> moving = row_of(logs.train, Phase::moving);
   if (!moving) return {};
-  const Rows rows{*moving, period_is_open ? slow_blocked_row(logs, *moving) : std::nullopt};
+  const HoldRows rows{*moving, period_is_open ? slow_blocked_row(logs, *moving) : std::nullopt};
   if (!hold_is_open && !rows.slow_blocked) return {};
   const Lateness late = lateness_of(logs, models, rows);
   std::vector<Decision> decisions;

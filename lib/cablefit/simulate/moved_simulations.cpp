@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "cablefit/base/parallel.hpp"
+#include "cablefit/base/parameter.hpp"
 #include "cablefit/simulate/simulate_result.hpp"
 
 namespace cablefit {
@@ -11,10 +12,9 @@ namespace {
 
 SimulationResult no_result(const SimulationResult& like) {
   SimulationResult result;
-  constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-  result.q = Eigen::ArrayXXd::Constant(like.q.rows(), like.q.cols(), kNothing);
-  result.theta = Eigen::ArrayXXd::Constant(like.theta.rows(), like.theta.cols(), kNothing);
-  result.tau = Eigen::ArrayXXd::Constant(like.tau.rows(), like.tau.cols(), kNothing);
+  result.q = Eigen::ArrayXXd::Constant(like.q.rows(), like.q.cols(), kNotKnown);
+  result.theta = Eigen::ArrayXXd::Constant(like.theta.rows(), like.theta.cols(), kNotKnown);
+  result.tau = Eigen::ArrayXXd::Constant(like.tau.rows(), like.tau.cols(), kNotKnown);
   return result;
 }
 

@@ -50,11 +50,10 @@ std::vector<std::unique_ptr<PartReplay>> plan_parts(const Model& model, const Lo
   std::vector<std::unique_ptr<PartReplay>> replays;
   for (const PartSurvey& part : log.parts) {
     std::unique_ptr<PartReplay>& replay = replays.emplace_back();
-    const std::string where =
-        fmt::format("{}: preload {}", log.plan.path, cablefit::quoted(part.preload));
+    const std::string where = fmt::format("{}: preload {}", log.plan.path, in_quotes(part.preload));
     if (of_model && !is_of_model(model, part)) {
-      result.warnings.push_back(fmt::format("{} is left out, the model is of {}", where,
-                                            cablefit::quoted(model.preload)));
+      result.warnings.push_back(
+          fmt::format("{} is left out, the model is of {}", where, in_quotes(model.preload)));
       continue;
     }
     if (model.rigid && part.phase == Phase::blocked) {
@@ -62,8 +61,8 @@ std::vector<std::unique_ptr<PartReplay>> plan_parts(const Model& model, const Lo
       continue;
     }
     if (!of_model) {
-      result.warnings.push_back(fmt::format("{} is simulated by a model of preload {}", where,
-                                            cablefit::quoted(model.preload)));
+      result.warnings.push_back(
+          fmt::format("{} is simulated by a model of preload {}", where, in_quotes(model.preload)));
     }
     replay = std::make_unique<PartReplay>(plan_experiment(model, log, part, options), log, part,
                                           log_number, band_threads(options, n_logs));

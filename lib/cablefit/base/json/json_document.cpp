@@ -14,7 +14,7 @@
 namespace cablefit {
 namespace {
 
-constexpr std::size_t kBlockBytes = 1u << 16;
+constexpr std::size_t kReadBytes = 1u << 16;
 constexpr std::size_t kMaxNodes = 400'000;
 constexpr std::size_t kMaxParentBytes = 60;
 
@@ -51,7 +51,7 @@ class TreeBuilder final : public JsonEvents {
 
   void key(std::string& name, TextPosition at) override {
     if (!open_.back().keys.insert(name).second) {
-      throw input_error({name_, at.line, at.column}, "key " + quoted(name) + " appears twice",
+      throw input_error({name_, at.line, at.column}, "key " + in_quotes(name) + " appears twice",
                         "keep one of them");
     }
     open_.back().node->members.push_back({std::move(name), {}});
@@ -109,11 +109,11 @@ std::string_view kind_name(JsonNode::Kind kind) {
 
 // How a message calls a value; the outermost one has no path.
 std::string label(const JsonNode& node) {
-  return node.path.empty() ? "the document" : quoted(node.path);
+  return node.path.empty() ? "the document" : in_quotes(node.path);
 }
 
 std::string in_parent(const JsonNode& node) {
-  return node.path.empty() ? "" : " in " + quoted(node.path);
+  return node.path.empty() ? "" : " in " + in_quotes(node.path);
 }
 
 void require_kind(const JsonNode& node, JsonNode::Kind kind, const std::string& hint) {
@@ -141,7 +141,7 @@ const JsonNode* JsonNode::find(std::string_view key) const {
 
 const JsonNode& JsonNode::at(std::string_view key) const {
   if (const JsonNode* member = find(key)) return *member;
-  throw error("missing key " + quoted(key) + in_parent(*this), "add it to this object");
+  throw error("missing key " + in_quotes(key) + in_parent(*this), "add it to this object");
 }
 
 double JsonNode::number() const {
@@ -183,7 +183,7 @@ void JsonNode::allow_only(std::initializer_list<std::string_view> keys) const {
   require_object(*this);
   for (const auto& [key, value] : members) {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
-    throw value.error("unknown key " + quoted(key) + in_parent(*this), suggestion(key, keys));
+    throw value.error("unknown key " + in_quotes(key) + in_parent(*this), suggestion(key, keys));
   }
 }
 
@@ -193,7 +193,7 @@ Error JsonNode::error(const std::string& what, const std::string& hint) const {
 
 JsonNode read_json_file(const std::string& path, std::size_t max_bytes) {
   FileReader file(path);
-  std::vector<char> block(kBlockBytes);
+  std::vector<char> block(kReadBytes);
   std::size_t n_total = 0;
   const NextBlock next_block = [&]() -> std::string_view {
     const std::size_t n_read = file.read(block.data(), block.size());

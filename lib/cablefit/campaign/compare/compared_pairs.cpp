@@ -13,10 +13,10 @@
 namespace cablefit {
 namespace {
 
-using Sets = std::vector<const EstimateSet*>;
+using SetPointers = std::vector<const EstimateSet*>;
 
 /// Distinct values of a text of the sets, in their order, without the empty one.
-std::vector<std::string> distinct(const Sets& sets, std::string EstimateSet::*text) {
+std::vector<std::string> distinct(const SetPointers& sets, std::string EstimateSet::*text) {
   std::vector<std::string> all;
   for (const EstimateSet* set : sets)
     if (!(set->*text).empty() && std::find(all.begin(), all.end(), set->*text) == all.end())
@@ -25,22 +25,23 @@ std::vector<std::string> distinct(const Sets& sets, std::string EstimateSet::*te
 }
 
 /// Those of a name; those without a name hold for all. Throws Error(usage) when none has it.
-Sets sets_with(const RecordedResult& result, const Sets& sets, std::string EstimateSet::*text,
-               const std::string& name, std::string_view what) {
+SetPointers sets_with(const RecordedResult& result, const SetPointers& sets,
+                      std::string EstimateSet::*text, const std::string& name,
+                      std::string_view what) {
   if (name.empty()) return sets;
   const std::vector<std::string> known = distinct(sets, text);
   if (std::find(known.begin(), known.end(), name) == known.end())
-    throw usage_error(fmt::format("no {} {} in {}", what, quoted(name), result.path),
+    throw usage_error(fmt::format("no {} {} in {}", what, in_quotes(name), result.path),
                       suggestion(name, std::vector<std::string_view>(known.begin(), known.end())));
-  Sets chosen;
+  SetPointers chosen;
   for (const EstimateSet* set : sets)
     if ((set->*text).empty() || set->*text == name) chosen.push_back(set);
   return chosen;
 }
 
-Sets chosen_sets(const RecordedResult& result, const std::string& preload,
-                 const std::string& model) {
-  Sets sets;
+SetPointers chosen_sets(const RecordedResult& result, const std::string& preload,
+                        const std::string& model) {
+  SetPointers sets;
   for (const EstimateSet& set : result.sets) sets.push_back(&set);
   sets = sets_with(result, sets, &EstimateSet::preload, preload, "preload");
   return sets_with(result, sets, &EstimateSet::model, model, "model");
@@ -48,7 +49,8 @@ Sets chosen_sets(const RecordedResult& result, const std::string& preload,
 
 /// Of several models of one stage and preload: what stage 1 chose in both, else the last (richest)
 /// model that both have with the same order, else the last of each.
-std::pair<const EstimateSet*, const EstimateSet*> best_pair(const Sets& first, const Sets& second) {
+std::pair<const EstimateSet*, const EstimateSet*> best_pair(const SetPointers& first,
+                                                            const SetPointers& second) {
   std::pair<const EstimateSet*, const EstimateSet*> best{first.back(), second.back()};
   const EstimateSet* selected = nullptr;
   for (const EstimateSet* a : first)
@@ -76,7 +78,7 @@ void pair_up(const EstimateSet& first, const EstimateSet& second, std::vector<Es
 }
 
 /// Preloads and stages that only one of the results has.
-void add_unpaired(const Sets& sets, const Sets& done, std::string_view which,
+void add_unpaired(const SetPointers& sets, const SetPointers& done, std::string_view which,
                   std::vector<Uncompared>& alone) {
   for (const EstimateSet* set : sets) {
     const bool met = std::any_of(done.begin(), done.end(), [&](const EstimateSet* other) {
@@ -91,8 +93,8 @@ void add_unpaired(const Sets& sets, const Sets& done, std::string_view which,
 }
 
 /// Sets of the same stage and preload; `any_preload` takes those of any that has a name.
-Sets group_of(const Sets& sets, const EstimateSet& like, bool any_preload) {
-  Sets group;
+SetPointers group_of(const SetPointers& sets, const EstimateSet& like, bool any_preload) {
+  SetPointers group;
   for (const EstimateSet* set : sets)
     if (set->stage == like.stage &&
         (any_preload ? set->preload.empty() == like.preload.empty() : set->preload == like.preload))
@@ -105,17 +107,17 @@ Sets group_of(const Sets& sets, const EstimateSet& like, bool any_preload) {
 std::vector<EstimatePair> estimate_pairs(const RecordedResult& first, const RecordedResult& second,
                                          const CompareOptions& options,
                                          std::vector<Uncompared>& alone) {
-  const Sets a = chosen_sets(first, options.first_preload, options.model);
-  const Sets b = chosen_sets(second, options.second_preload, options.model);
+  const SetPointers a = chosen_sets(first, options.first_preload, options.model);
+  const SetPointers b = chosen_sets(second, options.second_preload, options.model);
   const bool only_ones = distinct(a, &EstimateSet::preload).size() == 1 &&
                          distinct(b, &EstimateSet::preload).size() == 1;
   std::vector<EstimatePair> pairs;
-  Sets done, met_a, met_b;
+  SetPointers done, met_a, met_b;
   for (const EstimateSet* set : a) {
     if (std::find(done.begin(), done.end(), set) != done.end()) continue;
-    const Sets mine = group_of(a, *set, false);
+    const SetPointers mine = group_of(a, *set, false);
     done.insert(done.end(), mine.begin(), mine.end());
-    const Sets theirs = group_of(b, *set, only_ones);
+    const SetPointers theirs = group_of(b, *set, only_ones);
     if (theirs.empty()) continue;
     const auto [left, right] = best_pair(mine, theirs);
     met_a.push_back(left);

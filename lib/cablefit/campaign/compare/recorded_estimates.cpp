@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "cablefit/base/json/schemas.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/campaign/batch_reader.hpp"
 #include "cablefit/results/read/dynamic_reader.hpp"
@@ -76,19 +77,19 @@ struct ResultKind {
   void (*add)(const JsonNode& root, Sets& sets);
 };
 constexpr std::array kKinds{
-    ResultKind{"cablefit/elastic/1",
+    ResultKind{kElasticSchema,
                [](const JsonNode& root, Sets& sets) {
                  add_elastic(parse_elastic_result(root, RigFiles::leave), sets);
                }},
-    ResultKind{"cablefit/dynamic/1",
+    ResultKind{kDynamicSchema,
                [](const JsonNode& root, Sets& sets) {
                  add_dynamic(parse_dynamic_result(root, RigFiles::leave), sets);
                }},
-    ResultKind{"cablefit/identify/1",
+    ResultKind{kIdentifySchema,
                [](const JsonNode& root, Sets& sets) {
                  add_identify(parse_identify_result(root, RigFiles::leave), sets);
                }},
-    ResultKind{"cablefit/batch/1", add_batch}};
+    ResultKind{kBatchSchema, add_batch}};
 
 const ResultKind& kind_of(const JsonNode& root) {
   const JsonNode& schema = root.at("schema");
@@ -97,7 +98,7 @@ const ResultKind& kind_of(const JsonNode& root) {
   });
   if (kind == kKinds.end())
     throw schema.error(
-        fmt::format("schema {} is not a result with estimates", quoted(schema.text())),
+        fmt::format("schema {} is not a result with estimates", in_quotes(schema.text())),
         "give what 'cablefit elastic', 'dynamic', 'identify' or 'batch' wrote");
   return *kind;
 }

@@ -30,9 +30,8 @@ class NamedLogs {
       same->second = list;
       return;
     }
-    throw item.error(
-        fmt::format("{} is already a log of '{}'", cablefit::quoted(path), same->second),
-        "name each log of a cell once");
+    throw item.error(fmt::format("{} is already a log of '{}'", in_quotes(path), same->second),
+                     "name each log of a cell once");
   }
 
  private:
@@ -72,7 +71,7 @@ bool is_date(const std::string& text) {
 
 std::string read_date(const JsonNode& node) {
   if (is_date(node.text())) return node.text();
-  throw node.error(fmt::format("'date' is {}, not a date", cablefit::quoted(node.text())),
+  throw node.error(fmt::format("'date' is {}, not a date", in_quotes(node.text())),
                    "write \"2026-03-14\" or \"2026-03-14T09:30\"");
 }
 
@@ -149,11 +148,11 @@ std::vector<std::string> matches(const JsonNode& node, const FindFiles& find_fil
   const std::string& named = node.text();
   // glob() calls itself for every folder of the pattern, and ends at a NUL.
   if (named.size() > kMaxPathBytes || named.find('\0') != std::string::npos)
-    throw node.error(fmt::format("{} is not a path", cablefit::quoted(named)),
+    throw node.error(fmt::format("{} is not a path", in_quotes(named)),
                      "name a file, or a pattern as in \"low/moving*.csv\"");
   std::vector<std::string> paths = find_files(beside(node.place.file, named));
   if (!paths.empty()) return paths;
-  throw node.error(fmt::format("no file matches {}", cablefit::quoted(node.text())),
+  throw node.error(fmt::format("no file matches {}", in_quotes(node.text())),
                    "paths are relative to the campaign file");
 }
 
@@ -168,7 +167,7 @@ std::vector<CampaignCell> read_cells(const JsonNode& node, const FindFiles& find
   for (std::size_t k = 0; k < cells.size(); ++k)
     if (!seen.insert(cells[k].name).second)
       throw node.items[k].error(
-          fmt::format("a second cell called {}", cablefit::quoted(cells[k].name)),
+          fmt::format("a second cell called {}", in_quotes(cells[k].name)),
           "give them a different \"date\", \"robot\" or \"name\", or merge them");
   return cells;
 }

@@ -10,7 +10,7 @@ namespace {
 
 namespace chr = std::chrono;
 
-constexpr std::size_t kMostBytes = 12;  // std::regex calls itself for every character
+constexpr std::size_t kDateBytes = 12;  // std::regex calls itself for every character
 
 std::optional<std::string> iso_date(int year, int month, int day) {
   const chr::year_month_day date{chr::year(year), chr::month(static_cast<unsigned>(month)),
@@ -37,7 +37,7 @@ std::optional<std::string> date_of_folder(const std::string& name) {
   static const std::regex day_first("(\\d\\d)[-_.](\\d\\d)[-_.](\\d{4})");
   static const std::regex week("(\\d{4})[-_]?[wW](\\d\\d?)");
   std::smatch found;
-  if (name.size() > kMostBytes) return std::nullopt;
+  if (name.size() > kDateBytes) return std::nullopt;
   const auto number = [&found](int k) { return std::stoi(found[static_cast<std::size_t>(k)]); };
   if (std::regex_match(name, found, year_first)) return iso_date(number(1), number(2), number(3));
   if (std::regex_match(name, found, day_first)) return iso_date(number(3), number(2), number(1));

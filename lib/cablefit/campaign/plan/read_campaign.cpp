@@ -27,7 +27,7 @@ void require_estimator(const JsonNode& node) {
     if (estimator.name == node.text()) return;
     known.push_back(estimator.name);
   }
-  throw node.error(fmt::format("unknown estimator {}", cablefit::quoted(node.text())),
+  throw node.error(fmt::format("unknown estimator {}", in_quotes(node.text())),
                    suggestion(node.text(), known));
 }
 

@@ -58,7 +58,7 @@ double elongation_with(const Cable& cable, double force) {
       ErrorKind::input,
       fmt::format("cable {} does not reach a force of {:.3g} N; give it coefficients that grow "
                   "with its elongation",
-                  quoted(cable.name), force));
+                  in_quotes(cable.name), force));
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ Transmission with_preload(const Transmission& transmission, double l_o) {
     throw Error(ErrorKind::input,
                 fmt::format("cable {} does not pull when it is stretched by {:g}; a preload needs "
                             "coefficients above 0",
-                            quoted(preloaded.cables.front().name), l_o));
+                            in_quotes(preloaded.cables.front().name), l_o));
   for (std::size_t k = 0; k < preloaded.cables.size(); ++k)
     preloaded.cables[k].initial_elongation =
         k == 0

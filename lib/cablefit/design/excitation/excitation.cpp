@@ -12,6 +12,7 @@
 #include "cablefit/base/random.hpp"
 #include "cablefit/design/curves/joint_curve.hpp"
 #include "cablefit/model/joint_inertias.hpp"
+#include "cablefit/model/stiffness.hpp"
 
 namespace cablefit {
 namespace {
@@ -19,24 +20,23 @@ namespace {
 constexpr double kSearchStep = 200e-6;   // s; as exact as a choice of motions needs
 constexpr double kRateShare = 1.0 / 40;  // of the rate, for the highest frequency
 constexpr double kResonanceShare = 1.0 / 3;
-constexpr double kPeriods = 4;  // at least, of the fastest part of a motion
+constexpr double kLeastPeriods = 4;  // at least, of the fastest part of a motion
 constexpr int kSineFrequencies = 16;
-constexpr double kFirstStep = 0.25, kSmallestStep = 0.01;  // of the numbers' range
+constexpr double kFirstChange = 0.25, kSmallestChange = 0.01;  // of the numbers' range
 constexpr double kGrow = 1.3, kShrink = 0.75;
 constexpr double kChanged = 0.5;       // share of the numbers that a change moves
 constexpr double kFinestStep = 25e-6;  // s
 
 /// Hz; 0 when nothing is elastic.
-double resonance(const Model& model) {
+double lowest_resonance(const Model& model) {
   if (model.rigid) return 0;
   double lowest = kUnbounded;
   const std::vector<double> links = link_inertias(model);
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
     const JointCurve curve(model.transmission, static_cast<int>(k));
     const double stiffness = (curve.stiffness(1e-6) + curve.stiffness(-1e-6)) / 2;
-    lowest = std::min(
-        lowest, std::sqrt(stiffness * (1 / inertia_of(model.joints[k].motor) + 1 / links[k])) /
-                    (2 * std::numbers::pi));
+    lowest =
+        std::min(lowest, free_resonance(stiffness, inertia_of(model.joints[k].motor), links[k]));
   }
   return lowest;
 }
@@ -44,14 +44,14 @@ double resonance(const Model& model) {
 ShapeFrame frame_of(const Model& model, const ExcitationLimits& limits) {
   ShapeFrame frame{limits.duration, 1 / limits.rate, limits.max_position, limits.max_speed,
                    kRateShare * limits.rate};
-  const double f0 = resonance(model);
+  const double f0 = lowest_resonance(model);
   if (f0 > 0) frame.highest_frequency = std::min(frame.highest_frequency, kResonanceShare * f0);
-  if (frame.highest_frequency * frame.duration < kPeriods)
+  if (frame.highest_frequency * frame.duration < kLeastPeriods)
     throw usage_error(
         fmt::format("{:g} s are too short for a motion of this drive", frame.duration),
         fmt::format("it can be moved at up to {:.3g} Hz (a third of its free resonance at rest, a "
                     "fortieth of the sample rate): give --duration of at least {:.2g}",
-                    frame.highest_frequency, kPeriods / frame.highest_frequency));
+                    frame.highest_frequency, kLeastPeriods / frame.highest_frequency));
   return frame;
 }
 
@@ -203,9 +203,9 @@ Excitation search_excitation(const Model& model, const ExcitationOptions& option
   }
   judge.judge(drawn);
   Candidate best = best_of(drawn);
-  double step = kFirstStep;
+  double step = kFirstChange;
   int n_changed = 0;
-  for (int i = 0; i < options.n_generations && step > kSmallestStep; ++i) {
+  for (int i = 0; i < options.n_generations && step > kSmallestChange; ++i) {
     std::vector<Candidate> next(static_cast<std::size_t>(options.per_generation));
     for (Candidate& candidate : next) candidate.numbers = changed(best.numbers, step, random);
     judge.judge(next);

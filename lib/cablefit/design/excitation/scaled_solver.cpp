@@ -5,7 +5,7 @@
 namespace cablefit {
 namespace {
 
-constexpr double kRankTolerance = 1e-10;  // of columns of unit norm, exact but for rounding
+constexpr double kDetermined = 1e-10;  // of columns of unit norm, exact but for rounding
 
 }  // namespace
 
@@ -16,7 +16,7 @@ ScaledSolver::ScaledSolver(const Eigen::MatrixXd& columns, Eigen::Index least_ro
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns * norms_.cwiseInverse().asDiagonal());
   r_ = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
   q_ = qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), n);
-  determined_ = r_.diagonal().cwiseAbs().minCoeff() > kRankTolerance;
+  determined_ = r_.diagonal().cwiseAbs().minCoeff() > kDetermined;
 }
 
 Eigen::MatrixXd ScaledSolver::solve(const Eigen::MatrixXd& right) const {

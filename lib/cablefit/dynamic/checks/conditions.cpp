@@ -6,7 +6,6 @@
 #include <cmath>
 #include <optional>
 
-#include "cablefit/base/divided_up.hpp"
 #include "cablefit/dynamic/checks/residual_tests.hpp"
 #include "cablefit/estimate/spread/long_run.hpp"
 #include "cablefit/estimate/tests/binned_test.hpp"
@@ -20,7 +19,6 @@ constexpr double kLevelWidth = 0.01;     // of all loads: narrower is one load
 constexpr std::size_t kFewRows = 20;     // fewer say nothing about an rms
 constexpr double kMaterialRatio = 1.25;  // of the rms errors
 constexpr double kSignificantSd = 3;
-constexpr Eigen::Index kMostCells = 1024;
 
 std::string with_unit(double value, const std::string& unit) {
   return fmt::format("{:.3g} {}", value, unit);
@@ -106,8 +104,7 @@ Bins collect(const JudgedRows& rows, const std::vector<Condition>& conditions,
              const JudgedModel& model) {
   Bins bins = {std::vector<BinErrors>(1)};
   for (const Condition& c : conditions) bins.emplace_back(c.edges.size() + 1);
-  const Eigen::Index places =
-      std::max<Eigen::Index>(1, divided_up(rows.last_number + 1, kMostCells));
+  const Eigen::Index places = std::max<Eigen::Index>(1, stretch_places(rows.last_number));
   rows.rows->for_each([&](const Eigen::MatrixXd& batch, std::span<const Eigen::Index> numbers) {
     const auto own = batch.leftCols(rows.n_own);
     const Eigen::VectorXd residual = own * model.residual, torque = own * model.torque;

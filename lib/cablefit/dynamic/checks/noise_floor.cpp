@@ -12,9 +12,9 @@
 namespace cablefit {
 namespace {
 
-constexpr int kWindows = 2;                  // of every log
-constexpr double kFewRows = 20;              // fewer pairs say nothing
-constexpr std::uint64_t kSeed = 1;           // of the noise that is added
+constexpr int kFloorWindows = 2;             // of every log
+constexpr double kFewPairs = 20;             // fewer pairs say nothing
+constexpr std::uint64_t kFloorSeed = 1;      // of the noise that is added
 constexpr double kSameReference = 1e-6;      // of its range: what formatting loses
 constexpr Eigen::Index kReferenceStep = 16;  // rows: enough to distinguish two references
 constexpr double kShortest = 0.5;            // of the longer log: less is no repeat
@@ -31,7 +31,7 @@ class Normal {
 
  private:
   double uniform() { return 2 * (static_cast<double>(engine_() >> 11U) * 0x1p-53) - 1; }
-  std::mt19937_64 engine_{kSeed};
+  std::mt19937_64 engine_{kFloorSeed};
 };
 
 double channel_noise(const LogSurvey& log, const PartSurvey& part, const Slot& slot) {
@@ -106,8 +106,8 @@ std::vector<double> sensor_floor(const DynamicJob& job, const std::vector<Equati
   Normal normal;
   const RowSettings& settings = job.settings.rows;
   const double rate = sample_rates(logs, job.wanted).highest;
-  for (const PreliminaryWindow& p :
-       preliminary_windows(logs, job.wanted, settings.signal, row_halo(settings, rate), kWindows)) {
+  for (const PreliminaryWindow& p : preliminary_windows(logs, job.wanted, settings.signal,
+                                                        row_halo(settings, rate), kFloorWindows)) {
     Window noisy = p.window;
     add_noise(noisy, logs[p.log], normal);
     const RowBatch before = make_rows(p.window, logs[p.log], 0, settings, plain);
@@ -160,7 +160,7 @@ std::optional<double> repeat_floor(const JudgedRows& rows, const std::vector<Rep
       }
     });
   }
-  if (n < kFewRows) return std::nullopt;
+  if (n < kFewPairs) return std::nullopt;
   return std::sqrt(squares / n);
 }
 

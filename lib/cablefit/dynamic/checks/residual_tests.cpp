@@ -15,15 +15,15 @@ namespace {
 
 constexpr double kLevel = 0.01;     // below it a p value says that something is there
 constexpr double kMaterial = 0.01;  // of the rms torque
-constexpr double kShown = 0.1;  // of the rms torque: "none seen" says that as much would have shown
+constexpr double kShownShare =
+    0.1;  // of the rms torque: "none seen" says that as much would have shown
 constexpr double kManyRows = 0.5;  // share of independent rows above which a memory is small
 constexpr double kAllRows = 0.9;
-constexpr double kFewRows = 50;   // independent: fewer look white whatever they are
-constexpr double kLittle = 0.5;   // of the torque: a larger residual is reported first
-constexpr double kFollows = 0.1;  // of the residual's squares: what it depends on
+constexpr double kFewIndependent = 50;  // independent: fewer look white whatever they are
+constexpr double kLittle = 0.5;         // of the torque: a larger residual is reported first
+constexpr double kFollows = 0.1;        // of the residual's squares: what it depends on
 constexpr std::size_t kBins = 8;
 constexpr std::size_t kEdgeValues = 20000;
-constexpr Eigen::Index kMostCells = 1024;
 
 std::string p_text(double p) { return p < 1e-6 ? "p < 1e-6" : fmt::format("p = {:.2g}", p); }
 
@@ -41,7 +41,7 @@ ResidualTest whiteness(const TestedRows& tested, const WhitenessTest& test) {
   const auto n_rows = static_cast<double>(test.n_rows);
   if (test.p_value >= kLevel) {
     out.verdict = fmt::format("white below the cut-off ({})", p_text(test.p_value));
-    if (test.effective_rows < kFewRows) {
+    if (test.effective_rows < kFewIndependent) {
       out.finding = Finding::untestable;
       out.verdict = fmt::format("too few independent rows ({:.0f})", test.effective_rows);
     }
@@ -76,7 +76,7 @@ ResidualTest dependence(const TestedRows& tested, const JudgedVariable& variable
   out.structure = test.structure;
   if (test.p_value >= kLevel) {
     out.verdict = fmt::format("none seen ({})", p_text(test.p_value));
-    if (test.detectable > kShown * tested.torque_rms) {
+    if (test.detectable > kShownShare * tested.torque_rms) {
       out.finding = Finding::untestable;
       out.verdict =
           fmt::format("too few independent rows: an effect below {:.2g} {} rms would not be seen",
@@ -102,7 +102,7 @@ struct VariableTest {
 };
 
 std::vector<VariableTest> new_tests(const JudgedRows& rows, Eigen::Index n_regressors) {
-  const Eigen::Index places = divided_up(rows.last_number + 1, kMostCells);
+  const Eigen::Index places = stretch_places(rows.last_number);
   std::vector<VariableTest> tests;
   for (const JudgedVariable& variable : rows.variables) {
     if (!variable.tested) continue;

@@ -31,8 +31,6 @@ Eigen::VectorXd smooth_residual(const EquationRows& e) {
   return solve(*e.rows, problem).residual_combination;
 }
 
-bool is_linear(const ElasticFit& fit) { return fit.transmission.cables.empty(); }
-
 /// What the linear model leaves of equation `k`; empty: model `m` is it, or there is none.
 Eigen::VectorXd linear_residual(const FittedModels& fitted, std::size_t m, std::size_t k) {
   const DynamicJob& job = fitted.job;

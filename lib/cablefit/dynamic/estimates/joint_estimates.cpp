@@ -7,6 +7,7 @@
 #include "cablefit/dynamic/estimates/estimates.hpp"
 #include "cablefit/elastic/estimates/elastic_quantities.hpp"
 #include "cablefit/estimate/spread/long_run.hpp"
+#include "cablefit/model/stiffness.hpp"
 
 namespace cablefit {
 namespace {
@@ -61,11 +62,6 @@ Eigen::MatrixXd correlation_of(const std::vector<EquationInfluence>& parts) {
 bool is_known(const Estimate* e) {
   return e != nullptr && e->not_identifiable.empty() && e->active_bound.empty() &&
          std::isfinite(e->value) && std::isfinite(e->sd);
-}
-
-/// f_0 by K, J_motor and J_link; in N m/rad and kg m^2.
-double resonance(double stiffness, double j_motor, double j_link) {
-  return std::sqrt(stiffness * (1 / j_motor + 1 / j_link)) / (2 * std::numbers::pi);
 }
 
 }  // namespace
@@ -155,10 +151,11 @@ std::vector<Estimate> drive_quantities(const JointEstimates& from, const Transmi
   const auto stiffness = [changed](const Eigen::VectorXd& v) { return rest_stiffness(changed(v)); };
   all.push_back(derive({"K_rest", "K_rest", unit_for(axes, "N m/rad"), stiffness}, from));
   if (j_link >= 0 && j_motor >= 0)
-    all.push_back(derive(
-        {"f_0", "f_0", "Hz",
-         [=](const Eigen::VectorXd& v) { return resonance(stiffness(v), v(j_motor), v(j_link)); }},
-        from));
+    all.push_back(derive({"f_0", "f_0", "Hz",
+                          [=](const Eigen::VectorXd& v) {
+                            return free_resonance(stiffness(v), v(j_motor), v(j_link));
+                          }},
+                         from));
   if (j_link >= 0 && j_motor >= 0 && f_v >= 0 && f_vm >= 0)
     all.push_back(derive({"zeta", "zeta", "1",
                           [=](const Eigen::VectorXd& v) {
@@ -166,7 +163,7 @@ std::vector<Estimate> drive_quantities(const JointEstimates& from, const Transmi
                             const double a = 1 / v(j_link), b = 1 / v(j_motor);
                             const double rate = (v(f_v) * a * a + v(f_vm) * b * b) / (a + b);
                             return rate / (4 * std::numbers::pi *
-                                           resonance(stiffness(v), v(j_motor), v(j_link)));
+                                           free_resonance(stiffness(v), v(j_motor), v(j_link)));
                           }},
                          from));
   if (f_s >= 0 && f_sm >= 0)

@@ -17,7 +17,7 @@ namespace {
 // than that matters, one that does not is below the sd of the fit to them.
 constexpr double kRowsForTest = 250000;
 
-constexpr double kOtherCutoffs[] = {0.71, 1.41};
+constexpr double kNearCutoffs[] = {0.71, 1.41};
 constexpr double kAgreement = 1;  // sd
 
 }  // namespace
@@ -57,7 +57,7 @@ std::vector<InstrumentProof> prove_instruments(const EstimationTask& task, const
   }
   const double rate = sample_rates(job.logs, job.wanted).lowest;
   int n_cutoffs = 0;
-  for (const double factor : kOtherCutoffs) {
+  for (const double factor : kNearCutoffs) {
     if (factor * job.settings.rows.signal.cutoff > kMostShareOfRate * rate) continue;
     const DynamicJob other = with_cutoff_scaled(job, factor);
     const std::vector<EquationRows> equations = make_equations(other);

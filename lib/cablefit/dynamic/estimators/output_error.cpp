@@ -341,7 +341,7 @@ void add_floor(const EstimationTask& task, const OutputErrorOptions& options,
   out.floor_note = std::move(floor.note);
 }
 
-Estimation estimate(const EstimationTask& task) {
+Estimation estimate_by_simulation(const EstimationTask& task) {
   Estimation start = least_squares_fit(task, Weighting::by_residual);
   const DynamicJob& job = task.job;
   const Model model = model_of_solutions(job, task.equations, start.solutions, task.model);
@@ -370,7 +370,7 @@ Estimation estimate(const EstimationTask& task) {
 Estimator output_error() {
   return {"output-error",
           "simulated positions follow the measured ones, torque noise and stiffness as unknowns",
-          "Jazwinski 1970, 5.3; Ljung 1999, 7.2", estimate, false};
+          "Jazwinski 1970, 5.3; Ljung 1999, 7.2", estimate_by_simulation, false};
 }
 
 }  // namespace cablefit::estimation

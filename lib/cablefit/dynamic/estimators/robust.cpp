@@ -184,7 +184,7 @@ void keep_largest(std::vector<SuspectSpan>& spans, std::vector<std::string>& war
   });
 }
 
-Estimation estimate(const EstimationTask& task) {
+Estimation estimate_robustly(const EstimationTask& task) {
   const Archives archives = archive_rows(task);
   std::vector<EquationRows> pulled = task.equations;
   Iteration last{least_squares_fit(task, Weighting::by_residual), {}, false};
@@ -206,7 +206,7 @@ Estimator robust() {
   return {"robust",
           "Huber's M-estimate: outliers get less weight, suspect stretches of time are "
           "listed",
-          "Huber 1981, ch. 7 (c = 1.345, scale by the median)", estimate};
+          "Huber 1981, ch. 7 (c = 1.345, scale by the median)", estimate_robustly};
 }
 
 }  // namespace cablefit::estimation

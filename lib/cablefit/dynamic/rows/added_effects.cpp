@@ -13,8 +13,8 @@
 namespace cablefit {
 namespace {
 
-constexpr double kStep = 0.01;      // of a nonlinear parameter, for its difference quotient
-constexpr double kMostShare = 0.5;  // of it, or of its range, that one step may move it by
+constexpr double kQuotientStep = 0.01;  // of a nonlinear parameter, for its difference quotient
+constexpr double kMostShare = 0.5;      // of it, or of its range, that one step may move it by
 
 /// In both equations, or held.
 bool is_of_both_sides(const Effect& row) {
@@ -121,8 +121,8 @@ Eigen::MatrixXd torques(const AddedEffect& effect, const std::vector<double>& sh
 double step_of(const EffectInstance& instance, std::size_t shape) {
   const ShapeGrid& grid = instance.effect->shape[shape];
   const double value = instance.parameters[instance.effect->n_linear() + shape].value;
-  if (grid.is_geometric || grid.unit != GridUnit::si) return kStep * std::abs(value);
-  return kStep * (grid.high - grid.low);
+  if (grid.is_geometric || grid.unit != GridUnit::si) return kQuotientStep * std::abs(value);
+  return kQuotientStep * (grid.high - grid.low);
 }
 
 /// The law of the textbooks has its exponent; and refine gives no sd to what it did not look for.

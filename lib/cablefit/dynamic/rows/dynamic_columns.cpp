@@ -18,8 +18,6 @@ const Eigen::ArrayXd& acceleration(Side side, const JointSignals& s) {
   return side == Side::link ? s.qdd : s.thetadd;
 }
 
-bool is_linear(const ElasticFit& fit) { return fit.transmission.cables.empty(); }
-
 /// Basis columns of a fit, n x coefficients.
 void fill_basis(const ElasticFit& fit, const DynamicColumns& c, const Signals& signals,
                 Eigen::Ref<Eigen::MatrixXd> out) {

@@ -61,8 +61,12 @@ std::vector<EquationRows> make_equations(const DynamicJob& job, ElasticDetail de
 /// otherwise each alone.
 std::vector<std::vector<std::size_t>> systems_of(const std::vector<EquationRows>& equations);
 
+/// Windows of every log that settings of the motion are chosen by.
+inline constexpr int kPreliminaryWindows = 8;
+
 /// The equations with the rows of only the first `n_windows` windows of every log.
-std::vector<EquationRows> preliminary_equations(const DynamicJob& job, int n_windows);
+std::vector<EquationRows> preliminary_equations(const DynamicJob& job,
+                                                int n_windows = kPreliminaryWindows);
 
 /// Whether the largest residuals of a fit to the rows are needed.
 enum class Peaks { unwanted, kept };

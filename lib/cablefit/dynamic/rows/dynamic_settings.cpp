@@ -17,13 +17,12 @@ namespace cablefit {
 namespace {
 
 using std::numbers::pi;
-constexpr int kPreliminaryWindows = 8;
 
 // f0 of the elastic drive needs inertias, which are what is looked for. A first fit with a generous
 // band gives them; the CAD values are never used.
-double resonance(double stiffness, double j_link, double j_motor) {
+double rough_resonance(double stiffness, double j_link, double j_motor) {
   if (!(j_link > 0) || !(j_motor > 0) || !(stiffness > 0)) return 0;
-  return std::sqrt(stiffness * (1 / j_motor + 1 / j_link)) / (2 * pi);
+  return free_resonance(stiffness, j_motor, j_link);
 }
 
 /// The stiffness at the middle of the torque range used, for f0: of one joint (from 0), the others
@@ -47,7 +46,7 @@ std::vector<double> preliminary_resonances(DynamicJob& job, const ElasticResult&
   const double rate = sample_rates(job.logs, job.wanted).lowest;
   const int n = job.n_joints();
   job.links_alone = true;  // near enough
-  const std::vector<EquationRows> preliminary = preliminary_equations(job, kPreliminaryWindows);
+  const std::vector<EquationRows> preliminary = preliminary_equations(job);
   job.links_alone = false;
   const std::size_t last = job.elastic.size() - 1;
   const ElasticPreload* stage1 = stage1_of(elastic, job.preload);
@@ -60,7 +59,7 @@ std::vector<double> preliminary_resonances(DynamicJob& job, const ElasticResult&
     const double stiffness = stage1 == nullptr ? 0
                              : n == 1          ? typical_stiffness(fit, *stage1, joint)
                                       : typical_stiffness(fit, stage1->joints[link / 2], joint);
-    const double f0 = resonance(stiffness, j_link, j_motor);
+    const double f0 = rough_resonance(stiffness, j_link, j_motor);
     resonances.push_back(f0 < rate / 2 ? f0 : 0);
   }
   return resonances;

@@ -10,9 +10,9 @@
 namespace cablefit {
 namespace {
 
-constexpr int kWindows = 6;      // of every log
-constexpr double kMost = 0.99;   // of the values, that LogScale covers
-constexpr double kUsual = 0.75;  // of |tau|
+constexpr int kShapeWindows = 6;  // of every log
+constexpr double kMost = 0.99;    // of the values, that LogScale covers
+constexpr double kUsual = 0.75;   // of |tau|
 
 bool is_blank(const EffectInstance& effect) {
   return std::any_of(effect.parameters.begin(), effect.parameters.end(),
@@ -38,7 +38,7 @@ LogScale scale_of(const DynamicJob& job, int joint) {
   const SignalSettings& settings = job.settings.rows.signal;
   const Eigen::Index halo = row_halo(job.settings.rows, sample_rates(job.logs, job.wanted).highest);
   for (const PreliminaryWindow& p :
-       preliminary_windows(job.logs, job.wanted, settings, halo, kWindows)) {
+       preliminary_windows(job.logs, job.wanted, settings, halo, kShapeWindows)) {
     const Signals signals = make_signals(p.window, job.logs[p.log].plan, settings);
     const JointSignals& s = signals.joints[static_cast<std::size_t>(joint)];
     append(speeds, s.thetad);
@@ -91,7 +91,7 @@ void set_free(EffectInstance& effect) {
 
 /// Sum over the equations of the logarithm of what least squares leaves: each counts alike.
 double misfit(const DynamicJob& job) {
-  const std::vector<EquationRows> equations = preliminary_equations(job, kWindows);
+  const std::vector<EquationRows> equations = preliminary_equations(job, kShapeWindows);
   const std::vector<LinearSolution> solutions = solve_equations(equations, job.elastic, 0);
   double sum = 0;
   for (std::size_t k = 0; k < equations.size(); ++k) {
@@ -143,7 +143,7 @@ void find_first_shapes(DynamicJob& job) {
   for (std::vector<EffectInstance>& own : job.added) own.clear();
   add_one_by_one(wanted, job);
   EffectsPerJoint found = job.added;
-  const std::vector<EquationRows> equations = preliminary_equations(job, kWindows);
+  const std::vector<EquationRows> equations = preliminary_equations(job, kShapeWindows);
   const std::vector<LinearSolution> solutions = solve_equations(equations, job.elastic, 0);
   for (std::size_t k = 0; k < equations.size(); ++k)
     take_values(equations[k].columns, solutions[k].x, found);

@@ -160,7 +160,7 @@ std::string stillness_of(const DynamicJob& job, int joint) {
 }
 
 void require_restoring(const ElasticFit& fit, const std::string& preload) {
-  if (fit.transmission.cables.empty() && !(fit.transmission.linear_stiffness.minCoeff() > 0))
+  if (is_linear(fit) && !(fit.transmission.linear_stiffness.minCoeff() > 0))
     throw Error(
         ErrorKind::not_identifiable,
         fmt::format("stage 1 of preload '{:.40}' has a negative stiffness: the sign of tau, theta "

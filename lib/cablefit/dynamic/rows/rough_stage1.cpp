@@ -10,8 +10,6 @@
 namespace cablefit {
 namespace {
 
-constexpr int kPreliminaryWindows = 8;
-
 ElasticFit blank_fit(const Rig& rig) {
   ElasticFit fit;
   fit.model = "poly";
@@ -84,7 +82,7 @@ ElasticResult rough_stage1(DynamicJob& job) {
       with_wide_band(job.options.samples, sample_rates(job.logs, job.wanted).lowest);
   choose_joint_settings(job, wide, std::vector<double>(static_cast<std::size_t>(job.n_joints())));
   job.settings.rows.signal.torque_held = job.rig().torque_hold == TorqueHold::zoh;
-  const std::vector<EquationRows> preliminary = preliminary_equations(job, kPreliminaryWindows);
+  const std::vector<EquationRows> preliminary = preliminary_equations(job);
   const std::vector<const EquationRows*> motors = motors_of(preliminary);
   require_rows(job, motors);
   const Eigen::VectorXd coefficients = shared_coefficients(motors);

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cablefit/base/divided_up.hpp"
 #include "cablefit/estimate/tests/binned_test.hpp"
 
 namespace cablefit {
 namespace {
 
 constexpr double kLevel = 1e-3;
-constexpr Eigen::Index kMostCells = 1024;
 constexpr Eigen::Index kEdgeValues = 20000;
 
 std::vector<double> edges_of(const BlockedRows& rows) {
@@ -60,7 +58,7 @@ ElasticMisfit find_misfit(const BlockedRows& rows, const ElasticCandidate& candi
   rows.archive->for_each([&](const Eigen::MatrixXd&, std::span<const Eigen::Index> numbers) {
     if (!numbers.empty()) last = std::max(last, numbers.back());
   });
-  const Eigen::Index places = divided_up(last + 1, kMostCells);
+  const Eigen::Index places = stretch_places(last);
   BinnedTest curve(edges, p, places), loop(edges, p, places);
   std::vector<Bin> bins(edges.size() + 1);
   rows.archive->for_each([&](const Eigen::MatrixXd& r, std::span<const Eigen::Index> numbers) {

@@ -290,7 +290,7 @@ ElasticFit make_fit(const ElasticJob& job, const ElasticCandidate& candidate,
     fit.parameters.push_back(std::move(e));
   }
   fit.warnings = worth_saying(s.warnings, candidate, refused_names(fit, fit.parameters.size()));
-  if (!fit.transmission.cables.empty() && !refused_names(fit, candidate.n_elastic).empty())
+  if (!is_linear(fit) && !refused_names(fit, candidate.n_elastic).empty())
     fit.warnings.emplace_back(
         "K_rest and slack points are not given: they follow from coefficients that these logs do "
         "not determine; let the cables go slack in a blocked log");

@@ -7,7 +7,7 @@
 namespace cablefit {
 namespace {
 
-constexpr int kSteps = 100;          // of each zone
+constexpr int kZoneSteps = 100;      // of each zone
 constexpr double kHair = 1e-9;       // of a zone: on either side of a jump
 constexpr double kHeadroom = 1.05;   // of the largest stiffness
 constexpr double kNoteHeight = 0.1;  // of the same
@@ -17,8 +17,8 @@ std::vector<double> positions_of(const std::vector<CableZone>& zones) {
   std::vector<double> phi;
   for (const CableZone& zone : zones) {
     const double hair = kHair * (zone.high - zone.low);
-    for (int i = 0; i <= kSteps; ++i)
-      phi.push_back(zone.low + hair + (zone.high - zone.low - 2 * hair) * i / kSteps);
+    for (int i = 0; i <= kZoneSteps; ++i)
+      phi.push_back(zone.low + hair + (zone.high - zone.low - 2 * hair) * i / kZoneSteps);
   }
   return phi;
 }

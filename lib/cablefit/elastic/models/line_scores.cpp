@@ -10,7 +10,7 @@
 namespace cablefit {
 namespace {
 
-constexpr Eigen::Index kMinRows = 10;
+constexpr Eigen::Index kFewestScoredRows = 10;
 
 /// A model on its way to its scores.
 struct Scored {
@@ -58,7 +58,7 @@ BlockedRows rows_within(const BlockedRows& rows, const std::pair<double, double>
   BlockedRows within = rows_where(rows, [&](const Eigen::Ref<const Eigen::RowVectorXd>& row) {
     return row(phi) >= range.first && row(phi) <= range.second;
   });
-  if (within.rows->n_rows() < kMinRows)
+  if (within.rows->n_rows() < kFewestScoredRows)
     throw Error(
         ErrorKind::input,
         fmt::format("--linear-range: {} samples have a deflection of {}; give a range within {}",

@@ -15,7 +15,7 @@ constexpr int kBisections = 40;
 constexpr double kNearZero = 1e-6;  // of the range: k(l) next to the point of going slack
 // Of the size of k's terms. A fit on its bound is 0 there up to rounding in ill-conditioned
 // coefficients; what is less than a millionth of its terms pushes nothing.
-constexpr double kRounding = 1e-6;
+constexpr double kPassiveRounding = 1e-6;
 
 /// k(l), raised by what is rounding, so that its sign can be trusted.
 class RaisedSecant {
@@ -23,7 +23,9 @@ class RaisedSecant {
   explicit RaisedSecant(const Cable& cable) : cable_(cable), sizes_(cable) {
     for (double& c : sizes_.coefficients) c = std::abs(c);
   }
-  double operator()(double l) const { return cable_.secant(l) + kRounding * sizes_.secant(l); }
+  double operator()(double l) const {
+    return cable_.secant(l) + kPassiveRounding * sizes_.secant(l);
+  }
 
  private:
   const Cable& cable_;
@@ -80,7 +82,8 @@ std::optional<Push> find_push(const Cable& cable, double longest) {
     if (first < 0) first = i;
     last = i;
     const double k = cable.secant(l);
-    if (k < (1 + kRounding) * push->lowest) push->lowest = k, push->lowest_at = i == 0 ? 0 : l;
+    if (k < (1 + kPassiveRounding) * push->lowest)
+      push->lowest = k, push->lowest_at = i == 0 ? 0 : l;
   }
   if (first > 0)
     push->from = edge_between(secant, elongation_scanned(longest, first - 1),

@@ -115,6 +115,12 @@ ElasticJob make_job(std::span<const LogSurvey> logs, const ElasticOptions& optio
   return job;
 }
 
+std::vector<int> preliminary_orders(const ElasticJob& job) {
+  constexpr int kPreliminaryOrder = 2;
+  return job.orders.empty() ? std::vector<int>(job.basis.cables.size(), kPreliminaryOrder)
+                            : job.orders;
+}
+
 namespace {
 
 /// One pass over the logs; rows in motion (even) and at rest (odd) of every joint.

@@ -34,6 +34,12 @@ struct ElasticJob {
 ElasticJob make_job(std::span<const LogSurvey> logs, const ElasticOptions& options,
                     const std::string& name);
 
+/// Of the cables in a first fit, from which the zeros are looked for: those given, else 2.
+std::vector<int> preliminary_orders(const ElasticJob& job);
+
+/// Of the torque's spread: a larger offset is an encoder's zero rather than the drive's.
+inline constexpr double kArbitraryZero = 0.05;
+
 /// Rows of one joint's equation under one choice of theta_0, or of all joints' together.
 struct BlockedRows {
   Transmission transmission;  ///< as ElasticJob::basis, theta_0 set

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kFirstStep = 1e-9;  // rad, below the resolution of any encoder
 constexpr double kLargestTurn = 7;   // rad: a turn, for cables that no motor stretches
-constexpr int kBisections = 45;
-constexpr double kRounding = 1e-12;  // of a range
+constexpr int kHalvings = 45;
+constexpr double kElongationRounding = 1e-12;  // of a range
 
 /// Largest turn from `start` in this direction with all cables inside their ranges.
 template <typename Inside>
@@ -23,7 +23,7 @@ double largest_turn(Inside inside, double direction) {
     out *= 2;
   }
   if (out >= kLargestTurn) return in;
-  for (int i = 0; i < kBisections; ++i) {
+  for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (in + out);
     (inside(direction * middle) ? in : out) = middle;
   }
@@ -55,7 +55,7 @@ DeflectionRange reference_deflections(const Transmission& transmission,
   const auto inside = [&](double turn) {
     for (std::size_t c = 0; c < ranges.size(); ++c) {
       const Cable& cable = transmission.cables[c];
-      const double rounding = kRounding * (ranges[c].high - ranges[c].low);
+      const double rounding = kElongationRounding * (ranges[c].high - ranges[c].low);
       const double l = elongation_at(transmission, cable, turn);
       if (l < std::min(ranges[c].low, cable.initial_elongation) - rounding ||
           l > std::max(ranges[c].high, cable.initial_elongation) + rounding)

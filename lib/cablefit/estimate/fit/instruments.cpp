@@ -3,12 +3,10 @@
 #include <Eigen/QR>
 #include <limits>
 
+#include "cablefit/estimate/solve/constrained_least_squares.hpp"
+
 namespace cablefit {
-namespace {
-
-constexpr double kRankTolerance = 1e-9;  // as for regressors
-
-}  // namespace
+namespace {}  // namespace
 
 double first_stage_f(double share, double effective_rows) {
   return share < 1 ? effective_rows * share / (1 - share) : std::numeric_limits<double>::infinity();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cablefit/base/parameter.hpp"
 #include "cablefit/estimate/fit/profile_interval.hpp"
 #include "cablefit/estimate/solve/constrained_least_squares.hpp"
 #include "cablefit/estimate/solve/null_space.hpp"
@@ -136,8 +137,8 @@ std::vector<ProfileInterval> joint_profiles(const JointProblem& problem) {
   if (problem.equalities.rows() > 0) equalities = problem.equalities * unscale;
   const Eigen::MatrixXd z = free_directions(equalities);
   const Eigen::MatrixXd a = stack.a * z, g = problem.inequalities * unscale * z;
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  std::vector<ProfileInterval> all(static_cast<std::size_t>(problem.n_params()), {kNone, kNone});
+  std::vector<ProfileInterval> all(static_cast<std::size_t>(problem.n_params()),
+                                   {kNotKnown, kNotKnown});
   for (Eigen::Index k = 0; k < problem.n_params(); ++k) {
     const double plain = s.solve_operator(k, k), robust = covariance.covariance(k, k);
     if (!s.determines(Eigen::VectorXd::Unit(problem.n_params(), k)) || !(plain > 0)) continue;

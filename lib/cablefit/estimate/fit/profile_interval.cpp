@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cablefit/base/parameter.hpp"
 #include "cablefit/estimate/fit/active_set.hpp"
 #include "cablefit/estimate/fit/instruments.hpp"
 #include "cablefit/estimate/solve/constrained_least_squares.hpp"
@@ -106,8 +107,7 @@ std::vector<ProfileInterval> profile_intervals(const RowStatistics& rows,
   const bool held = !s.active_constraints.empty() ||
                     std::find(s.at_bound.begin(), s.at_bound.end(), true) != s.at_bound.end();
   if (!held) return {};
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  std::vector<ProfileInterval> all(problem.regressors.size(), {kNone, kNone});
+  std::vector<ProfileInterval> all(problem.regressors.size(), {kNotKnown, kNotKnown});
   std::vector<Eigen::Index> free, columns;
   for (std::size_t k = 0; k < problem.regressors.size(); ++k) {
     if (k < problem.held.size() && !problem.held[k].empty()) continue;

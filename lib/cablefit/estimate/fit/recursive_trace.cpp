@@ -4,12 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "cablefit/base/parameter.hpp"
+
 namespace cablefit {
-namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
+namespace {}  // namespace
 
 double forgetting_factor(double memory_samples) { return 1 - 1 / memory_samples; }
 
@@ -70,8 +68,8 @@ TracePoint RecursiveInformation::point(const std::string& record) const {
   for (Eigen::Index k = 0; k < s.x.size(); ++k) {
     const bool known = s.determines(Eigen::VectorXd::Unit(s.x.size(), k)) &&
                        s.n_rows > s.n_params && seen_.r().col(k).norm() > 0;
-    out.value.push_back(known ? s.x(k) : kNone);
-    out.sd.push_back(known ? std::sqrt(std::max(0.0, variance(k))) : kNone);
+    out.value.push_back(known ? s.x(k) : kNotKnown);
+    out.sd.push_back(known ? std::sqrt(std::max(0.0, variance(k))) : kNotKnown);
   }
   return out;
 }
@@ -82,9 +80,9 @@ void end_at(std::span<const Estimate> estimates, RecursiveTrace& trace) {
   for (TracePoint& point : trace.points)
     for (std::size_t k = 0; k < last.size(); ++k) {
       const Estimate& e = estimates[k];
-      if (!e.not_identifiable.empty()) point.value[k] = kNone;
+      if (!e.not_identifiable.empty()) point.value[k] = kNotKnown;
       const bool has_band = e.not_identifiable.empty() && e.active_bound.empty() && last[k] > 0;
-      point.sd[k] = has_band ? point.sd[k] * e.sd / last[k] : kNone;
+      point.sd[k] = has_band ? point.sd[k] * e.sd / last[k] : kNotKnown;
     }
 }
 
@@ -92,16 +90,16 @@ void scale_bands(std::span<const Estimate> estimates, RecursiveTrace& trace) {
   for (TracePoint& point : trace.points)
     for (std::size_t k = 0; k < point.sd.size(); ++k) {
       const Estimate& e = estimates[k];
-      if (!e.not_identifiable.empty()) point.value[k] = kNone;
+      if (!e.not_identifiable.empty()) point.value[k] = kNotKnown;
       const bool has_band = e.not_identifiable.empty() && e.active_bound.empty() && e.sd_white > 0;
-      point.sd[k] = has_band ? point.sd[k] * e.sd / e.sd_white : kNone;
+      point.sd[k] = has_band ? point.sd[k] * e.sd / e.sd_white : kNotKnown;
     }
 }
 
 OnlineEnd online_end(const RecursiveTrace& trace, std::size_t k, const Estimate& direct) {
-  if (trace.points.empty()) return {kNone, kNone, kNone};
+  if (trace.points.empty()) return {kNotKnown, kNotKnown, kNotKnown};
   const double value = trace.points.back().value[k], sd = trace.points.back().sd[k];
-  return {value, sd, sd > 0 ? (value - direct.value) / sd : kNone};
+  return {value, sd, sd > 0 ? (value - direct.value) / sd : kNotKnown};
 }
 
 namespace {

@@ -11,7 +11,6 @@ namespace {
 
 // Of a singular value over the largest, as for the fit without constraints. Below it, data with
 // nine digits in double precision determine nothing.
-constexpr double kRankTolerance = 1e-9;
 // A dual that is this small against |column| |b| is rounding: a few dozen sums of products.
 constexpr double kDualTolerance = 1e-13;
 

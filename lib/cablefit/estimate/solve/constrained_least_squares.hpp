@@ -7,6 +7,9 @@
 
 namespace cablefit {
 
+/// Of the largest singular value: directions of scaled columns below it are not determined.
+inline constexpr double kRankTolerance = 1e-9;
+
 /// Minimises |a u - b| over u >= 0: algorithm NNLS of Lawson & Hanson 1974, ch. 23. `a`: m x n, its
 /// columns need not be scaled; b: m. Deterministic; each step lowers |a u - b|, so that no set of
 /// positive u comes back and it ends.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cablefit/base/parameter.hpp"
 #include "cablefit/estimate/solve/scaled_solve.hpp"
 
 namespace cablefit {
@@ -15,7 +16,6 @@ namespace {
 
 constexpr double kConditionIndex = 30;       // Belsley, Kuh & Welsch 1980, 3.2: strong dependence
 constexpr double kVarianceProportion = 0.5;  // the same
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 struct Columns {
@@ -57,7 +57,7 @@ std::vector<std::size_t> members_of(const Eigen::VectorXd& direction) {
 }
 
 Confusion exact_confusion(const Columns& c, const Eigen::VectorXd& direction) {
-  Confusion found{members_of(direction), true, kInfinite, kNone, ""};
+  Confusion found{members_of(direction), true, kInfinite, kNotKnown, ""};
   if (found.members.size() == 1) {
     const NamedColumn& alone = c.names[found.members.front()];
     found.text = with_advice(alone.name + " is not determined: these logs do not excite it",
@@ -117,7 +117,7 @@ void add_groups(const Columns& c, const Eigen::MatrixXd& v, const Eigen::VectorX
             "index {:.0f})",
             enumerated(c, members), index),
         advice_for(c, members));
-    out.confusions.push_back({std::move(members), false, index, kNone, std::move(text)});
+    out.confusions.push_back({std::move(members), false, index, kNotKnown, std::move(text)});
   }
 }
 

@@ -10,7 +10,7 @@
 namespace cablefit {
 namespace {
 
-constexpr Eigen::Index kStep = 16;          // every so many rows are the sample
+constexpr Eigen::Index kSampleStep = 16;    // every so many rows are the sample
 constexpr Eigen::Index kRowsPerColumn = 8;  // in the sample; fewer rows do not stand for the rest
 // Rows that stay near the processor; not a power of two, or all columns would fall on the same few
 // lines of the first-level cache.
@@ -42,10 +42,10 @@ Eigen::MatrixXd blocked_householder(const Eigen::Ref<const Eigen::MatrixXd>& row
 /// Every 16th row's R. A column that the others explain, or that is zero, keeps its scale as the
 /// diagonal, so that dividing by R leaves of it what little is not explained.
 Eigen::MatrixXd preconditioner(const Eigen::Ref<const Eigen::MatrixXd>& rows) {
-  const Eigen::Index n_sample = rows.rows() / kStep;
+  const Eigen::Index n_sample = rows.rows() / kSampleStep;
   Eigen::MatrixXd sample(n_sample, rows.cols());
   for (Eigen::Index k = 0; k < rows.cols(); ++k)
-    for (Eigen::Index i = 0; i < n_sample; ++i) sample(i, k) = rows(i * kStep, k);
+    for (Eigen::Index i = 0; i < n_sample; ++i) sample(i, k) = rows(i * kSampleStep, k);
   Eigen::MatrixXd r = householder(std::move(sample));
   for (Eigen::Index k = 0; k < r.cols(); ++k) {
     const double norm = r.col(k).norm();
@@ -72,7 +72,7 @@ std::optional<Eigen::MatrixXd> upper_cholesky(const Eigen::MatrixXd& gram, Eigen
 
 std::optional<Eigen::MatrixXd> cholesky_qr(const Eigen::Ref<const Eigen::MatrixXd>& rows) {
   const Eigen::Index n = rows.cols();
-  if (rows.rows() / kStep < kRowsPerColumn * n) return std::nullopt;
+  if (rows.rows() / kSampleStep < kRowsPerColumn * n) return std::nullopt;
   const Eigen::MatrixXd r0 = preconditioner(rows);
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(n, n);
   Eigen::MatrixXd block;

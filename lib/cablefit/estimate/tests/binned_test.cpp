@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/base/divided_up.hpp"
 #include "cablefit/estimate/solve/row_statistics.hpp"
 #include "cablefit/estimate/spread/long_run.hpp"
 #include "cablefit/estimate/spread/tail_probability.hpp"
@@ -39,6 +40,11 @@ double quadratic_form(const Eigen::MatrixXd& v, const Eigen::VectorXd& u) {
 }
 
 }  // namespace
+
+Eigen::Index stretch_places(Eigen::Index last) {
+  constexpr Eigen::Index kMostStretches = 1024;
+  return divided_up(last + 1, kMostStretches);
+}
 
 std::vector<double> bin_edges(std::vector<double> values, std::size_t n_bins) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });

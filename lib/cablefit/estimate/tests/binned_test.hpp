@@ -27,13 +27,17 @@ std::vector<double> bin_edges(std::vector<double> values, std::size_t n_bins);
 /// 0 .. edges.size(): a value on an edge belongs to the bin above it.
 std::size_t bin_of(double value, const std::vector<double>& edges);
 
+/// Places of the time grid in each stretch that the covariance is of, where rows are numbered up to
+/// `last`: at most 1024 stretches.
+Eigen::Index stretch_places(Eigen::Index last);
+
 /// F-test of zero means of a residual in all bins of a variable. The bins' scores, sums of the
 /// residual, are turned so that white residuals would give them a unit matrix, and their covariance
 /// is long_run_covariance() over stretches of time: F = W (nu - k + 1)/(nu k) with nu its degrees
 /// of freedom (Hotelling 1931).
 class BinnedTest {
  public:
-  /// `edges`: of bin_edges(), not empty. `cell_places`: places of the time grid in a stretch.
+  /// `edges`: of bin_edges(), not empty. `cell_places`: see stretch_places().
   BinnedTest(std::vector<double> edges, Eigen::Index n_regressors, Eigen::Index cell_places);
 
   /// Consecutive rows: places on the time grid, variable (rows with NaN are left out), residual,

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/identify/elongations/descent_limits.hpp"
 #include "cablefit/identify/equations/admissible_elongations.hpp"
 #include "cablefit/identify/equations/equilibrium.hpp"
 
 namespace cablefit {
 namespace {
 
-constexpr int kMaxIterations = 40;
-constexpr double kConverged = 1e-8;     // of the reach, far below any sd
-constexpr double kSmallestStep = 2e-3;  // of the Gauss-Newton step
 constexpr double kLargestStep = 0.2;    // of the reach
 constexpr double kNearEquilibrium = 2;  // merit with equilibrium over that without
 constexpr double kNearSlack = 0.01;     // of the reach: the other side of l_o = 0 is worth a look

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cablefit/identify/elongations/descent_limits.hpp"
 #include "cablefit/identify/equations/joint_radii.hpp"
 
 namespace cablefit {
 namespace {
 
-constexpr int kMaxIterations = 40;
-constexpr double kConverged = 1e-8;     // relative, far below any sd
-constexpr double kSmallestStep = 2e-3;  // of the Gauss-Newton step
-constexpr double kLargestStep = 0.1;    // relative
+constexpr double kLargestChange = 0.1;  // of a radius
 
 /// What Gauss-Newton changes: ln r_m of every searched radius, and l_o.
 struct RadiusStep {
@@ -57,7 +55,7 @@ JointPoint point_at(JointFit& fit, const JointPoint& from, const RadiusStep& ste
 
 /// Moves fit and point to the first better place on the way; false: there is none.
 bool advance(JointFit& fit, JointPoint& point, const RadiusStep& step) {
-  double length = std::min(1.0, kLargestStep / step.largest());
+  double length = std::min(1.0, kLargestChange / step.largest());
   while (length > kSmallestStep) {
     JointFit next =
         with_radii(fit, searched_radii(fit).array() * (length * step.ln_radius.array()).exp());

@@ -14,8 +14,6 @@
 namespace cablefit {
 namespace {
 
-constexpr int kDefaultOrder = 2;  // the paper's
-
 PartFilter parts_of(const std::string& preload) {
   return [preload](const PartSurvey& part) { return part.preload == preload; };
 }

@@ -34,7 +34,7 @@ class ChannelsLayout final : public JsonLayout {
   void null(TextPosition at) override {
     if (where_ != Where::values) return scalar("null", at);
     if (!table_.may_miss)
-      throw error(at, "null in channel " + quoted(column().header.name) + " is not a number",
+      throw error(at, "null in channel " + in_quotes(column().header.name) + " is not a number",
                   kMissingHint);
     append(table_.missing_entry(column(), at));
   }
@@ -61,7 +61,7 @@ class ChannelsLayout final : public JsonLayout {
     key_ = name;
     if (where_ == Where::document) check_key(kDocumentKeys, document_keys_, "", at);
     if (where_ == Where::channel) {
-      check_key(kChannelKeys, channel_keys_, " in channel " + quoted(column().header.name), at);
+      check_key(kChannelKeys, channel_keys_, " in channel " + in_quotes(column().header.name), at);
     }
     if (where_ == Where::channels) begin_column(at);
   }
@@ -80,7 +80,7 @@ class ChannelsLayout final : public JsonLayout {
     if (skipped_depth_ > 0) return end_skipped_bracket();
     if (where_ == Where::channel && !channel_keys_.contains("values")) {
       throw input_error(column().header.place,
-                        "channel " + quoted(column().header.name) + " has no 'values'",
+                        "channel " + in_quotes(column().header.name) + " has no 'values'",
                         "add \"values\": [..]");
     }
     go(where_ == Where::channel ? Where::channels : Where::document);
@@ -111,13 +111,14 @@ class ChannelsLayout final : public JsonLayout {
   Error misplaced(const std::string& value, TextPosition at) const override {
     switch (where_) {
       case Where::values:
-        return error(at, value + " in channel " + quoted(column().header.name) + " is not a number",
+        return error(at,
+                     value + " in channel " + in_quotes(column().header.name) + " is not a number",
                      "write numbers as 1.5 or -3e-4");
       case Where::channels:
-        return error(at, "channel " + quoted(key_) + " is " + value + ", not an array",
+        return error(at, "channel " + in_quotes(key_) + " is " + value + ", not an array",
                      "write it as [0.1, 0.2]");
       default:
-        return error(at, quoted(key_) + " is " + value, expected());
+        return error(at, in_quotes(key_) + " is " + value, expected());
     }
   }
 
@@ -157,10 +158,10 @@ class ChannelsLayout final : public JsonLayout {
       if (key_ == "schema")
         throw error(at, "this is a rig file or a result of cablefit, not a log",
                     "give a rig file by --rig FILE, and a model as a whole file");
-      throw error(at, "unknown key " + quoted(key_) + in, suggestion(key_, known));
+      throw error(at, "unknown key " + in_quotes(key_) + in, suggestion(key_, known));
     }
     if (!given.insert(key_).second) {
-      throw error(at, "key " + quoted(key_) + in + " appears twice", "keep one of them");
+      throw error(at, "key " + in_quotes(key_) + in + " appears twice", "keep one of them");
     }
   }
 
@@ -192,15 +193,15 @@ class ChannelsLayout final : public JsonLayout {
     for (const JsonColumn& channel : table_.columns) names.push_back(channel.header.name);
     const auto found = std::find(names.begin(), names.end(), unit.name);
     if (found == names.end()) {
-      throw error(unit.at, "unit for unknown channel " + quoted(unit.name),
+      throw error(unit.at, "unit for unknown channel " + in_quotes(unit.name),
                   suggestion(unit.name, names));
     }
     std::string& given =
         table_.columns[static_cast<std::size_t>(found - names.begin())].header.unit;
     if (!given.empty() && given != unit.unit) {
       throw error(unit.at,
-                  "channel " + quoted(unit.name) + " has units " + quoted(given) + " and " +
-                      quoted(unit.unit),
+                  "channel " + in_quotes(unit.name) + " has units " + in_quotes(given) + " and " +
+                      in_quotes(unit.unit),
                   "keep one of them");
     }
     given = unit.unit;
@@ -212,8 +213,8 @@ class ChannelsLayout final : public JsonLayout {
       if (channel.n_values == first.n_values) continue;
       throw input_error(
           channel.header.place,
-          fmt::format("channel {} has {} values, channel {} has {}", quoted(channel.header.name),
-                      channel.n_values, quoted(first.header.name), first.n_values),
+          fmt::format("channel {} has {} values, channel {} has {}", in_quotes(channel.header.name),
+                      channel.n_values, in_quotes(first.header.name), first.n_values),
           "all channels need one length");
     }
     table_.n_rows = table_.columns.empty() ? 0 : table_.columns.front().n_values;

@@ -12,11 +12,11 @@
 #include "cablefit/log/column_header.hpp"
 #include "cablefit/log/json/json_channels.hpp"
 #include "cablefit/log/json/json_records.hpp"
+#include "cablefit/log/log_formats.hpp"
 
 namespace cablefit {
 namespace {
 
-constexpr std::size_t kHeadBytes = 1u << 16;
 constexpr std::size_t kBlockBytes = 1u << 16;
 constexpr std::size_t kPieceRows = 8192;
 
@@ -82,10 +82,10 @@ class JsonReader final : public LogReader {
     using Kind = JsonColumn::Kind;
     if (column.kind == Kind::number || column.kind == Kind::date) return;
     if (column.kind == Kind::unknown)
-      throw input_error(column.header.place, "column " + quoted(column.header.name) + " is empty",
-                        "leave it out");
+      throw input_error(column.header.place,
+                        "column " + in_quotes(column.header.name) + " is empty", "leave it out");
     throw input_error(column.header.place,
-                      "column " + quoted(column.header.name) + " holds texts, not numbers",
+                      "column " + in_quotes(column.header.name) + " holds texts, not numbers",
                       "write numbers without quotes");
   }
 

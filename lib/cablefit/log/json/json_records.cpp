@@ -50,7 +50,7 @@ class RecordsLayout final : public JsonLayout {
   void key(std::string& name, TextPosition at) override {
     column_ = table_.n_rows == 0 ? add_column(name, at) : find_column(name, at);
     if (is_given_[column_])
-      throw error(at, "key " + quoted(name) + " appears twice", "keep one of them");
+      throw error(at, "key " + in_quotes(name) + " appears twice", "keep one of them");
     is_given_[column_] = true;
     next_ = column_ + 1;
   }
@@ -78,7 +78,7 @@ class RecordsLayout final : public JsonLayout {
  protected:
   Error misplaced(const std::string& value, TextPosition at) const override {
     if (depth_ < 2) return error(at, value + " among the records", "write {\"t\": 0, \"q\": 1}");
-    return error(at, value + " in column " + quoted(keys_[column_]) + " is not a number",
+    return error(at, value + " in column " + in_quotes(keys_[column_]) + " is not a number",
                  "write numbers as 1.5 or -3e-4");
   }
 
@@ -87,11 +87,12 @@ class RecordsLayout final : public JsonLayout {
     return table_.error(at, what, hint);
   }
   Error missing(TextPosition at) const {
-    return error(at, "null in column " + quoted(keys_[column_]) + " is not a number", kMissingHint);
+    return error(at, "null in column " + in_quotes(keys_[column_]) + " is not a number",
+                 kMissingHint);
   }
 
   Error lacks(const std::string& key) const {
-    return error(record_, "record lacks " + quoted(key),
+    return error(record_, "record lacks " + in_quotes(key),
                  std::string("every record needs the keys of the first one; ") + kMissingHint);
   }
 
@@ -123,7 +124,7 @@ class RecordsLayout final : public JsonLayout {
     const auto found = std::find(keys_.begin(), keys_.end(), name);
     if (found != keys_.end()) return static_cast<std::size_t>(found - keys_.begin());
     const std::vector<std::string_view> known(keys_.begin(), keys_.end());
-    throw error(at, "unknown key " + quoted(name), suggestion(name, known));
+    throw error(at, "unknown key " + in_quotes(name), suggestion(name, known));
   }
 
   JsonTable& table_;

@@ -40,7 +40,7 @@ double JsonTable::missing_entry(JsonColumn& column, TextPosition at) const {
 void JsonTable::require(JsonColumn& column, JsonColumn::Kind kind, TextPosition at) const {
   if (column.kind == JsonColumn::Kind::unknown) column.kind = kind;
   if (column.kind == kind) return;
-  throw error(at, "column " + quoted(column.header.name) + " mixes numbers and texts",
+  throw error(at, "column " + in_quotes(column.header.name) + " mixes numbers and texts",
               "write numbers without quotes, texts with them");
 }
 

@@ -42,7 +42,7 @@ void require_motion(const JsonNode& node, const UrdfTree& tree,
     const bool slides = joint.motion == UrdfMotion::slides;
     if (slides == (axes.of(places[k]) == Axes::linear)) continue;
     throw node.error(
-        fmt::format("joint {} {}, joint {} of the rig {}", cablefit::quoted(joint.name),
+        fmt::format("joint {} {}, joint {} of the rig {}", in_quotes(joint.name),
                     slides ? "slides" : "turns", places[k] + 1, slides ? "turns" : "slides"),
         fmt::format("give \"motion\" in the rig file, of this joint \"{}\"",
                     slides ? "linear" : "rotary"));
@@ -65,7 +65,7 @@ std::vector<int> rig_joints(const JsonNode* names, const UrdfTree& tree,
     if (at == known.end()) fail_unknown(names->items[k], "joint", given[k], known);
     if (names && std::find(given.begin(), given.begin() + static_cast<std::ptrdiff_t>(k),
                            given[k]) != given.begin() + static_cast<std::ptrdiff_t>(k))
-      throw names->items[k].error(fmt::format("{} appears twice", cablefit::quoted(given[k])),
+      throw names->items[k].error(fmt::format("{} appears twice", in_quotes(given[k])),
                                   "name each joint once");
     places[static_cast<std::size_t>(at - known.begin())] = static_cast<int>(k);
   }

@@ -48,13 +48,12 @@ LinkInertia hanging_on(const UrdfTree& tree, std::size_t link, std::ptrdiff_t be
 void require_simple(const UrdfTree& tree, const UrdfJoint& joint) {
   const Place place{tree.path, joint.line};
   if (!joint.mimics.empty())
-    throw input_error(place, fmt::format("joint {} mimics another", cablefit::quoted(joint.name)),
+    throw input_error(place, fmt::format("joint {} mimics another", in_quotes(joint.name)),
                       "only joints that move by themselves can be fitted");
   if (joint.motion == UrdfMotion::other)
-    throw input_error(place,
-                      fmt::format("joint {} is of type {}", cablefit::quoted(joint.name),
-                                  cablefit::quoted(joint.type)),
-                      "revolute, continuous, prismatic and fixed joints can be fitted");
+    throw input_error(
+        place, fmt::format("joint {} is of type {}", in_quotes(joint.name), in_quotes(joint.type)),
+        "revolute, continuous, prismatic and fixed joints can be fitted");
 }
 
 }  // namespace
@@ -82,18 +81,16 @@ std::size_t find_link(const UrdfTree& tree, const std::string& name) {
     if (tree.links[k].name == name) return k;
     known.push_back(tree.links[k].name);
   }
-  throw input_error({}, fmt::format("unknown link {}", cablefit::quoted(name)),
-                    suggestion(name, known));
+  throw input_error({}, fmt::format("unknown link {}", in_quotes(name)), suggestion(name, known));
 }
 
 std::size_t only_tip(const UrdfTree& tree, std::size_t base) {
   std::vector<std::size_t> tips;
   find_tips(tree, base, tips);
   if (tips.empty())
-    throw input_error(
-        {tree.path},
-        fmt::format("no joint moves after link {}", cablefit::quoted(tree.links[base].name)),
-        "name another \"base\"");
+    throw input_error({tree.path},
+                      fmt::format("no joint moves after link {}", in_quotes(tree.links[base].name)),
+                      "name another \"base\"");
   if (tips.size() == 1) return tips.front();
   std::string names;
   for (const std::size_t tip : tips) names += (names.empty() ? "" : ", ") + tree.links[tip].name;
@@ -107,11 +104,11 @@ UrdfWay way_between(const UrdfTree& tree, std::size_t base, std::size_t tip) {
   for (std::size_t link = tip; link != base;) {
     const std::ptrdiff_t joint = tree.links[link].joint;
     if (joint < 0)
-      throw input_error({tree.path},
-                        fmt::format("link {} does not descend from link {}",
-                                    cablefit::quoted(tree.links[tip].name),
-                                    cablefit::quoted(tree.links[base].name)),
-                        "the base comes before the tip");
+      throw input_error(
+          {tree.path},
+          fmt::format("link {} does not descend from link {}", in_quotes(tree.links[tip].name),
+                      in_quotes(tree.links[base].name)),
+          "the base comes before the tip");
     way.joints.push_back(static_cast<std::size_t>(joint));
     link = tree.joints[way.joints.back()].parent;
     require_simple(tree, tree.joints[way.joints.back()]);

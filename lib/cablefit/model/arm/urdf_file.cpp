@@ -120,10 +120,9 @@ class Reader {
       p = rest;
     }
     if (n != N)
-      throw input_error(at(e),
-                        fmt::format("{}={} is not {} number{}", name, cablefit::quoted(text), N,
-                                    N > 1 ? "s" : ""),
-                        "");
+      throw input_error(
+          at(e),
+          fmt::format("{}={} is not {} number{}", name, in_quotes(text), N, N > 1 ? "s" : ""), "");
     return values;
   }
 
@@ -139,8 +138,7 @@ class Reader {
     UrdfLink link;
     link.name = attribute(e, "name");
     if (index_of(tree_.links, link.name) < tree_.links.size())
-      throw input_error(at(e), fmt::format("link {} appears twice", cablefit::quoted(link.name)),
-                        "");
+      throw input_error(at(e), fmt::format("link {} appears twice", in_quotes(link.name)), "");
     if (const XMLElement* inertial = e.FirstChildElement("inertial"))
       link.inertia = inertia_of(*inertial, link.name);
     tree_.links.push_back(std::move(link));
@@ -154,7 +152,7 @@ class Reader {
     for (const char* name : {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"})
       about_centre(next++) = numbers<1>(tensor, name)[0];
     if (const BodyFault fault = body_fault(about_centre); !fault.what.empty())
-      throw input_error(at(e), fmt::format("link {} has {}", cablefit::quoted(link), fault.what),
+      throw input_error(at(e), fmt::format("link {} has {}", in_quotes(link), fault.what),
                         fault.remedy);
     Vector3d origin = Vector3d::Zero(), rpy = Vector3d::Zero();
     if (const XMLElement* pose = e.FirstChildElement("origin")) {
@@ -178,7 +176,7 @@ class Reader {
     if (index < tree_.links.size()) return index;
     std::vector<std::string_view> known;
     for (const UrdfLink& link : tree_.links) known.push_back(link.name);
-    throw input_error(at(e), fmt::format("unknown link {}", cablefit::quoted(name)),
+    throw input_error(at(e), fmt::format("unknown link {}", in_quotes(name)),
                       suggestion(name, known));
   }
 
@@ -187,8 +185,7 @@ class Reader {
     joint.name = attribute(e, "name");
     joint.line = at(e).line;
     if (index_of(tree_.joints, joint.name) < tree_.joints.size())
-      throw input_error(at(e), fmt::format("joint {} appears twice", cablefit::quoted(joint.name)),
-                        "");
+      throw input_error(at(e), fmt::format("joint {} appears twice", in_quotes(joint.name)), "");
     joint.type = attribute(e, "type");
     joint.motion = joint.type == "revolute" || joint.type == "continuous" ? UrdfMotion::turns
                    : joint.type == "prismatic"                            ? UrdfMotion::slides
@@ -214,8 +211,7 @@ class Reader {
   void hang(const XMLElement& e, const UrdfJoint& joint) {
     UrdfLink& link = tree_.links[joint.child];
     if (link.joint >= 0)
-      throw input_error(at(e),
-                        fmt::format("link {} has two parent joints", cablefit::quoted(link.name)),
+      throw input_error(at(e), fmt::format("link {} has two parent joints", in_quotes(link.name)),
                         "a URDF is a tree: every link has one parent");
     link.joint = static_cast<std::ptrdiff_t>(tree_.joints.size());
     tree_.links[joint.parent].children.push_back(tree_.joints.size());

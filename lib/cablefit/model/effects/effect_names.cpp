@@ -24,10 +24,10 @@ const Effect& effect_named(const std::string& text) {
     if (names.empty() || names.back() != name) names.push_back(std::move(name));
   }
   if (found.empty())
-    throw usage_error(fmt::format("unknown effect {}", cablefit::quoted(text)),
+    throw usage_error(fmt::format("unknown effect {}", in_quotes(text)),
                       suggestion(text, std::vector<std::string_view>(names.begin(), names.end())));
   if (found.size() > 1)
-    throw usage_error(fmt::format("effect {} acts on several sides", cablefit::quoted(text)),
+    throw usage_error(fmt::format("effect {} acts on several sides", in_quotes(text)),
                       fmt::format("write {0}[{1}] or {0}[{2}]", text, to_string(found[0]->site),
                                   to_string(found[1]->site)));
   return *found.front();
@@ -53,7 +53,7 @@ WantedEffect wanted_effect(const std::string& name) {
   const char* const end = name.data() + name.size();
   const auto [rest, failure] = std::from_chars(name.data() + space + 1, end, joint);
   if (failure != std::errc{} || joint < 1 || std::string_view(rest, end) != "]")
-    throw usage_error(fmt::format("effect {} names no joint", cablefit::quoted(name)),
+    throw usage_error(fmt::format("effect {} names no joint", in_quotes(name)),
                       "write stribeck[motor 2] for the second joint");
   return {&effect_named(name.substr(0, space) + "]"), joint};
 }
@@ -63,8 +63,8 @@ EffectsPerJoint blank_effects(const std::vector<std::string>& names, int n_joint
   for (const std::string& name : names) {
     const WantedEffect wanted = wanted_effect(name);
     if (wanted.joint > n_joints)
-      throw usage_error(fmt::format("effect {}: the rig file has {} joint{}",
-                                    cablefit::quoted(name), n_joints, n_joints == 1 ? "" : "s"),
+      throw usage_error(fmt::format("effect {}: the rig file has {} joint{}", in_quotes(name),
+                                    n_joints, n_joints == 1 ? "" : "s"),
                         "name one of its joints, or leave the number out for each of them");
     for (int joint = 1; joint <= n_joints; ++joint)
       if (wanted.joint == 0 || wanted.joint == joint)

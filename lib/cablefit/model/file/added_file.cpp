@@ -85,7 +85,7 @@ EffectInstance read_refinement(const JsonNode& node, Axes axes, bool rigid) {
   EffectInstance instance;
   instance.effect = at_place_of(name, [&] { return &find_candidate(name.text(), site); });
   if (rigid && site == Site::transmission)
-    throw name.error(fmt::format("{} on a rigid drive", cablefit::quoted(name.text())),
+    throw name.error(fmt::format("{} on a rigid drive", in_quotes(name.text())),
                      "it has no transmission: drop it, or give link and motor");
   instance.parameters = read_parameters(node.find("parameters"), node, *instance.effect, axes);
   read_event(node, instance);

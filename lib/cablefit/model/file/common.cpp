@@ -17,7 +17,7 @@ double factor_to_si(const JsonNode* node, std::string_view expected) {
   if (!node) return 1.0;
   const Unit unit = unit_at(*node, node->text());
   if (unit.dimension != parse_unit(expected).dimension) {
-    throw node->error(fmt::format("unit {} is of another kind", cablefit::quoted(node->text())),
+    throw node->error(fmt::format("unit {} is of another kind", in_quotes(node->text())),
                       fmt::format("expected a unit like '{}'", expected));
   }
   return unit.scale;
@@ -41,7 +41,7 @@ double read_value(const JsonNode& object, const std::string& name) {
   const JsonNode& node = object.at("value");
   if (!node.is_null()) return node.number();
   if (object.find("not_identifiable") != nullptr) return std::numeric_limits<double>::quiet_NaN();
-  throw node.error(fmt::format("{} has no value", cablefit::quoted(name)),
+  throw node.error(fmt::format("{} has no value", in_quotes(name)),
                    text_or(object, "not_identifiable", "fit it from other data, or give a value"));
 }
 
@@ -67,9 +67,8 @@ void require_arm(const Model& model, const JsonNode& node) {
                     : "fit moving logs with 'cablefit dynamic', or give \"arm\"");
   for (const Estimate& e : model.arm)
     if (!std::isfinite(e.value))
-      throw node.error(
-          fmt::format("base parameter {} of the arm has no value", cablefit::quoted(e.name)),
-          "fit logs that determine it, or give it a value in a model file");
+      throw node.error(fmt::format("base parameter {} of the arm has no value", in_quotes(e.name)),
+                       "fit logs that determine it, or give it a value in a model file");
 }
 
 }  // namespace
@@ -111,7 +110,7 @@ Rig read_rig_reference(const JsonNode* node) {
   const auto path = locate(node->text(), node->place.file);
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) {
-    throw node->error(fmt::format("no rig file {}", cablefit::quoted(node->text())),
+    throw node->error(fmt::format("no rig file {}", in_quotes(node->text())),
                       "paths are relative to this file, or to the current folder");
   }
   return read_rig(path.string());

@@ -44,7 +44,7 @@ JointModel read_joint(const JsonNode& node, int joint, const Model& model) {
   node.allow_only({"name", "link", "motor", "rigid", "refinements"});
   const std::string& expected = model.rig.joints[static_cast<std::size_t>(joint) - 1];
   if (text_or(node, "name", expected) != expected) {
-    throw node.at("name").error(fmt::format("joint {}", cablefit::quoted(node.at("name").text())),
+    throw node.at("name").error(fmt::format("joint {}", in_quotes(node.at("name").text())),
                                 fmt::format("the rig calls it '{}'", expected));
   }
   JointModel axes;

@@ -195,7 +195,7 @@ Json covariance_json(const ParameterCovariance& covariance) {
 }  // namespace model_file
 
 std::string model_json(const Model& model) {
-  Json json{{"schema", model_file::kModelSchema}, {"name", model.name}};
+  Json json{{"schema", kModelSchema}, {"name", model.name}};
   if (!model.preload.empty()) json["preload"] = model.preload;
   json["rig"] = model_file::rig_json(model.rig);
   if (model.is_coupled()) json["arm"] = arm_json(model);

@@ -6,12 +6,11 @@
 
 #include "cablefit/base/axes.hpp"
 #include "cablefit/base/json/json_document.hpp"
+#include "cablefit/base/json/schemas.hpp"
 #include "cablefit/model/completeness.hpp"
 #include "cablefit/model/model.hpp"
 
 namespace cablefit::model_file {
-
-inline constexpr std::string_view kModelSchema = "cablefit/model/1";
 
 /// What the caller asked for; empty: nothing in particular.
 struct Wanted {

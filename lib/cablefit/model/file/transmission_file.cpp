@@ -96,7 +96,7 @@ const JsonNode& cable_named(const JsonNode& list, const std::string& name) {
   for (const JsonNode& item : some_items(list)) {
     if (item.at("name").text() == name) return item;
   }
-  throw list.error(fmt::format("cable {} of the rig is missing", cablefit::quoted(name)),
+  throw list.error(fmt::format("cable {} of the rig is missing", in_quotes(name)),
                    "give one entry per cable of the rig, by its name");
 }
 

@@ -85,7 +85,7 @@ const ChannelName& channel_named(const std::string& name, int n_joints, const Js
   for (int joint = 1; joint <= n_joints; ++joint) {
     if (name.substr(digits) == std::to_string(joint)) return *channel;
   }
-  throw node.error(fmt::format("channel {} is not of this rig", cablefit::quoted(name)),
+  throw node.error(fmt::format("channel {} is not of this rig", in_quotes(name)),
                    fmt::format("its joints are numbered 1 to {}", n_joints));
 }
 

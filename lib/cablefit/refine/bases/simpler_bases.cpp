@@ -16,7 +16,7 @@ namespace {
 constexpr double kLoaded = 0.01, kWellLoaded = 0.5;
 // Rows that determine the two coefficients of a cable; one that is taut in fewer is idle. With 10
 // of them its coefficients took in half of the effects of twice the noise.
-constexpr double kLeastRows = 12;
+constexpr double kLeastTautRows = 12;
 
 bool has_cables(const OwnBase& base) {
   return std::any_of(base.models.begin(), base.models.end(),
@@ -92,7 +92,7 @@ std::optional<SimplerBase> base_without_idle_cable(const OwnBase& base, const Re
   if (base.models.front().joints.size() > 1 || !is_plain_pair(base.models.front())) return {};
   const PairLoads loads = pair_loads(base, logs);
   const std::size_t less = loads.less();
-  if (loads.share() >= kWellLoaded || loads.rows[less] >= kLeastRows) return {};
+  if (loads.share() >= kWellLoaded || loads.rows[less] >= kLeastTautRows) return {};
   return with_order_of(base, less, 0,
                        fmt::format("it is taut for {:.2g} s of the logs", loads.taut[less]));
 }

@@ -21,7 +21,7 @@ std::vector<double> variables_at(const Design& design, std::size_t stretch, Eige
 }
 
 template <typename Rows>
-bool has_rows(const Rows& rows, RowKind wanted) {
+bool has_rows_of(const Rows& rows, RowKind wanted) {
   return std::any_of(rows.kinds.begin(), rows.kinds.end(), [wanted](const KindRows& kind) {
     return kind.kind == wanted && !kind.at.empty();
   });
@@ -35,7 +35,7 @@ Timeline timeline_of(const Design& design, std::span<const LogSurvey> logs, RowK
   std::size_t log = std::numeric_limits<std::size_t>::max();
   for (std::size_t s = 0; s < design.stretches.size(); ++s) {
     const Stretch& stretch = design.stretches[s];
-    if (!has_rows(design.rows[s], wanted)) {
+    if (!has_rows_of(design.rows[s], wanted)) {
       time.begins.push_back(next);
       continue;
     }

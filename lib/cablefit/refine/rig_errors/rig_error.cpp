@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "cablefit/base/error.hpp"
+#include "cablefit/base/parameter.hpp"
 #include "cablefit/refine/bases/own_base.hpp"
 #include "cablefit/refine/rig_errors/wrong_gravity.hpp"
 #include "cablefit/refine/rig_errors/wrong_radius.hpp"
@@ -17,8 +18,6 @@ namespace {
 
 constexpr std::optional<RigError> (*kSearches[])(const RigErrorSearch&) = {wrong_radius,
                                                                            wrong_gravity};
-
-constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 bool is_done(const RefineResult& joint) { return joint.not_refined.empty(); }
 

@@ -14,7 +14,7 @@ namespace {
 
 // Of the cable's largest radius: errors of smoothed motion, which no scatter over blocks shows.
 // 43 simulated fingers and arms had up to 4e-5.
-constexpr double kLeastSd = 2e-5;
+constexpr double kLeastScatter = 2e-5;
 
 const Effect& row_of(const Pulley& pulley) {
   return rig_error_row("cable_radius", site_of(pulley.side));
@@ -71,7 +71,7 @@ WrongRadii to_wrong_radii(const FittedRadii& fitted, std::size_t n_pulleys, cons
     one.given = radius_of(given.transmission, pulley);
     one.radius = one.given + by;
     one.scatter = fitted.sd(k);
-    one.least_sd = kLeastSd * largest_radius(given.transmission.cables[pulley.cable]);
+    one.least_sd = kLeastScatter * largest_radius(given.transmission.cables[pulley.cable]);
     one.dof = fitted.dof(k);
     one.share = fitted.given > 0 ? fitted.fall() / fitted.given : 0;
   }

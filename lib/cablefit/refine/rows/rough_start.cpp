@@ -8,15 +8,15 @@
 namespace cablefit {
 namespace {
 
-constexpr double kRough = 3;       // times the largest acceleration later: it happens once only
-constexpr double kLongest = 0.06;  // s: what oscillates longer is slow enough for the kernels
+constexpr double kRough = 3;  // times the largest acceleration later: it happens once only
+constexpr double kLongestStart = 0.06;  // s: what oscillates longer is slow enough for the kernels
 
 /// Samples up to the last rough one of the start; 0: none is rough.
 Eigen::Index rough_samples(const Eigen::ArrayXd& positions, const Smoothing& smoothing,
                            double period) {
   const Kernel curvature = gaussian_curvature(smoothing.signals, period);
   const Eigen::Index n = positions.size(), reach = curvature.reach();
-  const auto end = static_cast<Eigen::Index>(kLongest / period);
+  const auto end = static_cast<Eigen::Index>(kLongestStart / period);
   if (n < 2 * (end + reach)) return 0;
   const Eigen::ArrayXd acceleration = apply(curvature, positions).abs();
   const double later = acceleration.segment(end, n - end - reach).maxCoeff();

@@ -7,13 +7,13 @@ namespace cablefit {
 namespace {
 
 constexpr int kSteps = 4;
-constexpr double kLongest = 0.3, kNothing = 1e-3;  // of the unit of a shape
+constexpr double kLongestStep = 0.3, kNothing = 1e-3;  // of the unit of a shape
 
 /// No step longer than what the derivative holds for.
 void shorten(const Design& design, Eigen::VectorXd& shapes) {
   const std::vector<FreeShape> all = free_shapes(design);
   for (std::size_t k = 0; k < all.size(); ++k) {
-    const double most = kLongest * unit_of(design, all[k]);
+    const double most = kLongestStep * unit_of(design, all[k]);
     double& step = shapes(static_cast<Eigen::Index>(k));
     step = std::clamp(step, -most, most);
   }

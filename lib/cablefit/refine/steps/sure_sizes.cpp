@@ -10,9 +10,9 @@
 namespace cablefit {
 namespace {
 
-constexpr double kSureSd = 2;
+constexpr double kSureSizeSd = 2;
 
-bool is_sure(const Estimate& e) { return e.sd > 0 && std::abs(e.value) > kSureSd * e.sd; }
+bool is_sure(const Estimate& e) { return e.sd > 0 && std::abs(e.value) > kSureSizeSd * e.sd; }
 
 /// Other cables, whose coefficients are those of the base.
 bool has_no_size(const Effect& row) {

@@ -17,7 +17,7 @@ constexpr double kSureApart = 3;  // sd of their difference
 constexpr double kLeastPart = 0.2;
 // Of the halves' columns, squared, that all others leave. Of |qd| the half of one direction is what
 // a base has of qd.
-constexpr double kOwnPart = 0.01;
+constexpr double kOwnShare = 0.01;
 
 /// Half of the rows are above it; of two values, as of a direction, between them.
 double middle_of(const Design& design, const RegimeVariable& variable) {
@@ -77,7 +77,7 @@ std::string why_not_one_law(const Design& design, const Eigen::VectorXd& x,
     const Halved half = halved(design, x, first, n, variable);
     if (std::min(half.share, 1 - half.share) < kLeastPart) continue;
     const auto fit = fit_blocks(block_grams(half.rows, design.stretches, block_seconds), levels,
-                                false, {kOwnPart, 2});
+                                false, {kOwnShare, 2});
     if (!fit) continue;
     const Eigen::Index last = fit->x.size() - 1;
     const double below = fit->x(last - 1), difference = fit->x(last), above = below + difference;

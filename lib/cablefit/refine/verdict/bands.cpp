@@ -11,9 +11,9 @@
 namespace cablefit {
 namespace {
 
-constexpr std::size_t kLags = 96;
+constexpr std::size_t kBandLags = 96;
 constexpr Eigen::Index kBands = 48;
-constexpr double kStandsOut = 4;       // times the floor's power there
+constexpr double kBandStandsOut = 4;   // times the floor's power there
 constexpr std::size_t kMostBands = 2;  // per equation
 
 /// Neighbouring bands that stand out of the floor, as one.
@@ -29,7 +29,7 @@ std::vector<Run> runs_above(const Spectrum& gap, const Spectrum& floor) {
   bool inside = false;
   for (Eigen::Index b = 0; b < above.size(); ++b) {
     constexpr double kOfPeak = 0.1;
-    const bool stands = above(b) > kOfPeak * peak && gap.power(b) > kStandsOut * floor.power(b);
+    const bool stands = above(b) > kOfPeak * peak && gap.power(b) > kBandStandsOut * floor.power(b);
     if (stands && !inside) runs.push_back({b, b, 0, 0});
     if (stands) {
       runs.back().last = b;
@@ -72,8 +72,8 @@ std::vector<Regime> find_bands(const Design& design, const Eigen::VectorXd& x, c
                                const Eigen::VectorXd& x_floor) {
   std::vector<Regime> all;
   for (const RowKind kind : {RowKind::link, RowKind::motor, RowKind::blocked})
-    add_bands(residual_memory(design, x, kind, kLags), residual_memory(floor, x_floor, kind, kLags),
-              kind, all);
+    add_bands(residual_memory(design, x, kind, kBandLags),
+              residual_memory(floor, x_floor, kind, kBandLags), kind, all);
   return all;
 }
 

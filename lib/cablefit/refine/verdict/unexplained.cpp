@@ -211,14 +211,14 @@ Line strongest_line(const std::vector<Piece>& pieces, double lowest, double high
   return best;
 }
 
-struct Mode {
+struct AttachedMode {
   double frequency = 0, damping = 0, inertia = 0, removed = 0;
 };
 
 /// The attached mass that removes most, everything else fitted anew.
-Mode strongest_mode(const Design& design, const Eigen::VectorXd& x, const EquationGap& gap,
-                    const KindLevels& floor, double block_seconds) {
-  Mode best;
+AttachedMode strongest_mode(const Design& design, const Eigen::VectorXd& x, const EquationGap& gap,
+                            const KindLevels& floor, double block_seconds) {
+  AttachedMode best;
   if (gap.kind == RowKind::blocked) return best;
   const Effect& row = attached_mass(gap.kind == RowKind::link);
   const BlockGrams grams = block_grams(design, block_seconds);
@@ -240,9 +240,9 @@ Mode strongest_mode(const Design& design, const Eigen::VectorXd& x, const Equati
   if (!(best.removed > 0)) return best;
   // By turns, in ever smaller steps.
   for (double step = 0.06; step > 0.002; step /= 2) {
-    const Mode here = best;
+    const AttachedMode here = best;
     for (const double f : {1 - step, 1 + step}) try_at(here.frequency * f, here.damping);
-    const Mode there = best;
+    const AttachedMode there = best;
     for (const double d : {1 - 8 * step, 1 + 8 * step, 0.5})
       try_at(there.frequency, std::clamp(there.damping * d, 0.002, 0.7));
   }
@@ -269,7 +269,7 @@ std::optional<Unexplained> describe_remainder(const Design& searched, const Eige
   if (!(gap.n_rows > 0)) return {};
   constexpr double kLowest = 0.5;  // Hz: slower ones are low-frequency disturbances
   const Line line = strongest_line(pieces_of(design, x, gap.kind), kLowest, 0.4 / gap.row_period);
-  const Mode mode = strongest_mode(design, x, gap, floor, block_seconds);
+  const AttachedMode mode = strongest_mode(design, x, gap, floor, block_seconds);
   Unexplained found;
   found.equation = to_string(gap.kind);
   found.rms = std::sqrt(gap.above() / gap.n_rows);

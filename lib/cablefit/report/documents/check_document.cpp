@@ -24,7 +24,7 @@ std::string part_name(const CheckedPart& part) {
 }
 
 /// A printed time is rounded: less than 0.001 % of jitter is none.
-std::string percent(double share) { return share < 1e-5 ? "0" : significant(100 * share, 2); }
+std::string fine_percent(double share) { return share < 1e-5 ? "0" : significant(100 * share, 2); }
 
 std::string good_for(const CheckedPart& part) {
   return part.identifies.empty() ? "nothing" : fmt::format("{}", fmt::join(part.identifies, ", "));
@@ -43,11 +43,12 @@ Table logs_table(const CheckResult& result) {
     for (const CheckedPart& part : log.parts) {
       const PartSurvey& s = part.survey;
       const bool known = !part.excitation.channel.empty();
-      table.rows.push_back(
-          {log.path, part_name(part), std::string(to_string(s.phase)),
-           significant(s.t_last - s.t_first, kFineDigits), significant(1 / s.period, kFineDigits),
-           fmt::format("{}", s.n_gaps), known ? percent(part.excitation.share_at_rest) : kNoNumber,
-           known ? significant(part.excitation.fastest, 3) : kNoNumber, good_for(part)});
+      table.rows.push_back({log.path, part_name(part), std::string(to_string(s.phase)),
+                            significant(s.t_last - s.t_first, kFineDigits),
+                            significant(1 / s.period, kFineDigits), fmt::format("{}", s.n_gaps),
+                            known ? fine_percent(part.excitation.share_at_rest) : kNoNumber,
+                            known ? significant(part.excitation.fastest, 3) : kNoNumber,
+                            good_for(part)});
     }
   return table;
 }
@@ -74,8 +75,8 @@ Table parts_table(const CheckedLog& log) {
     table.rows.push_back(
         {part_name(part), std::string(to_string(s.phase)), fmt::format("{}", s.n_rows),
          significant(s.t_last - s.t_first, kFineDigits), significant(1 / s.period, kFineDigits),
-         percent(s.jitter), percent(s.worst_jitter), fmt::format("{}", s.n_gaps),
-         known ? percent(e.share_at_rest) : kNoNumber,
+         fine_percent(s.jitter), fine_percent(s.worst_jitter), fmt::format("{}", s.n_gaps),
+         known ? fine_percent(e.share_at_rest) : kNoNumber,
          known ? significant(e.fastest, 3) : kNoNumber,
          known ? fmt::format("{}", e.speed_bands) : kNoNumber, good_for(part)});
   }
@@ -100,7 +101,7 @@ Table channels_table(const CheckedLog& log) {
                             significant(s.min, kFineDigits), significant(s.max, kFineDigits),
                             channel.is_angle ? significant(kDegrees * s.range(), 3) : kNoNumber,
                             significant(s.quantum, 2), significant(s.noise, 2),
-                            percent(s.at_limits)});
+                            fine_percent(s.at_limits)});
     }
   }
   return table;

@@ -6,13 +6,12 @@
 #include <cmath>
 
 #include "cablefit/report/parts/document_parts.hpp"
+#include "cablefit/report/parts/estimate_cells.hpp"
 #include "cablefit/report/parts/numbers.hpp"
 
 namespace cablefit {
 namespace {
 
-constexpr int kRsdDigits = 2;
-constexpr double kMilli = 1e3;
 constexpr double kEquilibriumMet = 1e-9;  // N m
 constexpr double kAsSd = 0.1;             // sd: an interval that ends there is that of the sd
 
@@ -22,29 +21,6 @@ std::string label(const Estimate& e) {
 }
 
 bool is_elongation(const Estimate& e) { return e.name.starts_with("l_o["); }
-
-struct Cells {
-  std::string value, rsd;
-};
-
-Cells cells_of(const Estimate* e, Footnotes& notes) {
-  if (e == nullptr) return {kNoNumber, ""};
-  if (!e->not_identifiable.empty())
-    return {kNoNumber, notes.mark("not identifiable: " + e->not_identifiable)};
-  if (!e->active_bound.empty())
-    return {significant(e->value, kRsdDigits),
-            notes.mark(fmt::format("at its bound {}: 95 % interval up to {} {}", e->active_bound,
-                                   significant(e->ci_high, kRsdDigits), e->unit))};
-  return {value_text(e->value, e->sd), significant(e->rsd_percent(), kRsdDigits)};
-}
-
-/// J_link without the mass that hangs on it, whose own inertia is known.
-Cells without_load(const Estimate* e, double load_inertia) {
-  if (e == nullptr || !e->not_identifiable.empty()) return {kNoNumber, ""};
-  Estimate net = *e;
-  net.value -= load_inertia;
-  return {value_text(net.value, net.sd), significant(net.rsd_percent(), kRsdDigits)};
-}
 
 std::string cad_text(const Estimate& e) {
   return std::isnan(e.cad) ? kNoNumber : fmt::format("{:g}", e.cad);
@@ -78,12 +54,12 @@ void add_parameter_rows(const IdentifyResult& result, const std::vector<Estimate
   const double load = result.preloads.front().load_inertia;
   for (const Estimate& e : parameters) {
     if (is_elongation(e)) continue;
-    Cells cells = cells_of(&e, notes);
+    EstimateCells cells = cells_of(&e, notes);
     const bool has_sd = e.not_identifiable.empty();
     table.rows.push_back({label(e), e.unit, cad_text(e), cells.value,
                           has_sd ? sd_text(e.value, e.sd) : "", cells.rsd});
     if (e.name != "J_link" || !(load > 0)) continue;
-    cells = without_load(&e, load);
+    cells = cells_without_load(&e, load);
     table.rows.push_back({"  without the load", e.unit, kNoNumber, cells.value, "", cells.rsd});
   }
 }
@@ -179,7 +155,8 @@ bool any_load(const IdentifyResult& result) {
 void add_net_row(const IdentifyResult& result, const Estimate& row, Table& table) {
   std::vector<std::string> cells = {"  without the load", row.unit, kNoNumber};
   for (const IdentifyPreload& preload : result.preloads) {
-    const Cells c = without_load(find_estimate(preload.parameters, row.name), preload.load_inertia);
+    const EstimateCells c =
+        cells_without_load(find_estimate(preload.parameters, row.name), preload.load_inertia);
     cells.insert(cells.end(), {c.value, c.rsd});
   }
   table.rows.push_back(cells);
@@ -204,7 +181,7 @@ Table dynamics_table(const IdentifyResult& result) {
   for (const Estimate* row : rows) {
     std::vector<std::string> cells = {label(*row), row->unit, cad_text(*row)};
     for (const IdentifyPreload& preload : result.preloads) {
-      const Cells c = cells_of(find_estimate(preload.parameters, row->name), notes);
+      const EstimateCells c = cells_of(find_estimate(preload.parameters, row->name), notes);
       cells.insert(cells.end(), {c.value, c.rsd});
     }
     table.rows.push_back(cells);
@@ -212,11 +189,6 @@ Table dynamics_table(const IdentifyResult& result) {
   }
   table.notes = notes.lines();
   return table;
-}
-
-std::string range_text(double low, double high) {
-  return fmt::format("{} .. {}", significant(kMilli * low, kDigits),
-                     significant(kMilli * high, kDigits));
 }
 
 /// The linear model's K on the range of each preload.
@@ -230,7 +202,7 @@ Table line_table(const IdentifyResult& result) {
                    {"", "of these cables", unit_for(result.axes, "N m/rad")}};
   for (const IdentifyPreload& preload : result.preloads)
     for (const LineStiffness& line : preload.lines)
-      table.rows.push_back({preload.name, line.name, range_text(line.low, line.high),
+      table.rows.push_back({preload.name, line.name, milli_range(line.low, line.high),
                             value_with_sd(line.measured, line.sd),
                             value_text(line.model, line.sd)});
   return table;

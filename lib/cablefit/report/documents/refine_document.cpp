@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kRankedRows = 8;
 
 std::string number(double value) { return significant(value, kDigits); }
-std::string percent(double share) {
+std::string whole_percent(double share) {
   return std::isfinite(share) ? fmt::format("{:.0f}", 100 * share) : kNoNumber;
 }
 
@@ -83,8 +83,8 @@ Table where_table(const RefineResult& result) {
                    {"", "noise floor", torque}};
   for (const Regime& r : result.where)
     table.rows.push_back({r.equation, r.regime, regime_text(r, result.axes),
-                          percent(r.share_of_squared_gap), percent(r.share_of_rows), number(r.rms),
-                          number(r.noise)});
+                          whole_percent(r.share_of_squared_gap), whole_percent(r.share_of_rows),
+                          number(r.rms), number(r.noise)});
   table.notes = {
       "before any effect was added; a share exceeds 100 % where other rows lie below "
       "the floor"};
@@ -103,8 +103,8 @@ Table candidate_table(const RefineResult& result) {
   const std::size_t n = std::min(kRankedRows, result.ranking.size());
   for (std::size_t k = 0; k < n; ++k) {
     const Rival& row = result.ranking[k];
-    table.rows.push_back({row.name, side_text(row.side, row.joint, result), percent(row.gain),
-                          percent(row.inclusion), row.refused});
+    table.rows.push_back({row.name, side_text(row.side, row.joint, result), whole_percent(row.gain),
+                          whole_percent(row.inclusion), row.refused});
   }
   if (result.ranking.size() > n)
     table.notes.push_back(

@@ -7,8 +7,6 @@
 namespace cablefit {
 namespace {
 
-bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; }
-
 bool is_number(std::string_view text) {
   double ignored = 0;
   const char* end = text.data() + text.size();

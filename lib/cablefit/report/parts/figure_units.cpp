@@ -5,10 +5,10 @@
 #include <string_view>
 #include <utility>
 
+#include "cablefit/report/parts/numbers.hpp"
+
 namespace cablefit {
 namespace {
-
-constexpr double kMilli = 1e3;
 
 bool is_small(const FigureAxis& axis) {
   constexpr std::array<std::string_view, 3> kSmall{"deflection", "initial elongation", "gap of"};

@@ -75,6 +75,11 @@ std::string value_with_sd(double value, double sd) {
   return value_text(value, sd) + " +- " + sd_text(value, sd);
 }
 
+std::string milli_range(double low, double high) {
+  if (!std::isfinite(low)) return kNoNumber;
+  return fmt::format("{} .. {}", short_number(kMilli * low), short_number(kMilli * high));
+}
+
 std::string exact(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
 }  // namespace cablefit

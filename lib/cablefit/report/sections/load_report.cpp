@@ -11,7 +11,6 @@ namespace cablefit {
 namespace {
 
 constexpr int kLoadDigits = 4;
-constexpr double kMilli = 1e3;
 constexpr double kRounded = 1e-9;  // of a number: 0
 
 std::string four(double value) {

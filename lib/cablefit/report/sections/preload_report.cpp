@@ -12,14 +12,6 @@
 namespace cablefit {
 namespace {
 
-constexpr double kMilli = 1e3;
-
-std::string range_text(double low, double high) {
-  if (!std::isfinite(low)) return kNoNumber;
-  return fmt::format("{} .. {}", significant(kMilli * low, kDigits),
-                     significant(kMilli * high, kDigits));
-}
-
 Axes axes_of(const BatchResult& result) {
   for (const BatchCell& cell : result.cells)
     if (cell.dynamic) return cell.dynamic->preloads.front().axes;
@@ -42,10 +34,10 @@ Table advice_table(const std::vector<PreloadAdvice>& advice, const AdviceDetecto
                    {"smallest collision", "choice", torque}};
   for (const PreloadAdvice& a : advice)
     table.rows.push_back(
-        {a.cell, range_text(a.deflection_low, a.deflection_high),
+        {a.cell, milli_range(a.deflection_low, a.deflection_high),
          significant(a.linear_error, kDigits), significant(100 * a.linear_share, kDigits),
          significant(a.model_error, kDigits), value_with_sd(a.friction, a.friction_sd),
-         range_text(a.closure_low, a.closure_high), significant(a.collision_linear, kDigits),
+         milli_range(a.closure_low, a.closure_high), significant(a.collision_linear, kDigits),
          significant(a.collision_model, kDigits)});
   table.notes = {
       "largest error: on the blocked samples, of the linear spring and of stage 1's choice; "

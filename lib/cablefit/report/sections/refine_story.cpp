@@ -21,7 +21,7 @@ constexpr std::string_view kFrequency = "frequency";  // whose variable is Hz
 constexpr std::size_t kPlaces = 2;                    // where the gap is, in the story
 constexpr double kMovedSd = 2;
 
-std::string percent(double share) {
+std::string percent_text(double share) {
   if (std::isnan(share)) return "an unknown share";
   return fmt::format("{:.0f} %", 100 * std::clamp(share, 0.0, 1.0));
 }
@@ -50,8 +50,8 @@ std::vector<SummaryLine> where_lines(const RefineResult& result) {
         {lines.empty() ? "where" : "and",
          fmt::format("{} equation, {}: {} of its squared gap in {} of its {}; {} {} rms "
                      "there, noise floor {}",
-                     r.equation, regime_text(r, result.axes), percent(r.share_of_squared_gap),
-                     percent(r.share_of_rows), r.regime == kFrequency ? "band" : "rows",
+                     r.equation, regime_text(r, result.axes), percent_text(r.share_of_squared_gap),
+                     percent_text(r.share_of_rows), r.regime == kFrequency ? "band" : "rows",
                      short_number(r.rms), torque_unit(result.axes), short_number(r.noise))});
   }
   return lines;
@@ -122,12 +122,13 @@ SummaryLine evidence_line(const NamedEffect& effect, bool held_out_blocks) {
   const std::string of = evidence.is_beside_others
                              ? "residual on held-out data, the other values right"
                              : "gap above the noise floor on held-out data";
-  std::string text = is_over(effect, held_out_blocks)
-                         ? "an event, judged on the log in which it happens"
-                         : fmt::format("removes {} of the squared {}", percent(evidence.gain), of);
+  std::string text =
+      is_over(effect, held_out_blocks)
+          ? "an event, judged on the log in which it happens"
+          : fmt::format("removes {} of the squared {}", percent_text(evidence.gain), of);
   text += "; " + chance_text(evidence);
   if (std::isfinite(evidence.inclusion))
-    text += fmt::format("; the best in {} of resamples", percent(evidence.inclusion));
+    text += fmt::format("; the best in {} of resamples", percent_text(evidence.inclusion));
   return {"evidence", text};
 }
 
@@ -138,7 +139,7 @@ std::string rival_text(const Rival& rival, const NamedEffect& effect, const Refi
   const std::string name = effect_text(rival.name, rival.side, rival.joint, result);
   if (is_of_joints(effect) && !rival.by_rule) return name + " explains the logs as well";
   if (rival.by_rule) return name + " is the same in any log of the usual kind";
-  return fmt::format("{} removes {}, {} sd less", name, percent(rival.gain),
+  return fmt::format("{} removes {}, {} sd less", name, percent_text(rival.gain),
                      significant(std::max(0.0, rival.difference), 2));
 }
 
@@ -158,7 +159,7 @@ SummaryLine rivals_line(const NamedEffect& effect, const RefineResult& result, b
   if (!is_first || next == ranking.end() || !(next->gain > 0)) return {"rivals", "none"};
   return {"rivals", fmt::format("none; the next best, {}, removes {} alone",
                                 effect_text(next->name, next->side, next->joint, result),
-                                percent(next->gain))};
+                                percent_text(next->gain))};
 }
 
 std::string date_text(const EffectInstance& event, const RefineResult& result) {
@@ -261,7 +262,7 @@ SummaryLine remainder_line(const RefineResult& result) {
 std::string unexplained_text(const Unexplained& found, Axes axes) {
   const std::string size =
       fmt::format("{} {} rms above the noise floor", short_number(found.rms), torque_unit(axes));
-  const std::string share = percent(found.share_of_squared_gap);
+  const std::string share = percent_text(found.share_of_squared_gap);
   if (found.kind == "mode")
     return fmt::format(
         "{} equation, {}: like a mode of {} Hz and damping ratio {}, {} {}, excited by "

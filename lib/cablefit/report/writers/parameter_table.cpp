@@ -9,6 +9,7 @@
 
 #include "cablefit/report/documents/dynamic_document.hpp"
 #include "cablefit/report/parts/document_parts.hpp"
+#include "cablefit/report/parts/estimate_cells.hpp"
 #include "cablefit/report/parts/numbers.hpp"
 #include "cablefit/report/writers/text_table.hpp"
 #include "cablefit/report/writers/wrap.hpp"
@@ -16,15 +17,9 @@
 namespace cablefit {
 namespace {
 
-constexpr int kRsdDigits = 2;
-
 /// A row of the table: a parameter that some fit has.
 struct Row {
   std::string name, symbol, unit;
-};
-
-struct Cells {
-  std::string value, rsd;
 };
 
 std::vector<Row> all_parameters(std::span<const DynamicPreload> preloads) {
@@ -89,28 +84,6 @@ std::string cad_text(std::span<const DynamicPreload> preloads, const Row& row) {
   return text.empty() ? kNoNumber : text;
 }
 
-std::string bound_note(const Estimate& e) {
-  return fmt::format("at its bound {}: 95 % interval up to {} {}", e.active_bound,
-                     significant(e.ci_high, kRsdDigits), e.unit);
-}
-
-Cells cells_of(const Estimate* e, Footnotes& notes) {
-  if (e == nullptr) return {kNoNumber, ""};
-  if (!e->not_identifiable.empty())
-    return {kNoNumber, notes.mark("not identifiable: " + e->not_identifiable)};
-  if (!e->active_bound.empty())
-    return {significant(e->value, kRsdDigits), notes.mark(bound_note(*e))};
-  return {value_text(e->value, e->sd), significant(e->rsd_percent(), kRsdDigits)};
-}
-
-/// J_link without the mass that hangs on it, whose own inertia is known.
-Cells net_inertia(const DynamicPreload& preload, const Estimate* e) {
-  if (e == nullptr || !e->not_identifiable.empty()) return {kNoNumber, ""};
-  Estimate net = *e;
-  net.value -= preload.load_inertia;
-  return {value_text(net.value, net.sd), significant(net.rsd_percent(), kRsdDigits)};
-}
-
 bool has_load_inertia(std::span<const DynamicPreload> preloads) {
   return std::any_of(preloads.begin(), preloads.end(),
                      [](const DynamicPreload& p) { return p.load_inertia > 0; });
@@ -125,7 +98,7 @@ std::vector<std::string> row_of(std::span<const DynamicPreload> preloads,
                                 std::vector<std::string> row, CellsOf cells_of_fit) {
   for (const DynamicPreload& preload : preloads) {
     for (const DynamicFit& fit : preload.fits) {
-      const Cells cells = cells_of_fit(preload, fit);
+      const EstimateCells cells = cells_of_fit(preload, fit);
       row.insert(row.end(), {cells.value, cells.rsd});
     }
   }
@@ -175,7 +148,8 @@ Table parameter_table(std::span<const DynamicPreload> preloads) {
     if (row.name != "J_link" || !has_load_inertia(preloads)) continue;
     table.rows.push_back(row_of(preloads, {"  without the load", row.unit, kNoNumber},
                                 [&](const DynamicPreload& preload, const DynamicFit& fit) {
-                                  return net_inertia(preload, find_row(fit, row));
+                                  return cells_without_load(find_row(fit, row),
+                                                            preload.load_inertia);
                                 }));
   }
   table.notes = notes.lines();

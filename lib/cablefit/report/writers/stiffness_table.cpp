@@ -31,9 +31,7 @@ std::size_t n_coefficients(const ElasticFit& fit) {
   return static_cast<std::size_t>(fit.covariance.rows());
 }
 
-std::string group_of(const ElasticFit& fit) {
-  return fit.transmission.cables.empty() ? kLinear : kPolynomial;
-}
+std::string group_of(const ElasticFit& fit) { return is_linear(fit) ? kLinear : kPolynomial; }
 
 std::vector<Coefficient> all_coefficients(const ElasticResult& result) {
   std::vector<Coefficient> all;

@@ -7,8 +7,6 @@
 namespace cablefit {
 namespace {
 
-bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; }
-
 /// Bytes of the first `n` characters.
 std::size_t bytes_of(std::string_view text, std::size_t n) {
   std::size_t at = 0;

@@ -57,8 +57,8 @@ const ReportWriter& report_writer_for(const std::string& path) {
                       "SVG");
   throw usage_error(
       extension.empty()
-          ? fmt::format("--report {} has no extension to tell the format", cablefit::quoted(path))
-          : fmt::format("no report format {}", cablefit::quoted(extension)),
+          ? fmt::format("--report {} has no extension to tell the format", in_quotes(path))
+          : fmt::format("no report format {}", in_quotes(extension)),
       "there are " + known_extensions());
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cablefit/base/json/json_document.hpp"
+#include "cablefit/base/json/schemas.hpp"
 #include "cablefit/model/file/parts.hpp"
 #include "cablefit/model/model.hpp"
 #include "cablefit/results/read/fit_reader.hpp"
@@ -152,7 +153,7 @@ DynamicPreload read_dynamic_preload(const JsonNode& node) {
 }
 
 DynamicResult parse_dynamic_result(const JsonNode& root, RigFiles rig_files) {
-  require_schema(root, "cablefit/dynamic/1", "a stage-2 result", "dynamic");
+  require_schema(root, kDynamicSchema, "a stage-2 result", "dynamic");
   DynamicResult result;
   result.inputs = read_inputs(root);
   result.warnings = texts_or_none(root, "warnings");

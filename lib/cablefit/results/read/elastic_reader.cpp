@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "cablefit/base/json/schemas.hpp"
 #include "cablefit/model/file/parts.hpp"
 #include "cablefit/model/rig/searched_radius.hpp"
 #include "cablefit/results/read/fit_reader.hpp"
@@ -13,8 +14,6 @@ namespace cablefit {
 namespace {
 
 using namespace result_file;
-
-constexpr std::string_view kSchema = "cablefit/elastic/1";
 
 void read_counts(const JsonNode& node, ElasticPreload& preload) {
   const JsonNode* counts = node.find("counts");
@@ -133,7 +132,7 @@ ElasticResult read_elastic_result(const std::string& path) {
 }
 
 ElasticResult parse_elastic_result(const JsonNode& root, RigFiles rig_files) {
-  require_schema(root, kSchema, "a stage-1 result", "elastic");
+  require_schema(root, kElasticSchema, "a stage-1 result", "elastic");
   ElasticResult result;
   result.inputs = read_inputs(root);
   result.warnings = texts_or_none(root, "warnings");

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cablefit/base/json/json_document.hpp"
+#include "cablefit/base/json/schemas.hpp"
 #include "cablefit/base/quote.hpp"
 #include "cablefit/model/file/parts.hpp"
 #include "cablefit/model/json_reading.hpp"
@@ -64,7 +65,7 @@ std::vector<SlackPoint> read_slack(const JsonNode& node) {
       return one.at("name").text() == name.text();
     });
     if (cable == cables.end())
-      throw name.error(fmt::format("no cable {}", cablefit::quoted(name.text())),
+      throw name.error(fmt::format("no cable {}", in_quotes(name.text())),
                        "name one of \"cables\"");
     SlackPoint& point = points.emplace_back();
     point.cable = static_cast<std::size_t>(cable - cables.begin());
@@ -128,7 +129,7 @@ ElongationProfile read_profile(const JsonNode& node) {
 }  // namespace
 
 IdentifyResult parse_identify_result(const JsonNode& root, RigFiles rig_files) {
-  require_schema(root, "cablefit/identify/1", "a result of one step", "identify");
+  require_schema(root, kIdentifySchema, "a result of one step", "identify");
   IdentifyResult result;
   result.inputs = read_inputs(root);
   result.warnings = texts_or_none(root, "warnings");

@@ -5,12 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "cablefit/base/parameter.hpp"
 #include "cablefit/model/file/parts.hpp"
 
 namespace cablefit::result_file {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// The member, or nullptr where it is null or missing.
 const JsonNode* given(const JsonNode& object, std::string_view key) {
@@ -38,13 +37,13 @@ void require_schema(const JsonNode& root, std::string_view schema, std::string_v
 
 double number_or_nan(const JsonNode& object, std::string_view key) {
   const JsonNode* node = given(object, key);
-  return node == nullptr ? kNone : node->number();
+  return node == nullptr ? kNotKnown : node->number();
 }
 
 std::vector<double> numbers_or_nan(const JsonNode& object, std::string_view key) {
   std::vector<double> values;
   for (const JsonNode& item : items_or_none(object, key))
-    values.push_back(item.is_null() ? kNone : item.number());
+    values.push_back(item.is_null() ? kNotKnown : item.number());
   return values;
 }
 
@@ -91,7 +90,7 @@ const JsonNode* object_or_none(const JsonNode& object, std::string_view key) {
 
 std::map<std::string, double> numbers_by_name(const JsonNode& object, std::string_view key) {
   return by_name<double>(object, key, [](const JsonMember& member) {
-    return member.second.is_null() ? kNone : member.second.number();
+    return member.second.is_null() ? kNotKnown : member.second.number();
   });
 }
 

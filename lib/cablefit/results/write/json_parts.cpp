@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "cablefit/base/parameter.hpp"
 #include "cablefit/model/model.hpp"
 #include "cablefit/version.hpp"
 
@@ -13,7 +14,6 @@ namespace cablefit::result_json {
 namespace {
 
 constexpr std::size_t kLineWidth = 100;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 Json interval(double low, double high) {
   if (std::isnan(low) || std::isnan(high)) return nullptr;
@@ -27,9 +27,9 @@ Json parameter(const Estimate& e) {
             {"symbol", e.symbol},
             {"unit", e.unit},
             {"value", e.value},
-            {"sd", known ? e.sd : kNone},
-            {"rsd_percent", known ? e.rsd_percent() : kNone},
-            {"sd_white", known ? e.sd_white : kNone},
+            {"sd", known ? e.sd : kNotKnown},
+            {"rsd_percent", known ? e.rsd_percent() : kNotKnown},
+            {"sd_white", known ? e.sd_white : kNotKnown},
             {"ci95", known ? interval(e.ci_low, e.ci_high) : Json()}};
   if (known && e.profiled) json["interval"] = "profile";
   if (!std::isnan(e.cad)) json["cad"] = e.cad;

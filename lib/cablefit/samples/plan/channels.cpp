@@ -46,8 +46,7 @@ bool names_own_reference(const Rig& rig, const std::vector<std::string>& names) 
 
 void require_no_dates(const ColumnHeader& cell) {
   if (!cell.is_date) return;
-  throw input_error(cell.place,
-                    "column " + cablefit::quoted(cell.name) + " holds dates, not numbers",
+  throw input_error(cell.place, "column " + in_quotes(cell.name) + " holds dates, not numbers",
                     "name another column for it in the rig file");
 }
 
@@ -63,9 +62,9 @@ Slot make_slot(LogPlan& plan, const ChannelInfo& info, int joint, std::size_t co
   if (info.channel == Channel::w) require_clear_speed(unit, cell.place, cell.name);
   if (unit.empty() && is_torque(dimension)) require_torque(cell, mapping, channel);
   if (!unit.empty())
-    unit_scale = checked_unit(unit, cell.place, dimension, "column " + cablefit::quoted(cell.name),
-                              info.quantity)
-                     .scale;
+    unit_scale =
+        checked_unit(unit, cell.place, dimension, "column " + in_quotes(cell.name), info.quantity)
+            .scale;
   slot.factor = mapping.scale * unit_scale;
   slot.shift = mapping.shift * unit_scale;
   slot.has_unit = !unit.empty();
@@ -198,7 +197,7 @@ std::string missing_reference(const LogPlan& plan) {
   if (!plan.rig.controller || plan.has_for_all(Channel::theta_ref)) return "";
   return fmt::format(
       "no reference {} in the log",
-      cablefit::quoted(reference_name(plan.rig, first_without(plan, Channel::theta_ref, false))));
+      in_quotes(reference_name(plan.rig, first_without(plan, Channel::theta_ref, false))));
 }
 
 double LogPlan::time_origin(double first) const {

@@ -98,9 +98,9 @@ void require_one_rate(LogPlan& plan, std::size_t column, double factor, const Gi
   if (agrees && !given.replaces_clock) return;  // gaps, which the clock that is read shows
   const std::string what =
       agrees ? fmt::format("column {} has gaps or drifts; rows at {:.4g} Hz would hide them",
-                           cablefit::quoted(cell.name), given.rate)
-             : fmt::format("column {} has {:.4g} Hz, {} {:.4g} Hz", cablefit::quoted(cell.name),
-                           rate, given.who, given.rate);
+                           in_quotes(cell.name), given.rate)
+             : fmt::format("column {} has {:.4g} Hz, {} {:.4g} Hz", in_quotes(cell.name), rate,
+                           given.who, given.rate);
   refuse_untrusted(plan, input_error(cell.place, what, given.remedy));
 }
 

@@ -134,7 +134,7 @@ void require_clear_speed(const std::string& unit, const Place& place, const std:
   if (!is_unclear_speed(unit)) return;
   throw input_error(place,
                     fmt::format("unit '{}' of column {} may be turns or radians a second",
-                                shortened(unit), cablefit::quoted(column)),
+                                shortened(unit), in_quotes(column)),
                     "write rev/s, rpm or rad/s in the header or in the rig file");
 }
 
@@ -143,8 +143,7 @@ void require_torque(const ColumnHeader& cell, const ColumnMapping& mapping,
   if (mapping.scale != 1 || !is_current_name(cell.name)) return;
   throw input_error(
       cell.place,
-      fmt::format("column {} is a current by its name, {} a torque", cablefit::quoted(cell.name),
-                  channel),
+      fmt::format("column {} is a current by its name, {} a torque", in_quotes(cell.name), channel),
       fmt::format("give the torque constant: \"{}\": {{\"column\": \"{}\", "
                   "\"scale\": {}, \"unit\": \"N m\"}} in the rig file's columns",
                   channel, cell.name, is_milliampere_name(cell.name) ? "0.000083" : "0.083"));
@@ -173,7 +172,7 @@ std::string unit_of(LogPlan& plan, const ColumnHeader& cell, const ColumnMapping
   const WrittenUnit written = written_unit(cell, dimension);
   if (written.by_name)
     plan.decisions.push_back(
-        {"unit of column " + cablefit::quoted(cell.name), written.unit, "by the end of its name"});
+        {"unit of column " + in_quotes(cell.name), written.unit, "by the end of its name"});
   return written.unit;
 }
 

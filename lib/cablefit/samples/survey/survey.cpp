@@ -15,21 +15,21 @@
 namespace cablefit {
 namespace {
 
-constexpr std::size_t kMinRows = 8;
-constexpr std::size_t kMaxParts = 1000;  // each costs memory here, and passes over the log later
-constexpr std::size_t kFewSteps = 20;    // too few to call a column no clock
-constexpr double kMostBack = 0.2;        // share of the steps of a clock with some faults
-constexpr double kAbsurd = 1e30;         // in SI; nothing a joint does comes near
+constexpr std::size_t kFewestPartRows = 8;
+constexpr std::size_t kMaxParts = 1000;    // each costs memory here, and passes over the log later
+constexpr std::size_t kFewTimeSteps = 20;  // too few to call a column no clock
+constexpr double kMostBack = 0.2;          // share of the steps of a clock with some faults
+constexpr double kAbsurd = 1e30;           // in SI; nothing a joint does comes near
 // Of more rows left out than these shares nothing is known of the motion between those kept.
 constexpr double kMostMissing = 0.5, kMostRepeated = 0.2;
 constexpr double kSmallShare = 0.01;  // reported without percent
 // A link whose position varies less than this share of the motor's is blocked.
-constexpr double kStillShare = 0.02;
+constexpr double kBlockedShare = 0.02;
 
 Error absurd_value(const LogPlan& plan, const Slot& slot, double value, std::uint64_t line) {
   return input_error({plan.path, line, 0},
                      fmt::format("{:g} in column {} is not a physical value", value,
-                                 cablefit::quoted(plan.header.columns[slot.column].name)),
+                                 in_quotes(plan.header.columns[slot.column].name)),
                      "correct it, or leave the row out");
 }
 
@@ -67,11 +67,11 @@ std::string name_of(const PartSurvey& part) {
 }
 
 void require_usable(const PartSurvey& part, const LogPlan& plan) {
-  if (part.n_rows < kMinRows)
+  if (part.n_rows < kFewestPartRows)
     throw input_error(
         {plan.path, 0, 0},
         fmt::format("{} row{} of {}", part.n_rows, part.n_rows == 1 ? "" : "s", name_of(part)),
-        fmt::format("at least {} rows are needed to detect motion", kMinRows));
+        fmt::format("at least {} rows are needed to detect motion", kFewestPartRows));
   if (!(part.period > 0) || !std::isfinite(1 / part.period))
     throw input_error({plan.path, 0, 0},
                       fmt::format("no two consecutive rows belong to {}", name_of(part)),
@@ -171,11 +171,11 @@ class LogScan {
       for (std::size_t k = begin + 1; k < end; ++k) n_back += t[k] < t[k - 1];
       const double share = static_cast<double>(n_back) /
                            static_cast<double>(std::max<std::size_t>(1, end - 1 - begin));
-      if (share < kMostBack || end - begin < kFewSteps || !plan_.time_column) throw;
+      if (share < kMostBack || end - begin < kFewTimeSteps || !plan_.time_column) throw;
       throw input_error(
           {plan_.path, chunk.lines[i], 0},
           fmt::format("column {} is not a clock: it goes back in {:.0f} % of its steps",
-                      cablefit::quoted(plan_.header.columns[*plan_.time_column].name), 100 * share),
+                      in_quotes(plan_.header.columns[*plan_.time_column].name), 100 * share),
           "name the time column in the rig file's columns, as \"t\": \"stamp\"");
     }
   }
@@ -254,7 +254,7 @@ Phase phase_by_motion(const PartSurvey& part, const LogPlan& plan) {
     moved = std::max(moved, part.channels[static_cast<std::size_t>(q)].range());
     reference = std::max(reference, part.channels[static_cast<std::size_t>(theta)].range());
   }
-  return moved <= kStillShare * reference ? Phase::blocked : Phase::moving;
+  return moved <= kBlockedShare * reference ? Phase::blocked : Phase::moving;
 }
 
 std::string_view to_string(Phase phase) { return phase == Phase::blocked ? "blocked" : "moving"; }
@@ -329,7 +329,7 @@ std::string empty_columns(const LogPlan& plan, const MendedCounts& counts) {
   std::string names;
   for (std::size_t k = 0; k < columns.size(); ++k)
     if (counts.cells_missing[k] == counts.n_rows() && counted.insert(columns[k]).second)
-      names += (names.empty() ? "" : ", ") + cablefit::quoted(plan.header.columns[columns[k]].name);
+      names += (names.empty() ? "" : ", ") + in_quotes(plan.header.columns[columns[k]].name);
   return names;
 }
 

@@ -24,7 +24,7 @@ constexpr double kSmallTorque = 1;   // N m; positions read as torque stay below
 constexpr double kAlike = 0.99, kLowAlike = 0.8, kHighAlike = 1.25;
 constexpr double kGear = 5;     // a larger ratio is no resonance
 constexpr double kSine = 0.95;  // correlation of a position and its acceleration
-constexpr double kStandsOut = 0.2;
+constexpr double kMuchSmaller = 0.2;
 constexpr double kSameMotion = 0.995;  // correlation of a link that only looks blocked
 constexpr double kStandsStill = 0.02;  // of the other position's range
 
@@ -120,7 +120,7 @@ std::optional<Finding> swapped_columns(const LogPlan& plan, const CoarsePart& pa
   if (are_alike(expected, joint.tau))
     return swapped(plan, part, j, alike(Channel::tau, Channel::q), Channel::tau, Channel::theta);
   const double theta_range = coarse_range(joint.theta), q_range = coarse_range(expected);
-  if (are_alike(joint.theta, joint.tau) && theta_range < kStandsOut * q_range)
+  if (are_alike(joint.theta, joint.tau) && theta_range < kMuchSmaller * q_range)
     return swapped(plan, part, j, alike(Channel::tau, Channel::theta), Channel::tau, Channel::q);
   // Not where the link itself stands still, and others move its cables.
   if (theta_range < kStandsStill * std::min(q_range, coarse_range(joint.q)))

@@ -48,7 +48,7 @@ std::optional<Finding> other_reference(const LogPlan& plan, std::size_t log, int
                  {},
                  false,
                  fmt::format("the controller's reference {} is not a column of the log{}",
-                             quoted(reference_name(plan.rig, joint)),
+                             in_quotes(reference_name(plan.rig, joint)),
                              has_usual ? ", and " + usual + " is not used" : ""),
                  fmt::format("write the column's name as \"reference\"{}",
                              has_usual ? ", or \"" + usual + "\"" : "")};

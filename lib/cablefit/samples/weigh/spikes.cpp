@@ -9,7 +9,7 @@
 namespace cablefit::weighing {
 namespace {
 
-constexpr double kOdd = 5, kWrong = 50;  // times the range of 98 % of the samples
+constexpr double kOddHeight = 5, kWrongHeight = 50;  // times the range of 98 % of the samples
 constexpr std::size_t kQuantileSamples = 20000;
 constexpr double kLeastScale = 1e-3;  // of the median, for a channel that hardly varies
 
@@ -108,9 +108,9 @@ Findings spikes(const Logs& logs) {
         const Slot& slot = log.plan.slots[k];
         if (!is_measured(slot)) continue;
         const Spike spike = lone[p][k].result(log, p, k);
-        if (spike.ratio < kOdd) continue;
+        if (spike.ratio < kOddHeight) continue;
         findings.push_back(
-            {l, spike.row, spike.ratio > kWrong,
+            {l, spike.row, spike.ratio > kWrongHeight,
              fmt::format("{} = {:.3g} is a single sample, {:.2g} times the range of all others",
                          weighed_name(log.plan, slot.channel, slot.joint), spike.value,
                          spike.ratio),

@@ -12,7 +12,7 @@ namespace {
 constexpr double kAgrees = 0.2;        // relative
 constexpr double kReversed = 0.05;     // relative: of the same size, with another sign
 constexpr double kFollowsSpeed = 0.9;  // correlation
-constexpr double kUnitMatch = 0.05;
+constexpr double kVelocityMatch = 0.05;
 constexpr std::size_t kFewInner = 20;
 
 struct SpeedUnit {
@@ -56,7 +56,7 @@ Findings velocity(const Logs& logs) {
                                : measured_line(plan, Channel::w, j, 1 / line.slope,
                                                usual_slope_error(line.correlation), "factor");
       for (const SpeedUnit& unit : kSpeedUnits) {
-        if (std::abs(line.slope / unit.ratio - 1) > kUnitMatch) continue;
+        if (std::abs(line.slope / unit.ratio - 1) > kVelocityMatch) continue;
         guess = fmt::format(": {} in {}?", w, unit.name);
         remedy = mending_line(plan, Channel::w, j, 1 / unit.ratio);
       }
